@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "laneloom/config.hpp"
+
+/// Configuration files: YAML, one map per section, the keys named as the members of Config.
+/// All functions are pure but for the file that is read, and may be called from any thread.
+namespace laneloom {
+
+/// What is wrong with a configuration, in the form "file:line: key: what" (as much of it as is known).
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The configuration in a file; a key that is missing keeps its default.
+/// Throws ConfigError for an unreadable file, bad YAML, an unknown or repeated key, a wrong type, and
+/// whatever validate() refuses.
+Config load_config(const std::filesystem::path& path);
+
+/// Throws ConfigError for a value outside its range, or values that contradict each other.
+void validate(const Config& config);
+
+/// Sets the local range and alpha_n of the paper's data sets: "inhouse" or "av2". ConfigError for other
+/// names.
+void apply_preset(Config& config, std::string_view preset);
+
+/// The whole configuration as a file that load_config() reads back unchanged, with units and ranges.
+std::string dump(const Config& config);
+
+/// Names the values of a configuration: 16 hexadecimal digits, the same on every host.
+std::string config_hash(const Config& config);
+
+}  // namespace laneloom

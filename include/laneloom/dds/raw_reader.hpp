@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "laneloom/dds/participant.hpp"
+
+namespace laneloom::dds {
+
+/// Reads the topic of T (as for Reader) without looking into its messages: well-formed or not, they come as
+/// they went over the wire, for a recording to keep. cdr.hpp turns them into T.
+/// No RawReader and Reader of one topic belong to the same participant.
+/// Throws std::runtime_error when it can't be made.
+template <class T>
+class RawReader {
+ public:
+  /// Called by threads of DDS, as the callbacks of a Reader are.
+  using Callback = std::function<void(std::vector<std::uint8_t>&& message)>;
+
+  RawReader(const Participant& participant, Callback callback);
+  RawReader(RawReader&&) noexcept;
+  RawReader& operator=(RawReader&&) noexcept;
+  ~RawReader();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace laneloom::dds

@@ -1,0 +1,12 @@
+#pragma once
+
+/// The topics of laneloom. Types cannot evolve in place: a change of any type is a new version here.
+namespace laneloom::dds {
+
+inline constexpr const char* kDetectionsTopic = "laneloom/v1/detections";
+inline constexpr const char* kVehiclePoseTopic = "laneloom/v1/vehicle_pose";
+inline constexpr const char* kLaneMapTopic = "laneloom/v1/lane_map";
+inline constexpr const char* kRoadMarkingsTopic = "laneloom/v1/road_markings";
+inline constexpr const char* kStatusTopic = "laneloom/v1/status";
+
+}  // namespace laneloom::dds

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+struct MapperState;
+
+/// The stages of one update, in order. Of those between preprocess and polylines, only the configured
+/// method's run.
+enum class Stage : std::uint8_t {
+  preprocess,
+  voxel_update,
+  reliable_voxels,
+  clustering,
+  local_range,
+  association,
+  line_update,
+  line_set,
+  polylines,
+  lane_boundaries,
+  road_sections,
+  lanes,
+  linkages
+};
+inline constexpr std::size_t kStageCount = 13;
+const char* name(Stage stage);
+
+/// Told of every stage's end. Whoever implements it owns the clock; the mapper has none.
+class StageObserver {
+ public:
+  virtual ~StageObserver() = default;
+  virtual void stage_done(Stage stage) = 0;
+};
+
+/// Fuses detections over time into the local lane map (paper, Sec. III).
+///
+/// A pure state machine: the same configuration and the same frames give the same maps, to the last bit.
+/// Not thread-safe: one thread at a time.
+class Mapper {
+ public:
+  /// `config` must be valid (see validate() in laneloom/config_file.hpp).
+  explicit Mapper(const MapperConfig& config);
+  ~Mapper();
+  Mapper(Mapper&&) noexcept;
+  Mapper& operator=(Mapper&&) noexcept;
+
+  /// Fuses one frame, seen from T_map_body, and rebuilds the local map. Frames come in stamp order, with
+  /// finite values; whoever takes them from outside checks that first. `observer` may be null.
+  const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
+                         StageObserver* observer = nullptr);
+
+  /// The map after the last update.
+  const LocalMap& map() const;
+
+  /// Forgets everything but the ids that were given out.
+  void reset();
+
+  /// The whole state, as one value. Loading it into a mapper of the same configuration continues exactly.
+  const MapperState& state() const;
+  void load(MapperState state);
+
+ private:
+  MapperConfig config_;
+  std::unique_ptr<MapperState> state_;
+};
+
+}  // namespace laneloom

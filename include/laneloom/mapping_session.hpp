@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/counters.hpp"
+#include "laneloom/mapper.hpp"
+#include "laneloom/messages.hpp"
+
+namespace laneloom {
+
+/// From poses and detection frames, in the order of their arrival, to the map: decides what is believed,
+/// waits for the poses that belong to each frame, and fuses the frames in the order of their stamps.
+///
+/// It has no clock, thread or queue of its own. What it decides depends on the messages and their order
+/// alone, except for expire(); so a replay of the same messages makes the same maps. Not thread-safe: one
+/// thread at a time.
+class MappingSession {
+ public:
+  /// `config` must be valid; its parts mapper, sync and gate are used.
+  explicit MappingSession(const Config& config);
+  ~MappingSession();
+  MappingSession(MappingSession&&) noexcept;
+  MappingSession& operator=(MappingSession&&) noexcept;
+
+  /// Takes a pose, and fuses the frames that waited for it.
+  void add(const VehiclePose& pose);
+  /// Takes a frame, and fuses it when its poses are there. `arrival_ns` is by the clock of expire().
+  void add(DetectionFrame frame, std::int64_t arrival_ns);
+  /// Refuses the frames that have waited for their poses for too long.
+  void expire(std::int64_t now_ns);
+
+  /// What was done since the last call.
+  struct Progress {
+    std::vector<FusedFrame> fused;      ///< in the order of fusion
+    std::vector<LineageEvent> lineage;  ///< of all of them
+    std::uint64_t resets = 0;           ///< how often the map was cleared
+  };
+  Progress take_progress();
+
+  const LocalMap& map() const;
+  Mapper& mapper();
+  /// Frames that wait for their poses.
+  std::size_t pending() const;
+  /// Arrival of the newest frame in the map; none: the map is empty.
+  std::optional<std::int64_t> newest_arrival_ns() const;
+
+  /// frames_fused, frames_dropped_queue_full, detections_refused_<reason>, poses_accepted,
+  /// poses_refused_<reason>, map_resets. Every frame that was added is fused, refused, dropped or pending;
+  /// every pose is accepted or refused.
+  const Counters& counters() const;
+
+  /// Told of the stages of every fused frame; may be null.
+  void observe(StageObserver* observer);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace laneloom

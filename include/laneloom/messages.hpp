@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+/// What the service publishes, as plain data; idl/ says what each field means on the wire.
+namespace laneloom {
+
+enum class MapState : std::uint8_t { ok, degraded, stale };
+
+enum class StateReason : std::uint8_t {
+  no_detections,
+  no_poses,
+  unsynchronised,
+  starting,
+  reset,
+  overloaded
+};
+
+/// Names one detection frame that went into the map.
+struct FusedFrame {
+  std::uint64_t session_id = 0;
+  std::uint64_t sequence = 0;
+  std::int64_t stamp_ns = 0;
+};
+
+/// Topic lane_map. `map.instances` goes out on road_markings.
+struct PublishedMap {
+  std::uint64_t sequence = 0;
+  std::uint64_t session_id = 0;
+  std::string frame_id;           ///< of all coordinates
+  std::int64_t published_ns = 0;  ///< system clock of the service's host
+  double age_s = -1.0;            ///< since the newest fused frame's arrival; -1: none yet
+  MapState state = MapState::stale;
+  std::vector<StateReason> reasons;
+  std::vector<FusedFrame> fused_frames;  ///< since the map before
+  LocalMap map;
+};
+
+/// Topic road_markings: the vectorised instances of the lane map with the same sequence.
+struct RoadMarkings {
+  std::int64_t stamp_ns = 0;
+  std::uint64_t sequence = 0;
+  std::uint64_t session_id = 0;
+  std::string frame_id;
+  std::vector<Marking> instances;
+};
+
+struct TimeSummary {
+  double mean_ms = 0.0;
+  double p50_ms = 0.0;
+  double p99_ms = 0.0;
+  double max_ms = 0.0;
+};
+
+/// Topic status.
+struct ServiceStatus {
+  std::uint64_t sequence = 0;
+  std::uint64_t session_id = 0;
+  std::int64_t published_ns = 0;
+  MapState state = MapState::stale;
+  std::vector<StateReason> reasons;
+  double uptime_s = 0.0;
+  double detections_age_s = -1.0;
+  double poses_age_s = -1.0;
+  TimeSummary tick;
+  TimeSummary tick_delay;
+  std::uint32_t pending_frames = 0;
+  std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< name, count
+  std::string version;
+  std::string config_hash;
+};
+
+}  // namespace laneloom

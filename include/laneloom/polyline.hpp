@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+/// Geometry of polylines. Distances and angles are horizontal (roads are surfaces): z is carried along and
+/// never decides. Pure functions; a polyline has at least one point unless said otherwise.
+namespace laneloom {
+
+/// Arc length at every vertex, horizontal, in metres; starts with 0. Empty for an empty polyline.
+std::vector<double> arc_lengths(const Polyline& line);
+
+/// Horizontal length, in metres. 0 for an empty polyline.
+double length(const Polyline& line);
+
+/// The foot of a point on a polyline.
+struct Projection {
+  double arc_m = 0.0;       ///< arc length of the foot
+  double distance_m = 0.0;  ///< horizontal, from the point to the foot
+  double lateral_m =
+      0.0;              ///< signed distance, left of the line is positive; beyond an end: from its extension
+  bool inside = false;  ///< the foot is on the line, not beyond one of its ends
+  std::size_t segment = 0;  ///< that holds the foot
+  Point foot = Point::Zero();
+};
+
+/// A polyline with its arc lengths, for repeated queries. Keeps a copy of the points.
+class MeasuredPolyline {
+ public:
+  MeasuredPolyline() = default;
+  /// Vertices that repeat their predecessor (horizontally) are left out. At least one point.
+  explicit MeasuredPolyline(const Polyline& points);
+
+  const Polyline& points() const { return points_; }
+  double length() const { return arc_.empty() ? 0.0 : arc_.back(); }
+  /// The point at an arc length, clamped to the line.
+  Point at(double arc_m) const;
+  /// Horizontal unit direction of the segment that holds an arc length; zero for a single point.
+  Eigen::Vector2d direction(double arc_m) const;
+  /// The nearest foot of `point`; the first one where several are equally near.
+  Projection project(const Point& point) const;
+  /// The stretch between two arc lengths (from < to, both clamped), with its inner vertices.
+  Polyline slice(const Range& range) const;
+  /// Points every `step_m` (slightly less, so that both ends are met), at least two.
+  Polyline resample(double step_m) const;
+
+ private:
+  Polyline points_;
+  std::vector<double> arc_;
+};
+
+/// Horizontal direction in which `line` leaves its end (`at_back`) or its start, over its last `reach_m`.
+/// Unit length; zero for a line without horizontal extent.
+Eigen::Vector2d end_direction(const Polyline& line, bool at_back, double reach_m = 3.0);
+
+/// z component of the cross product: positive where b is left of a.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Cosine of an angle in degrees within [-360, 360], the same to the last bit on every host (libm's is not).
+double cos_degrees(double angle_deg);
+
+}  // namespace laneloom

@@ -1,0 +1,158 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// Plain data of laneloom. Metres, radians, nanoseconds; right-handed frames.
+///
+/// Frames: `body` is the vehicle's (x forward, y left, z up); `map` is the fixed reference frame that
+/// the pose topic is given in. T_map_body takes body coordinates to map coordinates.
+namespace laneloom {
+
+using Point = Eigen::Vector3d;
+using Polyline = std::vector<Point>;
+
+/// Identifies an element for as long as it exists, and is never used again in a session. 0 is none.
+using ElementId = std::uint64_t;
+inline constexpr ElementId kNoElement = 0;
+
+enum class MarkingType : std::uint8_t { laneline, roadedge, stopline };
+inline constexpr std::size_t kMarkingTypeCount = 3;
+inline constexpr std::array<MarkingType, kMarkingTypeCount> kMarkingTypes{
+    MarkingType::laneline, MarkingType::roadedge, MarkingType::stopline};
+
+enum class MarkingStyle : std::uint8_t { unknown, solid, dashed };
+inline constexpr std::size_t kMarkingStyleCount = 3;
+
+constexpr std::size_t index(MarkingType type) { return static_cast<std::size_t>(type); }
+constexpr std::size_t index(MarkingStyle style) { return static_cast<std::size_t>(style); }
+
+/// One polyline that the network saw in one frame (paper, eq. 1).
+struct Detection {
+  MarkingType type = MarkingType::laneline;
+  MarkingStyle style = MarkingStyle::unknown;
+  double confidence = 0.0;       ///< 0..1
+  Polyline points;               ///< body frame, at least two
+  std::vector<double> stddev_m;  ///< per point, lateral; empty: not given
+};
+
+/// Everything that the network saw at one instant.
+struct DetectionFrame {
+  std::int64_t stamp_ns = 0;  ///< sensor clock
+  std::uint64_t sequence = 0;
+  std::uint64_t session_id = 0;  ///< of the source's run; another value means that it was restarted
+  std::string source;
+  std::vector<MarkingType> detected_types;  ///< what the network can detect; empty: every type
+  Polyline field_of_view;                   ///< body frame polygon; empty: unknown
+  std::vector<Polyline> occluded_areas;     ///< body frame polygons
+  std::vector<Detection> detections;
+};
+
+/// The vehicle in the map frame at one instant.
+struct VehiclePose {
+  std::int64_t stamp_ns = 0;  ///< sensor clock
+  std::uint64_t sequence = 0;
+  std::uint64_t session_id = 0;
+  Point position = Point::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< T_map_body, unit length
+};
+
+/// T_map_body of a pose.
+inline Eigen::Isometry3d transform(const VehiclePose& pose) {
+  return Eigen::Translation3d(pose.position) * pose.orientation;
+}
+
+/// A stretch of a polyline, by arc length from its first point.
+struct Range {
+  double from_m = 0.0;
+  double to_m = 0.0;
+  double length() const { return to_m - from_m; }
+};
+
+enum class ElementStatus : std::uint8_t {
+  tentative,  ///< seen, not yet enough to rely on
+  confirmed,  ///< observed often enough
+  inferred    ///< not observed, concluded from what was
+};
+
+struct StyleRange {
+  Range range;
+  MarkingStyle style = MarkingStyle::unknown;
+};
+
+/// How an id came to be or ended, since the map before.
+struct LineageEvent {
+  enum class Kind : std::uint8_t { born, merged_into, split_from, retired };
+  Kind kind = Kind::born;
+  ElementId id = kNoElement;     ///< the boundary or stopline that it happened to
+  ElementId other = kNoElement;  ///< merged into or split from; else none
+};
+
+/// What is known of a vectorised marking, whatever it is used for.
+struct Marking {
+  ElementId id = kNoElement;
+  MarkingType type = MarkingType::laneline;
+  ElementStatus status = ElementStatus::confirmed;
+  Polyline points;                       ///< map frame
+  std::vector<StyleRange> styles;        ///< along the points, in order, covering them
+  std::vector<double> lateral_stddev_m;  ///< per point; empty: not estimated
+  double existence_probability = -1.0;   ///< 0..1; -1: not estimated
+  std::uint64_t observations = 0;        ///< detections that contributed
+  std::int64_t first_seen_ns = 0;        ///< stamp of the frame that the id was born in
+};
+
+/// A lane between two boundaries (paper, Sec. III-D).
+struct Lane {
+  enum class Direction : std::uint8_t { unknown, along_centerline, against_centerline };
+  ElementId id = kNoElement;
+  ElementId left_boundary = kNoElement;
+  ElementId right_boundary = kNoElement;
+  Range left_range;                  ///< on the left boundary
+  Range right_range;                 ///< on the right boundary
+  Polyline left, right, centerline;  ///< map frame, all in the same direction
+  double width_m = 0.0;              ///< mean
+  ElementId left_neighbour = kNoElement;
+  ElementId right_neighbour = kNoElement;
+  Direction direction = Direction::unknown;
+  std::uint32_t section = 0;  ///< lanes of one road section share it, within one map
+  ElementStatus status = ElementStatus::confirmed;
+  double existence_probability = -1.0;  ///< 0..1; -1: not estimated
+  std::vector<Range> inferred_ranges;   ///< stretches of the centerline that were bridged
+};
+
+struct Stopline {
+  Marking marking;
+  std::vector<ElementId> lanes;   ///< that it ends, in ascending order
+  Point heading = Point::Zero();  ///< unit vector of the traffic it stops, map frame; zero: unknown
+};
+
+/// `to` continues `from`.
+struct Linkage {
+  enum class Kind : std::uint8_t { shared_boundary, geometric_alignment, intersection, sd_map, ego_track };
+  enum class Turn : std::uint8_t { unknown, straight, left, right, u_turn };
+  ElementId from = kNoElement;
+  ElementId to = kNoElement;
+  Kind kind = Kind::shared_boundary;
+  Turn turn = Turn::unknown;
+  double confidence = 1.0;  ///< 0..1
+  Polyline path;            ///< map frame, across a gap; empty: the lanes meet
+};
+
+/// The local map after one fused frame. Every id that is referred to is in it.
+struct LocalMap {
+  std::int64_t stamp_ns = 0;                                     ///< of the newest fused frame; 0: none yet
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< at the stamp
+  std::vector<Marking> instances;                                ///< the vectorised instances, of all types
+  std::vector<Marking> boundaries;                               ///< lane boundaries, lanelines and roadedges
+  std::vector<Stopline> stoplines;
+  std::vector<Lane> lanes;
+  std::vector<Linkage> linkages;
+  std::vector<LineageEvent> lineage;  ///< since the frame before
+};
+
+}  // namespace laneloom

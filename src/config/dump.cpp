@@ -1,0 +1,94 @@
+#include <cstdint>
+#include <iomanip>
+#include <sstream>
+
+#include "laneloom/config_file.hpp"
+#include "schema.hpp"
+#include "text.hpp"
+
+namespace laneloom {
+namespace config {
+namespace {
+
+/// Writes the tables as YAML.
+class Dump {
+ public:
+  template <class C>
+  void section(const char* key, const C& child) {
+    text += std::string(indent_, ' ') + key + ":\n";
+    indent_ += 2;
+    visit(*this, child);
+    indent_ -= 2;
+  }
+  void number(const char* key, double value, const char* unit, double min, double max) {
+    const std::string unit_text = *unit ? std::string(unit) + ", " : "";
+    line(key, to_text(value), unit_text + range_text(min, max));
+  }
+  void flag(const char* key, bool value) { line(key, value ? "true" : "false", "true or false"); }
+  void choice(const char* key, const std::string& value, const char* choices) { line(key, value, choices); }
+  void identifier(const char* key, const std::string& value) { line(key, quoted(value), "a name"); }
+  void path(const char* key, const std::string& value) { line(key, quoted(value), "may be empty"); }
+
+  std::string text;
+
+ private:
+  static std::string quoted(const std::string& value) {
+    std::string result = "'";
+    for (const char c : value) result += c == '\'' ? std::string("''") : std::string(1, c);
+    return result + "'";
+  }
+  void line(const char* key, const std::string& value, const std::string& comment) {
+    text += std::string(indent_, ' ') + key + ": " + value + "  # " + comment + "\n";
+  }
+
+  std::size_t indent_ = 0;
+};
+
+/// FNV-1a over keys and values.
+class Hash {
+ public:
+  template <class C>
+  void section(const char* key, const C& child) {
+    add(key);
+    visit(*this, child);
+  }
+  void number(const char* key, double number, const char* /*unit*/, double /*min*/, double /*max*/) {
+    text(key, to_text(number));
+  }
+  void flag(const char* key, bool flag) { text(key, flag ? "true" : "false"); }
+  void choice(const char* key, const std::string& content, const char* /*choices*/) { text(key, content); }
+  void identifier(const char* key, const std::string& content) { text(key, content); }
+  void path(const char* key, const std::string& content) { text(key, content); }
+
+  std::uint64_t value = 14695981039346656037U;
+
+ private:
+  void text(std::string_view key, std::string_view content) {
+    add(key);
+    add(content);
+  }
+  void add(std::string_view bytes) {
+    for (const char byte : bytes) mix(static_cast<unsigned char>(byte));
+    mix(0);  // so that moving a character from one text to the next changes the hash
+  }
+  void mix(unsigned char byte) { value = (value ^ byte) * 1099511628211U; }
+};
+
+}  // namespace
+}  // namespace config
+
+std::string dump(const Config& config) {
+  config::Dump result;
+  config::visit(result, config);
+  return result.text;
+}
+
+std::string config_hash(const Config& config) {
+  config::Hash hash;
+  config::visit(hash, config);
+  std::ostringstream text;
+  text << std::hex << std::setfill('0') << std::setw(16) << hash.value;
+  return text.str();
+}
+
+}  // namespace laneloom

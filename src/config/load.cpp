@@ -1,0 +1,147 @@
+#include <yaml-cpp/yaml.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "laneloom/config_file.hpp"
+#include "schema.hpp"
+#include "validate.hpp"
+
+namespace laneloom {
+namespace config {
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
+
+/// A Problem whose line is known; 0: it is not.
+struct LocatedProblem {
+  int line = 0;
+  Problem problem;
+};
+
+int line_of(const YAML::Node& node) { return node.Mark().line + 1; }
+
+/// Fills a table from one YAML map. Throws LocatedProblem.
+class Parser {
+ public:
+  using Lines = std::map<std::string, int>;
+
+  /// Notes in `lines` where each key stands.
+  Parser(const YAML::Node& node, std::string prefix, Lines& lines)
+      : prefix_(std::move(prefix)), lines_(lines) {
+    if (!node.IsMap()) fail(line_of(node), prefix_, "is not a map of keys and values");
+    for (const auto& entry : node) {
+      const int line = line_of(entry.first);
+      if (!entry.first.IsScalar()) fail(line, prefix_, "has a key that is not a plain word");
+      const auto& key = entry.first.Scalar();
+      if (!values_.emplace(key, entry.second).second) fail(line, prefix_ + key, "is given twice");
+      lines_[prefix_ + key] = line;
+    }
+  }
+
+  template <class C>
+  void section(const char* key, C& child) {
+    if (const auto value = take(key)) {
+      Parser inner(value, prefix_ + key + ".", lines_);
+      visit(inner, child);
+      inner.finish();
+    }
+  }
+  template <class T>
+  void number(const char* key, T& value, const char* unit, double /*min*/, double /*max*/) {
+    const bool whole = std::same_as<T, int>;
+    read(key, value,
+         std::string(whole ? "a whole number" : "a number") + (*unit ? std::string(" in ") + unit : ""));
+  }
+  void flag(const char* key, bool& value) { read(key, value, "true or false"); }
+  void choice(const char* key, std::string& value, const char* choices) {
+    read(key, value, std::string("one of ") + choices);
+  }
+  void identifier(const char* key, std::string& value) { read(key, value, "a name"); }
+  void path(const char* key, std::string& value) { read(key, value, "a text"); }
+
+  /// To be called when every key that is known was asked for.
+  void finish() const {
+    if (values_.empty()) return;
+    const auto key = prefix_ + values_.begin()->first;
+    fail(lines_.at(key), key, "is not a known key");
+  }
+
+ private:
+  [[noreturn]] static void fail(int line, const std::string& key, const std::string& what) {
+    throw LocatedProblem{line, {key.ends_with('.') ? key.substr(0, key.size() - 1) : key, what}};
+  }
+
+  /// Undefined where the key is missing.
+  YAML::Node take(const std::string& key) {
+    const auto entry = values_.extract(key);
+    return entry ? entry.mapped() : YAML::Node(YAML::NodeType::Undefined);
+  }
+
+  template <class T>
+  void read(const std::string& key, T& value, const std::string& expected) {
+    const auto node = take(key);
+    if (!node) return;
+    try {
+      if (!node.IsScalar()) throw YAML::Exception(node.Mark(), "");
+      value = node.as<T>();
+    } catch (const YAML::Exception&) {
+      fail(lines_.at(prefix_ + key), prefix_ + key, "is not " + expected);
+    }
+  }
+
+  std::string prefix_;
+  Lines& lines_;
+  std::map<std::string, YAML::Node> values_;
+};
+
+Config parse(const std::string& text) {
+  Config config;
+  Parser::Lines lines;
+  try {
+    const auto root = YAML::Load(text);
+    if (!root.IsNull()) {
+      Parser parser(root, "", lines);
+      visit(parser, config);
+      parser.finish();
+    }
+  } catch (const YAML::Exception& error) {
+    throw LocatedProblem{error.mark.is_null() ? 0 : error.mark.line + 1, {"", "bad YAML: " + error.msg}};
+  }
+  if (const auto problem = find_problem(config)) {
+    const auto line = lines.find(problem->key);
+    throw LocatedProblem{line == lines.end() ? 0 : line->second, *problem};
+  }
+  return config;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw ConfigError(path.string() + ": is not a readable file");
+  if (std::filesystem::file_size(path, error) > kMaxFileBytes)
+    throw ConfigError(path.string() + ": is too large");
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw ConfigError(path.string() + ": can not be read");
+  return text.str();
+}
+
+}  // namespace
+}  // namespace config
+
+Config load_config(const std::filesystem::path& path) {
+  try {
+    return config::parse(config::read_text(path));
+  } catch (const config::LocatedProblem& error) {
+    std::string where = path.string();
+    if (error.line > 0) where += ":" + std::to_string(error.line);
+    if (!error.problem.key.empty()) where += ": " + error.problem.key;
+    throw ConfigError(where + ": " + error.problem.what);
+  }
+}
+
+}  // namespace laneloom

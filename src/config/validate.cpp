@@ -1,0 +1,114 @@
+#include "validate.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "laneloom/config_file.hpp"
+#include "schema.hpp"
+#include "text.hpp"
+
+namespace laneloom {
+namespace config {
+namespace {
+
+class RangeCheck {
+ public:
+  template <class C>
+  void section(const char* key, const C& child) {
+    const std::string outer = prefix_;
+    prefix_ += std::string(key) + ".";
+    visit(*this, child);
+    prefix_ = outer;
+  }
+  void number(const char* key, double value, const char* /*unit*/, double min, double max) {
+    const bool inside = value >= min && value <= max;  // false for NaN
+    if (!inside) report(key, to_text(value) + " is not in " + range_text(min, max));
+  }
+  void flag(const char* /*key*/, bool /*value*/) {}
+  void choice(const char* key, const std::string& value, const char* choices) {
+    const std::string all = "|" + std::string(choices) + "|";
+    const bool known =
+        value.find('|') == std::string::npos && all.find("|" + value + "|") != std::string::npos;
+    if (!known) report(key, "\"" + value + "\" is none of " + choices);
+  }
+  void identifier(const char* key, const std::string& value) {
+    // '*' and '?' would be wildcards in the name of a DDS partition.
+    const auto allowed = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+             std::string_view("_-./").find(c) != std::string_view::npos;
+    };
+    if (value.empty() || value.size() > 64 || !std::all_of(value.begin(), value.end(), allowed)) {
+      report(key, "\"" + value + "\" is not 1 to 64 letters, digits, '_', '-', '.' or '/'");
+    }
+  }
+  void path(const char* /*key*/, const std::string& /*value*/) {}
+
+  std::optional<Problem> problem;
+
+ private:
+  void report(const char* key, std::string what) {
+    if (!problem) problem = Problem{prefix_ + key, std::move(what)};
+  }
+
+  std::string prefix_;
+};
+
+std::optional<Problem> find_contradiction(const Config& c) {
+  const auto& mapper = c.mapper;
+  if (mapper.range.forward_min_m >= mapper.range.forward_max_m) {
+    return Problem{"mapper.range.forward_min_m", "must be less than forward_max_m"};
+  }
+  if (mapper.voxel_map.sample_step_m > mapper.voxel_map.voxel_size_m) {
+    return Problem{"mapper.voxel_map.sample_step_m", "must not exceed voxel_size_m, or voxels are skipped"};
+  }
+  if (mapper.voxel_map.min_detections >= mapper.voxel_map.remembered_frames) {
+    return Problem{"mapper.voxel_map.min_detections",
+                   "must be less than remembered_frames, or nothing is ever reliable"};
+  }
+  if (mapper.lane.min_width_m >= mapper.lane.max_width_m) {
+    return Problem{"mapper.lane.min_width_m", "must be less than max_width_m"};
+  }
+  if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {
+    return Problem{"sync.pose_history_s", "must exceed max_pose_gap_s"};
+  }
+  if (c.service.degraded_after_s > c.service.stale_after_s) {
+    return Problem{"service.degraded_after_s", "must not exceed stale_after_s"};
+  }
+  if (c.dds.profile_file.empty() != c.dds.profile_name.empty()) {
+    return Problem{"dds.profile_file", "profile_file and profile_name are given together or not at all"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Problem> find_problem(const Config& config) {
+  RangeCheck check;
+  visit(check, config);
+  return check.problem ? check.problem : find_contradiction(config);
+}
+
+}  // namespace config
+
+void validate(const Config& config) {
+  if (const auto problem = config::find_problem(config))
+    throw ConfigError(problem->key + ": " + problem->what);
+}
+
+void apply_preset(Config& config, std::string_view preset) {
+  auto& range = config.mapper.range;
+  if (preset == "inhouse") {
+    range.forward_min_m = -5.0;
+    range.forward_max_m = 30.0;
+    config.mapper.voxel_map.min_detections = 10;
+  } else if (preset == "av2") {
+    range.forward_min_m = -30.0;
+    range.forward_max_m = 20.0;
+    config.mapper.voxel_map.min_detections = 3;
+  } else {
+    throw ConfigError("preset: \"" + std::string(preset) + "\" is none of inhouse|av2");
+  }
+  range.side_max_m = 15.0;
+}
+
+}  // namespace laneloom

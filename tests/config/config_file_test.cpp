@@ -1,0 +1,192 @@
+#include "laneloom/config_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace laneloom {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::filesystem::path kConfigDir = LANELOOM_CONFIG_DIR;
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  std::string write(const std::string& text) {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::path(::testing::TempDir()) / (std::string("laneloom_") + test->name() + ".yaml");
+    std::ofstream(path_) << text;
+    return path_.string();
+  }
+  /// What is said about a file with this text, without the file's name.
+  std::string error_of(const std::string& text) {
+    const auto path = write(text);
+    try {
+      load_config(path);
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), StartsWith(path));
+      return std::string(error.what()).substr(path.size());
+    }
+    return "no error";
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST_F(ConfigFile, MissingKeysKeepTheirDefaults) {
+  const auto config =
+      load_config(write("mapper:\n  lane:\n    min_width_m: 2.25\ndds:\n  vehicle_id: car-7\n"));
+  EXPECT_EQ(config.mapper.lane.min_width_m, 2.25);
+  EXPECT_EQ(config.dds.vehicle_id, "car-7");
+  Config expected;
+  expected.mapper.lane.min_width_m = 2.25;
+  expected.dds.vehicle_id = "car-7";
+  EXPECT_EQ(dump(config), dump(expected));
+}
+
+TEST_F(ConfigFile, AnEmptyFileIsTheDefaults) {
+  EXPECT_EQ(dump(load_config(write("# nothing\n"))), dump(Config{}));
+}
+
+TEST_F(ConfigFile, ADumpReadsBackUnchanged) {
+  Config config;
+  config.mapper.range.forward_max_m = 31.1;
+  config.mapper.preprocess.reject_zigzag = false;
+  config.mapper.voxel_map.min_detections = 3;
+  config.dds.transport = "udp+shm";
+  config.dds.profile_file = "it's a file.xml";
+  config.dds.profile_name = "p";
+  EXPECT_EQ(dump(load_config(write(dump(config)))), dump(config));
+}
+
+TEST_F(ConfigFile, AnUnknownKeyIsNamedWithItsLine) {
+  EXPECT_EQ(error_of("mapper:\n  lane:\n    min_width_m: 2\n    min_widht_m: 3\n"),
+            ":4: mapper.lane.min_widht_m: is not a known key");
+  EXPECT_EQ(error_of("\nlanes: {}\n"), ":2: lanes: is not a known key");
+}
+
+TEST_F(ConfigFile, ARepeatedKeyIsNamedWithItsLine) {
+  EXPECT_EQ(error_of("sync:\n  max_wait_s: 1\n  max_wait_s: 1\n"), ":3: sync.max_wait_s: is given twice");
+  EXPECT_EQ(error_of("sync:\n  max_wait_s: 1\nsync:\n  queue_capacity: 4\n"), ":3: sync: is given twice");
+}
+
+TEST_F(ConfigFile, AWrongTypeIsNamedWithItsLine) {
+  EXPECT_EQ(error_of("sync:\n  max_wait_s: soon\n"), ":2: sync.max_wait_s: is not a number in s");
+  EXPECT_EQ(error_of("sync:\n  queue_capacity: 1.5\n"),
+            ":2: sync.queue_capacity: is not a whole number in frames");
+  EXPECT_EQ(error_of("sync:\n  queue_capacity: 99999999999\n"),
+            ":2: sync.queue_capacity: is not a whole number in frames");
+  EXPECT_EQ(error_of("sync:\n  max_wait_s: [1]\n"), ":2: sync.max_wait_s: is not a number in s");
+  EXPECT_EQ(error_of("sync:\n  max_wait_s:\n"), ":2: sync.max_wait_s: is not a number in s");
+  EXPECT_EQ(error_of("mapper:\n  preprocess:\n    reject_zigzag: 2\n"),
+            ":3: mapper.preprocess.reject_zigzag: is not true or false");
+  EXPECT_EQ(error_of("sync: 3\n"), ":1: sync: is not a map of keys and values");
+  EXPECT_EQ(error_of("[1, 2]\n"), ":1: is not a map of keys and values");
+}
+
+TEST_F(ConfigFile, AValueOutOfRangeIsNamedWithItsLine) {
+  EXPECT_EQ(error_of("service:\n\n  tick_rate_hz: 0\n"), ":3: service.tick_rate_hz: 0 is not in 1 .. 100");
+  EXPECT_THAT(error_of("service:\n  tick_rate_hz: .nan\n"),
+              HasSubstr(":2: service.tick_rate_hz: nan is not in"));
+  EXPECT_THAT(error_of("service:\n  tick_rate_hz: .inf\n"),
+              HasSubstr(":2: service.tick_rate_hz: inf is not in"));
+  EXPECT_EQ(error_of("dds:\n  transport: tcp\n"), ":2: dds.transport: \"tcp\" is none of udp|udp+shm");
+  EXPECT_THAT(error_of("dds:\n  transport: udp|udp+shm\n"), HasSubstr("is none of"));
+  EXPECT_THAT(error_of("dds:\n  vehicle_id: 'car*'\n"),
+              HasSubstr(":2: dds.vehicle_id: \"car*\" is not 1 to 64"));
+  EXPECT_THAT(error_of("dds:\n  vehicle_id: ''\n"), HasSubstr(":2: dds.vehicle_id: \"\" is not 1 to 64"));
+}
+
+TEST_F(ConfigFile, AContradictionIsNamedWithItsLine) {
+  EXPECT_EQ(error_of("mapper:\n  range:\n    forward_min_m: 40\n"),
+            ":3: mapper.range.forward_min_m: must be less than forward_max_m");
+  EXPECT_EQ(error_of("mapper:\n  lane:\n    min_width_m: 4.5\n"),
+            ":3: mapper.lane.min_width_m: must be less than max_width_m");
+  EXPECT_EQ(error_of("service:\n  degraded_after_s: 0.5\n"),
+            ":2: service.degraded_after_s: must not exceed stale_after_s");
+  EXPECT_EQ(error_of("dds:\n  profile_file: x.xml\n"),
+            ":2: dds.profile_file: profile_file and profile_name are given together or not at all");
+  // The key at fault need not be in the file.
+  EXPECT_EQ(error_of("service:\n  stale_after_s: 0.1\n"),
+            ": service.degraded_after_s: must not exceed stale_after_s");
+}
+
+TEST_F(ConfigFile, BadYamlIsNamedWithItsLine) {
+  EXPECT_THAT(error_of("sync:\n  max_wait_s: [1\n"), ::testing::MatchesRegex(":[0-9]+: bad YAML: .*"));
+  EXPECT_THAT(error_of("sync:\n\tmax_wait_s: 1\n"), HasSubstr("bad YAML"));
+  EXPECT_NE(error_of(std::string(100000, '[')), "no error");
+}
+
+TEST_F(ConfigFile, AnUnreadableFileIsNamed) {
+  EXPECT_THROW(load_config("/nonexistent/laneloom.yaml"), ConfigError);
+  EXPECT_THROW(load_config(::testing::TempDir()), ConfigError);
+  EXPECT_THAT(error_of(std::string(2 << 20, ' ')), HasSubstr("is too large"));
+}
+
+TEST(Validate, TheDefaultsAreValid) { EXPECT_NO_THROW(validate(Config{})); }
+
+TEST(Validate, RefusesWhatWasSetInCode) {
+  Config config;
+  config.mapper.voxel_map.voxel_size_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(validate(config), ConfigError);
+}
+
+TEST(Presets, SetRangeAndAlpha) {
+  Config config;
+  config.mapper.lane.min_width_m = 2.0;
+  apply_preset(config, "av2");
+  EXPECT_EQ(config.mapper.range.forward_min_m, -30.0);
+  EXPECT_EQ(config.mapper.range.forward_max_m, 20.0);
+  EXPECT_EQ(config.mapper.range.side_max_m, 15.0);
+  EXPECT_EQ(config.mapper.voxel_map.min_detections, 3);
+  EXPECT_EQ(config.mapper.lane.min_width_m, 2.0);
+  apply_preset(config, "inhouse");
+  EXPECT_EQ(config.mapper.range.forward_min_m, -5.0);
+  EXPECT_EQ(config.mapper.range.forward_max_m, 30.0);
+  EXPECT_EQ(config.mapper.voxel_map.min_detections, 10);
+  EXPECT_THROW(apply_preset(config, "nuscenes"), ConfigError);
+}
+
+TEST(ConfigHash, NamesTheValues) {
+  Config config;
+  const auto hash = config_hash(config);
+  EXPECT_THAT(hash, ::testing::MatchesRegex("[0-9a-f]{16}"));
+  EXPECT_EQ(config_hash(Config{}), hash);
+  config.mapper.stopline.max_gap_m += 1e-9;
+  EXPECT_NE(config_hash(config), hash);
+}
+
+/// The file without its comment lines.
+std::string settings_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line, result;
+  while (std::getline(file, line)) {
+    const auto start = line.find_first_not_of(' ');
+    if (start != std::string::npos && line[start] != '#') result += line + "\n";
+  }
+  return result;
+}
+
+TEST(ShippedFiles, LaneloomYamlListsEveryKeyWithItsDefaultUnitAndRange) {
+  EXPECT_EQ(settings_of(kConfigDir / "laneloom.yaml"), dump(Config{}));
+}
+
+TEST(ShippedFiles, PaperYamlPinsThePapersParameters) {
+  const auto config = load_config(kConfigDir / "paper.yaml");
+  EXPECT_EQ(config.mapper.voxel_map.voxel_size_m, 0.2);
+  EXPECT_EQ(config.mapper.voxel_map.min_detections, 10);
+  EXPECT_EQ(config.mapper.preprocess.min_confidence, 0.3);
+  EXPECT_EQ(config.mapper.clustering.min_probability, 0.6);
+  EXPECT_EQ(config.mapper.clustering.min_voxels, 3);
+  EXPECT_EQ(config.mapper.clustering.min_ratio, 0.7);
+}
+
+}  // namespace
+}  // namespace laneloom
