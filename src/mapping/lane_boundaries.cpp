@@ -1,0 +1,139 @@
+#include "mapping/lane_boundaries.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// One end of a marking.
+struct End {
+  std::size_t marking = kNone;
+  bool at_back = false;
+};
+
+struct Join {
+  double gap_m = 0.0;
+  End a, b;
+};
+
+const Point& end_point(const Marking& marking, bool at_back) {
+  return at_back ? marking.points.back() : marking.points.front();
+}
+
+/// Whether the two ends face each other, close and aligned.
+bool can_join(const Marking& a, bool a_back, const Marking& b, bool b_back, const BoundaryConfig& config) {
+  const Eigen::Vector2d gap = (end_point(b, b_back) - end_point(a, a_back)).head<2>();
+  if (gap.norm() > config.max_gap_m) return false;
+  const Eigen::Vector2d leaving = end_direction(a.points, a_back);
+  const Eigen::Vector2d entering = -end_direction(b.points, b_back);
+  if (leaving.dot(entering) < cos_degrees(config.max_angle_deg)) return false;
+  return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
+}
+
+std::vector<Join> possible_joins(const std::vector<Marking>& lines, const BoundaryConfig& config) {
+  std::vector<Join> joins;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      if (lines[i].type != lines[j].type) continue;
+      for (const bool i_back : {false, true}) {
+        for (const bool j_back : {false, true}) {
+          if (!can_join(lines[i], i_back, lines[j], j_back, config)) continue;
+          const double gap_m = (end_point(lines[j], j_back) - end_point(lines[i], i_back)).head<2>().norm();
+          joins.push_back({gap_m, {i, i_back}, {j, j_back}});
+        }
+      }
+    }
+  }
+  std::ranges::stable_sort(joins, {}, &Join::gap_m);
+  return joins;
+}
+
+/// For every end the end that it is joined to; no chain closes on itself.
+std::vector<std::array<End, 2>> choose_joins(const std::vector<Join>& joins, std::size_t count) {
+  std::vector<std::array<End, 2>> joined(count);
+  std::vector<std::size_t> group(count);
+  std::iota(group.begin(), group.end(), 0U);
+  for (const auto& [gap_m, a, b] : joins) {
+    const bool taken =
+        joined[a.marking][a.at_back].marking != kNone || joined[b.marking][b.at_back].marking != kNone;
+    if (taken || group[a.marking] == group[b.marking]) continue;
+    joined[a.marking][a.at_back] = b;
+    joined[b.marking][b.at_back] = a;
+    const std::size_t from = group[b.marking], to = group[a.marking];
+    std::ranges::replace(group, from, to);
+  }
+  return joined;
+}
+
+/// The part of `next` that lies ahead of the end of `line`; the two may overlap at their ends.
+Marking ahead_of(const Marking& line, const Marking& next) {
+  const Eigen::Vector2d direction = end_direction(line.points, true);
+  const auto behind = [&](const Point& p) {
+    return (p - line.points.back()).head<2>().dot(direction) <= 0.0;
+  };
+  std::size_t first = 0;
+  while (first + 2 < next.points.size() && behind(next.points[first])) ++first;
+  if (first == 0) return next;
+  const std::vector<double> arc = arc_lengths(next.points);
+  return slice(next, {arc[first], arc.back()});
+}
+
+/// Follows the joins from one free end of a chain to the other.
+LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::array<End, 2>>& joined,
+                      End start) {
+  LaneBoundary boundary;
+  End entered = start;
+  while (entered.marking != kNone) {
+    Marking next = lines[entered.marking];
+    if (entered.at_back) reverse(next);
+    boundary.members.push_back(next.id);
+    if (boundary.marking.points.empty()) {
+      boundary.marking = std::move(next);
+    } else {
+      append(boundary.marking, ahead_of(boundary.marking, next));
+    }
+    entered = joined[entered.marking][!entered.at_back];
+  }
+  std::ranges::sort(boundary.members);
+  boundary.marking.id = boundary.members.front();
+  return boundary;
+}
+
+}  // namespace
+
+std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings,
+                                          const BoundaryConfig& config) {
+  std::vector<Marking> lines;
+  std::ranges::copy_if(markings, std::back_inserter(lines),
+                       [](const Marking& m) { return m.type != MarkingType::stopline; });
+  const auto joined = choose_joins(possible_joins(lines, config), lines.size());
+
+  std::vector<LaneBoundary> boundaries;
+  std::vector<bool> used(lines.size(), false);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (used[i]) continue;
+    // Back to the chain's first line, so that the boundary runs as its oldest member does.
+    End start{i, false};
+    while (joined[start.marking][start.at_back].marking != kNone) {
+      const End before = joined[start.marking][start.at_back];
+      start = {before.marking, !before.at_back};
+    }
+    boundaries.push_back(assemble(lines, joined, start));
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      if (std::ranges::binary_search(boundaries.back().members, lines[k].id)) used[k] = true;
+    }
+  }
+  std::ranges::sort(boundaries, {}, [](const LaneBoundary& b) { return b.marking.id; });
+  return boundaries;
+}
+
+}  // namespace laneloom

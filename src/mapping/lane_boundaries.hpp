@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// A continuous lane boundary, made of one or more instances.
+struct LaneBoundary {
+  Marking marking;                 ///< has the id of its oldest member
+  std::vector<ElementId> members;  ///< ids of the markings that it is made of, ascending
+};
+
+/// Groups lanelines and roadedges, respectively, whose end points are close and aligned into continuous
+/// boundaries (paper, Sec. III-D-1). The nearest ends are joined first, each end once. By ascending id;
+/// stoplines are left out.
+std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings, const BoundaryConfig& config);
+
+}  // namespace laneloom

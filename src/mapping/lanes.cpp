@@ -1,0 +1,193 @@
+#include "mapping/lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::size_t kPairsPerBoundary = 2;  // (b_i, b_i+1) and (b_i, b_i+2)
+
+/// A sample on the right boundary with its foot on the left one.
+struct CrossSection {
+  double left_arc_m = 0.0;
+  double right_arc_m = 0.0;
+  double width_m = 0.0;
+  Point left = Point::Zero();
+  Point right = Point::Zero();
+  bool valid = false;
+};
+
+/// Which stretches of a boundary's one side belong to a lane already.
+using Occupied = std::vector<Range>;
+
+bool contains(const Occupied& occupied, double arc_m) {
+  return std::ranges::any_of(occupied, [&](const Range& r) { return r.from_m < arc_m && arc_m < r.to_m; });
+}
+
+std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const MeasuredPolyline& right,
+                                         const Occupied& left_used, const Occupied& right_used,
+                                         const LaneConfig& config) {
+  std::vector<CrossSection> sections;
+  const auto steps = static_cast<int>(std::max(1.0, std::ceil(right.length() / config.step_m)));
+  for (int i = 0; i <= steps; ++i) {
+    const double arc_m = right.length() * i / steps;
+    const Point point = right.at(arc_m);
+    const Projection foot = left.project(point);
+    const bool free = !contains(left_used, foot.arc_m) && !contains(right_used, arc_m);
+    const bool width_ok = foot.distance_m >= config.min_width_m && foot.distance_m <= config.max_width_m;
+    sections.push_back({.left_arc_m = foot.arc_m,
+                        .right_arc_m = arc_m,
+                        .width_m = foot.distance_m,
+                        .left = foot.foot,
+                        .right = point,
+                        .valid = free && width_ok && foot.inside && foot.lateral_m < 0.0});
+  }
+  return sections;
+}
+
+/// The end of the longest run from `begin` in which the width varies little and the left boundary is
+/// followed.
+std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin, const LaneConfig& config) {
+  double narrowest = std::numeric_limits<double>::infinity(), widest = 0.0;
+  std::size_t end = begin;
+  while (end < sections.size() && sections[end].valid) {
+    if (end > begin && sections[end].left_arc_m < sections[end - 1].left_arc_m) break;
+    narrowest = std::min(narrowest, sections[end].width_m);
+    widest = std::max(widest, sections[end].width_m);
+    if (widest - narrowest > config.max_width_variation_m) break;
+    ++end;
+  }
+  return end;
+}
+
+Lane make_lane(const std::vector<CrossSection>& sections, std::size_t begin, std::size_t end,
+               const LaneConfig& config) {
+  Lane lane;
+  lane.left_range = {sections[begin].left_arc_m, sections[end - 1].left_arc_m};
+  lane.right_range = {sections[begin].right_arc_m, sections[end - 1].right_arc_m};
+  // Sides and centerline all go through the cross-sections, so that the one is left of the other wherever the
+  // boundaries' own vertices are.
+  double width_sum_m = 0.0;
+  const auto every = static_cast<std::size_t>(std::max(1.0, config.centerline_step_m / config.step_m));
+  for (std::size_t i = begin; i < end; ++i) {
+    width_sum_m += sections[i].width_m;
+    if ((i - begin) % every != 0 && i + 1 != end) continue;
+    lane.left.push_back(sections[i].left);
+    lane.right.push_back(sections[i].right);
+    lane.centerline.push_back(0.5 * (sections[i].left + sections[i].right));
+  }
+  lane.left = MeasuredPolyline(lane.left).points();
+  lane.width_m = width_sum_m / static_cast<double>(end - begin);
+  return lane;
+}
+
+/// How many points of `line` lie within half a lane of `other`.
+std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
+  return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
+    const Projection foot = other.project(point);
+    return foot.inside && foot.distance_m < max_distance_m;
+  }));
+}
+
+std::pair<ElementId, ElementId> boundary_pair(const Lane& lane) {
+  return std::minmax(lane.left_boundary, lane.right_boundary);
+}
+
+double common_length(const Range& a, const Range& b) {
+  return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m);
+}
+
+}  // namespace
+
+std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<LaneBoundary>& boundaries,
+                                 const std::vector<MeasuredPolyline>& measured, const LaneConfig& config) {
+  std::vector<Lane> lanes;
+  std::vector<Occupied> used_right_side(boundaries.size()), used_left_side(boundaries.size());
+  const auto pair_lanes = [&](std::size_t left, std::size_t right, std::uint32_t section) {
+    const auto sections =
+        cross_sections(measured[left], measured[right], used_right_side[left], used_left_side[right], config);
+    for (std::size_t begin = 0; begin < sections.size();) {
+      const std::size_t end = std::max(run_end(sections, begin, config), begin + 1);
+      if (sections[end - 1].left_arc_m - sections[begin].left_arc_m >= config.min_length_m) {
+        Lane lane = make_lane(sections, begin, end, config);
+        lane.left_boundary = boundaries[left].marking.id;
+        lane.right_boundary = boundaries[right].marking.id;
+        lane.section = section;
+        used_right_side[left].push_back(lane.left_range);
+        used_left_side[right].push_back(lane.right_range);
+        lanes.push_back(std::move(lane));
+      }
+      begin = end;
+    }
+  };
+  for (std::size_t rank = 0; rank < kPairsPerBoundary; ++rank) {
+    for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
+      for (const std::size_t left : graph.sections[section].boundaries) {
+        if (rank < graph.right_of[left].size()) pair_lanes(left, graph.right_of[left][rank].right, section);
+      }
+    }
+  }
+  return lanes;
+}
+
+void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<Lane>& lanes,
+                    std::vector<KnownLane>& known, ElementId& next_id) {
+  struct Match {
+    bool other_boundaries;
+    std::size_t missing;  ///< how little of the lane is covered, for sorting
+    std::size_t lane, known;
+  };
+  std::vector<Match> matches;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const MeasuredPolyline centerline(known[k].centerline);
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+      const std::size_t covered = points_beside(lanes[i].centerline, centerline, 0.5 * config.min_width_m);
+      if (covered == 0) continue;
+      const bool other = boundary_pair(lanes[i]) != std::pair(known[k].boundary_a, known[k].boundary_b);
+      matches.push_back({other, std::numeric_limits<std::size_t>::max() - covered, i, k});
+    }
+  }
+  std::ranges::stable_sort(matches, {},
+                           [](const Match& m) { return std::tuple(m.other_boundaries, m.missing); });
+
+  std::vector<bool> taken(known.size(), false);
+  for (const Match& match : matches) {
+    if (taken[match.known] || lanes[match.lane].id != kNoElement) continue;
+    taken[match.known] = true;
+    lanes[match.lane].id = known[match.known].id;
+  }
+  std::erase_if(known, [&](const KnownLane& lane) {
+    const bool expired = lane.last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < frame;
+    return expired || std::ranges::any_of(lanes, [&](const Lane& l) { return l.id == lane.id; });
+  });
+  for (Lane& lane : lanes) {
+    if (lane.id == kNoElement) lane.id = next_id++;
+    const auto [a, b] = boundary_pair(lane);
+    known.push_back({lane.id, a, b, lane.centerline, frame});
+  }
+  std::ranges::sort(lanes, {}, &Lane::id);
+}
+
+void find_neighbours(std::vector<Lane>& lanes) {
+  for (Lane& lane : lanes) {
+    double longest_left_m = 0.0, longest_right_m = 0.0;
+    for (const Lane& other : lanes) {
+      if (other.right_boundary == lane.left_boundary) {
+        const double common_m = common_length(other.right_range, lane.left_range);
+        if (common_m > longest_left_m) lane.left_neighbour = other.id, longest_left_m = common_m;
+      }
+      if (other.left_boundary == lane.right_boundary) {
+        const double common_m = common_length(other.left_range, lane.right_range);
+        if (common_m > longest_right_m) lane.right_neighbour = other.id, longest_right_m = common_m;
+      }
+    }
+  }
+}
+
+}  // namespace laneloom

@@ -1,0 +1,87 @@
+#include "mapping/line_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kCell_m = 2.0;  // no less than a gate and a station's spacing
+
+}  // namespace
+
+MarkingType Line::type() const {
+  return static_cast<MarkingType>(std::ranges::max_element(type_votes) - type_votes.begin());
+}
+
+StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point) {
+  const auto& stations = line.stations;
+  const std::size_t first = nearest == 0 ? 0 : nearest - 1;
+  const std::size_t last = std::min(nearest + 1, stations.size() - 1);
+  StationFoot best;
+  double best_distance_m = -1.0;
+  for (std::size_t i = first; i < last; ++i) {
+    const Point& a = stations[i].position;
+    const Point segment = stations[i + 1].position - a;
+    const Eigen::Vector2d along = segment.head<2>();
+    const double length_m = along.norm();
+    if (length_m <= 0.0) continue;
+    const Eigen::Vector2d offset = (point - a).head<2>();
+    const double share = offset.dot(along) / (length_m * length_m);
+    const double clamped = std::clamp(share, 0.0, 1.0);
+    const Point foot = a + clamped * segment;
+    const double distance_m = (point - foot).head<2>().norm();
+    if (best_distance_m >= 0.0 && distance_m >= best_distance_m) continue;
+    best_distance_m = distance_m;
+    const bool beyond = (i == 0 && share < 0.0) || (i + 2 == stations.size() && share > 1.0);
+    best = {.index = static_cast<double>(i) + (beyond ? share : clamped),
+            .lateral_m = cross(along, offset) / length_m,
+            .height_m = point.z() - foot.z(),
+            .inside = !beyond};
+  }
+  return best;
+}
+
+Eigen::Vector2d direction_at(const Line& line, std::size_t station) {
+  const std::size_t before = station == 0 ? 0 : station - 1;
+  const std::size_t after = std::min(station + 1, line.stations.size() - 1);
+  return (line.stations[after].position - line.stations[before].position).head<2>().normalized();
+}
+
+StationGrid::StationGrid(const std::vector<Line>& lines) {
+  Eigen::AlignedBox2d bounds;
+  std::size_t count = 0;
+  for (const Line& line : lines) {
+    for (const Station& station : line.stations) bounds.extend(station.position.head<2>());
+    count += line.stations.size();
+  }
+  if (count == 0) return;
+  origin_ = bounds.min();
+  size_ = (bounds.sizes() / kCell_m).array().floor().cast<int>() + 1;
+  // Counting sort by cell; within a cell by line and station.
+  starts_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
+  const auto cell = [&](const Station& station) { return cell_number(cell_of(station.position)); };
+  for (const Line& line : lines) {
+    for (const Station& station : line.stations) ++starts_[cell(station) + 1];
+  }
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  entries_.resize(count);
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
+      entries_[next[cell(lines[i].stations[k])]++] = {i, k};
+    }
+  }
+}
+
+Eigen::Vector2i StationGrid::cell_of(const Point& point) const {
+  // Clamped, so that a point far away does not overflow.
+  const Eigen::Vector2d cell = ((point.head<2>() - origin_) / kCell_m).array().floor();
+  return cell.cwiseMax(-2.0)
+      .cwiseMin(size_.cast<double>().array().matrix() + Eigen::Vector2d(2, 2))
+      .cast<int>();
+}
+
+}  // namespace laneloom

@@ -1,0 +1,97 @@
+#include "mapping/line_publishing.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+using Stations = std::span<const Station>;
+
+/// The longest stretch with enough evidence.
+Stations published_stretch(const Line& line, const FusionConfig& config) {
+  const Stations all(line.stations);
+  Stations best;
+  for (std::size_t begin = 0; begin < all.size();) {
+    std::size_t end = begin;
+    while (end < all.size() && all[end].log_odds >= config.publish_log_odds) ++end;
+    if (end - begin > best.size()) best = all.subspan(begin, end - begin);
+    begin = std::max(end, begin + 1);
+  }
+  return best;
+}
+
+/// Twice by the neighbours; the ends stay.
+Polyline smoothed(Stations stations) {
+  Polyline points;
+  for (const Station& station : stations) points.push_back(station.position);
+  for (int pass = 0; pass < 2; ++pass) {
+    const Polyline before = points;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      points[i] = 0.25 * before[i - 1] + 0.5 * before[i] + 0.25 * before[i + 1];
+    }
+  }
+  return points;
+}
+
+MarkingStyle style_of(const Station& station, const StyleConfig& config) {
+  const double solid = station.style_votes[index(MarkingStyle::solid)];
+  const double dashed = station.style_votes[index(MarkingStyle::dashed)];
+  if (solid > 0.0 && solid >= config.min_share * (solid + dashed)) return MarkingStyle::solid;
+  if (dashed > 0.0 && dashed >= config.min_share * (solid + dashed)) return MarkingStyle::dashed;
+  return MarkingStyle::unknown;
+}
+
+std::vector<StyleRange> styles_along(Stations stations, const Polyline& points, const StyleConfig& config) {
+  const std::vector<double> arc = arc_lengths(points);
+  std::vector<StyleRange> styles;
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
+    const MarkingStyle style = style_of(stations[i], config);
+    if (!styles.empty() && styles.back().style == style) {
+      styles.back().range.to_m = arc[i + 1];
+    } else {
+      styles.push_back({{arc[i], arc[i + 1]}, style});
+    }
+  }
+  return styles;
+}
+
+Marking as_marking(const Line& line, Stations stations, const MapperConfig& config) {
+  Marking marking{.id = line.id, .type = line.type(), .points = smoothed(stations)};
+  if (is_stopline(marking.type)) {
+    marking.points = {marking.points.front(), marking.points.back()};
+    marking.styles = {{{0.0, length(marking.points)}, MarkingStyle::unknown}};
+  } else {
+    marking.styles = styles_along(stations, marking.points, config.style);
+  }
+  double log_odds = 0.0;
+  for (const Station& station : stations) log_odds += station.log_odds / static_cast<double>(stations.size());
+  const bool confirmed = log_odds >= config.fusion.confirm_log_odds;
+  marking.status = confirmed ? ElementStatus::confirmed : ElementStatus::tentative;
+  marking.observations = line.observations;
+  marking.first_seen_ns = line.first_seen_ns;
+  return marking;
+}
+
+}  // namespace
+
+std::vector<Marking> publish_lines(const std::vector<Line>& lines, const LocalRange& range,
+                                   const MapperConfig& config) {
+  std::vector<Marking> markings;
+  for (const Line& line : lines) {
+    const Stations stations = published_stretch(line, config.fusion);
+    if (stations.size() < 2) continue;
+    const Marking marking = as_marking(line, stations, config);
+    const auto stretches = range.inside(marking.points);
+    const auto longest = std::ranges::max_element(stretches, {}, &Range::length);
+    if (longest == stretches.end() || longest->length() < config.fusion.min_length_m) continue;
+    markings.push_back(slice(marking, *longest));
+  }
+  std::ranges::sort(markings, {}, &Marking::id);
+  return markings;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,53 @@
+#include "mapping/lineage.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+namespace laneloom {
+namespace {
+
+/// The element that a marking belongs to; none where the marking is not published.
+ElementId element_of(const Membership& membership, ElementId marking) {
+  const auto found = std::ranges::lower_bound(membership, marking, {}, &Membership::value_type::first);
+  return found != membership.end() && found->first == marking ? found->second : kNoElement;
+}
+
+std::set<ElementId> elements(const Membership& membership) {
+  std::set<ElementId> ids;
+  for (const auto& [marking, element] : membership) ids.insert(element);
+  return ids;
+}
+
+}  // namespace
+
+Membership membership(const std::vector<LaneBoundary>& boundaries, const std::vector<Stopline>& stoplines) {
+  Membership result;
+  for (const LaneBoundary& boundary : boundaries) {
+    for (const ElementId member : boundary.members) result.emplace_back(member, boundary.marking.id);
+  }
+  for (const Stopline& stopline : stoplines) result.emplace_back(stopline.marking.id, stopline.marking.id);
+  std::ranges::sort(result);
+  return result;
+}
+
+std::vector<LineageEvent> lineage(const Membership& before, const Membership& now) {
+  using Kind = LineageEvent::Kind;
+  const std::set<ElementId> ids_before = elements(before), ids_now = elements(now);
+  std::vector<LineageEvent> events;
+  // An element is named after its oldest marking, so that its fate is that marking's.
+  for (const ElementId id : ids_now) {
+    if (ids_before.contains(id)) continue;
+    const ElementId former = element_of(before, id);
+    events.push_back({former == kNoElement ? Kind::born : Kind::split_from, id, former});
+  }
+  for (const ElementId id : ids_before) {
+    if (ids_now.contains(id)) continue;
+    const ElementId heir = element_of(now, id);
+    events.push_back({heir == kNoElement ? Kind::retired : Kind::merged_into, id, heir});
+  }
+  std::ranges::stable_sort(events, {}, &LineageEvent::id);
+  return events;
+}
+
+}  // namespace laneloom

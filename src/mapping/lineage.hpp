@@ -1,0 +1,20 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "laneloom/types.hpp"
+#include "mapping/lane_boundaries.hpp"
+
+namespace laneloom {
+
+/// Which published element each marking was part of: pairs of (marking, element), by ascending marking.
+using Membership = std::vector<std::pair<ElementId, ElementId>>;
+
+/// Boundaries with their members, and stoplines, each of which is its own.
+Membership membership(const std::vector<LaneBoundary>& boundaries, const std::vector<Stopline>& stoplines);
+
+/// What happened to the published ids from one map to the next, by ascending id.
+std::vector<LineageEvent> lineage(const Membership& before, const Membership& now);
+
+}  // namespace laneloom

@@ -1,0 +1,91 @@
+#include "mapping/linkages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kOverlapTolerance_m = 2.0;  // by which a successor may begin before its predecessor ends
+
+/// One side of a lane.
+struct Side {
+  ElementId boundary = kNoElement;
+  Range range;
+};
+Side left_side(const Lane& lane) { return {lane.left_boundary, lane.left_range}; }
+Side right_side(const Lane& lane) { return {lane.right_boundary, lane.right_range}; }
+
+/// From the end of one lane to the start of another along their shared boundary; empty where they share none
+/// or `to` does not follow.
+std::optional<double> shared_gap(const Side& from, const Side& to, double max_gap_m) {
+  const double gap_m = to.range.from_m - from.range.to_m;
+  const bool follows =
+      gap_m >= -kOverlapTolerance_m && gap_m <= max_gap_m && to.range.from_m > from.range.from_m;
+  if (from.boundary != to.boundary || !follows) return std::nullopt;
+  return std::max(gap_m, 0.0);
+}
+
+/// The lane that comes next along one side of `from`.
+template <class SideOf>
+void link_along(const Lane& from, const std::vector<Lane>& lanes, const LinkageConfig& config, SideOf side_of,
+                std::vector<Linkage>& linkages) {
+  const Lane* next = nullptr;
+  double next_gap_m = std::numeric_limits<double>::infinity();
+  for (const Lane& to : lanes) {
+    if (to.id == from.id) continue;
+    const auto gap_m = shared_gap(side_of(from), side_of(to), config.max_shared_gap_m);
+    if (!gap_m || *gap_m >= next_gap_m) continue;
+    next = &to;
+    next_gap_m = *gap_m;
+  }
+  if (next == nullptr) return;
+  linkages.push_back({.from = from.id,
+                      .to = next->id,
+                      .kind = Linkage::Kind::shared_boundary,
+                      .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m});
+}
+
+/// Confidence that `to` continues `from` by the geometry of their centerlines; empty: it does not.
+std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageConfig& config) {
+  const Eigen::Vector2d leaving = end_direction(from.centerline, true);
+  const Eigen::Vector2d entering = -end_direction(to.centerline, false);
+  if (leaving.dot(entering) < cos_degrees(config.max_angle_deg)) return std::nullopt;
+  const Eigen::Vector2d gap = (to.centerline.front() - from.centerline.back()).head<2>();
+  const double along_m = gap.dot(leaving);
+  const double lateral_m = std::abs(cross(leaving, gap));
+  if (along_m < -kOverlapTolerance_m || along_m > config.max_gap_m) return std::nullopt;
+  if (lateral_m > config.max_lateral_m) return std::nullopt;
+  const double misfit = std::max(std::abs(along_m) / config.max_gap_m, lateral_m / config.max_lateral_m);
+  return 1.0 - 0.5 * misfit;
+}
+
+}  // namespace
+
+std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes, const LinkageConfig& config) {
+  std::vector<Linkage> linkages;
+  for (const Lane& from : lanes) {
+    link_along(from, lanes, config, left_side, linkages);
+    link_along(from, lanes, config, right_side, linkages);
+    for (const Lane& to : lanes) {
+      if (to.id == from.id) continue;
+      const auto confidence = alignment(from, to, config);
+      if (!confidence) continue;
+      linkages.push_back({.from = from.id,
+                          .to = to.id,
+                          .kind = Linkage::Kind::geometric_alignment,
+                          .confidence = *confidence});
+    }
+  }
+  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
+  const auto same = [](const Linkage& a, const Linkage& b) { return a.from == b.from && a.to == b.to; };
+  linkages.erase(std::unique(linkages.begin(), linkages.end(), same), linkages.end());
+  return linkages;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// The box around the vehicle that is mapped (paper, Sec. IV-C). Any height is inside.
+class LocalRange {
+ public:
+  LocalRange(const RangeConfig& config, const Eigen::Isometry3d& T_map_body);
+
+  /// Within the box plus its margin, where voxels gather evidence.
+  bool keeps(const Point& point_map) const;
+
+  /// Within the box itself.
+  bool shows(const Point& point_map) const;
+
+  /// The stretches of a polyline that lie in the box, by arc length, in order. The line has at least two
+  /// points.
+  std::vector<Range> inside(const Polyline& line_map) const;
+
+ private:
+  Eigen::Isometry3d T_body_map_;
+  Eigen::AlignedBox2d box_;   ///< body frame
+  Eigen::AlignedBox2d kept_;  ///< body frame, with the margin
+};
+
+}  // namespace laneloom

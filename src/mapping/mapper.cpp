@@ -1,0 +1,158 @@
+#include "laneloom/mapper.hpp"
+
+#include <array>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/association.hpp"
+#include "mapping/clustering.hpp"
+#include "mapping/lane_boundaries.hpp"
+#include "mapping/lanes.hpp"
+#include "mapping/line_fusion.hpp"
+#include "mapping/line_merging.hpp"
+#include "mapping/line_publishing.hpp"
+#include "mapping/lineage.hpp"
+#include "mapping/linkages.hpp"
+#include "mapping/local_range.hpp"
+#include "mapping/preprocess.hpp"
+#include "mapping/road_sections.hpp"
+#include "mapping/semantic_voxels.hpp"
+#include "mapping/state.hpp"
+#include "mapping/stoplines.hpp"
+#include "mapping/vectorise.hpp"
+
+namespace laneloom {
+namespace {
+
+/// Clears what lies outside of the local range and its margin (paper, Sec. IV-C).
+void clear_outside(const LocalRange& range, MapperState& state) {
+  for (VoxelId id = 0; id < state.voxels.slots(); ++id) {
+    const Voxel& voxel = state.voxels[id];
+    if (!voxel.alive || range.keeps(state.voxels.center(voxel))) continue;
+    if (voxel.instance != kNoElement) state.instances.remove(id, state.voxels);
+    state.co_observation.erase(id);
+    state.voxels.erase(id);
+  }
+  state.instances.erase_empty();
+}
+
+/// One frame on its way into the map.
+struct Input {
+  const DetectionFrame& frame;
+  const Eigen::Isometry3d& T_map_body;
+  const std::vector<ObservedMarking>& markings;
+  const LocalRange& range;
+};
+
+/// The paper's instances, by voxels (Sec. III-B and III-C).
+template <class Done>
+std::vector<Marking> fuse_voxels(const Input& input, const MapperConfig& config, Done done,
+                                 MapperState& state) {
+  auto& [frame, voxels, co_observation, instances, lines, pairs, known_lanes, published, next_id, map] =
+      state;
+  const auto touched = update_voxels(input.markings, input.range, config.voxel_map, voxels, co_observation);
+  done(Stage::voxel_update);
+  const auto reliable = reliable_voxels(touched.all, voxels, instances, config.voxel_map.min_detections);
+  done(Stage::reliable_voxels);
+  cluster(reliable, config.clustering, input.frame.stamp_ns, voxels, co_observation, instances, next_id);
+  count_observations(touched.by_detection, voxels, instances);
+  done(Stage::clustering);
+  clear_outside(input.range, state);
+  done(Stage::local_range);
+  const Eigen::Vector2d forward = input.T_map_body.linear().col(0).head<2>();
+  update_polylines(config.polyline, config.style, voxels, forward, instances);
+  auto markings = markings_in_range(input.range, config.polyline.min_length_m, instances, next_id);
+  done(Stage::polylines);
+  return markings;
+}
+
+/// Our instances: lines that are followed over time, each station with its own position and evidence.
+template <class Done>
+std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, Done done,
+                                MapperState& state) {
+  const FusionConfig& fusion = config.fusion;
+  const Point origin = input.T_map_body.translation();
+  auto& lines = state.lines;
+  auto detections = sample_detections(input.markings, fusion);
+  const auto matches = associate(lines, fusion, detections);
+  done(Stage::association);
+  const auto observed = fuse_matches(matches, detections, origin, fusion, lines);
+  discount_unobserved(observed, {input.T_map_body.inverse(), &input.frame}, input.range, fusion, lines);
+  done(Stage::line_update);
+  extend_lines(matches, origin, fusion, detections, lines);
+  create_lines(detections, origin, input.frame.stamp_ns, input.range, fusion, lines, state.next_id);
+  merge_doubles(observed, fusion, lines, state.pairs);
+  prune_lines(input.range, fusion, lines, state.next_id);
+  done(Stage::line_set);
+  auto markings = publish_lines(lines, input.range, config);
+  done(Stage::polylines);
+  return markings;
+}
+
+}  // namespace
+
+const char* name(Stage stage) {
+  static constexpr std::array<const char*, kStageCount> kNames{
+      "preprocess",    "voxel_update", "reliable_voxels", "clustering", "local_range",
+      "association",   "line_update",  "line_set",        "polylines",  "lane_boundaries",
+      "road_sections", "lanes",        "linkages"};
+  return kNames.at(static_cast<std::size_t>(stage));
+}
+
+Mapper::Mapper(const MapperConfig& config)
+    : config_(config), state_(std::make_unique<MapperState>(config.voxel_map)) {}
+Mapper::~Mapper() = default;
+Mapper::Mapper(Mapper&&) noexcept = default;
+Mapper& Mapper::operator=(Mapper&&) noexcept = default;
+
+const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
+                               StageObserver* observer) {
+  const auto done = [observer](Stage stage) {
+    if (observer != nullptr) observer->stage_done(stage);
+  };
+  auto& [frame_count, voxels, co_observation, instances, lines, pairs, known_lanes, published, next_id, map] =
+      *state_;
+  const LocalRange range(config_.range, T_map_body);
+  ++frame_count;
+
+  const auto markings = preprocess(frame, T_map_body, config_.preprocess);
+  done(Stage::preprocess);
+  map = LocalMap{.stamp_ns = frame.stamp_ns, .T_map_body = T_map_body};
+  const Input input{frame, T_map_body, markings, range};
+  map.instances = config_.method == "voxels" ? fuse_voxels(input, config_, done, *state_)
+                                             : fuse_lines(input, config_, done, *state_);
+  auto boundaries = lane_boundaries(map.instances, config_.boundary);
+  std::vector<MeasuredPolyline> measured;
+  measured.reserve(boundaries.size());
+  for (const LaneBoundary& boundary : boundaries) measured.emplace_back(boundary.marking.points);
+  done(Stage::lane_boundaries);
+  const SectionGraph sections = road_sections(config_.section, T_map_body, boundaries, measured);
+  done(Stage::road_sections);
+  map.lanes = generate_lanes(sections, boundaries, measured, config_.lane);
+  identify_lanes(frame_count, config_.lane, map.lanes, known_lanes, next_id);
+  find_neighbours(map.lanes);
+  done(Stage::lanes);
+  map.linkages = generate_linkages(map.lanes, config_.linkage);
+  map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);
+  done(Stage::linkages);
+
+  Membership now = membership(boundaries, map.stoplines);
+  map.lineage = lineage(published, now);
+  published = std::move(now);
+  for (LaneBoundary& boundary : boundaries) map.boundaries.push_back(std::move(boundary.marking));
+  return map;
+}
+
+const LocalMap& Mapper::map() const { return state_->map; }
+
+void Mapper::reset() {
+  const ElementId next_id = state_->next_id;
+  *state_ = MapperState(config_.voxel_map);
+  state_->next_id = next_id;
+}
+
+const MapperState& Mapper::state() const { return *state_; }
+
+void Mapper::load(MapperState state) { *state_ = std::move(state); }
+
+}  // namespace laneloom

@@ -1,0 +1,55 @@
+#include "mapping/markings.hpp"
+
+#include <algorithm>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+void append_style(std::vector<StyleRange>& styles, const StyleRange& next) {
+  if (next.range.length() <= 0.0) return;
+  if (!styles.empty() && styles.back().style == next.style) {
+    styles.back().range.to_m = next.range.to_m;
+  } else {
+    styles.push_back(next);
+  }
+}
+
+}  // namespace
+
+Marking slice(const Marking& marking, const Range& stretch) {
+  Marking part = marking;
+  part.points = MeasuredPolyline(marking.points).slice(stretch);
+  part.styles.clear();
+  for (const auto& [range, style] : marking.styles) {
+    const double from_m = std::max(range.from_m, stretch.from_m) - stretch.from_m;
+    const double to_m = std::min(range.to_m, stretch.to_m) - stretch.from_m;
+    append_style(part.styles, {{from_m, to_m}, style});
+  }
+  return part;
+}
+
+void reverse(Marking& marking) {
+  const double total_m = length(marking.points);
+  std::ranges::reverse(marking.points);
+  std::ranges::reverse(marking.lateral_stddev_m);
+  std::ranges::reverse(marking.styles);
+  for (auto& [range, style] : marking.styles) range = {total_m - range.to_m, total_m - range.from_m};
+}
+
+void append(Marking& marking, const Marking& next) {
+  const double end_m = length(marking.points);
+  const double start_m = end_m + (next.points.front() - marking.points.back()).head<2>().norm();
+  append_style(marking.styles, {{end_m, start_m}, MarkingStyle::unknown});
+  for (const auto& [range, style] : next.styles) {
+    append_style(marking.styles, {{start_m + range.from_m, start_m + range.to_m}, style});
+  }
+  marking.points.insert(marking.points.end(), next.points.begin(), next.points.end());
+  marking.lateral_stddev_m.insert(marking.lateral_stddev_m.end(), next.lateral_stddev_m.begin(),
+                                  next.lateral_stddev_m.end());
+  marking.observations += next.observations;
+  marking.first_seen_ns = std::min(marking.first_seen_ns, next.first_seen_ns);
+}
+
+}  // namespace laneloom

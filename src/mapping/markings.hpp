@@ -1,0 +1,17 @@
+#pragma once
+
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// The stretch of a marking between two arc lengths, with its styles and deviations.
+Marking slice(const Marking& marking, const Range& stretch);
+
+/// The same marking, run through in the other direction.
+void reverse(Marking& marking);
+
+/// Appends `next` to `marking`, which keeps its id. The gap between them is bridged straight; its style is
+/// unknown.
+void append(Marking& marking, const Marking& next);
+
+}  // namespace laneloom

@@ -1,0 +1,124 @@
+#include "mapping/road_sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "mapping/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kSampleStep_m = 1.0;
+constexpr double kAlignedCosine =
+    0.2;  // with the heading: below, a road crosses the vehicle's rather than follows it
+
+/// How `a` lies to `b` over the part of `a` that is beside `b`.
+struct Overlap {
+  double lateral_m = 0.0;  ///< mean; positive: a is left of b, as b runs
+  bool opposed = false;    ///< a and b run against each other
+};
+
+/// Empty where no point of `a` has its foot inside of `b`, near and in a similar direction.
+std::optional<Overlap> overlap(const MeasuredPolyline& a, const MeasuredPolyline& b,
+                               const SectionConfig& config) {
+  const double min_cosine = cos_degrees(config.max_angle_deg);
+  double lateral_sum_m = 0.0, cosine_sum = 0.0;
+  int count = 0;
+  const Polyline samples = a.resample(kSampleStep_m);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Projection foot = b.project(samples[i]);
+    if (!foot.inside || foot.distance_m > config.max_distance_m) continue;
+    const std::size_t k = std::min(i, samples.size() - 2);
+    const Eigen::Vector2d along_a = (samples[k + 1] - samples[k]).head<2>().normalized();
+    const double cosine = along_a.dot(b.direction(foot.arc_m));
+    if (std::abs(cosine) < min_cosine) continue;
+    lateral_sum_m += foot.lateral_m;
+    cosine_sum += cosine;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return Overlap{lateral_sum_m / count, cosine_sum < 0.0};
+}
+
+struct Edge {
+  std::size_t to = 0;
+  Overlap overlap;  ///< of `to` beside the vertex
+};
+using Graph = std::vector<std::vector<Edge>>;
+
+Graph overlap_graph(const std::vector<MeasuredPolyline>& lines, const SectionConfig& config) {
+  Graph graph(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      const auto j_beside_i = overlap(lines[j], lines[i], config);
+      const auto i_beside_j = overlap(lines[i], lines[j], config);
+      if (!j_beside_i || !i_beside_j) continue;
+      graph[i].push_back({j, *j_beside_i});
+      graph[j].push_back({i, *i_beside_j});
+    }
+  }
+  return graph;
+}
+
+/// Whether the line has to be turned to run with the vehicle.
+bool against_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_map_body) {
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
+  const Eigen::Vector2d direction = line.direction(line.project(T_map_body.translation()).arc_m);
+  return direction.dot(heading) < -kAlignedCosine * heading.norm();
+}
+
+/// Depth-first search from `start`; says for every boundary that it reaches whether it runs against `start`.
+void visit(const Graph& graph, std::size_t start, std::vector<std::optional<bool>>& opposed,
+           std::vector<std::size_t>& members) {
+  std::vector<std::size_t> stack{start};
+  opposed[start] = false;
+  while (!stack.empty()) {
+    const std::size_t current = stack.back();
+    stack.pop_back();
+    members.push_back(current);
+    for (const Edge& edge : graph[current]) {
+      if (opposed[edge.to]) continue;
+      opposed[edge.to] = *opposed[current] != edge.overlap.opposed;
+      stack.push_back(edge.to);
+    }
+  }
+  std::ranges::sort(members);
+}
+
+}  // namespace
+
+SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d& T_map_body,
+                           std::vector<LaneBoundary>& boundaries, std::vector<MeasuredPolyline>& measured) {
+  const Graph graph = overlap_graph(measured, config);
+  SectionGraph result;
+  std::vector<std::optional<bool>> opposed(boundaries.size());
+  std::vector<bool> turned(boundaries.size(), false);
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    if (opposed[i]) continue;
+    RoadSection section;
+    visit(graph, i, opposed, section.boundaries);
+    const std::size_t longest = *std::ranges::max_element(
+        section.boundaries, {}, [&](std::size_t k) { return measured[k].length(); });
+    const bool turn_longest = against_heading(measured[longest], T_map_body);
+    for (const std::size_t k : section.boundaries) {
+      turned[k] = (*opposed[k] != *opposed[longest]) != turn_longest;
+      if (!turned[k]) continue;
+      reverse(boundaries[k].marking);
+      measured[k] = MeasuredPolyline(boundaries[k].marking.points);
+    }
+    result.sections.push_back(std::move(section));
+  }
+
+  result.right_of.resize(boundaries.size());
+  for (std::size_t i = 0; i < graph.size(); ++i) {
+    for (const Edge& edge : graph[i]) {
+      const double lateral_m = turned[i] ? -edge.overlap.lateral_m : edge.overlap.lateral_m;
+      if (lateral_m < 0.0) result.right_of[i].push_back({edge.to, -lateral_m});
+    }
+    std::ranges::stable_sort(result.right_of[i], {}, &SideBySide::distance_m);
+  }
+  return result;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,165 @@
+#include "mapping/lanes.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::boundary;
+using test::straight;
+
+/// Lanes of boundaries that run forward, with ids and neighbours.
+std::vector<Lane> lanes_of(std::vector<LaneBoundary> boundaries) {
+  auto measured = test::measure(boundaries);
+  const auto graph = road_sections({}, test::at(0), boundaries, measured);
+  auto lanes = generate_lanes(graph, boundaries, measured, {});
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  identify_lanes(1, {}, lanes, known, next_id);
+  find_neighbours(lanes);
+  return lanes;
+}
+
+const Lane* between(const std::vector<Lane>& lanes, ElementId left, ElementId right) {
+  const auto found = std::ranges::find_if(
+      lanes, [&](const Lane& l) { return l.left_boundary == left && l.right_boundary == right; });
+  return found == lanes.end() ? nullptr : &*found;
+}
+
+TEST(Lanes, BetweenTwoBoundaries) {
+  const auto lanes = lanes_of(
+      {boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
+  ASSERT_EQ(lanes.size(), 1U);
+  const Lane& lane = lanes[0];
+  EXPECT_EQ(lane.left_boundary, 1U);
+  EXPECT_EQ(lane.right_boundary, 2U);
+  EXPECT_NEAR(lane.width_m, 3.5, 1e-9);
+  EXPECT_NEAR(lane.left_range.length(), 30.0, 1e-9);
+  EXPECT_NEAR(lane.right_range.length(), 30.0, 1e-9);
+  for (const Point& p : lane.centerline) EXPECT_NEAR(p.y(), 1.75, 1e-9);
+  EXPECT_NEAR(length(lane.centerline), 30.0, 1e-9);
+  EXPECT_EQ(lane.left_neighbour, kNoElement);
+}
+
+TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 7, 0}, {30, 7, 0})),
+                               boundary(2, straight({0, 3.5, 0}, {30, 3.5, 0})),
+                               boundary(3, straight({0, 0, 0}, {30, 0, 0}))});
+  ASSERT_EQ(lanes.size(), 2U);
+  const Lane* left = between(lanes, 1, 2);
+  const Lane* right = between(lanes, 2, 3);
+  ASSERT_TRUE(left && right);
+  EXPECT_EQ(left->right_neighbour, right->id);
+  EXPECT_EQ(right->left_neighbour, left->id);
+  EXPECT_EQ(left->left_neighbour, kNoElement);
+  EXPECT_EQ(left->section, right->section);
+}
+
+class Width : public ::testing::TestWithParam<std::pair<double, bool>> {};
+
+TEST_P(Width, MustLieInTheInterval) {
+  const auto [width_m, is_lane] = GetParam();
+  const auto lanes = lanes_of({boundary(1, straight({0, width_m, 0}, {30, width_m, 0})),
+                               boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
+  EXPECT_EQ(lanes.size(), is_lane ? 1U : 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Interval, Width,
+                         ::testing::Values(std::pair(2.4, false), std::pair(2.6, true), std::pair(4.4, true),
+                                           std::pair(4.6, false)));
+
+// Paper, Fig. 5 (c): the valid range is where the distance is steady and in the interval.
+TEST(Lanes, EndWhereTheRoadWidens) {
+  const auto lanes = lanes_of(
+      {boundary(1, straight({0, 3.5, 0}, {40, 3.5, 0})), boundary(2, {{0, 0, 0}, {20, 0, 0}, {40, -10, 0}})});
+  ASSERT_GE(lanes.size(), 1U);
+  const Lane& lane = lanes[0];
+  EXPECT_NEAR(lane.right_range.from_m, 0.0, 1e-9);
+  EXPECT_GT(lane.left_range.to_m, 20.0);
+  EXPECT_LT(lane.left_range.to_m, 22.5);  // 0.8 m wider than at its narrowest
+}
+
+// Paper, Fig. 5 (d): one lane becomes two, by (b_i, b_i+1) and (b_i, b_i+2).
+TEST(Lanes, ASplitGivesThreeLanes) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})),
+                               boundary(2, straight({24, 0, 0}, {60, 0, 0})),  // begins at the taper
+                               boundary(3, {{0, 0, 0}, {20, 0, 0}, {30, -3.5, 0}, {60, -3.5, 0}})});
+  const Lane* before = between(lanes, 1, 3);
+  const Lane* left = between(lanes, 1, 2);
+  const Lane* right = between(lanes, 2, 3);
+  ASSERT_TRUE(before && left && right);
+  EXPECT_NEAR(before->left_range.to_m, 22.0, 1.5);
+  EXPECT_NEAR(left->left_range.from_m, 24.0, 0.6);
+  EXPECT_GT(right->left_range.from_m, 0.0);
+  EXPECT_NEAR(left->left_range.to_m, 60.0, 1e-9);
+}
+
+TEST(Lanes, AMergeGivesTheSameLanesMirrored) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})),
+                               boundary(2, straight({0, 0, 0}, {36, 0, 0})),
+                               boundary(3, {{0, -3.5, 0}, {30, -3.5, 0}, {40, 0, 0}, {60, 0, 0}})});
+  EXPECT_TRUE(between(lanes, 1, 2) && between(lanes, 2, 3) && between(lanes, 1, 3));
+}
+
+TEST(Lanes, DoNotOverlapWhereANarrowStripRunsBeside) {
+  // A cycle strip of 1.2 m: the lane is to its near side, not across it, though both widths are allowed.
+  const auto lanes =
+      lanes_of({boundary(1, straight({0, 3, 0}, {30, 3, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
+                boundary(3, straight({0, -1.2, 0}, {30, -1.2, 0}))});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_EQ(lanes[0].right_boundary, 2U);
+}
+
+TEST(Lanes, InABendOfTwelveMetres) {
+  const auto lanes = lanes_of(
+      {boundary(1, test::arc({0, 0, 0}, 10.25, -90, 0)), boundary(2, test::arc({0, 0, 0}, 13.75, -90, 0))});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_NEAR(lanes[0].width_m, 3.5, 0.02);
+  EXPECT_LT(test::max_distance(lanes[0].centerline, test::arc({0, 0, 0}, 12, -90, 0)), 0.05);
+}
+
+TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  const auto window = [&](double from_m, std::uint64_t frame) {
+    std::vector<LaneBoundary> boundaries{boundary(1, straight({from_m, 3.5, 0}, {from_m + 35, 3.5, 0})),
+                                         boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
+    auto measured = test::measure(boundaries);
+    const auto graph = road_sections({}, test::at(from_m), boundaries, measured);
+    auto lanes = generate_lanes(graph, boundaries, measured, {});
+    identify_lanes(frame, {}, lanes, known, next_id);
+    return lanes;
+  };
+  for (std::uint64_t frame = 0; frame < 50; ++frame) {
+    const auto lanes = window(1.2 * static_cast<double>(frame), frame);
+    ASSERT_EQ(lanes.size(), 1U);
+    EXPECT_EQ(lanes[0].id, 100U);
+  }
+  EXPECT_EQ(known.size(), 1U);
+}
+
+TEST(LaneIds, ComeBackAfterAShortGapOnly) {
+  Lane lane;
+  lane.left_boundary = 1;
+  lane.right_boundary = 2;
+  lane.centerline = straight({0, 0, 0}, {20, 0, 0}, 21);
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  const auto id_at = [&](std::uint64_t frame) {
+    std::vector<Lane> lanes{lane};
+    identify_lanes(frame, {}, lanes, known, next_id);
+    return lanes[0].id;
+  };
+  EXPECT_EQ(id_at(1), 100U);
+  std::vector<Lane> none;
+  for (std::uint64_t frame = 2; frame < 40; ++frame) identify_lanes(frame, {}, none, known, next_id);
+  EXPECT_EQ(id_at(40), 100U);
+  for (std::uint64_t frame = 41; frame < 95; ++frame) identify_lanes(frame, {}, none, known, next_id);
+  EXPECT_TRUE(known.empty());
+  EXPECT_EQ(id_at(95), 101U);
+}
+
+}  // namespace
+}  // namespace laneloom

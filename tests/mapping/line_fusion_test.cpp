@@ -1,0 +1,140 @@
+#include "mapping/line_fusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::straight;
+
+/// Sees detections from the map's origin, frame by frame.
+class LineFusion : public ::testing::Test {
+ protected:
+  void see(const std::vector<Polyline>& polylines, MarkingType type = MarkingType::laneline) {
+    std::vector<ObservedMarking> markings;
+    for (const Polyline& points : polylines) markings.push_back({type, MarkingStyle::solid, 0.8, points});
+    auto detections = sample_detections(markings, config_);
+    const auto matches = associate(lines_, config_, detections);
+    const auto observed = fuse_matches(matches, detections, Point::Zero(), config_, lines_);
+    discount_unobserved(observed, {Eigen::Isometry3d::Identity(), &frame_}, range_, config_, lines_);
+    extend_lines(matches, Point::Zero(), config_, detections, lines_);
+    create_lines(detections, Point::Zero(), 7, range_, config_, lines_, next_id_);
+    prune_lines(range_, config_, lines_, next_id_);
+  }
+
+  FusionConfig config_;
+  LocalRange range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
+  DetectionFrame frame_;
+  std::vector<Line> lines_;
+  ElementId next_id_ = 1;
+};
+
+TEST_F(LineFusion, ALineIsBornWithAStationAboutEveryMetre) {
+  see({straight({0, 0, 0}, {20, 0, 0})});
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_NEAR(static_cast<double>(lines_[0].stations.size()), 21.0, 1.0);
+  EXPECT_EQ(lines_[0].stations.front().position, Point(0, 0, 0));
+  EXPECT_EQ(lines_[0].stations.back().position, Point(20, 0, 0));
+  EXPECT_EQ(lines_[0].first_seen_ns, 7);
+  EXPECT_EQ(lines_[0].type(), MarkingType::laneline);
+}
+
+TEST_F(LineFusion, ManyObservationsAverageBelowTheirNoise) {
+  see({straight({0, 0.3, 0}, {20, 0.3, 0})});
+  for (int i = 0; i < 30; ++i) {
+    const double y = i % 2 == 0 ? 0.3 : -0.3;
+    see({straight({0, y, 0.1}, {20, y, 0.1})});
+  }
+  ASSERT_EQ(lines_.size(), 1U);
+  for (const Station& station : lines_[0].stations) {
+    const double x = station.position.x();
+    if (x < 4.0 || x > 16.0) continue;  // towards its ends a detection counts less
+    EXPECT_NEAR(station.position.y(), 0.0, 0.05);
+    EXPECT_NEAR(station.position.z(), 0.1, 0.02);
+  }
+}
+
+TEST_F(LineFusion, NearObservationsCountMore) {
+  // At the vehicle one says 0.2, another one -0.2; far off likewise, but the line is known from there only.
+  for (int i = 0; i < 5; ++i) see({straight({0, 0, 0}, {25, 0, 0})});
+  see({straight({0, 0.4, 0}, {25, 0.4, 0})});
+  const auto& stations = lines_[0].stations;
+  EXPECT_GT(stations[10].position.y(), 0.04);
+  EXPECT_GT(stations[5].information_per_m2, 3.0 * stations[20].information_per_m2);
+}
+
+TEST_F(LineFusion, EvidenceGrowsAndFallsAndTheLineGoes) {
+  for (int i = 0; i < 5; ++i) see({straight({0, 0, 0}, {20, 0, 0})});
+  const double known = lines_[0].stations[5].log_odds;
+  EXPECT_GT(known, config_.publish_log_odds);
+  see({});
+  EXPECT_LT(lines_[0].stations[5].log_odds, known);
+  for (int i = 0; i < 60; ++i) see({});
+  EXPECT_TRUE(lines_.empty());
+}
+
+TEST_F(LineFusion, WhatCannotBeSeenLosesNothing) {
+  for (int i = 0; i < 5; ++i) see({straight({0, 0, 0}, {20, 0, 0})});
+  const double known = lines_[0].stations[5].log_odds;
+  frame_.occluded_areas = {{{-1, -1, 0}, {25, -1, 0}, {25, 1, 0}, {-1, 1, 0}}};
+  see({});
+  EXPECT_EQ(lines_[0].stations[5].log_odds, known);
+  frame_.occluded_areas.clear();
+  frame_.detected_types = {MarkingType::stopline};
+  see({});
+  EXPECT_EQ(lines_[0].stations[5].log_odds, known);
+  frame_.detected_types.clear();
+  frame_.field_of_view = {{-20, -20, 0}, {-1, -20, 0}, {-1, 20, 0}, {-20, 20, 0}};  // behind
+  see({});
+  EXPECT_EQ(lines_[0].stations[5].log_odds, known);
+}
+
+TEST_F(LineFusion, ALineIsExtendedAtBothEndsWithoutAStep) {
+  for (int i = 0; i < 10; ++i) see({straight({5, 0, 0}, {15, 0, 0})});
+  see({straight({0, 0.3, 0}, {25, 0.3, 0})});
+  ASSERT_EQ(lines_.size(), 1U);
+  const auto& stations = lines_[0].stations;
+  EXPECT_NEAR(stations.front().position.x(), 0.0, 0.01);
+  EXPECT_NEAR(stations.back().position.x(), 25.0, 0.01);
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    const bool extension = stations[i].position.x() < 5.0 || stations[i - 1].position.x() > 14.9;
+    if (extension) {
+      EXPECT_LT(std::abs(stations[i].position.y() - stations[i - 1].position.y()), 0.1);
+    }
+    EXPECT_GT(stations[i].position.x(), stations[i - 1].position.x());
+  }
+}
+
+TEST_F(LineFusion, AnEndThatIsNotSeenAgainIsCut) {
+  see({straight({0, 0, 0}, {25, 0, 0})});
+  for (int i = 0; i < 30; ++i) see({straight({0, 0, 0}, {15, 0, 0})});
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_NEAR(lines_[0].stations.back().position.x(), 15.0, 1.01);
+}
+
+TEST_F(LineFusion, ALineThatIsLostInBetweenIsSplit) {
+  for (int i = 0; i < 10; ++i) see({straight({0, 0, 0}, {25, 0, 0})});
+  const ElementId id = lines_[0].id;
+  for (int i = 0; i < 40; ++i) see({straight({0, 0, 0}, {8, 0, 0}), straight({14, 0, 0}, {25, 0, 0})});
+  ASSERT_EQ(lines_.size(), 2U);
+  EXPECT_EQ(std::ranges::count(lines_, id, &Line::id), 1);
+}
+
+TEST_F(LineFusion, TheTypeIsThatOfMostObservations) {
+  see({straight({0, 0, 0}, {20, 0, 0})}, MarkingType::roadedge);
+  for (int i = 0; i < 3; ++i) see({straight({0, 0, 0}, {20, 0, 0})});
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(lines_[0].type(), MarkingType::laneline);
+}
+
+TEST_F(LineFusion, NothingIsKeptBeyondTheRange) {
+  see({straight({-60, 0, 0}, {90, 0, 0})});
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_GE(lines_[0].stations.front().position.x(), -15.0);
+  EXPECT_LE(lines_[0].stations.back().position.x(), 40.0);
+}
+
+}  // namespace
+}  // namespace laneloom

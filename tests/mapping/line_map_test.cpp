@@ -1,0 +1,58 @@
+#include "mapping/line_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+TEST(StationFoot, IsBetweenStationsWithItsSide) {
+  const Line line = test::line(1, test::straight({0, 0, 1}, {10, 0, 1}, 11));
+  const StationFoot foot = foot_at(line, 2, {2.5, 0.4, 1.3});
+  EXPECT_DOUBLE_EQ(foot.index, 2.5);
+  EXPECT_DOUBLE_EQ(foot.lateral_m, 0.4);
+  EXPECT_NEAR(foot.height_m, 0.3, 1e-12);
+  EXPECT_TRUE(foot.inside);
+  EXPECT_DOUBLE_EQ(foot_at(line, 5, {5.2, -0.3, 1}).lateral_m, -0.3);
+}
+
+TEST(StationFoot, BeyondAnEndTheIndexSaysHowFar) {
+  const Line line = test::line(1, test::straight({0, 0, 0}, {10, 0, 0}, 11));
+  const StationFoot before = foot_at(line, 0, {-0.5, 0.2, 0});
+  EXPECT_FALSE(before.inside);
+  EXPECT_DOUBLE_EQ(before.index, -0.5);
+  const StationFoot after = foot_at(line, 10, {11, 0.2, 0});
+  EXPECT_FALSE(after.inside);
+  EXPECT_DOUBLE_EQ(after.index, 11.0);
+  EXPECT_DOUBLE_EQ(after.lateral_m, 0.2);
+}
+
+TEST(StationGrid, FindsEveryStationWithinACell) {
+  const std::vector<Line> lines{test::line(1, test::straight({-30, 5, 0}, {40, 8, 0}, 71)),
+                                test::line(2, test::arc({0, 0, 0}, 12, 0, 270))};
+  const StationGrid grid(lines);
+  for (const Point& point :
+       {Point(0, 6, 0), Point(-12, 0, 0), Point(40, 8, 0), Point(1000, -1000, 0), Point(-30, 5, 9)}) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+    grid.around(point, [&](std::uint32_t line, std::uint32_t station) {
+      EXPECT_TRUE(found.insert({line, station}).second);
+    });
+    for (std::uint32_t i = 0; i < lines.size(); ++i) {
+      for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
+        const double distance_m = (lines[i].stations[k].position - point).head<2>().norm();
+        if (distance_m >= 2.0) continue;
+        EXPECT_TRUE(found.contains({i, k})) << point.transpose();
+      }
+    }
+  }
+}
+
+TEST(StationGrid, OfNothingFindsNothing) {
+  StationGrid({}).around({0, 0, 0}, [](std::uint32_t, std::uint32_t) { ADD_FAILURE(); });
+}
+
+}  // namespace
+}  // namespace laneloom

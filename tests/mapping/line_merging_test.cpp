@@ -1,0 +1,54 @@
+#include "mapping/line_merging.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::line;
+using test::straight;
+
+class LineMerging : public ::testing::Test {
+ protected:
+  LineMerging() {
+    lines_ = {line(1, straight({0, 0, 0}, {20, 0, 0}, 21)), line(2, straight({2, 0.4, 0}, {18, 0.4, 0}, 17))};
+    for (Station& station : lines_[0].stations) station.log_odds = 3.0;
+  }
+  void frame(bool first, bool second) {
+    const StationsObserved observed{std::vector<bool>(21, first), std::vector<bool>(17, second)};
+    merge_doubles(observed, {}, lines_, pairs_);
+  }
+  std::vector<Line> lines_;
+  std::vector<LinePair> pairs_;
+};
+
+TEST_F(LineMerging, ADoubleThatIsNeverSeenWithTheLineGoes) {
+  for (int i = 0; i < 3; ++i) frame(i % 2 == 0, i % 2 != 0);
+  EXPECT_EQ(lines_.size(), 2U);  // too early to tell
+  for (int i = 0; i < 3 && lines_.size() == 2; ++i) frame(i % 2 == 0, i % 2 != 0);
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(lines_[0].id, 1U);
+}
+
+TEST_F(LineMerging, TwoLinesThatAreSeenTogetherStay) {
+  for (int i = 0; i < 100; ++i) frame(true, i % 2 == 0);
+  EXPECT_EQ(lines_.size(), 2U);
+}
+
+TEST_F(LineMerging, LinesApartAreNoPair) {
+  for (Station& station : lines_[1].stations) station.position.y() = 1.5;
+  for (int i = 0; i < 100; ++i) frame(i % 2 == 0, i % 2 != 0);
+  EXPECT_EQ(lines_.size(), 2U);
+  EXPECT_TRUE(pairs_.empty());
+}
+
+TEST_F(LineMerging, ABridgeIsNoDoubleOfTheRoadBelow) {
+  for (Station& station : lines_[1].stations) station.position.z() = 6.0;
+  for (int i = 0; i < 100; ++i) frame(i % 2 == 0, i % 2 != 0);
+  EXPECT_EQ(lines_.size(), 2U);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,67 @@
+#include "mapping/line_publishing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::line;
+using test::straight;
+
+class LinePublishing : public ::testing::Test {
+ protected:
+  std::vector<Marking> publish() { return publish_lines({line_}, LocalRange({}, test::at(0)), {}); }
+  void believe(std::size_t from, std::size_t to, double log_odds) {
+    for (std::size_t i = from; i < to; ++i) line_.stations[i].log_odds = log_odds;
+  }
+  Line line_ = line(4, straight({-12, 0, 0}, {38, 0, 0}, 51));
+};
+
+TEST_F(LinePublishing, OnlyWhatHasEvidenceAndOnlyInTheRange) {
+  believe(0, 51, -0.1);
+  EXPECT_TRUE(publish().empty());
+  believe(0, 40, 1.0);
+  const auto markings = publish();
+  ASSERT_EQ(markings.size(), 1U);
+  EXPECT_EQ(markings[0].id, 4U);
+  EXPECT_NEAR(markings[0].points.front().x(), -5.0, 1e-9);
+  EXPECT_NEAR(markings[0].points.back().x(), 27.0, 1e-9);
+  EXPECT_EQ(markings[0].status, ElementStatus::tentative);
+  believe(0, 40, 3.0);
+  EXPECT_EQ(publish()[0].status, ElementStatus::confirmed);
+}
+
+TEST_F(LinePublishing, ZigzagBetweenStationsIsSmoothed) {
+  for (std::size_t i = 0; i < 51; ++i) line_.stations[i].position.y() = i % 2 == 0 ? 0.1 : -0.1;
+  believe(0, 51, 1.0);
+  for (const Point& point : publish()[0].points) EXPECT_LT(std::abs(point.y()), 0.06);
+}
+
+TEST_F(LinePublishing, ABendOfTwelveMetresStaysOne) {
+  line_ = line(4, test::arc({0, 12, 0}, 12, -90, 0));
+  for (Station& station : line_.stations) station.log_odds = 1.0;
+  EXPECT_LT(test::max_distance(publish()[0].points, test::arc({0, 12, 0}, 12, -90, 0)), 0.03);
+}
+
+TEST_F(LinePublishing, StylesFollowTheVotes) {
+  believe(0, 51, 1.0);
+  for (std::size_t i = 0; i < 51; ++i)
+    line_.stations[i].style_votes = {9.0, i < 20 ? 5.0 : 0.0, i < 20 ? 1.0 : 5.0};
+  const auto styles = publish()[0].styles;
+  ASSERT_EQ(styles.size(), 2U);
+  EXPECT_EQ(styles[0].style, MarkingStyle::solid);
+  EXPECT_NEAR(styles[0].range.to_m, 13.0, 1.01);
+  EXPECT_EQ(styles[1].style, MarkingStyle::dashed);
+}
+
+TEST_F(LinePublishing, AStoplineHasTwoPoints) {
+  line_ = line(4, straight({10, -3, 0}, {10, 3, 0}, 7), MarkingType::stopline);
+  for (Station& station : line_.stations) station.log_odds = 1.0;
+  EXPECT_EQ(publish()[0].points.size(), 2U);
+}
+
+}  // namespace
+}  // namespace laneloom

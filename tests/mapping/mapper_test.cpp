@@ -1,0 +1,268 @@
+#include "laneloom/mapper.hpp"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "mapping/shapes.hpp"
+#include "snapshot/snapshot.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::straight;
+
+constexpr double kStep_m = 1.0;  // 10 m/s at 10 Hz
+
+/// A road along x with two lanes of 3.6 m between voxel centres, a dashed line between them, and a stopline
+/// at x = 60.
+std::vector<Detection> road() {
+  return {
+      test::detection(MarkingType::roadedge, straight({-50, 3.7, 0.1}, {300, 3.7, 0.1}), MarkingStyle::solid),
+      test::detection(MarkingType::laneline, straight({-50, 0.1, 0.1}, {300, 0.1, 0.1}),
+                      MarkingStyle::dashed),
+      test::detection(MarkingType::roadedge, straight({-50, -3.5, 0.1}, {300, -3.5, 0.1}),
+                      MarkingStyle::solid),
+      test::detection(MarkingType::stopline, straight({60, -3.5, 0.1}, {60, 0.1, 0.1}))};
+}
+
+DetectionFrame frame_at(double x, std::vector<Detection> in_map, int number) {
+  DetectionFrame frame;
+  frame.stamp_ns = number * 100'000'000LL;
+  frame.sequence = static_cast<std::uint64_t>(number);
+  for (Detection& d : in_map) {
+    for (Point& p : d.points) p = test::at(x).inverse() * p;
+  }
+  frame.detections = std::move(in_map);
+  return frame;
+}
+
+MapperConfig with_method(const std::string& method) {
+  MapperConfig config;
+  config.method = method;
+  return config;
+}
+
+class Drive {
+ public:
+  explicit Drive(const std::string& method = "lines") : mapper(with_method(method)) {}
+  const LocalMap& step(const std::vector<Detection>& detections = road(), StageObserver* observer = nullptr) {
+    x += kStep_m;
+    return mapper.update(frame_at(x, detections, ++number), test::at(x), observer);
+  }
+  const LocalMap& steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+    return mapper.map();
+  }
+  Mapper mapper;
+  double x = 0.0;
+  int number = 0;
+};
+
+TEST(Mapper, ATrueLineAppearsWithinItsFirstDetectionsAsTentative) {
+  Drive drive;
+  const LocalMap& map = drive.steps(5);
+  EXPECT_EQ(map.boundaries.size(), 3U);
+  for (const Marking& boundary : map.boundaries) EXPECT_EQ(boundary.status, ElementStatus::tentative);
+  for (const Marking& boundary : drive.steps(10).boundaries)
+    EXPECT_EQ(boundary.status, ElementStatus::confirmed);
+}
+
+TEST(Mapper, AGhostGoesAgain) {
+  Drive drive;
+  drive.steps(20);
+  auto with_ghost = road();
+  with_ghost.push_back(test::detection(MarkingType::laneline, straight({20, 8, 0.1}, {50, 9, 0.1})));
+  for (int i = 0; i < 4; ++i) drive.step(with_ghost);
+  for (int i = 0; i < 6; ++i) drive.step();
+  EXPECT_EQ(drive.mapper.map().boundaries.size(), 3U);
+}
+
+TEST(VoxelMapper, NothingBeforeAlphaNDetectionsThenTheRoad) {
+  Drive drive("voxels");
+  EXPECT_TRUE(drive.steps(10).boundaries.empty());
+  const LocalMap& map = drive.step();
+  EXPECT_EQ(map.boundaries.size(), 3U);
+  EXPECT_EQ(map.lanes.size(), 2U);
+  EXPECT_EQ(map.stamp_ns, 1'100'000'000);
+}
+
+class EitherMapper : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Methods, EitherMapper, ::testing::Values("lines", "voxels"),
+                         [](const auto& method) { return method.param; });
+
+TEST_P(EitherMapper, LanesHaveBoundariesStylesAndNeighbours) {
+  Drive drive(GetParam());
+  const LocalMap& map = drive.steps(20);
+  ASSERT_EQ(map.lanes.size(), 2U);
+  for (const Lane& lane : map.lanes) EXPECT_NEAR(lane.width_m, 3.6, 0.01);
+  EXPECT_NE(map.lanes[0].left_neighbour == map.lanes[1].id, map.lanes[0].right_neighbour == map.lanes[1].id);
+  for (const Marking& boundary : map.boundaries) {
+    ASSERT_EQ(boundary.styles.size(), 1U);
+    const bool is_edge = boundary.type == MarkingType::roadedge;
+    EXPECT_EQ(boundary.styles[0].style, is_edge ? MarkingStyle::solid : MarkingStyle::dashed);
+    EXPECT_GE(boundary.observations, 9U);
+  }
+}
+
+TEST_P(EitherMapper, IdsLastAsLongAsTheLines) {
+  Drive drive(GetParam());
+  const LocalMap first = drive.steps(20);
+  const LocalMap& later = drive.steps(80);
+  ASSERT_EQ(first.boundaries.size(), 3U);
+  ASSERT_EQ(later.boundaries.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(first.boundaries[i].id, later.boundaries[i].id);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(first.lanes[i].id, later.lanes[i].id);
+  EXPECT_TRUE(later.lineage.empty());
+}
+
+TEST_P(EitherMapper, AStoplineEndsItsLaneWhenItComesIntoRange) {
+  // The lanes end at the stopline: an intersection begins there.
+  auto detections = road();
+  for (int i = 0; i < 3; ++i) detections[static_cast<std::size_t>(i)].points.back().x() = 60.0;
+  Drive drive(GetParam());
+  for (int i = 0; i < 45; ++i) drive.step(detections);
+  const LocalMap& map = drive.mapper.map();
+  ASSERT_EQ(map.stoplines.size(), 1U);
+  ASSERT_EQ(map.stoplines[0].lanes.size(), 1U);
+  EXPECT_GT(map.stoplines[0].heading.x(), 0.9);
+}
+
+TEST_P(EitherMapper, WhatLeavesTheRangeGoes) {
+  Drive drive(GetParam());
+  const LocalMap before = drive.steps(30);
+  const std::size_t published = before.boundaries.size() + before.stoplines.size();
+  drive.x += 1000.0;
+  const LocalMap& map = drive.step({});
+  EXPECT_TRUE(map.boundaries.empty());
+  EXPECT_TRUE(map.instances.empty());
+  EXPECT_EQ(drive.mapper.state().voxels.living(), 0U);
+  EXPECT_TRUE(drive.mapper.state().lines.empty());
+  EXPECT_EQ(map.lineage.size(), published);  // all retired
+}
+
+TEST_P(EitherMapper, EverythingPublishedLiesInTheRange) {
+  Drive drive(GetParam());
+  for (int i = 0; i < 60; ++i) {
+    for (const Marking& instance : drive.step().instances) {
+      for (const Point& p : instance.points) {
+        const Point body = drive.mapper.map().T_map_body.inverse() * p;
+        EXPECT_GE(body.x(), -5.0 - 1e-6);
+        EXPECT_LE(body.x(), 30.0 + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(VoxelMapper, EvidenceIsGatheredBeforeTheRangeIsEntered) {
+  // With the margin, a line is in the map as far as the range goes; without it, it would lag by alpha_n
+  // frames.
+  Drive drive;
+  double front = 0.0;
+  for (const Point& p : drive.steps(60).boundaries[0].points) front = std::max(front, p.x() - drive.x);
+  EXPECT_GT(front, 28.5);
+}
+
+TEST_P(EitherMapper, BridgeAndRoadBelowStayApart) {
+  auto detections = road();
+  detections.pop_back();
+  const auto below = detections.size();
+  for (std::size_t i = 0; i < below; ++i) {
+    detections.push_back(detections[i]);
+    for (Point& p : detections.back().points) p.z() += 6.0;
+  }
+  Drive drive(GetParam());
+  for (int i = 0; i < 20; ++i) drive.step(detections);
+  EXPECT_EQ(drive.mapper.map().boundaries.size(), 6U);
+}
+
+TEST_P(EitherMapper, ANetworkWithoutStoplinesIsANormalCase) {
+  auto detections = road();
+  detections.pop_back();
+  Drive drive(GetParam());
+  for (int i = 0; i < 20; ++i) drive.step(detections);
+  EXPECT_EQ(drive.mapper.map().lanes.size(), 2U);
+  EXPECT_TRUE(drive.mapper.map().stoplines.empty());
+}
+
+TEST_P(EitherMapper, AfterAResetNoIdComesAgain) {
+  Drive drive(GetParam());
+  ElementId highest = 0;
+  for (const Lane& lane : drive.steps(20).lanes) highest = std::max(highest, lane.id);
+  drive.mapper.reset();
+  EXPECT_TRUE(drive.mapper.map().boundaries.empty());
+  for (const Marking& boundary : drive.steps(20).boundaries) EXPECT_GT(boundary.id, highest);
+}
+
+TEST_P(EitherMapper, TellsTheObserverItsStagesInOrder) {
+  struct Recorder : StageObserver {
+    void stage_done(Stage stage) override { stages.push_back(stage); }
+    std::vector<Stage> stages;
+  } recorder;
+  Drive drive(GetParam());
+  drive.step(road(), &recorder);
+  EXPECT_TRUE(std::ranges::is_sorted(recorder.stages));
+  EXPECT_EQ(recorder.stages.size(), GetParam() == "lines" ? 9U : 10U);
+  EXPECT_EQ(recorder.stages.front(), Stage::preprocess);
+  EXPECT_EQ(recorder.stages.back(), Stage::linkages);
+  EXPECT_STREQ(name(Stage::linkages), "linkages");
+}
+
+/// Detections with noise, so that instances come, merge and go.
+std::vector<Detection> noisy(std::mt19937& random) {
+  std::normal_distribution<double> offset(0.0, 0.15);
+  std::bernoulli_distribution seen(0.85);
+  std::vector<Detection> detections;
+  for (Detection d : road()) {
+    if (!seen(random)) continue;
+    const Point shift(offset(random), offset(random), 0.0);
+    for (Point& p : d.points) p += shift;
+    detections.push_back(std::move(d));
+  }
+  return detections;
+}
+
+TEST_P(EitherMapper, SavedLoadedAndContinuedIsTheSameToTheLastBit) {
+  Drive one(GetParam());
+  std::mt19937 random(11);
+  for (int i = 0; i < 80; ++i) one.step(noisy(random));
+  const std::string saved = to_bytes(one.mapper.state());
+
+  Drive two(GetParam());
+  two.mapper.load(from_bytes(saved, VoxelMapConfig{}));
+  two.x = one.x;
+  two.number = one.number;
+  EXPECT_EQ(to_bytes(two.mapper.state()), saved);
+  for (int i = 0; i < 120; ++i) {
+    const auto detections = noisy(random);
+    one.step(detections);
+    two.step(detections);
+  }
+  EXPECT_FALSE(one.mapper.map().lanes.empty());
+  EXPECT_EQ(to_bytes(one.mapper.state()), to_bytes(two.mapper.state()));
+}
+
+TEST(MapperState, DamagedBytesAreRefused) {
+  Drive drive;
+  drive.steps(20);
+  const std::string saved = to_bytes(drive.mapper.state());
+  EXPECT_THROW(from_bytes("", VoxelMapConfig{}), std::runtime_error);
+  EXPECT_THROW(from_bytes("something else, long enough", VoxelMapConfig{}), std::runtime_error);
+  EXPECT_THROW(from_bytes(saved.substr(0, saved.size() / 2), VoxelMapConfig{}), std::runtime_error);
+}
+
+TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
+  Drive drive(GetParam());
+  drive.steps(100);
+  const VoxelId slots = drive.mapper.state().voxels.slots();
+  drive.steps(150);
+  EXPECT_LE(drive.mapper.state().voxels.slots(), slots + slots / 10);
+  const auto detections = road();
+  for (int i = 0; i < 2000; ++i)
+    drive.mapper.update(frame_at(drive.x, detections, ++drive.number), test::at(drive.x));
+  EXPECT_EQ(drive.mapper.map().lanes.size(), 2U);
+  EXPECT_LE(drive.mapper.state().co_observation.stored_entries(), 5'000'000U);
+}
+
+}  // namespace
+}  // namespace laneloom

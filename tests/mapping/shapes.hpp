@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "laneloom/polyline.hpp"
+#include "laneloom/types.hpp"
+#include "mapping/lane_boundaries.hpp"
+#include "mapping/line_map.hpp"
+
+/// Lines and frames with known geometry.
+namespace laneloom::test {
+
+inline Polyline straight(const Point& from, const Point& to, int points = 2) {
+  Polyline line;
+  for (int i = 0; i < points; ++i)
+    line.push_back(from + (to - from) * (static_cast<double>(i) / (points - 1)));
+  return line;
+}
+
+/// An arc about `center`, counter-clockwise where to_deg > from_deg, with a vertex about every 0.25 m.
+inline Polyline arc(const Point& center, double radius_m, double from_deg, double to_deg) {
+  const double from_rad = from_deg * std::numbers::pi / 180.0;
+  const double sweep_rad = (to_deg - from_deg) * std::numbers::pi / 180.0;
+  const int steps = std::max(2, static_cast<int>(std::abs(sweep_rad) * radius_m / 0.25));
+  Polyline line;
+  for (int i = 0; i <= steps; ++i) {
+    const double angle_rad = from_rad + sweep_rad * i / steps;
+    line.push_back(center + radius_m * Point(std::cos(angle_rad), std::sin(angle_rad), 0.0));
+  }
+  return line;
+}
+
+inline Detection detection(MarkingType type, Polyline points, MarkingStyle style = MarkingStyle::unknown) {
+  return {.type = type, .style = style, .confidence = 0.9, .points = std::move(points)};
+}
+
+inline Marking marking(ElementId id, Polyline points, MarkingType type = MarkingType::laneline) {
+  return {.id = id, .type = type, .points = std::move(points)};
+}
+
+inline LaneBoundary boundary(ElementId id, Polyline points, MarkingType type = MarkingType::laneline) {
+  return {marking(id, std::move(points), type), {id}};
+}
+
+/// A line with a station at every vertex.
+inline Line line(ElementId id, const Polyline& points, MarkingType type = MarkingType::laneline) {
+  Line result{.id = id, .stations = {}};
+  for (const Point& point : points) result.stations.push_back({.position = point, .information_per_m2 = 1.0});
+  result.type_votes[index(type)] = 1.0;
+  return result;
+}
+
+inline std::vector<MeasuredPolyline> measure(const std::vector<LaneBoundary>& boundaries) {
+  std::vector<MeasuredPolyline> measured;
+  for (const LaneBoundary& b : boundaries) measured.emplace_back(b.marking.points);
+  return measured;
+}
+
+/// The largest distance of the vertices of `line` from `truth`.
+inline double max_distance(const Polyline& line, const Polyline& truth) {
+  const MeasuredPolyline measured(truth);
+  double largest_m = 0.0;
+  for (const Point& point : line) largest_m = std::max(largest_m, measured.project(point).distance_m);
+  return largest_m;
+}
+
+inline Eigen::Isometry3d at(double x, double y = 0.0, double yaw_rad = 0.0) {
+  return Eigen::Translation3d(x, y, 0.0) * Eigen::AngleAxisd(yaw_rad, Point::UnitZ());
+}
+
+}  // namespace laneloom::test
