@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "Common.h"
+#include "laneloom/types.hpp"
+
+namespace laneloom::dds {
+
+/// Takes values out of a message, and remembers the first thing that is wrong with them.
+class Intake {
+ public:
+  double number(double value) {
+    if (!std::isfinite(value)) refuse("not_finite");
+    return value;
+  }
+  const std::vector<double>& numbers(const std::vector<double>& values) {
+    for (const double value : values) number(value);
+    return values;
+  }
+  /// `last` is the enumeration's largest value; both enumerations list theirs in the same order.
+  template <class To, class From>
+  To enumeration(From value, To last) {
+    if (static_cast<std::uint32_t>(value) > static_cast<std::uint32_t>(last)) {
+      refuse("unknown_enum");
+      return last;
+    }
+    return static_cast<To>(value);
+  }
+  /// Per point there is a value, or none is given.
+  void sizes_match(std::size_t values, std::size_t points) {
+    if (values != 0 && values != points) refuse("wrong_size");
+  }
+
+  Point point(const msg::Point& from);
+  Polyline polyline(const std::vector<msg::Point>& from);
+  /// Normalised; refused when it is far from unit length.
+  Eigen::Quaterniond rotation(const msg::Quaternion& from);
+  laneloom::Range range(const msg::Range& from) { return {number(from.from_m()), number(from.to_m())}; }
+
+  void refuse(std::string_view reason) {
+    if (refusal_.empty()) refusal_ = reason;
+  }
+  /// Empty: nothing is wrong.
+  std::string_view refusal() const { return refusal_; }
+
+ private:
+  std::string_view refusal_;
+};
+
+}  // namespace laneloom::dds

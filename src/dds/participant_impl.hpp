@@ -1,0 +1,37 @@
+#pragma once
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <string>
+
+#include "laneloom/dds/participant.hpp"
+
+namespace laneloom::dds {
+
+class Participant::Impl {
+ public:
+  Impl(const DdsConfig& config, const std::string& name);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  /// The topic of this name, made at its first use. Throws std::runtime_error.
+  eprosima::fastdds::dds::Topic* topic(const std::string& name,
+                                       const eprosima::fastdds::dds::TypeSupport& type);
+
+  eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
+  eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
+  const std::string& map_frame_id() const { return map_frame_id_; }
+
+ private:
+  void close();
+
+  std::string map_frame_id_;
+  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
+  eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
+  eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
+};
+
+}  // namespace laneloom::dds

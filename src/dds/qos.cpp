@@ -1,0 +1,142 @@
+#include "dds/qos.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+
+namespace laneloom::dds {
+namespace {
+
+using namespace eprosima::fastdds::dds;
+using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+// A map of 500 KB is lost on the way with the kernel's default buffer; the kernel may give less than asked
+// for.
+constexpr std::uint32_t kSocketBufferBytes = 4U << 20;
+constexpr std::uint32_t kSharedMemoryBytes = 16U << 20;
+
+eprosima::fastrtps::Duration_t milliseconds(int value) {
+  return {value / 1000, static_cast<std::uint32_t>(value % 1000) * 1'000'000U};
+}
+
+/// Fast DDS keeps one registry of profiles per process, and refuses a file that it has already read.
+bool load_once(const std::string& file) {
+  static std::mutex mutex;
+  static std::set<std::string> loaded;
+  const std::lock_guard lock(mutex);
+  if (loaded.contains(file)) return true;
+  const auto result = DomainParticipantFactory::get_instance()->load_XML_profiles_file(file);
+  if (result == ReturnCode_t::RETCODE_OK) loaded.insert(file);
+  return result == ReturnCode_t::RETCODE_OK;
+}
+
+void load_profile(const DdsConfig& config, DomainParticipantQos& qos) {
+  // Fast DDS itself would only log a missing file, and go on with its defaults.
+  if (!std::filesystem::is_regular_file(config.profile_file)) {
+    throw std::runtime_error("dds.profile_file: there is no file " + config.profile_file);
+  }
+  if (!load_once(config.profile_file)) {
+    throw std::runtime_error("dds.profile_file: not valid for Fast DDS: " + config.profile_file);
+  }
+  const auto found =
+      DomainParticipantFactory::get_instance()->get_participant_qos_from_profile(config.profile_name, qos);
+  if (found != ReturnCode_t::RETCODE_OK) {
+    throw std::runtime_error("dds.profile_name: no participant \"" + config.profile_name + "\" in " +
+                             config.profile_file);
+  }
+}
+
+void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
+  qos.transport().use_builtin_transports = false;
+  qos.transport().send_socket_buffer_size = kSocketBufferBytes;
+  qos.transport().listen_socket_buffer_size = kSocketBufferBytes;
+  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kSocketBufferBytes;
+  udp->receiveBufferSize = kSocketBufferBytes;
+  qos.transport().user_transports.push_back(udp);
+  if (config.transport == "udp+shm") {
+    auto shared_memory = std::make_shared<SharedMemTransportDescriptor>();
+    shared_memory->segment_size(kSharedMemoryBytes);
+    qos.transport().user_transports.push_back(shared_memory);
+  }
+}
+
+int depth(TopicKind kind) {
+  switch (kind) {
+    case TopicKind::detections:
+      return 64;  // seconds, so that a busy host loses none
+    case TopicKind::poses:
+      return 512;
+    case TopicKind::map:
+    case TopicKind::status:
+      return 1;
+  }
+  return 1;
+}
+
+/// What a writer and a reader of one topic have in common.
+template <class Qos>
+void set_common(TopicKind kind, Qos& qos) {
+  qos.history().kind = KEEP_LAST_HISTORY_QOS;
+  qos.history().depth = depth(kind);
+  // The types are bounded but rarely full: preallocation would take their largest size for every sample.
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  qos.data_sharing().off();
+  const bool from_service = kind == TopicKind::map || kind == TopicKind::status;
+  qos.durability().kind = from_service ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
+  if (kind == TopicKind::map) {
+    qos.deadline().period = milliseconds(250);
+    // Automatic liveliness would be asserted by a thread of Fast DDS while the executor hangs.
+    qos.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    qos.liveliness().lease_duration = milliseconds(400);
+  }
+}
+
+}  // namespace
+
+DomainParticipantQos participant_qos(const DdsConfig& config, const std::string& name) {
+  DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
+  if (config.profile_file.empty()) {
+    set_transports(config, qos);
+    // A peer that died is noticed after a second instead of twenty.
+    auto& discovery = qos.wire_protocol().builtin.discovery_config;
+    discovery.leaseDuration = milliseconds(1000);
+    discovery.leaseDuration_announcementperiod = milliseconds(250);
+  } else {
+    load_profile(config, qos);
+  }
+  qos.name(name);
+  return qos;
+}
+
+DataWriterQos writer_qos(TopicKind kind) {
+  DataWriterQos qos = DATAWRITER_QOS_DEFAULT;
+  set_common(kind, qos);
+  qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
+  qos.reliability().max_blocking_time = milliseconds(50);
+  // What got lost is repaired after this time; the default is 3 s.
+  qos.reliable_writer_qos().times.heartbeatPeriod = milliseconds(20);
+  qos.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
+  return qos;
+}
+
+DataReaderQos reader_qos(TopicKind kind) {
+  DataReaderQos qos = DATAREADER_QOS_DEFAULT;
+  set_common(kind, qos);
+  // Sensors often write best effort, which a reliable reader would not match; and a frame that has to be sent
+  // again comes too late to be waited for.
+  const bool input = kind == TopicKind::detections || kind == TopicKind::poses;
+  qos.reliability().kind = input ? BEST_EFFORT_RELIABILITY_QOS : RELIABLE_RELIABILITY_QOS;
+  return qos;
+}
+
+}  // namespace laneloom::dds

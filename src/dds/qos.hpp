@@ -1,0 +1,25 @@
+#pragma once
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+
+#include "laneloom/config.hpp"
+
+/// All quality of service of laneloom.
+namespace laneloom::dds {
+
+enum class TopicKind {
+  detections,  ///< to the service, some a second, large
+  poses,       ///< to the service, many a second, small
+  map,         ///< from the service, at every tick; a late joiner gets the newest
+  status       ///< from the service, now and then; a late joiner gets the newest
+};
+
+/// Throws std::runtime_error when the configured profile is missing or invalid.
+eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsConfig& config,
+                                                             const std::string& name);
+eprosima::fastdds::dds::DataWriterQos writer_qos(TopicKind kind);
+eprosima::fastdds::dds::DataReaderQos reader_qos(TopicKind kind);
+
+}  // namespace laneloom::dds

@@ -1,0 +1,59 @@
+#include "laneloom/dds/raw_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+
+#include "laneloom/dds/cdr.hpp"
+#include "laneloom/dds/writer.hpp"
+#include "laneloom/messages.hpp"
+
+namespace laneloom::dds {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+DetectionFrame frame_of(std::uint64_t sequence) {
+  DetectionFrame frame{.stamp_ns = 5, .sequence = sequence, .session_id = 7, .source = "test"};
+  frame.detections.push_back(Detection{.confidence = 0.5, .points = {{0, 0, 0}, {1, 2, 3}}});
+  return frame;
+}
+
+TEST(RawReader, MessagesComeAsTheyWentOverTheWire) {
+  std::mutex mutex;
+  std::condition_variable arrived;
+  std::vector<Bytes> messages;
+  DdsConfig config;
+  config.domain = 1 + getpid() % 90;
+  config.vehicle_id = "raw" + std::to_string(getpid());
+  const Participant there(config, "there"), here(config, "here");
+  const RawReader<DetectionFrame> reader(there, [&](Bytes&& message) {
+    const std::lock_guard lock(mutex);
+    messages.push_back(std::move(message));
+    arrived.notify_all();
+    if (messages.size() == 1) throw std::runtime_error("this does no harm");
+  });
+  Writer<DetectionFrame> writer(here);
+  for (int i = 0; i < 2000 && writer.matched() == 0; ++i) usleep(10'000);
+  ASSERT_TRUE(writer.write(frame_of(1)) && writer.write(frame_of(2)));
+
+  std::unique_lock lock(mutex);
+  ASSERT_TRUE(arrived.wait_for(lock, std::chrono::seconds(20), [&] { return messages.size() == 2; }));
+  for (std::uint64_t i = 0; i < 2; ++i) {
+    Bytes expected;
+    EXPECT_EQ(to_cdr(frame_of(i + 1), config.map_frame_id, expected), 0U);
+    EXPECT_EQ(messages[i], expected);
+    const auto header = header_of(messages[i]);
+    ASSERT_TRUE(header);
+    EXPECT_EQ(header->stamp_ns, 5);
+    EXPECT_EQ(header->sequence, i + 1);
+    EXPECT_EQ(header->session_id, 7U);
+  }
+}
+
+}  // namespace
+}  // namespace laneloom::dds
