@@ -1,0 +1,35 @@
+#include "service/endpoints.hpp"
+
+#include <utility>
+
+namespace laneloom {
+namespace {
+
+dds::ReaderCallbacks<DetectionFrame> take_detections(IngestionQueue& queue,
+                                                     const std::function<std::int64_t()>& now_ns) {
+  dds::ReaderCallbacks<DetectionFrame> callbacks;
+  callbacks.sample = [&queue, now_ns](DetectionFrame&& frame) { queue.push(std::move(frame), now_ns()); };
+  callbacks.refused = [&queue](std::string_view reason) { queue.refuse_detections(reason); };
+  return callbacks;
+}
+
+dds::ReaderCallbacks<VehiclePose> take_poses(IngestionQueue& queue,
+                                             const std::function<std::int64_t()>& now_ns) {
+  dds::ReaderCallbacks<VehiclePose> callbacks;
+  callbacks.sample = [&queue, now_ns](VehiclePose&& pose) { queue.push(std::move(pose), now_ns()); };
+  callbacks.refused = [&queue](std::string_view reason) { queue.refuse_pose(reason); };
+  return callbacks;
+}
+
+}  // namespace
+
+Endpoints::Endpoints(const DdsConfig& config, IngestionQueue& queue,
+                     const std::function<std::int64_t()>& now_ns)
+    : participant_(config, "laneloomd"),
+      map(participant_),
+      road_markings(participant_),
+      status(participant_),
+      detections_(participant_, take_detections(queue, now_ns)),
+      poses_(participant_, take_poses(queue, now_ns)) {}
+
+}  // namespace laneloom

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "laneloom/config.hpp"
+#include "laneloom/dds/participant.hpp"
+#include "laneloom/dds/reader.hpp"
+#include "laneloom/dds/writer.hpp"
+#include "laneloom/messages.hpp"
+#include "service/ingestion_queue.hpp"
+
+namespace laneloom {
+
+/// Everything of the service that DDS sees, as one object: it can be made anew while the map lives on.
+class Endpoints {
+ public:
+  /// What arrives goes into `queue`, which must outlive this. Throws std::runtime_error.
+  Endpoints(const DdsConfig& config, IngestionQueue& queue, const std::function<std::int64_t()>& now_ns);
+
+ private:
+  dds::Participant participant_;
+
+ public:
+  dds::Writer<PublishedMap> map;
+  dds::Writer<RoadMarkings> road_markings;
+  dds::Writer<ServiceStatus> status;
+
+ private:
+  dds::Reader<DetectionFrame> detections_;
+  dds::Reader<VehiclePose> poses_;
+};
+
+}  // namespace laneloom

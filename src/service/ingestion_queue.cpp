@@ -1,0 +1,76 @@
+#include "service/ingestion_queue.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+namespace laneloom {
+
+IngestionQueue::IngestionQueue(const SyncConfig& config) : config_(config) {
+  for (const auto* name :
+       {"detections_received", "poses_received", "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
+    state_.counters.add(name, 0);
+  }
+}
+
+void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
+  const std::lock_guard lock(mutex_);
+  state_.counters.add("detections_received");
+  state_.newest_frame_ns = arrival_ns;
+  push(frames_, config_.queue_capacity, {std::move(frame), arrival_ns}, "frames_dropped_queue_full");
+}
+
+void IngestionQueue::push(VehiclePose&& pose, std::int64_t arrival_ns) {
+  const std::lock_guard lock(mutex_);
+  state_.counters.add("poses_received");
+  state_.newest_pose_ns = arrival_ns;
+  push(poses_, config_.pose_queue_capacity, {std::move(pose), arrival_ns}, "poses_dropped_queue_full");
+}
+
+void IngestionQueue::push(Queue& queue, int capacity, Arrival&& arrival, std::string_view dropped) {
+  if (queue.size() >= static_cast<std::size_t>(capacity)) {
+    queue.pop_front();
+    state_.counters.add(dropped);
+  }
+  queue.push_back({next_order_++, std::move(arrival)});
+}
+
+void IngestionQueue::refuse_detections(std::string_view reason) {
+  const std::lock_guard lock(mutex_);
+  state_.counters.add("detections_received");
+  state_.counters.add("detections_refused_" + std::string(reason));
+}
+
+void IngestionQueue::refuse_pose(std::string_view reason) {
+  const std::lock_guard lock(mutex_);
+  state_.counters.add("poses_received");
+  state_.counters.add("poses_refused_" + std::string(reason));
+}
+
+std::vector<Arrival> IngestionQueue::drain() {
+  Queue frames, poses;
+  {
+    const std::lock_guard lock(mutex_);
+    frames.swap(frames_);
+    poses.swap(poses_);
+  }
+  std::vector<Numbered> merged;
+  merged.reserve(frames.size() + poses.size());
+  std::merge(std::make_move_iterator(frames.begin()), std::make_move_iterator(frames.end()),
+             std::make_move_iterator(poses.begin()), std::make_move_iterator(poses.end()),
+             std::back_inserter(merged),
+             [](const Numbered& a, const Numbered& b) { return a.order < b.order; });
+  std::vector<Arrival> arrivals;
+  arrivals.reserve(merged.size());
+  for (auto& [order, arrival] : merged) arrivals.push_back(std::move(arrival));
+  return arrivals;
+}
+
+IngestionQueue::Snapshot IngestionQueue::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  auto result = state_;
+  result.queued_frames = frames_.size();
+  return result;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/counters.hpp"
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// A message and when it came, by the steady clock.
+struct Arrival {
+  std::variant<VehiclePose, DetectionFrame> message;
+  std::int64_t arrival_ns = 0;
+};
+
+/// Between the threads of DDS, which push, and the executor, which drains. Bounded: the oldest message of a
+/// kind is dropped for a new one, and counted. All functions are thread-safe.
+class IngestionQueue {
+ public:
+  explicit IngestionQueue(const SyncConfig& config);
+
+  void push(DetectionFrame&& frame, std::int64_t arrival_ns);
+  void push(VehiclePose&& pose, std::int64_t arrival_ns);
+  /// A message came that was no valid one.
+  void refuse_detections(std::string_view reason);
+  void refuse_pose(std::string_view reason);
+
+  /// All messages, in the order of their arrival.
+  std::vector<Arrival> drain();
+
+  /// Taken at one instant: detections_received = refused + dropped + drained + queued, and likewise of poses.
+  struct Snapshot {
+    Counters counters;
+    std::size_t queued_frames = 0;
+    std::optional<std::int64_t> newest_frame_ns;  ///< arrival
+    std::optional<std::int64_t> newest_pose_ns;
+  };
+  Snapshot snapshot() const;
+
+ private:
+  struct Numbered {
+    std::uint64_t order = 0;
+    Arrival arrival;
+  };
+  using Queue = std::deque<Numbered>;
+
+  void push(Queue& queue, int capacity, Arrival&& arrival, std::string_view dropped);
+
+  SyncConfig config_;
+  mutable std::mutex mutex_;
+  std::uint64_t next_order_ = 0;
+  Queue frames_;
+  Queue poses_;
+  Snapshot state_;
+};
+
+}  // namespace laneloom

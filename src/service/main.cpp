@@ -1,0 +1,114 @@
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sysexits.h>
+#include <systemd/sd-daemon.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "laneloom/config_file.hpp"
+#include "service/executor.hpp"
+#include "service/service.hpp"
+#include "service/signals.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  std::string config_file;
+  std::string preset;
+  std::optional<std::string> vehicle_id;
+  std::optional<int> domain;
+  bool check_only = false;
+};
+
+/// The file, then the preset, then what else the command line says.
+Config configure(const Options& options) {
+  Config config = options.config_file.empty() ? Config{} : load_config(options.config_file);
+  if (!options.preset.empty()) apply_preset(config, options.preset);
+  if (options.vehicle_id) config.dds.vehicle_id = *options.vehicle_id;
+  if (options.domain) config.dds.domain = *options.domain;
+  validate(config);
+  return config;
+}
+
+void set_up_log(const ServiceConfig& config) {
+  auto log = std::make_shared<spdlog::logger>("laneloomd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  log->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
+  log->set_level(spdlog::level::from_str(config.log_level));
+  spdlog::set_default_logger(std::move(log));
+}
+
+/// After a change of the network, interfaces that were down are only seen by new endpoints.
+void reload(Service& service) {
+  sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(steady_now_ns() / 1000));
+  service.reopen();
+  sd_notify(0, "READY=1");
+  spdlog::info("event=reopened");
+}
+
+void run(const Config& config) {
+  const Signals signals;
+  Service service(config, steady_now_ns);
+  spdlog::info("event=started version={} config={} domain={} vehicle={}", version(), config_hash(config),
+               config.dds.domain, config.dds.vehicle_id);
+
+  bool ready = false;
+  const auto tick = [&](const Tick& now) {
+    service.tick(now);
+    if (!ready) sd_notify(0, "READY=1");
+    ready = true;
+    sd_notifyf(0, "WATCHDOG=1\nSTATUS=%s", service.summary().c_str());
+  };
+  const auto sleep_until = [&](std::int64_t deadline_ns) {
+    auto wake = signals.sleep_until(deadline_ns);
+    for (; wake == Wake::reload; wake = signals.sleep_until(deadline_ns)) reload(service);
+    return wake == Wake::deadline;
+  };
+  const auto period_ns = static_cast<std::int64_t>(1e9 / config.service.tick_rate_hz);
+  run_periodically(period_ns, {steady_now_ns, sleep_until}, tick);
+
+  sd_notify(0, "STOPPING=1");
+  spdlog::info("event=stopping");
+}
+
+int start(const Options& options) {
+  Config config;
+  try {
+    config = configure(options);
+  } catch (const ConfigError& error) {
+    std::fprintf(stderr, "laneloomd: %s\n", error.what());
+    return EX_CONFIG;
+  }
+  if (options.check_only) {
+    std::printf("configuration %s is valid\n", config_hash(config).c_str());
+    return EX_OK;
+  }
+  set_up_log(config.service);
+  run(config);
+  return EX_OK;
+}
+
+}  // namespace
+}  // namespace laneloom
+
+int main(int argc, char** argv) try {
+  laneloom::Options options;
+  CLI::App app("Fuses road-marking detections into a local lane map, over DDS.", "laneloomd");
+  app.add_option("--config", options.config_file,
+                 "Configuration file (YAML); defaults where it says nothing");
+  app.add_option("--preset", options.preset, "Range and alpha_n of the paper's data sets: inhouse or av2");
+  app.add_option("--vehicle-id", options.vehicle_id,
+                 "Vehicle (DDS partition), instead of the configured one");
+  app.add_option("--domain", options.domain, "DDS domain, instead of the configured one");
+  app.add_flag("--check-config", options.check_only, "Check the configuration and exit");
+  app.set_version_flag("--version", laneloom::version());
+  CLI11_PARSE(app, argc, argv);
+  return laneloom::start(options);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "laneloomd: %s\n", error.what());
+  return EXIT_FAILURE;
+}

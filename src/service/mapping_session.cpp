@@ -1,0 +1,146 @@
+#include "laneloom/mapping_session.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "service/gate.hpp"
+#include "service/synchroniser.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::size_t kMaxSources = 8;  // a source is remembered for ever
+
+std::string_view reason(Gate::Verdict verdict) {
+  switch (verdict) {
+    case Gate::Verdict::repeated:
+      return "repeated";
+    case Gate::Verdict::late:
+      return "late";
+    case Gate::Verdict::outlier:
+      return "outlier";
+    case Gate::Verdict::accepted:
+    case Gate::Verdict::begins_anew:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+struct MappingSession::State {
+  explicit State(const Config& c)
+      : gate_config(c.gate), pose_gate(c.gate), synchroniser(c.sync), mapper(c.mapper) {}
+
+  std::string_view add(const VehiclePose& pose);
+  std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
+  std::string_view check_source(const DetectionFrame& frame);
+  void fuse_ready();
+  void fuse(const SynchronisedFrame& synchronised);
+  void reset();
+  void refuse_frames(std::string_view why, std::size_t count = 1) {
+    if (count > 0) counters.add("detections_refused_" + std::string(why), count);
+  }
+
+  GateConfig gate_config;
+  Gate pose_gate;
+  std::map<std::string, Gate> frame_gates;  ///< by source
+  Synchroniser synchroniser;
+  Mapper mapper;
+  std::optional<std::int64_t> newest_stamp_ns;
+  std::optional<std::int64_t> newest_arrival_ns;
+  Counters counters;
+  Progress progress;
+  StageObserver* observer = nullptr;
+};
+
+std::string_view MappingSession::State::add(const VehiclePose& pose) {
+  if (const auto found = defect(pose, gate_config); !found.empty()) return found;
+  const auto verdict = pose_gate.check({pose.stamp_ns, pose.session_id, pose.position});
+  if (const auto why = reason(verdict); !why.empty()) return why;
+  if (verdict == Gate::Verdict::begins_anew) {
+    reset();
+    synchroniser.clear_poses();
+  }
+  counters.add("poses_accepted");
+  synchroniser.add(pose);
+  fuse_ready();
+  return {};
+}
+
+std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t arrival_ns) {
+  if (const auto found = defect(frame, gate_config); !found.empty()) return found;
+  if (const auto why = check_source(frame); !why.empty()) return why;
+  if (newest_stamp_ns && frame.stamp_ns < *newest_stamp_ns) return "late";
+  synchroniser.add(PendingFrame{std::move(frame), arrival_ns});
+  fuse_ready();
+  if (const auto dropped = synchroniser.drop_excess()) counters.add("frames_dropped_queue_full", dropped);
+  return {};
+}
+
+std::string_view MappingSession::State::check_source(const DetectionFrame& frame) {
+  auto gate = frame_gates.find(frame.source);
+  if (gate == frame_gates.end()) {
+    if (frame_gates.size() >= kMaxSources) return "too_many_sources";
+    gate = frame_gates.emplace(frame.source, gate_config).first;
+  }
+  const auto verdict = gate->second.check({frame.stamp_ns, frame.session_id});
+  if (verdict == Gate::Verdict::begins_anew) reset();
+  return reason(verdict);
+}
+
+void MappingSession::State::fuse_ready() {
+  std::size_t unsynchronised = 0;
+  while (const auto frame = synchroniser.next(unsynchronised)) fuse(*frame);
+  refuse_frames("unsynchronised", unsynchronised);
+}
+
+void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
+  const auto& frame = synchronised.pending.frame;
+  const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
+  newest_stamp_ns = frame.stamp_ns;
+  newest_arrival_ns = synchronised.pending.arrival_ns;
+  counters.add("frames_fused");
+  progress.fused.push_back({frame.session_id, frame.sequence, frame.stamp_ns});
+  progress.lineage.insert(progress.lineage.end(), map.lineage.begin(), map.lineage.end());
+}
+
+/// Forgets the map, and the frames that belong to what was before.
+void MappingSession::State::reset() {
+  refuse_frames("reset", synchroniser.clear_frames());
+  mapper.reset();
+  newest_stamp_ns.reset();
+  newest_arrival_ns.reset();
+  counters.add("map_resets");
+  ++progress.resets;
+}
+
+MappingSession::MappingSession(const Config& config) : state_(std::make_unique<State>(config)) {}
+MappingSession::~MappingSession() = default;
+MappingSession::MappingSession(MappingSession&&) noexcept = default;
+MappingSession& MappingSession::operator=(MappingSession&&) noexcept = default;
+
+void MappingSession::add(const VehiclePose& pose) {
+  const auto why = state_->add(pose);
+  if (!why.empty()) state_->counters.add("poses_refused_" + std::string(why));
+}
+
+void MappingSession::add(DetectionFrame frame, std::int64_t arrival_ns) {
+  const auto why = state_->add(std::move(frame), arrival_ns);
+  if (!why.empty()) state_->refuse_frames(why);
+}
+
+void MappingSession::expire(std::int64_t now_ns) {
+  state_->refuse_frames("unsynchronised", state_->synchroniser.expire(now_ns));
+}
+
+MappingSession::Progress MappingSession::take_progress() { return std::exchange(state_->progress, {}); }
+const LocalMap& MappingSession::map() const { return state_->mapper.map(); }
+Mapper& MappingSession::mapper() { return state_->mapper; }
+std::size_t MappingSession::pending() const { return state_->synchroniser.pending(); }
+std::optional<std::int64_t> MappingSession::newest_arrival_ns() const { return state_->newest_arrival_ns; }
+const Counters& MappingSession::counters() const { return state_->counters; }
+void MappingSession::observe(StageObserver* observer) { state_->observer = observer; }
+
+}  // namespace laneloom

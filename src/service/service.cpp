@@ -1,0 +1,219 @@
+#include "service/service.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <variant>
+
+#include "laneloom/config_file.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kStatisticsWindow_s = 10.0;
+
+std::uint64_t random_id() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32) | device();
+}
+
+std::int64_t system_now_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+const char* name(MapState state) {
+  switch (state) {
+    case MapState::ok:
+      return "OK";
+    case MapState::degraded:
+      return "DEGRADED";
+    case MapState::stale:
+      break;
+  }
+  return "STALE";
+}
+
+const char* name(StateReason reason) {
+  switch (reason) {
+    case StateReason::no_detections:
+      return "no_detections";
+    case StateReason::no_poses:
+      return "no_poses";
+    case StateReason::unsynchronised:
+      return "unsynchronised";
+    case StateReason::starting:
+      return "starting";
+    case StateReason::reset:
+      return "reset";
+    case StateReason::overloaded:
+      break;
+  }
+  return "overloaded";
+}
+
+std::string text(const Verdict& verdict) {
+  std::string result = name(verdict.state);
+  for (const auto reason : verdict.reasons) result += std::string(" ") + name(reason);
+  return result;
+}
+
+/// Of counters that should not rise in normal operation.
+bool is_incident(std::string_view counter) {
+  return counter.find("_refused_") != std::string_view::npos ||
+         counter.find("_dropped_") != std::string_view::npos || counter == "map_resets" ||
+         counter == "ticks_missed" || counter == "elements_left_out" || counter == "writes_failed";
+}
+
+std::size_t ticks_within(double window_s, double rate_hz) {
+  return static_cast<std::size_t>(std::ceil(window_s * rate_hz));
+}
+
+double milliseconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) / 1e6; }
+
+}  // namespace
+
+const char* version() { return LANELOOM_VERSION; }
+
+Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
+    : config_(config),
+      config_hash_(config_hash(config)),
+      now_ns_(std::move(now_ns)),
+      session_id_(random_id()),
+      started_ns_(now_ns_()),
+      session_(config),
+      queue_(config.sync),
+      health_(config.service),
+      work_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
+      delay_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
+      next_status_ns_(started_ns_) {
+  reopen();
+}
+
+void Service::reopen() {
+  endpoints_.reset();  // first, as two services on one vehicle id would be seen otherwise
+  endpoints_ = std::make_unique<Endpoints>(config_.dds, queue_, now_ns_);
+}
+
+void Service::tick(const Tick& tick) {
+  ingest(tick.start_ns);
+  auto progress = session_.take_progress();
+  const bool changed = judge(tick, progress.resets);
+  publish_map(tick.start_ns, std::move(progress));
+  work_.add(milliseconds(now_ns_() - tick.start_ns));
+  delay_.add(milliseconds(tick.start_ns - tick.deadline_ns));
+  if (changed) spdlog::info("state={} session={}", text(verdict_), session_id_);
+  if (changed || tick.start_ns >= next_status_ns_) publish_status(tick.start_ns);
+}
+
+void Service::ingest(std::int64_t now_ns) {
+  for (auto& [message, arrival_ns] : queue_.drain()) {
+    if (auto* frame = std::get_if<DetectionFrame>(&message)) {
+      session_.add(std::move(*frame), arrival_ns);
+    } else {
+      session_.add(std::get<VehiclePose>(message));
+    }
+  }
+  session_.expire(now_ns);
+}
+
+bool Service::judge(const Tick& tick, std::uint64_t resets) {
+  const auto arrived = queue_.snapshot();
+  const auto unsynchronised = session_.counters()["detections_refused_unsynchronised"];
+  const auto dropped = arrived.counters["frames_dropped_queue_full"] +
+                       arrived.counters["poses_dropped_queue_full"] +
+                       session_.counters()["frames_dropped_queue_full"];
+  if (resets > 0) health_.note_reset(tick.start_ns);
+  if (unsynchronised > std::exchange(unsynchronised_seen_, unsynchronised)) {
+    health_.note_unsynchronised(tick.start_ns);
+  }
+  if (dropped > std::exchange(dropped_seen_, dropped) || tick.missed > 0)
+    health_.note_overload(tick.start_ns);
+  counters_.add("ticks");
+  counters_.add("ticks_missed", tick.missed);
+
+  const auto verdict = health_.assess(
+      tick.start_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns, session_.newest_arrival_ns()});
+  return std::exchange(verdict_, verdict) != verdict;
+}
+
+template <class T>
+void Service::write(dds::Writer<T>& writer, const T& message) {
+  const auto before = writer.left_out();
+  if (!writer.write(message)) counters_.add("writes_failed");
+  counters_.add("elements_left_out", writer.left_out() - before);
+}
+
+void Service::publish_map(std::int64_t now_ns, MappingSession::Progress&& progress) {
+  PublishedMap map;
+  map.sequence = map_sequence_++;
+  map.session_id = session_id_;
+  map.frame_id = config_.dds.map_frame_id;
+  map.published_ns = system_now_ns();
+  map.age_s = age_s(now_ns, session_.newest_arrival_ns());
+  map.state = verdict_.state;
+  map.reasons = verdict_.reasons;
+  map.fused_frames = std::move(progress.fused);
+  map.map = session_.map();
+  map.map.lineage = std::move(progress.lineage);
+  if (!endpoints_) return;
+  write(endpoints_->map, map);
+  write(endpoints_->road_markings, RoadMarkings{map.map.stamp_ns, map.sequence, map.session_id, map.frame_id,
+                                                std::move(map.map.instances)});
+}
+
+void Service::publish_status(std::int64_t now_ns) {
+  auto message = status(now_ns);
+  message.sequence = status_sequence_++;
+  if (endpoints_) write(endpoints_->status, message);
+  if (now_ns >= next_status_ns_) {
+    next_status_ns_ = now_ns + static_cast<std::int64_t>(config_.service.status_period_s * 1e9);
+    log_incidents(all_counters(queue_.snapshot()));
+  }
+}
+
+ServiceStatus Service::status(std::int64_t now_ns) const {
+  const auto arrived = queue_.snapshot();
+  ServiceStatus status;
+  status.session_id = session_id_;
+  status.published_ns = system_now_ns();
+  status.state = verdict_.state;
+  status.reasons = verdict_.reasons;
+  status.uptime_s = age_s(now_ns, started_ns_);
+  status.detections_age_s = age_s(now_ns, arrived.newest_frame_ns);
+  status.poses_age_s = age_s(now_ns, arrived.newest_pose_ns);
+  status.tick = work_.summary();
+  status.tick_delay = delay_.summary();
+  status.pending_frames = static_cast<std::uint32_t>(session_.pending() + arrived.queued_frames);
+  const auto counters = all_counters(arrived);
+  status.counters.assign(counters.values().begin(), counters.values().end());
+  status.version = version();
+  status.config_hash = config_hash_;
+  return status;
+}
+
+Counters Service::all_counters(const IngestionQueue::Snapshot& arrived) const {
+  auto all = arrived.counters;
+  all.add(session_.counters());
+  all.add(counters_);
+  return all;
+}
+
+// Once per status period, so that nothing that others send can flood the log.
+void Service::log_incidents(const Counters& counters) {
+  for (const auto& [counter, total] : counters.values()) {
+    const auto rise = total - reported_[counter];
+    if (rise > 0 && is_incident(counter)) spdlog::warn("counter={} new={} total={}", counter, rise, total);
+  }
+  reported_ = counters;
+}
+
+std::string Service::summary() const {
+  return text(verdict_) + ", " + std::to_string(session_.counters()["frames_fused"]) + " frames fused, " +
+         std::to_string(session_.map().lanes.size()) + " lanes";
+}
+
+}  // namespace laneloom

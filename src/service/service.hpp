@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "laneloom/config.hpp"
+#include "laneloom/mapping_session.hpp"
+#include "laneloom/messages.hpp"
+#include "service/endpoints.hpp"
+#include "service/executor.hpp"
+#include "service/health.hpp"
+#include "service/ingestion_queue.hpp"
+#include "service/time_window.hpp"
+
+namespace laneloom {
+
+/// The version of laneloom that this is.
+const char* version();
+
+/// What laneloomd does: takes what came, updates the map, and publishes, at every tick.
+/// One thread calls it; the threads of DDS only reach its queue.
+class Service {
+ public:
+  /// `now_ns` is a steady clock, callable from any thread. Throws std::runtime_error when DDS can't be set
+  /// up.
+  Service(const Config& config, std::function<std::int64_t()> now_ns);
+
+  void tick(const Tick& tick);
+  /// Makes all DDS endpoints anew; the map and what is queued stay. Throws as the constructor; tick() then
+  /// goes on without endpoints.
+  void reopen();
+
+  /// State and numbers in one line, for people.
+  std::string summary() const;
+
+ private:
+  void ingest(std::int64_t now_ns);
+  /// Sets the verdict; true when it changed.
+  bool judge(const Tick& tick, std::uint64_t resets);
+  void publish_map(std::int64_t now_ns, MappingSession::Progress&& progress);
+  void publish_status(std::int64_t now_ns);
+  ServiceStatus status(std::int64_t now_ns) const;
+  Counters all_counters(const IngestionQueue::Snapshot& arrived) const;
+  void log_incidents(const Counters& counters);
+  template <class T>
+  void write(dds::Writer<T>& writer, const T& message);
+
+  Config config_;
+  std::string config_hash_;
+  std::function<std::int64_t()> now_ns_;
+  std::uint64_t session_id_;
+  std::int64_t started_ns_;
+  MappingSession session_;
+  IngestionQueue queue_;
+  Health health_;
+  Verdict verdict_;
+  TimeWindow work_;
+  TimeWindow delay_;
+  Counters counters_;  ///< of the service itself
+  Counters reported_;  ///< as last logged
+  std::uint64_t unsynchronised_seen_ = 0;
+  std::uint64_t dropped_seen_ = 0;
+  std::uint64_t map_sequence_ = 0;
+  std::uint64_t status_sequence_ = 0;
+  std::int64_t next_status_ns_;
+  std::unique_ptr<Endpoints> endpoints_;  ///< last: nothing calls into what is already gone
+};
+
+}  // namespace laneloom

@@ -1,0 +1,72 @@
+#include "service/health.hpp"
+
+#include <gtest/gtest.h>
+
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+using Reasons = std::vector<StateReason>;
+
+class HealthTest : public ::testing::Test {
+ protected:
+  /// When things arrived last, in milliseconds before now; negative: never.
+  Verdict assess(std::int64_t detections_ms, std::int64_t poses_ms, std::int64_t fused_ms) {
+    const auto time = [&](std::int64_t ago_ms) {
+      return ago_ms < 0 ? std::nullopt : std::optional(now_ns_ - ago_ms * kMs);
+    };
+    return health_.assess(now_ns_, {time(detections_ms), time(poses_ms), time(fused_ms)});
+  }
+
+  std::int64_t now_ns_ = 100'000 * kMs;
+  Health health_{ServiceConfig{}};
+};
+
+TEST_F(HealthTest, OkWhileAllIsFresh) {
+  EXPECT_EQ(assess(100, 10, 200), (Verdict{MapState::ok, {}}));
+  EXPECT_EQ(assess(250, 250, 400), (Verdict{MapState::ok, {}}));
+}
+
+TEST_F(HealthTest, StaleAtTheStart) {
+  EXPECT_EQ(
+      assess(-1, -1, -1),
+      (Verdict{MapState::stale, {StateReason::no_detections, StateReason::no_poses, StateReason::starting}}));
+  EXPECT_EQ(assess(10, 10, -1), (Verdict{MapState::stale, {StateReason::starting}}));
+}
+
+TEST_F(HealthTest, DegradedWhenAnInputIsMissing) {
+  EXPECT_EQ(assess(251, 10, 300), (Verdict{MapState::degraded, {StateReason::no_detections}}));
+  EXPECT_EQ(assess(10, 251, 100), (Verdict{MapState::degraded, {StateReason::no_poses}}));
+}
+
+TEST_F(HealthTest, StaleWhenNothingWasFusedForLong) {
+  EXPECT_EQ(assess(500, 10, 500), (Verdict{MapState::stale, {StateReason::no_detections}}));
+  EXPECT_EQ(assess(10, 10, 401), (Verdict{MapState::stale, {StateReason::unsynchronised}}));
+}
+
+TEST_F(HealthTest, IncidentsDegradeForASecond) {
+  health_.note_unsynchronised(now_ns_);
+  health_.note_overload(now_ns_);
+  EXPECT_EQ(assess(0, 0, 0),
+            (Verdict{MapState::degraded, {StateReason::unsynchronised, StateReason::overloaded}}));
+  now_ns_ += 1000 * kMs;
+  EXPECT_EQ(assess(0, 0, 0).state, MapState::degraded);
+  now_ns_ += 1 * kMs;
+  EXPECT_EQ(assess(0, 0, 0), (Verdict{MapState::ok, {}}));
+}
+
+TEST_F(HealthTest, AResetIsSaidUntilTheMapLivesAgain) {
+  health_.note_reset(now_ns_);
+  EXPECT_EQ(assess(0, 0, -1), (Verdict{MapState::stale, {StateReason::reset}}));
+  now_ns_ += 5000 * kMs;
+  EXPECT_EQ(assess(0, 0, -1), (Verdict{MapState::stale, {StateReason::reset}}));
+  EXPECT_EQ(assess(0, 0, 0), (Verdict{MapState::ok, {}}));
+}
+
+TEST(Age, IsMinusOneBeforeTheFirst) {
+  EXPECT_EQ(age_s(5, std::nullopt), -1.0);
+  EXPECT_DOUBLE_EQ(age_s(1'500 * kMs, 1'000 * kMs), 0.5);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,105 @@
+#include "service/ingestion_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+namespace laneloom {
+namespace {
+
+SyncConfig capacities(int frames, int poses) {
+  SyncConfig config;
+  config.queue_capacity = frames;
+  config.pose_queue_capacity = poses;
+  return config;
+}
+
+DetectionFrame frame(std::uint64_t sequence) { return {.sequence = sequence}; }
+VehiclePose pose(std::uint64_t sequence) { return {.sequence = sequence}; }
+
+/// "f1 p2": the kinds and sequences, in order.
+std::string text(const std::vector<Arrival>& arrivals) {
+  std::string result;
+  for (const auto& [message, arrival_ns] : arrivals) {
+    if (!result.empty()) result += " ";
+    if (const auto* f = std::get_if<DetectionFrame>(&message)) {
+      result += "f" + std::to_string(f->sequence);
+    } else {
+      result += "p" + std::to_string(std::get<VehiclePose>(message).sequence);
+    }
+  }
+  return result;
+}
+
+TEST(IngestionQueue, KeepsTheOrderOfArrivalAcrossKinds) {
+  IngestionQueue queue(capacities(8, 8));
+  queue.push(frame(1), 10);
+  queue.push(pose(2), 10);
+  queue.push(pose(3), 11);
+  queue.push(frame(4), 11);
+  queue.push(pose(5), 12);
+  const auto arrivals = queue.drain();
+  EXPECT_EQ(text(arrivals), "f1 p2 p3 f4 p5");
+  EXPECT_EQ(arrivals[3].arrival_ns, 11);
+  EXPECT_TRUE(queue.drain().empty());
+}
+
+TEST(IngestionQueue, DropsTheOldestOfAKindAndCountsIt) {
+  IngestionQueue queue(capacities(2, 3));
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    queue.push(frame(i), 0);
+    queue.push(pose(i), 0);
+  }
+  const auto counters = queue.snapshot().counters;
+  EXPECT_EQ(queue.snapshot().queued_frames, 2U);
+  EXPECT_EQ(text(queue.drain()), "p2 f3 p3 f4 p4");
+  EXPECT_EQ(counters["detections_received"], 5U);
+  EXPECT_EQ(counters["poses_received"], 5U);
+  EXPECT_EQ(counters["frames_dropped_queue_full"], 3U);
+  EXPECT_EQ(counters["poses_dropped_queue_full"], 2U);
+}
+
+TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
+  IngestionQueue queue(capacities(2, 2));
+  queue.refuse_detections("malformed");
+  queue.refuse_detections("malformed");
+  queue.refuse_pose("wrong_frame");
+  const auto counters = queue.snapshot().counters;
+  EXPECT_EQ(counters["detections_received"], 2U);
+  EXPECT_EQ(counters["detections_refused_malformed"], 2U);
+  EXPECT_EQ(counters["poses_received"], 1U);
+  EXPECT_EQ(counters["poses_refused_wrong_frame"], 1U);
+  EXPECT_FALSE(queue.snapshot().newest_frame_ns);
+}
+
+TEST(IngestionQueue, CountsExactlyWhileThreadsPush) {
+  IngestionQueue queue(capacities(16, 16));
+  constexpr std::uint64_t kEach = 5000;
+  std::atomic<int> running = 3;
+  const auto pushing = [&] {
+    for (std::uint64_t i = 0; i < kEach; ++i) {
+      queue.push(frame(i), 1);
+      if (i % 3 == 0) queue.refuse_detections("malformed");
+    }
+    --running;
+  };
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < 3; ++i) threads.emplace_back(pushing);
+  std::uint64_t drained = 0;
+  const auto balanced = [&] {
+    const auto now = queue.snapshot();
+    return now.counters["detections_received"] == now.counters["detections_refused_malformed"] +
+                                                      now.counters["frames_dropped_queue_full"] + drained +
+                                                      now.queued_frames;
+  };
+  while (running > 0) {
+    drained += queue.drain().size();
+    ASSERT_TRUE(balanced());
+  }
+  EXPECT_TRUE(balanced());
+  EXPECT_EQ(queue.snapshot().counters["detections_received"], 3 * (kEach + (kEach + 2) / 3));
+}
+
+}  // namespace
+}  // namespace laneloom

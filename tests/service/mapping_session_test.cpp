@@ -1,0 +1,189 @@
+#include "laneloom/mapping_session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+VehiclePose pose(std::int64_t stamp_ms, std::uint64_t session = 1) {
+  return {.stamp_ns = stamp_ms * kMs,
+          .session_id = session,
+          .position = {0.01 * static_cast<double>(stamp_ms % 1'000'000), 0.0, 0.0}};
+}
+
+/// Two lines along the road.
+DetectionFrame frame(std::int64_t stamp_ms, std::uint64_t session = 1) {
+  DetectionFrame result{
+      .stamp_ns = stamp_ms * kMs, .sequence = static_cast<std::uint64_t>(stamp_ms), .session_id = session};
+  for (const double y : {-1.75, 1.75}) {
+    result.detections.push_back(Detection{.confidence = 0.9, .points = {{0.0, y, 0.0}, {25.0, y, 0.0}}});
+  }
+  return result;
+}
+
+class MappingSessionTest : public ::testing::Test {
+ protected:
+  /// Poses every 10 ms and frames every 100 ms, each frame 50 ms after its stamp.
+  void drive(std::int64_t from_ms, std::int64_t to_ms, std::uint64_t session = 1) {
+    for (std::int64_t t = from_ms; t < to_ms; t += 10) {
+      session_.add(pose(t, session));
+      if (t % 100 == 50 && t - 50 >= from_ms) add(frame(t - 50, session));
+    }
+  }
+  void add(const DetectionFrame& frame) {
+    session_.add(frame, 0);
+    ++added_;
+  }
+  std::vector<std::int64_t> fused_ms() {
+    std::vector<std::int64_t> stamps;
+    for (const auto& fused : session_.take_progress().fused) stamps.push_back(fused.stamp_ns / kMs);
+    return stamps;
+  }
+  std::uint64_t refused() const {
+    std::uint64_t sum = 0;
+    for (const auto& [name, count] : session_.counters().values()) {
+      if (name.starts_with("detections_refused_")) sum += count;
+    }
+    return sum;
+  }
+  void TearDown() override {
+    EXPECT_EQ(session_.counters()["frames_fused"] + refused() +
+                  session_.counters()["frames_dropped_queue_full"] + session_.pending(),
+              added_);
+  }
+  using Stamps = std::vector<std::int64_t>;
+
+  MappingSession session_{Config{}};
+  std::uint64_t added_ = 0;
+};
+
+TEST_F(MappingSessionTest, MakesAMapAndSaysOfWhat) {
+  drive(10'000, 12'000);
+  EXPECT_EQ(session_.map().stamp_ns, 11'900 * kMs);
+  EXPECT_EQ(session_.map().lanes.size(), 1U);
+  const auto progress = session_.take_progress();
+  EXPECT_EQ(progress.fused.size(), 20U);
+  EXPECT_EQ(progress.fused[3].sequence, 10'300U);
+  EXPECT_FALSE(progress.lineage.empty());
+  EXPECT_TRUE(session_.take_progress().fused.empty());
+}
+
+TEST_F(MappingSessionTest, FramesThatWaitedAreFusedInTheOrderOfTheirStamps) {
+  session_.add(pose(10'000));
+  for (const int stamp : {10'030, 10'010, 10'020}) {
+    // A gate per source: the order of one source's stamps is not restored.
+    auto waiting = frame(stamp);
+    waiting.source = std::to_string(stamp);
+    add(waiting);
+  }
+  EXPECT_EQ(fused_ms(), Stamps{});
+  session_.add(pose(10'100));
+  EXPECT_EQ(fused_ms(), (Stamps{10'010, 10'020, 10'030}));
+}
+
+TEST_F(MappingSessionTest, AFrameOlderThanTheNewestFusedIsLate) {
+  drive(10'000, 10'300);
+  fused_ms();
+  add(frame(10'150));
+  auto other = frame(10'150);
+  other.source = "another";
+  add(other);
+  EXPECT_EQ(fused_ms(), Stamps{});
+  EXPECT_EQ(session_.counters()["detections_refused_late"], 2U);
+}
+
+TEST_F(MappingSessionTest, AFrameWithoutPosesIsRefusedInTheEnd) {
+  add(frame(10'000));
+  EXPECT_EQ(session_.pending(), 1U);
+  session_.expire(500 * kMs);
+  EXPECT_EQ(session_.pending(), 1U);
+  session_.expire(501 * kMs);
+  EXPECT_EQ(session_.pending(), 0U);
+  EXPECT_EQ(session_.counters()["detections_refused_unsynchronised"], 1U);
+}
+
+TEST_F(MappingSessionTest, BadInputIsRefusedWholeAndHarmsNothing) {
+  drive(10'000, 12'000);
+  const auto before = session_.map().stamp_ns;
+  auto bad = frame(11'950);
+  bad.detections[1].points[0].x() = std::numeric_limits<double>::quiet_NaN();
+  add(bad);
+  session_.add(VehiclePose{.stamp_ns = 12'000 * kMs, .orientation = {0, 0, 0, 0}});
+  EXPECT_EQ(session_.counters()["detections_refused_coordinate"], 1U);
+  EXPECT_EQ(session_.counters()["poses_refused_not_a_rotation"], 1U);
+  EXPECT_EQ(session_.map().stamp_ns, before);
+  drive(12'000, 12'300);
+  EXPECT_EQ(session_.map().stamp_ns, 12'200 * kMs);
+}
+
+TEST_F(MappingSessionTest, OneOutlierIsRefusedThreeResetTheMap) {
+  drive(10'000, 12'000);
+  ASSERT_EQ(session_.map().lanes.size(), 1U);
+  const auto id = session_.map().boundaries[0].id;
+  session_.add(pose(3'600'000));
+  EXPECT_EQ(session_.counters()["poses_refused_outlier"], 1U);
+  EXPECT_EQ(session_.map().lanes.size(), 1U);
+  fused_ms();
+
+  drive(3'610'000, 3'613'000);
+  EXPECT_EQ(session_.counters()["poses_refused_outlier"], 3U);
+  EXPECT_EQ(session_.counters()["detections_refused_outlier"], 2U);
+  EXPECT_EQ(session_.counters()["map_resets"], 2U);  // by the poses, then by the frames
+  EXPECT_EQ(session_.take_progress().resets, 2U);
+  ASSERT_EQ(session_.map().lanes.size(), 1U);
+  EXPECT_GT(session_.map().boundaries[0].id, id);
+}
+
+TEST_F(MappingSessionTest, ANewSessionResetsTheMapAtOnce) {
+  drive(10'000, 12'000);
+  add(frame(12'000));  // waits
+  session_.add(pose(12'010, 2));
+  EXPECT_EQ(session_.map().stamp_ns, 0);
+  EXPECT_FALSE(session_.newest_arrival_ns());
+  EXPECT_EQ(session_.counters()["map_resets"], 1U);
+  drive(12'020, 12'400, 2);
+  EXPECT_EQ(session_.counters()["map_resets"], 2U);
+  EXPECT_EQ(session_.map().stamp_ns, 12'300 * kMs);
+}
+
+TEST_F(MappingSessionTest, WaitingFramesAreBounded) {
+  for (int i = 0; i < 100; ++i) add(frame(10'000 + i));
+  EXPECT_EQ(session_.pending(), 64U);
+  EXPECT_EQ(session_.counters()["frames_dropped_queue_full"], 36U);
+}
+
+TEST_F(MappingSessionTest, SourcesAreBounded) {
+  session_.add(pose(10'000));
+  session_.add(pose(10'100));
+  for (int i = 0; i < 10; ++i) {
+    auto of_source = frame(10'050);
+    of_source.source = std::to_string(i);
+    add(of_source);
+  }
+  EXPECT_EQ(session_.counters()["frames_fused"], 8U);
+  EXPECT_EQ(session_.counters()["detections_refused_too_many_sources"], 2U);
+}
+
+// What the service drained in bites, a replay feeds in one go.
+TEST_F(MappingSessionTest, TheMapDependsOnTheOrderOfMessagesOnly) {
+  MappingSession other{Config{}};
+  for (std::int64_t t = 10'000; t < 12'000; t += 10) {
+    other.add(pose(t));
+    if (t % 100 == 50) other.add(frame(t - 50), t * kMs);
+    other.expire(t * kMs);
+    if (t % 30 == 0) other.take_progress();
+  }
+  drive(10'000, 12'000);
+  ASSERT_EQ(other.map().boundaries.size(), session_.map().boundaries.size());
+  for (std::size_t i = 0; i < other.map().boundaries.size(); ++i) {
+    EXPECT_EQ(other.map().boundaries[i].points, session_.map().boundaries[i].points);
+    EXPECT_EQ(other.map().boundaries[i].id, session_.map().boundaries[i].id);
+  }
+}
+
+}  // namespace
+}  // namespace laneloom
