@@ -1,0 +1,33 @@
+# Writes OUT, a C++ source with the IDL of each of TOPICS (in IDL_DIR) as one text, in which every included file
+# stands once, before what includes it, and nothing is left for a preprocessor.
+#   cmake -D IDL_DIR=… -D OUT=… -D TOPICS=A,B -P flatten_idl.cmake
+cmake_minimum_required(VERSION 3.25)
+
+function(flatten file)
+  if(file IN_LIST done)
+    return()
+  endif()
+  list(APPEND done ${file})
+  file(READ ${IDL_DIR}/${file} idl)
+  string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${idl}")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "#include \"(.*)\"" "\\1" include "${include}")
+    flatten(${include})
+  endforeach()
+  string(REGEX REPLACE "(^|\n)#[^\n]*" "\\1" idl "${idl}")
+  string(REGEX REPLACE "\n\n+" "\n\n" idl "${idl}")
+  string(APPEND text "${idl}")
+  set(done ${done} PARENT_SCOPE)
+  set(text "${text}" PARENT_SCOPE)
+endfunction()
+
+set(source "#include \"recording/topics.hpp\"\n\nnamespace laneloom {\n")
+string(REPLACE "," ";" topics "${TOPICS}")
+foreach(topic IN LISTS topics)
+  set(done "")
+  set(text "")
+  flatten(${topic}.idl)
+  string(APPEND source "\nconst char* const k${topic}Idl = R\"idl(${text})idl\";\n")
+endforeach()
+string(APPEND source "\n}  // namespace laneloom\n")
+file(WRITE ${OUT} "${source}")

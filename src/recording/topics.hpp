@@ -1,0 +1,49 @@
+#pragma once
+
+#include "laneloom/dds/topics.hpp"
+#include "laneloom/messages.hpp"
+
+/// The topics of laneloom as a recording describes them.
+namespace laneloom {
+
+/// IDL as one text: what a message's file includes is in it, and no line is for a preprocessor, which readers
+/// of recordings do not have. Made from idl/ by flatten_idl.cmake.
+extern const char* const kDetectionsIdl;
+extern const char* const kVehiclePoseIdl;
+extern const char* const kLaneMapIdl;
+extern const char* const kRoadMarkingsIdl;
+extern const char* const kServiceStatusIdl;
+
+inline constexpr const char* kCdr = "cdr";
+inline constexpr const char* kOmgIdl = "omgidl";
+
+struct RecordedTopic {
+  const char* name;
+  const char* type;
+  const char* idl;
+};
+
+template <class T>
+RecordedTopic topic_of();
+template <>
+inline RecordedTopic topic_of<DetectionFrame>() {
+  return {dds::kDetectionsTopic, "laneloom::msg::Detections", kDetectionsIdl};
+}
+template <>
+inline RecordedTopic topic_of<VehiclePose>() {
+  return {dds::kVehiclePoseTopic, "laneloom::msg::VehiclePose", kVehiclePoseIdl};
+}
+template <>
+inline RecordedTopic topic_of<PublishedMap>() {
+  return {dds::kLaneMapTopic, "laneloom::msg::LaneMap", kLaneMapIdl};
+}
+template <>
+inline RecordedTopic topic_of<RoadMarkings>() {
+  return {dds::kRoadMarkingsTopic, "laneloom::msg::RoadMarkings", kRoadMarkingsIdl};
+}
+template <>
+inline RecordedTopic topic_of<ServiceStatus>() {
+  return {dds::kStatusTopic, "laneloom::msg::ServiceStatus", kServiceStatusIdl};
+}
+
+}  // namespace laneloom

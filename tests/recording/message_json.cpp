@@ -1,0 +1,161 @@
+#include "message_json.hpp"
+
+#include <string>
+#include <vector>
+
+namespace laneloom {
+
+using nlohmann::json;
+
+// In their namespace, so that lists find what converts their elements.
+namespace msg {
+
+static json of(std::uint64_t value) { return std::to_string(value); }
+static json of(std::int64_t value) { return std::to_string(value); }
+static json of(double value) { return value; }
+template <class Enum>
+requires std::is_enum_v<Enum> json of(Enum value) { return static_cast<std::uint32_t>(value); }
+
+static json of(const Point& m) { return {{"x", m.x()}, {"y", m.y()}, {"z", m.z()}}; }
+static json of(const Range& m) { return {{"from_m", m.from_m()}, {"to_m", m.to_m()}}; }
+
+template <class T>
+static json of(const std::vector<T>& list) {
+  json array = json::array();
+  for (const auto& element : list) array.push_back(of(element));
+  return array;
+}
+
+static json of(const Header& m) {
+  return {{"stamp_ns", of(m.stamp_ns())},
+          {"sequence_number", of(m.sequence_number())},
+          {"session_id", of(m.session_id())},
+          {"frame_id", m.frame_id().to_string()}};
+}
+
+static json of(const Pose& m) {
+  const auto& q = m.orientation();
+  return {{"position", of(m.position())},
+          {"orientation", {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}}};
+}
+
+static json of(const Area& m) { return {{"outline", of(m.outline())}}; }
+
+static json of(const Detection& m) {
+  return {{"type", of(m.type())},
+          {"style", of(m.style())},
+          {"confidence", m.confidence()},
+          {"points", of(m.points())},
+          {"stddev_m", of(m.stddev_m())}};
+}
+
+static json of(const StyleRange& m) { return {{"range", of(m.range())}, {"style", of(m.style())}}; }
+
+static json of(const Marking& m) {
+  return {{"id", of(m.id())},
+          {"type", of(m.type())},
+          {"status", of(m.status())},
+          {"points", of(m.points())},
+          {"styles", of(m.styles())},
+          {"lateral_stddev_m", of(m.lateral_stddev_m())},
+          {"existence_probability", m.existence_probability()},
+          {"observations", of(m.observations())},
+          {"age_s", m.age_s()}};
+}
+
+static json of(const LineageEvent& m) {
+  return {{"kind", of(m.kind())}, {"id", of(m.id())}, {"other", of(m.other())}};
+}
+
+static json of(const Lane& m) {
+  return {{"id", of(m.id())},
+          {"left_boundary", of(m.left_boundary())},
+          {"right_boundary", of(m.right_boundary())},
+          {"left_range", of(m.left_range())},
+          {"right_range", of(m.right_range())},
+          {"left", of(m.left())},
+          {"right", of(m.right())},
+          {"centerline", of(m.centerline())},
+          {"width_m", m.width_m()},
+          {"left_neighbour", of(m.left_neighbour())},
+          {"right_neighbour", of(m.right_neighbour())},
+          {"direction", of(m.direction())},
+          {"section", m.section()},
+          {"status", of(m.status())},
+          {"existence_probability", m.existence_probability()},
+          {"inferred_ranges", of(m.inferred_ranges())}};
+}
+
+static json of(const Stopline& m) {
+  return {{"marking", of(m.marking())}, {"lanes", of(m.lanes())}, {"heading", of(m.heading())}};
+}
+
+static json of(const Linkage& m) {
+  return {{"from_lane", of(m.from_lane())}, {"to_lane", of(m.to_lane())},   {"kind", of(m.kind())},
+          {"turn", of(m.turn())},           {"confidence", m.confidence()}, {"path", of(m.path())}};
+}
+
+static json of(const FusedFrame& m) {
+  return {{"session_id", of(m.session_id())},
+          {"sequence_number", of(m.sequence_number())},
+          {"stamp_ns", of(m.stamp_ns())}};
+}
+
+static json of(const TimeSummary& m) {
+  return {{"mean_ms", m.mean_ms()}, {"p50_ms", m.p50_ms()}, {"p99_ms", m.p99_ms()}, {"max_ms", m.max_ms()}};
+}
+
+static json of(const Counter& m) { return {{"name", m.name().to_string()}, {"value", of(m.value())}}; }
+
+}  // namespace msg
+
+using msg::of;
+
+json json_of(const msg::Detections& m) {
+  return {{"header", of(m.header())},
+          {"source", m.source().to_string()},
+          {"detected_types", of(m.detected_types())},
+          {"field_of_view", of(m.field_of_view())},
+          {"occluded_areas", of(m.occluded_areas())},
+          {"detections", of(m.detections())}};
+}
+
+json json_of(const msg::VehiclePose& m) {
+  return {{"header", of(m.header())}, {"pose", of(m.pose())}, {"covariance", of(m.covariance())}};
+}
+
+json json_of(const msg::LaneMap& m) {
+  return {{"header", of(m.header())},
+          {"published_ns", of(m.published_ns())},
+          {"age_s", m.age_s()},
+          {"state", of(m.state())},
+          {"reasons", of(m.reasons())},
+          {"pose", of(m.pose())},
+          {"fused_frames", of(m.fused_frames())},
+          {"boundaries", of(m.boundaries())},
+          {"lanes", of(m.lanes())},
+          {"stoplines", of(m.stoplines())},
+          {"linkages", of(m.linkages())},
+          {"lineage", of(m.lineage())}};
+}
+
+json json_of(const msg::RoadMarkings& m) {
+  return {{"header", of(m.header())}, {"instances", of(m.instances())}};
+}
+
+json json_of(const msg::ServiceStatus& m) {
+  return {{"header", of(m.header())},
+          {"state", of(m.state())},
+          {"reasons", of(m.reasons())},
+          {"uptime_s", m.uptime_s()},
+          {"detections_age_s", m.detections_age_s()},
+          {"poses_age_s", m.poses_age_s()},
+          {"tick", of(m.tick())},
+          {"tick_delay", of(m.tick_delay())},
+          {"pending_frames", m.pending_frames()},
+          {"counters", of(m.counters())},
+          {"version", m.version().to_string()},
+          {"config_hash", m.config_hash().to_string()}};
+}
+
+}  // namespace laneloom
