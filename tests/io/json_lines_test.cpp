@@ -1,0 +1,220 @@
+#include "io/json_lines.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace laneloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+FrameRecord full_frame() {
+  FrameRecord record;
+  record.frame.stamp_ns = 1'700'000'000'123'456'789;
+  record.frame.sequence = 7;
+  record.frame.session_id = UINT64_MAX;
+  record.frame.source = "front";
+  record.frame.detected_types = {MarkingType::laneline, MarkingType::stopline};
+  record.frame.field_of_view = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  record.frame.occluded_areas = {{{5.0, 0.0, 0.0}, {6.0, 0.0, 0.0}, {6.0, 1.0, 0.0}}};
+  record.frame.detections = {{.type = MarkingType::roadedge,
+                              .style = MarkingStyle::dashed,
+                              .confidence = 0.1,
+                              .points = {{1.0, 0.1, -0.3}, {2.0, 1e-17, 1e9}},
+                              .stddev_m = {0.1, 0.2}}};
+  record.pose.stamp_ns = record.frame.stamp_ns;
+  record.pose.position = {1.5, -2.5, 3.0};
+  record.pose.orientation = Eigen::AngleAxisd(0.3, Point::UnitZ());
+  return record;
+}
+
+TEST(FrameJson, IsReadAsItWasWritten) {
+  const FrameRecord record = full_frame(), read = frame_from_json(to_json_line(record));
+  EXPECT_EQ(read.frame.stamp_ns, record.frame.stamp_ns) << "exact, though t is rounded";
+  EXPECT_EQ(read.frame.sequence, 7u);
+  EXPECT_EQ(read.frame.session_id, UINT64_MAX);
+  EXPECT_EQ(read.frame.source, "front");
+  EXPECT_EQ(read.frame.detected_types, record.frame.detected_types);
+  EXPECT_EQ(read.frame.field_of_view, record.frame.field_of_view);
+  EXPECT_EQ(read.frame.occluded_areas, record.frame.occluded_areas);
+  ASSERT_EQ(read.frame.detections.size(), 1u);
+  EXPECT_EQ(read.frame.detections[0].type, MarkingType::roadedge);
+  EXPECT_EQ(read.frame.detections[0].style, MarkingStyle::dashed);
+  EXPECT_EQ(read.frame.detections[0].confidence, 0.1);
+  EXPECT_EQ(read.frame.detections[0].points, record.frame.detections[0].points);
+  EXPECT_EQ(read.frame.detections[0].stddev_m, record.frame.detections[0].stddev_m);
+  EXPECT_EQ(read.pose.stamp_ns, record.frame.stamp_ns);
+  EXPECT_EQ(read.pose.position, record.pose.position);
+  EXPECT_LT(read.pose.orientation.angularDistance(record.pose.orientation), 1e-9);
+}
+
+TEST(FrameJson, TheOptionalKeysMayBeAbsent) {
+  const FrameRecord read = frame_from_json(
+      R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[{"type":"laneline","score":0.5,"points":[[0,0,0],[1,0,0]]}]})");
+  EXPECT_EQ(read.frame.stamp_ns, 1'500'000'000);
+  EXPECT_TRUE(read.frame.detected_types.empty());
+  EXPECT_EQ(read.frame.detections[0].style, MarkingStyle::unknown);
+}
+
+std::string complaint(const std::string& line) {
+  try {
+    frame_from_json(line);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string frame_with(const std::string& detections, const std::string& pose = "[0,0,0,0,0,0,1]",
+                       const std::string& t = "1") {
+  return R"({"t":)" + t + R"(,"pose":)" + pose + R"(,"detections":)" + detections + "}";
+}
+
+TEST(FrameJson, WhatIsWrongIsNamed) {
+  EXPECT_EQ(complaint(frame_with("[]")), "");
+  EXPECT_EQ(complaint(frame_with("{}")), "detections: must be an array");
+  EXPECT_EQ(complaint(frame_with("[3]")), "detections[0]: must be an object");
+  EXPECT_EQ(complaint(frame_with(R"([{"type":"laneline","score":2,"points":[[0,0,0],[1,0,0]]}])")),
+            "detections[0].score: must be from 0 to 1");
+  EXPECT_EQ(complaint(frame_with(R"([{"type":"laneline","score":0.5,"points":[[0,0,0],[1,0]]}])")),
+            "detections[0].points[1]: must be [x, y, z]");
+  EXPECT_EQ(complaint(frame_with(R"([{"type":"laneline","score":0.5,"points":[[0,0,0]]}])")),
+            "detections[0].points: must have at least two points");
+  EXPECT_EQ(complaint(frame_with(R"([{"type":"lane","score":0.5,"points":[]}])")),
+            "detections[0].type: must be one of laneline, roadedge, stopline");
+  EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,2]")), "pose: must have a quaternion of unit length");
+  EXPECT_EQ(complaint(frame_with("[]", "[0,0,0]")), "pose: must be [x, y, z, qx, qy, qz, qw]");
+  EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,1]", "1e300")), "t: is too large");
+  EXPECT_EQ(complaint(R"({"t":1,"detections":[]})"), "pose: is missing");
+  EXPECT_EQ(complaint("[]"), "must be an object");
+}
+
+TEST(FrameJson, HostileTextIsRefused) {
+  for (const std::string& line :
+       {frame_with("[]", "[NaN,0,0,0,0,0,1]"), frame_with("[]", "[1e999,0,0,0,0,0,1]"),
+        std::string("{\"t\":1"), std::string(1'000'000, '['), std::string(100'000, '{'),
+        std::string("\xff\xfe"), std::string("null"), frame_with("[]", "[0,0,0,0,0,0,1]", "1") + "x",
+        R"({"sequence":-1,)" + frame_with("[]").substr(1),
+        R"({"stamp_ns":18446744073709551615,)" + frame_with("[]").substr(1)})
+    EXPECT_NE(complaint(line), "") << line.substr(0, 60);
+}
+
+LocalMap full_map() {
+  LocalMap map;
+  map.stamp_ns = 123'456'789'012;
+  map.T_map_body = Eigen::Translation3d(10.0, 20.0, 30.0) * Eigen::AngleAxisd(-1.0, Point::UnitZ());
+  Marking boundary;
+  boundary.id = 4;
+  boundary.type = MarkingType::roadedge;
+  boundary.status = ElementStatus::tentative;
+  boundary.points = {{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}};
+  boundary.styles = {{{0.0, 4.0}, MarkingStyle::dashed}};
+  boundary.lateral_stddev_m = {0.1, 0.2};
+  boundary.existence_probability = 0.75;
+  boundary.observations = 12;
+  boundary.first_seen_ns = 99;
+  map.boundaries = {boundary};
+  Stopline stopline;
+  stopline.marking = boundary;
+  stopline.marking.id = 5;
+  stopline.marking.type = MarkingType::stopline;
+  stopline.lanes = {6};
+  stopline.heading = {1.0, 0.0, 0.0};
+  map.stoplines = {stopline};
+  Lane lane;
+  lane.id = 6;
+  lane.left_boundary = 4;
+  lane.right_boundary = 4;
+  lane.left_range = {1.0, 2.0};
+  lane.right_range = {4.0, 3.0};
+  lane.left = lane.right = lane.centerline = boundary.points;
+  lane.width_m = 3.25;
+  lane.left_neighbour = 7;
+  lane.right_neighbour = 8;
+  lane.direction = Lane::Direction::against_centerline;
+  lane.section = 3;
+  lane.status = ElementStatus::inferred;
+  lane.existence_probability = 0.5;
+  lane.inferred_ranges = {{0.5, 0.75}};
+  map.lanes = {lane};
+  map.linkages = {{.from = 6,
+                   .to = 7,
+                   .kind = Linkage::Kind::intersection,
+                   .turn = Linkage::Turn::left,
+                   .confidence = 0.25,
+                   .path = boundary.points}};
+  return map;
+}
+
+TEST(MapJson, IsReadAsItWasWritten) {
+  const std::string line = to_json_line(full_map());
+  const LocalMap read = map_from_json(line);
+  EXPECT_EQ(read.stamp_ns, 123'456'789'012);
+  EXPECT_TRUE(read.T_map_body.isApprox(full_map().T_map_body, 1e-9));
+  ASSERT_EQ(read.boundaries.size(), 1u);
+  EXPECT_EQ(read.boundaries[0].observations, 12u);
+  ASSERT_EQ(read.stoplines.size(), 1u);
+  EXPECT_EQ(read.stoplines[0].marking.points, full_map().stoplines[0].marking.points);
+  ASSERT_EQ(read.lanes.size(), 1u);
+  EXPECT_EQ(read.lanes[0].right_range.from_m, 4.0);
+  ASSERT_EQ(read.linkages.size(), 1u);
+  EXPECT_EQ(read.linkages[0].turn, Linkage::Turn::left);
+  EXPECT_NE(line.find("\"successors\":[7]"), std::string::npos);
+  // Whatever else there is comes out again as it went in.
+  LocalMap same_pose = read;
+  same_pose.T_map_body = full_map().T_map_body;
+  EXPECT_EQ(to_json_line(same_pose), line);
+}
+
+TEST(MapJson, TakesMapsOfOthersWithSuccessorsOnly) {
+  const LocalMap map = map_from_json(
+      R"({"t":2,"pose":[0,0,0,0,0,0,1],"instances":[{"id":1,"type":"laneline","points":[[0,0,0],[9,0,0]]}],)"
+      R"("lanes":[{"id":3,"left":[[0,0,0]],"right":[],"centerline":[[0,0,0]],"successors":[4,5]}]})");
+  EXPECT_EQ(map.boundaries.size(), 1u);
+  ASSERT_EQ(map.linkages.size(), 2u);
+  EXPECT_EQ(map.linkages[1].from, 3u);
+  EXPECT_EQ(map.linkages[1].to, 5u);
+}
+
+TEST(MapJson, WhatIsWrongIsNamed) {
+  std::string line = to_json_line(full_map());
+  line.replace(line.find("\"turn\":\"left\""), 13, "\"turn\":\"back\"");
+  try {
+    map_from_json(line);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "linkages[0].turn: 'back' is not known");
+  }
+}
+
+TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {
+  const fs::path path = fs::path(testing::TempDir()) / "frames.jsonl";
+  {
+    JsonLinesWriter writer(path);
+    writer.write(full_frame());
+    writer.close();
+    std::ofstream(path, std::ios::app) << "\n{\"t\":1}\n" << to_json_line(full_frame());
+  }
+  JsonLinesReader reader(path);
+  EXPECT_TRUE(reader.next_frame());
+  try {
+    reader.next_frame();
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), path.string() + ":3: pose: is missing");
+  }
+  EXPECT_TRUE(reader.next_frame()) << "a last line without an end";
+  EXPECT_FALSE(reader.next_frame());
+  fs::remove(path);
+}
+
+TEST(JsonLines, FilesThatCannotBeOpenedAreErrors) {
+  EXPECT_THROW(JsonLinesReader(fs::path(testing::TempDir()) / "absent.jsonl"), std::runtime_error);
+  EXPECT_THROW(JsonLinesReader{fs::path(testing::TempDir())}, std::runtime_error);
+  EXPECT_THROW(JsonLinesWriter(fs::path(testing::TempDir()) / "absent" / "x.jsonl"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace laneloom

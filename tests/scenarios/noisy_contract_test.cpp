@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include "contract/contract.hpp"
+#include "laneloom/mapper.hpp"
+#include "simulation/perception.hpp"
+#include "simulation/scenarios.hpp"
+
+/// Whatever the noise, no map breaks what a planner relies on.
+namespace laneloom {
+namespace {
+
+struct Noisy {
+  const char* scenario;
+  const char* noise;
+  const char* method;
+  std::uint64_t seed;
+};
+
+void PrintTo(const Noisy& noisy, std::ostream* out) {
+  *out << noisy.scenario << " " << noisy.noise << " " << noisy.method << " " << noisy.seed;
+}
+
+class NoisyContract : public ::testing::TestWithParam<Noisy> {};
+
+TEST_P(NoisyContract, IsKept) {
+  const auto& [scenario, noise, method, seed] = GetParam();
+  const Road road = make_scenario(scenario);
+  Perception perception(road, noise_profile(noise), SensorView{}, seed);
+  MapperConfig config;
+  config.method = method;
+  Mapper mapper(config);
+  std::size_t lanes = 0;
+  for (int i = 1; i < static_cast<int>(road.drive.duration_s() * 10.0); ++i) {
+    const VehiclePose pose = road.drive.pose_at(0.1 * i);
+    PublishedMap published;
+    published.sequence = static_cast<std::uint64_t>(i);
+    published.age_s = 0.0;
+    published.state = MapState::ok;
+    published.map = mapper.update(perception.observe(pose), transform(pose));
+    lanes += published.map.lanes.size();
+    for (const Violation& violation : check_contract(published, nullptr)) {
+      ADD_FAILURE() << "frame " << i << ": " << name(violation.rule) << ": " << violation.detail;
+    }
+  }
+  EXPECT_GT(lanes, 50U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Drives, NoisyContract,
+    ::testing::Values(Noisy{"town", "inhouse", "voxels", 1}, Noisy{"town", "inhouse", "lines", 2},
+                      Noisy{"town", "av2", "lines", 3}, Noisy{"intersection", "inhouse", "lines", 4},
+                      Noisy{"curve", "av2", "lines", 5}, Noisy{"overpass", "inhouse", "voxels", 6}));
+
+}  // namespace
+}  // namespace laneloom

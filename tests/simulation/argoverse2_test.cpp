@@ -1,0 +1,160 @@
+#include "simulation/argoverse2.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <optional>
+
+#include "laneloom/polyline.hpp"
+#include "road_checks.hpp"
+
+namespace laneloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RealLogs : public testing::Test {
+ protected:
+  void SetUp() override {
+    const fs::path data = fs::path(LANELOOM_DATA) / "argoverse2";
+    if (!fs::is_directory(data)) GTEST_SKIP() << "no Argoverse 2 logs in " << data;
+    for (const auto& entry : fs::directory_iterator(data)) logs.push_back(entry.path());
+    std::sort(logs.begin(), logs.end());
+    ASSERT_FALSE(logs.empty());
+  }
+  std::vector<fs::path> logs;
+};
+
+TEST_F(RealLogs, LanesAndMarkingsFitTogether) {
+  for (const fs::path& log : logs) {
+    const Road road = load_argoverse2(log);
+    SCOPED_TRACE(road.name);
+    EXPECT_GT(road.lanes.size(), 100u);
+    EXPECT_LT(road.lanes.size(), 200u);
+    EXPECT_GT(std::count_if(road.lanes.begin(), road.lanes.end(),
+                            [](const RoadLane& l) { return l.in_intersection; }),
+              40);
+    for (const RoadLane& lane : road.lanes) {
+      expect_left_is_left(lane);
+      expect_successors_meet(road, lane, 0.1);
+    }
+    expect_borders_on_markings(road, 0.5);
+    EXPECT_EQ(std::count_if(road.markings.begin(), road.markings.end(),
+                            [](const RoadMarking& m) { return m.type == MarkingType::stopline; }),
+              0);
+  }
+}
+
+TEST_F(RealLogs, NoLineIsThereTwice) {
+  for (const fs::path& log : logs) {
+    const Road road = load_argoverse2(log);
+    SCOPED_TRACE(road.name);
+    for (const RoadMarking& a : road.markings) {
+      if (a.type != MarkingType::laneline) continue;
+      const MeasuredPolyline line(a.points);
+      const Point middle = line.at(0.5 * line.length());
+      for (const RoadMarking& b : road.markings) {
+        if (&a == &b || b.type != MarkingType::laneline) continue;
+        EXPECT_GT(MeasuredPolyline(b.points).project(middle).distance_m, 0.02) << a.id << " and " << b.id;
+      }
+    }
+  }
+}
+
+TEST_F(RealLogs, TheVehicleDrivesInsideTheEdgesWithoutJumps) {
+  for (const fs::path& log : logs) {
+    const Road road = load_argoverse2(log);
+    SCOPED_TRACE(road.name);
+    EXPECT_NEAR(road.drive.duration_s(), 15.95, 0.05);
+    const auto& poses = road.drive.poses();
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      EXPECT_EQ(poses[i].stamp_ns - poses[i - 1].stamp_ns, 10'000'000);
+      EXPECT_LT((poses[i].position - poses[i - 1].position).norm(), 0.2);
+    }
+    for (const RoadMarking& marking : road.markings) {
+      if (marking.type != MarkingType::roadedge) continue;
+      const MeasuredPolyline edge(marking.points);
+      for (std::size_t i = 0; i < poses.size(); i += 100)
+        EXPECT_GT(edge.project(poses[i].position).distance_m, 1.0);
+    }
+  }
+}
+
+// A made-up log of two opposite lanes, whose common border each draws its own way.
+class MadeUpLog : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(directory);
+    write("city_SE3_egovehicle.csv",
+          "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n1000000000,1,0,0,0,0,0,0\n1000000001,1,0,0,0,0,0,0\n"
+          "2000000001,1,0,0,0,10,0,0\n");
+    write("log_map_archive_x.json", map("SOLID_DASHED_YELLOW"));
+  }
+  void TearDown() override { fs::remove_all(directory); }
+
+  void write(const std::string& name, const std::string& content) {
+    std::ofstream(directory / name) << content;
+  }
+
+  static std::string map(const std::string& mark) {
+    const auto lane = [&](int id, double y, const char* type, int successor) {
+      const auto border = [&](double at, bool reverse) {
+        const std::string a = R"({"x":0,"y":)" + std::to_string(at) + R"(,"z":0})";
+        const std::string b = R"({"x":20,"y":)" + std::to_string(at) + R"(,"z":0})";
+        return reverse ? "[" + b + "," + a + "]" : "[" + a + "," + b + "]";
+      };
+      const bool back = y > 0.0;
+      return "\"" + std::to_string(id) + R"(":{"id":)" + std::to_string(id) +
+             R"(,"is_intersection":false,"lane_type":")" + type + R"(","successors":[)" +
+             std::to_string(successor) + R"(],"left_lane_boundary":)" + border(0.0, back) +
+             R"(,"left_lane_mark_type":")" + mark + R"(","right_lane_boundary":)" + border(2.0 * y, back) +
+             R"(,"right_lane_mark_type":"NONE"})";
+    };
+    return R"({"lane_segments":{)" + lane(10, -1.75, "VEHICLE", 99) + "," + lane(20, 1.75, "BIKE", 10) +
+           R"(},"drivable_areas":{"1":{"area_boundary":[{"x":-5,"y":-3.6,"z":0},{"x":25,"y":-3.6,"z":0},)"
+           R"({"x":25,"y":3.6,"z":0},{"x":-5,"y":3.6,"z":0}]}}})";
+  }
+
+  std::string error() {
+    try {
+      load_argoverse2(directory);
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  fs::path directory = fs::path(testing::TempDir()) / "made_up_log";
+};
+
+TEST_F(MadeUpLog, SharedBordersComeOnceAndBicycleLanesAreNoLanes) {
+  const Road road = load_argoverse2(directory);
+  ASSERT_EQ(road.lanes.size(), 1u);
+  EXPECT_TRUE(road.lanes[0].successors.empty()) << "leads out of the archive";
+  ASSERT_EQ(road.markings.size(), 2u);
+  EXPECT_EQ(road.markings[0].type, MarkingType::laneline);
+  EXPECT_EQ(road.markings[0].style, MarkingStyle::dashed) << "the nearer one of the double line";
+  EXPECT_EQ(road.lanes[0].left_marking, road.markings[0].id);
+  EXPECT_EQ(road.lanes[0].right_marking, road.markings[1].id) << "unpainted, along the edge";
+  EXPECT_EQ(road.markings[1].points.front(), road.markings[1].points.back()) << "a ring";
+  EXPECT_NEAR(road.drive.pose_at(0.5).position.x(), 5.0, 1e-6);
+}
+
+TEST_F(MadeUpLog, BadFilesAreNamedWithKeyOrLine) {
+  std::string broken = map("NONE");
+  broken.replace(broken.find("\"z\":0"), 5, "\"z\":[]");
+  write("log_map_archive_x.json", broken);
+  EXPECT_NE(error().find("lane_segments.10.left_lane_boundary[0].z: must be a number"), std::string::npos)
+      << error();
+  write("log_map_archive_x.json", map("NONE"));
+  write("city_SE3_egovehicle.csv", "header\n1,1,0,0,0,0,0,0\n2,1,0,0,zero,0,0,0\n");
+  EXPECT_NE(error().find("city_SE3_egovehicle.csv:3"), std::string::npos) << error();
+  fs::remove(directory / "log_map_archive_x.json");
+  EXPECT_NE(error().find("log_map_archive"), std::string::npos) << error();
+}
+
+}  // namespace
+}  // namespace laneloom

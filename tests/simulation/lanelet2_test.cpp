@@ -1,0 +1,161 @@
+#include "simulation/lanelet2.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "laneloom/polyline.hpp"
+#include "road_checks.hpp"
+
+namespace laneloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+Road load_real(const std::string& name) { return load_lanelet2(fs::path(LANELOOM_DATA) / "lanelet2" / name); }
+
+bool absent(const std::string& name) { return !fs::exists(fs::path(LANELOOM_DATA) / "lanelet2" / name); }
+
+std::ptrdiff_t count(const Road& road, MarkingType type) {
+  return std::count_if(road.markings.begin(), road.markings.end(),
+                       [&](const RoadMarking& m) { return m.type == type; });
+}
+
+void expect_smooth_drive(const Road& road) {
+  for (double t = 0.1; t < road.drive.duration_s(); t += 0.1) {
+    const VehiclePose before = road.drive.pose_at(t - 0.1), now = road.drive.pose_at(t);
+    EXPECT_LT((now.position - before.position).norm(), 1.1) << "at " << t;
+    EXPECT_LT(now.orientation.angularDistance(before.orientation), 0.35) << "at " << t;
+  }
+}
+
+TEST(RealMap, Karlsruhe) {
+  if (absent("karlsruhe_mapping_example.osm")) GTEST_SKIP() << "no Lanelet2 maps in " << LANELOOM_DATA;
+  const Road road = load_real("karlsruhe_mapping_example.osm");
+  EXPECT_EQ(road.lanes.size(), 345u);  // lanelets of subtype road and highway
+  EXPECT_EQ(count(road, MarkingType::stopline), 28);
+  EXPECT_GT(count(road, MarkingType::laneline), 100);
+  EXPECT_TRUE(road.right_hand_traffic);
+  for (const RoadLane& lane : road.lanes) {
+    expect_left_is_left(lane);
+    expect_successors_meet(road, lane, 1e-6);
+  }
+  expect_borders_on_markings(road, 1e-6);
+  EXPECT_GT(road.drive.duration_s(), 20.0);
+  expect_smooth_drive(road);
+}
+
+TEST(RealMap, Kashiwanoha) {
+  if (absent("kashiwanoha.osm")) GTEST_SKIP() << "no Lanelet2 maps in " << LANELOOM_DATA;
+  const Road road = load_real("kashiwanoha.osm");
+  EXPECT_EQ(road.lanes.size(), 77u);
+  EXPECT_EQ(count(road, MarkingType::stopline), 2);
+  EXPECT_FALSE(road.right_hand_traffic);
+  EXPECT_EQ(std::count_if(road.lanes.begin(), road.lanes.end(),
+                          [](const RoadLane& l) { return l.in_intersection; }),
+            38);
+  for (const RoadLane& lane : road.lanes) {
+    expect_left_is_left(lane);
+    expect_successors_meet(road, lane, 1e-6);
+  }
+  EXPECT_GT(road.drive.duration_s(), 100.0);
+  expect_smooth_drive(road);
+}
+
+class MadeUpMap : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove(path); }
+
+  Road load(const std::string& content) {
+    std::ofstream(path) << content;
+    return load_lanelet2(path, 10.0);
+  }
+  std::string error(const std::string& content) {
+    try {
+      load(content);
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  static std::string tag(const std::string& k, const std::string& v) {
+    return "<tag k='" + k + "' v='" + v + "'/>";
+  }
+  static std::string node(int id, double x, double y) {
+    return "<node id='" + std::to_string(id) + "' lat='0' lon='0'>" + tag("local_x", std::to_string(x)) +
+           tag("local_y", std::to_string(y)) + tag("ele", "7") + "</node>";
+  }
+  static std::string way(int id, std::initializer_list<int> nodes, const std::string& tags) {
+    std::string out = "<way id='" + std::to_string(id) + "'>";
+    for (const int n : nodes) out += "<nd ref='" + std::to_string(n) + "'/>";
+    return out + tags + "</way>";
+  }
+  static std::string lanelet(int id, int left, int right, const std::string& subtype = "road") {
+    return "<relation id='" + std::to_string(id) + "'><member type='way' role='left' ref='" +
+           std::to_string(left) + "'/><member type='way' role='right' ref='" + std::to_string(right) + "'/>" +
+           tag("type", "lanelet") + tag("subtype", subtype) + "</relation>";
+  }
+  // Two lanes in a row, eastward; the right border of the first is drawn westward.
+  static std::string two_lanes() {
+    return "<osm>" + node(1, 0, 0) + node(2, 20, 0) + node(3, 40, 0) + node(4, 0, -3) + node(5, 20, -3) +
+           node(6, 40, -3) + way(11, {1, 2}, tag("type", "line_thin") + tag("subtype", "dashed")) +
+           way(12, {2, 3}, tag("type", "line_thick") + tag("subtype", "dashed")) +
+           way(13, {5, 4}, tag("type", "curbstone") + tag("subtype", "low")) +
+           way(14, {5, 6}, tag("type", "virtual")) + way(15, {3, 6}, tag("type", "stop_line")) +
+           lanelet(21, 11, 13) + lanelet(22, 12, 14) + lanelet(23, 12, 14, "walkway");
+  }
+  fs::path path = fs::path(testing::TempDir()) / "made_up.osm";
+};
+
+TEST_F(MadeUpMap, BordersAreOrientedAndLanesConnected) {
+  const Road road = load(two_lanes() + "</osm>");
+  ASSERT_EQ(road.lanes.size(), 2u);
+  EXPECT_EQ(road.lanes[0].right, (Polyline{{0.0, -3.0, 7.0}, {20.0, -3.0, 7.0}}));
+  EXPECT_EQ(road.lanes[0].successors, std::vector<ElementId>{road.lanes[1].id});
+  EXPECT_EQ(road.lanes[1].right_marking, kNoElement) << "virtual";
+  EXPECT_EQ(road.lanes[0].left_marking, road.lanes[1].left_marking) << "one dashed line along both";
+  EXPECT_EQ(count(road, MarkingType::laneline), 1);
+  EXPECT_EQ(count(road, MarkingType::roadedge), 1);
+  EXPECT_EQ(count(road, MarkingType::stopline), 1);
+  EXPECT_NEAR(road.drive.duration_s(), 4.0, 0.01);
+}
+
+TEST_F(MadeUpMap, SwappedBordersTurnTheLaneAround) {
+  const Road road = load(two_lanes() + lanelet(24, 13, 11) + "</osm>");
+  ASSERT_EQ(road.lanes.size(), 3u);
+  expect_left_is_left(road.lanes[2]);
+  EXPECT_EQ(road.lanes[2].left.front(), Point(20.0, -3.0, 7.0)) << "westward";
+}
+
+TEST_F(MadeUpMap, DegreesBecomeMetres) {
+  const auto at = [](int id, double lat, double lon) {
+    return "<node id='" + std::to_string(id) + "' lat='" + std::to_string(lat) + "' lon='" +
+           std::to_string(lon) + "'/>";
+  };
+  const Road road =
+      load("<osm>" + at(1, 49.0, 8.0) + at(2, 49.0, 8.001) + at(3, 48.9999, 8.0) + at(4, 48.9999, 8.001) +
+           way(11, {1, 2}, "") + way(12, {3, 4}, "") + lanelet(21, 11, 12) + "</osm>");
+  // On the WGS84 ellipsoid at 49 degrees, 0.001 degrees are 73.17 m of longitude and 111.21 m of latitude.
+  EXPECT_NEAR(length(road.lanes[0].left), 73.17, 0.02);
+  EXPECT_NEAR(road.lanes[0].right.front().y(), -11.12, 0.01);
+}
+
+TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
+  EXPECT_NE(error("<osm><node").find("made_up.osm"), std::string::npos);
+  EXPECT_NE(error("<html/>").find("has no element osm"), std::string::npos);
+  EXPECT_NE(error("<osm/>").find("has no lanes"), std::string::npos);
+  EXPECT_NE(error(two_lanes() + lanelet(30, 11, 99) + "</osm>").find("relation 30: has no way 99"),
+            std::string::npos);
+  EXPECT_NE(error(two_lanes() + way(40, {1, 77}, "") + "</osm>").find("way 40: has no node 77"),
+            std::string::npos);
+  EXPECT_NE(error("<osm><node id='8' lat='nan' lon='3'/></osm>").find("node 8: lat must be a number"),
+            std::string::npos);
+  EXPECT_NE(error("<osm><node id='8' lat='95' lon='3'/></osm>").find("node 8"), std::string::npos);
+  EXPECT_THROW(load_lanelet2(path.parent_path() / "absent.osm"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace laneloom

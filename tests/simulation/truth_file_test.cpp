@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "simulation/road.hpp"
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TruthFile : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove(path); }
+
+  std::string saved() {
+    save_truth(path, make_scenario("curve"));
+    std::ifstream in(path);
+    std::ostringstream content;
+    content << in.rdbuf();
+    return content.str();
+  }
+  // The message for the saved file with `from` replaced by `to`.
+  std::string error(const std::string& from, const std::string& to) {
+    std::string content = saved();
+    const std::size_t at = content.find(from);
+    if (at == std::string::npos) return "not in the file";
+    std::ofstream(path) << content.replace(at, from.size(), to);
+    try {
+      load_truth(path);
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+
+  fs::path path = fs::path(testing::TempDir()) / "truth.json";
+};
+
+TEST_F(TruthFile, IsReadAsItWasWritten) {
+  const Road road = make_scenario("split");
+  save_truth(path, road);
+  const Road read = load_truth(path);
+  EXPECT_EQ(read.name, road.name);
+  EXPECT_EQ(read.right_hand_traffic, road.right_hand_traffic);
+  ASSERT_EQ(read.markings.size(), road.markings.size());
+  for (std::size_t i = 0; i < read.markings.size(); ++i) {
+    EXPECT_EQ(read.markings[i].id, road.markings[i].id);
+    EXPECT_EQ(read.markings[i].type, road.markings[i].type);
+    EXPECT_EQ(read.markings[i].style, road.markings[i].style);
+    EXPECT_EQ(read.markings[i].points, road.markings[i].points);
+  }
+  ASSERT_EQ(read.lanes.size(), road.lanes.size());
+  for (std::size_t i = 0; i < read.lanes.size(); ++i) {
+    EXPECT_EQ(read.lanes[i].left, road.lanes[i].left);
+    EXPECT_EQ(read.lanes[i].right, road.lanes[i].right);
+    EXPECT_EQ(read.lanes[i].centerline, road.lanes[i].centerline);
+    EXPECT_EQ(read.lanes[i].left_marking, road.lanes[i].left_marking);
+    EXPECT_EQ(read.lanes[i].right_marking, road.lanes[i].right_marking);
+    EXPECT_EQ(read.lanes[i].in_intersection, road.lanes[i].in_intersection);
+    EXPECT_EQ(read.lanes[i].successors, road.lanes[i].successors);
+  }
+  ASSERT_EQ(read.drive.poses().size(), road.drive.poses().size());
+  EXPECT_EQ(read.drive.poses().back().stamp_ns, road.drive.poses().back().stamp_ns);
+  EXPECT_EQ(read.drive.poses().back().position, road.drive.poses().back().position);
+}
+
+TEST_F(TruthFile, ErrorsNameFileAndKey) {
+  EXPECT_NE(error("\"solid\"", "\"dotted\"").find("truth.json: markings[0].style: must be one of"),
+            std::string::npos);
+  EXPECT_NE(error("\"in_intersection\":false,", "").find("lanes[0].in_intersection: is missing"),
+            std::string::npos);
+  EXPECT_NE(error("\"driving_side\":\"right\"", "\"driving_side\":\"up\"").find("driving_side"),
+            std::string::npos);
+  EXPECT_NE(error("\"version\":1", "\"version\":2").find("version"), std::string::npos);
+  EXPECT_NE(error("\"left_marking\":", "\"left_marking\":99").find("unknown id 99"), std::string::npos);
+  EXPECT_NE(error("\"drive\":[[0.0,", "\"drive\":[[-1.0,").find("drive[0]"), std::string::npos);
+  EXPECT_NE(error("{", "").find("is not JSON"), std::string::npos);
+}
+
+TEST_F(TruthFile, AbsentFilesAreErrors) {
+  EXPECT_THROW(load_truth(path.parent_path() / "absent.json"), std::runtime_error);
+  EXPECT_THROW(save_truth(path.parent_path() / "absent" / "truth.json", {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,197 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "process.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Runs the real `laneloom` in a folder of its own.
+class Commands : public testing::Test {
+ protected:
+  Commands()
+      : folder_(testing::TempDir() + "laneloom_" +
+                testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                std::to_string(getpid())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Commands() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(const std::string& name) const { return folder_ + "/" + name; }
+
+  int run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), LANELOOM_COMMAND);
+    return Process(arguments, file("output")).wait();
+  }
+  std::string output() const { return content(file("output")); }
+
+  void simulate(const std::string& noise, const std::string& frames) {
+    ASSERT_EQ(run({"simulate", "--scenario", "straight", "--noise", noise, "--duration", "8", "--frames",
+                   file(frames), "--truth", file("truth.json")}),
+              0)
+        << output();
+  }
+
+ private:
+  std::string folder_;
+};
+
+TEST_F(Commands, DetectionsWithoutNoiseScorePerfectly) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--json",
+                 file("score.json")}),
+            0)
+      << output();
+  const json score = json::parse(content(file("score.json"))).at("raw");
+  EXPECT_EQ(score.at("frames"), 80);
+  EXPECT_GT(score.at("total").at("truth"), 80);
+  EXPECT_EQ(score.at("total").at("precision"), 1.0);
+  EXPECT_EQ(score.at("total").at("recall"), 1.0);
+  EXPECT_LT(score.at("total").at("acd_m"), 0.02);
+}
+
+TEST_F(Commands, ReplayGivesTheSameMapsAgain) {
+  simulate("inhouse", "in.frames.jsonl");
+  for (const char* out : {"a.jsonl", "b.jsonl"})
+    ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file(out), "--preset", "av2",
+                   "--report", file("report.json")}),
+              0)
+        << output();
+  EXPECT_GT(content(file("a.jsonl")).size(), 10'000u);
+  EXPECT_EQ(content(file("a.jsonl")), content(file("b.jsonl")));
+  const json report = json::parse(content(file("report.json")));
+  EXPECT_EQ(report.at("frames"), 80);
+  EXPECT_GT(report.at("ms").at("total").at("mean"), 0.0);
+  EXPECT_TRUE(report.at("ms").contains("clustering"));
+}
+
+TEST_F(Commands, FusedMapsAreEvaluatedAtTheStampsThatDetectionsHaveToo) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
+  std::string shorter = content(file("map.jsonl"));
+  shorter.erase(0, shorter.find('\n') + 1);
+  std::ofstream(file("shorter.jsonl")) << shorter;
+  ASSERT_EQ(run({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--map",
+                 file("shorter.jsonl"), "--json", file("score.json")}),
+            0)
+      << output();
+  const json score = json::parse(content(file("score.json")));
+  EXPECT_EQ(score.at("raw").at("frames"), 79);
+  EXPECT_EQ(score.at("fused").at("frames"), 79);
+  EXPECT_GT(score.at("fused").at("lane").at("matched"), 0);
+}
+
+TEST_F(Commands, RenderDrawsEveryInput) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
+  ASSERT_EQ(run({"render", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--map",
+                 file("map.jsonl"), "--sequence", "2", "--out", file("map.png")}),
+            0)
+      << output();
+  EXPECT_EQ(content(file("map.png")).substr(1, 3), "PNG");
+  ASSERT_EQ(run({"render", "--truth", file("truth.json"), "--at", "3", "--out", file("truth.svg")}), 0)
+      << output();
+  EXPECT_THAT(content(file("truth.svg")), HasSubstr("</svg>"));
+}
+
+TEST_F(Commands, WrongInputIsNamed) {
+  EXPECT_EQ(run({"replay", "--in", file("missing.jsonl")}), 1);
+  EXPECT_THAT(output(), HasSubstr("missing.jsonl"));
+  std::ofstream(file("broken.jsonl")) << "\n{\"t\": 1}\n";
+  EXPECT_EQ(run({"replay", "--in", file("broken.jsonl")}), 1);
+  EXPECT_THAT(output(), HasSubstr("broken.jsonl:2: pose"));
+  EXPECT_EQ(run({"evaluate", "--truth", file("broken.jsonl"), "--map", file("broken.jsonl")}), 1);
+  EXPECT_NE(run({"simulate", "--scenario", "nowhere", "--frames", file("x")}), 0);
+  EXPECT_NE(run({"simulate", "--frames", file("x")}), 0);
+  EXPECT_NE(run({"render", "--truth", file("broken.jsonl"), "--out", file("x.png")}), 0);
+  EXPECT_NE(run({}), 0);
+}
+
+TEST_F(Commands, ReplayRefusesFramesThatGoBack) {
+  simulate("none", "in.frames.jsonl");
+  const std::string frames = content(file("in.frames.jsonl"));
+  std::ofstream(file("back.frames.jsonl")) << frames << frames;
+  EXPECT_EQ(run({"replay", "--in", file("back.frames.jsonl")}), 1);
+  EXPECT_THAT(output(), HasSubstr("frame 81"));
+}
+
+TEST_F(Commands, PublishListsItsRoads) {
+  EXPECT_EQ(run({"publish", "--list"}), 0);
+  EXPECT_THAT(output(), HasSubstr("town"));
+}
+
+/// Real processes over real DDS, in a domain of the test's own.
+class Loopback : public Commands {
+ protected:
+  std::vector<std::string> command(std::vector<std::string> words) const {
+    const std::string domain = std::to_string(20 + getpid() % 180);
+    words.insert(words.end(), {"--domain", domain, "--vehicle-id", "test"});
+    return words;
+  }
+};
+
+TEST_F(Loopback, PncWithoutServiceSaysSo) { EXPECT_EQ(run(command({"pnc", "--duration", "0.5"})), 3); }
+
+TEST_F(Loopback, LanesReachThePlanner) {
+  Process service(command({LANELOOM_SERVICE}), file("service.log"));
+  Process publisher(
+      command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop", "--wait-for-reader",
+               "--frames", file("frames.jsonl"), "--truth", file("truth.json")}),
+      file("publish.log"));
+  Process planner(command({LANELOOM_COMMAND, "pnc", "--json", "--require-lanes", "--duration", "12",
+                           "--record", file("map.jsonl")}),
+                  file("pnc.log"));
+  EXPECT_EQ(planner.wait(), 0) << content(file("pnc.log")).substr(0, 4000) << content(file("service.log"));
+  publisher.signal(SIGTERM);
+  EXPECT_EQ(publisher.wait(), 0) << content(file("publish.log"));
+  service.signal(SIGTERM);
+  EXPECT_EQ(service.wait(), 0) << content(file("service.log"));
+
+  ASSERT_EQ(run({"evaluate", "--truth", file("truth.json"), "--frames", file("frames.jsonl"), "--map",
+                 file("map.jsonl"), "--json", file("score.json")}),
+            0)
+      << output();
+  const json fused = json::parse(content(file("score.json"))).at("fused");
+  EXPECT_GT(fused.at("frames"), 10);
+  EXPECT_GT(fused.at("lane").at("precision"), 0.9);
+}
+
+TEST_F(Loopback, ThePlannerOutlivesTheService) {
+  const std::string ok = "\"state\":\"OK\"";
+  const auto seen = [&](const std::string& event) {
+    const std::string log = content(file("pnc.log"));
+    int count = 0;
+    for (auto at = log.find(event); at != std::string::npos; at = log.find(event, at + 1)) ++count;
+    return count;
+  };
+  const auto wait_for = [&](const std::string& event, int times) {
+    for (int i = 0; i < 600 && seen(event) < times; ++i) usleep(50'000);
+    return seen(event) >= times;
+  };
+
+  Process publisher(command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop"}),
+                    file("publish.log"));
+  Process planner(command({LANELOOM_COMMAND, "pnc", "--json"}), file("pnc.log"));
+  auto service = std::make_unique<Process>(command({LANELOOM_SERVICE}), file("service.log"));
+  ASSERT_TRUE(wait_for(ok, 1));
+  service.reset();  // kill -9
+  ASSERT_TRUE(wait_for("liveliness_lost", 1));
+  const int before = seen(ok);
+  service = std::make_unique<Process>(command({LANELOOM_SERVICE}), file("service.log"));
+  EXPECT_TRUE(wait_for(ok, before + 1));
+  planner.signal(SIGTERM);
+  EXPECT_EQ(planner.wait(), 0) << content(file("pnc.log")).substr(0, 4000);
+}
+
+}  // namespace
+}  // namespace laneloom

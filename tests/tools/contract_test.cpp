@@ -1,0 +1,232 @@
+#include "contract/contract.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace laneloom {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Polyline line_at(double y, double from_x = 0.0, double to_x = 20.0) {
+  return {{from_x, y, 0.0}, {(from_x + to_x) / 2, y, 0.0}, {to_x, y, 0.0}};
+}
+
+Marking marking(ElementId id, MarkingType type, const Polyline& points) {
+  Marking m;
+  m.id = id;
+  m.type = type;
+  m.points = points;
+  m.styles = {{{0.0, 10.0}, MarkingStyle::dashed}, {{10.0, 20.0}, MarkingStyle::solid}};
+  m.lateral_stddev_m.assign(points.size(), 0.1);
+  return m;
+}
+
+Lane lane(ElementId id, double right_y, ElementId left_boundary, ElementId right_boundary) {
+  Lane l;
+  l.id = id;
+  l.left_boundary = left_boundary;
+  l.right_boundary = right_boundary;
+  l.left_range = l.right_range = {0.0, 20.0};
+  l.left = line_at(right_y + 3.0);
+  l.right = line_at(right_y);
+  l.centerline = line_at(right_y + 1.5);
+  l.width_m = 3.0;
+  return l;
+}
+
+/// Two lanes side by side (10 right of 11) between the boundaries 1, 2, 3, and stopline 4.
+PublishedMap good_map() {
+  PublishedMap map;
+  map.sequence = 7;
+  map.session_id = 1;
+  map.age_s = 0.1;
+  map.state = MapState::ok;
+  map.map.stamp_ns = 1'000'000'000;
+  map.map.boundaries = {marking(1, MarkingType::roadedge, line_at(0.0)),
+                        marking(2, MarkingType::laneline, line_at(3.0)),
+                        marking(3, MarkingType::roadedge, line_at(6.0))};
+  map.map.instances = map.map.boundaries;
+  map.map.lanes = {lane(10, 0.0, 2, 1), lane(11, 3.0, 3, 2)};
+  map.map.lanes[0].left_neighbour = 11;
+  map.map.lanes[1].right_neighbour = 10;
+  Stopline stopline;
+  stopline.marking = marking(4, MarkingType::stopline, {{20, 0, 0}, {20, 6, 0}});
+  stopline.marking.styles.clear();
+  stopline.marking.lateral_stddev_m.clear();
+  stopline.lanes = {10, 11};
+  map.map.stoplines = {stopline};
+  Linkage linkage;
+  linkage.from = 10;
+  linkage.to = 11;
+  map.map.linkages = {linkage};
+  return map;
+}
+
+struct Fault {
+  const char* label;
+  ContractRule rule;
+  std::function<void(PublishedMap&)> make;
+};
+
+std::ostream& operator<<(std::ostream& out, const Fault& fault) { return out << fault.label; }
+
+class ContractFault : public testing::TestWithParam<Fault> {};
+
+TEST(Contract, HoldsForAGoodMap) {
+  const PublishedMap map = good_map();
+  PublishedMap previous = map;
+  previous.sequence = 6;
+  previous.age_s = 0.05;
+  for (const Violation& v : check_contract(map, &previous)) ADD_FAILURE() << name(v.rule) << ": " << v.detail;
+}
+
+TEST(Contract, HoldsForAMapBeforeAnythingWasFused) {
+  PublishedMap map;
+  map.reasons = {StateReason::starting};
+  EXPECT_TRUE(check_contract(map, nullptr).empty());
+}
+
+TEST(Contract, HoldsForNeighboursOfOppositeDirections) {
+  PublishedMap map = good_map();
+  Lane& upper = map.map.lanes[1];
+  std::swap(upper.left, upper.right);
+  std::swap(upper.left_boundary, upper.right_boundary);
+  for (Polyline* line : {&upper.left, &upper.right, &upper.centerline})
+    std::reverse(line->begin(), line->end());
+  upper.left_range = upper.right_range = {20.0, 0.0};
+  std::swap(upper.left_neighbour, upper.right_neighbour);
+  EXPECT_TRUE(check_contract(map, nullptr).empty());
+}
+
+TEST_P(ContractFault, IsFound) {
+  PublishedMap map = good_map();
+  GetParam().make(map);
+  PublishedMap previous = good_map();
+  previous.sequence = 6;
+  previous.age_s = 0.05;
+  const std::vector<Violation> violations = check_contract(map, &previous);
+  EXPECT_THAT(violations, testing::Contains(testing::Field(&Violation::rule, GetParam().rule)));
+}
+
+Lane& lower(PublishedMap& map) { return map.map.lanes[0]; }
+Lane& upper(PublishedMap& map) { return map.map.lanes[1]; }
+
+INSTANTIATE_TEST_SUITE_P(
+    EveryRule, ContractFault,
+    testing::Values(
+        Fault{"point", ContractRule::finite_numbers,
+              [](auto& m) { m.map.boundaries[0].points[1].z() = kNan; }},
+        Fault{"lane_point", ContractRule::finite_numbers, [](auto& m) { lower(m).centerline[1].x() = kNan; }},
+        Fault{"pose", ContractRule::finite_numbers,
+              [](auto& m) { m.map.T_map_body.translation().x() = kNan; }},
+        Fault{"heading", ContractRule::finite_numbers,
+              [](auto& m) { m.map.stoplines[0].heading.x() = kNan; }},
+        Fault{"empty_line", ContractRule::valid_geometry, [](auto& m) { m.map.instances[0].points.clear(); }},
+        Fault{"one_point", ContractRule::valid_geometry, [](auto& m) { lower(m).right.resize(1); }},
+        Fault{"no_length", ContractRule::valid_geometry,
+              [](auto& m) {
+                m.map.boundaries[0].points = {{1, 1, 0}, {1, 1, 5}};
+              }},
+        Fault{"path", ContractRule::valid_geometry,
+              [](auto& m) {
+                m.map.linkages[0].path = {{1, 1, 0}};
+              }},
+        Fault{"boundary_twice", ContractRule::unique_ids, [](auto& m) { m.map.boundaries[1].id = 1; }},
+        Fault{"instance_twice", ContractRule::unique_ids, [](auto& m) { m.map.instances[1].id = 1; }},
+        Fault{"stopline_is_boundary", ContractRule::unique_ids,
+              [](auto& m) { m.map.stoplines[0].marking.id = 3; }},
+        Fault{"lane_twice", ContractRule::unique_ids, [](auto& m) { upper(m).id = 10; }},
+        Fault{"no_id", ContractRule::unique_ids, [](auto& m) { m.map.boundaries[0].id = kNoElement; }},
+        Fault{"unknown_boundary", ContractRule::known_ids, [](auto& m) { lower(m).left_boundary = 99; }},
+        Fault{"unknown_neighbour", ContractRule::known_ids, [](auto& m) { lower(m).left_neighbour = 99; }},
+        Fault{"own_neighbour", ContractRule::known_ids, [](auto& m) { lower(m).left_neighbour = 10; }},
+        Fault{"unknown_stopline_lane", ContractRule::known_ids,
+              [](auto& m) { m.map.stoplines[0].lanes = {99}; }},
+        Fault{"linkage_from", ContractRule::known_ids, [](auto& m) { m.map.linkages[0].from = 99; }},
+        Fault{"linkage_to", ContractRule::known_ids, [](auto& m) { m.map.linkages[0].to = 99; }},
+        Fault{"linkage_to_itself", ContractRule::known_ids, [](auto& m) { m.map.linkages[0].to = 10; }},
+        Fault{"swapped_sides", ContractRule::left_is_left,
+              [](auto& m) { std::swap(lower(m).left, lower(m).right); }},
+        Fault{"crossing_sides", ContractRule::left_is_left, [](auto& m) { lower(m).left.back().y() = -1.0; }},
+        Fault{"opposite_sides", ContractRule::left_is_left,
+              [](auto& m) { std::reverse(lower(m).left.begin(), lower(m).left.end()); }},
+        Fault{"centerline_left", ContractRule::centered_line,
+              [](auto& m) { lower(m).centerline[1].y() = 3.2; }},
+        Fault{"centerline_right", ContractRule::centered_line,
+              [](auto& m) { lower(m).centerline[1].y() = -0.2; }},
+        Fault{"one_sided_left", ContractRule::neighbours_across_boundary,
+              [](auto& m) { upper(m).right_neighbour = kNoElement; }},
+        Fault{"one_sided_right", ContractRule::neighbours_across_boundary,
+              [](auto& m) { lower(m).left_neighbour = kNoElement; }},
+        Fault{"wrong_side", ContractRule::neighbours_across_boundary,
+              [](auto& m) { std::swap(upper(m).left_neighbour, upper(m).right_neighbour); }},
+        Fault{"range_beyond", ContractRule::range_in_boundary,
+              [](auto& m) { lower(m).left_range.to_m = 20.2; }},
+        Fault{"range_before", ContractRule::range_in_boundary,
+              [](auto& m) { lower(m).right_range.from_m = -0.2; }},
+        Fault{"range_empty", ContractRule::range_in_boundary,
+              [](auto& m) {
+                lower(m).right_range = {5.0, 5.0};
+              }},
+        Fault{"range_nan", ContractRule::range_in_boundary,
+              [](auto& m) { lower(m).right_range.to_m = kNan; }},
+        Fault{"inferred_beyond", ContractRule::range_in_boundary,
+              [](auto& m) {
+                lower(m).inferred_ranges = {{10.0, 21.0}};
+              }},
+        Fault{"style_gap", ContractRule::range_in_boundary,
+              [](auto& m) { m.map.boundaries[0].styles[0].range.to_m = 9.0; }},
+        Fault{"style_short", ContractRule::range_in_boundary,
+              [](auto& m) { m.map.boundaries[0].styles.pop_back(); }},
+        Fault{"probability", ContractRule::valid_values,
+              [](auto& m) { m.map.boundaries[0].existence_probability = 1.5; }},
+        Fault{"lane_probability", ContractRule::valid_values,
+              [](auto& m) { lower(m).existence_probability = -0.5; }},
+        Fault{"deviation_count", ContractRule::valid_values,
+              [](auto& m) { m.map.boundaries[0].lateral_stddev_m.pop_back(); }},
+        Fault{"deviation_sign", ContractRule::valid_values,
+              [](auto& m) { m.map.boundaries[0].lateral_stddev_m[0] = -0.1; }},
+        Fault{"confidence", ContractRule::valid_values, [](auto& m) { m.map.linkages[0].confidence = kNan; }},
+        Fault{"width", ContractRule::valid_values, [](auto& m) { lower(m).width_m = 0.0; }},
+        Fault{"stopline_boundary", ContractRule::valid_values,
+              [](auto& m) { m.map.boundaries[0].type = MarkingType::stopline; }},
+        Fault{"sequence_repeats", ContractRule::ascending_sequence, [](auto& m) { m.sequence = 6; }},
+        Fault{"sequence_reverses", ContractRule::ascending_sequence, [](auto& m) { m.sequence = 5; }},
+        Fault{"age_negative", ContractRule::possible_age, [](auto& m) { m.age_s = -0.5; }},
+        Fault{"age_none", ContractRule::possible_age, [](auto& m) { m.age_s = -1.0; }},
+        Fault{"age_without_stamp", ContractRule::possible_age, [](auto& m) { m.map.stamp_ns = 0; }},
+        Fault{"age_falls", ContractRule::possible_age, [](auto& m) { m.age_s = 0.01; }},
+        Fault{"reason_missing", ContractRule::stated_reasons, [](auto& m) { m.state = MapState::degraded; }},
+        Fault{"reason_too_many", ContractRule::stated_reasons,
+              [](auto& m) { m.reasons = {StateReason::no_poses}; }}),
+    [](const testing::TestParamInfo<Fault>& fault) { return std::string(fault.param.label); });
+
+TEST(Contract, ANewSessionMayBeginAnew) {
+  PublishedMap map = good_map();
+  const PublishedMap previous = map;
+  map.session_id = 2;
+  map.sequence = 0;
+  map.age_s = 0.01;
+  EXPECT_TRUE(check_contract(map, &previous).empty());
+}
+
+TEST(MissedMaps, CountsTheGapWithinASession) {
+  PublishedMap map = good_map();
+  PublishedMap previous = map;
+  EXPECT_EQ(missed_maps(map, nullptr), 0u);
+  EXPECT_EQ(missed_maps(map, &previous), 0u);
+  previous.sequence = 6;
+  EXPECT_EQ(missed_maps(map, &previous), 0u);
+  previous.sequence = 3;
+  EXPECT_EQ(missed_maps(map, &previous), 3u);
+  map.session_id = 2;
+  EXPECT_EQ(missed_maps(map, &previous), 0u);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,105 @@
+#include "pnc/ego_view.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace laneloom {
+namespace {
+
+using testing::ElementsAre;
+
+/// A lane along x whose width goes from `width_from` to `width_to`.
+Lane lane(ElementId id, double from_x, double to_x, double right_y, double width_from, double width_to) {
+  Lane l;
+  l.id = id;
+  l.right = {{from_x, right_y, 0}, {to_x, right_y, 0}};
+  l.left = {{from_x, right_y + width_from, 0}, {to_x, right_y + width_to, 0}};
+  l.centerline = {{from_x, right_y + width_from / 2, 0}, {to_x, right_y + width_to / 2, 0}};
+  return l;
+}
+
+void link(LocalMap& map, ElementId from, ElementId to) {
+  Linkage linkage;
+  linkage.from = from;
+  linkage.to = to;
+  map.linkages.push_back(linkage);
+}
+
+/// Lane 1 (3 m wide, x 0..15, y 0..3) with lane 2 on its left; lane 3 (4 m wide, x 15..30) follows lane 1.
+LocalMap road() {
+  LocalMap map;
+  map.lanes = {lane(1, 0, 15, 0, 3, 3), lane(2, 0, 15, 3, 3, 3), lane(3, 15, 30, 0, 4, 4)};
+  map.lanes[0].left_neighbour = 2;
+  map.lanes[1].right_neighbour = 1;
+  link(map, 1, 3);
+  map.T_map_body.translation() = Point(1, 1, 0);
+  return map;
+}
+
+TEST(EgoView, FindsTheLaneAndWhatIsAroundIt) {
+  const EgoView view = ego_view(road());
+  EXPECT_EQ(view.lane, 1u);
+  EXPECT_EQ(view.left_neighbour, 2u);
+  EXPECT_EQ(view.right_neighbour, kNoElement);
+  EXPECT_THAT(view.successors, ElementsAre(3u));
+  EXPECT_NEAR(view.offset_m, -0.5, 1e-9);
+}
+
+TEST(EgoView, MeasuresTheWidthAheadThroughTheSuccessor) {
+  const EgoView view = ego_view(road());
+  EXPECT_NEAR(view.width_m[0].value(), 3.0, 1e-9);
+  EXPECT_NEAR(view.width_m[1].value(), 4.0, 1e-9);
+  EXPECT_FALSE(view.width_m[2].has_value());  // 31 m ahead the successor has ended
+}
+
+TEST(EgoView, SeesALaneThatIsGivenAgainstTheVehicle) {
+  LocalMap map = road();
+  map.lanes.resize(2);
+  Lane& ego = map.lanes[0];
+  for (Polyline* line : {&ego.left, &ego.right, &ego.centerline}) std::reverse(line->begin(), line->end());
+  std::swap(ego.left, ego.right);
+  std::swap(ego.left_neighbour, ego.right_neighbour);
+  map.linkages.clear();
+  link(map, 7, 1);  // ahead of the vehicle, where the lane's points begin
+  const EgoView view = ego_view(map);
+  EXPECT_EQ(view.lane, 1u);
+  EXPECT_EQ(view.left_neighbour, 2u);
+  EXPECT_THAT(view.successors, ElementsAre(7u));
+  EXPECT_NEAR(view.offset_m, -0.5, 1e-9);
+}
+
+TEST(EgoView, IsInNoLaneOffTheRoadBeforeItOrAcrossIt) {
+  LocalMap map = road();
+  map.T_map_body.translation() = Point(1, -1, 0);
+  EXPECT_EQ(ego_view(map).lane, kNoElement);
+  map.T_map_body.translation() = Point(-1, 1, 0);
+  EXPECT_EQ(ego_view(map).lane, kNoElement);
+  map.T_map_body.translation() = Point(1, 1, 0);
+  map.T_map_body.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Point::UnitZ()));
+  EXPECT_EQ(ego_view(map).lane, kNoElement);
+  EXPECT_EQ(ego_view(LocalMap{}).lane, kNoElement);
+}
+
+TEST(EgoView, PrefersTheLaneThatItIsAlignedWith) {
+  LocalMap map = road();
+  Lane turning = lane(9, -5, 15, 0, 3, 3);
+  for (Polyline* line : {&turning.left, &turning.right, &turning.centerline})
+    for (Point& point : *line)
+      point =
+          Eigen::AngleAxisd(std::numbers::pi / 6, Point::UnitZ()) * (point - Point(1, 1, 0)) + Point(1, 1, 0);
+  map.lanes.insert(map.lanes.begin(), turning);
+  EXPECT_EQ(ego_view(map).lane, 1u);
+}
+
+TEST(EgoView, EndsOnARingOfSuccessors) {
+  LocalMap map = road();
+  map.lanes[2].centerline = {{15, 1.5, 0}, {16, 1.5, 0}};
+  link(map, 3, 3);
+  EXPECT_FALSE(ego_view(map).width_m[2].has_value());
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,146 @@
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "render/figure.hpp"
+
+namespace laneloom {
+namespace {
+
+Marking marking(MarkingType type, const Polyline& points, MarkingStyle style, double length_m) {
+  Marking m;
+  m.type = type;
+  m.points = points;
+  m.styles = {{{0.0, length_m}, style}};
+  return m;
+}
+
+/// One lane straight ahead between a solid laneline (y = 2) and a roadedge (y = -2), a stopline, all seen
+/// from a vehicle that looks along map y.
+Figure small_figure() {
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+  T_map_body.translate(Point(100, 200, 0)).rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Point::UnitZ()));
+  const auto in_map = [&](Polyline line) {
+    for (Point& point : line) point = T_map_body * point;
+    return line;
+  };
+  Panel panel{"map", {}, {in_map({{0, 10, 0}, {20, 10, 0}})}};
+  panel.map.boundaries = {
+      marking(MarkingType::laneline, in_map({{0, 2, 0}, {20, 2, 0}}), MarkingStyle::solid, 20.0),
+      marking(MarkingType::roadedge, in_map({{0, -2, 0}, {20, -2, 0}}), MarkingStyle::unknown, 20.0)};
+  panel.map.stoplines.resize(1);
+  panel.map.stoplines[0].marking =
+      marking(MarkingType::stopline, in_map({{15, -8, 0}, {15, -4, 0}}), MarkingStyle::unknown, 4.0);
+  return {"figure", {}, {{"t = 0 s", T_map_body, {panel}}}};
+}
+
+class Render : public testing::Test {
+ protected:
+  Render()
+      : folder_(testing::TempDir() + "laneloom_" +
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Render() override { std::filesystem::remove_all(folder_); }
+  std::string file(const std::string& name) const { return folder_ + "/" + name; }
+
+ private:
+  std::string folder_;
+};
+
+/// A picture read back.
+class Png {
+ public:
+  explicit Png(const std::string& path) : surface_(cairo_image_surface_create_from_png(path.c_str())) {}
+  ~Png() { cairo_surface_destroy(surface_); }
+  Png(const Png&) = delete;
+  Png& operator=(const Png&) = delete;
+  bool good() const { return cairo_surface_status(surface_) == CAIRO_STATUS_SUCCESS; }
+
+  /// The colour channel that stands out most in a part of the picture: 'r', 'g', 'b', or ' ' for none.
+  char strongest(double top, double bottom, double left, double right) const {
+    const int width = cairo_image_surface_get_width(surface_),
+              height = cairo_image_surface_get_height(surface_);
+    char found = ' ';
+    int best = 60;  // grey has no channel that stands out
+    for (int y = static_cast<int>(top * height); y < static_cast<int>(bottom * height); ++y) {
+      for (int x = static_cast<int>(left * width); x < static_cast<int>(right * width); ++x) {
+        const auto [channel, lead] = leading(x, y);
+        if (lead > best) found = channel, best = lead;
+      }
+    }
+    return found;
+  }
+
+ private:
+  std::pair<char, int> leading(int x, int y) const {
+    const unsigned char* pixel =
+        cairo_image_surface_get_data(surface_) + y * cairo_image_surface_get_stride(surface_) + 4 * x;
+    const int blue = pixel[0], green = pixel[1], red = pixel[2];
+    return std::max({std::pair{'r', red - std::max(green, blue)}, std::pair{'g', green - std::max(red, blue)},
+                     std::pair{'b', blue - std::max(red, green)}},
+                    [](const auto& a, const auto& b) { return a.second < b.second; });
+  }
+
+  cairo_surface_t* surface_;
+};
+
+TEST_F(Render, DrawsMarkingsWhereTheVehicleSeesThem) {
+  draw_figure(small_figure(), file("map.png"));
+  const Png png(file("map.png"));
+  ASSERT_TRUE(png.good());
+  // Ahead is up: what lies 10 m ahead is above the middle. Left of the vehicle is left in the picture.
+  EXPECT_EQ(png.strongest(0.54, 0.56, 0.35, 0.48), 'r');
+  EXPECT_EQ(png.strongest(0.54, 0.56, 0.52, 0.65), 'g');
+  EXPECT_EQ(png.strongest(0.43, 0.49, 0.60, 0.75), 'b');
+  EXPECT_EQ(png.strongest(0.54, 0.56, 0.66, 0.95), ' ');
+}
+
+TEST_F(Render, WritesSvgWithTheSameStrokes) {
+  draw_figure(small_figure(), file("map.svg"));
+  std::ifstream in(file("map.svg"));
+  std::ostringstream text;
+  text << in.rdbuf();
+  const std::string svg = text.str();
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("<path"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST_F(Render, RefusesOtherExtensionsAndUnwritablePlaces) {
+  EXPECT_THROW(draw_figure(small_figure(), file("map.bmp")), std::runtime_error);
+  EXPECT_THROW(draw_figure(small_figure(), file("no_such_folder/map.png")), std::runtime_error);
+  EXPECT_THROW(draw_figure(small_figure(), file("no_such_folder/map.svg")), std::runtime_error);
+}
+
+TEST_F(Render, DrawsDegenerateElementsWithoutFailing) {
+  Figure figure = small_figure();
+  LocalMap& map = figure.moments[0].panels[0].map;
+  map.boundaries.emplace_back();
+  map.boundaries[0].points.resize(1);
+  map.lanes.emplace_back();
+  map.linkages.emplace_back();
+  EXPECT_NO_THROW(draw_figure(figure, file("odd.png")));
+}
+
+TEST(MapOf, TakesDetectionsToTheMapFrame) {
+  DetectionFrame frame;
+  frame.detections = {{MarkingType::roadedge, MarkingStyle::solid, 0.7, {{1, 2, 3}, {4, 2, 3}}, {}}};
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+  T_map_body.translate(Point(10, 20, 30));
+  const LocalMap map = map_of(frame, T_map_body);
+  ASSERT_EQ(map.boundaries.size(), 1u);
+  EXPECT_EQ(map.boundaries[0].type, MarkingType::roadedge);
+  EXPECT_TRUE(map.boundaries[0].points[0].isApprox(Point(11, 22, 33)));
+  EXPECT_DOUBLE_EQ(map.boundaries[0].styles[0].range.to_m, 3.0);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,20 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+/// The subcommands of `laneloom`, one file each. Each function registers its command; the command's work is
+/// done while the command line is parsed. It throws what main() reports: std::exception for exit code 1, and
+/// CLI::RuntimeError for a code of its own.
+namespace laneloom {
+
+void add_publish(CLI::App& app);
+void add_pnc(CLI::App& app);
+void add_render(CLI::App& app);
+void add_evaluate(CLI::App& app);
+void add_simulate(CLI::App& app);
+void add_replay(CLI::App& app);
+void add_record(CLI::App& app);
+
+}  // namespace laneloom

@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "commands/commands.hpp"
+#include "commands/evaluation_tables.hpp"
+#include "commands/options.hpp"
+#include "commands/score_table.hpp"
+#include "evaluation/map_evaluation.hpp"
+#include "io/json_lines.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  std::string truth, frames, map, json;
+  RangeConfig range;
+  double min_confidence = PreprocessConfig{}.min_confidence;
+};
+
+using Stamps = std::set<std::int64_t>;
+
+Stamps frame_stamps(const std::string& path) {
+  Stamps stamps;
+  JsonLinesReader in(path);
+  while (const auto record = in.next_frame()) stamps.insert(record->frame.stamp_ns);
+  return stamps;
+}
+
+Stamps map_stamps(const std::string& path) {
+  Stamps stamps;
+  JsonLinesReader in(path);
+  while (const auto map = in.next_map()) stamps.insert(map->stamp_ns);
+  return stamps;
+}
+
+/// The moments to compare at: those that every given file has.
+Stamps common_stamps(const Options& options) {
+  if (options.map.empty()) return frame_stamps(options.frames);
+  if (options.frames.empty()) return map_stamps(options.map);
+  const Stamps frames = frame_stamps(options.frames), maps = map_stamps(options.map);
+  Stamps common;
+  std::set_intersection(frames.begin(), frames.end(), maps.begin(), maps.end(),
+                        std::inserter(common, common.end()));
+  if (common.empty()) throw std::runtime_error("detections and maps have no stamp in common");
+  return common;
+}
+
+MapEvaluation evaluate_detections(const Options& options, const Road& truth, const Stamps& stamps) {
+  MapEvaluation evaluation(truth, options.range, Subject::detections);
+  JsonLinesReader in(options.frames);
+  while (const auto record = in.next_frame()) {
+    if (stamps.contains(record->frame.stamp_ns))
+      evaluation.add(record->frame, transform(record->pose), options.min_confidence);
+  }
+  return evaluation;
+}
+
+MapEvaluation evaluate_maps(const Options& options, const Road& truth, const Stamps& stamps) {
+  MapEvaluation evaluation(truth, options.range, Subject::maps);
+  JsonLinesReader in(options.map);
+  while (const auto map = in.next_map()) {
+    if (stamps.contains(map->stamp_ns)) evaluation.add(*map);
+  }
+  return evaluation;
+}
+
+void evaluate(const Options& options) {
+  const Road truth = load_truth(options.truth);
+  const Stamps stamps = common_stamps(options);
+  std::vector<NamedScore> scores;
+  std::vector<NamedEvaluation> evaluations;
+  if (!options.frames.empty()) evaluations.emplace_back("raw", evaluate_detections(options, truth, stamps));
+  if (!options.map.empty()) evaluations.emplace_back("fused", evaluate_maps(options, truth, stamps));
+  scores.reserve(evaluations.size());
+  for (const auto& [who, evaluation] : evaluations) scores.emplace_back(who, evaluation.score());
+  fmt::print("{}{} frames, range {:g}..{:g} m, +-{:g} m\n", score_table(scores), stamps.size(),
+             options.range.forward_min_m, options.range.forward_max_m, options.range.side_max_m);
+  fmt::print("{}", evaluation_tables(evaluations));
+  if (options.json.empty()) return;
+  nlohmann::json json = score_json(scores);
+  json.update(evaluation_json(evaluations), true);
+  std::ofstream out(options.json);
+  out << json.dump(2) << '\n';
+  out.close();
+  if (!out) throw std::runtime_error(options.json + ": cannot be written");
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "evaluate", "How good detections and maps are: precision, recall, stability, lanes, trust");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--truth", options->truth, "Truth of the road (.json)")->required();
+  CLI::Option_group* inputs = command->add_option_group("Inputs", "one or both; then at their common stamps");
+  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl)");
+  inputs->add_option("--map", options->map, "Fused maps (.jsonl)");
+  inputs->require_option(1, 2);
+  add_range(*command, options->range);
+  command->add_option("--min-confidence", options->min_confidence, "Of the single detections that count")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--json", options->json, "Figures to write (.json)");
+  command->callback([options] { evaluate(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "laneloom/config.hpp"
+
+/// Options that several commands share.
+namespace laneloom {
+
+/// --range x0,x1,y0,y1: the map's range box. The box is symmetric: y0 = -y1.
+inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
+  const auto set = [&range](const std::vector<double>& values) {
+    if (!(values[0] < values[1] && values[3] > 0.0 && values[2] == -values[3]))
+      throw CLI::ValidationError("--range", "needs x0 < x1 and y0 = -y1 < 0");
+    range.forward_min_m = values[0];
+    range.forward_max_m = values[1];
+    range.side_max_m = values[3];
+  };
+  return command.add_option_function<std::vector<double>>("--range", set, "Map range in metres, body frame")
+      ->type_name("X0,X1,Y0,Y1")
+      ->delimiter(',')
+      ->expected(4);
+}
+
+/// --domain and --vehicle-id: which service is meant.
+inline void add_dds(CLI::App& command, DdsConfig& dds) {
+  command.add_option("--domain", dds.domain, "DDS domain")->check(CLI::Range(0, 232))->capture_default_str();
+  command.add_option("--vehicle-id", dds.vehicle_id, "Names the vehicle's DDS partition")
+      ->capture_default_str();
+}
+
+}  // namespace laneloom

@@ -1,0 +1,237 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "commands/stop_signal.hpp"
+#include "io/json_lines.hpp"
+#include "laneloom/dds/reader.hpp"
+#include "pnc/report.hpp"
+
+namespace laneloom {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr int kViolations = 2;
+constexpr int kNoMaps = 3;
+constexpr int kNoLanes = 4;
+
+struct Options {
+  DdsConfig dds;
+  bool json = false;
+  bool require_lanes = false;
+  double duration_s = 0.0;
+  std::string record;
+};
+
+/// Something about the service itself, by its name for machines and for people.
+struct Notice {
+  std::string event, text;
+};
+using Event = std::variant<PublishedMap, Notice>;
+
+/// From DDS's threads to ours. Holds a few seconds of maps; of more, the oldest are dropped, and show as
+/// missed.
+class Inbox {
+ public:
+  void put(Event event) {
+    const std::lock_guard lock(mutex_);
+    events_.push_back(std::move(event));
+    if (events_.size() > kCapacity) events_.pop_front();
+    arrived_.notify_one();
+  }
+
+  /// The next event; nothing if none comes within `patience`.
+  std::optional<Event> take(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    if (!arrived_.wait_for(lock, patience, [this] { return !events_.empty(); })) return std::nullopt;
+    Event event = std::move(events_.front());
+    events_.pop_front();
+    return event;
+  }
+
+ private:
+  static constexpr std::size_t kCapacity = 64;
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::deque<Event> events_;
+};
+
+dds::ReaderCallbacks<PublishedMap> callbacks_into(Inbox& inbox) {
+  return {.sample = [&inbox](PublishedMap&& map) { inbox.put(std::move(map)); },
+          .refused =
+              [&inbox](std::string_view reason) {
+                inbox.put(Notice{"refused", fmt::format("a map was refused: {}", reason)});
+              },
+          .matched = {},
+          .alive =
+              [&inbox](int writers) {
+                inbox.put(writers > 0 ? Notice{"alive", "the service is alive"}
+                                      : Notice{"liveliness_lost", "THE SERVICE IS GONE OR HANGS"});
+              },
+          .deadline_missed =
+              [&inbox](std::uint64_t total) {
+                inbox.put(Notice{"deadline_missed", fmt::format("no map in time ({} times so far)", total)});
+              }};
+}
+
+/// Shows updates as they come: redrawn in place on a terminal, else a line a second, or JSON.
+class Display {
+ public:
+  explicit Display(bool json) : json_(json), terminal_(!json && isatty(STDOUT_FILENO) == 1) {}
+
+  void show(const PncUpdate& update) {
+    shown_.clear();
+    if (json_) return print_line(to_json(update).dump());
+    if (terminal_) return redraw(describe(update));
+    const bool due = SteadyClock::now() >= next_line_;
+    if (!due && update.violations.empty()) return;
+    if (due) next_line_ = SteadyClock::now() + std::chrono::seconds(1);
+    print_line(summarise(update));
+  }
+
+  void show(const Notice& notice) {
+    if (json_) return print_line(nlohmann::json{{"event", notice.event}}.dump());
+    // Once between maps: deadlines are missed again and again.
+    if (!shown_.insert(notice.event).second) return;
+    drawn_lines_ = 0;
+    print_line(notice.text);
+  }
+
+ private:
+  static void print_line(const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  }
+
+  void redraw(const std::string& text) {
+    if (drawn_lines_ > 0) fmt::print("\x1b[{}A\x1b[J", drawn_lines_);
+    drawn_lines_ = std::count(text.begin(), text.end(), '\n');
+    fmt::print("{}", text);
+    std::fflush(stdout);
+  }
+
+  bool json_, terminal_;
+  std::ptrdiff_t drawn_lines_ = 0;
+  SteadyClock::time_point next_line_;
+  std::set<std::string> shown_;  ///< notices since the last map
+};
+
+/// Everything received so far, in numbers.
+struct Tally {
+  std::uint64_t maps = 0, maps_with_lanes = 0, missed = 0, refused = 0, violations = 0;
+
+  void add(const PncUpdate& update) {
+    ++maps;
+    if (!update.map.map.lanes.empty()) ++maps_with_lanes;
+    missed += update.missed;
+    violations += update.violations.size();
+  }
+  int exit_code(bool require_lanes) const {
+    if (violations + refused > 0) return kViolations;
+    if (maps == 0) return kNoMaps;
+    return require_lanes && maps_with_lanes == 0 ? kNoLanes : 0;
+  }
+};
+
+/// Follows the map until the time is over or the program is to end.
+class Follower {
+ public:
+  explicit Follower(const Options& options) : options_(options), display_(options.json) {
+    if (!options.record.empty()) record_ = std::make_unique<JsonLinesWriter>(options.record);
+  }
+
+  Tally run() {
+    Inbox inbox;
+    const dds::Participant participant(options_.dds, "laneloom pnc");
+    const dds::Reader<PublishedMap> reader(participant, callbacks_into(inbox));
+    const auto end = SteadyClock::now() + std::chrono::duration<double>(options_.duration_s);
+    while (!stop_requested() && (options_.duration_s == 0.0 || SteadyClock::now() < end)) {
+      std::optional<Event> event = inbox.take(std::chrono::milliseconds(50));
+      if (!event) continue;
+      if (auto* map = std::get_if<PublishedMap>(&*event))
+        receive(std::move(*map));
+      else
+        receive(std::get<Notice>(*event));
+    }
+    if (record_) record_->close();
+    return tally_;
+  }
+
+ private:
+  void receive(PublishedMap map) {
+    PncUpdate update = judge(std::move(map), previous_ ? &*previous_ : nullptr);
+    tally_.add(update);
+    display_.show(update);
+    const std::int64_t stamp_ns = update.map.map.stamp_ns;
+    const bool is_new = !previous_ || previous_->map.stamp_ns != stamp_ns;
+    if (record_ && is_new && stamp_ns != 0 && update.violations.empty()) record_->write(update.map.map);
+    previous_ = std::move(update.map);
+  }
+
+  void receive(const Notice& notice) {
+    if (notice.event == "refused") ++tally_.refused;
+    display_.show(notice);
+  }
+
+  const Options& options_;
+  Display display_;
+  std::unique_ptr<JsonLinesWriter> record_;
+  std::optional<PublishedMap> previous_;
+  Tally tally_;
+};
+
+void pnc(const Options& options) {
+  catch_stop_signals();
+  const Tally tally = Follower(options).run();
+  const int code = tally.exit_code(options.require_lanes);
+  if (options.json)
+    fmt::print("{}\n", nlohmann::json{{"event", "end"},
+                                      {"maps", tally.maps},
+                                      {"maps_with_lanes", tally.maps_with_lanes},
+                                      {"missed", tally.missed},
+                                      {"refused", tally.refused},
+                                      {"violations", tally.violations},
+                                      {"exit_code", code}}
+                           .dump());
+  else
+    fmt::print("{} maps ({} with lanes), {} missed, {} refused, {} contract violations\n", tally.maps,
+               tally.maps_with_lanes, tally.missed, tally.refused, tally.violations);
+  throw CLI::RuntimeError(code);
+}
+
+}  // namespace
+
+void add_pnc(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("pnc", "Planning participant: follows the map and checks its contract");
+  command->footer(fmt::format(
+      "Exit code: 0 maps were received, none broke the contract; {} one did, or was refused; {} no map came; "
+      "{} no map had a lane (--require-lanes).",
+      kViolations, kNoMaps, kNoLanes));
+  const auto options = std::make_shared<Options>();
+  add_dds(*command, options->dds);
+  command->add_flag("--json", options->json, "One JSON object per update");
+  command->add_option("--record", options->record, "Maps to write, one per fused frame (.jsonl)");
+  command->add_option("--duration", options->duration_s, "Seconds; default: until it is ended")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--require-lanes", options->require_lanes, "Fail if no map has a lane");
+  command->callback([options] { pnc(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stdexcept>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "commands/road_source.hpp"
+#include "commands/stop_signal.hpp"
+#include "io/json_lines.hpp"
+#include "laneloom/dds/writer.hpp"
+#include "simulation/noise_profile.hpp"
+#include "simulation/random.hpp"
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::int64_t kPosePeriod_ns = 10'000'000;
+constexpr std::int64_t kPosesPerFrame = 10;
+
+struct Options {
+  RoadSource source;
+  DdsConfig dds;
+  double speed_up = 1.0;
+  double duration_s = 0.0;
+  bool loop = false;
+  bool wait_for_reader = false;
+  std::string truth, frames;
+};
+
+/// A perception and localisation stack on a simulated drive. Its sensor clock starts with the system clock
+/// and then runs with the simulation.
+class Publisher {
+ public:
+  Publisher(const Options& options, const Road& road)
+      : participant_(options.dds, "laneloom publish"),
+        detections_(participant_),
+        poses_(participant_),
+        road_(road),
+        perception_(options.source.perception(road)),
+        delays_(options.source.seed),
+        session_id_(new_session_id()),
+        start_ns_(std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()) {
+    if (!options.frames.empty()) record_ = std::make_unique<JsonLinesWriter>(options.frames);
+  }
+
+  bool has_readers() const { return detections_.matched() > 0 && poses_.matched() > 0; }
+
+  /// Publishes what is due at the simulation's time of pose number `step`.
+  void step(std::int64_t step) {
+    const std::int64_t now_ns = step * kPosePeriod_ns;
+    const VehiclePose pose = pose_at(step);
+    if (!poses_.write(pose)) ++not_taken_;
+    if (step % kPosesPerFrame == 0) {
+      // A network's latency; frames keep their order, as the longest is only a period more than the shortest.
+      const auto delay_ns = static_cast<std::int64_t>(delays_.uniform(50e6, 150e6));
+      in_network_.push_back({now_ns + delay_ns, observe(pose)});
+    }
+    while (!in_network_.empty() && in_network_.front().due_ns <= now_ns) {
+      deliver(in_network_.front().record);
+      in_network_.pop_front();
+    }
+  }
+
+  void finish() {
+    if (record_) record_->close();
+    fmt::print("{} frames published", delivered_);
+    if (not_taken_ > 0) fmt::print(", {} messages not taken by DDS", not_taken_);
+    fmt::print("\n");
+  }
+
+ private:
+  struct Pending {
+    std::int64_t due_ns;
+    FrameRecord record;
+  };
+
+  static std::uint64_t new_session_id() {
+    std::random_device device;
+    return (std::uint64_t{device()} << 32U | device()) | 1U;  // never 0
+  }
+
+  VehiclePose pose_at(std::int64_t step) const {
+    const double t_s = static_cast<double>(step) * static_cast<double>(kPosePeriod_ns) * 1e-9;
+    VehiclePose pose = road_.drive.pose_at(std::fmod(t_s, road_.drive.duration_s()));
+    pose.stamp_ns = start_ns_ + step * kPosePeriod_ns;
+    pose.sequence = static_cast<std::uint64_t>(step);
+    pose.session_id = session_id_;
+    return pose;
+  }
+
+  FrameRecord observe(const VehiclePose& pose) {
+    FrameRecord record{perception_.observe(pose), pose};
+    record.frame.session_id = session_id_;
+    record.frame.source = "laneloom publish";
+    return record;
+  }
+
+  void deliver(const FrameRecord& record) {
+    if (!detections_.write(record.frame)) ++not_taken_;
+    if (record_) record_->write(record);
+    ++delivered_;
+  }
+
+  dds::Participant participant_;
+  dds::Writer<DetectionFrame> detections_;
+  dds::Writer<VehiclePose> poses_;
+  const Road& road_;
+  Perception perception_;
+  Random delays_;
+  std::uint64_t session_id_;
+  std::int64_t start_ns_;
+  std::deque<Pending> in_network_;
+  std::unique_ptr<JsonLinesWriter> record_;
+  std::uint64_t delivered_ = 0;
+  std::uint64_t not_taken_ = 0;
+};
+
+std::int64_t step_count(const Options& options, const Road& road) {
+  constexpr double kPosesPerSecond = 1e9 / static_cast<double>(kPosePeriod_ns);
+  if (options.duration_s > 0.0) return std::llround(options.duration_s * kPosesPerSecond);
+  if (options.loop) return std::numeric_limits<std::int64_t>::max();
+  return std::llround(std::floor(road.drive.duration_s() * kPosesPerSecond));
+}
+
+void publish(const Options& options) {
+  catch_stop_signals();
+  const Road road = options.source.load();
+  if (!options.loop && options.duration_s > road.drive.duration_s())
+    throw std::runtime_error(
+        fmt::format("the drive lasts {:.1f} s; drive on with --loop", road.drive.duration_s()));
+  if (!options.truth.empty()) save_truth(options.truth, road);
+  Publisher publisher(options, road);
+  while (options.wait_for_reader && !publisher.has_readers())
+    if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return publisher.finish();
+
+  const SteadyClock::time_point start = SteadyClock::now();
+  const std::int64_t steps = step_count(options, road);
+  for (std::int64_t step = 0; step < steps; ++step) {
+    const double due_ns = static_cast<double>(step * kPosePeriod_ns) / options.speed_up;
+    if (!sleep_until(start + std::chrono::nanoseconds(std::llround(due_ns)))) break;
+    publisher.step(step);
+  }
+  publisher.finish();
+}
+
+void list() {
+  fmt::print("Built-in roads: {}\nNoise: {}\n", fmt::join(scenario_names(), ", "),
+             fmt::join(noise_profile_names(), ", "));
+  throw CLI::Success();
+}
+
+}  // namespace
+
+void add_publish(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("publish", "Test publisher: drives over a known road and publishes what is seen");
+  const auto options = std::make_shared<Options>();
+  add_road_source(*command, options->source);
+  add_dds(*command, options->dds);
+  command->add_option("--speed-up", options->speed_up, "Simulated seconds per second")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  command->add_flag("--loop", options->loop,
+                    "Drive on for ever; where the drive does not end as it began, the pose jumps");
+  command->add_option("--duration", options->duration_s, "Simulated seconds; default: the drive once")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--wait-for-reader", options->wait_for_reader,
+                    "Start when somebody reads detections and poses");
+  command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
+  command->add_option("--frames", options->frames, "Detections and exact poses to write (.frames.jsonl)");
+  command->add_flag_callback("--list", list, "List the built-in roads and kinds of noise")
+      ->trigger_on_parse();
+  command->callback([options] { publish(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,205 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <ctime>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "commands/stop_signal.hpp"
+#include "laneloom/dds/raw_reader.hpp"
+#include "laneloom/dds/topics.hpp"
+#include "laneloom/recording.hpp"
+
+namespace laneloom {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// So much is lost at most when the process is killed.
+constexpr std::chrono::seconds kFlushPeriod{1};
+constexpr std::size_t kInboxBytes = 256U << 20U;
+constexpr double kBytesPerMB = 1e6;
+
+const std::map<std::string, Compression> kCompressions{
+    {"zstd", Compression::zstd}, {"lz4", Compression::lz4}, {"none", Compression::none}};
+
+struct Options {
+  DdsConfig dds;
+  RecordingOptions recording;
+  std::string out;
+  std::string compression = "zstd";
+  double duration_s = 0.0;
+  double max_size_mb = 0.0;
+};
+
+/// What a topic is called, and how its messages are written.
+struct Topic {
+  const char* name;
+  void (RecordingWriter::*write)(std::span<const std::uint8_t>, std::int64_t);
+};
+constexpr std::array kTopics{Topic{dds::kDetectionsTopic, &RecordingWriter::write_cdr<DetectionFrame>},
+                             Topic{dds::kVehiclePoseTopic, &RecordingWriter::write_cdr<VehiclePose>},
+                             Topic{dds::kLaneMapTopic, &RecordingWriter::write_cdr<PublishedMap>},
+                             Topic{dds::kRoadMarkingsTopic, &RecordingWriter::write_cdr<RoadMarkings>},
+                             Topic{dds::kStatusTopic, &RecordingWriter::write_cdr<ServiceStatus>}};
+
+struct Arrival {
+  std::size_t topic = 0;  ///< of kTopics
+  std::int64_t log_time_ns = 0;
+  std::vector<std::uint8_t> message;
+};
+
+/// From DDS's threads to ours, so that none of them ever waits for the disk. When it is full, what arrives is
+/// dropped and counted.
+class Inbox {
+ public:
+  void put(std::size_t topic, std::vector<std::uint8_t>&& message) {
+    const std::lock_guard lock(mutex_);
+    const std::chrono::nanoseconds now = std::chrono::system_clock::now().time_since_epoch();
+    // A recording is read in the order of log times: where the clock is set back, the order still is that of
+    // arrival.
+    log_time_ns_ = std::max(log_time_ns_ + 1, std::int64_t{now.count()});
+    if (bytes_ + message.size() > kInboxBytes) {
+      ++dropped_[topic];
+      return;
+    }
+    bytes_ += message.size();
+    arrivals_.push_back({topic, log_time_ns_, std::move(message)});
+    arrived_.notify_one();
+  }
+
+  /// All that has arrived; waits for it no longer than `patience`.
+  std::deque<Arrival> take(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    arrived_.wait_for(lock, patience, [&] { return !arrivals_.empty(); });
+    bytes_ = 0;
+    return std::exchange(arrivals_, {});
+  }
+
+  std::array<std::uint64_t, kTopics.size()> dropped() {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::deque<Arrival> arrivals_;
+  std::size_t bytes_ = 0;
+  std::int64_t log_time_ns_ = 0;
+  std::array<std::uint64_t, kTopics.size()> dropped_{};
+};
+
+/// Everything that a vehicle's participants say to each other, into a recording.
+class Recorder {
+ public:
+  explicit Recorder(const Options& options)
+      : writer_(options.out, options.recording),
+        participant_(options.dds, "laneloom record"),
+        detections_(participant_, into_inbox(0)),
+        poses_(participant_, into_inbox(1)),
+        maps_(participant_, into_inbox(2)),
+        markings_(participant_, into_inbox(3)),
+        status_(participant_, into_inbox(4)) {
+    fmt::print("Recording to {}\n", writer_.path());
+    std::fflush(stdout);
+  }
+
+  /// Writes what has arrived; waits for it no longer than `patience`.
+  void step(std::chrono::milliseconds patience) {
+    for (const Arrival& arrival : inbox_.take(patience)) {
+      (writer_.*kTopics.at(arrival.topic).write)(arrival.message, arrival.log_time_ns);
+      ++written_.at(arrival.topic);
+    }
+    if (const auto now = SteadyClock::now(); now >= next_flush_) {
+      writer_.flush();
+      next_flush_ = now + kFlushPeriod;
+    }
+  }
+
+  void finish() {
+    step(std::chrono::milliseconds(0));
+    writer_.close();
+    const auto dropped = inbox_.dropped();
+    for (std::size_t i = 0; i < kTopics.size(); ++i) {
+      fmt::print("{:<26} {:>8} messages\n", kTopics.at(i).name, written_.at(i));
+      if (dropped.at(i) > 0)
+        fmt::print(stderr, "laneloom: the disk was too slow: {} of {} were dropped\n", dropped.at(i),
+                   kTopics.at(i).name);
+    }
+  }
+
+ private:
+  std::function<void(std::vector<std::uint8_t>&&)> into_inbox(std::size_t topic) {
+    return [this, topic](std::vector<std::uint8_t>&& message) { inbox_.put(topic, std::move(message)); };
+  }
+
+  RecordingWriter writer_;
+  Inbox inbox_;
+  std::array<std::uint64_t, kTopics.size()> written_{};
+  SteadyClock::time_point next_flush_ = SteadyClock::now() + kFlushPeriod;
+  dds::Participant participant_;
+  // In the order of kTopics. They end before the inbox that they fill.
+  dds::RawReader<DetectionFrame> detections_;
+  dds::RawReader<VehiclePose> poses_;
+  dds::RawReader<PublishedMap> maps_;
+  dds::RawReader<RoadMarkings> markings_;
+  dds::RawReader<ServiceStatus> status_;
+};
+
+std::string default_name() {
+  return fmt::format("laneloom_{:%Y%m%d_%H%M%S}", fmt::gmtime(std::time(nullptr)));
+}
+
+void record(Options options) {
+  catch_stop_signals();
+  if (options.out.empty()) options.out = default_name();
+  if (std::filesystem::is_directory(options.out)) options.out += "/" + default_name();
+  options.recording.compression = kCompressions.at(options.compression);
+  options.recording.max_file_bytes = static_cast<std::uint64_t>(options.max_size_mb * kBytesPerMB);
+
+  Recorder recorder(options);
+  const auto start = SteadyClock::now();
+  const auto is_over = [&] {
+    const std::chrono::duration<double> elapsed = SteadyClock::now() - start;
+    return options.duration_s > 0.0 && elapsed.count() >= options.duration_s;
+  };
+  while (!stop_requested() && !is_over()) recorder.step(std::chrono::milliseconds(50));
+  recorder.finish();
+}
+
+}  // namespace
+
+void add_record(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("record", "Records all topics of a vehicle into MCAP files");
+  const auto options = std::make_shared<Options>();
+  add_dds(*command, options->dds);
+  command->add_option("--out", options->out,
+                      "File (.mcap), or a folder; default: laneloom_<UTC time>.mcap here");
+  command->add_option("--compression", options->compression, "zstd, lz4 or none")
+      ->check(CLI::IsMember(kCompressions))
+      ->capture_default_str();
+  command->add_option("--max-size", options->max_size_mb, "MB, after which a new file is begun")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-duration", options->recording.max_file_s, "Seconds, likewise")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--duration", options->duration_s, "Seconds; default: until it is stopped")
+      ->check(CLI::PositiveNumber);
+  command->callback([options] { record(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "io/json_lines.hpp"
+#include "render/figure.hpp"
+#include "render/truth_map.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  std::string frames, map, truth, out, title;
+  std::vector<double> at_s;
+  std::size_t sequence = 0;
+  RangeConfig range;
+};
+
+struct Inputs {
+  std::vector<FrameRecord> frames;
+  std::vector<LocalMap> maps;
+  std::optional<Road> truth;
+};
+
+Inputs read(const Options& options) {
+  Inputs inputs;
+  if (!options.truth.empty()) inputs.truth = load_truth(options.truth);
+  if (!options.frames.empty()) {
+    JsonLinesReader in(options.frames);
+    while (auto record = in.next_frame()) inputs.frames.push_back(std::move(*record));
+    if (inputs.frames.empty()) throw std::runtime_error(options.frames + ": holds no frame");
+  }
+  if (!options.map.empty()) {
+    JsonLinesReader in(options.map);
+    while (auto map = in.next_map()) inputs.maps.push_back(std::move(*map));
+    if (inputs.maps.empty()) throw std::runtime_error(options.map + ": holds no map");
+  }
+  return inputs;
+}
+
+std::int64_t stamp(const FrameRecord& record) { return record.frame.stamp_ns; }
+std::int64_t stamp(const LocalMap& map) { return map.stamp_ns; }
+
+template <class T>
+const T& nearest(const std::vector<T>& items, std::int64_t stamp_ns) {
+  return *std::min_element(items.begin(), items.end(), [&](const T& a, const T& b) {
+    return std::abs(stamp(a) - stamp_ns) < std::abs(stamp(b) - stamp_ns);
+  });
+}
+
+/// First and last stamp of what there is to draw: the maps, else the detections, else the drive.
+std::pair<std::int64_t, std::int64_t> time_span(const Inputs& inputs) {
+  if (!inputs.maps.empty()) return {stamp(inputs.maps.front()), stamp(inputs.maps.back())};
+  if (!inputs.frames.empty()) return {stamp(inputs.frames.front()), stamp(inputs.frames.back())};
+  return {0, std::llround(inputs.truth->drive.duration_s() * 1e9)};
+}
+
+std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) {
+  const auto [first_ns, last_ns] = time_span(inputs);
+  std::vector<std::int64_t> stamps_ns;
+  for (const double at_s : options.at_s) {
+    stamps_ns.push_back(first_ns + std::llround(at_s * 1e9));
+    if (at_s < 0.0 || stamps_ns.back() > last_ns)
+      throw std::runtime_error(fmt::format("--at {:g} s is beyond the {:.1f} s that there are", at_s,
+                                           static_cast<double>(last_ns - first_ns) * 1e-9));
+  }
+  const auto count = static_cast<std::int64_t>(options.sequence);
+  for (std::int64_t i = 1; i <= count; ++i)
+    stamps_ns.push_back(first_ns + (last_ns - first_ns) / (count + 1) * i);
+  if (stamps_ns.empty()) stamps_ns.push_back(last_ns);
+  return stamps_ns;
+}
+
+Moment draw_moment(const Inputs& inputs, std::int64_t stamp_ns, std::int64_t first_ns) {
+  std::vector<Polyline> truth_lines;
+  if (inputs.truth)
+    for (const RoadMarking& marking : inputs.truth->markings) truth_lines.push_back(marking.points);
+
+  Moment moment;
+  moment.label = fmt::format("t = {:.1f} s", static_cast<double>(stamp_ns - first_ns) * 1e-9);
+  if (!inputs.frames.empty()) {
+    const FrameRecord& record = nearest(inputs.frames, stamp_ns);
+    moment.T_map_body = transform(record.pose);
+    moment.panels.push_back({"Detections (one frame)", map_of(record.frame, moment.T_map_body), truth_lines});
+  }
+  if (!inputs.maps.empty()) {
+    const LocalMap& map = nearest(inputs.maps, stamp_ns);
+    moment.T_map_body = map.T_map_body;
+    moment.panels.push_back({"Fused map", map, truth_lines});
+  }
+  if (moment.panels.empty())
+    moment.T_map_body = transform(inputs.truth->drive.pose_at(static_cast<double>(stamp_ns) * 1e-9));
+  if (inputs.truth) moment.panels.push_back({"Ground truth", map_of(*inputs.truth), {}});
+  return moment;
+}
+
+void render(const Options& options) {
+  const Inputs inputs = read(options);
+  Figure figure{options.title, options.range, {}};
+  if (figure.title.empty()) figure.title = inputs.truth ? inputs.truth->name : "laneloom";
+  for (const std::int64_t stamp_ns : moments(options, inputs))
+    figure.moments.push_back(draw_moment(inputs, stamp_ns, time_span(inputs).first));
+  draw_figure(figure, options.out);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("render", "Draws detections, maps and truth side by side");
+  const auto options = std::make_shared<Options>();
+  CLI::Option_group* inputs = command->add_option_group("Inputs", "any of");
+  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl)");
+  inputs->add_option("--map", options->map, "Fused maps (.jsonl)");
+  inputs->add_option("--truth", options->truth, "Truth of the road (.json)");
+  inputs->require_option(1, 3);
+  CLI::Option* at =
+      command->add_option("--at", options->at_s, "Moments, in seconds since the first; default: the last")
+          ->type_name("SECONDS")
+          ->delimiter(',');
+  command->add_option("--sequence", options->sequence, "That many moments, evenly spread")
+      ->check(CLI::Range(1, 50))
+      ->excludes(at);
+  add_range(*command, options->range);
+  command->add_option("--title", options->title, "Default: the road's name");
+  command->add_option("--out", options->out, "Picture to write (.png or .svg)")->required();
+  command->callback([options] { render(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,36 @@
+#include "commands/road_source.hpp"
+
+#include "simulation/argoverse2.hpp"
+#include "simulation/lanelet2.hpp"
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+
+Road RoadSource::load() const {
+  if (!argoverse2.empty()) return load_argoverse2(argoverse2);
+  if (!lanelet2.empty()) return load_lanelet2(lanelet2, speed_mps);
+  return make_scenario(scenario, speed_mps);
+}
+
+Perception RoadSource::perception(const Road& road) const {
+  return {road, noise_profile(noise), SensorView{}, seed};
+}
+
+void add_road_source(CLI::App& command, RoadSource& source) {
+  CLI::Option_group* road = command.add_option_group("Road", "one of");
+  road->add_option("--scenario", source.scenario, "A built-in road")->check(CLI::IsMember(scenario_names()));
+  road->add_option("--argoverse2", source.argoverse2, "Directory of an Argoverse 2 log, driven as recorded")
+      ->check(CLI::ExistingDirectory);
+  road->add_option("--lanelet2", source.lanelet2, "A Lanelet2 map (.osm), driven along its lanes")
+      ->check(CLI::ExistingFile);
+  road->require_option(1);
+  command.add_option("--speed", source.speed_mps, "Of the vehicle, in m/s; recorded drives keep theirs")
+      ->check(CLI::Range(0.1, 60.0))
+      ->capture_default_str();
+  command.add_option("--noise", source.noise, "How the detections differ from the truth")
+      ->check(CLI::IsMember(noise_profile_names()))
+      ->capture_default_str();
+  command.add_option("--seed", source.seed, "Of the noise")->capture_default_str();
+}
+
+}  // namespace laneloom

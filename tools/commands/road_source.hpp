@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "simulation/perception.hpp"
+#include "simulation/road.hpp"
+
+namespace laneloom {
+
+/// The road that a command drives over, and how it is seen: options of `publish` and `simulate`.
+struct RoadSource {
+  std::string scenario, argoverse2, lanelet2;
+  double speed_mps = 10.0;
+  std::string noise = "none";
+  std::uint64_t seed = 1;
+
+  /// Throws std::runtime_error or std::invalid_argument naming what is wrong with the road.
+  Road load() const;
+  Perception perception(const Road& road) const;
+};
+
+/// One of --scenario, --argoverse2, --lanelet2, and --speed, --noise, --seed.
+void add_road_source(CLI::App& command, RoadSource& source);
+
+}  // namespace laneloom

@@ -1,0 +1,47 @@
+#include "commands/stage_timer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace laneloom {
+namespace {
+
+double milliseconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+TimeSummary summarise(std::vector<double> values_ms) {
+  if (values_ms.empty()) return {};
+  std::sort(values_ms.begin(), values_ms.end());
+  const auto count = static_cast<double>(values_ms.size());
+  // Nearest rank.
+  const auto quantile = [&](double share) {
+    return values_ms[static_cast<std::size_t>(std::ceil(share * count)) - 1];
+  };
+  return {std::accumulate(values_ms.begin(), values_ms.end(), 0.0) / count, quantile(0.5), quantile(0.99),
+          values_ms.back()};
+}
+
+}  // namespace
+
+void StageTimer::start_frame() {
+  for (std::vector<double>& stage_ms : stages_ms_) stage_ms.push_back(0.0);
+  frame_start_ = stage_start_ = Clock::now();
+}
+
+void StageTimer::stage_done(Stage stage) {
+  const Clock::time_point now = Clock::now();
+  stages_ms_.at(static_cast<std::size_t>(stage)).back() += milliseconds(now - stage_start_);
+  stage_start_ = now;
+}
+
+void StageTimer::end_frame() { total_ms_.push_back(milliseconds(Clock::now() - frame_start_)); }
+
+TimeSummary StageTimer::stage(Stage stage) const {
+  return summarise(stages_ms_.at(static_cast<std::size_t>(stage)));
+}
+
+TimeSummary StageTimer::total() const { return summarise(total_ms_); }
+
+}  // namespace laneloom

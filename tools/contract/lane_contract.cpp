@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "contract/findings.hpp"
+
+namespace laneloom {
+namespace {
+
+/// A lane's sides are fitted to noisy boundaries: this much may they and the centerline cross each other.
+constexpr double kSideTolerance_m = 0.05;
+
+using LanesById = std::map<ElementId, const Lane*>;
+using BoundariesById = std::map<ElementId, const Marking*>;
+
+std::string label(const Lane& lane) { return "lane " + std::to_string(lane.id); }
+
+/// Whether no point of `line` that has a foot within `reference` is on the other side of it; `side` is +1
+/// for left of it, -1 for right of it.
+bool stays_on_side(const Polyline& line, const MeasuredPolyline& reference, double side, double margin_m) {
+  return std::all_of(line.begin(), line.end(), [&](const Point& point) {
+    const Projection foot = reference.project(point);
+    return !foot.inside || side * foot.lateral_m > margin_m;
+  });
+}
+
+Eigen::Vector2d chord(const Polyline& line) { return (line.back() - line.front()).head<2>(); }
+
+void check_shape(const Lane& lane, Findings& findings) {
+  const bool has_left = check_line(lane.left, label(lane) + " left side", findings);
+  const bool has_right = check_line(lane.right, label(lane) + " right side", findings);
+  const bool has_centerline = check_line(lane.centerline, label(lane) + " centerline", findings);
+  if (!has_left || !has_right || !has_centerline) return;
+  const MeasuredPolyline left(lane.left), right(lane.right);
+  const bool same_direction =
+      chord(lane.left).dot(chord(lane.right)) > 0.0 && chord(lane.centerline).dot(chord(lane.right)) > 0.0;
+  findings.require(same_direction, ContractRule::left_is_left, label(lane) + " has sides that run apart");
+  findings.require(stays_on_side(lane.left, right, 1.0, 0.0) && stays_on_side(lane.right, left, -1.0, 0.0),
+                   ContractRule::left_is_left, label(lane) + " has a left side that is not on the left");
+  findings.require(stays_on_side(lane.centerline, right, 1.0, -kSideTolerance_m) &&
+                       stays_on_side(lane.centerline, left, -1.0, -kSideTolerance_m),
+                   ContractRule::centered_line, label(lane) + " has a centerline outside of it");
+  for (const Range& range : lane.inferred_ranges)
+    check_range(range, length(lane.centerline), label(lane) + " inferred", findings);
+}
+
+void check_boundary(const Lane& lane, ElementId id, const Range& range, const BoundariesById& boundaries,
+                    Findings& findings) {
+  const auto found = boundaries.find(id);
+  const bool known = findings.require(found != boundaries.end(), ContractRule::known_ids,
+                                      label(lane) + " lies at unknown boundary " + std::to_string(id));
+  if (known)
+    check_range(range, length(found->second->points), label(lane) + " on boundary " + std::to_string(id),
+                findings);
+}
+
+/// Whether two lanes run the same way where they are side by side.
+bool same_way(const Lane& a, const Lane& b) {
+  const MeasuredPolyline line_a(a.centerline), line_b(b.centerline);
+  const double middle_m = line_a.length() / 2;
+  const Projection foot = line_b.project(line_a.at(middle_m));
+  return line_a.direction(middle_m).dot(line_b.direction(foot.arc_m)) > 0.0;
+}
+
+void check_neighbour(const Lane& lane, bool on_left, const LanesById& lanes, Findings& findings) {
+  const ElementId id = on_left ? lane.left_neighbour : lane.right_neighbour;
+  if (id == kNoElement) return;
+  const std::string what = label(lane) + (on_left ? " left" : " right") + " neighbour " + std::to_string(id);
+  const auto found = lanes.find(id);
+  if (!findings.require(found != lanes.end() && id != lane.id, ContractRule::known_ids,
+                        what + " is not another lane of the map"))
+    return;
+  const Lane& other = *found->second;
+  if (!is_measurable(lane.centerline) || !is_measurable(other.centerline)) return;  // recorded already
+  const bool faces_left = same_way(lane, other) ? !on_left : on_left;
+  // One lane may run beside two in a row: it names one of them, and both name it.
+  const ElementId facing = faces_left ? other.left_neighbour : other.right_neighbour;
+  findings.require(facing != kNoElement, ContractRule::neighbours_across_boundary, what + " has none there");
+  const ElementId boundary = on_left ? lane.left_boundary : lane.right_boundary;
+  findings.require((faces_left ? other.left_boundary : other.right_boundary) == boundary,
+                   ContractRule::neighbours_across_boundary, what + " is not across the boundary");
+}
+
+}  // namespace
+
+void check_lanes(const LocalMap& map, Findings& findings) {
+  LanesById lanes;
+  BoundariesById boundaries;
+  for (const Lane& lane : map.lanes) lanes.emplace(lane.id, &lane);
+  for (const Marking& boundary : map.boundaries) boundaries.emplace(boundary.id, &boundary);
+  for (const Lane& lane : map.lanes) {
+    check_shape(lane, findings);
+    check_boundary(lane, lane.left_boundary, lane.left_range, boundaries, findings);
+    check_boundary(lane, lane.right_boundary, lane.right_range, boundaries, findings);
+    check_neighbour(lane, true, lanes, findings);
+    check_neighbour(lane, false, lanes, findings);
+    check_probability(lane.existence_probability, label(lane), findings);
+    findings.require(std::isfinite(lane.width_m) && lane.width_m > 0.0, ContractRule::valid_values,
+                     label(lane) + " has width " + std::to_string(lane.width_m));
+  }
+}
+
+}  // namespace laneloom

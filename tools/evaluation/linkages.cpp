@@ -1,0 +1,256 @@
+#include "evaluation/linkages.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "evaluation/kind_lines.hpp"
+#include "evaluation/sample_grid.hpp"
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kMatchDistance_m = 0.5;
+constexpr double kMatchShare = 0.75;
+constexpr double kStoplineGap_m = 3.0;
+
+double ratio(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Eigen::Vector2d ab = (b - a).head<2>(), cd = (d - c).head<2>(), ac = (c - a).head<2>();
+  const double sine = cross(ab, cd);
+  if (sine == 0.0) return false;
+  const double along_ab = cross(ac, cd) / sine, along_cd = cross(ac, ab) / sine;
+  return along_ab >= 0.0 && along_ab <= 1.0 && along_cd >= 0.0 && along_cd <= 1.0;
+}
+
+bool cross_each_other(const Polyline& a, const Polyline& b) {
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    for (std::size_t j = 0; j + 1 < b.size(); ++j)
+      if (segments_cross(a[i], a[i + 1], b[j], b[j + 1])) return true;
+  return false;
+}
+
+Polyline prolonged(Polyline line) {
+  const Eigen::Vector2d leaving = kStoplineGap_m * end_direction(line, true);
+  line.push_back(line.back() + Point(leaving.x(), leaving.y(), 0.0));
+  return line;
+}
+
+/// The chains that follow `lane`, at once or across lanes that are in none.
+std::set<std::size_t> following(const RoadLane& lane, const std::map<ElementId, const RoadLane*>& lanes,
+                                const std::map<ElementId, std::size_t>& chain_of) {
+  std::set<std::size_t> chains;
+  std::set<ElementId> passed;
+  std::vector<ElementId> open = lane.successors;
+  while (!open.empty()) {
+    const ElementId id = open.back();
+    open.pop_back();
+    const auto chain = chain_of.find(id);
+    if (chain != chain_of.end()) {
+      chains.insert(chain->second);
+    } else if (lanes.contains(id) && passed.insert(id).second) {
+      const std::vector<ElementId>& next = lanes.at(id)->successors;
+      open.insert(open.end(), next.begin(), next.end());
+    }
+  }
+  return chains;
+}
+
+/// Where a published lane lies.
+struct LanePlace {
+  std::size_t truth = 0;  ///< index of the truth lane
+  double from_m = 0.0;    ///< where it begins and ends along the truth lane's piece in range
+  double to_m = 0.0;
+  bool reversed() const { return to_m < from_m; }
+};
+
+bool may_run(Lane::Direction direction, bool reversed) {
+  return direction == Lane::Direction::unknown ||
+         (direction == Lane::Direction::against_centerline) == reversed;
+}
+
+class LaneFinder {
+ public:
+  explicit LaneFinder(const std::vector<LinePiece>& truths)
+      : truths_(truths), grid_(samples(truths), kMatchDistance_m) {}
+
+  std::optional<LanePlace> place(const LinePiece& piece, Lane::Direction direction) const {
+    std::optional<std::tuple<std::size_t, double>> best;  // samples, minus their mean distance
+    std::optional<LanePlace> place;
+    const std::vector<Near> near = near_truths(piece.samples);
+    for (std::size_t i = 0; i < truths_.size(); ++i) {
+      const auto count = static_cast<double>(near[i].count);
+      if (near[i].count == 0 || count < kMatchShare * static_cast<double>(piece.samples.size())) continue;
+      const std::tuple rank{near[i].count, -near[i].distances_m / count};
+      if (best && rank <= *best) continue;
+      const MeasuredPolyline truth(truths_[i].points);
+      const LanePlace candidate{truths_[i].line, truth.project(piece.points.front()).arc_m,
+                                truth.project(piece.points.back()).arc_m};
+      if (!may_run(direction, candidate.reversed())) continue;
+      best = rank;
+      place = candidate;
+    }
+    return place;
+  }
+
+ private:
+  struct Near {
+    std::size_t count = 0;
+    double distances_m = 0.0;
+  };
+  static std::vector<Polyline> samples(const std::vector<LinePiece>& pieces) {
+    std::vector<Polyline> all;
+    all.reserve(pieces.size());
+    for (const LinePiece& piece : pieces) all.push_back(piece.samples);
+    return all;
+  }
+  std::vector<Near> near_truths(const Polyline& samples) const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    std::vector<Near> near(truths_.size());
+    std::vector<double> nearest_m(truths_.size());
+    for (const Point& sample : samples) {
+      std::fill(nearest_m.begin(), nearest_m.end(), kNone);
+      grid_.visit_near(sample, [&](std::size_t truth, double distance_m) {
+        nearest_m[truth] = std::min(nearest_m[truth], distance_m);
+      });
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        if (nearest_m[i] == kNone) continue;
+        ++near[i].count;
+        near[i].distances_m += nearest_m[i];
+      }
+    }
+    return near;
+  }
+
+  const std::vector<LinePiece>& truths_;
+  SampleGrid grid_;
+};
+
+/// The published lanes in range by id, each with its place, if it has one.
+using Places = std::map<ElementId, std::optional<LanePlace>>;
+
+Places places(const FrameComparison& frame, const LocalMap& map) {
+  const KindComparison& lanes = frame.of(LineKind::lane);
+  const LaneFinder finder(lanes.truths);
+  const std::size_t first = map.boundaries.size() + map.stoplines.size();  // as kind_lines() has them
+  Places places;
+  std::map<ElementId, std::size_t> samples;
+  for (const LinePiece& piece : lanes.predictions) {
+    const Lane& lane = map.lanes[piece.line - first];
+    if (samples[lane.id] >= piece.samples.size()) continue;  // the longest piece tells
+    samples[lane.id] = piece.samples.size();
+    places[lane.id] = finder.place(piece, lane.direction);
+  }
+  return places;
+}
+
+using Pair = std::pair<std::size_t, std::size_t>;
+
+/// The truth's pair that a linkage stands for, if it is right; of equals where it stays on one lane.
+std::optional<Pair> truth_pair(const TruthTopology& truth, const std::optional<LanePlace>& from,
+                               const std::optional<LanePlace>& to) {
+  if (!from || !to || from->reversed() != to->reversed()) return std::nullopt;
+  if (from->truth == to->truth) {
+    const bool in_order = from->reversed() ? from->from_m > to->from_m : from->from_m < to->from_m;
+    return in_order ? std::optional(Pair{from->truth, to->truth}) : std::nullopt;
+  }
+  const Pair pair = from->reversed() ? Pair{to->truth, from->truth} : Pair{from->truth, to->truth};
+  return truth.successors.contains(pair) ? std::optional(pair) : std::nullopt;
+}
+
+void add_linkages(const TruthTopology& truth, const Places& places, const LocalMap& map,
+                  TopologyScore& score) {
+  std::set<Pair> found;
+  for (const Linkage& linkage : map.linkages) {
+    const auto from = places.find(linkage.from), to = places.find(linkage.to);
+    if (from == places.end() || to == places.end()) continue;
+    const std::optional<Pair> pair = truth_pair(truth, from->second, to->second);
+    for (PairScore* counted : {&score.linkages, &score.by_kind.at(static_cast<std::size_t>(linkage.kind))}) {
+      ++counted->published;
+      if (pair) ++counted->right;
+    }
+    if (pair) found.insert(*pair);
+  }
+  std::set<std::size_t> seen;
+  for (const auto& [id, place] : places)
+    if (place) seen.insert(place->truth);
+  for (const Pair& pair : truth.successors) {
+    if (!seen.contains(pair.first) || !seen.contains(pair.second)) continue;
+    ++score.linkages.truths;
+    if (found.contains(pair)) ++score.linkages.found;
+  }
+}
+
+void add_stoplines(const TruthTopology& truth, const FrameComparison& frame, const Places& places,
+                   const LocalMap& map, PairScore& score) {
+  const KindComparison& stoplines = frame.of(LineKind::stopline);
+  for (const LineMatch& match : stoplines.matches) {
+    const std::set<std::size_t>& expected = truth.lanes_of_stopline.at(stoplines.truths[match.truth].line);
+    const std::size_t line = stoplines.predictions[match.prediction].line;
+    if (line < map.boundaries.size()) continue;  // a boundary of this type ends no lanes
+    std::set<std::size_t> seen, named;
+    for (const auto& [id, place] : places)
+      if (place && expected.contains(place->truth)) seen.insert(place->truth);
+    for (const ElementId id : map.stoplines[line - map.boundaries.size()].lanes) {
+      const auto place = places.find(id);
+      if (place == places.end()) continue;
+      ++score.published;
+      if (!place->second || !expected.contains(place->second->truth)) continue;
+      ++score.right;
+      named.insert(place->second->truth);
+    }
+    score.truths += seen.size();
+    score.found += named.size();
+  }
+}
+
+}  // namespace
+
+const char* name(Linkage::Kind kind) {
+  constexpr std::array<const char*, kLinkageKindCount> kNames{"shared_boundary", "geometric_alignment",
+                                                              "intersection", "sd_map", "ego_track"};
+  return kNames.at(static_cast<std::size_t>(kind));
+}
+
+double PairScore::precision() const { return ratio(right, published); }
+double PairScore::recall() const { return ratio(found, truths); }
+double PairScore::f1() const {
+  const double sum = precision() + recall();
+  return sum > 0.0 ? 2.0 * precision() * recall() / sum : 0.0;
+}
+
+TruthTopology truth_topology(const Road& truth) {
+  const std::vector<LaneChain> chains = lane_chains(truth);
+  std::map<ElementId, const RoadLane*> lanes;
+  for (const RoadLane& lane : truth.lanes) lanes.emplace(lane.id, &lane);
+  std::map<ElementId, std::size_t> chain_of;
+  for (std::size_t i = 0; i < chains.size(); ++i)
+    for (const RoadLane* lane : chains[i]) chain_of.emplace(lane->id, i);
+
+  TruthTopology topology;
+  for (std::size_t i = 0; i < chains.size(); ++i)
+    for (const std::size_t next : following(*chains[i].back(), lanes, chain_of))
+      if (next != i) topology.successors.emplace(i, next);
+  for (std::size_t i = 0; i < truth.markings.size(); ++i) {
+    if (truth.markings[i].type != MarkingType::stopline) continue;
+    std::set<std::size_t>& ended = topology.lanes_of_stopline[chains.size() + i];
+    for (std::size_t chain = 0; chain < chains.size(); ++chain)
+      if (cross_each_other(prolonged(centerline(chains[chain])), truth.markings[i].points))
+        ended.insert(chain);
+  }
+  return topology;
+}
+
+void add_topology(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
+                  TopologyScore& score) {
+  const Places found = places(frame, map);
+  add_linkages(truth, found, map, score);
+  add_stoplines(truth, frame, found, map, score.stopline_lanes);
+}
+
+}  // namespace laneloom

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "evaluation/evaluation.hpp"
+#include "simulation/road.hpp"
+
+/// Whether lanes lead where they should: the project's definitions.
+///
+/// A truth lane is a chain of lanes that only continue one another (kind_lines.hpp). Its successors are those
+/// that follow it, at once or across lanes that no markings bound (an intersection).
+/// - A published lane lies on the truth lane that most of its samples are less than 0.5 m from, if these are
+/// at
+///   least 75 % of its samples in range; of equals, the nearer one. Where it states its direction, it must
+///   run with the traffic; otherwise both senses will do.
+/// - A linkage counts if both its lanes are in range. It is right if they lie on truth lanes A and B, B a
+///   successor of A (of lanes that run against the traffic: A of B), or on the same one, in order.
+/// - Recall: of the pairs A, B that both have a published lane on them, the share with a right linkage.
+/// - Stoplines: a truth stopline ends the truth lanes whose centerline, prolonged by 3 m, crosses it. Of the
+///   published stoplines that are true positives: the share of their lanes in range that lie on such a lane,
+///   and the share of such lanes, with a published lane on them, that are named.
+namespace laneloom {
+
+inline constexpr std::size_t kLinkageKindCount = 5;
+const char* name(Linkage::Kind kind);
+
+struct TruthTopology {
+  using LaneIndex = std::size_t;  ///< of a chain, and of its line among the kind_lines()
+  std::set<std::pair<LaneIndex, LaneIndex>> successors;
+  std::map<std::size_t, std::set<LaneIndex>> lanes_of_stopline;  ///< by index among the kind_lines()
+};
+
+TruthTopology truth_topology(const Road& truth);
+
+struct PairScore {
+  std::size_t published = 0;
+  std::size_t right = 0;  ///< of the published
+  std::size_t truths = 0;
+  std::size_t found = 0;  ///< of the truths
+
+  double precision() const;  ///< 0..1
+  double recall() const;     ///< 0..1
+  double f1() const;         ///< 0..1
+};
+
+struct TopologyScore {
+  PairScore linkages;
+  std::array<PairScore, kLinkageKindCount> by_kind;  ///< precision only: the truth knows no kinds
+  PairScore stopline_lanes;
+};
+
+/// Adds the frame of `map`, whose kind_lines() were compared with those of the truth.
+void add_topology(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
+                  TopologyScore& score);
+
+}  // namespace laneloom

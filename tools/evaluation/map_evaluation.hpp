@@ -1,0 +1,50 @@
+#pragma once
+
+#include "evaluation/average_precision.hpp"
+#include "evaluation/evaluation.hpp"
+#include "evaluation/kind_lines.hpp"
+#include "evaluation/linkages.hpp"
+#include "evaluation/stability.hpp"
+#include "evaluation/styles.hpp"
+#include "evaluation/top_ll.hpp"
+#include "evaluation/trust.hpp"
+
+namespace laneloom {
+
+/// What is evaluated. Detections know no lanes, so that they can miss none.
+enum class Subject : std::uint8_t { maps, detections };
+
+/// Every measure of a sequence of maps, or of single detections. Not thread-safe.
+class MapEvaluation {
+ public:
+  MapEvaluation(const Road& truth, const RangeConfig& range, Subject subject);
+
+  /// The next frame, in order of stamps: maps or detections, as was said.
+  void add(const LocalMap& map);
+  void add(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, double min_confidence);
+
+  const MapScore& score() const { return score_; }
+  const StabilityMeter& stability() const { return stability_; }
+  const AveragePrecisionMeter& average_precision() const { return average_precision_; }
+  const TrustMeter& trust() const { return trust_; }
+  const StyleScore& styles() const { return styles_; }
+  const TopologyScore& topology() const { return topology_; }
+  const TopLl& top_ll() const { return top_ll_; }
+
+ private:
+  FrameComparison add_lines(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_body,
+                            const std::vector<KindLine>& lines);
+
+  std::vector<KindLine> truth_;
+  TruthTopology truth_topology_;
+  RangeConfig range_;
+  MapScore score_;
+  StabilityMeter stability_;
+  AveragePrecisionMeter average_precision_;
+  TrustMeter trust_;
+  StyleScore styles_;
+  TopologyScore topology_;
+  TopLl top_ll_;
+};
+
+}  // namespace laneloom

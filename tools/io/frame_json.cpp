@@ -1,0 +1,97 @@
+#include <cmath>
+
+#include "io/json_fields.hpp"
+#include "io/json_lines.hpp"
+#include "io/stamp_and_pose.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMaxTime_s = 9e9;  // beyond, nanoseconds do not fit
+
+json to_json(const Detection& detection) {
+  json out{{"type", name(detection.type)},
+           {"score", detection.confidence},
+           {"style", name(detection.style)},
+           {"points", polyline_json(detection.points)}};
+  if (!detection.stddev_m.empty()) out["stddev"] = detection.stddev_m;
+  return out;
+}
+
+double share(const json& value) {
+  const double result = number(value);
+  if (result < 0.0 || result > 1.0) throw JsonError("must be from 0 to 1");
+  return result;
+}
+
+Detection detection(const json& value) {
+  Detection out{.type = required(value, "type", marking_type),
+                .style = optional(value, "style", marking_style).value_or(MarkingStyle::unknown),
+                .confidence = required(value, "score", share),
+                .points = required(value, "points", line),
+                .stddev_m = optional(value, "stddev", numbers).value_or(std::vector<double>{})};
+  if (!out.stddev_m.empty() && out.stddev_m.size() != out.points.size())
+    throw JsonError("stddev", "must have one value per point");
+  return out;
+}
+
+}  // namespace
+
+void put_stamp_and_pose(json& object, std::int64_t stamp_ns, const Point& position,
+                        const Eigen::Quaterniond& orientation) {
+  object["t"] = static_cast<double>(stamp_ns) * 1e-9;
+  object["stamp_ns"] = stamp_ns;
+  object["pose"] = {position.x(),    position.y(),    position.z(),   orientation.x(),
+                    orientation.y(), orientation.z(), orientation.w()};
+}
+
+std::int64_t read_stamp_ns(const json& object) {
+  const double t_s = required(object, "t", number);
+  if (!(std::abs(t_s) < kMaxTime_s)) throw JsonError("t", "is too large");
+  return optional(object, "stamp_ns", integer).value_or(static_cast<std::int64_t>(std::llround(t_s * 1e9)));
+}
+
+VehiclePose read_pose(const json& object) {
+  return required(object, "pose", [](const json& value) {
+    if (!value.is_array() || value.size() != 7) throw JsonError("must be [x, y, z, qx, qy, qz, qw]");
+    VehiclePose pose;
+    pose.position = {number(value[0]), number(value[1]), number(value[2])};
+    pose.orientation = quaternion(value, 3);
+    return pose;
+  });
+}
+
+std::string to_json_line(const FrameRecord& record) {
+  const DetectionFrame& frame = record.frame;
+  json out{{"sequence", frame.sequence}, {"session_id", frame.session_id}, {"detections", json::array()}};
+  put_stamp_and_pose(out, frame.stamp_ns, record.pose.position, record.pose.orientation);
+  for (const Detection& detection : frame.detections) out["detections"].push_back(to_json(detection));
+  if (!frame.source.empty()) out["source"] = frame.source;
+  for (const MarkingType type : frame.detected_types) out["detected_types"].push_back(name(type));
+  if (!frame.field_of_view.empty()) out["field_of_view"] = polyline_json(frame.field_of_view);
+  for (const Polyline& area : frame.occluded_areas) out["occluded_areas"].push_back(polyline_json(area));
+  return out.dump();
+}
+
+FrameRecord frame_from_json(std::string_view text) {
+  const json object = parse_json(text);
+  FrameRecord record;
+  DetectionFrame& frame = record.frame;
+  frame.stamp_ns = read_stamp_ns(object);
+  record.pose = read_pose(object);
+  frame.detections = required(object, "detections", [](const json& items) { return list(items, detection); });
+  frame.sequence = optional(object, "sequence", count).value_or(0);
+  frame.session_id = optional(object, "session_id", count).value_or(0);
+  frame.source = optional(object, "source", laneloom::text).value_or("");
+  frame.field_of_view = optional(object, "field_of_view", polyline).value_or(Polyline{});
+  const auto types = [](const json& items) { return list(items, marking_type); };
+  frame.detected_types = optional(object, "detected_types", types).value_or(std::vector<MarkingType>{});
+  const auto areas = [](const json& items) { return list(items, polyline); };
+  frame.occluded_areas = optional(object, "occluded_areas", areas).value_or(std::vector<Polyline>{});
+  record.pose.stamp_ns = frame.stamp_ns;
+  return record;
+}
+
+}  // namespace laneloom

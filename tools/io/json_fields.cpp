@@ -1,0 +1,121 @@
+#include "io/json_fields.hpp"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxDepth = 16;
+constexpr std::array kTypeNames{"laneline", "roadedge", "stopline"};
+constexpr std::array kStyleNames{"unknown", "solid", "dashed"};
+
+template <typename Enum, std::size_t N>
+Enum named(const json& value, const std::array<const char*, N>& names) {
+  const std::string word = text(value);
+  for (std::size_t i = 0; i < N; ++i) {
+    if (word == names[i]) return static_cast<Enum>(i);
+  }
+  std::string known;
+  for (const char* candidate : names) known += (known.empty() ? "" : ", ") + std::string(candidate);
+  throw JsonError("must be one of " + known);
+}
+
+}  // namespace
+
+JsonError::JsonError(const std::string& key, const std::string& complaint)
+    : std::runtime_error(key.empty() ? complaint : key + ": " + complaint),
+      key_(key),
+      complaint_(complaint) {}
+
+JsonError JsonError::inside(const std::string& key) const {
+  const bool joined = key_.empty() || key_.front() == '[';
+  return {key + (joined ? "" : ".") + key_, complaint_};
+}
+
+json parse_json(std::string_view text) {
+  const auto limit_depth = [](int depth, json::parse_event_t, const json&) {
+    if (depth > kMaxDepth) throw JsonError("is nested too deeply");
+    return true;
+  };
+  try {
+    return json::parse(text.begin(), text.end(), limit_depth);
+  } catch (const json::exception& error) {
+    throw JsonError(std::string("is not JSON: ") + error.what());
+  }
+}
+
+json load_json(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::ostringstream content;
+  content << in.rdbuf();
+  if (!in || !content) throw std::runtime_error(path.string() + ": cannot be read");
+  return parse_json(content.view());
+}
+
+double number(const json& value) {
+  if (!value.is_number()) throw JsonError("must be a number");
+  const auto result = value.get<double>();
+  if (!std::isfinite(result)) throw JsonError("must be finite");
+  return result;
+}
+
+std::int64_t integer(const json& value) {
+  if (!value.is_number_integer()) throw JsonError("must be an integer");
+  if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) throw JsonError("is too large");
+  return value.get<std::int64_t>();
+}
+
+std::uint64_t count(const json& value) {
+  if (!value.is_number_unsigned()) throw JsonError("must be an integer that is not negative");
+  return value.get<std::uint64_t>();
+}
+
+bool boolean(const json& value) {
+  if (!value.is_boolean()) throw JsonError("must be true or false");
+  return value.get<bool>();
+}
+
+std::string text(const json& value) {
+  if (!value.is_string()) throw JsonError("must be a string");
+  return value.get<std::string>();
+}
+
+Point point(const json& value) {
+  if (!value.is_array() || value.size() != 3) throw JsonError("must be [x, y, z]");
+  return {number(value[0]), number(value[1]), number(value[2])};
+}
+
+Polyline polyline(const json& value) { return list(value, point); }
+
+Polyline line(const json& value) {
+  Polyline points = polyline(value);
+  if (points.size() < 2) throw JsonError("must have at least two points");
+  return points;
+}
+
+MarkingType marking_type(const json& value) { return named<MarkingType>(value, kTypeNames); }
+MarkingStyle marking_style(const json& value) { return named<MarkingStyle>(value, kStyleNames); }
+std::vector<double> numbers(const json& value) { return list(value, number); }
+
+Eigen::Quaterniond quaternion(const json& value, std::size_t first) {
+  const Eigen::Quaterniond q(number(value[first + 3]), number(value[first]), number(value[first + 1]),
+                             number(value[first + 2]));
+  if (!(std::abs(q.norm() - 1.0) < 1e-3)) throw JsonError("must have a quaternion of unit length");
+  return q.normalized();
+}
+
+json polyline_json(const Polyline& points) {
+  json out = json::array();
+  for (const Point& p : points) out.push_back({p.x(), p.y(), p.z()});
+  return out;
+}
+
+const char* name(MarkingType type) { return kTypeNames.at(index(type)); }
+const char* name(MarkingStyle style) { return kStyleNames.at(index(style)); }
+
+}  // namespace laneloom

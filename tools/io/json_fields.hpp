@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+/// Checked reading of JSON: what is missing, of another type, or not finite is an error that names the key.
+namespace laneloom {
+
+/// What() is "detections[3].points: must be an array".
+class JsonError : public std::runtime_error {
+ public:
+  JsonError(const std::string& key, const std::string& complaint);
+  explicit JsonError(const std::string& complaint) : JsonError("", complaint) {}
+  /// The same error, seen from the object or array around it.
+  JsonError inside(const std::string& key) const;
+
+ private:
+  std::string key_, complaint_;
+};
+
+/// Throws JsonError where `text` is not JSON, or nested deeper than any of our formats.
+nlohmann::json parse_json(std::string_view text);
+
+/// Throws std::runtime_error naming the file where it cannot be read, else as parse_json().
+nlohmann::json load_json(const std::filesystem::path& path);
+
+double number(const nlohmann::json& value);  ///< finite
+std::int64_t integer(const nlohmann::json& value);
+std::uint64_t count(const nlohmann::json& value);  ///< an integer, not negative
+bool boolean(const nlohmann::json& value);
+std::string text(const nlohmann::json& value);
+Point point(const nlohmann::json& value);        ///< [x, y, z]
+Polyline polyline(const nlohmann::json& value);  ///< [[x, y, z], …], possibly empty
+Polyline line(const nlohmann::json& value);      ///< a polyline of at least two points
+MarkingType marking_type(const nlohmann::json& value);
+MarkingStyle marking_style(const nlohmann::json& value);
+std::vector<double> numbers(const nlohmann::json& value);
+Eigen::Quaterniond quaternion(const nlohmann::json& value, std::size_t first);  ///< x, y, z, w from there on
+
+nlohmann::json polyline_json(const Polyline& points);
+const char* name(MarkingType type);
+const char* name(MarkingStyle style);
+
+/// Every element of an array, read by `read`.
+template <typename Read>
+auto list(const nlohmann::json& value, Read read) {
+  if (!value.is_array()) throw JsonError("must be an array");
+  std::vector<std::invoke_result_t<Read, const nlohmann::json&>> out;
+  out.reserve(value.size());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    try {
+      out.push_back(read(value[i]));
+    } catch (const JsonError& error) {
+      throw error.inside("[" + std::to_string(i) + "]");
+    }
+  }
+  return out;
+}
+
+/// A member of an object, read by `read`; nothing where it is absent or null.
+template <typename Read>
+auto optional(const nlohmann::json& object, const char* key, Read read)
+    -> std::optional<std::invoke_result_t<Read, const nlohmann::json&>> {
+  if (!object.is_object()) throw JsonError("must be an object");
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return std::nullopt;
+  try {
+    return read(*found);
+  } catch (const JsonError& error) {
+    throw error.inside(key);
+  }
+}
+
+/// A member of an object, which must be there.
+template <typename Read>
+auto required(const nlohmann::json& object, const char* key, Read read) {
+  auto value = optional(object, key, read);
+  if (!value) throw JsonError(key, "is missing");
+  return *std::move(value);
+}
+
+}  // namespace laneloom

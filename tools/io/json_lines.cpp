@@ -1,0 +1,69 @@
+#include "io/json_lines.hpp"
+
+#include <stdexcept>
+
+namespace laneloom {
+namespace {
+
+constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
+
+}  // namespace
+
+JsonLinesReader::JsonLinesReader(const std::filesystem::path& path) : path_(path), in_(path) {
+  if (!in_ || std::filesystem::is_directory(path))
+    throw std::runtime_error(path.string() + ": cannot be read");
+}
+
+std::optional<FrameRecord> JsonLinesReader::next_frame() {
+  if (!next_line()) return std::nullopt;
+  try {
+    return frame_from_json(line_);
+  } catch (const std::runtime_error& complaint) {
+    throw error(complaint.what());
+  }
+}
+
+std::optional<LocalMap> JsonLinesReader::next_map() {
+  if (!next_line()) return std::nullopt;
+  try {
+    return map_from_json(line_);
+  } catch (const std::runtime_error& complaint) {
+    throw error(complaint.what());
+  }
+}
+
+bool JsonLinesReader::next_line() {
+  std::streambuf& buffer = *in_.rdbuf();
+  constexpr int kEnd = std::char_traits<char>::eof();
+  do {
+    line_.clear();
+    ++number_;
+    int c = buffer.sbumpc();
+    if (c == kEnd) return false;
+    for (; c != kEnd && c != '\n'; c = buffer.sbumpc()) {
+      if (line_.size() == kMaxLineBytes) throw error("the line is too long");
+      line_.push_back(static_cast<char>(c));
+    }
+  } while (line_.find_first_not_of(" \t\r") == std::string::npos);
+  return true;
+}
+
+std::runtime_error JsonLinesReader::error(const std::string& complaint) const {
+  return std::runtime_error(path_.string() + ":" + std::to_string(number_) + ": " + complaint);
+}
+
+JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path), out_(path) {
+  if (!out_) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+void JsonLinesWriter::write_line(const std::string& line) {
+  out_ << line << '\n';
+  if (!out_) throw std::runtime_error(path_.string() + ": cannot be written");
+}
+
+void JsonLinesWriter::close() {
+  out_.close();
+  if (!out_) throw std::runtime_error(path_.string() + ": cannot be written");
+}
+
+}  // namespace laneloom

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "laneloom/types.hpp"
+
+/// Frames and maps as JSON, one a line: the simple door for people with other tools.
+///
+/// A frame:
+///
+///     {"t": seconds, "pose": [x, y, z, qx, qy, qz, qw],
+///      "detections": [{"type": "laneline" | "roadedge" | "stopline", "score": 0..1,
+///                      "style": "solid" | "dashed" | "unknown", "points": [[x, y, z], …], "stddev": [σ, …]},
+///                      …],
+///      "stamp_ns": 1, "sequence": 1, "session_id": 1, "source": "…", "detected_types": ["laneline", …],
+///      "field_of_view": [[x, y, z], …], "occluded_areas": [[[x, y, z], …], …]}
+///
+/// The pose is T_map_body at t, points are in the body frame, metres. A detection's style and stddev, and
+/// everything from stamp_ns on, may be left out; stamp_ns is exact where t is rounded.
+///
+/// A map:
+///
+///     {"t": seconds, "pose": […], "stamp_ns": 1,
+///      "instances": [{"id": 1, "type": "…", "points": [[x, y, z], …], "styles": [[from, to, "solid"], …],
+///                     "status": "tentative" | "confirmed" | "inferred", "existence": 0..1 or -1,
+///                     "observations": 1, "first_seen_ns": 1, "lateral_stddev": [σ, …]}, …],
+///      "lanes": [{"id": 1, "left": [[x, y, z], …], "right": […], "centerline": […], "successors": [2, …],
+///                 "left_boundary": 1, "right_boundary": 2, "left_range": [from, to], "right_range": [from,
+///                 to], "left_neighbour": 0, "right_neighbour": 0, "width": 3.5, "section": 1, "direction":
+///                 "unknown" | "along" | "against", "status": "…", "existence": -1, "inferred_ranges":
+///                 [[from, to], …]}, …],
+///      "linkages": [{"from": 1, "to": 2, "kind": "…", "turn": "…", "confidence": 0..1, "path": […]}, …],
+///      "stoplines": [{"id": 1, "lanes": [1, …], "heading": [x, y, z]}, …]}
+///
+/// Points are in the map frame. Instances are the boundaries and the stoplines' markings. Only t, pose,
+/// instances, lanes, an instance's id, type and points, and a lane's id, left, right and centerline must be
+/// there; without linkages, the successors are.
+namespace laneloom {
+
+/// A frame, and the vehicle's pose at its stamp.
+struct FrameRecord {
+  DetectionFrame frame;
+  VehiclePose pose;
+};
+
+/// One line, without its end. All numbers must be finite.
+std::string to_json_line(const FrameRecord& record);
+std::string to_json_line(const LocalMap& map);
+
+/// Throw std::runtime_error naming the key where `text` is not such a line. Whether ids that a map refers to
+/// are in it is not checked, and `lineage` and `instances` stay empty: what is read is boundaries, stoplines
+/// and lanes.
+FrameRecord frame_from_json(std::string_view text);
+LocalMap map_from_json(std::string_view text);
+
+/// Reads a file line by line, skipping empty ones. Not thread-safe.
+class JsonLinesReader {
+ public:
+  /// Throws std::runtime_error where the file cannot be read.
+  explicit JsonLinesReader(const std::filesystem::path& path);
+
+  /// The next line's content; nothing at the end. Throw std::runtime_error naming file, line number and key;
+  /// reading may go on with the line after.
+  std::optional<FrameRecord> next_frame();
+  std::optional<LocalMap> next_map();
+
+ private:
+  bool next_line();
+  std::runtime_error error(const std::string& complaint) const;
+
+  std::filesystem::path path_;
+  std::ifstream in_;
+  std::string line_;
+  std::size_t number_ = 0;
+};
+
+/// Writes a file line by line. Not thread-safe.
+class JsonLinesWriter {
+ public:
+  /// Throws std::runtime_error where the file cannot be written.
+  explicit JsonLinesWriter(const std::filesystem::path& path);
+  /// Throw std::runtime_error where writing fails.
+  void write(const FrameRecord& record) { write_line(to_json_line(record)); }
+  void write(const LocalMap& map) { write_line(to_json_line(map)); }
+  void close();
+
+ private:
+  void write_line(const std::string& line);
+
+  std::filesystem::path path_;
+  std::ofstream out_;
+};
+
+}  // namespace laneloom

@@ -1,0 +1,37 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "commands/commands.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app("laneloom: drives, watches, draws and measures the lane map service", "laneloom");
+  app.set_version_flag("--version", LANELOOM_VERSION);
+  app.require_subcommand(1);
+  laneloom::add_publish(app);
+  laneloom::add_pnc(app);
+  laneloom::add_render(app);
+  laneloom::add_evaluate(app);
+  laneloom::add_simulate(app);
+  laneloom::add_replay(app);
+  laneloom::add_record(app);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Error& error) {
+    return app.exit(error);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "laneloom: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cairo.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace laneloom {
+
+struct Colour {
+  double red = 0.0;
+  double green = 0.0;
+  double blue = 0.0;
+  double alpha = 1.0;
+  Colour faded(double factor) const { return {red, green, blue, alpha * factor}; }
+};
+
+using Pixel = Eigen::Vector2d;
+using Outline = std::vector<Pixel>;
+
+struct Pen {
+  Colour colour;
+  double width = 1.0;
+  std::vector<double> dashes;  ///< on, off, on, … in pixels; empty: solid
+};
+
+enum class Align { left, centre, right };
+
+/// A sheet to draw on, x right, y down, one unit a pixel of a screen. PNG or SVG by the file's extension,
+/// from the same strokes.
+class Canvas {
+ public:
+  /// Throws std::runtime_error for another extension.
+  Canvas(const std::string& path, double width, double height);
+
+  void stroke(const Outline& line, const Pen& pen);
+  void fill(const Outline& polygon, const Colour& colour);
+  /// `position` is the baseline's left end, middle or right end.
+  void text(const Pixel& position, const std::string& text, double size, const Colour& colour,
+            Align align = Align::left, bool bold = false);
+  /// Until unclip(), nothing is drawn outside of the rectangle.
+  void clip(const Pixel& top_left, const Pixel& size);
+  void unclip();
+
+  /// Writes the file. Throws std::runtime_error if that fails.
+  void finish();
+
+ private:
+  void trace(const Outline& outline);
+  void use(const Colour& colour);
+
+  std::string path_;
+  bool is_png_;
+  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
+  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
+};
+
+Outline rectangle(const Pixel& top_left, const Pixel& size);
+
+}  // namespace laneloom

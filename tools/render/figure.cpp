@@ -1,0 +1,75 @@
+#include "render/figure.hpp"
+
+#include <algorithm>
+
+#include "laneloom/polyline.hpp"
+#include "render/palette.hpp"
+#include "render/panel.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kMargin = 18.0;
+constexpr double kGap = 14.0;
+constexpr double kTitleHeight = 34.0;
+constexpr double kPanelTitleHeight = 22.0;
+
+void draw_scale(Canvas& canvas, const Pixel& bottom_left) {
+  constexpr double kLength_m = 10.0;
+  const Pixel from = bottom_left + Pixel(10.0, -10.0),
+              to = from + Pixel(kLength_m * View::kPixelsPerMetre, 0.0);
+  const Pixel tick(0.0, 4.0);
+  canvas.stroke({from - tick, from, to, to - tick}, {palette::kText, 1.4, {}});
+  canvas.text((from + to) / 2 - Pixel(0.0, 5.0), "10 m", 11.0, palette::kText, Align::centre);
+}
+
+void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range, const Pixel& top_left) {
+  const Pixel size = View::size(range);
+  Pixel at = top_left;
+  for (const Panel& panel : moment.panels) {
+    const View view(range, moment.T_map_body, at + Pixel(0.0, kPanelTitleHeight));
+    canvas.text(at + Pixel(1.0, 15.0), panel.title, 13.0, palette::kText, Align::left, true);
+    canvas.text(at + Pixel(size.x() - 1.0, 15.0), moment.label, 12.0, palette::kFaint, Align::right);
+    draw_panel(canvas, view, range, panel);
+    draw_scale(canvas, view.top_left() + Pixel(0.0, size.y()));
+    at.x() += size.x() + kGap;
+  }
+}
+
+}  // namespace
+
+void draw_figure(const Figure& figure, const std::string& path) {
+  const Pixel panel = View::size(figure.range);
+  std::size_t columns = 1;
+  for (const Moment& moment : figure.moments) columns = std::max(columns, moment.panels.size());
+  const double row_height = kPanelTitleHeight + panel.y() + kGap;
+  const double width = 2 * kMargin + static_cast<double>(columns) * (panel.x() + kGap) - kGap;
+  const double inner_width = width - 2 * kMargin;
+  const double height = 2 * kMargin + kTitleHeight + static_cast<double>(figure.moments.size()) * row_height +
+                        legend_height(inner_width);
+
+  Canvas canvas(path, width, height);
+  canvas.text({kMargin, kMargin + 14.0}, figure.title, 17.0, palette::kText, Align::left, true);
+  Pixel at(kMargin, kMargin + kTitleHeight);
+  for (const Moment& moment : figure.moments) {
+    draw_moment(canvas, moment, figure.range, at);
+    at.y() += row_height;
+  }
+  draw_legend(canvas, at, inner_width);
+  canvas.finish();
+}
+
+LocalMap map_of(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+  LocalMap map;
+  for (const Detection& detection : frame.detections) {
+    Marking marking;
+    marking.type = detection.type;
+    marking.existence_probability = detection.confidence;
+    for (const Point& point : detection.points) marking.points.push_back(T_map_body * point);
+    marking.styles = {{{0.0, length(marking.points)}, detection.style}};
+    map.boundaries.push_back(marking);
+  }
+  return map;
+}
+
+}  // namespace laneloom

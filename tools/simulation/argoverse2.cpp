@@ -1,0 +1,231 @@
+#include "simulation/argoverse2.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+
+#include "io/json_fields.hpp"
+#include "laneloom/polyline.hpp"
+#include "simulation/borders.hpp"
+#include "simulation/drivable_areas.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kJoin_m = 0.05;
+constexpr double kJoinEdges_m = 1.5;  // outlines end a little before the area that adjoins
+constexpr double kAlongEdge_m = 0.5;
+constexpr std::int64_t kPosePeriod_ns = 10'000'000;
+constexpr std::int64_t kSamePose_ns = 1'000'000;
+
+Point xyz(const json& value) {
+  return {required(value, "x", number), required(value, "y", number), required(value, "z", number)};
+}
+
+Polyline xyz_line(const json& value) {
+  Polyline points = list(value, xyz);
+  if (points.size() < 2) throw JsonError("must have at least two points");
+  return points;
+}
+
+// Mark types such as NONE, DASHED_WHITE, DOUBLE_SOLID_YELLOW, or DASHED_SOLID_YELLOW (its left line first).
+std::optional<MarkingStyle> painted_style(const std::string& mark, bool left_border) {
+  if (mark == "NONE") return std::nullopt;
+  const std::size_t dashed = left_border ? mark.rfind("DASH") : mark.find("DASH");
+  const std::size_t solid = left_border ? mark.rfind("SOLID") : mark.find("SOLID");
+  if (dashed == std::string::npos && solid == std::string::npos) return MarkingStyle::unknown;
+  if (dashed == std::string::npos) return MarkingStyle::solid;
+  if (solid == std::string::npos) return MarkingStyle::dashed;
+  // Of both, the one on this lane's side: the last of a left border, the first of a right one.
+  return (left_border ? dashed > solid : dashed < solid) ? MarkingStyle::dashed : MarkingStyle::solid;
+}
+
+// Points in centimetres, in the direction that comes first: the same for a border and its reverse.
+std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>> shape(const Polyline& points) {
+  std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>> there;
+  for (const Point& p : points)
+    there.emplace_back(std::llround(p.x() * 100.0), std::llround(p.y() * 100.0), std::llround(p.z() * 100.0));
+  auto back = there;
+  std::reverse(back.begin(), back.end());
+  return std::min(there, back);
+}
+
+// Reads lanes and emits the borders that neighbours share once.
+class LaneReader {
+ public:
+  void read(const json& segment) {
+    const std::string type = required(segment, "lane_type", text);
+    RoadLane lane{.id = required(segment, "id", count)};
+    std::tie(lane.left, lane.left_marking) =
+        border(segment, "left_lane_boundary", "left_lane_mark_type", true);
+    std::tie(lane.right, lane.right_marking) =
+        border(segment, "right_lane_boundary", "right_lane_mark_type", false);
+    if (type == "BIKE") return;
+    lane.centerline = midway(lane.left, lane.right);
+    lane.in_intersection = required(segment, "is_intersection", boolean);
+    lane.successors = required(segment, "successors", [](const json& ids) { return list(ids, count); });
+    lanes_.push_back(std::move(lane));
+  }
+
+  // Lanes of the archive may lead out of it, or into bicycle lanes; such successors are left out.
+  void finish(Road& road) && {
+    std::map<ElementId, ElementId> ids;
+    std::sort(lanes_.begin(), lanes_.end(), [](const RoadLane& a, const RoadLane& b) { return a.id < b.id; });
+    for (RoadLane& lane : lanes_) {
+      ids[lane.id] = ids.size() + 1;
+      lane.id = ids[lane.id];
+    }
+    for (RoadLane& lane : lanes_) {
+      std::erase_if(lane.successors, [&](ElementId id) { return !ids.contains(id); });
+      for (ElementId& id : lane.successors) id = ids[id];
+      std::sort(lane.successors.begin(), lane.successors.end());
+    }
+    road.lanes = std::move(lanes_);
+    road.markings = std::move(markings_);
+  }
+
+ private:
+  std::pair<Polyline, ElementId> border(const json& segment, const char* points_key, const char* mark_key,
+                                        bool left) {
+    Polyline points = required(segment, points_key, xyz_line);
+    const std::optional<MarkingStyle> style = painted_style(required(segment, mark_key, text), left);
+    if (!style) return {std::move(points), kNoElement};
+    const auto [known, is_new] = marking_of_.try_emplace(shape(points), markings_.size() + 1);
+    if (is_new) markings_.push_back({known->second, MarkingType::laneline, *style, points});
+    return {std::move(points), known->second};
+  }
+
+  std::vector<RoadLane> lanes_;
+  std::vector<RoadMarking> markings_;
+  std::map<std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>>, ElementId> marking_of_;
+};
+
+template <typename Read>
+void for_each_member(const json& archive, const char* key, Read read) {
+  required(archive, key, [&](const json& members) {
+    if (!members.is_object()) throw JsonError("must be an object");
+    for (const auto& [name, member] : members.items()) {
+      try {
+        read(member);
+      } catch (const JsonError& error) {
+        throw error.inside(name);
+      }
+    }
+    return true;
+  });
+}
+
+Road read_map(const json& archive) {
+  Road road;
+  LaneReader lanes;
+  for_each_member(archive, "lane_segments", [&](const json& segment) { lanes.read(segment); });
+  std::move(lanes).finish(road);
+  join_markings(road, kJoin_m);
+  std::vector<Polyline> areas;
+  for_each_member(archive, "drivable_areas",
+                  [&](const json& area) { areas.push_back(required(area, "area_boundary", xyz_line)); });
+  Road edges;
+  for (Polyline& edge : outer_edges(areas))
+    edges.markings.push_back(
+        {edges.markings.size() + 1, MarkingType::roadedge, MarkingStyle::solid, std::move(edge)});
+  join_markings(edges, kJoinEdges_m);
+  for (RoadMarking& edge : edges.markings) {
+    edge.id = road.markings.size() + 1;
+    road.markings.push_back(std::move(edge));
+  }
+  attach_roadedges(road, kAlongEdge_m);
+  return road;
+}
+
+template <typename Value>
+Value next_field(std::string_view& rest) {
+  const std::size_t comma = std::min(rest.find(','), rest.size());
+  Value value{};
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + comma, value);
+  if (error != std::errc() || end != rest.data() + comma) throw std::runtime_error("a number is expected");
+  rest.remove_prefix(std::min(comma + 1, rest.size()));
+  return value;
+}
+
+// Columns: timestamp_ns, qw, qx, qy, qz, tx_m, ty_m, tz_m.
+VehiclePose read_pose(std::string_view line) {
+  VehiclePose pose;
+  pose.stamp_ns = next_field<std::int64_t>(line);
+  std::array<double, 7> v{};
+  for (double& value : v) {
+    value = next_field<double>(line);
+    if (!std::isfinite(value)) throw std::runtime_error("a finite number is expected");
+  }
+  const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
+  if (!(std::abs(q.norm() - 1.0) < 1e-3)) throw std::runtime_error("a quaternion of unit length is expected");
+  pose.orientation = q.normalized();
+  pose.position = {v[4], v[5], v[6]};
+  return pose;
+}
+
+std::vector<VehiclePose> read_poses(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::string line;
+  if (!std::getline(in, line)) throw std::runtime_error(path.string() + ": cannot be read");
+  std::vector<VehiclePose> poses;
+  for (int number = 2; std::getline(in, line); ++number) {
+    try {
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      poses.push_back(read_pose(line));
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
+    }
+  }
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const VehiclePose& a, const VehiclePose& b) { return a.stamp_ns < b.stamp_ns; });
+  const auto same = [](const VehiclePose& a, const VehiclePose& b) {
+    return b.stamp_ns - a.stamp_ns < kSamePose_ns;
+  };
+  poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
+  if (poses.size() < 2) throw std::runtime_error(path.string() + ": has fewer than two poses");
+  return poses;
+}
+
+Drive resampled(std::vector<VehiclePose> poses) {
+  const Drive recorded = Drive::recorded(std::move(poses));
+  std::vector<VehiclePose> clean;
+  const std::int64_t end_ns = recorded.poses().back().stamp_ns;
+  for (std::int64_t t_ns = 0; t_ns <= end_ns; t_ns += kPosePeriod_ns)
+    clean.push_back(recorded.pose_at(static_cast<double>(t_ns) * 1e-9));
+  return Drive::recorded(std::move(clean));
+}
+
+std::filesystem::path map_archive(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
+    if (entry.path().filename().string().starts_with("log_map_archive_") &&
+        entry.path().extension() == ".json")
+      found.push_back(entry.path());
+  }
+  if (found.empty()) throw std::runtime_error(directory.string() + ": has no log_map_archive_*.json");
+  return *std::min_element(found.begin(), found.end());
+}
+
+}  // namespace
+
+Road load_argoverse2(const std::filesystem::path& log_directory) {
+  const std::filesystem::path archive = map_archive(log_directory);
+  try {
+    Road road = read_map(load_json(archive));
+    road.name = std::filesystem::weakly_canonical(log_directory).filename().string();
+    road.drive = resampled(read_poses(log_directory / "city_SE3_egovehicle.csv"));
+    return road;
+  } catch (const JsonError& error) {
+    throw std::runtime_error(archive.string() + ": " + error.what());
+  }
+}
+
+}  // namespace laneloom

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "simulation/road.hpp"
+
+namespace laneloom {
+
+/// Loads an Argoverse 2 sensor log: its vector map (log_map_archive_*.json) and the recorded poses
+/// (city_SE3_egovehicle.csv). Coordinates are the city's, as they are; the vehicle's origin is about 0.33 m
+/// above the surface.
+///
+/// Lanelines are the painted borders of the lanes, bicycle lanes included; of a double line with two styles,
+/// the style of the nearer one. Roadedges are the outlines of the drivable areas where no other area adjoins.
+/// There are no stoplines in such a map. Lanes are the vehicle and bus lanes. The poses, which come in pairs
+/// 1 ns apart, are resampled to 100 Hz.
+///
+/// Throws std::runtime_error naming file and key, or file and line.
+Road load_argoverse2(const std::filesystem::path& log_directory);
+
+}  // namespace laneloom

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "simulation/road_builder.hpp"
+
+/// From a street's section to the lines along it and the lanes between them.
+namespace laneloom {
+
+inline constexpr double kMinLaneWidth_m = 2.5;  // narrower, between two borders, is no lane
+
+/// One line along a street.
+struct Border {
+  MarkingType type = MarkingType::laneline;
+  MarkingStyle style = MarkingStyle::solid;
+  Profile left_m;  ///< beside the reference line
+  double from_m = 0.0;
+  double to_m = 0.0;
+};
+
+/// All lines of a street of that length.
+std::vector<Border> borders(const Section& section, double length_m);
+
+/// Where along a street a lane runs between two of its borders.
+struct LaneStretch {
+  std::size_t left_border = 0;  ///< as seen along the reference line
+  std::size_t right_border = 0;
+  bool forward = true;
+  std::vector<double> stations_m;  ///< samples along the reference line
+};
+
+/// The lanes between neighbouring borders, cut where any lane of their direction begins or ends.
+std::vector<LaneStretch> lane_stretches(const std::vector<Border>& borders, double length_m);
+
+/// Samples along a street: every metre or less, and wherever a border of them begins or ends.
+std::vector<double> stations(const std::vector<Border>& borders, double from_m, double to_m);
+
+}  // namespace laneloom

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/types.hpp"
+#include "simulation/noise_profile.hpp"
+#include "simulation/random.hpp"
+
+namespace laneloom {
+
+/// Other vehicles that come, move along and go, and what they hide from the sensor at the body's origin.
+class Occluders {
+ public:
+  void step(double dt_s, const NoiseProfile& noise, Random& random);
+
+  /// Where each of them stands and what is behind it: convex, counter-clockwise, body frame.
+  const std::vector<Polyline>& areas() const { return areas_; }
+
+  /// The parts of a line (body frame) that are outside of all areas.
+  std::vector<Polyline> visible_parts(const Polyline& line) const;
+
+ private:
+  struct Vehicle {
+    Point centre;      // body frame
+    double speed_mps;  // relative to ours
+    double length_m, width_m;
+  };
+  static Polyline hidden_area(const Vehicle& vehicle);
+  std::vector<Vehicle> vehicles_;
+  std::vector<Polyline> areas_;
+};
+
+}  // namespace laneloom

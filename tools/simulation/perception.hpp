@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "simulation/line_noise.hpp"
+#include "simulation/noise_profile.hpp"
+#include "simulation/occlusion.hpp"
+#include "simulation/random.hpp"
+#include "simulation/road.hpp"
+#include "simulation/sensor_view.hpp"
+
+namespace laneloom {
+
+/// Sees a road as a network does: every marking in view, as lines of about twenty points in the body frame,
+/// with errors that last over frames (see NoiseProfile). The same road, profile, view, seed and poses give
+/// the same frames. Not thread-safe.
+class Perception {
+ public:
+  Perception(const Road& road, NoiseProfile noise, SensorView view, std::uint64_t seed);
+
+  /// The frame seen from `pose`, at its stamp. Sequences count from 1. Poses come in stamp order; where they
+  /// do not (a new lap, say), or after a second's gap, the errors go on as if a tenth of a second had passed.
+  DetectionFrame observe(const VehiclePose& pose);
+
+ private:
+  // A piece of a marking, for as long as it stays in view.
+  struct Track {
+    std::size_t marking;
+    Range arc;
+    LineNoise noise;
+  };
+  // A line that is not there; it stays in its place on the map.
+  struct Ghost {
+    Polyline points_map;
+    Detection detection;
+  };
+  struct FrameError {
+    explicit FrameError(Random& random) : yaw(random), pitch(random), longitudinal(random) {}
+    Wander yaw, pitch, longitudinal;
+  };
+
+  double step_time(std::int64_t stamp_ns);
+  void step_frame_error(double dt_s);
+  Track& follow(std::vector<Track>& now, std::size_t marking, const VisiblePiece& piece, double dt_s);
+  void detect_markings(const VehiclePose& pose, double dt_s, DetectionFrame& frame);
+  void step_ghosts(const VehiclePose& pose, double dt_s);
+  void detect_ghosts(const VehiclePose& pose, DetectionFrame& frame);
+  void add(const Detection& detection, DetectionFrame& frame);
+
+  NoiseProfile noise_;
+  SensorView view_;
+  Random random_;
+  std::vector<RoadMarking> markings_;
+  std::vector<ViewedLine> lines_;      // of the markings
+  std::vector<ViewedLine> crossings_;  // borders of the lanes in intersections
+  std::vector<Track> tracks_;
+  std::vector<Ghost> ghosts_;
+  Occluders occluders_;
+  FrameError frame_error_;
+  Eigen::Isometry3d T_seen_body_ = Eigen::Isometry3d::Identity();  // the frame's error
+  std::optional<std::int64_t> last_stamp_ns_;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace laneloom

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "laneloom/types.hpp"
+#include "simulation/drive.hpp"
+
+/// The truth of a road: what is painted on it, where its lanes are, and how it is driven.
+namespace laneloom {
+
+/// A painted marking or an edge of the road. What is not painted, or only virtual, is no marking.
+struct RoadMarking {
+  ElementId id = kNoElement;
+  MarkingType type = MarkingType::laneline;
+  MarkingStyle style = MarkingStyle::unknown;
+  Polyline points;  ///< map frame, at least two; a ring ends with its first point
+};
+
+/// A lane between two borders. Lanes begin and end at intersections, where the number of lanes of their
+/// direction changes, and where a border passes from one marking to another.
+struct RoadLane {
+  ElementId id = kNoElement;
+  Polyline left{}, right{}, centerline{};  ///< map frame, in driving direction
+  ElementId left_marking = kNoElement;     ///< that the left border is on; none: unpainted
+  ElementId right_marking = kNoElement;    ///< likewise
+  bool in_intersection = false;
+  std::vector<ElementId> successors{};  ///< ascending
+};
+
+struct Road {
+  std::string name;
+  bool right_hand_traffic = true;
+  std::vector<RoadMarking> markings;
+  std::vector<RoadLane> lanes;
+  Drive drive;
+};
+
+/// Writes a road as one JSON object:
+///
+///     {"format": "laneloom-truth", "version": 1, "name": "…", "driving_side": "right" | "left",
+///      "markings": [{"id": 1, "type": "laneline" | "roadedge" | "stopline",
+///                    "style": "unknown" | "solid" | "dashed", "points": [[x, y, z], …]}, …],
+///      "lanes": [{"id": 1, "left": [[x, y, z], …], "right": […], "centerline": […], "left_marking": 1,
+///                 "right_marking": 0, "in_intersection": false, "successors": [2, …]}, …],
+///      "drive": [[t, x, y, z, qx, qy, qz, qw], …]}
+///
+/// Coordinates are metres in the map frame, times are seconds since the drive's start, and the quaternion
+/// turns body into map. A marking 0 is none. Throws std::runtime_error naming the file if it cannot be
+/// written.
+void save_truth(const std::filesystem::path& path, const Road& road);
+
+/// Reads what save_truth() wrote. Throws std::runtime_error naming file and key, where it cannot be read, a
+/// key is missing or of another type, a number is not finite, or an id is unknown or given twice.
+Road load_truth(const std::filesystem::path& path);
+
+}  // namespace laneloom

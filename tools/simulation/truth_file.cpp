@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+
+#include "io/json_fields.hpp"
+#include "simulation/road.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kFormat = "laneloom-truth";
+constexpr std::uint64_t kVersion = 1;
+
+json to_json(const VehiclePose& pose) {
+  const Point& p = pose.position;
+  const Eigen::Quaterniond& q = pose.orientation;
+  return {static_cast<double>(pose.stamp_ns) * 1e-9, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+json to_json(const RoadMarking& marking) {
+  return {{"id", marking.id},
+          {"type", name(marking.type)},
+          {"style", name(marking.style)},
+          {"points", polyline_json(marking.points)}};
+}
+
+json to_json(const RoadLane& lane) {
+  return {{"id", lane.id},
+          {"left", polyline_json(lane.left)},
+          {"right", polyline_json(lane.right)},
+          {"centerline", polyline_json(lane.centerline)},
+          {"left_marking", lane.left_marking},
+          {"right_marking", lane.right_marking},
+          {"in_intersection", lane.in_intersection},
+          {"successors", lane.successors}};
+}
+
+template <typename T>
+json all_to_json(const std::vector<T>& items) {
+  json out = json::array();
+  for (const T& item : items) out.push_back(to_json(item));
+  return out;
+}
+
+VehiclePose pose(const json& value) {
+  if (!value.is_array() || value.size() != 8) throw JsonError("must be [t, x, y, z, qx, qy, qz, qw]");
+  const double t_s = number(value[0]);
+  if (!(t_s >= 0.0 && t_s < 1e9)) throw JsonError("must have a time of 0 or more");
+  return {.stamp_ns = static_cast<std::int64_t>(std::llround(t_s * 1e9)),
+          .position = {number(value[1]), number(value[2]), number(value[3])},
+          .orientation = quaternion(value, 4)};
+}
+
+RoadMarking marking(const json& value) {
+  return {.id = required(value, "id", count),
+          .type = required(value, "type", marking_type),
+          .style = required(value, "style", marking_style),
+          .points = required(value, "points", line)};
+}
+
+RoadLane lane(const json& value) {
+  return {.id = required(value, "id", count),
+          .left = required(value, "left", line),
+          .right = required(value, "right", line),
+          .centerline = required(value, "centerline", line),
+          .left_marking = required(value, "left_marking", count),
+          .right_marking = required(value, "right_marking", count),
+          .in_intersection = required(value, "in_intersection", boolean),
+          .successors = required(value, "successors", [](const json& ids) { return list(ids, count); })};
+}
+
+template <typename T>
+std::set<ElementId> ids_of(const std::vector<T>& items, const char* key) {
+  std::set<ElementId> ids;
+  for (const T& item : items) {
+    if (item.id == kNoElement) throw JsonError(key, "the id 0 is none");
+    if (!ids.insert(item.id).second)
+      throw JsonError(key, "the id " + std::to_string(item.id) + " is given twice");
+  }
+  return ids;
+}
+
+void check_references(const Road& road) {
+  const std::set<ElementId> markings = ids_of(road.markings, "markings");
+  const std::set<ElementId> lanes = ids_of(road.lanes, "lanes");
+  const auto check = [](bool known, const RoadLane& lane, ElementId id) {
+    if (known) return;
+    throw JsonError("lanes",
+                    "lane " + std::to_string(lane.id) + " refers to the unknown id " + std::to_string(id));
+  };
+  for (const RoadLane& lane : road.lanes) {
+    for (const ElementId id : {lane.left_marking, lane.right_marking})
+      check(id == kNoElement || markings.contains(id), lane, id);
+    for (const ElementId id : lane.successors) check(lanes.contains(id), lane, id);
+  }
+}
+
+bool right_hand(const json& value) {
+  const std::string side = text(value);
+  if (side != "right" && side != "left") throw JsonError("must be right or left");
+  return side == "right";
+}
+
+Drive drive(const json& value) {
+  try {
+    return Drive::recorded(list(value, pose));
+  } catch (const std::invalid_argument& error) {
+    throw JsonError(error.what());
+  }
+}
+
+Road road(const json& value) {
+  if (required(value, "format", text) != kFormat) throw JsonError("format", "must be laneloom-truth");
+  if (required(value, "version", count) != kVersion) throw JsonError("version", "must be 1");
+  Road road;
+  road.name = required(value, "name", text);
+  road.right_hand_traffic = required(value, "driving_side", right_hand);
+  road.markings = required(value, "markings", [](const json& items) { return list(items, marking); });
+  road.lanes = required(value, "lanes", [](const json& items) { return list(items, lane); });
+  road.drive = required(value, "drive", drive);
+  check_references(road);
+  return road;
+}
+
+}  // namespace
+
+void save_truth(const std::filesystem::path& path, const Road& road) {
+  std::ofstream out(path);
+  out << json{{"format", kFormat},
+              {"version", kVersion},
+              {"name", road.name},
+              {"driving_side", road.right_hand_traffic ? "right" : "left"},
+              {"markings", all_to_json(road.markings)},
+              {"lanes", all_to_json(road.lanes)},
+              {"drive", all_to_json(road.drive.poses())}}
+             .dump()
+      << '\n';
+  out.close();
+  if (!out) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+Road load_truth(const std::filesystem::path& path) {
+  try {
+    return road(load_json(path));
+  } catch (const JsonError& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace laneloom
