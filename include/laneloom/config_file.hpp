@@ -22,6 +22,10 @@ class ConfigError : public std::runtime_error {
 /// whatever validate() refuses.
 Config load_config(const std::filesystem::path& path);
 
+/// Sets one value, from "section.key=value" in the words of a file: "mapper.range.side_max_m=20".
+/// Throws ConfigError as load_config() does; `config` is unchanged then.
+void set_value(Config& config, std::string_view assignment);
+
 /// Throws ConfigError for a value outside its range, or values that contradict each other.
 void validate(const Config& config);
 

@@ -97,8 +97,8 @@ class Parser {
   std::map<std::string, YAML::Node> values_;
 };
 
-Config parse(const std::string& text) {
-  Config config;
+/// What `text` gives, on top of `config`.
+Config parse(const std::string& text, Config config = {}) {
   Parser::Lines lines;
   try {
     const auto root = YAML::Load(text);
@@ -141,6 +141,24 @@ Config load_config(const std::filesystem::path& path) {
     if (error.line > 0) where += ":" + std::to_string(error.line);
     if (!error.problem.key.empty()) where += ": " + error.problem.key;
     throw ConfigError(where + ": " + error.problem.what);
+  }
+}
+
+void set_value(Config& config, std::string_view assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string_view::npos)
+    throw ConfigError(std::string(assignment) + ": is not of the form section.key=value");
+  std::string text(assignment.substr(equals + 1));
+  for (std::string_view key = assignment.substr(0, equals);;) {
+    const auto dot = key.rfind('.');
+    text = "{" + std::string(key.substr(dot == std::string_view::npos ? 0 : dot + 1)) + ": " + text + "}";
+    if (dot == std::string_view::npos) break;
+    key = key.substr(0, dot);
+  }
+  try {
+    config = config::parse(text, config);
+  } catch (const config::LocatedProblem& error) {
+    throw ConfigError(std::string(assignment) + ": " + error.problem.key + " " + error.problem.what);
   }
 }
 
