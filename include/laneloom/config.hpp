@@ -41,6 +41,8 @@ struct ClusteringConfig {
   double min_probability = 0.6;  ///< beta_p
   int min_voxels = 3;            ///< beta_n
   double min_ratio = 0.7;        ///< beta_r
+  /// Instead of these three: the nearest instance that was ever co-observed (paper, Sec. IV-F).
+  bool nearest_instance = false;
 };
 
 /// Paper, Sec. III-C-2; the values are ours.

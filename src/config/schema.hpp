@@ -50,10 +50,11 @@ void visit(auto& v, Is<VoxelMapConfig> auto& c) {
 }
 
 void visit(auto& v, Is<ClusteringConfig> auto& c) {
-  auto& [min_probability, min_voxels, min_ratio] = c;
+  auto& [min_probability, min_voxels, min_ratio, nearest_instance] = c;
   v.number("min_probability", min_probability, "", 0, 1);
   v.number("min_voxels", min_voxels, "", 1, 1000);
   v.number("min_ratio", min_ratio, "", 0, 1);
+  v.flag("nearest_instance", nearest_instance);
 }
 
 void visit(auto& v, Is<PolylineConfig> auto& c) {

@@ -37,14 +37,35 @@ Instance* best_match(const std::vector<int>& likely, const ClusteringConfig& con
   return best;
 }
 
+/// Of the instances that were seen together with `voxel` at all: the one that has the nearest voxel (the
+/// paper's ablation, Sec. IV-F); null: none.
+Instance* nearest_match(VoxelId id, const VoxelMap& map, CoObservation& co_observation, Instances& instances) {
+  const Point center = map.center(map[id]);
+  Instance* best = nullptr;
+  double best_m2 = 0.0;
+  for (const CoObserved& other : co_observation.row(id)) {
+    const Voxel& voxel = map[other.voxel];
+    if (voxel.instance == kNoElement || other.count == 0) continue;
+    Instance& instance = instances[voxel.instance];
+    if (instance.type != map[id].likely_type()) continue;
+    const double distance_m2 = (map.center(voxel) - center).squaredNorm();
+    if (best != nullptr && distance_m2 >= best_m2) continue;
+    best = &instance;
+    best_m2 = distance_m2;
+  }
+  return best;
+}
+
 }  // namespace
 
 void cluster(const std::vector<VoxelId>& reliable, const ClusteringConfig& config, std::int64_t stamp_ns,
              VoxelMap& map, CoObservation& co_observation, Instances& instances, ElementId& next_id) {
   for (const VoxelId id : reliable) {
     if (map[id].instance != kNoElement) instances.remove(id, map);
-    const std::vector<int> likely = count_likely(id, config, map, co_observation, instances);
-    Instance* instance = best_match(likely, config, instances);
+    Instance* instance =
+        config.nearest_instance
+            ? nearest_match(id, map, co_observation, instances)
+            : best_match(count_likely(id, config, map, co_observation, instances), config, instances);
     if (instance == nullptr) instance = &instances.create(next_id++, map[id].likely_type(), stamp_ns);
     instances.add(*instance, id, map);
   }

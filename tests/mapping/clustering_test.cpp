@@ -64,6 +64,29 @@ TEST_P(BetaN, MoreVoxelsThanBetaNMustBeLikely) {
 
 INSTANTIATE_TEST_SUITE_P(Together, BetaN, ::testing::Values(1, 3, 4, 10));
 
+TEST_F(Clustering, TheNearestCoObservedInstanceIsTakenOnDemand) {
+  const auto near = row(0, 20), far = row(9, 20);
+  for (int i = 0; i < 5; ++i) {
+    see(near);
+    see(far);
+  }
+  auto both = near;
+  both.insert(both.end(), far.begin(), far.end());
+  cluster_now(both);
+  ASSERT_EQ(instances_.all().size(), 2U);
+  // Seen with one voxel of the near line, and with all of the far one.
+  const VoxelId candidate = map_.find_or_allocate({0, 1, 0});
+  auto seen = far;
+  seen.push_back(near.front());
+  seen.push_back(candidate);
+  for (int i = 0; i < 5; ++i) see(seen);
+  cluster_now({candidate});
+  EXPECT_EQ(map_[candidate].instance, map_[far.back()].instance);
+  config_.nearest_instance = true;
+  cluster_now({candidate});
+  EXPECT_EQ(map_[candidate].instance, map_[near.back()].instance);
+}
+
 TEST_F(Clustering, ARatioAboveBetaRIsEnoughInASmallInstance) {
   const auto line = row(0, 2);
   see(line);
