@@ -30,10 +30,12 @@ enum class Stage : std::uint8_t {
 inline constexpr std::size_t kStageCount = 13;
 const char* name(Stage stage);
 
-/// Told of every stage's end. Whoever implements it owns the clock; the mapper has none.
+/// Told of every update's begin and of its stages' ends. Whoever implements it owns the clock; the mapper has
+/// none.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
+  virtual void update_begins() = 0;
   virtual void stage_done(Stage stage) = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -56,6 +57,8 @@ class MappingSession {
 
   /// Told of the stages of every fused frame; may be null.
   void observe(StageObserver* observer);
+  /// Told of the map after every fused frame, where map() only shows the last one.
+  void observe(std::function<void(const FusedFrame&, const LocalMap&)> observer);
 
  private:
   struct State;

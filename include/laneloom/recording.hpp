@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "laneloom/counters.hpp"
 #include "laneloom/messages.hpp"
@@ -76,6 +77,16 @@ struct RecordedMessage {
   AnyMessage message;
 };
 
+/// A message as it was recorded, which need not be well formed.
+struct RawMessage {
+  std::int64_t log_time_ns = 0;
+  std::size_t topic = 0;  ///< index of its type in AnyMessage
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Whether the file begins as MCAP does. Throws std::runtime_error where it cannot be read.
+bool is_recording(const std::string& path);
+
 /// Reads a recording: any MCAP file, whoever wrote it, whole or cut off. Memory stays within the limits.
 /// Not thread-safe. All throw std::runtime_error naming file and offset when the file is malformed; next()
 /// may then be called again, and goes on behind what is damaged.
@@ -90,6 +101,8 @@ class RecordingReader {
 
   /// The next message in the order of log times (of equal ones: in the order of the file). None: the end.
   std::optional<RecordedMessage> next();
+  /// The same without a look into the message: of any that has the name and type of a topic of laneloom.
+  std::optional<RawMessage> next_raw();
 
   /// Messages that were passed over so far, as "<topic>: <reason>".
   const Counters& refused() const;

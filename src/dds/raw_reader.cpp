@@ -9,33 +9,13 @@
 #include <utility>
 
 #include "dds/participant_impl.hpp"
+#include "dds/raw_type.hpp"
 #include "dds/topic_traits.hpp"
 
 namespace laneloom::dds {
 
 using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::types::ReturnCode_t;
-
-namespace {
-
-using Bytes = std::vector<std::uint8_t>;
-
-/// The topic's type by name and size, whose samples are the payloads themselves.
-template <class CheckedType>
-class RawType : public CheckedType {
- public:
-  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
-
-  bool deserialize(Payload* payload, void* data) override {
-    static_cast<Bytes*>(data)->assign(payload->data, payload->data + payload->length);
-    return true;
-  }
-  bool serialize(void* /*data*/, Payload* /*payload*/) override { return false; }
-  void* createData() override { return new Bytes; }
-  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-};
-
-}  // namespace
 
 template <class T>
 class RawReader<T>::Impl : public DataReaderListener {

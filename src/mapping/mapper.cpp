@@ -112,6 +112,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   };
   auto& [frame_count, voxels, co_observation, instances, lines, pairs, known_lanes, published, next_id, map] =
       *state_;
+  if (observer != nullptr) observer->update_begins();
   const LocalRange range(config_.range, T_map_body);
   ++frame_count;
 

@@ -1,7 +1,10 @@
+#include <array>
 #include <utility>
 
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/recording.hpp"
+#include "recording/files.hpp"
+#include "recording/mcap_format.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/topics.hpp"
 
@@ -20,6 +23,14 @@ std::string_view refusal(const McapChannel& channel) {
 
 }  // namespace
 
+bool is_recording(const std::string& path) {
+  const InputFile file(path);
+  std::array<std::uint8_t, kMcapMagic.size()> begin{};
+  if (file.size() < begin.size()) return false;
+  file.read(0, begin);
+  return begin == kMcapMagic;
+}
+
 class RecordingReader::Impl {
  public:
   Impl(const std::string& path, std::string map_frame_id, const RecordingLimits& limits)
@@ -30,9 +41,23 @@ class RecordingReader::Impl {
       RecordedMessage recorded{static_cast<std::int64_t>(message->log_time_ns),
                                static_cast<std::int64_t>(message->publish_time_ns),
                                {}};
-      const std::string_view reason = convert(*message, recorded);
-      if (reason.empty()) return recorded;
-      refused_.add(message->channel->topic + ": " + std::string(reason));
+      const auto convert = [&]<class T>(std::in_place_type_t<T> /*type*/) {
+        return dds::from_cdr(message->data, map_frame_id_, recorded.message.emplace<T>());
+      };
+      if (accept(*message, convert)) return recorded;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<RawMessage> next_raw() {
+    while (const auto message = file_.next()) {
+      RawMessage raw{static_cast<std::int64_t>(message->log_time_ns), 0, {}};
+      const auto copy = [&]<class T>(std::in_place_type_t<T> type) {
+        raw.topic = AnyMessage(type).index();
+        raw.bytes.assign(message->data.begin(), message->data.end());
+        return std::string_view();
+      };
+      if (accept(*message, copy)) return raw;
     }
     return std::nullopt;
   }
@@ -42,18 +67,24 @@ class RecordingReader::Impl {
   double progress() const { return file_.progress(); }
 
  private:
-  std::string_view convert(const McapMessage& from, RecordedMessage& to) const {
-    return convert_if_of<DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus>(from, to);
+  /// Whether the message is one of laneloom's, and `take`, called with its type, names no reason against it.
+  template <class Take>
+  bool accept(const McapMessage& message, const Take& take) {
+    const auto reason =
+        take_if_of<Take, DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus>(message,
+                                                                                                 take);
+    if (reason.empty()) return true;
+    refused_.add(message.channel->topic + ": " + std::string(reason));
+    return false;
   }
 
-  template <class T, class... Others>
-  std::string_view convert_if_of(const McapMessage& from, RecordedMessage& to) const {
-    if (from.channel->topic == topic_of<T>().name) {
-      const auto reason = refusal<T>(*from.channel);
-      return reason.empty() ? dds::from_cdr(from.data, map_frame_id_, to.message.template emplace<T>())
-                            : reason;
+  template <class Take, class T, class... Others>
+  static std::string_view take_if_of(const McapMessage& message, const Take& take) {
+    if (message.channel->topic == topic_of<T>().name) {
+      const auto reason = refusal<T>(*message.channel);
+      return reason.empty() ? take(std::in_place_type<T>) : reason;
     }
-    if constexpr (sizeof...(Others) > 0) return convert_if_of<Others...>(from, to);
+    if constexpr (sizeof...(Others) > 0) return take_if_of<Take, Others...>(message, take);
     return kForeignTopic;
   }
 
@@ -70,6 +101,7 @@ RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = defaul
 RecordingReader::~RecordingReader() = default;
 
 std::optional<RecordedMessage> RecordingReader::next() { return impl_->next(); }
+std::optional<RawMessage> RecordingReader::next_raw() { return impl_->next_raw(); }
 const Counters& RecordingReader::refused() const { return impl_->refused(); }
 bool RecordingReader::cut_off() const { return impl_->cut_off(); }
 double RecordingReader::progress() const { return impl_->progress(); }

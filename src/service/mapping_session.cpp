@@ -53,6 +53,7 @@ struct MappingSession::State {
   Counters counters;
   Progress progress;
   StageObserver* observer = nullptr;
+  std::function<void(const FusedFrame&, const LocalMap&)> map_observer;
 };
 
 std::string_view MappingSession::State::add(const VehiclePose& pose) {
@@ -103,6 +104,7 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   newest_arrival_ns = synchronised.pending.arrival_ns;
   counters.add("frames_fused");
   progress.fused.push_back({frame.session_id, frame.sequence, frame.stamp_ns});
+  if (map_observer) map_observer(progress.fused.back(), map);
   progress.lineage.insert(progress.lineage.end(), map.lineage.begin(), map.lineage.end());
 }
 
@@ -142,5 +144,8 @@ std::size_t MappingSession::pending() const { return state_->synchroniser.pendin
 std::optional<std::int64_t> MappingSession::newest_arrival_ns() const { return state_->newest_arrival_ns; }
 const Counters& MappingSession::counters() const { return state_->counters; }
 void MappingSession::observe(StageObserver* observer) { state_->observer = observer; }
+void MappingSession::observe(std::function<void(const FusedFrame&, const LocalMap&)> observer) {
+  state_->map_observer = std::move(observer);
+}
 
 }  // namespace laneloom

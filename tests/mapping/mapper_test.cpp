@@ -196,11 +196,14 @@ TEST_P(EitherMapper, AfterAResetNoIdComesAgain) {
 
 TEST_P(EitherMapper, TellsTheObserverItsStagesInOrder) {
   struct Recorder : StageObserver {
+    void update_begins() override { ++updates; }
     void stage_done(Stage stage) override { stages.push_back(stage); }
     std::vector<Stage> stages;
+    int updates = 0;
   } recorder;
   Drive drive(GetParam());
   drive.step(road(), &recorder);
+  EXPECT_EQ(recorder.updates, 1);
   EXPECT_TRUE(std::ranges::is_sorted(recorder.stages));
   EXPECT_EQ(recorder.stages.size(), GetParam() == "lines" ? 9U : 10U);
   EXPECT_EQ(recorder.stages.front(), Stage::preprocess);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -33,7 +34,7 @@ struct Options {
   double speed_up = 1.0;
   double duration_s = 0.0;
   bool loop = false;
-  bool wait_for_reader = false;
+  int readers = 0;
   std::string truth, frames;
 };
 
@@ -53,7 +54,8 @@ class Publisher {
     if (!options.frames.empty()) record_ = std::make_unique<JsonLinesWriter>(options.frames);
   }
 
-  bool has_readers() const { return detections_.matched() > 0 && poses_.matched() > 0; }
+  /// Of the topic that has fewer.
+  int readers() const { return std::min(detections_.matched(), poses_.matched()); }
 
   /// Publishes what is due at the simulation's time of pose number `step`.
   void step(std::int64_t step) {
@@ -140,7 +142,7 @@ void publish(const Options& options) {
         fmt::format("the drive lasts {:.1f} s; drive on with --loop", road.drive.duration_s()));
   if (!options.truth.empty()) save_truth(options.truth, road);
   Publisher publisher(options, road);
-  while (options.wait_for_reader && !publisher.has_readers())
+  while (publisher.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return publisher.finish();
 
   const SteadyClock::time_point start = SteadyClock::now();
@@ -174,8 +176,10 @@ void add_publish(CLI::App& app) {
                     "Drive on for ever; where the drive does not end as it began, the pose jumps");
   command->add_option("--duration", options->duration_s, "Simulated seconds; default: the drive once")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--wait-for-reader", options->wait_for_reader,
-                    "Start when somebody reads detections and poses");
+  command
+      ->add_option("--wait-for-readers", options->readers,
+                   "Start when so many read the detections, and so many the poses")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   command->add_option("--frames", options->frames, "Detections and exact poses to write (.frames.jsonl)");
   command->add_flag_callback("--list", list, "List the built-in roads and kinds of noise")

@@ -1,30 +1,62 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
+#include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "commands/stage_timer.hpp"
-#include "io/json_lines.hpp"
+#include "commands/replay_report.hpp"
+#include "commands/score_table.hpp"
+#include "commands/stop_signal.hpp"
+#include "evaluation/map_evaluation.hpp"
 #include "laneloom/config_file.hpp"
-#include "laneloom/mapper.hpp"
+#include "replay/message_source.hpp"
+#include "replay/player.hpp"
+#include "replay/replay.hpp"
 
 namespace laneloom {
 namespace {
 
+using SteadyClock = std::chrono::steady_clock;
+
 struct Options {
-  std::string in, out, report, config_file, preset;
+  std::string in, report, preset, truth;
+  std::vector<std::string> config_files, out;
   RangeConfig range;
   bool range_given = false;
+  bool verify = false;
+  bool publish = false;
+  int readers = 0;
+  DdsConfig dds;
+  double speed_up = 1.0;
 };
 
-Config read_config(const Options& options) {
-  Config config = options.config_file.empty() ? Config{} : load_config(options.config_file);
+/// On a terminal, how far the reading is.
+class ProgressBar {
+ public:
+  void show(double share) {
+    const auto now = SteadyClock::now();
+    if (!visible_ || now < next_) return;
+    next_ = now + std::chrono::milliseconds(100);
+    constexpr int kWidth = 40;
+    const int done = static_cast<int>(share * kWidth);
+    fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} %", "", done, "", kWidth - done, 100.0 * share);
+    std::fflush(stderr);
+  }
+  void clear() const {
+    if (visible_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool visible_ = isatty(STDERR_FILENO) == 1;
+  SteadyClock::time_point next_;
+};
+
+Config read_config(const Options& options, const std::string& file) {
+  Config config = file.empty() ? Config{} : load_config(file);
   if (!options.preset.empty()) apply_preset(config, options.preset);
   if (options.range_given) {
     config.mapper.range.forward_min_m = options.range.forward_min_m;
@@ -35,79 +67,129 @@ Config read_config(const Options& options) {
   return config;
 }
 
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+void warn_of(const MessageSource& source, const std::string& path) {
+  const Counters refused = source.refused();
+  for (const auto& [what, count] : refused.values())
+    fmt::print(stderr, "laneloom: {}: {} messages passed over: {}\n", path, count, what);
+  if (source.cut_off()) fmt::print(stderr, "laneloom: {}: the recording is cut off\n", path);
 }
 
-void print_row(const char* name, const TimeSummary& time) {
-  fmt::print("{:<16} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f}\n", name, time.mean_ms, time.p50_ms, time.p99_ms,
-             time.max_ms);
-}
-
-void print_times(const StageTimer& timer) {
-  fmt::print("{:<16} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "mean", "p50", "p99", "max");
-  for (std::size_t i = 0; i < kStageCount; ++i)
-    print_row(name(static_cast<Stage>(i)), timer.stage(static_cast<Stage>(i)));
-  print_row("total", timer.total());
-}
-
-nlohmann::json to_json(const TimeSummary& time) {
-  return {{"mean", time.mean_ms}, {"p50", time.p50_ms}, {"p99", time.p99_ms}, {"max", time.max_ms}};
-}
-
-void write_report(const std::string& path, std::size_t frames, const StageTimer& timer) {
-  nlohmann::json report{{"frames", frames}, {"peak_rss_mb", peak_memory_mb()}};
-  report["ms"]["total"] = to_json(timer.total());
-  for (std::size_t i = 0; i < kStageCount; ++i)
-    report["ms"][name(static_cast<Stage>(i))] = to_json(timer.stage(static_cast<Stage>(i)));
-  std::ofstream out(path);
-  out << report.dump(2) << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written");
-}
-
-void replay(const Options& options) {
-  Mapper mapper(read_config(options).mapper);
-  JsonLinesReader in(options.in);
-  std::unique_ptr<JsonLinesWriter> out;
-  if (!options.out.empty()) out = std::make_unique<JsonLinesWriter>(options.out);
-  StageTimer timer;
-  std::size_t frames = 0;
-  std::int64_t last_stamp_ns = 0;
-  while (const std::optional<FrameRecord> record = in.next_frame()) {
-    if (frames > 0 && record->frame.stamp_ns <= last_stamp_ns)
-      throw std::runtime_error(
-          fmt::format("{}: frame {} is not later than the one before it", options.in, frames + 1));
-    last_stamp_ns = record->frame.stamp_ns;
-    timer.start_frame();
-    const LocalMap& map = mapper.update(record->frame, transform(record->pose), &timer);
-    timer.end_frame();
-    if (out) out->write(map);
-    ++frames;
+/// One configuration's replay of the whole input.
+ReplayResult run(const Options& options, const std::string& config_file, const std::string& out,
+                 const Road* truth) {
+  const Config config = read_config(options, config_file);
+  const std::unique_ptr<MessageSource> source = open_messages(options.in, config.dds.map_frame_id);
+  const std::unique_ptr<MapOutput> output = out.empty() ? nullptr : create_map_output(out);
+  std::unique_ptr<MapEvaluation> evaluation;
+  if (truth != nullptr)
+    evaluation = std::make_unique<MapEvaluation>(*truth, config.mapper.range, Subject::maps);
+  ReplayResult result;
+  result.name = config_file.empty() ? "default" : config_file;
+  const auto take_map = [&](const PublishedMap& map, std::int64_t log_time_ns) {
+    result.add(map.map);
+    if (output) output->write(map, log_time_ns);
+    if (options.verify) result.comparison.add_replayed(map);
+    if (evaluation) evaluation->add(map.map);
+  };
+  Replay replay(config, take_map, &result.timer);
+  ProgressBar bar;
+  const auto start = SteadyClock::now();
+  while (std::optional<RecordedMessage> message = source->next()) {
+    bar.show(source->progress());
+    if (options.verify) result.add_live(message->message);
+    replay.add(std::move(*message));
   }
-  if (out) out->close();
-  print_times(timer);
-  fmt::print("{} frames\n", frames);
-  if (!options.report.empty()) write_report(options.report, frames, timer);
+  if (output) output->close();
+  bar.clear();
+  result.elapsed_s = std::chrono::duration<double>(SteadyClock::now() - start).count();
+  result.hash = replay.hash();
+  result.counters = replay.counters();
+  result.pending = replay.pending();
+  if (evaluation) result.score = evaluation->score();
+  warn_of(*source, options.in);
+  return result;
+}
+
+void check_live(const ReplayResult& result) {
+  const LiveComparison::Result live = result.comparison.result();
+  fmt::print("live messages: {} equal, {} different, {} missing\n", live.equal, live.different, live.missing);
+  if (live.equal + live.different + live.missing == 0)
+    throw std::runtime_error("the recording has no maps of a live service to compare with");
+  if (!live.holds()) throw CLI::RuntimeError("", 1);
+}
+
+void replay(Options& options) {
+  if (!options.out.empty() && options.out.size() != std::max<std::size_t>(1, options.config_files.size()))
+    throw std::runtime_error("replay: --out is needed once per --config, or not at all");
+  if (options.config_files.empty()) options.config_files.emplace_back();
+  std::unique_ptr<const Road> truth;
+  if (!options.truth.empty()) truth = std::make_unique<const Road>(load_truth(options.truth));
+  std::vector<ReplayResult> results;
+  for (std::size_t i = 0; i < options.config_files.size(); ++i)
+    results.push_back(run(options, options.config_files[i],
+                          options.out.empty() ? std::string() : options.out[i], truth.get()));
+  for (const ReplayResult& result : results) print_result(result);
+  if (results.size() > 1) print_comparison(results);
+  if (truth) {
+    std::vector<NamedScore> scores;
+    for (const ReplayResult& result : results) scores.emplace_back(result.name, result.score);
+    fmt::print("{}", score_table(scores));
+  }
+  if (!options.report.empty()) write_report(options.report, results);
+  if (options.verify) {
+    for (const ReplayResult& result : results) check_live(result);
+  }
+}
+
+void play(const Options& options) {
+  catch_stop_signals();
+  const std::unique_ptr<MessageSource> source = open_messages(options.in, options.dds.map_frame_id);
+  Player player(options.dds, options.speed_up);
+  while (player.readers() < options.readers)
+    if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
+  ProgressBar bar;
+  while (const std::optional<RawMessage> message = source->next_raw()) {
+    if (!sleep_until(player.due(*message))) break;
+    player.publish(*message);
+    bar.show(source->progress());
+  }
+  bar.clear();
+  warn_of(*source, options.in);
+  fmt::print("{} detections and {} poses published", player.detections(), player.poses());
+  if (player.not_taken() > 0) fmt::print(", {} messages not taken by DDS", player.not_taken());
+  fmt::print("\n");
 }
 
 }  // namespace
 
 void add_replay(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("replay", "Fuses recorded detections into maps, without DDS");
+  CLI::App* command =
+      app.add_subcommand("replay", "Fuses recorded detections into maps, or publishes them again");
   const auto options = std::make_shared<Options>();
-  command->add_option("--in", options->in, "Detections and poses (.frames.jsonl)")->required();
-  command->add_option("--out", options->out, "Maps to write, one a frame (.jsonl)");
+  command->add_option("--in", options->in, "Recording (MCAP), or detections and poses (.frames.jsonl)")
+      ->required();
+  command->add_option("--out", options->out, "Maps to write, one a frame: .mcap, else JSON lines");
   command->add_option("--report", options->report, "Timing report to write (.json)");
-  command->add_option("--config", options->config_file, "Configuration (.yaml)");
+  command->add_option("--config", options->config_files, "Configuration (.yaml); several are compared");
   command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
       ->check(CLI::IsMember({"inhouse", "av2"}));
+  command->add_option("--truth", options->truth, "Truth of the road (.json), to rate the maps by");
+  command->add_flag("--verify", options->verify,
+                    "Fail unless the maps equal those that a live service published");
   const CLI::Option* range = add_range(*command, options->range);
+  CLI::Option* publish = command->add_flag("--publish", options->publish,
+                                           "Publish the detections and poses on DDS, as they came");
+  command->add_option("--speed-up", options->speed_up, "With --publish: recorded seconds per second")
+      ->check(CLI::Range(0.01, 100.0))
+      ->needs(publish)
+      ->capture_default_str();
+  command->add_option("--wait-for-readers", options->readers, "With --publish: start when so many read")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(publish);
+  add_dds(*command, options->dds);
   command->callback([options, range] {
     options->range_given = range->count() > 0;
-    replay(*options);
+    options->publish ? play(*options) : replay(*options);
   });
 }
 

@@ -25,23 +25,27 @@ TimeSummary summarise(std::vector<double> values_ms) {
 
 }  // namespace
 
-void StageTimer::start_frame() {
+void StageTimer::update_begins() {
   for (std::vector<double>& stage_ms : stages_ms_) stage_ms.push_back(0.0);
-  frame_start_ = stage_start_ = Clock::now();
+  total_ms_.push_back(0.0);
+  stage_start_ = Clock::now();
 }
 
 void StageTimer::stage_done(Stage stage) {
   const Clock::time_point now = Clock::now();
-  stages_ms_.at(static_cast<std::size_t>(stage)).back() += milliseconds(now - stage_start_);
+  const auto i = static_cast<std::size_t>(stage);
+  stages_ms_.at(i).back() += milliseconds(now - stage_start_);
+  total_ms_.back() += milliseconds(now - stage_start_);
+  reached_.at(i) = true;
   stage_start_ = now;
 }
-
-void StageTimer::end_frame() { total_ms_.push_back(milliseconds(Clock::now() - frame_start_)); }
 
 TimeSummary StageTimer::stage(Stage stage) const {
   return summarise(stages_ms_.at(static_cast<std::size_t>(stage)));
 }
 
 TimeSummary StageTimer::total() const { return summarise(total_ms_); }
+
+bool StageTimer::reached(Stage stage) const { return reached_.at(static_cast<std::size_t>(stage)); }
 
 }  // namespace laneloom

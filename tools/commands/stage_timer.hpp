@@ -12,18 +12,20 @@ namespace laneloom {
 /// Measures the mapper's stages, frame by frame.
 class StageTimer : public StageObserver {
  public:
-  void start_frame();
+  void update_begins() override;
   void stage_done(Stage stage) override;
-  void end_frame();
 
   /// Over all frames. What a frame did not reach counts as no time.
   TimeSummary stage(Stage stage) const;
   TimeSummary total() const;
+  /// Whether any frame reached it.
+  bool reached(Stage stage) const;
 
  private:
   using Clock = std::chrono::steady_clock;
-  Clock::time_point frame_start_, stage_start_;
+  Clock::time_point stage_start_;
   std::array<std::vector<double>, kStageCount> stages_ms_;
+  std::array<bool, kStageCount> reached_{};
   std::vector<double> total_ms_;
 };
 

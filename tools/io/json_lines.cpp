@@ -1,5 +1,6 @@
 #include "io/json_lines.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace laneloom {
@@ -12,6 +13,13 @@ constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
 JsonLinesReader::JsonLinesReader(const std::filesystem::path& path) : path_(path), in_(path) {
   if (!in_ || std::filesystem::is_directory(path))
     throw std::runtime_error(path.string() + ": cannot be read");
+  std::error_code not_a_file;  // a pipe has no size
+  size_ = std::filesystem::file_size(path, not_a_file);
+  if (not_a_file) size_ = 0;
+}
+
+double JsonLinesReader::progress() const {
+  return size_ > 0 ? std::min(1.0, static_cast<double>(bytes_read_) / static_cast<double>(size_)) : 0.0;
 }
 
 std::optional<FrameRecord> JsonLinesReader::next_frame() {
@@ -44,6 +52,7 @@ bool JsonLinesReader::next_line() {
       if (line_.size() == kMaxLineBytes) throw error("the line is too long");
       line_.push_back(static_cast<char>(c));
     }
+    bytes_read_ += line_.size() + 1;
   } while (line_.find_first_not_of(" \t\r") == std::string::npos);
   return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -69,12 +70,17 @@ class JsonLinesReader {
   std::optional<FrameRecord> next_frame();
   std::optional<LocalMap> next_map();
 
+  /// How much of the file was read, from 0 to 1.
+  double progress() const;
+
  private:
   bool next_line();
   std::runtime_error error(const std::string& complaint) const;
 
   std::filesystem::path path_;
   std::ifstream in_;
+  std::uintmax_t size_ = 0;
+  std::uintmax_t bytes_read_ = 0;
   std::string line_;
   std::size_t number_ = 0;
 };

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "laneloom/dds/participant.hpp"
+
+namespace laneloom::dds {
+
+/// Writes the topic of T (as for Writer) from messages as they go over the wire, well-formed or not: what a
+/// RawReader once received. No RawWriter shares its topic with another reader or writer of one participant.
+/// Not thread-safe; throws std::runtime_error when it can't be made.
+template <class T>
+class RawWriter {
+ public:
+  explicit RawWriter(const Participant& participant);
+  RawWriter(RawWriter&&) noexcept;
+  RawWriter& operator=(RawWriter&&) noexcept;
+  ~RawWriter();
+
+  /// False when DDS did not take it, as when it is longer than any message of the topic can be.
+  bool write(const std::vector<std::uint8_t>& message);
+  /// Readers that are matched now. May be called from any thread.
+  int matched() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace laneloom::dds

@@ -1,0 +1,168 @@
+#include "replay/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "io/json_lines.hpp"
+#include "recording/temporary_folder.hpp"
+#include "replay/message_source.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+VehiclePose pose_at(std::int64_t stamp_ms) {
+  return {.stamp_ns = stamp_ms * kMs,
+          .sequence = static_cast<std::uint64_t>(stamp_ms),
+          .session_id = 1,
+          .position = {0.01 * static_cast<double>(stamp_ms), 0.0, 0.0}};
+}
+
+DetectionFrame frame_at(std::int64_t stamp_ms) {
+  DetectionFrame frame{.stamp_ns = stamp_ms * kMs,
+                       .sequence = static_cast<std::uint64_t>(stamp_ms),
+                       .session_id = 1,
+                       .source = "test"};
+  const double wobble_m = 0.03 * static_cast<double>(stamp_ms / 100 % 5);
+  for (const double y : {-1.75, 1.75})
+    frame.detections.push_back(Detection{.confidence = 0.9, .points = {{0, y + wobble_m, 0}, {25, y, 0}}});
+  return frame;
+}
+
+RecordedMessage message(AnyMessage content, std::int64_t log_time_ms) {
+  return {log_time_ms * kMs, log_time_ms * kMs, std::move(content)};
+}
+
+std::vector<PublishedMap> maps_of(const std::vector<RecordedMessage>& messages) {
+  std::vector<PublishedMap> maps;
+  Replay replay(Config{}, [&](const PublishedMap& map, std::int64_t /*log_time*/) { maps.push_back(map); });
+  for (const RecordedMessage& m : messages) replay.add(m);
+  return maps;
+}
+
+TEST(Replay, GivesAMapPerFrameAlsoWhenOnePoseCompletesSeveral) {
+  std::vector<RecordedMessage> messages{message(pose_at(1000), 1000)};
+  for (const int stamp_ms : {1010, 1020, 1030}) messages.push_back(message(frame_at(stamp_ms), stamp_ms + 5));
+  messages.push_back(message(pose_at(1040), 1045));
+  const auto maps = maps_of(messages);
+  ASSERT_EQ(maps.size(), 3U);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const std::int64_t stamp_ms = 1010 + 10 * static_cast<std::int64_t>(i);
+    EXPECT_EQ(maps[i].sequence, i);
+    EXPECT_EQ(maps[i].map.stamp_ns, stamp_ms * kMs);
+    EXPECT_EQ(maps[i].published_ns, 1045 * kMs);
+    ASSERT_EQ(maps[i].fused_frames.size(), 1U);
+    EXPECT_EQ(maps[i].fused_frames[0].sequence, static_cast<std::uint64_t>(stamp_ms));
+    EXPECT_DOUBLE_EQ(maps[i].age_s, 1e-3 * static_cast<double>(1045 - stamp_ms - 5));
+  }
+}
+
+TEST(Replay, AFrameWhosePosesComeTooLateIsRefusedByTheRecordedTime) {
+  Replay replay(Config{}, [](const PublishedMap& /*map*/, std::int64_t /*log_time*/) { FAIL(); });
+  replay.add(message(pose_at(1000), 1000));
+  replay.add(message(frame_at(1005), 1005));
+  replay.add(message(pose_at(1010), 9000));
+  EXPECT_EQ(replay.counters()["detections_refused_unsynchronised"], 1U);
+}
+
+/// A second's drive.
+std::vector<FrameRecord> drive() {
+  std::vector<FrameRecord> records;
+  for (std::int64_t stamp_ms = 10'000; stamp_ms < 11'000; stamp_ms += 100)
+    records.push_back({frame_at(stamp_ms), pose_at(stamp_ms)});
+  return records;
+}
+
+std::string hash_of(const std::string& path) {
+  Replay replay(Config{}, [](const PublishedMap& /*map*/, std::int64_t /*log_time*/) {});
+  const auto source = open_messages(path, "map");
+  while (auto next = source->next()) replay.add(std::move(*next));
+  EXPECT_EQ(source->progress(), 1.0);
+  EXPECT_EQ(replay.counters()["frames_fused"], 10U);
+  return replay.hash();
+}
+
+TEST(Replay, JsonLinesAndRecordingsOfOneDriveHaveOneHash) {
+  const TemporaryFolder folder;
+  JsonLinesWriter lines(folder.file("drive.jsonl"));
+  RecordingWriter recording(folder.file("drive.mcap"));
+  for (const FrameRecord& record : drive()) {
+    lines.write(record);
+    // Arrival is another one than in the lines, and does not matter.
+    recording.write(record.frame, record.frame.stamp_ns + 50 * kMs);
+    recording.write(record.pose, record.frame.stamp_ns + 60 * kMs);
+  }
+  lines.close();
+  recording.close();
+  const std::string hash = hash_of(folder.file("drive.jsonl"));
+  EXPECT_EQ(hash.size(), 32U);
+  EXPECT_EQ(hash_of(folder.file("drive.mcap")), hash);
+}
+
+TEST(Replay, RawMessagesOfLinesAreThoseOfTheirRecording) {
+  const TemporaryFolder folder;
+  JsonLinesWriter lines(folder.file("drive.jsonl"));
+  RecordingWriter recording(folder.file("drive.mcap"));
+  for (const FrameRecord& record : drive()) {
+    lines.write(record);
+    recording.write(record.pose, record.pose.stamp_ns);
+    recording.write(record.frame, record.frame.stamp_ns);
+  }
+  lines.close();
+  recording.close();
+  const auto from_lines = open_messages(folder.file("drive.jsonl"), "map");
+  const auto recorded = open_messages(folder.file("drive.mcap"), "map");
+  int count = 0;
+  while (const auto raw = recorded->next_raw()) {
+    const auto other = from_lines->next_raw();
+    ASSERT_TRUE(other);
+    EXPECT_EQ(raw->topic, other->topic);
+    EXPECT_EQ(raw->bytes, other->bytes);
+    EXPECT_EQ(raw->log_time_ns, other->log_time_ns);
+    ++count;
+  }
+  EXPECT_EQ(count, 20);
+  EXPECT_FALSE(from_lines->next_raw());
+}
+
+TEST(LiveComparison, TellsEqualDifferentAndMissing) {
+  PublishedMap replayed;
+  replayed.map.stamp_ns = 100;
+  replayed.map.boundaries.push_back(Marking{.id = 7, .points = {{0, 0, 0}, {1, 0, 0}}});
+  replayed.map.T_map_body.rotate(Eigen::AngleAxisd(0.3, Point::UnitZ()));
+  PublishedMap live = replayed;
+  live.sequence = 55;
+  live.session_id = 9;
+  live.age_s = 0.1;
+  live.map.lineage.push_back({LineageEvent::Kind::born, 7, kNoElement});
+
+  LiveComparison same;
+  same.add_replayed(replayed);
+  same.add_live(live);
+  EXPECT_TRUE(same.result().holds());
+  EXPECT_EQ(same.result().equal, 1U);
+
+  LiveComparison changed;
+  changed.add_replayed(replayed);
+  live.map.boundaries[0].points[1].y() += 1e-12;
+  changed.add_live(live);
+  EXPECT_EQ(changed.result().different, 1U);
+  live.map.stamp_ns = 200;
+  changed.add_live(live);
+  EXPECT_EQ(changed.result().missing, 1U);
+  EXPECT_FALSE(changed.result().holds());
+  EXPECT_FALSE(LiveComparison().result().holds());
+
+  LiveComparison markings;
+  replayed.map.instances = replayed.map.boundaries;
+  markings.add_replayed(replayed);
+  RoadMarkings other{.stamp_ns = 100, .instances = replayed.map.instances};
+  other.instances[0].id = 8;
+  markings.add_live(other);
+  EXPECT_EQ(markings.result().different, 1U);
+}
+
+}  // namespace
+}  // namespace laneloom

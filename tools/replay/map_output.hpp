@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "laneloom/messages.hpp"
+
+namespace laneloom {
+
+/// 128 bits of XXH3, as 32 hexadecimal digits.
+class Digest {
+ public:
+  Digest();
+  Digest(Digest&&) noexcept;
+  Digest& operator=(Digest&&) noexcept;
+  ~Digest();
+
+  void add(const std::vector<std::uint8_t>& bytes);
+  std::string text() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Where a replay's maps go. Not thread-safe.
+class MapOutput {
+ public:
+  virtual ~MapOutput() = default;
+  /// Throw std::runtime_error naming the file when it cannot be written.
+  virtual void write(const PublishedMap& map, std::int64_t log_time_ns) = 0;
+  virtual void close() = 0;
+};
+
+/// A recording where `path` ends with ".mcap", else JSON lines.
+std::unique_ptr<MapOutput> create_map_output(const std::string& path);
+
+/// The message that goes with the map on the topic road_markings.
+RoadMarkings road_markings(const PublishedMap& map);
+
+}  // namespace laneloom

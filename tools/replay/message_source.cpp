@@ -1,0 +1,68 @@
+#include "replay/message_source.hpp"
+
+#include <array>
+#include <fstream>
+#include <utility>
+
+#include "io/json_lines.hpp"
+#include "laneloom/dds/cdr.hpp"
+
+namespace laneloom {
+namespace {
+
+class McapMessages : public MessageSource {
+ public:
+  McapMessages(const std::string& path, const std::string& map_frame_id) : reader_(path, map_frame_id) {}
+
+  std::optional<RecordedMessage> next() override { return reader_.next(); }
+  std::optional<RawMessage> next_raw() override { return reader_.next_raw(); }
+  double progress() const override { return reader_.progress(); }
+  Counters refused() const override { return reader_.refused(); }
+  bool cut_off() const override { return reader_.cut_off(); }
+
+ private:
+  RecordingReader reader_;
+};
+
+class JsonLinesMessages : public MessageSource {
+ public:
+  JsonLinesMessages(const std::string& path, std::string map_frame_id)
+      : reader_(path), map_frame_id_(std::move(map_frame_id)) {}
+
+  std::optional<RecordedMessage> next() override {
+    if (frame_) {
+      const std::int64_t stamp_ns = frame_->stamp_ns;
+      return RecordedMessage{stamp_ns, stamp_ns, *std::exchange(frame_, std::nullopt)};
+    }
+    std::optional<FrameRecord> record = reader_.next_frame();
+    if (!record) return std::nullopt;
+    frame_ = std::move(record->frame);
+    return RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
+  }
+
+  std::optional<RawMessage> next_raw() override {
+    const std::optional<RecordedMessage> message = next();
+    if (!message) return std::nullopt;
+    RawMessage raw{message->log_time_ns, message->message.index(), {}};
+    std::visit([&](const auto& m) { dds::to_cdr(m, map_frame_id_, raw.bytes); }, message->message);
+    return raw;
+  }
+
+  double progress() const override { return reader_.progress(); }
+  Counters refused() const override { return {}; }
+  bool cut_off() const override { return false; }
+
+ private:
+  JsonLinesReader reader_;
+  std::string map_frame_id_;
+  std::optional<DetectionFrame> frame_;  ///< whose pose was given out
+};
+
+}  // namespace
+
+std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id) {
+  if (is_recording(path)) return std::make_unique<McapMessages>(path, map_frame_id);
+  return std::make_unique<JsonLinesMessages>(path, map_frame_id);
+}
+
+}  // namespace laneloom

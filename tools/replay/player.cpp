@@ -1,0 +1,39 @@
+#include "replay/player.hpp"
+
+#include <cmath>
+
+namespace laneloom {
+namespace {
+
+template <class T>
+bool is(const RawMessage& message) {
+  static const std::size_t topic = AnyMessage(std::in_place_type<T>).index();
+  return message.topic == topic;
+}
+
+}  // namespace
+
+Player::Player(const DdsConfig& dds, double speed_up)
+    : participant_(dds, "laneloom replay"),
+      detections_(participant_),
+      poses_(participant_),
+      speed_up_(speed_up) {}
+
+std::chrono::steady_clock::time_point Player::due(const RawMessage& message) {
+  if (!first_ns_) {
+    first_ns_ = message.log_time_ns;
+    start_ = std::chrono::steady_clock::now();
+  }
+  const double elapsed_ns = static_cast<double>(message.log_time_ns - *first_ns_) / speed_up_;
+  return start_ + std::chrono::nanoseconds(std::llround(elapsed_ns));
+}
+
+void Player::publish(const RawMessage& message) {
+  if (is<DetectionFrame>(message)) {
+    ++(detections_.write(message.bytes) ? detections_published_ : not_taken_);
+  } else if (is<VehiclePose>(message)) {
+    ++(poses_.write(message.bytes) ? poses_published_ : not_taken_);
+  }
+}
+
+}  // namespace laneloom

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "laneloom/dds/raw_writer.hpp"
+#include "laneloom/recording.hpp"
+
+namespace laneloom {
+
+/// Publishes recorded detections and poses again, byte for byte, as their participants did. Not thread-safe.
+class Player {
+ public:
+  /// `speed_up`: recorded seconds per second. Throws std::runtime_error where DDS refuses.
+  Player(const DdsConfig& dds, double speed_up);
+
+  /// Of the topic that has fewer.
+  int readers() const { return std::min(detections_.matched(), poses_.matched()); }
+
+  /// When the message is due: the first one now, the others as long after it as they were recorded.
+  std::chrono::steady_clock::time_point due(const RawMessage& message);
+  /// Other topics than the inputs are passed over.
+  void publish(const RawMessage& message);
+
+  std::uint64_t detections() const { return detections_published_; }
+  std::uint64_t poses() const { return poses_published_; }
+  std::uint64_t not_taken() const { return not_taken_; }  ///< by DDS
+
+ private:
+  dds::Participant participant_;
+  dds::RawWriter<DetectionFrame> detections_;
+  dds::RawWriter<VehiclePose> poses_;
+  double speed_up_;
+  std::optional<std::int64_t> first_ns_;
+  std::chrono::steady_clock::time_point start_;
+  std::uint64_t detections_published_ = 0, poses_published_ = 0, not_taken_ = 0;
+};
+
+}  // namespace laneloom

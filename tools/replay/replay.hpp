@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "laneloom/config.hpp"
+#include "laneloom/mapping_session.hpp"
+#include "laneloom/recording.hpp"
+#include "replay/map_output.hpp"
+
+namespace laneloom {
+
+/// A map as the service publishes it, from a session that fused `fused` last.
+using MapTaker = std::function<void(const PublishedMap& map, std::int64_t log_time_ns)>;
+
+/// Does with recorded messages what the service did with them when they arrived, and gives one map per fused
+/// frame. The log times are its clock. Not thread-safe.
+class Replay {
+ public:
+  /// `config` must be valid. `observer` may be null.
+  Replay(const Config& config, MapTaker take_map, StageObserver* observer = nullptr);
+
+  void add(RecordedMessage message);
+
+  const Counters& counters() const { return session_.counters(); }
+  std::size_t pending() const { return session_.pending(); }
+  /// Of all maps so far, with their instances, as they go over the wire; but the times of arrival are left
+  /// out.
+  std::string hash() const { return digest_.text(); }
+
+ private:
+  void publish(const FusedFrame& fused, const LocalMap& map);
+
+  std::string map_frame_id_;
+  MappingSession session_;
+  MapTaker take_map_;
+  std::int64_t now_ns_ = 0;
+  std::uint64_t maps_ = 0;
+  Digest digest_;
+  std::vector<std::uint8_t> cdr_;  // kept, so that its memory is used again
+};
+
+/// Compares maps that the live service published with those of a replay, by their stamps. What tells of the
+/// publication and not of the map is left out: sequence, session, age, state, and the lineage, which covers
+/// all frames since the map before.
+class LiveComparison {
+ public:
+  void add_live(const PublishedMap& map);
+  void add_live(const RoadMarkings& markings);
+  void add_replayed(const PublishedMap& map);
+
+  struct Result {
+    std::size_t equal = 0, different = 0, missing = 0;  ///< of the live messages
+    bool holds() const { return equal > 0 && different == 0 && missing == 0; }
+  };
+  Result result() const;
+
+ private:
+  using Digests = std::map<std::int64_t, std::string>;  ///< by stamp
+  Digests live_maps_, live_markings_, maps_, markings_;
+};
+
+}  // namespace laneloom
