@@ -15,6 +15,8 @@ int run(int argc, char** argv) {
   laneloom::add_render(app);
   laneloom::add_evaluate(app);
   laneloom::add_simulate(app);
+  laneloom::add_calibrate(app);
+  laneloom::add_experiment(app);
   laneloom::add_replay(app);
   laneloom::add_record(app);
   try {

@@ -14,6 +14,8 @@ void add_pnc(CLI::App& app);
 void add_render(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
+void add_calibrate(CLI::App& app);
+void add_experiment(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_record(CLI::App& app);
 

@@ -118,6 +118,20 @@ void AveragePrecisionMeter::add(const FrameComparison& frame, const std::vector<
   for (std::size_t i = 0; i < kLineKindCount; ++i) add_kind(frame.by_kind[i], predictions, kinds_[i]);
 }
 
+void AveragePrecisionMeter::add(const AveragePrecisionMeter& other) {
+  const auto append = [](const std::vector<RatedLine>& from, std::vector<RatedLine>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (std::size_t i = 0; i < kLineKindCount; ++i) {
+    kinds_[i].truths += other.kinds_[i].truths;
+    for (std::size_t t = 0; t < kApThresholds_m.size(); ++t) {
+      append(other.kinds_[i].thresholds[t].rated, kinds_[i].thresholds[t].rated);
+      append(other.kinds_[i].thresholds[t].consistent, kinds_[i].thresholds[t].consistent);
+    }
+  }
+  has_ids_ = has_ids_ || other.has_ids_;
+}
+
 double AveragePrecisionMeter::ap(LineKind kind, std::size_t threshold) const {
   const KindState& state = kinds_[index(kind)];
   return average_precision(state.thresholds[threshold].rated, state.truths);

@@ -39,6 +39,8 @@ double average_precision(std::vector<RatedLine> lines, std::size_t truths);
 class AveragePrecisionMeter {
  public:
   void add(const FrameComparison& frame, const std::vector<KindLine>& predictions);
+  /// The ratings of another drive.
+  void add(const AveragePrecisionMeter& other);
   std::size_t truths(LineKind kind) const { return kinds_[index(kind)].truths; }
   bool has_ids() const { return has_ids_; }
   double ap(LineKind kind, std::size_t threshold) const;    ///< index into kApThresholds_m

@@ -12,6 +12,9 @@ namespace laneloom {
 class Distribution {
  public:
   void add(double value) { values_.push_back(value); }
+  void add(const Distribution& other) {
+    values_.insert(values_.end(), other.values_.begin(), other.values_.end());
+  }
   std::size_t count() const { return values_.size(); }
   double mean() const {
     return values_.empty()

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "evaluation/average_precision.hpp"
 #include "evaluation/evaluation.hpp"
 #include "evaluation/kind_lines.hpp"
@@ -13,6 +15,21 @@ namespace laneloom {
 
 /// What is evaluated. Detections know no lanes, so that they can miss none.
 enum class Subject : std::uint8_t { maps, detections };
+
+/// The outcome of an evaluation. Those of several drives add up.
+struct Measures {
+  MapScore score;
+  std::array<Stability, kLineKindCount> stability;
+  Trust markings, lanes;
+  StyleScore styles;
+  TopologyScore topology;
+  TopLl top_ll;
+  AveragePrecisionMeter average_precision;
+
+  /// Of lanelines, roadedges and stoplines together.
+  Stability markings_stability() const;
+  Measures& operator+=(const Measures& other);
+};
 
 /// Every measure of a sequence of maps, or of single detections. Not thread-safe.
 class MapEvaluation {
@@ -30,6 +47,7 @@ class MapEvaluation {
   const StyleScore& styles() const { return styles_; }
   const TopologyScore& topology() const { return topology_; }
   const TopLl& top_ll() const { return top_ll_; }
+  Measures measures() const;
 
  private:
   FrameComparison add_lines(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_body,

@@ -99,19 +99,24 @@ void LineNoise::step(double dt_s, const NoiseProfile& noise, double distance_m, 
   wrong_style_.step(dt_s, noise.style_wrong_share, noise.style_wrong_dwell_s, random);
 }
 
+double LineNoise::error_factor(const NoiseProfile& noise) const {
+  return noise.error_factor.at(index(type_)) * (poor_.on() ? noise.poor_factor : 1.0);
+}
+
 Polyline LineNoise::displaced(const Polyline& truth, const NoiseProfile& noise, Random& random) const {
   const MeasuredPolyline measured(truth);
   Polyline line = densified(measured.points(), kDenseStep_m);
   const std::vector<double> arcs_m = arc_lengths(line);
   const double nearest_m = arcs_m[nearest_to_body(line)];
-  const double factor = poor_.on() ? noise.poor_factor : 1.0;
+  const double factor = error_factor(noise);
+  const double flutter_m = noise.flutter_stddev_m * random.normal();
   const double slope = factor * rotation_.value() * noise.rotation_stddev_deg * kDegree;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const double arc_m = arcs_m[i];
     const double range_m = line[i].head<2>().norm();
     const double left_m =
         factor * offset_.value() * (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m) +
-        slope * (arc_m - nearest_m) + noise.point_stddev_m * random.normal() +
+        slope * (arc_m - nearest_m) + flutter_m + noise.point_stddev_m * random.normal() +
         noise.end_swing_stddev_m *
             (first_swing_.value() * end_weight(arc_m, noise.end_reach_m) +
              last_swing_.value() * end_weight(measured.length() - arc_m, noise.end_reach_m));
@@ -138,9 +143,8 @@ Polyline LineNoise::with_shifted_ends(const Polyline& line, const NoiseProfile& 
 double LineNoise::confidence(const Polyline& line, const NoiseProfile& noise, Random& random) const {
   double range_m = std::numeric_limits<double>::infinity();
   for (const Point& p : line) range_m = std::min(range_m, p.head<2>().norm());
-  const double factor = poor_.on() ? noise.poor_factor : 1.0;
-  const double error_m =
-      factor * std::abs(offset_.value()) * (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m);
+  const double error_m = error_factor(noise) * std::abs(offset_.value()) *
+                         (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m);
   // Half of its scatter stays with the line, half is every frame's own.
   const double scatter = noise.confidence_stddev * std::numbers::sqrt2 / 2.0;
   return std::clamp(noise.confidence - noise.confidence_per_m * range_m -

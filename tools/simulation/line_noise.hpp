@@ -22,6 +22,7 @@ class LineNoise {
                                 Random& random) const;
 
  private:
+  double error_factor(const NoiseProfile& noise) const;
   double missed_share(const NoiseProfile& noise, double distance_m) const;
   Polyline displaced(const Polyline& truth, const NoiseProfile& noise, Random& random) const;
   Polyline with_shifted_ends(const Polyline& line, const NoiseProfile& noise) const;

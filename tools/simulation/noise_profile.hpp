@@ -21,6 +21,8 @@ struct NoiseProfile {
   double poor_share = 0.0;
   double poor_dwell_s = 1.0;
   double poor_factor = 1.0;
+  std::array<double, kMarkingTypeCount> error_factor{1.0, 1.0, 1.0};  ///< of all of these, by marking type
+  double flutter_stddev_m = 0.0;  ///< the line as a whole, in every frame for itself
 
   // A line's ends.
   double end_swing_stddev_m = 0.0;  ///< lateral, fading over the last `end_reach_m`
@@ -53,8 +55,8 @@ struct NoiseProfile {
   double zigzag_stddev_m = 0.6;
 
   // What is not there.
-  double ghost_rate_hz = 0.0;               ///< new ones per second
-  double intersection_ghost_rate_hz = 0.0;  ///< more, while an intersection is in view
+  std::array<double, kMarkingTypeCount> ghost_rate_hz{};  ///< new ones per second, by marking type
+  double intersection_ghost_rate_hz = 0.0;                ///< more, while an intersection is in view
   double ghost_dwell_s = 0.4;
 
   // Other road users before the line.

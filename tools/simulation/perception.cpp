@@ -53,6 +53,7 @@ DetectionFrame Perception::observe(const VehiclePose& pose) {
   const double dt_s = step_time(pose.stamp_ns);
   step_frame_error(dt_s);
   occluders_.step(dt_s, noise_, random_);
+  sources_.clear();
   DetectionFrame frame;
   frame.stamp_ns = pose.stamp_ns;
   frame.sequence = ++sequence_;
@@ -120,7 +121,7 @@ void Perception::detect_markings(const VehiclePose& pose, double dt_s, Detection
       for (const Polyline& part : occluders_.visible_parts(piece.points)) {
         if (part.size() < 2 || length(part) < kMinLength_m) continue;
         for (const Detection& detection : track.noise.detect(part, markings_[i].style, noise_, random_))
-          add(detection, frame);
+          add(detection, markings_[i].id, frame);
       }
     }
   }
@@ -133,27 +134,31 @@ void Perception::step_ghosts(const VehiclePose& pose, double dt_s) {
   for (const ViewedLine& crossing : crossings_) {
     if (crossing.may_be_near(pose.position, view_.side_max_m)) in_view.push_back(&crossing);
   }
-  const auto appear = [&](Polyline points_map) {
-    const bool edge = random_.chance(0.4);
-    const double confidence = std::clamp(noise_.ghost_confidence + 0.15 * random_.normal(), 0.02, 1.0);
-    ghosts_.push_back({std::move(points_map),
-                       {.type = edge && view_.detects(MarkingType::roadedge) ? MarkingType::roadedge
-                                                                             : MarkingType::laneline,
-                        .style = edge || random_.chance(0.5) ? MarkingStyle::solid : MarkingStyle::dashed,
-                        .confidence = confidence,
-                        .points = {},
-                        .stddev_m = {}}});
-  };
   // At intersections networks go on with lines where none are.
   if (random_.chance(noise_.intersection_ghost_rate_hz * dt_s) && !in_view.empty())
-    appear(in_view[random_.below(in_view.size())]->line.points());
-  if (random_.chance(noise_.ghost_rate_hz * dt_s)) {
+    appear(random_.chance(0.4) ? MarkingType::roadedge : MarkingType::laneline,
+           in_view[random_.below(in_view.size())]->line.points());
+  for (const MarkingType type : kMarkingTypes) {
+    if (!random_.chance(noise_.ghost_rate_hz.at(index(type)) * dt_s)) continue;
     const Point begin(random_.uniform(view_.forward_min_m, 0.6 * view_.forward_max_m),
                       random_.uniform(-0.6, 0.6) * view_.side_max_m, 0.0);
-    const double heading_rad = 10.0 * kDegree * random_.normal(), length_m = random_.uniform(5.0, 20.0);
+    const bool across = type == MarkingType::stopline;
+    const double heading_rad = 10.0 * kDegree * random_.normal() + (across ? 90.0 * kDegree : 0.0);
+    const double length_m = across ? random_.uniform(2.5, 7.0) : random_.uniform(5.0, 20.0);
     const Point end = begin + length_m * Point(std::cos(heading_rad), std::sin(heading_rad), 0.0);
-    appear({transform(pose) * begin, transform(pose) * end});
+    appear(type, {transform(pose) * begin, transform(pose) * end});
   }
+}
+
+void Perception::appear(MarkingType type, Polyline points_map) {
+  if (!view_.detects(type)) return;
+  const bool dashed = type == MarkingType::laneline && random_.chance(0.5);
+  ghosts_.push_back({std::move(points_map),
+                     {.type = type,
+                      .style = dashed ? MarkingStyle::dashed : MarkingStyle::solid,
+                      .confidence = std::clamp(noise_.ghost_confidence + 0.15 * random_.normal(), 0.02, 1.0),
+                      .points = {},
+                      .stddev_m = {}}});
 }
 
 void Perception::detect_ghosts(const VehiclePose& pose, DetectionFrame& frame) {
@@ -162,12 +167,13 @@ void Perception::detect_ghosts(const VehiclePose& pose, DetectionFrame& frame) {
     for (const VisiblePiece& piece : visible_pieces(ViewedLine(ghost.points_map), view_, T_body_map)) {
       Detection detection = ghost.detection;
       detection.points = piece.points;
-      add(detection, frame);
+      add(detection, kNoElement, frame);
     }
   }
 }
 
-void Perception::add(const Detection& detection, DetectionFrame& frame) {
+void Perception::add(const Detection& detection, ElementId source, DetectionFrame& frame) {
+  sources_.push_back(source);
   Detection& seen = frame.detections.emplace_back(detection);
   seen.points = as_network_output(detection.points);
   if (random_.chance(noise_.zigzag_probability)) make_zigzag(seen.points, noise_.zigzag_stddev_m, random_);

@@ -24,6 +24,9 @@ class Perception {
   /// do not (a new lap, say), or after a second's gap, the errors go on as if a tenth of a second had passed.
   DetectionFrame observe(const VehiclePose& pose);
 
+  /// Of every detection of the last frame: the marking that it is of. None: a ghost.
+  const std::vector<ElementId>& sources() const { return sources_; }
+
  private:
   // A piece of a marking, for as long as it stays in view.
   struct Track {
@@ -46,8 +49,9 @@ class Perception {
   Track& follow(std::vector<Track>& now, std::size_t marking, const VisiblePiece& piece, double dt_s);
   void detect_markings(const VehiclePose& pose, double dt_s, DetectionFrame& frame);
   void step_ghosts(const VehiclePose& pose, double dt_s);
+  void appear(MarkingType type, Polyline points_map);
   void detect_ghosts(const VehiclePose& pose, DetectionFrame& frame);
-  void add(const Detection& detection, DetectionFrame& frame);
+  void add(const Detection& detection, ElementId source, DetectionFrame& frame);
 
   NoiseProfile noise_;
   SensorView view_;
@@ -62,6 +66,7 @@ class Perception {
   Eigen::Isometry3d T_seen_body_ = Eigen::Isometry3d::Identity();  // the frame's error
   std::optional<std::int64_t> last_stamp_ns_;
   std::uint64_t sequence_ = 0;
+  std::vector<ElementId> sources_;
 };
 
 }  // namespace laneloom

@@ -12,7 +12,7 @@ namespace laneloom {
 
 /// A box in the body frame. It is flat, so that a road above or below another is not seen from there.
 struct SensorView {
-  double forward_min_m = -20.0;
+  double forward_min_m = -40.0;
   double forward_max_m = 50.0;
   double side_max_m = 20.0;
   double height_max_m = 3.0;

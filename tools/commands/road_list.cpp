@@ -1,0 +1,44 @@
+#include "commands/road_list.hpp"
+
+#include "simulation/argoverse2.hpp"
+#include "simulation/lanelet2.hpp"
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+
+std::vector<DriveSpec> RoadList::drives(const NoiseProfile& noise) const {
+  std::vector<std::shared_ptr<const Road>> roads;
+  const auto add = [&](Road road) { roads.push_back(std::make_shared<const Road>(std::move(road))); };
+  for (const std::string& name : scenarios) add(make_scenario(name, speed_mps));
+  for (const std::string& folder : argoverse2) add(load_argoverse2(folder));
+  for (const std::string& file : lanelet2) add(load_lanelet2(file, speed_mps));
+  std::vector<DriveSpec> drives;
+  drives.reserve(roads.size() * seeds.size());
+  for (const auto& road : roads) {
+    for (const std::uint64_t seed : seeds) drives.push_back({road, noise, seed, duration_s, drift});
+  }
+  return drives;
+}
+
+void add_road_list(CLI::App& command, RoadList& roads) {
+  CLI::Option_group* road = command.add_option_group("Roads", "any number of");
+  road->add_option("--scenario", roads.scenarios, "A built-in road")->check(CLI::IsMember(scenario_names()));
+  road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log, driven as recorded")
+      ->check(CLI::ExistingDirectory);
+  road->add_option("--lanelet2", roads.lanelet2, "A Lanelet2 map (.osm), driven along its lanes")
+      ->check(CLI::ExistingFile);
+  road->require_option(1, 0);
+  command.add_option("--seeds", roads.seeds, "Of the noise; every road is driven with each")
+      ->delimiter(',')
+      ->capture_default_str();
+  command.add_option("--speed", roads.speed_mps, "In m/s; recorded drives keep theirs")
+      ->check(CLI::Range(0.1, 60.0))
+      ->capture_default_str();
+  command.add_option("--duration", roads.duration_s, "Seconds per drive; one that is not closed ends sooner")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--drift", roads.drift, "Of the odometry, as a share of the distance driven")
+      ->check(CLI::Range(0.0, 0.2));
+}
+
+}  // namespace laneloom

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiment/drive_simulation.hpp"
+
+namespace laneloom {
+
+/// Drives over several roads: options of `experiment` and `calibrate`.
+struct RoadList {
+  std::vector<std::string> scenarios, argoverse2, lanelet2;
+  std::vector<std::uint64_t> seeds{1};
+  double speed_mps = 10.0;
+  double duration_s = 60.0;
+  double drift = 0.0;
+
+  /// One drive per road and seed. Throws what loading a road throws.
+  std::vector<DriveSpec> drives(const NoiseProfile& noise) const;
+};
+
+void add_road_list(CLI::App& command, RoadList& roads);
+
+}  // namespace laneloom

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "evaluation/evaluation.hpp"
+#include "experiment/drive_simulation.hpp"
+
+namespace laneloom {
+
+/// What a network's single detections score; markings without a target have a precision of 0.
+struct CalibrationTarget {
+  struct Kind {
+    double precision = 0.0, recall = 0.0;  ///< 0..1
+    double acd_m = 0.0;
+  };
+  std::array<Kind, kMarkingTypeCount> kinds;
+  double jitter_m = 0.0;  ///< mean lateral displacement between consecutive frames, of all markings
+};
+
+/// What the paper reports of MapTR on its data sets "inhouse" and "av2" (Table I). The jitter is not in the
+/// paper: it is what single detections under another model of MapTR's noise were seen to have.
+CalibrationTarget calibration_target(const std::string& data_set);
+
+struct CalibrationStep {
+  NoiseProfile noise;
+  MapScore score;  ///< of single detections under this noise
+  double jitter_m = 0.0;
+};
+
+/// Changes a profile's missed shares (for the recall), ghost rates (precision), error factors (ACD) and
+/// flutter (jitter), step by step, until single detections score as the target says. `drives` name road, seed
+/// and duration. `tell` is told of every step; the last one is returned.
+CalibrationStep calibrate(NoiseProfile start, const CalibrationTarget& target, std::vector<DriveSpec> drives,
+                          const RangeConfig& range, int steps,
+                          const std::function<void(const CalibrationStep&)>& tell);
+
+}  // namespace laneloom

@@ -1,0 +1,127 @@
+#include "experiment/experiment.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "experiment/oracle.hpp"
+#include "laneloom/mapper.hpp"
+
+namespace laneloom {
+namespace {
+
+void move(const Eigen::Isometry3d& T, Polyline& points) {
+  for (Point& point : points) point = T * point;
+}
+
+/// A map of the odometry's world, as it lies on the true road: what counts is where the vehicle sees it.
+LocalMap in_true_frame(LocalMap map, const SimulatedFrame& frame) {
+  const Eigen::Isometry3d T = frame.T_map_body * transform(frame.record.pose).inverse();
+  for (Marking& boundary : map.boundaries) move(T, boundary.points);
+  for (Stopline& stopline : map.stoplines) move(T, stopline.marking.points);
+  for (Lane& lane : map.lanes) {
+    for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) move(T, *line);
+  }
+  map.T_map_body = frame.T_map_body;
+  return map;
+}
+
+class DriveRun {
+ public:
+  DriveRun(const ExperimentSpec& spec, const DriveSpec& drive)
+      : spec_(spec), drive_(drive), frames_(simulate(drive)) {}
+
+  std::vector<SubjectResult> results() const {
+    std::vector<SubjectResult> all{raw()};
+    for (const NamedConfig& config : spec_.configs) all.push_back(mapped(config));
+    if (spec_.peer) all.push_back(peer());
+    if (spec_.oracle) all.push_back(oracle());
+    return all;
+  }
+
+ private:
+  MapEvaluation evaluation(Subject subject) const { return {*drive_.road, spec_.range, subject}; }
+
+  SubjectResult raw() const {
+    MapEvaluation rated = evaluation(Subject::detections);
+    for (const SimulatedFrame& frame : frames_)
+      rated.add(frame.record.frame, frame.T_map_body, spec_.min_confidence);
+    return {"raw", rated.measures(), {}};
+  }
+
+  SubjectResult mapped(const NamedConfig& config) const {
+    MapEvaluation rated = evaluation(Subject::maps);
+    Mapper mapper(config.config.mapper);
+    Distribution update_ms;
+    for (const SimulatedFrame& frame : frames_) {
+      const auto start = std::chrono::steady_clock::now();
+      const LocalMap& map = mapper.update(frame.record.frame, transform(frame.record.pose));
+      update_ms.add(
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      rated.add(in_true_frame(map, frame));
+    }
+    return {config.name, rated.measures(), update_ms};
+  }
+
+  SubjectResult peer() const {
+    MapEvaluation rated = evaluation(Subject::maps);
+    std::vector<LocalMap> maps = run_peer(*spec_.peer, frames_);
+    for (std::size_t i = 0; i < maps.size(); ++i) rated.add(in_true_frame(std::move(maps[i]), frames_[i]));
+    return {"peer", rated.measures(), {}};
+  }
+
+  SubjectResult oracle() const {
+    MapEvaluation rated = evaluation(Subject::maps);
+    Oracle oracle(*drive_.road);
+    for (const SimulatedFrame& frame : frames_) rated.add(oracle.update(frame));
+    return {"oracle", rated.measures(), {}};
+  }
+
+  const ExperimentSpec& spec_;
+  const DriveSpec& drive_;
+  std::vector<SimulatedFrame> frames_;
+};
+
+}  // namespace
+
+std::vector<SubjectResult> run(const ExperimentSpec& spec) {
+  std::vector<std::vector<SubjectResult>> of_drive(spec.drives.size());
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < spec.drives.size(); i = next++) {
+      try {
+        of_drive[i] = DriveRun(spec, spec.drives[i]).results();
+      } catch (...) {
+        const std::lock_guard lock(failing);
+        failure = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    const std::size_t count = std::max(1U, std::thread::hardware_concurrency());
+    threads.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work);
+  }
+  if (failure) std::rethrow_exception(failure);
+
+  std::vector<SubjectResult> sums;
+  for (std::vector<SubjectResult>& results : of_drive) {
+    if (sums.empty()) {
+      sums = std::move(results);
+      continue;
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i].measures += results[i].measures;
+      sums[i].update_ms.add(results[i].update_ms);
+    }
+  }
+  return sums;
+}
+
+}  // namespace laneloom

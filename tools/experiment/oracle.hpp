@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "evaluation/evaluation.hpp"
+#include "experiment/drive_simulation.hpp"
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+
+/// What no causal fusion of the same detections can surpass: it is told which marking every detection is of,
+/// and what type that has, and gives the mean of all that was seen of it so far, metre by metre. It knows no
+/// lanes. Not thread-safe.
+class Oracle {
+ public:
+  explicit Oracle(const Road& truth);
+
+  /// The map after one more frame: boundaries and stoplines in the map frame.
+  LocalMap update(const SimulatedFrame& frame);
+
+ private:
+  struct Station {
+    Point point = Point::Zero();  ///< on the marking
+    Eigen::Vector2d left = Eigen::Vector2d::Zero();
+    double offsets_m = 0.0;  ///< summed
+    std::size_t count = 0;
+  };
+  struct Line {
+    ElementId id = kNoElement;
+    MarkingType type = MarkingType::laneline;
+    MarkingStyle style = MarkingStyle::unknown;
+    std::vector<Station> stations;
+  };
+  static void observe(const Polyline& points_map, Line& line);
+  static void publish(const Line& line, LocalMap& map);
+
+  std::vector<Line> lines_;
+};
+
+}  // namespace laneloom
