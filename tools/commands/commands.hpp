@@ -16,5 +16,6 @@ void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_record(CLI::App& app);
+void add_import(CLI::App& app);
 
 }  // namespace laneloom

@@ -1,0 +1,92 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <variant>
+
+#include "laneloom/recording.hpp"
+#include "recording/temporary_folder.hpp"
+#include "tools/process.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::HasSubstr;
+
+/// Runs the real `laneloom import` on a made-up Argoverse 2 log of half a second.
+class ImportCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(file("log"));
+    std::ofstream poses(file("log/city_SE3_egovehicle.csv"));
+    poses << "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
+    for (int i = 0; i <= 5; ++i) poses << 1'000'000'000 + i * 100'000'000 << ",1,0,0,0," << i << ",0,0\n";
+    write(
+        "results.json",
+        R"({"meta":{},"results":[)"
+        R"({"sample_token":"log_1250000000","vectors":[)"
+        R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2,-0.3],[30,2,-0.3]],"pts_num":2,"type":0},)"
+        R"({"cls_name":"ped_crossing","confidence_level":0.9,"pts":[[0,2,0],[1,2,0]],"pts_num":2,"type":1}]},)"
+        R"({"sample_token":"log_1100000000","vectors":[]},{"sample_token":"log_1600000000","vectors":[]},)"
+        R"({"sample_token":"another_1","vectors":[]}]})");
+  }
+  void write(const std::string& name, const std::string& content) {
+    std::ofstream(folder_.file(name)) << content;
+  }
+  std::string file(const std::string& name) const { return folder_.file(name); }
+  int run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "import"});
+    return Process(arguments, file("output")).wait();
+  }
+  std::string output() const { return content(file("output")); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
+  ASSERT_EQ(run({"maptr", "--results", file("results.json"), "--argoverse2", file("log"), "--out",
+                 file("drive.mcap")}),
+            0)
+      << output();
+  EXPECT_THAT(output(), HasSubstr("log: 2 frames, 6 poses"));
+  EXPECT_THAT(output(), HasSubstr("1 lines of class ped_crossing"));
+  EXPECT_THAT(output(), HasSubstr("1 frames without poses"));
+  EXPECT_THAT(output(), HasSubstr("1 frames of other drives"));
+
+  RecordingReader reader(file("drive.mcap"));
+  std::vector<std::int64_t> pose_stamps;
+  std::vector<DetectionFrame> frames;
+  while (const auto message = reader.next()) {
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) pose_stamps.push_back(pose->stamp_ns);
+    if (const auto* frame = std::get_if<DetectionFrame>(&message->message)) frames.push_back(*frame);
+  }
+  EXPECT_TRUE(reader.refused().values().empty());
+  ASSERT_EQ(pose_stamps.size(), 6u);
+  EXPECT_EQ(pose_stamps.back(), 1'500'000'000);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].stamp_ns, 1'250'000'000);
+  ASSERT_EQ(frames[1].detections.size(), 1u);
+  EXPECT_EQ(frames[1].detections[0].points, (Polyline{{0, 2, -0.3}, {30, 2, -0.3}}));
+}
+
+TEST_F(ImportCommand, WrongUseAndInputAreNamed) {
+  const std::vector<std::string> drive{"--argoverse2", file("log"), "--out", file("drive.mcap")};
+  const auto maptr = [&](const std::string& results) {
+    std::vector<std::string> arguments{"maptr", "--results", file(results)};
+    arguments.insert(arguments.end(), drive.begin(), drive.end());
+    return run(arguments);
+  };
+  EXPECT_EQ(maptr("missing.json"), 1);
+  EXPECT_THAT(output(), HasSubstr("missing.json: cannot be read"));
+  write("late.json", R"({"results":[{"sample_token":"log_1600000000","vectors":[]}]})");
+  EXPECT_EQ(maptr("late.json"), 1);
+  EXPECT_THAT(output(), HasSubstr("no sample is within the poses"));
+  EXPECT_FALSE(std::filesystem::exists(file("drive.mcap")));
+  EXPECT_NE(run({"maptr", "--results", file("results.json"), "--nuscenes", file("log"), "--out", "x"}), 0);
+  EXPECT_THAT(output(), HasSubstr("--scene"));
+  EXPECT_NE(run({}), 0);
+}
+
+}  // namespace
+}  // namespace laneloom
