@@ -6,6 +6,7 @@
 
 #include "laneloom/recording.hpp"
 #include "recording/temporary_folder.hpp"
+#include "simulation/road.hpp"
 #include "tools/process.hpp"
 
 namespace laneloom {
@@ -68,6 +69,40 @@ TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
   EXPECT_EQ(frames[1].stamp_ns, 1'250'000'000);
   ASSERT_EQ(frames[1].detections.size(), 1u);
   EXPECT_EQ(frames[1].detections[0].points, (Polyline{{0, 2, -0.3}, {30, 2, -0.3}}));
+}
+
+TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
+  const auto border = [](double y) {
+    const std::string at = R"(,"y":)" + std::to_string(y) + R"(,"z":0})";
+    return R"([{"x":0)" + at + R"(,{"x":20)" + at + "]";
+  };
+  write("log/log_map_archive_x.json",
+        R"({"lane_segments":{"7":{"id":7,"is_intersection":false,"lane_type":"VEHICLE","successors":[],)"
+        R"("left_lane_boundary":)" +
+            border(1.75) + R"(,"left_lane_mark_type":"DASHED_WHITE","right_lane_boundary":)" + border(-1.75) +
+            R"(,"right_lane_mark_type":"SOLID_WHITE"}},"drivable_areas":{}})");
+  ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("poses.mcap"), "--truth", file("truth.json")}), 0)
+      << output();
+
+  const Road truth = load_truth(file("truth.json"));
+  ASSERT_EQ(truth.markings.size(), 2u);
+  EXPECT_EQ(truth.markings[0].style, MarkingStyle::dashed);
+  EXPECT_EQ(truth.markings[0].points.front(), Point(0, 1.75, 0));
+  ASSERT_EQ(truth.lanes.size(), 1u);
+  RecordingReader reader(file("poses.mcap"));
+  const auto first = reader.next();
+  ASSERT_TRUE(first);
+  const auto& pose = std::get<VehiclePose>(first->message);
+  EXPECT_EQ(pose.stamp_ns, 1'000'000'000) << "of the log, so that detections of the log fit to it";
+  EXPECT_EQ(pose.position, Point(0, 0, 0));
+  std::size_t poses = 1;
+  while (reader.next()) ++poses;
+  EXPECT_EQ(poses, 6u);
+
+  EXPECT_EQ(run({"argoverse2", file("log"), "--out", file("poses.mcap")}), 1) << "it exists";
+  EXPECT_NE(run({"argoverse2", file("log")}), 0);
+  EXPECT_EQ(run({"argoverse2", file("nowhere"), "--truth", file("x.json")}), 1);
+  EXPECT_THAT(output(), HasSubstr("nowhere"));
 }
 
 TEST_F(ImportCommand, WrongUseAndInputAreNamed) {

@@ -5,11 +5,14 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "commands/commands.hpp"
 #include "import/drive_log.hpp"
 #include "import/drive_recording.hpp"
 #include "import/maptr.hpp"
+#include "simulation/argoverse2.hpp"
+#include "simulation/road.hpp"
 
 namespace laneloom {
 namespace {
@@ -69,11 +72,35 @@ void add_maptr(CLI::App& app) {
   command->callback([options] { import_maptr(*options); });
 }
 
+struct LogOptions {
+  std::string directory, out, truth;
+};
+
+void import_argoverse2(const LogOptions& options) {
+  if (!options.truth.empty()) save_truth(options.truth, load_argoverse2(options.directory));
+  if (options.out.empty()) return;
+  const std::vector<VehiclePose> poses = argoverse2_poses(options.directory);
+  write_drive(options.out, poses, {});
+  fmt::print("{}: {} poses\n", options.directory, poses.size());
+}
+
+void add_argoverse2(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("argoverse2", "Map and poses of an Argoverse 2 log");
+  const auto options = std::make_shared<LogOptions>();
+  command->add_option("directory", options->directory, "Of the log")->required();
+  CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
+  outputs->add_option("--out", options->out, "Recording of the poses to write (.mcap)");
+  outputs->add_option("--truth", options->truth, "Truth of the road to write (.json)");
+  outputs->require_option(1, 2);
+  command->callback([options] { import_argoverse2(*options); });
+}
+
 }  // namespace
 
 void add_import(CLI::App& app) {
   CLI::App* command = app.add_subcommand("import", "Makes recordings of other projects' data");
   command->require_subcommand(1);
+  add_argoverse2(*command);
   add_maptr(*command);
 }
 
