@@ -106,6 +106,26 @@ TEST_F(EvaluateRecordings, OfMapsOfOneStampTheLastCountsAndOfNoStampNone) {
   EXPECT_EQ(fused.at("laneline").at("matched"), 3);
 }
 
+TEST_F(EvaluateRecordings, FiguresOverRange) {
+  {
+    RecordingWriter out(file("maps.mcap"));
+    for (int i = 0; i < 3; ++i) out.write(map(stamp_ns(i), 0.2), stamp_ns(i));
+    out.close();
+  }
+  ASSERT_EQ(evaluate({"--map", file("maps.mcap")}), 0) << output();
+  const json fused = score("fused");
+  ASSERT_EQ(fused.at("range").at(0).at("from_m"), -5.0);
+  for (const json& bin : fused.at("range")) {
+    EXPECT_EQ(bin.at("precision"), 1.0);
+    EXPECT_EQ(bin.at("recall"), 1.0);
+    EXPECT_NEAR(bin.at("lateral_error_m").get<double>(), 0.2, 1e-9);
+  }
+  const json& errors = fused.at("lateral_error");
+  EXPECT_NEAR(errors.at("laneline").at("20-30").at("p90_m").get<double>(), 0.2, 1e-9);
+  EXPECT_TRUE(errors.at("stopline").at("0-10").at("p50_m").is_null());
+  EXPECT_THAT(output(), HasSubstr("0.200"));
+}
+
 TEST_F(EvaluateRecordings, ADamagedRecordingIsNamed) {
   {
     RecordingWriter out(file("maps.mcap"));

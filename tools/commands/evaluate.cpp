@@ -12,6 +12,7 @@
 #include "commands/evaluation_inputs.hpp"
 #include "commands/evaluation_tables.hpp"
 #include "commands/options.hpp"
+#include "commands/profile_tables.hpp"
 #include "commands/score_table.hpp"
 #include "evaluation/map_evaluation.hpp"
 
@@ -78,10 +79,11 @@ void evaluate(const Options& options) {
   for (const auto& [who, evaluation] : evaluations) scores.emplace_back(who, evaluation.score());
   fmt::print("{}{} frames, range {:g}..{:g} m, +-{:g} m\n", score_table(scores), stamps.size(),
              options.range.forward_min_m, options.range.forward_max_m, options.range.side_max_m);
-  fmt::print("{}", evaluation_tables(evaluations));
+  fmt::print("{}{}", evaluation_tables(evaluations), profile_table(evaluations));
   if (options.json.empty()) return;
   nlohmann::json json = score_json(scores);
   json.update(evaluation_json(evaluations), true);
+  json.update(profile_json(evaluations), true);
   std::ofstream out(options.json);
   out << json.dump(2) << '\n';
   out.close();
