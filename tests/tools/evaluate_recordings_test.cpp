@@ -106,13 +106,13 @@ TEST_F(EvaluateRecordings, OfMapsOfOneStampTheLastCountsAndOfNoStampNone) {
   EXPECT_EQ(fused.at("laneline").at("matched"), 3);
 }
 
-TEST_F(EvaluateRecordings, FiguresOverRange) {
+TEST_F(EvaluateRecordings, FiguresOverRangeAndPicturesOfThem) {
   {
     RecordingWriter out(file("maps.mcap"));
     for (int i = 0; i < 3; ++i) out.write(map(stamp_ns(i), 0.2), stamp_ns(i));
     out.close();
   }
-  ASSERT_EQ(evaluate({"--map", file("maps.mcap")}), 0) << output();
+  ASSERT_EQ(evaluate({"--map", file("maps.mcap"), "--plots", file("plots/new")}), 0) << output();
   const json fused = score("fused");
   ASSERT_EQ(fused.at("range").at(0).at("from_m"), -5.0);
   for (const json& bin : fused.at("range")) {
@@ -124,6 +124,11 @@ TEST_F(EvaluateRecordings, FiguresOverRange) {
   EXPECT_NEAR(errors.at("laneline").at("20-30").at("p90_m").get<double>(), 0.2, 1e-9);
   EXPECT_TRUE(errors.at("stopline").at("0-10").at("p50_m").is_null());
   EXPECT_THAT(output(), HasSubstr("0.200"));
+  for (const char* picture : {"over_time.svg", "over_range.svg"})
+    EXPECT_THAT(content(file("plots/new/") + picture), HasSubstr("</svg>"));
+  EXPECT_EQ(content(file("plots/new/over_time.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(content(file("plots/new/over_range.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(evaluate({"--map", file("maps.mcap"), "--plots", file("maps.mcap")}), 1) << "no folder";
 }
 
 TEST_F(EvaluateRecordings, ADamagedRecordingIsNamed) {

@@ -10,6 +10,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/evaluation_inputs.hpp"
+#include "commands/evaluation_plots.hpp"
 #include "commands/evaluation_tables.hpp"
 #include "commands/options.hpp"
 #include "commands/profile_tables.hpp"
@@ -20,7 +21,7 @@ namespace laneloom {
 namespace {
 
 struct Options {
-  std::string truth, frames, map, json;
+  std::string truth, frames, map, json, plots;
   RangeConfig range;
   double min_confidence = PreprocessConfig{}.min_confidence;
 };
@@ -80,6 +81,7 @@ void evaluate(const Options& options) {
   fmt::print("{}{} frames, range {:g}..{:g} m, +-{:g} m\n", score_table(scores), stamps.size(),
              options.range.forward_min_m, options.range.forward_max_m, options.range.side_max_m);
   fmt::print("{}{}", evaluation_tables(evaluations), profile_table(evaluations));
+  if (!options.plots.empty()) draw_evaluation(evaluations, options.plots);
   if (options.json.empty()) return;
   nlohmann::json json = score_json(scores);
   json.update(evaluation_json(evaluations), true);
@@ -106,6 +108,8 @@ void add_evaluate(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--json", options->json, "Figures to write (.json)");
+  command->add_option("--plots", options->plots, "Folder to draw curves over time and range into")
+      ->type_name("DIR");
   command->callback([options] { evaluate(*options); });
 }
 
