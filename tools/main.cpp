@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
   laneloom::add_experiment(app);
   laneloom::add_replay(app);
   laneloom::add_record(app);
+  laneloom::add_import(app);
   try {
     app.parse(argc, argv);
     return 0;

@@ -46,6 +46,23 @@ TEST(Stability, JitterIsTheSidewaysStepInTheMapFrame) {
   EXPECT_NEAR(stability.jitter_m.mean(), 0.2, 1e-9);
 }
 
+TEST(Stability, JitterFrameByFrameIsTheMeanOfItsMarkings) {
+  const std::vector<KindLine> truth{straight(0, -20, 100), straight(5, -20, 100)};
+  StabilityMeter meter(truth, kRange);
+  const std::vector<std::vector<KindLine>> frames{{straight(0, -20, 100)},
+                                                  {straight(0.1, -20, 100), straight(5, -20, 100)},
+                                                  {straight(0.3, -20, 100), straight(5.1, -20, 100)},
+                                                  {}};
+  for (const auto& lines : frames)
+    meter.add(compare(truth, lines, Eigen::Isometry3d::Identity(), kRange), lines);
+  const auto& jitter_m = meter.jitter_over_time_m();
+  ASSERT_EQ(jitter_m.size(), 4u);
+  EXPECT_FALSE(jitter_m[0]);
+  EXPECT_NEAR(jitter_m[1].value(), 0.1, 1e-9) << "the second line was not there before";
+  EXPECT_NEAR(jitter_m[2].value(), 0.15, 1e-9);
+  EXPECT_FALSE(jitter_m[3]);
+}
+
 TEST(Stability, JitterComparesOnlyPlacesOfBoth) {
   // The second begins at x = -2 and has 33 places; the first ends at x = 25: those up to 25 remain.
   const Stability stability =

@@ -18,5 +18,6 @@ void add_calibrate(CLI::App& app);
 void add_experiment(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_record(CLI::App& app);
+void add_import(CLI::App& app);
 
 }  // namespace laneloom

@@ -9,17 +9,19 @@
 #include <stdexcept>
 
 #include "commands/commands.hpp"
+#include "commands/evaluation_inputs.hpp"
+#include "commands/evaluation_plots.hpp"
 #include "commands/evaluation_tables.hpp"
 #include "commands/options.hpp"
+#include "commands/profile_tables.hpp"
 #include "commands/score_table.hpp"
 #include "evaluation/map_evaluation.hpp"
-#include "io/json_lines.hpp"
 
 namespace laneloom {
 namespace {
 
 struct Options {
-  std::string truth, frames, map, json;
+  std::string truth, frames, map, json, plots;
   RangeConfig range;
   double min_confidence = PreprocessConfig{}.min_confidence;
 };
@@ -28,15 +30,14 @@ using Stamps = std::set<std::int64_t>;
 
 Stamps frame_stamps(const std::string& path) {
   Stamps stamps;
-  JsonLinesReader in(path);
-  while (const auto record = in.next_frame()) stamps.insert(record->frame.stamp_ns);
+  for_each_frame(
+      path, [&](const DetectionFrame& frame, const Eigen::Isometry3d&) { stamps.insert(frame.stamp_ns); });
   return stamps;
 }
 
 Stamps map_stamps(const std::string& path) {
   Stamps stamps;
-  JsonLinesReader in(path);
-  while (const auto map = in.next_map()) stamps.insert(map->stamp_ns);
+  for_each_map(path, [&](const LocalMap& map) { stamps.insert(map.stamp_ns); });
   return stamps;
 }
 
@@ -54,20 +55,17 @@ Stamps common_stamps(const Options& options) {
 
 MapEvaluation evaluate_detections(const Options& options, const Road& truth, const Stamps& stamps) {
   MapEvaluation evaluation(truth, options.range, Subject::detections);
-  JsonLinesReader in(options.frames);
-  while (const auto record = in.next_frame()) {
-    if (stamps.contains(record->frame.stamp_ns))
-      evaluation.add(record->frame, transform(record->pose), options.min_confidence);
-  }
+  for_each_frame(options.frames, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+    if (stamps.contains(frame.stamp_ns)) evaluation.add(frame, T_map_body, options.min_confidence);
+  });
   return evaluation;
 }
 
 MapEvaluation evaluate_maps(const Options& options, const Road& truth, const Stamps& stamps) {
   MapEvaluation evaluation(truth, options.range, Subject::maps);
-  JsonLinesReader in(options.map);
-  while (const auto map = in.next_map()) {
-    if (stamps.contains(map->stamp_ns)) evaluation.add(*map);
-  }
+  for_each_map(options.map, [&](const LocalMap& map) {
+    if (stamps.contains(map.stamp_ns)) evaluation.add(map);
+  });
   return evaluation;
 }
 
@@ -82,10 +80,12 @@ void evaluate(const Options& options) {
   for (const auto& [who, evaluation] : evaluations) scores.emplace_back(who, evaluation.score());
   fmt::print("{}{} frames, range {:g}..{:g} m, +-{:g} m\n", score_table(scores), stamps.size(),
              options.range.forward_min_m, options.range.forward_max_m, options.range.side_max_m);
-  fmt::print("{}", evaluation_tables(evaluations));
+  fmt::print("{}{}", evaluation_tables(evaluations), profile_table(evaluations));
+  if (!options.plots.empty()) draw_evaluation(evaluations, options.plots);
   if (options.json.empty()) return;
   nlohmann::json json = score_json(scores);
   json.update(evaluation_json(evaluations), true);
+  json.update(profile_json(evaluations), true);
   std::ofstream out(options.json);
   out << json.dump(2) << '\n';
   out.close();
@@ -100,14 +100,16 @@ void add_evaluate(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   command->add_option("--truth", options->truth, "Truth of the road (.json)")->required();
   CLI::Option_group* inputs = command->add_option_group("Inputs", "one or both; then at their common stamps");
-  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl)");
-  inputs->add_option("--map", options->map, "Fused maps (.jsonl)");
+  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl or .mcap)");
+  inputs->add_option("--map", options->map, "Fused maps (.jsonl or .mcap)");
   inputs->require_option(1, 2);
   add_range(*command, options->range);
   command->add_option("--min-confidence", options->min_confidence, "Of the single detections that count")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--json", options->json, "Figures to write (.json)");
+  command->add_option("--plots", options->plots, "Folder to draw curves over time and range into")
+      ->type_name("DIR");
   command->callback([options] { evaluate(*options); });
 }
 

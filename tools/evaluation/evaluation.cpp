@@ -12,7 +12,6 @@ namespace laneloom {
 namespace {
 
 constexpr double kSampleStep_m = 0.1;
-constexpr double kMatchDistance_m = 0.5;
 constexpr double kMatchShare = 0.75;
 
 /// A prediction that may be a truth line's true positive.

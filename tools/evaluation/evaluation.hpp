@@ -25,6 +25,9 @@
 /// - Overlong lines: what a prediction has beyond the truth line costs nothing, as the paper has it.
 namespace laneloom {
 
+/// A sample matches a line that has one closer than this.
+inline constexpr double kMatchDistance_m = 0.5;
+
 enum class LineKind : std::uint8_t { laneline, roadedge, stopline, lane };
 inline constexpr std::size_t kLineKindCount = 4;
 constexpr std::size_t index(LineKind kind) { return static_cast<std::size_t>(kind); }

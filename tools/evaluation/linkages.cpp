@@ -12,7 +12,6 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMatchDistance_m = 0.5;
 constexpr double kMatchShare = 0.75;
 constexpr double kStoplineGap_m = 3.0;
 

@@ -17,7 +17,8 @@ MapEvaluation::MapEvaluation(const Road& truth, const RangeConfig& range, Subjec
       truth_topology_(truth_topology(truth)),
       range_(range),
       stability_(truth_, range),
-      trust_(truth_, range) {}
+      trust_(truth_, range),
+      profile_(range) {}
 
 FrameComparison MapEvaluation::add_lines(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_body,
                                          const std::vector<KindLine>& lines) {
@@ -27,6 +28,7 @@ FrameComparison MapEvaluation::add_lines(std::int64_t stamp_ns, const Eigen::Iso
   stability_.add(frame, lines);
   average_precision_.add(frame, lines);
   trust_.add(frame, lines);
+  profile_.add(frame);
   add_styles(frame, truth_, lines, styles_);
   return frame;
 }

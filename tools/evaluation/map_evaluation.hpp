@@ -6,6 +6,7 @@
 #include "evaluation/evaluation.hpp"
 #include "evaluation/kind_lines.hpp"
 #include "evaluation/linkages.hpp"
+#include "evaluation/profile.hpp"
 #include "evaluation/stability.hpp"
 #include "evaluation/styles.hpp"
 #include "evaluation/top_ll.hpp"
@@ -44,6 +45,7 @@ class MapEvaluation {
   const StabilityMeter& stability() const { return stability_; }
   const AveragePrecisionMeter& average_precision() const { return average_precision_; }
   const TrustMeter& trust() const { return trust_; }
+  const ProfileMeter& profile() const { return profile_; }
   const StyleScore& styles() const { return styles_; }
   const TopologyScore& topology() const { return topology_; }
   const TopLl& top_ll() const { return top_ll_; }
@@ -60,6 +62,7 @@ class MapEvaluation {
   StabilityMeter stability_;
   AveragePrecisionMeter average_precision_;
   TrustMeter trust_;
+  ProfileMeter profile_;
   StyleScore styles_;
   TopologyScore topology_;
   TopLl top_ll_;

@@ -17,12 +17,14 @@ Polyline in_map(const Polyline& points_body, const Eigen::Isometry3d& T_map_body
   return points;
 }
 
-void add_jitter(const Polyline& before, const Polyline& now, Distribution& jitter_m) {
+std::vector<double> jitters_m(const Polyline& before, const Polyline& now) {
   const MeasuredPolyline earlier(before);
+  std::vector<double> jitters_m;
   for (const Point& place : MeasuredPolyline(now).resample(kStep_m)) {
     const Projection projection = earlier.project(place);
-    if (projection.inside) jitter_m.add(std::abs(projection.lateral_m));
+    if (projection.inside) jitters_m.push_back(std::abs(projection.lateral_m));
   }
+  return jitters_m;
 }
 
 double ratio(std::size_t part, std::size_t whole) {
@@ -59,6 +61,7 @@ void StabilityMeter::add_driven_past(const Eigen::Isometry3d& T_body_map, TruthS
 void StabilityMeter::add(const FrameComparison& frame, const std::vector<KindLine>& predictions) {
   const Eigen::Isometry3d T_body_map = frame.T_map_body.inverse();
   std::vector<std::optional<Polyline>> published(truths_.size());
+  Distribution frame_jitter_m;
   for (std::size_t i = 0; i < kLineKindCount; ++i) {
     Stability& stability = by_kind_[i];
     for (const TruthOutcome& outcome : truth_outcomes(frame.by_kind[i])) {
@@ -69,7 +72,12 @@ void StabilityMeter::add(const FrameComparison& frame, const std::vector<KindLin
       }
       if (outcome.prediction == nullptr) continue;
       Polyline now = in_map(outcome.prediction->points, frame.T_map_body);
-      if (state.published) add_jitter(*state.published, now, stability.jitter_m);
+      if (state.published) {
+        for (const double jitter_m : jitters_m(*state.published, now)) {
+          stability.jitter_m.add(jitter_m);
+          if (kinds_[outcome.truth] != LineKind::lane) frame_jitter_m.add(jitter_m);
+        }
+      }
       const ElementId id = predictions[outcome.prediction->line].id;
       if (id != kNoElement) {
         stability.has_ids = true;
@@ -79,6 +87,8 @@ void StabilityMeter::add(const FrameComparison& frame, const std::vector<KindLin
       published[outcome.truth] = std::move(now);
     }
   }
+  jitter_over_time_m_.push_back(frame_jitter_m.count() > 0 ? std::optional(frame_jitter_m.mean())
+                                                           : std::nullopt);
   for (std::size_t i = 0; i < truths_.size(); ++i) {
     add_driven_past(T_body_map, truths_[i], by_kind_[index(kinds_[i])]);
     truths_[i].published = std::move(published[i]);

@@ -40,6 +40,8 @@ class StabilityMeter {
   StabilityMeter(const std::vector<KindLine>& truth, const RangeConfig& range);
   /// The next frame, compared with the truth given; `predictions` are what was compared.
   void add(const FrameComparison& frame, const std::vector<KindLine>& predictions);
+  /// Mean jitter of all markings frame by frame; nothing where none was right in two frames in a row.
+  const std::vector<std::optional<double>>& jitter_over_time_m() const { return jitter_over_time_m_; }
   const Stability& of(LineKind kind) const { return by_kind_[index(kind)]; }
 
  private:
@@ -55,6 +57,7 @@ class StabilityMeter {
   std::vector<LineKind> kinds_;
   std::vector<TruthState> truths_;
   std::array<Stability, kLineKindCount> by_kind_;
+  std::vector<std::optional<double>> jitter_over_time_m_;
 };
 
 }  // namespace laneloom

@@ -6,7 +6,6 @@ namespace laneloom {
 namespace {
 
 constexpr double kStep_m = 1.0;
-constexpr double kMatchDistance_m = 0.5;
 
 MarkingStyle style_at(const KindLine& line, double arc_m) {
   for (const StyleRange& style : line.styles)

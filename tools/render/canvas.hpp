@@ -7,15 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace laneloom {
+#include "render/colour.hpp"
 
-struct Colour {
-  double red = 0.0;
-  double green = 0.0;
-  double blue = 0.0;
-  double alpha = 1.0;
-  Colour faded(double factor) const { return {red, green, blue, alpha * factor}; }
-};
+namespace laneloom {
 
 using Pixel = Eigen::Vector2d;
 using Outline = std::vector<Pixel>;

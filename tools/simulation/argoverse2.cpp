@@ -1,9 +1,7 @@
 #include "simulation/argoverse2.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -13,6 +11,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/borders.hpp"
 #include "simulation/drivable_areas.hpp"
+#include "simulation/pose_csv.hpp"
 
 namespace laneloom {
 namespace {
@@ -23,7 +22,6 @@ constexpr double kJoin_m = 0.05;
 constexpr double kJoinEdges_m = 1.5;  // outlines end a little before the area that adjoins
 constexpr double kAlongEdge_m = 0.5;
 constexpr std::int64_t kPosePeriod_ns = 10'000'000;
-constexpr std::int64_t kSamePose_ns = 1'000'000;
 
 Point xyz(const json& value) {
   return {required(value, "x", number), required(value, "y", number), required(value, "z", number)};
@@ -144,55 +142,6 @@ Road read_map(const json& archive) {
   return road;
 }
 
-template <typename Value>
-Value next_field(std::string_view& rest) {
-  const std::size_t comma = std::min(rest.find(','), rest.size());
-  Value value{};
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + comma, value);
-  if (error != std::errc() || end != rest.data() + comma) throw std::runtime_error("a number is expected");
-  rest.remove_prefix(std::min(comma + 1, rest.size()));
-  return value;
-}
-
-// Columns: timestamp_ns, qw, qx, qy, qz, tx_m, ty_m, tz_m.
-VehiclePose read_pose(std::string_view line) {
-  VehiclePose pose;
-  pose.stamp_ns = next_field<std::int64_t>(line);
-  std::array<double, 7> v{};
-  for (double& value : v) {
-    value = next_field<double>(line);
-    if (!std::isfinite(value)) throw std::runtime_error("a finite number is expected");
-  }
-  const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
-  if (!(std::abs(q.norm() - 1.0) < 1e-3)) throw std::runtime_error("a quaternion of unit length is expected");
-  pose.orientation = q.normalized();
-  pose.position = {v[4], v[5], v[6]};
-  return pose;
-}
-
-std::vector<VehiclePose> read_poses(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  std::string line;
-  if (!std::getline(in, line)) throw std::runtime_error(path.string() + ": cannot be read");
-  std::vector<VehiclePose> poses;
-  for (int number = 2; std::getline(in, line); ++number) {
-    try {
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      poses.push_back(read_pose(line));
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
-    }
-  }
-  std::stable_sort(poses.begin(), poses.end(),
-                   [](const VehiclePose& a, const VehiclePose& b) { return a.stamp_ns < b.stamp_ns; });
-  const auto same = [](const VehiclePose& a, const VehiclePose& b) {
-    return b.stamp_ns - a.stamp_ns < kSamePose_ns;
-  };
-  poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
-  if (poses.size() < 2) throw std::runtime_error(path.string() + ": has fewer than two poses");
-  return poses;
-}
-
 Drive resampled(std::vector<VehiclePose> poses) {
   const Drive recorded = Drive::recorded(std::move(poses));
   std::vector<VehiclePose> clean;
@@ -216,12 +165,16 @@ std::filesystem::path map_archive(const std::filesystem::path& directory) {
 
 }  // namespace
 
+std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory) {
+  return read_pose_csv(log_directory / "city_SE3_egovehicle.csv");
+}
+
 Road load_argoverse2(const std::filesystem::path& log_directory) {
   const std::filesystem::path archive = map_archive(log_directory);
   try {
     Road road = read_map(load_json(archive));
     road.name = std::filesystem::weakly_canonical(log_directory).filename().string();
-    road.drive = resampled(read_poses(log_directory / "city_SE3_egovehicle.csv"));
+    road.drive = resampled(argoverse2_poses(log_directory));
     return road;
   } catch (const JsonError& error) {
     throw std::runtime_error(archive.string() + ": " + error.what());

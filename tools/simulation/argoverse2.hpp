@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "simulation/road.hpp"
 
@@ -17,5 +18,8 @@ namespace laneloom {
 ///
 /// Throws std::runtime_error naming file and key, or file and line.
 Road load_argoverse2(const std::filesystem::path& log_directory);
+
+/// The recorded poses alone, in city coordinates and at the stamps of the log's sensors, as read_pose_csv().
+std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory);
 
 }  // namespace laneloom

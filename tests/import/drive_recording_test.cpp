@@ -1,0 +1,71 @@
+#include "import/drive_recording.hpp"
+
+#include <gtest/gtest.h>
+
+#include "laneloom/mapping_session.hpp"
+#include "laneloom/recording.hpp"
+#include "recording/temporary_folder.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+std::vector<VehiclePose> poses(int count) {
+  std::vector<VehiclePose> poses;
+  poses.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    poses.push_back({.stamp_ns = kSecond_ns + i * kSecond_ns / 10, .position = Point(i, 0, 0)});
+  return poses;
+}
+
+DetectionFrame frame(std::int64_t stamp_ns) {
+  return {.stamp_ns = stamp_ns,
+          .source = "test",
+          .detections = {{.confidence = 0.9, .points = {{0, 2, 0}, {20, 2, 0}}}}};
+}
+
+TEST(DriveRecording, AServiceFusesEveryFrameInTheOrderOfLogTimes) {
+  const TemporaryFolder folder;
+  std::vector<DetectionFrame> frames;
+  frames.reserve(10);
+  for (int i = 0; i < 9; ++i) frames.push_back(frame(kSecond_ns + i * kSecond_ns / 10 + 50'000'000));
+  frames.push_back(frame(kSecond_ns + 9 * kSecond_ns / 10));  // at the last pose itself
+  write_drive(folder.file("drive.mcap"), poses(10), frames);
+
+  RecordingReader reader(folder.file("drive.mcap"));
+  MappingSession session{Config{}};
+  while (const auto message = reader.next()) {
+    session.expire(message->log_time_ns);
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) session.add(*pose);
+    if (const auto* seen = std::get_if<DetectionFrame>(&message->message))
+      session.add(*seen, message->log_time_ns);
+  }
+  const auto fused = session.take_progress().fused;
+  ASSERT_EQ(fused.size(), 10u);
+  for (std::size_t i = 0; i < fused.size(); ++i) {
+    EXPECT_EQ(fused[i].sequence, i + 1);
+    EXPECT_EQ(fused[i].stamp_ns, frames[i].stamp_ns);
+  }
+  EXPECT_EQ(session.counters()["poses_accepted"], 10u);
+}
+
+TEST(DriveRecording, FramesWithoutPosesAroundThemGo) {
+  std::vector<VehiclePose> with_gap = poses(10);
+  with_gap.erase(with_gap.begin() + 4, with_gap.begin() + 7);  // 1.3 s, then 1.7 s
+  std::vector<DetectionFrame> frames{frame(kSecond_ns - 1), frame(kSecond_ns), frame(kSecond_ns * 3 / 2),
+                                     frame(kSecond_ns * 2)};
+  EXPECT_EQ(drop_frames_without_pose(frames, with_gap), 3u);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].stamp_ns, kSecond_ns);
+}
+
+TEST(DriveRecording, WhatExceedsAMessageIsAnError) {
+  const TemporaryFolder folder;
+  DetectionFrame crowded = frame(kSecond_ns);
+  crowded.detections.resize(513, crowded.detections.front());
+  EXPECT_THROW(write_drive(folder.file("drive.mcap"), poses(2), {crowded}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,127 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <variant>
+
+#include "laneloom/recording.hpp"
+#include "recording/temporary_folder.hpp"
+#include "simulation/road.hpp"
+#include "tools/process.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::HasSubstr;
+
+/// Runs the real `laneloom import` on a made-up Argoverse 2 log of half a second.
+class ImportCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(file("log"));
+    std::ofstream poses(file("log/city_SE3_egovehicle.csv"));
+    poses << "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
+    for (int i = 0; i <= 5; ++i) poses << 1'000'000'000 + i * 100'000'000 << ",1,0,0,0," << i << ",0,0\n";
+    write(
+        "results.json",
+        R"({"meta":{},"results":[)"
+        R"({"sample_token":"log_1250000000","vectors":[)"
+        R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2,-0.3],[30,2,-0.3]],"pts_num":2,"type":0},)"
+        R"({"cls_name":"ped_crossing","confidence_level":0.9,"pts":[[0,2,0],[1,2,0]],"pts_num":2,"type":1}]},)"
+        R"({"sample_token":"log_1100000000","vectors":[]},{"sample_token":"log_1600000000","vectors":[]},)"
+        R"({"sample_token":"another_1","vectors":[]}]})");
+  }
+  void write(const std::string& name, const std::string& content) {
+    std::ofstream(folder_.file(name)) << content;
+  }
+  std::string file(const std::string& name) const { return folder_.file(name); }
+  int run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "import"});
+    return Process(arguments, file("output")).wait();
+  }
+  std::string output() const { return content(file("output")); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
+  ASSERT_EQ(run({"maptr", "--results", file("results.json"), "--argoverse2", file("log"), "--out",
+                 file("drive.mcap")}),
+            0)
+      << output();
+  EXPECT_THAT(output(), HasSubstr("log: 2 frames, 6 poses"));
+  EXPECT_THAT(output(), HasSubstr("1 lines of class ped_crossing"));
+  EXPECT_THAT(output(), HasSubstr("1 frames without poses"));
+  EXPECT_THAT(output(), HasSubstr("1 frames of other drives"));
+
+  RecordingReader reader(file("drive.mcap"));
+  std::vector<std::int64_t> pose_stamps;
+  std::vector<DetectionFrame> frames;
+  while (const auto message = reader.next()) {
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) pose_stamps.push_back(pose->stamp_ns);
+    if (const auto* frame = std::get_if<DetectionFrame>(&message->message)) frames.push_back(*frame);
+  }
+  EXPECT_TRUE(reader.refused().values().empty());
+  ASSERT_EQ(pose_stamps.size(), 6u);
+  EXPECT_EQ(pose_stamps.back(), 1'500'000'000);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].stamp_ns, 1'250'000'000);
+  ASSERT_EQ(frames[1].detections.size(), 1u);
+  EXPECT_EQ(frames[1].detections[0].points, (Polyline{{0, 2, -0.3}, {30, 2, -0.3}}));
+}
+
+TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
+  const auto border = [](double y) {
+    const std::string at = R"(,"y":)" + std::to_string(y) + R"(,"z":0})";
+    return R"([{"x":0)" + at + R"(,{"x":20)" + at + "]";
+  };
+  write("log/log_map_archive_x.json",
+        R"({"lane_segments":{"7":{"id":7,"is_intersection":false,"lane_type":"VEHICLE","successors":[],)"
+        R"("left_lane_boundary":)" +
+            border(1.75) + R"(,"left_lane_mark_type":"DASHED_WHITE","right_lane_boundary":)" + border(-1.75) +
+            R"(,"right_lane_mark_type":"SOLID_WHITE"}},"drivable_areas":{}})");
+  ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("poses.mcap"), "--truth", file("truth.json")}), 0)
+      << output();
+
+  const Road truth = load_truth(file("truth.json"));
+  ASSERT_EQ(truth.markings.size(), 2u);
+  EXPECT_EQ(truth.markings[0].style, MarkingStyle::dashed);
+  EXPECT_EQ(truth.markings[0].points.front(), Point(0, 1.75, 0));
+  ASSERT_EQ(truth.lanes.size(), 1u);
+  RecordingReader reader(file("poses.mcap"));
+  const auto first = reader.next();
+  ASSERT_TRUE(first);
+  const auto& pose = std::get<VehiclePose>(first->message);
+  EXPECT_EQ(pose.stamp_ns, 1'000'000'000) << "of the log, so that detections of the log fit to it";
+  EXPECT_EQ(pose.position, Point(0, 0, 0));
+  std::size_t poses = 1;
+  while (reader.next()) ++poses;
+  EXPECT_EQ(poses, 6u);
+
+  EXPECT_EQ(run({"argoverse2", file("log"), "--out", file("poses.mcap")}), 1) << "it exists";
+  EXPECT_NE(run({"argoverse2", file("log")}), 0);
+  EXPECT_EQ(run({"argoverse2", file("nowhere"), "--truth", file("x.json")}), 1);
+  EXPECT_THAT(output(), HasSubstr("nowhere"));
+}
+
+TEST_F(ImportCommand, WrongUseAndInputAreNamed) {
+  const std::vector<std::string> drive{"--argoverse2", file("log"), "--out", file("drive.mcap")};
+  const auto maptr = [&](const std::string& results) {
+    std::vector<std::string> arguments{"maptr", "--results", file(results)};
+    arguments.insert(arguments.end(), drive.begin(), drive.end());
+    return run(arguments);
+  };
+  EXPECT_EQ(maptr("missing.json"), 1);
+  EXPECT_THAT(output(), HasSubstr("missing.json: cannot be read"));
+  write("late.json", R"({"results":[{"sample_token":"log_1600000000","vectors":[]}]})");
+  EXPECT_EQ(maptr("late.json"), 1);
+  EXPECT_THAT(output(), HasSubstr("no sample is within the poses"));
+  EXPECT_FALSE(std::filesystem::exists(file("drive.mcap")));
+  EXPECT_NE(run({"maptr", "--results", file("results.json"), "--nuscenes", file("log"), "--out", "x"}), 0);
+  EXPECT_THAT(output(), HasSubstr("--scene"));
+  EXPECT_NE(run({}), 0);
+}
+
+}  // namespace
+}  // namespace laneloom

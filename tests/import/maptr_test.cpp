@@ -1,0 +1,115 @@
+#include "import/maptr.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "recording/temporary_folder.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::HasSubstr;
+
+/// Samples are called drive_<stamp>.
+DriveLog drive() {
+  DriveLog drive{.name = "drive"};
+  drive.stamp_ns_of = [](const std::string& token) -> std::optional<std::int64_t> {
+    if (!token.starts_with("drive_")) return std::nullopt;
+    return std::stoll(token.substr(6));
+  };
+  return drive;
+}
+
+std::string vector(const std::string& class_name, const std::string& points = "[[1,2],[3,4]]",
+                   const std::string& confidence = "0.5") {
+  return R"({"cls_name":")" + class_name + R"(","confidence_level":)" + confidence +
+         R"(,"pts_num":2,"type":0,"pts":)" + points + "}";
+}
+
+std::string sample(const std::string& token, const std::string& vectors) {
+  return R"({"sample_token":")" + token + R"(","vectors":[)" + vectors + "]}";
+}
+
+class MapTr : public testing::Test {
+ protected:
+  ImportedFrames read(const std::string& samples, const DriveLog& of = drive()) {
+    return read_text(R"({"meta":{"use_lidar":false},"results":[)" + samples + "]}", of);
+  }
+  ImportedFrames read_text(const std::string& text, const DriveLog& of = drive()) {
+    std::ofstream(folder_.file("results.json")) << text;
+    return read_maptr(folder_.file("results.json"), of);
+  }
+  std::string error(const std::string& text) {
+    try {
+      read_text(text);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string sample_error(const std::string& samples) { return error(R"({"results":[)" + samples + "]}"); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(MapTr, ClassesBecomeTypesAndOthersAreCounted) {
+  const ImportedFrames imported =
+      read(sample("drive_2", vector("divider") + "," + vector("ped_crossing") + "," + vector("boundary") +
+                                 "," + vector("centerline") + "," + vector("centerline")) +
+           "," + sample("other_1", vector("divider")) + "," + sample("drive_1", ""));
+  ASSERT_EQ(imported.frames.size(), 2u);
+  EXPECT_EQ(imported.frames[0].stamp_ns, 1) << "by stamp, not in the order of the file";
+  EXPECT_TRUE(imported.frames[0].detections.empty());
+  const DetectionFrame& frame = imported.frames[1];
+  EXPECT_EQ(frame.stamp_ns, 2);
+  EXPECT_EQ(frame.detected_types, (std::vector{MarkingType::laneline, MarkingType::roadedge}));
+  ASSERT_EQ(frame.detections.size(), 2u);
+  EXPECT_EQ(frame.detections[0].type, MarkingType::laneline);
+  EXPECT_EQ(frame.detections[1].type, MarkingType::roadedge);
+  EXPECT_EQ(frame.detections[0].confidence, 0.5);
+  EXPECT_EQ(imported.left_out, (std::map<std::string, std::size_t>{{"centerline", 2}, {"ped_crossing", 1}}));
+  EXPECT_EQ(imported.other_drives, 1u);
+}
+
+TEST_F(MapTr, PointsComeToTheBodyFrame) {
+  DriveLog lidar = drive();  // x right, y forward, 1 m ahead of the body's origin and 2 m above
+  lidar.T_body_points =
+      Eigen::Translation3d(1.0, 0.0, 2.0) * Eigen::AngleAxisd(-std::numbers::pi / 2, Point::UnitZ());
+  lidar.ground_z_m = -0.3;
+  const ImportedFrames imported =
+      read(sample("drive_1", vector("divider", "[[4, 10], [4, 20]]") + "," +
+                                 vector("divider", "[[4, 10, -1.5], [4, 20, -1.5]]")),
+           lidar);
+  const auto& detections = imported.frames.at(0).detections;
+  EXPECT_TRUE(detections.at(0).points[0].isApprox(Point(11.0, -4.0, -0.3))) << "on the ground";
+  EXPECT_TRUE(detections.at(1).points[1].isApprox(Point(21.0, -4.0, 0.5)));
+}
+
+TEST_F(MapTr, WhatIsWrongIsNamed) {
+  EXPECT_THAT(sample_error(sample("drive_1", vector("divider") + "," + vector("kerb"))),
+              HasSubstr("results.json: results[0].vectors[1].cls_name: must be divider, boundary"));
+  EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2],[3,4]]", "1.01"))),
+              HasSubstr("results[0].vectors[0].confidence_level: must be from 0 to 1"));
+  EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2],[3,\"4\"]]"))),
+              HasSubstr("vectors[0].pts[1]: must be a number"));
+  EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2]]"))), HasSubstr("two points"));
+  EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1],[2]]"))), HasSubstr("[x, y]"));
+  EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2],[1e8,2]]"))), HasSubstr("coordinate"));
+  EXPECT_THAT(sample_error(sample("drive_1", "") + "," + sample("drive_1", "")),
+              HasSubstr("results[1].sample_token: a second one"));
+  EXPECT_THAT(sample_error(sample("other_1", "")), HasSubstr("no sample of drive"));
+  EXPECT_THAT(sample_error("1"), HasSubstr("results: must be an array of objects"));
+  EXPECT_THAT(error("{}"), HasSubstr("results: is missing"));
+  EXPECT_THAT(error("[]"), HasSubstr("results"));
+  EXPECT_THAT(error(R"({"results":{}})"), HasSubstr("results: must be an array of objects"));
+  EXPECT_THAT(error(R"({"results":[{"sample_token":"drive_1","vectors")"), HasSubstr("is not JSON"));
+  EXPECT_THAT(error(R"({"results":[{"sample_token":)" + std::string(100'000, '[')), HasSubstr("too deeply"));
+  EXPECT_THAT(error(""), HasSubstr("is not JSON"));
+}
+
+}  // namespace
+}  // namespace laneloom

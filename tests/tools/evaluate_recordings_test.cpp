@@ -1,0 +1,150 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "laneloom/recording.hpp"
+#include "process.hpp"
+#include "recording/temporary_folder.hpp"
+#include "simulation/road.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr std::int64_t kStep_ns = 100'000'000;
+
+/// One laneline straight ahead at y = 2, driven along at 10 m/s; recordings of ten moments.
+class EvaluateRecordings : public testing::Test {
+ protected:
+  void SetUp() override {
+    Road road;
+    road.markings = {{1, MarkingType::laneline, MarkingStyle::solid, {{-50, 2, 0}, {100, 2, 0}}}};
+    road.drive = Drive::recorded({{.stamp_ns = 0}, {.stamp_ns = kStep_ns, .position = {1, 0, 0}}});
+    save_truth(file("truth.json"), road);
+  }
+  static std::int64_t stamp_ns(int moment) { return 1'000'000'000 + moment * kStep_ns; }
+
+  static VehiclePose pose(std::int64_t stamp) {
+    return {.stamp_ns = stamp,
+            .sequence = 1,
+            .session_id = 1,
+            .position = {static_cast<double>(stamp - stamp_ns(0)) * 1e-8, 0, 0}};
+  }
+  /// Seen where it is, from the vehicle.
+  static DetectionFrame frame(std::int64_t stamp) {
+    return {.stamp_ns = stamp,
+            .session_id = 1,
+            .source = "test",
+            .detections = {{.confidence = 0.9, .points = {{-5, 2, 0}, {30, 2, 0}}}}};
+  }
+  /// The laneline as mapped, `off_m` to its left.
+  static PublishedMap map(std::int64_t stamp, double off_m) {
+    PublishedMap published{.session_id = 1, .frame_id = "map"};
+    published.map.stamp_ns = stamp;
+    published.map.T_map_body = transform(pose(stamp));
+    published.map.boundaries = {{.id = 1, .points = {{-50, 2 + off_m, 0}, {100, 2 + off_m, 0}}}};
+    return published;
+  }
+
+  std::string file(const std::string& name) const { return folder_.file(name); }
+  int evaluate(std::vector<std::string> inputs) {
+    inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--truth", file("truth.json"), "--json",
+                                   file("score.json")});
+    return Process(inputs, file("output")).wait();
+  }
+  json score(const std::string& who) const { return json::parse(content(file("score.json"))).at(who); }
+  std::string output() const { return content(file("output")); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(EvaluateRecordings, FramesAreSeenFromThePoseAtTheirStamp) {
+  {
+    RecordingWriter out(file("drive.mcap"));
+    for (int i = 0; i < 10; ++i) {
+      // Between two poses, and before the one behind it has come.
+      out.write(pose(stamp_ns(i)), stamp_ns(i));
+      out.write(frame(stamp_ns(i) + kStep_ns / 2), stamp_ns(i) + 1);
+      out.write(pose(stamp_ns(i)), stamp_ns(i) + 2);  // repeated
+    }
+    DetectionFrame defective = frame(stamp_ns(8));
+    defective.detections[0].points.resize(1);
+    out.write(defective, stamp_ns(9) + 3);
+    out.close();
+  }
+  std::filesystem::rename(file("drive.mcap"), file("drive.jsonl"));  // its name is of no account
+  ASSERT_EQ(evaluate({"--frames", file("drive.jsonl")}), 0) << output();
+  const json raw = score("raw");
+  EXPECT_EQ(raw.at("frames"), 9) << "the last one has no pose behind it";
+  EXPECT_EQ(raw.at("laneline").at("precision"), 1.0);
+  EXPECT_EQ(raw.at("laneline").at("recall"), 1.0);
+  EXPECT_LT(raw.at("laneline").at("acd_m"), 0.05);
+}
+
+TEST_F(EvaluateRecordings, OfMapsOfOneStampTheLastCountsAndOfNoStampNone) {
+  {
+    RecordingWriter out(file("maps.mcap"));
+    out.write(map(0, 0.0), 1);
+    out.write(map(stamp_ns(0), 3.0), 2);
+    out.write(map(stamp_ns(0), 0.0), 3);
+    out.write(map(stamp_ns(1), 0.0), 4);
+    out.write(map(stamp_ns(0), 3.0), 5);  // of before
+    PublishedMap degenerate = map(stamp_ns(2), 0.0);
+    degenerate.map.boundaries.push_back({.id = 2, .points = {{0, 0, 0}}});
+    out.write(degenerate, 6);
+    out.close();
+  }
+  ASSERT_EQ(evaluate({"--map", file("maps.mcap")}), 0) << output();
+  const json fused = score("fused");
+  EXPECT_EQ(fused.at("frames"), 3);
+  EXPECT_EQ(fused.at("laneline").at("precision"), 1.0);
+  EXPECT_EQ(fused.at("laneline").at("matched"), 3);
+}
+
+TEST_F(EvaluateRecordings, FiguresOverRangeAndPicturesOfThem) {
+  {
+    RecordingWriter out(file("maps.mcap"));
+    for (int i = 0; i < 3; ++i) out.write(map(stamp_ns(i), 0.2), stamp_ns(i));
+    out.close();
+  }
+  ASSERT_EQ(evaluate({"--map", file("maps.mcap"), "--plots", file("plots/new")}), 0) << output();
+  const json fused = score("fused");
+  ASSERT_EQ(fused.at("range").at(0).at("from_m"), -5.0);
+  for (const json& bin : fused.at("range")) {
+    EXPECT_EQ(bin.at("precision"), 1.0);
+    EXPECT_EQ(bin.at("recall"), 1.0);
+    EXPECT_NEAR(bin.at("lateral_error_m").get<double>(), 0.2, 1e-9);
+  }
+  const json& errors = fused.at("lateral_error");
+  EXPECT_NEAR(errors.at("laneline").at("20-30").at("p90_m").get<double>(), 0.2, 1e-9);
+  EXPECT_TRUE(errors.at("stopline").at("0-10").at("p50_m").is_null());
+  EXPECT_THAT(output(), HasSubstr("0.200"));
+  for (const char* picture : {"over_time.svg", "over_range.svg"})
+    EXPECT_THAT(content(file("plots/new/") + picture), HasSubstr("</svg>"));
+  EXPECT_EQ(content(file("plots/new/over_time.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(content(file("plots/new/over_range.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(evaluate({"--map", file("maps.mcap"), "--plots", file("maps.mcap")}), 1) << "no folder";
+}
+
+TEST_F(EvaluateRecordings, ADamagedRecordingIsNamed) {
+  {
+    RecordingWriter out(file("maps.mcap"));
+    for (int i = 0; i < 10; ++i) out.write(map(stamp_ns(i), 0.0), stamp_ns(i));
+    out.close();
+  }
+  auto bytes = bytes_of(file("maps.mcap"));
+  bytes.at(bytes.size() / 3) ^= 0xFF;
+  write_bytes(file("damaged.mcap"), bytes);
+  EXPECT_EQ(evaluate({"--map", file("damaged.mcap")}), 1);
+  EXPECT_THAT(output(), HasSubstr("damaged.mcap"));
+  EXPECT_EQ(evaluate({"--map", file("missing.mcap")}), 1);
+  EXPECT_THAT(output(), HasSubstr("missing.mcap: cannot be read"));
+}
+
+}  // namespace
+}  // namespace laneloom

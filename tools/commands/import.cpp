@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "commands/commands.hpp"
+#include "import/drive_log.hpp"
+#include "import/drive_recording.hpp"
+#include "import/maptr.hpp"
+#include "simulation/argoverse2.hpp"
+#include "simulation/road.hpp"
+
+namespace laneloom {
+namespace {
+
+struct MapTrOptions {
+  std::string results, out;
+  std::string argoverse2, nuscenes, scene, poses, samples;
+  PointAxes axes = PointAxes::forward_left;
+};
+
+DriveLog load_drive(const MapTrOptions& options) {
+  if (!options.argoverse2.empty()) return argoverse2_drive(options.argoverse2);
+  if (!options.nuscenes.empty()) return nuscenes_drive(options.nuscenes, options.scene);
+  return plain_drive(options.poses, options.samples, options.axes);
+}
+
+void import_maptr(const MapTrOptions& options) {
+  const DriveLog drive = load_drive(options);
+  ImportedFrames imported = read_maptr(options.results, drive);
+  const std::size_t without_pose = drop_frames_without_pose(imported.frames, drive.poses);
+  if (imported.frames.empty())
+    throw std::runtime_error(options.results + ": no sample is within the poses of " + drive.name);
+  write_drive(options.out, drive.poses, imported.frames);
+  fmt::print("{}: {} frames, {} poses\n", drive.name, imported.frames.size(), drive.poses.size());
+  for (const auto& [class_name, lines] : imported.left_out)
+    fmt::print("left out: {} lines of class {}\n", lines, class_name);
+  if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
+  if (imported.other_drives > 0)
+    fmt::print("passed over: {} frames of other drives\n", imported.other_drives);
+}
+
+void add_maptr(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("maptr", "Detections of MapTR or MapTRv2, and the poses of a drive");
+  const auto options = std::make_shared<MapTrOptions>();
+  command->add_option("--results", options->results, "What their evaluation wrote (…map_results.json)")
+      ->required();
+  CLI::Option_group* drive = command->add_option_group("Drive", "one of");
+  drive->add_option("--argoverse2", options->argoverse2, "Directory of an Argoverse 2 log");
+  CLI::Option* nuscenes =
+      drive->add_option("--nuscenes", options->nuscenes, "Folder of nuScenes' tables (v1.0-…)");
+  CLI::Option* poses =
+      drive->add_option("--poses", options->poses, "Poses (.csv: timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m)");
+  drive->require_option(1);
+  CLI::Option* scene = command->add_option("--scene", options->scene, "Of nuScenes, such as scene-0061");
+  CLI::Option* samples =
+      command->add_option("--samples", options->samples, "With --poses: samples (.csv: token,timestamp_ns)");
+  nuscenes->needs(scene);
+  scene->needs(nuscenes);
+  poses->needs(samples);
+  samples->needs(poses);
+  const std::map<std::string, PointAxes> axes{{"forward-left", PointAxes::forward_left},
+                                              {"right-forward", PointAxes::right_forward}};
+  command->add_option("--axes", options->axes, "With --poses: x and y of the points; default: forward-left")
+      ->transform(CLI::CheckedTransformer(axes))
+      ->needs(poses);
+  command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  command->callback([options] { import_maptr(*options); });
+}
+
+struct LogOptions {
+  std::string directory, out, truth;
+};
+
+void import_argoverse2(const LogOptions& options) {
+  if (!options.truth.empty()) save_truth(options.truth, load_argoverse2(options.directory));
+  if (options.out.empty()) return;
+  const std::vector<VehiclePose> poses = argoverse2_poses(options.directory);
+  write_drive(options.out, poses, {});
+  fmt::print("{}: {} poses\n", options.directory, poses.size());
+}
+
+void add_argoverse2(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("argoverse2", "Map and poses of an Argoverse 2 log");
+  const auto options = std::make_shared<LogOptions>();
+  command->add_option("directory", options->directory, "Of the log")->required();
+  CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
+  outputs->add_option("--out", options->out, "Recording of the poses to write (.mcap)");
+  outputs->add_option("--truth", options->truth, "Truth of the road to write (.json)");
+  outputs->require_option(1, 2);
+  command->callback([options] { import_argoverse2(*options); });
+}
+
+}  // namespace
+
+void add_import(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("import", "Makes recordings of other projects' data");
+  command->require_subcommand(1);
+  add_argoverse2(*command);
+  add_maptr(*command);
+}
+
+}  // namespace laneloom

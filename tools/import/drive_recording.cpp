@@ -1,0 +1,62 @@
+#include "import/drive_recording.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "laneloom/recording.hpp"
+#include "service/pose_buffer.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::uint64_t kSession = 1;
+
+/// Writes messages of one topic, counted.
+template <class T>
+class Stream {
+ public:
+  explicit Stream(RecordingWriter& out) : out_(out) {}
+  void write(T message) {
+    message.session_id = kSession;
+    message.sequence = ++sequence_;
+    out_.write(message, message.stamp_ns);
+  }
+
+ private:
+  RecordingWriter& out_;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace
+
+std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
+                                     const std::vector<VehiclePose>& poses) {
+  SyncConfig config;
+  config.pose_history_s = std::numeric_limits<double>::infinity();
+  config.pose_queue_capacity = std::numeric_limits<int>::max();
+  PoseBuffer buffer(config);
+  for (const VehiclePose& pose : poses) buffer.add(pose);
+  return std::erase_if(frames, [&](const DetectionFrame& frame) {
+    Eigen::Isometry3d T_map_body;
+    return buffer.at(frame.stamp_ns, T_map_body) != PoseBuffer::Answer::found;
+  });
+}
+
+void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
+                 const std::vector<DetectionFrame>& frames) {
+  RecordingWriter out(path);
+  Stream<VehiclePose> pose_stream(out);
+  Stream<DetectionFrame> frame_stream(out);
+  auto frame = frames.begin();
+  for (const VehiclePose& pose : poses) {
+    for (; frame != frames.end() && frame->stamp_ns < pose.stamp_ns; ++frame) frame_stream.write(*frame);
+    pose_stream.write(pose);
+  }
+  for (; frame != frames.end(); ++frame) frame_stream.write(*frame);
+  out.close();
+  if (out.left_out() > 0)
+    throw std::runtime_error(out.path() + ": " + std::to_string(out.left_out()) +
+                             " elements exceed the bounds of a message");
+}
+
+}  // namespace laneloom

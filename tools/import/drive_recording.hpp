@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// Takes out the frames that no service could fuse, as they have no pose around them (SyncConfig), and
+/// returns how many these were. Stamps of `poses` ascend.
+std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
+                                     const std::vector<VehiclePose>& poses);
+
+/// Writes poses and frames (stamps ascend) as the recording `path`. Log times are their stamps, so that a
+/// frame comes after the pose before it, and before the pose after it. Sequences are counted up from 1, in
+/// session 1. Throws std::runtime_error naming the file if it exists or cannot be written, or where a frame
+/// exceeds the bounds of the IDL.
+void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
+                 const std::vector<DetectionFrame>& frames);
+
+}  // namespace laneloom

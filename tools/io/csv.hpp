@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+
+/// Checked reading of comma-separated values without quotes.
+namespace laneloom {
+
+/// Calls visit(row) for every line but the first, which names the columns. Throws std::runtime_error naming
+/// the file where it cannot be read, and file and line of what visit() throws as std::runtime_error.
+void for_each_csv_row(const std::filesystem::path& path, const std::function<void(std::string_view)>& visit);
+
+/// Takes the first field off a row.
+inline std::string_view take_field(std::string_view& row) {
+  const std::size_t comma = std::min(row.find(','), row.size());
+  const std::string_view field = row.substr(0, comma);
+  row.remove_prefix(std::min(comma + 1, row.size()));
+  return field;
+}
+
+/// Likewise, as a finite number. Throws std::runtime_error where it is none.
+template <typename Number>
+Number take_number(std::string_view& row) {
+  const std::string_view field = take_field(row);
+  Number value{};
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size())
+    throw std::runtime_error("a number is expected");
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(value)) throw std::runtime_error("a finite number is expected");
+  return value;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace laneloom {
+
+/// Calls visit(element) for every object of an array in a JSON file, one after the other, so that a large
+/// array need not fit into memory. The array is the whole file, or with a `key` the root object's member of
+/// that name. Throws std::runtime_error naming the file where it cannot be read, is not JSON, or has no such
+/// array of objects; of a JsonError that visit() throws, with file and index of the element.
+void for_each_json_object(const std::filesystem::path& path, const std::string& key,
+                          const std::function<void(const nlohmann::json&)>& visit);
+
+}  // namespace laneloom

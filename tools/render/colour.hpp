@@ -1,0 +1,13 @@
+#pragma once
+
+namespace laneloom {
+
+struct Colour {
+  double red = 0.0;
+  double green = 0.0;
+  double blue = 0.0;
+  double alpha = 1.0;
+  Colour faded(double factor) const { return {red, green, blue, alpha * factor}; }
+};
+
+}  // namespace laneloom
