@@ -68,9 +68,9 @@ void visit(auto& v, Is<PolylineConfig> auto& c) {
 
 void visit(auto& v, Is<FusionConfig> auto& c) {
   auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, stddev_m, stddev_per_m,
-         end_reach_m, fade_m, max_information_per_m2, birth_log_odds, extension_log_odds, hit_log_odds,
-         miss_log_odds, miss_range_m, max_log_odds, min_log_odds, publish_log_odds, confirm_log_odds,
-         min_birth_length_m, min_length_m, merge_distance_m] = c;
+         end_reach_m, fade_m, max_information_per_m2, bias_stddev_m, bias_stddev_per_m, birth_log_odds,
+         extension_log_odds, hit_log_odds, miss_log_odds, miss_range_m, max_log_odds, min_log_odds,
+         publish_log_odds, confirm_log_odds, existence_at_publish, existence_at_max, min_birth_length_m, min_length_m, merge_distance_m] = c;
   v.number("sample_step_m", sample_step_m, "m", 0.1, 2);
   v.number("station_spacing_m", station_spacing_m, "m", 0.2, 2);
   v.number("gate_m", gate_m, "m", 0.1, 2);
@@ -81,6 +81,8 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("end_reach_m", end_reach_m, "m", 0.5, 20);
   v.number("fade_m", fade_m, "m", 0.5, 50);
   v.number("max_information_per_m2", max_information_per_m2, "1/m2", 1, 1000000);
+  v.number("bias_stddev_m", bias_stddev_m, "m", 0, 2);
+  v.number("bias_stddev_per_m", bias_stddev_per_m, "m/m", 0, 0.2);
   v.number("birth_log_odds", birth_log_odds, "", -10, 0);
   v.number("extension_log_odds", extension_log_odds, "", -10, 10);
   v.number("hit_log_odds", hit_log_odds, "", 0.01, 5);
@@ -90,6 +92,8 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("min_log_odds", min_log_odds, "", -20, 0);
   v.number("publish_log_odds", publish_log_odds, "", -10, 10);
   v.number("confirm_log_odds", confirm_log_odds, "", -10, 10);
+  v.number("existence_at_publish", existence_at_publish, "", 0, 1);
+  v.number("existence_at_max", existence_at_max, "", 0, 1);
   v.number("min_birth_length_m", min_birth_length_m, "m", 0, 50);
   v.number("min_length_m", min_length_m, "m", 0.1, 50);
   v.number("merge_distance_m", merge_distance_m, "m", 0, 2);

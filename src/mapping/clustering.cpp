@@ -39,7 +39,8 @@ Instance* best_match(const std::vector<int>& likely, const ClusteringConfig& con
 
 /// Of the instances that were seen together with `voxel` at all: the one that has the nearest voxel (the
 /// paper's ablation, Sec. IV-F); null: none.
-Instance* nearest_match(VoxelId id, const VoxelMap& map, CoObservation& co_observation, Instances& instances) {
+Instance* nearest_match(VoxelId id, const VoxelMap& map, CoObservation& co_observation,
+                        Instances& instances) {
   const Point center = map.center(map[id]);
   Instance* best = nullptr;
   double best_m2 = 0.0;

@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kBirthTrust = 0.25;  // what was seen once is not yet known to be the line
 
-/// Inverse variance of one observation at `point`, seen from `origin`.
-double information(const Point& point, const Point& origin, const FusionConfig& config) {
-  const double range_m = (point - origin).head<2>().norm();
+double distance(const Point& point, const Point& origin) { return (point - origin).head<2>().norm(); }
+
+/// Inverse variance of one observation from `range_m` away.
+double information(double range_m, const FusionConfig& config) {
   const double stddev_m = config.stddev_m + config.stddev_per_m * range_m;
   return 1.0 / (stddev_m * stddev_m);
 }
@@ -24,8 +25,10 @@ struct Observation {
   double end_distance_m;  ///< along the detection, to its nearer end
 };
 
-void observe(Station& station, const Observation& seen, const Eigen::Vector2d& direction,
-             double weight_per_m2, const FusionConfig& config) {
+void observe(Station& station, const Observation& seen, const Eigen::Vector2d& direction, const Point& origin,
+             const FusionConfig& config) {
+  const double range_m = distance(station.position, origin);
+  const double weight_per_m2 = information(range_m, config);
   // Near its ends a detection swings.
   const double end_trust = std::min(1.0, (seen.end_distance_m + 0.5) / config.end_reach_m);
   const double weight = weight_per_m2 * end_trust * end_trust;
@@ -33,12 +36,15 @@ void observe(Station& station, const Observation& seen, const Eigen::Vector2d& d
   station.position.head<2>() += gain * seen.lateral_m * Eigen::Vector2d(-direction.y(), direction.x());
   station.position.z() += gain * seen.height_m;
   station.information_per_m2 = std::min(station.information_per_m2 + weight, config.max_information_per_m2);
+  station.closest_m = std::min(station.closest_m, range_m);
 }
 
 Station new_station(const Point& position, const Point& origin, const SampledDetection& detection,
                     double log_odds, const FusionConfig& config) {
+  const double range_m = distance(position, origin);
   Station station{.position = position,
-                  .information_per_m2 = kBirthTrust * information(position, origin, config),
+                  .information_per_m2 = kBirthTrust * information(range_m, config),
+                  .closest_m = range_m,
                   .log_odds = log_odds};
   station.style_votes[index(detection.style)] += 1.0;
   return station;
@@ -71,7 +77,7 @@ void fuse(const LineMatch& match, const SampledDetection& detection, const Point
       const Observation seen{mix(a.foot.lateral_m, b.foot.lateral_m), mix(a.foot.height_m, b.foot.height_m),
                              end_distance_m(a.sample)};
       Station& station = line.stations[k];
-      observe(station, seen, direction_at(line, k), information(station.position, origin, config), config);
+      observe(station, seen, direction_at(line, k), origin, config);
       station.log_odds = std::min(station.log_odds + hit(detection, config), config.max_log_odds);
       station.style_votes[index(detection.style)] += 1.0;
     }

@@ -13,12 +13,13 @@ namespace laneloom {
 struct Station {
   Point position = Point::Zero();   ///< map frame
   double information_per_m2 = 0.0;  ///< inverse variance of the lateral position
+  double closest_m = 0.0;           ///< from which it was observed
   double log_odds = 0.0;            ///< that the line exists here
   std::array<double, kMarkingStyleCount> style_votes{};
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(position, information_per_m2, log_odds, style_votes);
+    archive(position, information_per_m2, closest_m, log_odds, style_votes);
   }
 };
 

@@ -1,6 +1,7 @@
 #include "mapping/line_publishing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "laneloom/polyline.hpp"
@@ -59,9 +60,25 @@ std::vector<StyleRange> styles_along(Stations stations, const Polyline& points, 
   return styles;
 }
 
+/// An observation's noise averages out; the network's bias towards a line, which lasts, does not.
+double lateral_stddev_m(const Station& station, const FusionConfig& config) {
+  const double bias_m = config.bias_stddev_m + config.bias_stddev_per_m * station.closest_m;
+  return std::sqrt(bias_m * bias_m + 1.0 / station.information_per_m2);
+}
+
+/// Grows with the evidence between what is published and what is certain.
+double existence_probability(double log_odds, const FusionConfig& config) {
+  const double span = std::max(1e-9, config.max_log_odds - config.publish_log_odds);
+  const double share = std::clamp((log_odds - config.publish_log_odds) / span, 0.0, 1.0);
+  return config.existence_at_publish + share * (config.existence_at_max - config.existence_at_publish);
+}
+
 Marking as_marking(const Line& line, Stations stations, const MapperConfig& config) {
   Marking marking{.id = line.id, .type = line.type(), .points = smoothed(stations)};
+  for (const Station& station : stations)
+    marking.lateral_stddev_m.push_back(lateral_stddev_m(station, config.fusion));
   if (is_stopline(marking.type)) {
+    marking.lateral_stddev_m = {marking.lateral_stddev_m.front(), marking.lateral_stddev_m.back()};
     marking.points = {marking.points.front(), marking.points.back()};
     marking.styles = {{{0.0, length(marking.points)}, MarkingStyle::unknown}};
   } else {
@@ -71,6 +88,7 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
   for (const Station& station : stations) log_odds += station.log_odds / static_cast<double>(stations.size());
   const bool confirmed = log_odds >= config.fusion.confirm_log_odds;
   marking.status = confirmed ? ElementStatus::confirmed : ElementStatus::tentative;
+  marking.existence_probability = existence_probability(log_odds, config.fusion);
   marking.observations = line.observations;
   marking.first_seen_ns = line.first_seen_ns;
   return marking;

@@ -16,11 +16,33 @@ void append_style(std::vector<StyleRange>& styles, const StyleRange& next) {
   }
 }
 
+/// The deviation at an arc length, between those of the vertices around it.
+double deviation_at(const std::vector<double>& arc_m, const std::vector<double>& deviations_m, double at_m) {
+  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(arc_m, at_m) - arc_m.begin());
+  if (after == 0) return deviations_m.front();
+  if (after == arc_m.size()) return deviations_m.back();
+  const double share = (at_m - arc_m[after - 1]) / (arc_m[after] - arc_m[after - 1]);
+  return deviations_m[after - 1] + share * (deviations_m[after] - deviations_m[after - 1]);
+}
+
+/// The mean of both, by their lengths; not estimated where one of them is not.
+double joint_existence(const Marking& a, double a_m, const Marking& b, double b_m) {
+  if (a.existence_probability < 0.0 || b.existence_probability < 0.0 || a_m + b_m <= 0.0) return -1.0;
+  return (a.existence_probability * a_m + b.existence_probability * b_m) / (a_m + b_m);
+}
+
 }  // namespace
 
 Marking slice(const Marking& marking, const Range& stretch) {
   Marking part = marking;
   part.points = MeasuredPolyline(marking.points).slice(stretch);
+  if (!marking.lateral_stddev_m.empty()) {
+    const std::vector<double> whole_m = arc_lengths(marking.points);
+    part.lateral_stddev_m.clear();
+    for (const double arc_m : arc_lengths(part.points))
+      part.lateral_stddev_m.push_back(
+          deviation_at(whole_m, marking.lateral_stddev_m, stretch.from_m + arc_m));
+  }
   part.styles.clear();
   for (const auto& [range, style] : marking.styles) {
     const double from_m = std::max(range.from_m, stretch.from_m) - stretch.from_m;
@@ -41,6 +63,7 @@ void reverse(Marking& marking) {
 void append(Marking& marking, const Marking& next) {
   const double end_m = length(marking.points);
   const double start_m = end_m + (next.points.front() - marking.points.back()).head<2>().norm();
+  marking.existence_probability = joint_existence(marking, end_m, next, length(next.points));
   append_style(marking.styles, {{end_m, start_m}, MarkingStyle::unknown});
   for (const auto& [range, style] : next.styles) {
     append_style(marking.styles, {{start_m + range.from_m, start_m + range.to_m}, style});

@@ -62,7 +62,7 @@ TEST(NoNoise, EverythingInViewIsSeen) {
   const DetectionFrame frame = drive(road, noise_profile("none"), 5.0).back();
   EXPECT_EQ(frame.detections.size(), road.markings.size());
   for (const Detection& detection : frame.detections) {
-    EXPECT_NEAR(detection.points.front().x(), -20.0, 1e-6);
+    EXPECT_NEAR(detection.points.front().x(), -40.0, 1e-6);
     EXPECT_NEAR(detection.points.back().x(), 50.0, 1e-6);
   }
   EXPECT_EQ(frame.field_of_view.size(), 4u);
@@ -147,7 +147,7 @@ std::vector<double> lateral_errors_m(const NoiseProfile& noise, double ahead_m) 
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     for (const DetectionFrame& frame : drive(make_scenario("straight"), noise, 20.0, seed)) {
       for (const Detection& detection : frame.detections) {
-        const Point p = MeasuredPolyline(detection.points).at(20.0 + ahead_m);
+        const Point p = MeasuredPolyline(detection.points).at(40.0 + ahead_m);
         const double error_m = p.y() - 1.75;  // the line left of the ego lane
         if (std::abs(error_m) < 1.2) errors.push_back(error_m);
       }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/recording.hpp"
 
 /// Options that several commands share.
 namespace laneloom {
@@ -28,6 +30,16 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
 inline void add_dds(CLI::App& command, DdsConfig& dds) {
   command.add_option("--domain", dds.domain, "DDS domain")->check(CLI::Range(0, 232))->capture_default_str();
   command.add_option("--vehicle-id", dds.vehicle_id, "Names the vehicle's DDS partition")
+      ->capture_default_str();
+}
+
+inline const std::map<std::string, Compression> kCompressions{
+    {"zstd", Compression::zstd}, {"lz4", Compression::lz4}, {"none", Compression::none}};
+
+/// --compression: of a recording that is written; a key of kCompressions.
+inline void add_compression(CLI::App& command, std::string& compression) {
+  command.add_option("--compression", compression, "Of a recording: zstd, lz4 or none")
+      ->check(CLI::IsMember(kCompressions))
       ->capture_default_str();
 }
 

@@ -34,9 +34,6 @@ constexpr std::chrono::seconds kFlushPeriod{1};
 constexpr std::size_t kInboxBytes = 256U << 20U;
 constexpr double kBytesPerMB = 1e6;
 
-const std::map<std::string, Compression> kCompressions{
-    {"zstd", Compression::zstd}, {"lz4", Compression::lz4}, {"none", Compression::none}};
-
 struct Options {
   DdsConfig dds;
   RecordingOptions recording;
@@ -190,9 +187,7 @@ void add_record(CLI::App& app) {
   add_dds(*command, options->dds);
   command->add_option("--out", options->out,
                       "File (.mcap), or a folder; default: laneloom_<UTC time>.mcap here");
-  command->add_option("--compression", options->compression, "zstd, lz4 or none")
-      ->check(CLI::IsMember(kCompressions))
-      ->capture_default_str();
+  add_compression(*command, options->compression);
   command->add_option("--max-size", options->max_size_mb, "MB, after which a new file is begun")
       ->check(CLI::PositiveNumber);
   command->add_option("--max-duration", options->recording.max_file_s, "Seconds, likewise")

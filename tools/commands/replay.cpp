@@ -25,6 +25,7 @@ using SteadyClock = std::chrono::steady_clock;
 struct Options {
   std::string in, report, preset, truth;
   std::vector<std::string> config_files, out;
+  std::string compression = "zstd";
   RangeConfig range;
   bool range_given = false;
   bool verify = false;
@@ -79,7 +80,8 @@ ReplayResult run(const Options& options, const std::string& config_file, const s
                  const Road* truth) {
   const Config config = read_config(options, config_file);
   const std::unique_ptr<MessageSource> source = open_messages(options.in, config.dds.map_frame_id);
-  const std::unique_ptr<MapOutput> output = out.empty() ? nullptr : create_map_output(out);
+  const std::unique_ptr<MapOutput> output =
+      out.empty() ? nullptr : create_map_output(out, kCompressions.at(options.compression));
   std::unique_ptr<MapEvaluation> evaluation;
   if (truth != nullptr)
     evaluation = std::make_unique<MapEvaluation>(*truth, config.mapper.range, Subject::maps);
@@ -169,6 +171,7 @@ void add_replay(CLI::App& app) {
   command->add_option("--in", options->in, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
   command->add_option("--out", options->out, "Maps to write, one a frame: .mcap, else JSON lines");
+  add_compression(*command, options->compression);
   command->add_option("--report", options->report, "Timing report to write (.json)");
   command->add_option("--config", options->config_files, "Configuration (.yaml); several are compared");
   command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")

@@ -4,14 +4,14 @@
 #include <xxhash.h>
 
 #include "io/json_lines.hpp"
-#include "laneloom/recording.hpp"
 
 namespace laneloom {
 namespace {
 
 class RecordedMaps : public MapOutput {
  public:
-  explicit RecordedMaps(const std::string& path) : writer_(path) {}
+  RecordedMaps(const std::string& path, Compression compression)
+      : writer_(path, {.compression = compression}) {}
 
   void write(const PublishedMap& map, std::int64_t log_time_ns) override {
     writer_.write(map, log_time_ns);
@@ -58,8 +58,8 @@ std::string Digest::text() const {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-std::unique_ptr<MapOutput> create_map_output(const std::string& path) {
-  if (path.ends_with(".mcap")) return std::make_unique<RecordedMaps>(path);
+std::unique_ptr<MapOutput> create_map_output(const std::string& path, Compression compression) {
+  if (path.ends_with(".mcap")) return std::make_unique<RecordedMaps>(path, compression);
   return std::make_unique<MapLines>(path);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "laneloom/messages.hpp"
+#include "laneloom/recording.hpp"
 
 namespace laneloom {
 
@@ -35,7 +36,7 @@ class MapOutput {
 };
 
 /// A recording where `path` ends with ".mcap", else JSON lines.
-std::unique_ptr<MapOutput> create_map_output(const std::string& path);
+std::unique_ptr<MapOutput> create_map_output(const std::string& path, Compression compression);
 
 /// The message that goes with the map on the topic road_markings.
 RoadMarkings road_markings(const PublishedMap& map);
