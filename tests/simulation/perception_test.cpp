@@ -147,7 +147,7 @@ std::vector<double> lateral_errors_m(const NoiseProfile& noise, double ahead_m) 
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     for (const DetectionFrame& frame : drive(make_scenario("straight"), noise, 20.0, seed)) {
       for (const Detection& detection : frame.detections) {
-        const Point p = MeasuredPolyline(detection.points).at(40.0 + ahead_m);
+        const Point p = MeasuredPolyline(detection.points).project({ahead_m, 1.75, 0.0}).foot;
         const double error_m = p.y() - 1.75;  // the line left of the ego lane
         if (std::abs(error_m) < 1.2) errors.push_back(error_m);
       }

@@ -16,7 +16,7 @@ TEST(SensorView, ClipsALineToItsBox) {
   const auto pieces = visible_pieces(ViewedLine({{-100.0, 1.0, 0.0}, {100.0, 1.0, 0.0}}), {}, kOrigin);
   ASSERT_EQ(pieces.size(), 1u);
   EXPECT_EQ(pieces[0].points, (Polyline{{-40.0, 1.0, 0.0}, {50.0, 1.0, 0.0}}));
-  EXPECT_DOUBLE_EQ(pieces[0].arc.from_m, 80.0);
+  EXPECT_DOUBLE_EQ(pieces[0].arc.from_m, 60.0);
   EXPECT_DOUBLE_EQ(pieces[0].arc.to_m, 150.0);
 }
 

@@ -72,6 +72,7 @@ LineNoise::LineNoise(const NoiseProfile& noise, MarkingType type, double distanc
       first_shift_(random),
       last_shift_(random),
       confidence_(random),
+      poor_offset_(random),
       missed_(missed_share(noise, distance_m), random),
       poor_(noise.poor_share, random),
       cut_(noise.cut_share, random),
@@ -92,6 +93,7 @@ void LineNoise::step(double dt_s, const NoiseProfile& noise, double distance_m, 
   for (Wander* wander : {&first_swing_, &last_swing_, &first_shift_, &last_shift_})
     wander->step(dt_s, noise.end_memory_s, random);
   missed_.step(dt_s, missed_share(noise, distance_m), noise.missed_dwell_s, random);
+  poor_offset_.step(dt_s, noise.poor_dwell_s, random);
   poor_.step(dt_s, noise.poor_share, noise.poor_dwell_s, random);
   cut_.step(dt_s, noise.cut_share, noise.cut_dwell_s, random);
   duplicated_.step(dt_s, noise.duplicate_share, noise.duplicate_dwell_s, random);
@@ -99,8 +101,14 @@ void LineNoise::step(double dt_s, const NoiseProfile& noise, double distance_m, 
   wrong_style_.step(dt_s, noise.style_wrong_share, noise.style_wrong_dwell_s, random);
 }
 
-double LineNoise::error_factor(const NoiseProfile& noise) const {
-  return noise.error_factor.at(index(type_)) * (poor_.on() ? noise.poor_factor : 1.0);
+double LineNoise::offset_m(double range_m, const NoiseProfile& noise) const {
+  // Nothing that a network would take for the line is farther off for long.
+  constexpr double kMaxStddevs = 1.5;
+  const double lasting = std::clamp(offset_.value(), -kMaxStddevs, kMaxStddevs);
+  const double lasting_m = lasting * noise.error_factor.at(index(type_)) *
+                           (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m);
+  if (!poor_.on()) return lasting_m;
+  return lasting_m + poor_offset_.value() * (noise.poor_stddev_m + noise.poor_stddev_per_m * range_m);
 }
 
 Polyline LineNoise::displaced(const Polyline& truth, const NoiseProfile& noise, Random& random) const {
@@ -108,15 +116,15 @@ Polyline LineNoise::displaced(const Polyline& truth, const NoiseProfile& noise, 
   Polyline line = densified(measured.points(), kDenseStep_m);
   const std::vector<double> arcs_m = arc_lengths(line);
   const double nearest_m = arcs_m[nearest_to_body(line)];
-  const double factor = error_factor(noise);
   const double flutter_m = noise.flutter_stddev_m * random.normal();
-  const double slope = factor * rotation_.value() * noise.rotation_stddev_deg * kDegree;
+  const double slope =
+      noise.error_factor.at(index(type_)) * rotation_.value() * noise.rotation_stddev_deg * kDegree;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const double arc_m = arcs_m[i];
     const double range_m = line[i].head<2>().norm();
     const double left_m =
-        factor * offset_.value() * (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m) +
-        slope * (arc_m - nearest_m) + flutter_m + noise.point_stddev_m * random.normal() +
+        offset_m(range_m, noise) + slope * (arc_m - nearest_m) + flutter_m +
+        noise.point_stddev_m * random.normal() +
         noise.end_swing_stddev_m *
             (first_swing_.value() * end_weight(arc_m, noise.end_reach_m) +
              last_swing_.value() * end_weight(measured.length() - arc_m, noise.end_reach_m));
@@ -143,8 +151,7 @@ Polyline LineNoise::with_shifted_ends(const Polyline& line, const NoiseProfile& 
 double LineNoise::confidence(const Polyline& line, const NoiseProfile& noise, Random& random) const {
   double range_m = std::numeric_limits<double>::infinity();
   for (const Point& p : line) range_m = std::min(range_m, p.head<2>().norm());
-  const double error_m = error_factor(noise) * std::abs(offset_.value()) *
-                         (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m);
+  const double error_m = std::abs(offset_m(range_m, noise));
   // Half of its scatter stays with the line, half is every frame's own.
   const double scatter = noise.confidence_stddev * std::numbers::sqrt2 / 2.0;
   return std::clamp(noise.confidence - noise.confidence_per_m * range_m -

@@ -22,14 +22,14 @@ class LineNoise {
                                 Random& random) const;
 
  private:
-  double error_factor(const NoiseProfile& noise) const;
+  double offset_m(double range_m, const NoiseProfile& noise) const;
   double missed_share(const NoiseProfile& noise, double distance_m) const;
   Polyline displaced(const Polyline& truth, const NoiseProfile& noise, Random& random) const;
   Polyline with_shifted_ends(const Polyline& line, const NoiseProfile& noise) const;
   double confidence(const Polyline& line, const NoiseProfile& noise, Random& random) const;
 
   MarkingType type_;
-  Wander offset_, rotation_, first_swing_, last_swing_, first_shift_, last_shift_, confidence_;
+  Wander offset_, rotation_, first_swing_, last_swing_, first_shift_, last_shift_, confidence_, poor_offset_;
   Switch missed_, poor_, cut_, duplicated_, swapped_, wrong_style_;
   double cut_at_, cut_gap_,
       duplicate_offset_;  // drawn once: shares of the length and of the profile's maxima

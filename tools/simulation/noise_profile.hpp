@@ -13,15 +13,17 @@ namespace laneloom {
 struct NoiseProfile {
   std::string name = "none";
 
-  // Every line as a whole, lateral. A poor line is one whose errors are several times the usual.
+  // Every line as a whole, lateral. It errs in the same way for as long as it is in view, and for moments far
+  // more.
   double offset_stddev_m = 0.0;      ///< at the vehicle
   double offset_stddev_per_m = 0.0;  ///< more, per metre from the vehicle
   double rotation_stddev_deg = 0.0;  ///< about the line's nearest point
   double line_memory_s = 0.0;        ///< correlation time of offset and rotation
   double poor_share = 0.0;
   double poor_dwell_s = 1.0;
-  double poor_factor = 1.0;
-  std::array<double, kMarkingTypeCount> error_factor{1.0, 1.0, 1.0};  ///< of all of these, by marking type
+  double poor_stddev_m = 0.0;      ///< in such a moment, more, at the vehicle
+  double poor_stddev_per_m = 0.0;  ///< per metre from it
+  std::array<double, kMarkingTypeCount> error_factor{1.0, 1.0, 1.0};  ///< of offset and rotation, by type
   double flutter_stddev_m = 0.0;  ///< the line as a whole, in every frame for itself
 
   // A line's ends.
