@@ -117,11 +117,11 @@ struct FusionConfig {
   double bias_stddev_m = 0.1;
   double bias_stddev_per_m = 0.004;  ///< more, per metre of the closest view of it
   // Evidence that a line exists at a station, as log odds.
-  double birth_log_odds = -3.0;
+  double birth_log_odds = -4.0;
   double extension_log_odds = -1.0;
-  double hit_log_odds = 0.5;   ///< gained by an observation of confidence 0.5
-  double miss_log_odds = 0.5;  ///< lost in a frame that should have seen it, at the vehicle
-  double miss_range_m = 60.0;  ///< where a miss says nothing any more
+  double hit_log_odds = 0.5;    ///< gained by an observation of confidence 0.5
+  double miss_log_odds = 0.25;  ///< lost in a frame that should have seen it, at the vehicle
+  double miss_range_m = 60.0;   ///< where a miss says nothing any more
   double max_log_odds = 4.0;
   double min_log_odds = -4.0;  ///< below, a station is taken away
   double publish_log_odds = 0.0;

@@ -37,7 +37,8 @@ TEST_F(LinePublishing, OnlyWhatHasEvidenceAndOnlyInTheRange) {
 TEST_F(LinePublishing, ZigzagBetweenStationsIsSmoothed) {
   for (std::size_t i = 0; i < 51; ++i) line_.stations[i].position.y() = i % 2 == 0 ? 0.1 : -0.1;
   believe(0, 51, 1.0);
-  for (const Point& point : publish()[0].points) EXPECT_LT(std::abs(point.y()), 0.06);
+  const Marking marking = publish()[0];
+  for (const Point& point : marking.points) EXPECT_LT(std::abs(point.y()), 0.06);
 }
 
 TEST_F(LinePublishing, ABendOfTwelveMetresStaysOne) {
