@@ -77,6 +77,7 @@ struct SectionConfig {
 struct LaneConfig {
   double min_width_m = 2.5;
   double max_width_m = 4.5;
+  double max_kerb_width_m = 6.5;  ///< where one side is a roadedge: with room to park
   double max_width_variation_m = 0.8;
   double min_length_m = 4.0;
   double step_m = 0.5;             ///< between the samples on the right boundary
@@ -119,15 +120,15 @@ struct FusionConfig {
   // Evidence that a line exists at a station, as log odds.
   double birth_log_odds = -4.0;
   double extension_log_odds = -1.0;
-  double hit_log_odds = 0.5;    ///< gained by an observation of confidence 0.5
+  double hit_log_odds = 0.4;    ///< gained by an observation of confidence 0.5
   double miss_log_odds = 0.25;  ///< lost in a frame that should have seen it, at the vehicle
   double miss_range_m = 60.0;   ///< where a miss says nothing any more
-  double max_log_odds = 4.0;
+  double max_log_odds = 6.0;
   double min_log_odds = -4.0;  ///< below, a station is taken away
   double publish_log_odds = 0.0;
   double confirm_log_odds = 2.0;
-  double existence_at_publish = 0.5;  ///< probability that a line exists whose evidence is publish_log_odds
-  double existence_at_max = 0.95;     ///< and one whose evidence is max_log_odds
+  double existence_at_publish = 0.55;  ///< probability that a line exists whose evidence is publish_log_odds
+  double existence_at_max = 0.97;      ///< and one whose evidence is max_log_odds
   double min_birth_length_m = 2.0;
   double min_length_m = 1.0;      ///< of what is published
   double merge_distance_m = 0.9;  ///< lines closer than this that are not seen together are one

@@ -70,7 +70,8 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, stddev_m, stddev_per_m,
          end_reach_m, fade_m, max_information_per_m2, bias_stddev_m, bias_stddev_per_m, birth_log_odds,
          extension_log_odds, hit_log_odds, miss_log_odds, miss_range_m, max_log_odds, min_log_odds,
-         publish_log_odds, confirm_log_odds, existence_at_publish, existence_at_max, min_birth_length_m, min_length_m, merge_distance_m] = c;
+         publish_log_odds, confirm_log_odds, existence_at_publish, existence_at_max, min_birth_length_m,
+         min_length_m, merge_distance_m] = c;
   v.number("sample_step_m", sample_step_m, "m", 0.1, 2);
   v.number("station_spacing_m", station_spacing_m, "m", 0.2, 2);
   v.number("gate_m", gate_m, "m", 0.1, 2);
@@ -119,10 +120,11 @@ void visit(auto& v, Is<SectionConfig> auto& c) {
 }
 
 void visit(auto& v, Is<LaneConfig> auto& c) {
-  auto& [min_width_m, max_width_m, max_width_variation_m, min_length_m, step_m, centerline_step_m,
-         id_memory_frames] = c;
+  auto& [min_width_m, max_width_m, max_kerb_width_m, max_width_variation_m, min_length_m, step_m,
+         centerline_step_m, id_memory_frames] = c;
   v.number("min_width_m", min_width_m, "m", 0.5, 20);
   v.number("max_width_m", max_width_m, "m", 0.5, 20);
+  v.number("max_kerb_width_m", max_kerb_width_m, "m", 0.5, 20);
   v.number("max_width_variation_m", max_width_variation_m, "m", 0, 10);
   v.number("min_length_m", min_length_m, "m", 0, 100);
   v.number("step_m", step_m, "m", 0.05, 10);

@@ -32,7 +32,7 @@ bool contains(const Occupied& occupied, double arc_m) {
 
 std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const MeasuredPolyline& right,
                                          const Occupied& left_used, const Occupied& right_used,
-                                         const LaneConfig& config) {
+                                         double max_width_m, const LaneConfig& config) {
   std::vector<CrossSection> sections;
   const auto steps = static_cast<int>(std::max(1.0, std::ceil(right.length() / config.step_m)));
   for (int i = 0; i <= steps; ++i) {
@@ -40,7 +40,7 @@ std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const Mea
     const Point point = right.at(arc_m);
     const Projection foot = left.project(point);
     const bool free = !contains(left_used, foot.arc_m) && !contains(right_used, arc_m);
-    const bool width_ok = foot.distance_m >= config.min_width_m && foot.distance_m <= config.max_width_m;
+    const bool width_ok = foot.distance_m >= config.min_width_m && foot.distance_m <= max_width_m;
     sections.push_back({.left_arc_m = foot.arc_m,
                         .right_arc_m = arc_m,
                         .width_m = foot.distance_m,
@@ -109,9 +109,12 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
                                  const std::vector<MeasuredPolyline>& measured, const LaneConfig& config) {
   std::vector<Lane> lanes;
   std::vector<Occupied> used_right_side(boundaries.size()), used_left_side(boundaries.size());
-  const auto pair_lanes = [&](std::size_t left, std::size_t right, std::uint32_t section) {
+  const auto pair_lanes = [&](std::size_t left, std::size_t right, bool adjacent, std::uint32_t section) {
+    const bool kerb = adjacent && (boundaries[left].marking.type == MarkingType::roadedge ||
+                                   boundaries[right].marking.type == MarkingType::roadedge);
     const auto sections =
-        cross_sections(measured[left], measured[right], used_right_side[left], used_left_side[right], config);
+        cross_sections(measured[left], measured[right], used_right_side[left], used_left_side[right],
+                       kerb ? config.max_kerb_width_m : config.max_width_m, config);
     for (std::size_t begin = 0; begin < sections.size();) {
       const std::size_t end = std::max(run_end(sections, begin, config), begin + 1);
       if (sections[end - 1].left_arc_m - sections[begin].left_arc_m >= config.min_length_m) {
@@ -129,7 +132,8 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
   for (std::size_t rank = 0; rank < kPairsPerBoundary; ++rank) {
     for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
       for (const std::size_t left : graph.sections[section].boundaries) {
-        if (rank < graph.right_of[left].size()) pair_lanes(left, graph.right_of[left][rank].right, section);
+        if (rank < graph.right_of[left].size())
+          pair_lanes(left, graph.right_of[left][rank].right, rank == 0, section);
       }
     }
   }

@@ -51,7 +51,7 @@ Station new_station(const Point& position, const Point& origin, const SampledDet
 }
 
 double hit(const SampledDetection& detection, const FusionConfig& config) {
-  return config.hit_log_odds * 2.0 * detection.confidence;
+  return config.hit_log_odds * 4.0 * detection.confidence * detection.confidence;
 }
 
 void fuse(const LineMatch& match, const SampledDetection& detection, const Point& origin,

@@ -117,7 +117,7 @@ TEST_F(LineFusion, AnEndThatIsNotSeenAgainIsCut) {
 TEST_F(LineFusion, ALineThatIsLostInBetweenIsSplit) {
   for (int i = 0; i < 10; ++i) see({straight({0, 0, 0}, {25, 0, 0})});
   const ElementId id = lines_[0].id;
-  for (int i = 0; i < 40; ++i) see({straight({0, 0, 0}, {8, 0, 0}), straight({14, 0, 0}, {25, 0, 0})});
+  for (int i = 0; i < 80; ++i) see({straight({0, 0, 0}, {8, 0, 0}), straight({14, 0, 0}, {25, 0, 0})});
   ASSERT_EQ(lines_.size(), 2U);
   EXPECT_EQ(std::ranges::count(lines_, id, &Line::id), 1);
 }
