@@ -11,13 +11,15 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kPairsPerBoundary = 2;  // (b_i, b_i+1) and (b_i, b_i+2)
+constexpr std::size_t kPairsPerBoundary = 2;   // (b_i, b_i+1) and (b_i, b_i+2)
+constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
 
 /// A sample on the right boundary with its foot on the left one.
 struct CrossSection {
   double left_arc_m = 0.0;
   double right_arc_m = 0.0;
   double width_m = 0.0;
+  bool wide = false;  ///< as only a kerb lane may be
   Point left = Point::Zero();
   Point right = Point::Zero();
   bool valid = false;
@@ -44,6 +46,7 @@ std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const Mea
     sections.push_back({.left_arc_m = foot.arc_m,
                         .right_arc_m = arc_m,
                         .width_m = foot.distance_m,
+                        .wide = foot.distance_m > config.max_width_m,
                         .left = foot.foot,
                         .right = point,
                         .valid = free && width_ok && foot.inside && foot.lateral_m < 0.0});
@@ -58,6 +61,7 @@ std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin
   std::size_t end = begin;
   while (end < sections.size() && sections[end].valid) {
     if (end > begin && sections[end].left_arc_m < sections[end - 1].left_arc_m) break;
+    if (sections[end].wide != sections[begin].wide) break;
     narrowest = std::min(narrowest, sections[end].width_m);
     widest = std::max(widest, sections[end].width_m);
     if (widest - narrowest > config.max_width_variation_m) break;
@@ -117,7 +121,8 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
                        kerb ? config.max_kerb_width_m : config.max_width_m, config);
     for (std::size_t begin = 0; begin < sections.size();) {
       const std::size_t end = std::max(run_end(sections, begin, config), begin + 1);
-      if (sections[end - 1].left_arc_m - sections[begin].left_arc_m >= config.min_length_m) {
+      const double min_length_m = sections[begin].wide ? kMinKerbLaneLength_m : config.min_length_m;
+      if (sections[end - 1].left_arc_m - sections[begin].left_arc_m >= min_length_m) {
         Lane lane = make_lane(sections, begin, end, config);
         lane.left_boundary = boundaries[left].marking.id;
         lane.right_boundary = boundaries[right].marking.id;

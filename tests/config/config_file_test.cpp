@@ -138,6 +138,27 @@ TEST(Validate, RefusesWhatWasSetInCode) {
   EXPECT_THROW(validate(config), ConfigError);
 }
 
+TEST(SetValue, ChangesOneValueOfAny) {
+  Config config;
+  set_value(config, "mapper.range.side_max_m=20.5");
+  set_value(config, "mapper.method=voxels");
+  set_value(config, "dds.vehicle_id=car7");
+  EXPECT_EQ(config.mapper.range.side_max_m, 20.5);
+  EXPECT_EQ(config.mapper.method, "voxels");
+  EXPECT_EQ(config.dds.vehicle_id, "car7");
+  EXPECT_EQ(config.mapper.range.forward_max_m, Config{}.mapper.range.forward_max_m);
+}
+
+TEST(SetValue, RefusesWhatAFileMayNotSayAndChangesNothing) {
+  Config config;
+  for (const char* assignment :
+       {"mapper.range.side_max_m", "mapper.range.width=3", "mapper.range.side_max_m=wide",
+        "mapper.range.side_max_m=-1", "=3", "mapper=3", "mapper.range.side_max_m=[1, 2", ".=1"}) {
+    EXPECT_THROW(set_value(config, assignment), ConfigError) << assignment;
+    EXPECT_EQ(dump(config), dump(Config{})) << assignment;
+  }
+}
+
 TEST(Presets, SetRangeAndAlpha) {
   Config config;
   config.mapper.lane.min_width_m = 2.0;

@@ -23,6 +23,24 @@ TEST(Markings, ASliceHasTheStylesOfItsStretch) {
   EXPECT_EQ(slice(styled(), {5, 9}).styles.size(), 1U);
 }
 
+TEST(Markings, ASliceHasTheDeviationsOfItsPlaces) {
+  Marking marking{.points = {{0, 0, 0}, {10, 0, 0}, {20, 0, 0}}, .lateral_stddev_m = {0.1, 0.2, 0.6}};
+  const Marking part = slice(marking, {5.0, 17.5});
+  ASSERT_EQ(part.points.size(), 3U);
+  ASSERT_EQ(part.lateral_stddev_m.size(), 3U);
+  EXPECT_NEAR(part.lateral_stddev_m[0], 0.15, 1e-9);
+  EXPECT_NEAR(part.lateral_stddev_m[1], 0.2, 1e-9);
+  EXPECT_NEAR(part.lateral_stddev_m[2], 0.5, 1e-9);
+}
+
+TEST(Markings, ExistenceOfAChainIsTheMeanByLength) {
+  Marking marking{.points = {{0, 0, 0}, {10, 0, 0}}, .existence_probability = 0.9};
+  append(marking, Marking{.points = {{12, 0, 0}, {42, 0, 0}}, .existence_probability = 0.5});
+  EXPECT_NEAR(marking.existence_probability, 0.6, 1e-9);
+  append(marking, Marking{.points = {{43, 0, 0}, {44, 0, 0}}});
+  EXPECT_EQ(marking.existence_probability, -1.0);
+}
+
 TEST(Markings, ReversedTwiceIsTheSame) {
   Marking m = styled();
   reverse(m);

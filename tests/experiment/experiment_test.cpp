@@ -1,0 +1,147 @@
+#include "experiment/experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "experiment/calibration.hpp"
+#include "experiment/oracle.hpp"
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+namespace {
+
+DriveSpec spec(const std::string& scenario, const std::string& noise, double duration_s) {
+  return {.road = std::make_shared<const Road>(make_scenario(scenario)),
+          .noise = noise_profile(noise),
+          .seed = 3,
+          .duration_s = duration_s};
+}
+
+TEST(DriveSimulation, OneSpecGivesTheSameFrames) {
+  const auto once = simulate(spec("split", "inhouse", 5.0)), again = simulate(spec("split", "inhouse", 5.0));
+  ASSERT_EQ(once.size(), 50U);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(to_json_line(once[i].record), to_json_line(again[i].record));
+    EXPECT_EQ(once[i].sources.size(), once[i].record.frame.detections.size());
+    EXPECT_EQ(once[i].sources, again[i].sources);
+    EXPECT_TRUE(transform(once[i].record.pose).isApprox(once[i].T_map_body));
+  }
+}
+
+TEST(DriveSimulation, OdometryDriftsByItsShareOfTheDistance) {
+  DriveSpec drifting = spec("straight", "none", 11.0);
+  drifting.drift = 0.01;
+  const auto frames = simulate(drifting);
+  const Point error =
+      transform(frames.back().record.pose).translation() - frames.back().T_map_body.translation();
+  const Point start = frames.front().T_map_body.translation();
+  const double driven_m = (frames.back().T_map_body.translation() - start).norm();
+  EXPECT_NEAR(std::abs(error.x()), 0.01 * driven_m, 0.05);
+  EXPECT_NEAR(std::abs(error.y()), 0.00005 * driven_m * driven_m, 0.1);
+}
+
+TEST(Oracle, WithoutNoiseKnowsTheTruth) {
+  ExperimentSpec experiment;
+  experiment.drives = {spec("split", "none", 20.0)};
+  experiment.oracle = true;
+  const auto results = run(experiment);
+  ASSERT_EQ(results.size(), 2U);
+  EXPECT_EQ(results[0].name, "raw");
+  EXPECT_EQ(results[1].name, "oracle");
+  for (const SubjectResult& result : results) {
+    EXPECT_GT(result.measures.score.markings().f1(), 0.99) << result.name;
+    EXPECT_LT(result.measures.score.markings().acd_m(), 0.03) << result.name;
+  }
+}
+
+TEST(Oracle, GivesTheMeanOfWhatItSaw) {
+  Road road;
+  road.markings.push_back({.id = 5, .points = {{0, 0, 0}, {20, 0, 0}}});
+  Oracle oracle(road);
+  const auto see = [&](double y_m) {
+    SimulatedFrame frame;
+    frame.record.frame.detections = {Detection{.points = {{-1, y_m, 0}, {21, y_m, 0}}},
+                                     Detection{.points = {{0, 1, 0}, {20, 1, 0}}}};
+    frame.sources = {5, kNoElement};  // the second one is a ghost
+    return oracle.update(frame);
+  };
+  see(0.1);
+  const LocalMap map = see(0.5);
+  ASSERT_EQ(map.boundaries.size(), 1U);
+  EXPECT_EQ(map.boundaries[0].id, 5U);
+  for (const Point& point : map.boundaries[0].points) EXPECT_NEAR(point.y(), 0.3, 1e-9);
+}
+
+TEST(Experiment, DrivesAddUpWhateverRunsFirst) {
+  ExperimentSpec one, both;
+  one.drives = {spec("straight", "inhouse", 10.0)};
+  both.drives = {one.drives[0], spec("curve", "inhouse", 10.0)};
+  one.configs = both.configs = {{"ours", Config{}}};
+  const auto single = run(one), sums = run(both), again = run(both);
+  ASSERT_EQ(sums.size(), 2U);
+  EXPECT_EQ(sums[1].name, "ours");
+  EXPECT_EQ(single[1].measures.score.frames, 100U);
+  EXPECT_EQ(sums[1].measures.score.frames, 200U);
+  EXPECT_EQ(sums[1].update_ms.count(), 200U);
+  EXPECT_GT(sums[1].measures.score.markings().matches, single[1].measures.score.markings().matches);
+  EXPECT_GT(sums[1].measures.average_precision.map(), 0.0);
+  EXPECT_EQ(sums[1].measures.score.markings().chamfer_distances_m,
+            again[1].measures.score.markings().chamfer_distances_m);
+  EXPECT_EQ(sums[1].measures.markings_stability().id_switches,
+            again[1].measures.markings_stability().id_switches);
+}
+
+TEST(Experiment, AMapIsRatedWhereADriftingVehicleSeesIt) {
+  ExperimentSpec experiment;
+  experiment.drives = {spec("straight", "none", 20.0)};
+  experiment.drives[0].drift = 0.01;
+  experiment.configs = {{"ours", Config{}}};
+  // In the map frame the lines are off by metres at the end.
+  EXPECT_GT(run(experiment)[1].measures.score.markings().f1(), 0.95);
+}
+
+TEST(Experiment, APeerThatFailsIsNamed) {
+  ExperimentSpec experiment;
+  experiment.drives = {spec("straight", "none", 1.0)};
+  for (const char* program : {"/bin/false", "/nowhere/peer"}) {
+    experiment.peer = Peer{program, "inhouse"};
+    try {
+      run(experiment);
+      FAIL() << program;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(program), std::string::npos);
+    }
+  }
+}
+
+TEST(Calibration, MovesTheProfileToItsTarget) {
+  NoiseProfile noise = noise_profile("none");
+  noise.offset_stddev_m = 0.05;
+  noise.line_memory_s = 1.0;
+  noise.flutter_stddev_m = 0.01;
+  CalibrationTarget target;
+  target.kinds[index(MarkingType::laneline)] = {.precision = 0.9, .recall = 0.8, .acd_m = 0.1};
+  target.jitter_m = 0.05;
+  std::vector<DriveSpec> drives{spec("straight", "none", 20.0)};
+  drives.push_back(drives[0]);
+  drives.back().seed = 4;
+  int told = 0;
+  const CalibrationStep last =
+      calibrate(noise, target, drives, RangeConfig{}, 10, [&](const CalibrationStep& /*step*/) { ++told; });
+  EXPECT_EQ(told, 10);
+  const Score& score = last.score.of(LineKind::laneline);
+  EXPECT_NEAR(score.precision(), 0.9, 0.06);
+  EXPECT_NEAR(score.recall(), 0.8, 0.06);
+  EXPECT_NEAR(score.acd_m(), 0.1, 0.03);
+  EXPECT_GT(last.noise.missed_share[index(MarkingType::laneline)], 0.05);
+  // What has no target stays as it was.
+  EXPECT_EQ(last.noise.missed_share[index(MarkingType::roadedge)], 0.0);
+}
+
+TEST(Calibration, AnUnknownDataSetIsRefused) {
+  EXPECT_THROW(calibration_target("nowhere"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace laneloom
