@@ -91,6 +91,9 @@ struct LinkageConfig {
   double max_gap_m = 5.0;          ///< between centerlines that are aligned
   double max_lateral_m = 1.2;
   double max_angle_deg = 20.0;
+  // Straight on across an intersection, where no marking leads. Beyond the paper; a gap of 0: never.
+  double max_crossing_gap_m = 35.0;
+  double max_crossing_lateral_m = 1.5;
 };
 
 /// Which lanes a stopline ends. Ours.

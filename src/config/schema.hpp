@@ -133,11 +133,14 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
 }
 
 void visit(auto& v, Is<LinkageConfig> auto& c) {
-  auto& [max_shared_gap_m, max_gap_m, max_lateral_m, max_angle_deg] = c;
+  auto& [max_shared_gap_m, max_gap_m, max_lateral_m, max_angle_deg, max_crossing_gap_m,
+         max_crossing_lateral_m] = c;
   v.number("max_shared_gap_m", max_shared_gap_m, "m", 0, 200);
   v.number("max_gap_m", max_gap_m, "m", 0, 200);
   v.number("max_lateral_m", max_lateral_m, "m", 0, 10);
   v.number("max_angle_deg", max_angle_deg, "deg", 0, 90);
+  v.number("max_crossing_gap_m", max_crossing_gap_m, "m", 0, 200);
+  v.number("max_crossing_lateral_m", max_crossing_lateral_m, "m", 0.1, 10);
 }
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {

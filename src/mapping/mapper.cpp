@@ -6,6 +6,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/association.hpp"
 #include "mapping/clustering.hpp"
+#include "mapping/crossings.hpp"
 #include "mapping/lane_boundaries.hpp"
 #include "mapping/lanes.hpp"
 #include "mapping/line_fusion.hpp"
@@ -134,6 +135,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   find_neighbours(map.lanes);
   done(Stage::lanes);
   map.linkages = generate_linkages(map.lanes, config_.linkage);
+  link_across_intersections(map.lanes, config_.linkage, map.linkages);
   map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);
   done(Stage::linkages);
 
