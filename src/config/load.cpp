@@ -151,7 +151,9 @@ void set_value(Config& config, std::string_view assignment) {
   std::string text(assignment.substr(equals + 1));
   for (std::string_view key = assignment.substr(0, equals);;) {
     const auto dot = key.rfind('.');
-    text = "{" + std::string(key.substr(dot == std::string_view::npos ? 0 : dot + 1)) + ": " + text + "}";
+    std::string map = "{";
+    map.append(key.substr(dot == std::string_view::npos ? 0 : dot + 1)).append(": ").append(text).append("}");
+    text = std::move(map);
     if (dot == std::string_view::npos) break;
     key = key.substr(0, dot);
   }
