@@ -127,6 +127,7 @@ void replay(Options& options) {
   std::unique_ptr<const Road> truth;
   if (!options.truth.empty()) truth = std::make_unique<const Road>(load_truth(options.truth));
   std::vector<ReplayResult> results;
+  results.reserve(options.config_files.size());
   for (std::size_t i = 0; i < options.config_files.size(); ++i)
     results.push_back(run(options, options.config_files[i],
                           options.out.empty() ? std::string() : options.out[i], truth.get()));
@@ -134,6 +135,7 @@ void replay(Options& options) {
   if (results.size() > 1) print_comparison(results);
   if (truth) {
     std::vector<NamedScore> scores;
+    scores.reserve(results.size());
     for (const ReplayResult& result : results) scores.emplace_back(result.name, result.score);
     fmt::print("{}", score_table(scores));
   }
