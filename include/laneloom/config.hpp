@@ -77,7 +77,7 @@ struct SectionConfig {
 struct LaneConfig {
   double min_width_m = 2.5;
   double max_width_m = 4.5;
-  double max_kerb_width_m = 6.5;  ///< where one side is a roadedge: with room to park
+  double max_kerb_width_m = 6.5;  ///< where just one side is a roadedge: room to park
   double max_width_variation_m = 0.8;
   double min_length_m = 4.0;
   double step_m = 0.5;             ///< between the samples on the right boundary

@@ -114,8 +114,9 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
   std::vector<Lane> lanes;
   std::vector<Occupied> used_right_side(boundaries.size()), used_left_side(boundaries.size());
   const auto pair_lanes = [&](std::size_t left, std::size_t right, bool adjacent, std::uint32_t section) {
-    const bool kerb = adjacent && (boundaries[left].marking.type == MarkingType::roadedge ||
-                                   boundaries[right].marking.type == MarkingType::roadedge);
+    // Between two edges so far apart, there rather is a verge.
+    const bool kerb = adjacent && (boundaries[left].marking.type == MarkingType::roadedge) !=
+                                      (boundaries[right].marking.type == MarkingType::roadedge);
     const auto sections =
         cross_sections(measured[left], measured[right], used_right_side[left], used_left_side[right],
                        kerb ? config.max_kerb_width_m : config.max_width_m, config);

@@ -58,15 +58,19 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
 }
 
 TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
-  const auto pair = [](double width_m, MarkingType right_type) {
+  const auto pair = [](double width_m, MarkingType right_type,
+                       MarkingType left_type = MarkingType::laneline) {
     std::vector<LaneBoundary> sides{boundary(1, straight({0, width_m, 0}, {30, width_m, 0})),
                                     boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
+    sides[0].marking.type = left_type;
     sides[1].marking.type = right_type;
     return lanes_of(sides).size();
   };
   EXPECT_EQ(pair(6.0, MarkingType::laneline), 0U);
   EXPECT_EQ(pair(6.0, MarkingType::roadedge), 1U);
   EXPECT_EQ(pair(7.0, MarkingType::roadedge), 0U);
+  EXPECT_EQ(pair(6.0, MarkingType::roadedge, MarkingType::roadedge), 0U);
+  EXPECT_EQ(pair(3.5, MarkingType::roadedge, MarkingType::roadedge), 1U);
   // Over the line between two lanes there is none, however narrow they are.
   std::vector<LaneBoundary> narrow{boundary(1, straight({0, 6, 0}, {30, 6, 0})),
                                    boundary(2, straight({0, 3, 0}, {30, 3, 0})),
