@@ -96,11 +96,10 @@ Marking from_msg(const msg::Marking& from, std::int64_t stamp_ns, Intake& intake
   to.existence_probability = intake.number(from.existence_probability());
   to.observations = from.observations();
   const double age_ns = intake.number(from.age_s()) * kNanosecondsPerSecond;
-  // A century, so that the conversion is defined.
-  if (std::abs(age_ns) > 3.2e18)
+  // Within a century (and a number at all) the conversion is defined; the stamp may be anything.
+  const bool defined = std::abs(age_ns) <= 3.2e18;
+  if (!defined || __builtin_sub_overflow(stamp_ns, std::llround(age_ns), &to.first_seen_ns))
     intake.refuse("not_finite");
-  else
-    to.first_seen_ns = stamp_ns - std::llround(age_ns);
   return to;
 }
 

@@ -94,6 +94,18 @@ TEST(Convert, AgesAreTakenFromTheStamp) {
   EXPECT_DOUBLE_EQ(message.instances()[0].age_s(), 2.999999999);
 }
 
+TEST(Refuse, AgesThatReachBeyondAllTime) {
+  msg::RoadMarkings message;
+  to_msg(RoadMarkings{.stamp_ns = std::numeric_limits<std::int64_t>::min() + 10,
+                      .instances = {Marking{.id = 1, .points = {{0, 0, 0}, {1, 0, 0}}}}},
+         "map", message);
+  for (const double age_s : {1.0, std::numeric_limits<double>::quiet_NaN(), 1e300}) {
+    message.instances()[0].age_s(age_s);
+    RoadMarkings markings;
+    EXPECT_EQ(from_msg(message, "map", markings), "not_finite") << age_s;
+  }
+}
+
 TEST(Refuse, NumbersThatAreNotFinite) {
   DetectionFrame frame;
   for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
