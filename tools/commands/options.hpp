@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
       ->delimiter(',')
       ->expected(4);
 }
+
+/// A reader that a writer knows of may need so much longer to know the writer; what is sent before is lost.
+inline constexpr std::chrono::seconds kDiscovery{1};
 
 /// --domain and --vehicle-id: which service is meant.
 inline void add_dds(CLI::App& command, DdsConfig& dds) {

@@ -144,6 +144,7 @@ void publish(const Options& options) {
   Publisher publisher(options, road);
   while (publisher.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return publisher.finish();
+  if (options.readers > 0 && !sleep_until(SteadyClock::now() + kDiscovery)) return publisher.finish();
 
   const SteadyClock::time_point start = SteadyClock::now();
   const std::int64_t steps = step_count(options, road);

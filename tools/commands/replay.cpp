@@ -151,6 +151,7 @@ void play(const Options& options) {
   Player player(options.dds, options.speed_up);
   while (player.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
+  if (options.readers > 0 && !sleep_until(SteadyClock::now() + kDiscovery)) return;
   ProgressBar bar;
   while (const std::optional<RawMessage> message = source->next_raw()) {
     if (!sleep_until(player.due(*message))) break;
