@@ -84,7 +84,7 @@ struct RawMessage {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Whether the file begins as MCAP does. Throws std::runtime_error where it cannot be read.
+/// Whether the file begins as MCAP does. Not so one that cannot be read: whoever opens it says why.
 bool is_recording(const std::string& path);
 
 /// Reads a recording: any MCAP file, whoever wrote it, whole or cut off. Memory stays within the limits.

@@ -1,9 +1,10 @@
+#include <algorithm>
 #include <array>
+#include <fstream>
 #include <utility>
 
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/recording.hpp"
-#include "recording/files.hpp"
 #include "recording/mcap_format.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/topics.hpp"
@@ -24,11 +25,9 @@ std::string_view refusal(const McapChannel& channel) {
 }  // namespace
 
 bool is_recording(const std::string& path) {
-  const InputFile file(path);
-  std::array<std::uint8_t, kMcapMagic.size()> begin{};
-  if (file.size() < begin.size()) return false;
-  file.read(0, begin);
-  return begin == kMcapMagic;
+  std::array<char, kMcapMagic.size()> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return std::ranges::equal(begin, kMcapMagic, {}, [](char c) { return static_cast<std::uint8_t>(c); });
 }
 
 class RecordingReader::Impl {

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "laneloom/config_file.hpp"
+#include "laneloom/state_names.hpp"
 
 namespace laneloom {
 namespace {
@@ -23,36 +24,6 @@ std::uint64_t random_id() {
 std::int64_t system_now_ns() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
-const char* name(MapState state) {
-  switch (state) {
-    case MapState::ok:
-      return "OK";
-    case MapState::degraded:
-      return "DEGRADED";
-    case MapState::stale:
-      break;
-  }
-  return "STALE";
-}
-
-const char* name(StateReason reason) {
-  switch (reason) {
-    case StateReason::no_detections:
-      return "no_detections";
-    case StateReason::no_poses:
-      return "no_poses";
-    case StateReason::unsynchronised:
-      return "unsynchronised";
-    case StateReason::starting:
-      return "starting";
-    case StateReason::reset:
-      return "reset";
-    case StateReason::overloaded:
-      break;
-  }
-  return "overloaded";
 }
 
 std::string text(const Verdict& verdict) {

@@ -1,9 +1,6 @@
 #include "commands/evaluation_inputs.hpp"
 
-#include <array>
-#include <fstream>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -17,13 +14,6 @@ namespace {
 
 using VisitFrame = std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>;
 using VisitMap = std::function<void(const LocalMap&)>;
-
-bool is_recording(const std::filesystem::path& path) {
-  constexpr std::string_view kMagic = "\x89MCAP";
-  std::array<char, kMagic.size()> start{};
-  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
-  return std::string_view(start.data(), start.size()) == kMagic;
-}
 
 /// Gives each frame of a recording its pose.
 class RecordedFrames {

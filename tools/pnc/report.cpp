@@ -38,36 +38,6 @@ std::string widths_text(const EgoView& ego) {
 
 }  // namespace
 
-const char* name(MapState state) {
-  switch (state) {
-    case MapState::ok:
-      return "OK";
-    case MapState::degraded:
-      return "DEGRADED";
-    case MapState::stale:
-      return "STALE";
-  }
-  return "unknown";
-}
-
-const char* name(StateReason reason) {
-  switch (reason) {
-    case StateReason::no_detections:
-      return "no_detections";
-    case StateReason::no_poses:
-      return "no_poses";
-    case StateReason::unsynchronised:
-      return "unsynchronised";
-    case StateReason::starting:
-      return "starting";
-    case StateReason::reset:
-      return "reset";
-    case StateReason::overloaded:
-      return "overloaded";
-  }
-  return "unknown";
-}
-
 PncUpdate judge(PublishedMap map, const PublishedMap* previous) {
   PncUpdate update;
   update.violations = check_contract(map, previous);

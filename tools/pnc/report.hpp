@@ -6,12 +6,10 @@
 
 #include "contract/contract.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/state_names.hpp"
 #include "pnc/ego_view.hpp"
 
 namespace laneloom {
-
-const char* name(MapState state);
-const char* name(StateReason reason);
 
 /// What the PnC participant made of one map.
 struct PncUpdate {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "laneloom/messages.hpp"
+
+/// What people read for the states of a map, in logs and in the planner's view.
+namespace laneloom {
+
+inline const char* name(MapState state) {
+  switch (state) {
+    case MapState::ok:
+      return "OK";
+    case MapState::degraded:
+      return "DEGRADED";
+    case MapState::stale:
+      return "STALE";
+  }
+  return "unknown";
+}
+
+inline const char* name(StateReason reason) {
+  switch (reason) {
+    case StateReason::no_detections:
+      return "no_detections";
+    case StateReason::no_poses:
+      return "no_poses";
+    case StateReason::unsynchronised:
+      return "unsynchronised";
+    case StateReason::starting:
+      return "starting";
+    case StateReason::reset:
+      return "reset";
+    case StateReason::overloaded:
+      return "overloaded";
+  }
+  return "unknown";
+}
+
+}  // namespace laneloom
