@@ -135,4 +135,23 @@ double cos_degrees(double angle_deg) {
   return obtuse ? -sum : sum;
 }
 
+namespace {
+
+bool segments_intersect(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Eigen::Vector2d ab = (b - a).head<2>(), cd = (d - c).head<2>(), ac = (c - a).head<2>();
+  const double sine = cross(ab, cd);
+  if (sine == 0.0) return false;
+  const double along_ab = cross(ac, cd) / sine, along_cd = cross(ac, ab) / sine;
+  return along_ab >= 0.0 && along_ab <= 1.0 && along_cd >= 0.0 && along_cd <= 1.0;
+}
+
+}  // namespace
+
+bool intersect(const Polyline& a, const Polyline& b) {
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    for (std::size_t j = 0; j + 1 < b.size(); ++j)
+      if (segments_intersect(a[i], a[i + 1], b[j], b[j + 1])) return true;
+  return false;
+}
+
 }  // namespace laneloom

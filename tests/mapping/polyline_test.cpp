@@ -79,5 +79,13 @@ TEST(Polyline, CosineAgreesWithTheMathematicalOne) {
   }
 }
 
+TEST(Polylines, IntersectWhereTheyCrossOrTouch) {
+  const Polyline line{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}};
+  EXPECT_TRUE(intersect(line, {{8, 5, 3}, {12, 5, 3}}));  // seen from above
+  EXPECT_TRUE(intersect(line, {{5, 0, 0}, {5, 4, 0}}));
+  EXPECT_FALSE(intersect(line, {{5, 1, 0}, {9, 9, 0}}));
+  EXPECT_FALSE(intersect(line, {{2, 0, 0}, {4, 0, 0}}));  // within it
+}
+
 }  // namespace
 }  // namespace laneloom

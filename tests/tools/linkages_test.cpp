@@ -124,6 +124,26 @@ TEST(Linkages, PiecesOfOneTruthLaneMayBeLinkedInOrder) {
   EXPECT_EQ(linkages.right, 1u);
 }
 
+TEST(Linkages, AreJudgedByTheEndsThatMeet) {
+  LocalMap map = perfect();
+  map.lanes[0].centerline = {{0, 0, 0}, {11, 0, 0}};  // as long on truth lane 1 as on 2
+  map.lanes[1].centerline = {{11, 0, 0}, {15, 0, 0}};
+  map.linkages = {link(11, 12)};
+  EXPECT_EQ(score(map).linkages.precision(), 1.0);
+}
+
+TEST(Directions, AreRightWhereLanesRunWithTheTraffic) {
+  LocalMap map = perfect();
+  EXPECT_EQ(score(map).directions.published, 0u);
+  EXPECT_EQ(score(map).directions.truths, 4u);
+  for (Lane& l : map.lanes) l.direction = Lane::Direction::along_centerline;
+  EXPECT_EQ(score(map).directions.f1(), 1.0);
+  map.lanes[0].direction = Lane::Direction::against_centerline;
+  map.lanes[1].direction = Lane::Direction::unknown;
+  EXPECT_DOUBLE_EQ(score(map).directions.precision(), 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(score(map).directions.recall(), 0.5);
+}
+
 TEST(Stoplines, NameTheLanesThatTheyEnd) {
   LocalMap map = perfect();
   map.stoplines[0].lanes = {12, 13};

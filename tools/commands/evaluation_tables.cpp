@@ -76,6 +76,7 @@ std::string topology_table(const std::vector<NamedEvaluation>& evaluations) {
     for (std::size_t i = 0; i < kLinkageKindCount; ++i)
       rows +=
           pair_row(fmt::format("  {}", name(static_cast<Linkage::Kind>(i))), who, topology.by_kind[i], false);
+    if (topology.directions.published > 0) rows += pair_row("driving directions", who, topology.directions);
     rows += pair_row("stoplines' lanes", who, topology.stopline_lanes);
     const TopLl& top_ll = evaluation.top_ll();
     if (top_ll.vertices > 0)
@@ -97,6 +98,7 @@ nlohmann::json pair_json(const PairScore& score) {
 
 nlohmann::json topology_json(const TopologyScore& topology) {
   nlohmann::json json{{"linkages", pair_json(topology.linkages)},
+                      {"directions", pair_json(topology.directions)},
                       {"stopline_lanes", pair_json(topology.stopline_lanes)}};
   for (std::size_t i = 0; i < kLinkageKindCount; ++i)
     json["linkage_kinds"][name(static_cast<Linkage::Kind>(i))] = pair_json(topology.by_kind[i]);

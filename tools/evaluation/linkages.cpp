@@ -14,24 +14,10 @@ namespace {
 
 constexpr double kMatchShare = 0.75;
 constexpr double kStoplineGap_m = 3.0;
+constexpr std::size_t kEndSamples = 50;  // 5 m
 
 double ratio(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Eigen::Vector2d ab = (b - a).head<2>(), cd = (d - c).head<2>(), ac = (c - a).head<2>();
-  const double sine = cross(ab, cd);
-  if (sine == 0.0) return false;
-  const double along_ab = cross(ac, cd) / sine, along_cd = cross(ac, ab) / sine;
-  return along_ab >= 0.0 && along_ab <= 1.0 && along_cd >= 0.0 && along_cd <= 1.0;
-}
-
-bool cross_each_other(const Polyline& a, const Polyline& b) {
-  for (std::size_t i = 0; i + 1 < a.size(); ++i)
-    for (std::size_t j = 0; j + 1 < b.size(); ++j)
-      if (segments_cross(a[i], a[i + 1], b[j], b[j + 1])) return true;
-  return false;
 }
 
 Polyline prolonged(Polyline line) {
@@ -130,22 +116,53 @@ class LaneFinder {
   SampleGrid grid_;
 };
 
-/// The published lanes in range by id, each with its place, if it has one.
-using Places = std::map<ElementId, std::optional<LanePlace>>;
+/// The published lanes in range, each with its longest piece there.
+using LanePieces = std::map<const Lane*, const LinePiece*>;
 
-Places places(const FrameComparison& frame, const LocalMap& map) {
-  const KindComparison& lanes = frame.of(LineKind::lane);
-  const LaneFinder finder(lanes.truths);
+LanePieces lane_pieces(const FrameComparison& frame, const LocalMap& map) {
   const std::size_t first = map.boundaries.size() + map.stoplines.size();  // as kind_lines() has them
+  LanePieces pieces;
+  for (const LinePiece& piece : frame.of(LineKind::lane).predictions) {
+    const LinePiece*& longest = pieces[&map.lanes[piece.line - first]];
+    if (longest == nullptr || longest->samples.size() < piece.samples.size()) longest = &piece;
+  }
+  return pieces;
+}
+
+/// Where a published lane in range lies: as a whole, and its first and last few metres, which may be on other
+/// truth lanes.
+struct LanePlaces {
+  std::optional<LanePlace> whole, begin, end;
+};
+using Places = std::map<ElementId, LanePlaces>;
+
+LinePiece stretch(const LinePiece& piece, std::size_t from, std::size_t to) {
+  const Polyline samples(piece.samples.begin() + static_cast<std::ptrdiff_t>(from),
+                         piece.samples.begin() + static_cast<std::ptrdiff_t>(to));
+  return {piece.line, samples, samples};
+}
+
+Places places(const LanePieces& pieces, const LaneFinder& finder) {
   Places places;
-  std::map<ElementId, std::size_t> samples;
-  for (const LinePiece& piece : lanes.predictions) {
-    const Lane& lane = map.lanes[piece.line - first];
-    if (samples[lane.id] >= piece.samples.size()) continue;  // the longest piece tells
-    samples[lane.id] = piece.samples.size();
-    places[lane.id] = finder.place(piece, lane.direction);
+  for (const auto& [lane, piece] : pieces) {
+    const std::size_t count = piece->samples.size(), end = std::min(count, kEndSamples);
+    places[lane->id] = {finder.place(*piece, lane->direction),
+                        finder.place(stretch(*piece, 0, end), lane->direction),
+                        finder.place(stretch(*piece, count - end, count), lane->direction)};
   }
   return places;
+}
+
+void add_directions(const LanePieces& pieces, const LaneFinder& finder, PairScore& score) {
+  for (const auto& [lane, piece] : pieces) {
+    if (!finder.place(*piece, Lane::Direction::unknown)) continue;
+    ++score.truths;
+    if (lane->direction == Lane::Direction::unknown) continue;
+    ++score.published;
+    if (!finder.place(*piece, lane->direction)) continue;
+    ++score.right;
+    ++score.found;
+  }
 }
 
 using Pair = std::pair<std::size_t, std::size_t>;
@@ -168,7 +185,7 @@ void add_linkages(const TruthTopology& truth, const Places& places, const LocalM
   for (const Linkage& linkage : map.linkages) {
     const auto from = places.find(linkage.from), to = places.find(linkage.to);
     if (from == places.end() || to == places.end()) continue;
-    const std::optional<Pair> pair = truth_pair(truth, from->second, to->second);
+    const std::optional<Pair> pair = truth_pair(truth, from->second.end, to->second.begin);
     for (PairScore* counted : {&score.linkages, &score.by_kind.at(static_cast<std::size_t>(linkage.kind))}) {
       ++counted->published;
       if (pair) ++counted->right;
@@ -177,7 +194,7 @@ void add_linkages(const TruthTopology& truth, const Places& places, const LocalM
   }
   std::set<std::size_t> seen;
   for (const auto& [id, place] : places)
-    if (place) seen.insert(place->truth);
+    if (place.whole) seen.insert(place.whole->truth);
   for (const Pair& pair : truth.successors) {
     if (!seen.contains(pair.first) || !seen.contains(pair.second)) continue;
     ++score.linkages.truths;
@@ -194,14 +211,15 @@ void add_stoplines(const TruthTopology& truth, const FrameComparison& frame, con
     if (line < map.boundaries.size()) continue;  // a boundary of this type ends no lanes
     std::set<std::size_t> seen, named;
     for (const auto& [id, place] : places)
-      if (place && expected.contains(place->truth)) seen.insert(place->truth);
+      if (place.whole && expected.contains(place.whole->truth)) seen.insert(place.whole->truth);
     for (const ElementId id : map.stoplines[line - map.boundaries.size()].lanes) {
       const auto place = places.find(id);
       if (place == places.end()) continue;
       ++score.published;
-      if (!place->second || !expected.contains(place->second->truth)) continue;
+      const std::optional<LanePlace>& whole = place->second.whole;
+      if (!whole || !expected.contains(whole->truth)) continue;
       ++score.right;
-      named.insert(place->second->truth);
+      named.insert(whole->truth);
     }
     score.truths += seen.size();
     score.found += named.size();
@@ -239,15 +257,17 @@ TruthTopology truth_topology(const Road& truth) {
     if (truth.markings[i].type != MarkingType::stopline) continue;
     std::set<std::size_t>& ended = topology.lanes_of_stopline[chains.size() + i];
     for (std::size_t chain = 0; chain < chains.size(); ++chain)
-      if (cross_each_other(prolonged(centerline(chains[chain])), truth.markings[i].points))
-        ended.insert(chain);
+      if (intersect(prolonged(centerline(chains[chain])), truth.markings[i].points)) ended.insert(chain);
   }
   return topology;
 }
 
 void add_topology(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
                   TopologyScore& score) {
-  const Places found = places(frame, map);
+  const LaneFinder finder(frame.of(LineKind::lane).truths);
+  const LanePieces pieces = lane_pieces(frame, map);
+  const Places found = places(pieces, finder);
+  add_directions(pieces, finder, score.directions);
   add_linkages(truth, found, map, score);
   add_stoplines(truth, frame, found, map, score.stopline_lanes);
 }

@@ -14,12 +14,15 @@
 /// A truth lane is a chain of lanes that only continue one another (kind_lines.hpp). Its successors are those
 /// that follow it, at once or across lanes that no markings bound (an intersection).
 /// - A published lane lies on the truth lane that most of its samples are less than 0.5 m from, if these are
-/// at
-///   least 75 % of its samples in range; of equals, the nearer one. Where it states its direction, it must
+///   at least 75 % of its samples in range; of equals, the nearer one. Where it states its direction, it must
 ///   run with the traffic; otherwise both senses will do.
-/// - A linkage counts if both its lanes are in range. It is right if they lie on truth lanes A and B, B a
-///   successor of A (of lanes that run against the traffic: A of B), or on the same one, in order.
+/// - A linkage counts if both its lanes are in range. It is right if the last 5 m of the one and the first 5
+/// m
+///   of the other lie on truth lanes A and B, B a successor of A (of lanes that run against the traffic: A of
+///   B), or on the same one, in order.
 /// - Recall: of the pairs A, B that both have a published lane on them, the share with a right linkage.
+/// - Directions: of the published lanes in range that lie on a truth lane in either sense, those that state
+///   theirs, and the share of these that run with the traffic; recall is the share of all.
 /// - Stoplines: a truth stopline ends the truth lanes whose centerline, prolonged by 3 m, crosses it. Of the
 ///   published stoplines that are true positives: the share of their lanes in range that lie on such a lane,
 ///   and the share of such lanes, with a published lane on them, that are named.
@@ -50,6 +53,7 @@ struct PairScore {
 struct TopologyScore {
   PairScore linkages;
   std::array<PairScore, kLinkageKindCount> by_kind;  ///< precision only: the truth knows no kinds
+  PairScore directions;
   PairScore stopline_lanes;
 };
 

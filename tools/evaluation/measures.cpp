@@ -55,6 +55,7 @@ Measures& Measures::operator+=(const Measures& other) {
   styles.unknown += other.styles.unknown;
   add(other.topology.linkages, topology.linkages);
   for (std::size_t i = 0; i < kLinkageKindCount; ++i) add(other.topology.by_kind[i], topology.by_kind[i]);
+  add(other.topology.directions, topology.directions);
   add(other.topology.stopline_lanes, topology.stopline_lanes);
   top_ll.average_precisions += other.top_ll.average_precisions;
   top_ll.vertices += other.top_ll.vertices;
