@@ -63,15 +63,26 @@ NoiseProfile av2() {
   return profile;
 }
 
+/// As by cameras that swing and clocks that differ: whole frames are turned and shifted.
+NoiseProfile shaken() {
+  NoiseProfile profile = inhouse();
+  profile.name = "shaken";
+  profile.frame_yaw_stddev_deg = 0.8;
+  profile.frame_longitudinal_stddev_m = 0.4;
+  profile.frame_memory_s = 0.3;
+  return profile;
+}
+
 }  // namespace
 
-std::vector<std::string> noise_profile_names() { return {"none", "inhouse", "av2"}; }
+std::vector<std::string> noise_profile_names() { return {"none", "inhouse", "av2", "shaken"}; }
 
 NoiseProfile noise_profile(const std::string& name) {
   if (name == "none") return {};
   if (name == "inhouse") return inhouse();
   if (name == "av2") return av2();
-  throw std::invalid_argument("unknown noise profile '" + name + "'; known are none, inhouse, av2");
+  if (name == "shaken") return shaken();
+  throw std::invalid_argument("unknown noise profile '" + name + "'; known are none, inhouse, av2, shaken");
 }
 
 }  // namespace laneloom
