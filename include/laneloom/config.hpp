@@ -94,6 +94,14 @@ struct LinkageConfig {
   // Straight on across an intersection, where no marking leads. Beyond the paper; a gap of 0: never.
   double max_crossing_gap_m = 35.0;
   double max_crossing_lateral_m = 1.5;
+  // Left and right turns there: from either lane's end to where their extensions meet. A gap of 0: never.
+  double max_turn_gap_m = 25.0;
+  double min_turn_radius_m = 3.0;
+};
+
+/// Which way the traffic of a lane runs. Ours.
+struct DirectionConfig {
+  std::string driving_side = "right";  ///< of the road: right, left, or unknown
 };
 
 /// Which lanes a stopline ends. Ours.
@@ -150,6 +158,7 @@ struct MapperConfig {
   SectionConfig section;
   LaneConfig lane;
   LinkageConfig linkage;
+  DirectionConfig direction;
   StoplineConfig stopline;
 };
 

@@ -134,13 +134,20 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
 
 void visit(auto& v, Is<LinkageConfig> auto& c) {
   auto& [max_shared_gap_m, max_gap_m, max_lateral_m, max_angle_deg, max_crossing_gap_m,
-         max_crossing_lateral_m] = c;
+         max_crossing_lateral_m, max_turn_gap_m, min_turn_radius_m] = c;
   v.number("max_shared_gap_m", max_shared_gap_m, "m", 0, 200);
   v.number("max_gap_m", max_gap_m, "m", 0, 200);
   v.number("max_lateral_m", max_lateral_m, "m", 0, 10);
   v.number("max_angle_deg", max_angle_deg, "deg", 0, 90);
   v.number("max_crossing_gap_m", max_crossing_gap_m, "m", 0, 200);
   v.number("max_crossing_lateral_m", max_crossing_lateral_m, "m", 0.1, 10);
+  v.number("max_turn_gap_m", max_turn_gap_m, "m", 0, 200);
+  v.number("min_turn_radius_m", min_turn_radius_m, "m", 0.5, 50);
+}
+
+void visit(auto& v, Is<DirectionConfig> auto& c) {
+  auto& [driving_side] = c;
+  v.choice("driving_side", driving_side, "right|left|unknown");
 }
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {
@@ -150,8 +157,8 @@ void visit(auto& v, Is<StoplineConfig> auto& c) {
 }
 
 void visit(auto& v, Is<MapperConfig> auto& c) {
-  auto& [method, range, preprocess, voxel_map, clustering, polyline, fusion, style, boundary, section, lane,
-         linkage, stopline] = c;
+  auto& [method, range, preprocess, voxel_map, clustering, polyline, fusion, style, boundary,
+         section, lane, linkage, direction, stopline] = c;
   v.choice("method", method, "lines|voxels");
   v.section("range", range);
   v.section("preprocess", preprocess);
@@ -164,6 +171,7 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("section", section);
   v.section("lane", lane);
   v.section("linkage", linkage);
+  v.section("direction", direction);
   v.section("stopline", stopline);
 }
 

@@ -4,13 +4,16 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
+#include "mapping/lane_boundaries.hpp"
 
 namespace laneloom {
 
-/// Across an intersection, where no marking leads: a lane that ends goes straight on into the lane that
-/// begins ahead of it in line, if each is the other's best fit and neither is linked otherwise on that side.
-/// Ours, beyond the paper. Each linkage has a path, and a confidence that falls with offset and angle.
-void link_across_intersections(const std::vector<Lane>& lanes, const LinkageConfig& config,
-                               std::vector<Linkage>& linkages);
+/// Across an intersection, where no marking leads. Ours, beyond the paper. A lane that ends goes straight on
+/// into the lane that begins ahead of it in line, and turns into the nearest lane that begins to its left or
+/// right: from the outermost lane of its direction into the outermost one, on an arc that is wide enough,
+/// where the driving directions of both are known. No way leads over an edge, and for each kind of turn, no
+/// lane is left or entered twice. Each linkage has a path, and a confidence that falls with the misfit.
+void link_across_intersections(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries,
+                               const LinkageConfig& config, std::vector<Linkage>& linkages);
 
 }  // namespace laneloom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <tuple>
 
@@ -99,6 +100,13 @@ std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, d
   }));
 }
 
+/// Whether two lines run the same way in the middle of the first.
+bool same_way(const Polyline& line, const Polyline& other) {
+  const MeasuredPolyline a(line), b(other);
+  const double middle_m = 0.5 * a.length();
+  return a.direction(middle_m).dot(b.direction(b.project(a.at(middle_m)).arc_m)) >= 0.0;
+}
+
 std::pair<ElementId, ElementId> boundary_pair(const Lane& lane) {
   return std::minmax(lane.left_boundary, lane.right_boundary);
 }
@@ -167,10 +175,13 @@ void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<L
                            [](const Match& m) { return std::tuple(m.other_boundaries, m.missing); });
 
   std::vector<bool> taken(known.size(), false);
-  for (const Match& match : matches) {
-    if (taken[match.known] || lanes[match.lane].id != kNoElement) continue;
-    taken[match.known] = true;
-    lanes[match.lane].id = known[match.known].id;
+  std::map<ElementId, double> direction_log_odds;
+  for (const auto& [other_boundaries, missing, i, k] : matches) {
+    if (taken[k] || lanes[i].id != kNoElement) continue;
+    taken[k] = true;
+    lanes[i].id = known[k].id;
+    const double sense = same_way(lanes[i].centerline, known[k].centerline) ? 1.0 : -1.0;
+    direction_log_odds[known[k].id] = sense * known[k].direction_log_odds;
   }
   std::erase_if(known, [&](const KnownLane& lane) {
     const bool expired = lane.last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < frame;
@@ -179,7 +190,7 @@ void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<L
   for (Lane& lane : lanes) {
     if (lane.id == kNoElement) lane.id = next_id++;
     const auto [a, b] = boundary_pair(lane);
-    known.push_back({lane.id, a, b, lane.centerline, frame});
+    known.push_back({lane.id, a, b, lane.centerline, frame, direction_log_odds[lane.id]});
   }
   std::ranges::sort(lanes, {}, &Lane::id);
 }

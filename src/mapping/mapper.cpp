@@ -7,6 +7,7 @@
 #include "mapping/association.hpp"
 #include "mapping/clustering.hpp"
 #include "mapping/crossings.hpp"
+#include "mapping/directions.hpp"
 #include "mapping/lane_boundaries.hpp"
 #include "mapping/lanes.hpp"
 #include "mapping/line_fusion.hpp"
@@ -49,8 +50,8 @@ struct Input {
 template <class Done>
 std::vector<Marking> fuse_voxels(const Input& input, const MapperConfig& config, Done done,
                                  MapperState& state) {
-  auto& [frame, voxels, co_observation, instances, lines, pairs, known_lanes, published, next_id, map] =
-      state;
+  auto& [frame, voxels, co_observation, instances, lines, pairs, known_lanes,
+         published, next_id, map] = state;
   const auto touched = update_voxels(input.markings, input.range, config.voxel_map, voxels, co_observation);
   done(Stage::voxel_update);
   const auto reliable = reliable_voxels(touched.all, voxels, instances, config.voxel_map.min_detections);
@@ -111,8 +112,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const auto done = [observer](Stage stage) {
     if (observer != nullptr) observer->stage_done(stage);
   };
-  auto& [frame_count, voxels, co_observation, instances, lines, pairs, known_lanes, published, next_id, map] =
-      *state_;
+  auto& [frame_count, voxels, co_observation, instances, lines, pairs, known_lanes,
+         published, next_id, map] = *state_;
   if (observer != nullptr) observer->update_begins();
   const LocalRange range(config_.range, T_map_body);
   ++frame_count;
@@ -135,7 +136,9 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   find_neighbours(map.lanes);
   done(Stage::lanes);
   map.linkages = generate_linkages(map.lanes, config_.linkage);
-  link_across_intersections(map.lanes, config_.linkage, map.linkages);
+  observe_directions(map.lanes, T_map_body, map.instances, config_.stopline, known_lanes);
+  find_directions(boundaries, config_.direction, known_lanes, map.lanes, map.linkages);
+  link_across_intersections(map.lanes, boundaries, config_.linkage, map.linkages);
   map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);
   done(Stage::linkages);
 

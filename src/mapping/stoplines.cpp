@@ -5,10 +5,7 @@
 #include "laneloom/polyline.hpp"
 
 namespace laneloom {
-namespace {
-
-/// Whether the stopline crosses the lane's extension within the configured distance from its end.
-bool ends(const Marking& stopline, const Lane& lane, bool at_back, const StoplineConfig& config) {
+bool crosses_end(const Marking& stopline, const Lane& lane, bool at_back, const StoplineConfig& config) {
   const Eigen::Vector2d end = (at_back ? lane.centerline.back() : lane.centerline.front()).head<2>();
   const Eigen::Vector2d leaving = end_direction(lane.centerline, at_back);
   const Eigen::Vector2d start = stopline.points.front().head<2>();
@@ -21,8 +18,6 @@ bool ends(const Marking& stopline, const Lane& lane, bool at_back, const Stoplin
   return std::abs(gap_m) <= config.max_gap_m && share >= 0.0 && share <= 1.0;
 }
 
-}  // namespace
-
 std::vector<Stopline> tie_stoplines(const std::vector<Marking>& markings, const std::vector<Lane>& lanes,
                                     const StoplineConfig& config) {
   std::vector<Stopline> stoplines;
@@ -31,8 +26,9 @@ std::vector<Stopline> tie_stoplines(const std::vector<Marking>& markings, const 
     Stopline stopline{.marking = marking, .lanes = {}};
     Eigen::Vector2d heading = Eigen::Vector2d::Zero();
     for (const Lane& lane : lanes) {
-      for (const bool at_back : {false, true}) {
-        if (!ends(marking, lane, at_back, config)) continue;
+      for (const bool at_back : {true, false}) {
+        if (!at_back && lane.direction != Lane::Direction::unknown) continue;
+        if (!crosses_end(marking, lane, at_back, config)) continue;
         stopline.lanes.push_back(lane.id);
         heading += end_direction(lane.centerline, at_back);
         break;

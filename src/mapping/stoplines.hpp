@@ -7,8 +7,11 @@
 
 namespace laneloom {
 
-/// The stoplines among `markings`, each with the lanes that it ends: those with an end close to it, crossed
-/// by it.
+/// Whether a stopline lies across the lane's end (`at_back`) or its start, or close beyond.
+bool crosses_end(const Marking& stopline, const Lane& lane, bool at_back, const StoplineConfig& config);
+
+/// The stoplines among `markings`, each with the lanes that it ends: those that it crosses at their end, or
+/// where the driving direction is not known at either end. Its heading is that of the lanes.
 std::vector<Stopline> tie_stoplines(const std::vector<Marking>& markings, const std::vector<Lane>& lanes,
                                     const StoplineConfig& config);
 

@@ -21,9 +21,41 @@ Lane lane(ElementId id, Polyline centerline) {
 }
 
 std::vector<Linkage> crossings(const std::vector<Lane>& lanes, std::vector<Linkage> known = {},
-                               const LinkageConfig& config = {}) {
-  link_across_intersections(lanes, config, known);
+                               const LinkageConfig& config = {},
+                               const std::vector<LaneBoundary>& boundaries = {}) {
+  link_across_intersections(lanes, boundaries, config, known);
   return known;
+}
+
+/// Whose driving direction is known.
+Lane driven(ElementId id, const Point& from, const Point& to) {
+  Lane l = lane(id, straight(from, to));
+  l.direction = Lane::Direction::along_centerline;
+  return l;
+}
+
+/// A crossroads about (0, 0), with one lane in and one lane out on each arm, 10 m from its centre; right-hand
+/// traffic. Ways in are 1 (from the west), 2 (south), 3 (east), 4 (north), ways out 11 to 14 likewise.
+std::vector<Lane> crossroads() {
+  std::vector<Lane> lanes;
+  for (const auto& [id, angle] :
+       {std::pair(1, std::numbers::pi), {2, 1.5 * std::numbers::pi}, {3, 0.0}, {4, 0.5 * std::numbers::pi}}) {
+    const Eigen::AngleAxisd arm(angle, Point::UnitZ());
+    const auto in = static_cast<ElementId>(id), out = in + 10;
+    lanes.push_back(driven(in, arm * Point(25, 1.75, 0), arm * Point(10, 1.75, 0)));
+    lanes.push_back(driven(out, arm * Point(10, -1.75, 0), arm * Point(25, -1.75, 0)));
+    lanes[lanes.size() - 2].left_neighbour = out;
+    lanes.back().left_neighbour = in;
+  }
+  std::ranges::sort(lanes, {}, &Lane::id);
+  return lanes;
+}
+
+std::vector<Pair> pairs_of(const std::vector<Linkage>& linkages, Linkage::Turn turn) {
+  std::vector<Pair> result;
+  for (const Linkage& l : linkages)
+    if (l.turn == turn) result.emplace_back(l.from, l.to);
+  return result;
 }
 
 std::vector<Pair> pairs(const std::vector<Linkage>& linkages) {
@@ -78,6 +110,56 @@ TEST(Crossings, LanesThatMarkingsLinkAreLeftAlone) {
                                 lane(3, straight({30, 0, 0}, {40, 0, 0}))};
   const auto linkages = crossings(lanes, {{.from = 1, .to = 2}});
   EXPECT_THAT(pairs(linkages), ElementsAre(Pair(1, 2), Pair(2, 3)));
+}
+
+TEST(Crossings, AtACrossroadsEveryWayLeadsStraightLeftAndRight) {
+  const auto linkages = crossings(crossroads());
+  using Turn = Linkage::Turn;
+  EXPECT_THAT(pairs_of(linkages, Turn::straight),
+              ElementsAre(Pair(1, 13), Pair(2, 14), Pair(3, 11), Pair(4, 12)));
+  EXPECT_THAT(pairs_of(linkages, Turn::left),
+              ElementsAre(Pair(1, 14), Pair(2, 11), Pair(3, 12), Pair(4, 13)));
+  EXPECT_THAT(pairs_of(linkages, Turn::right),
+              ElementsAre(Pair(1, 12), Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+  EXPECT_EQ(linkages.size(), 12U);
+}
+
+TEST(Crossings, TurnsAskForKnownDirections) {
+  std::vector<Lane> lanes = crossroads();
+  for (Lane& l : lanes) l.direction = Lane::Direction::unknown;
+  for (const Linkage& l : crossings(lanes)) EXPECT_EQ(l.turn, Linkage::Turn::straight);
+}
+
+TEST(Crossings, TurnsLeadFromTheOutermostLane) {
+  // Two lanes from the west; the left one is 1, the right one 5.
+  std::vector<Lane> lanes = crossroads();
+  lanes.push_back(driven(5, {-25, -5.25, 0}, {-10, -5.25, 0}));
+  lanes[0].right_neighbour = 5;
+  lanes.back().left_neighbour = 1;
+  const auto linkages = crossings(lanes);
+  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::left), ::testing::Contains(Pair(1, 14)));
+  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ::testing::Contains(Pair(5, 12)));
+  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::left), ::testing::Not(::testing::Contains(Pair(5, 14))));
+  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ::testing::Not(::testing::Contains(Pair(1, 12))));
+}
+
+TEST(Crossings, NoWayLeadsOverAnEdge) {
+  const std::vector<LaneBoundary> corner{
+      test::boundary(50, test::arc({-10, -10, 0}, 7.0, 0, 90), MarkingType::roadedge)};
+  EXPECT_THAT(pairs_of(crossings(crossroads(), {}, {}, corner), Linkage::Turn::right),
+              ElementsAre(Pair(1, 12), Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+  const std::vector<LaneBoundary> island{
+      test::boundary(50, straight({-9, -9, 0}, {0, 0, 0}), MarkingType::roadedge)};
+  EXPECT_THAT(pairs_of(crossings(crossroads(), {}, {}, island), Linkage::Turn::right),
+              ElementsAre(Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+}
+
+TEST(Crossings, NoTurnIsTooTightOrTooWide) {
+  const Lane from = driven(1, {-25, 0, 0}, {-10, 0, 0});
+  EXPECT_THAT(crossings({from, driven(2, {-8, 2, 0}, {-8, 20, 0})}), IsEmpty());
+  EXPECT_THAT(crossings({from, driven(2, {0, 40, 0}, {0, 60, 0})}), IsEmpty());
+  EXPECT_THAT(crossings({from, driven(2, {0, -10, 0}, {0, 10, 0})}), IsEmpty());  // passes the corner
+  EXPECT_EQ(crossings({from, driven(2, {0, 10, 0}, {0, 20, 0})}).size(), 1U);
 }
 
 }  // namespace

@@ -57,6 +57,22 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   EXPECT_EQ(left->section, right->section);
 }
 
+TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
+  std::vector<KnownLane> known{{.id = 7,
+                                .boundary_a = 1,
+                                .boundary_b = 2,
+                                .centerline = straight({0, 0, 0}, {20, 0, 0}, 21),
+                                .last_frame = 1,
+                                .direction_log_odds = 2.0}};
+  Lane lane{.left_boundary = 2, .right_boundary = 1, .centerline = straight({20, 0, 0}, {0, 0, 0}, 21)};
+  std::vector<Lane> lanes{lane};
+  ElementId next_id = 100;
+  identify_lanes(2, {}, lanes, known, next_id);
+  ASSERT_EQ(lanes[0].id, 7U);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known[0].direction_log_odds, -2.0);
+}
+
 TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
   const auto pair = [](double width_m, MarkingType right_type,
                        MarkingType left_type = MarkingType::laneline) {

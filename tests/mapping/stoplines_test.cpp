@@ -35,6 +35,13 @@ TEST(Stoplines, HeadTowardsTheEndThatTheyLieAt) {
   EXPECT_TRUE(stopline.heading.isApprox(Point(-1, 0, 0)));
 }
 
+TEST(Stoplines, AtTheStartOfALaneOfKnownDirectionEndNothing) {
+  Lane l = lane(7, {0, 1.75, 0}, {20, 1.75, 0});
+  l.direction = Lane::Direction::along_centerline;
+  EXPECT_THAT(tie({{-1, 0, 0}, {-1, 3.5, 0}}, {l}).lanes, IsEmpty());
+  EXPECT_THAT(tie({{21, 0, 0}, {21, 3.5, 0}}, {l}).lanes, ElementsAre(7));
+}
+
 TEST(Stoplines, EndNothingInTheMiddleFarAheadOrAlongside) {
   const std::vector<Lane> lanes{lane(7, {0, 0, 0}, {20, 0, 0})};
   EXPECT_THAT(tie({{10, -2, 0}, {10, 2, 0}}, lanes).lanes, IsEmpty());

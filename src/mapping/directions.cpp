@@ -1,0 +1,204 @@
+#include "mapping/directions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/stoplines.hpp"
+
+namespace laneloom {
+namespace {
+
+// Log odds that a lane runs along its centerline.
+constexpr double kEgoEvidence = 0.5;       // per frame
+constexpr double kStoplineEvidence = 0.3;  // per frame
+constexpr double kMaxEvidence = 6.0;
+constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
+constexpr double kDividerEvidence = 1.0;      // of a solid or dashed line for or against opposite directions
+constexpr double kEdgeBetweenEvidence = 2.0;  // of an edge for them
+constexpr double kWrongSide = -6.0;           // that traffic keeps to the other side
+constexpr double kKnown = 1.5;                // from which the direction is said
+
+constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
+constexpr double kMaxHeight_m = 2.0;
+constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
+
+/// 1: the vehicle drives along the lane, -1: against it, 0: elsewhere or across.
+double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
+  const MeasuredPolyline line(lane.centerline);
+  const Point vehicle = T_map_body.translation();
+  const Projection foot = line.project(vehicle);
+  if (!foot.inside || foot.distance_m > 0.5 * lane.width_m) return 0.0;
+  if (std::abs(foot.foot.z() - vehicle.z()) > kMaxHeight_m) return 0.0;
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
+  const double cosine = line.direction(foot.arc_m).dot(heading);
+  if (std::abs(cosine) < kMinAlongLane * heading.norm()) return 0.0;
+  return cosine > 0.0 ? 1.0 : -1.0;
+}
+
+/// 1: stoplines lie at the lane's end, -1: at its start, 0: at none or both.
+double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, const StoplineConfig& config) {
+  double sense = 0.0;
+  for (const Marking& marking : markings) {
+    if (marking.type != MarkingType::stopline) continue;
+    if (crosses_end(marking, lane, true, config)) sense += 1.0;
+    if (crosses_end(marking, lane, false, config)) sense -= 1.0;
+  }
+  return std::clamp(sense, -1.0, 1.0);
+}
+
+/// Lanes that continue one another: one variable of the model.
+class Groups {
+ public:
+  Groups(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) : of_(lanes.size()) {
+    std::iota(of_.begin(), of_.end(), 0U);
+    std::map<ElementId, std::size_t> index;
+    for (std::size_t i = 0; i < lanes.size(); ++i) index.emplace(lanes[i].id, i);
+    for (const Linkage& linkage : linkages) {
+      const std::size_t from = of_[index.at(linkage.from)], to = of_[index.at(linkage.to)];
+      std::ranges::replace(of_, std::max(from, to), std::min(from, to));
+    }
+  }
+  std::size_t operator[](std::size_t lane) const { return of_[lane]; }
+
+ private:
+  std::vector<std::size_t> of_;
+};
+
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+  void add(double value) { sum += value, ++count; }
+  double value() const { return count == 0 ? 0.0 : sum / count; }
+};
+
+/// Two groups side by side, with what tells that they run against each other.
+struct SideBySideGroups {
+  std::size_t left, right;
+  double opposed;
+  double to_left = 0.0, to_right = 0.0;  ///< messages
+};
+
+struct Model {
+  std::vector<double> evidence;  ///< per group
+  std::vector<SideBySideGroups> pairs;
+};
+
+/// What the line between two lanes says of opposite directions.
+double divider_evidence(const Marking& boundary, const Range& range) {
+  if (boundary.type == MarkingType::roadedge) return kEdgeBetweenEvidence;
+  double solid_m = 0.0, dashed_m = 0.0;
+  for (const StyleRange& style : boundary.styles) {
+    const double common_m =
+        std::min(style.range.to_m, range.to_m) - std::max(style.range.from_m, range.from_m);
+    if (common_m <= 0.0) continue;
+    if (style.style == MarkingStyle::solid) solid_m += common_m;
+    if (style.style == MarkingStyle::dashed) dashed_m += common_m;
+  }
+  if (solid_m == dashed_m) return 0.0;
+  return solid_m > dashed_m ? kDividerEvidence : -kDividerEvidence;
+}
+
+/// 1 where traffic keeps right, -1 where it keeps left, 0 where that is not said.
+double driving_side(const DirectionConfig& config) {
+  if (config.driving_side == "unknown") return 0.0;
+  return config.driving_side == "right" ? 1.0 : -1.0;
+}
+
+Model build_model(const std::vector<Lane>& lanes, const Groups& groups,
+                  const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
+                  double side) {
+  const auto boundary = [&](ElementId id) -> const Marking& {
+    return std::ranges::find(boundaries, id, [](const LaneBoundary& b) { return b.marking.id; })->marking;
+  };
+  const auto is_edge = [&](ElementId id) { return boundary(id).type == MarkingType::roadedge; };
+  Model model{.evidence = std::vector<double>(lanes.size(), 0.0), .pairs = {}};
+  std::vector<Mean> edges(lanes.size());
+  std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane& lane = lanes[i];
+    const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
+    if (remembered != known.end()) model.evidence[groups[i]] += remembered->direction_log_odds;
+    const bool right_edge = lane.right_neighbour == kNoElement && is_edge(lane.right_boundary);
+    const bool left_edge = lane.left_neighbour == kNoElement && is_edge(lane.left_boundary);
+    edges[groups[i]].add(side * kEdgeEvidence * ((right_edge ? 1.0 : 0.0) - (left_edge ? 1.0 : 0.0)));
+    for (std::size_t k = 0; k < lanes.size(); ++k) {
+      if (lane.right_neighbour != lanes[k].id || groups[i] == groups[k]) continue;
+      opposed[{groups[i], groups[k]}].add(divider_evidence(boundary(lane.right_boundary), lane.right_range));
+    }
+  }
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    model.evidence[i] = std::clamp(model.evidence[i], -kMaxEvidence, kMaxEvidence) + edges[i].value();
+  model.pairs.reserve(opposed.size());
+  for (const auto& [pair, evidence] : opposed)
+    model.pairs.push_back({pair.first, pair.second, evidence.value()});
+  return model;
+}
+
+/// Log odds that each group runs along its centerlines, at their best (max-product; maxima and sums only, so
+/// that it is the same to the last bit on every host).
+std::vector<double> beliefs(Model model, double side) {
+  std::vector<double> belief = model.evidence;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> next = model.evidence;
+    for (SideBySideGroups& pair : model.pairs) {
+      // Left against and right along is how right-hand traffic meets.
+      const double meeting = side < 0.0 ? kWrongSide : pair.opposed;
+      const double parting = side > 0.0 ? kWrongSide : pair.opposed;
+      const double left = belief[pair.left] - pair.to_left, right = belief[pair.right] - pair.to_right;
+      pair.to_right = std::max(meeting, left) - std::max(0.0, left + parting);
+      pair.to_left = std::max(parting, right) - std::max(0.0, right + meeting);
+      next[pair.right] += pair.to_right;
+      next[pair.left] += pair.to_left;
+    }
+    belief = std::move(next);
+  }
+  return belief;
+}
+
+void turn(Lane& lane) {
+  for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) std::ranges::reverse(*line);
+  std::swap(lane.left, lane.right);
+  std::swap(lane.left_boundary, lane.right_boundary);
+  std::swap(lane.left_range, lane.right_range);
+  std::swap(lane.left_neighbour, lane.right_neighbour);
+}
+
+}  // namespace
+
+void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
+                        const std::vector<Marking>& markings, const StoplineConfig& config,
+                        std::vector<KnownLane>& known) {
+  for (const Lane& lane : lanes) {
+    const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
+    double& log_odds = remembered->direction_log_odds;
+    log_odds += kEgoEvidence * ego_sense(lane, T_map_body) +
+                kStoplineEvidence * stopline_sense(lane, markings, config);
+    log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);
+  }
+}
+
+void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
+                     const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
+                     std::vector<Linkage>& linkages) {
+  const Groups groups(lanes, linkages);
+  const double side = driving_side(config);
+  const std::vector<double> belief = beliefs(build_model(lanes, groups, boundaries, known, side), side);
+  std::vector<ElementId> turned;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const double log_odds = belief[groups[i]];
+    if (std::abs(log_odds) < kKnown) continue;
+    lanes[i].direction = Lane::Direction::along_centerline;
+    if (log_odds > 0.0) continue;
+    turn(lanes[i]);
+    turned.push_back(lanes[i].id);
+  }
+  for (Linkage& linkage : linkages)
+    if (std::ranges::count(turned, linkage.from) > 0) std::swap(linkage.from, linkage.to);
+}
+
+}  // namespace laneloom

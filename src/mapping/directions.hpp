@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+#include "mapping/lane_boundaries.hpp"
+#include "mapping/lanes.hpp"
+
+namespace laneloom {
+
+/// Remembers what tells the traffic's direction of a lane, in the known lanes of the same ids: the vehicle
+/// drives in it, or a stopline lies across one of its ends. Evidence adds up over frames, to a limit.
+void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
+                        const std::vector<Marking>& markings, const StoplineConfig& config,
+                        std::vector<KnownLane>& known);
+
+/// Gives every lane its driving direction where that can be told, and turns it to run with the traffic. Ours,
+/// beyond the paper.
+///
+/// Lanes that continue one another run the same way. Beside each other, the traffic from the side that is not
+/// driven on does not come from the far side of the lane; a solid line between two lanes speaks for opposite
+/// directions, a dashed one against them; the outermost lane at an edge runs as the driving side says. These
+/// and the remembered evidence are weighed against one another by max-product belief propagation.
+///
+/// `linkages` between lanes that are turned are turned too.
+void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
+                     const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
+                     std::vector<Linkage>& linkages);
+
+}  // namespace laneloom
