@@ -110,6 +110,14 @@ struct StoplineConfig {
   double min_angle_deg = 45.0;  ///< between stopline and lane
 };
 
+/// The error that a whole frame has against the map, taken out before it is fused. Ours. Limits of 0 leave
+/// frames as they are.
+struct AlignmentConfig {
+  double max_lateral_m = 0.3;
+  double max_longitudinal_m = 0.5;
+  double max_yaw_deg = 2.0;
+};
+
 /// Fusion along lines: every line of the map is a row of stations, each with its own lateral estimate and
 /// evidence. Instead of the paper's Sec. III-B and III-C. Ours.
 struct FusionConfig {
@@ -152,6 +160,7 @@ struct MapperConfig {
   VoxelMapConfig voxel_map;
   ClusteringConfig clustering;
   PolylineConfig polyline;
+  AlignmentConfig alignment;
   FusionConfig fusion;
   StyleConfig style;
   BoundaryConfig boundary;

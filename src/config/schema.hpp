@@ -66,6 +66,13 @@ void visit(auto& v, Is<PolylineConfig> auto& c) {
   v.number("min_length_m", min_length_m, "m", 0, 100);
 }
 
+void visit(auto& v, Is<AlignmentConfig> auto& c) {
+  auto& [max_lateral_m, max_longitudinal_m, max_yaw_deg] = c;
+  v.number("max_lateral_m", max_lateral_m, "m", 0, 5);
+  v.number("max_longitudinal_m", max_longitudinal_m, "m", 0, 5);
+  v.number("max_yaw_deg", max_yaw_deg, "deg", 0, 10);
+}
+
 void visit(auto& v, Is<FusionConfig> auto& c) {
   auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, stddev_m, stddev_per_m,
          end_reach_m, fade_m, max_information_per_m2, bias_stddev_m, bias_stddev_per_m, birth_log_odds,
@@ -157,7 +164,7 @@ void visit(auto& v, Is<StoplineConfig> auto& c) {
 }
 
 void visit(auto& v, Is<MapperConfig> auto& c) {
-  auto& [method, range, preprocess, voxel_map, clustering, polyline, fusion, style, boundary,
+  auto& [method, range, preprocess, voxel_map, clustering, polyline, alignment, fusion, style, boundary,
          section, lane, linkage, direction, stopline] = c;
   v.choice("method", method, "lines|voxels");
   v.section("range", range);
@@ -165,6 +172,7 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("voxel_map", voxel_map);
   v.section("clustering", clustering);
   v.section("polyline", polyline);
+  v.section("alignment", alignment);
   v.section("fusion", fusion);
   v.section("style", style);
   v.section("boundary", boundary);

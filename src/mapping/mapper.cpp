@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/alignment.hpp"
 #include "mapping/association.hpp"
 #include "mapping/clustering.hpp"
 #include "mapping/crossings.hpp"
@@ -50,7 +51,7 @@ struct Input {
 template <class Done>
 std::vector<Marking> fuse_voxels(const Input& input, const MapperConfig& config, Done done,
                                  MapperState& state) {
-  auto& [frame, voxels, co_observation, instances, lines, pairs, known_lanes,
+  auto& [frame, voxels, co_observation, instances, lines, pairs, lasting_error, known_lanes,
          published, next_id, map] = state;
   const auto touched = update_voxels(input.markings, input.range, config.voxel_map, voxels, co_observation);
   done(Stage::voxel_update);
@@ -76,6 +77,7 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   const Point origin = input.T_map_body.translation();
   auto& lines = state.lines;
   auto detections = sample_detections(input.markings, fusion);
+  align_frame(input.T_map_body, config, lines, detections, state.lasting_error);
   const auto matches = associate(lines, fusion, detections);
   done(Stage::association);
   const auto observed = fuse_matches(matches, detections, origin, fusion, lines);
@@ -112,7 +114,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const auto done = [observer](Stage stage) {
     if (observer != nullptr) observer->stage_done(stage);
   };
-  auto& [frame_count, voxels, co_observation, instances, lines, pairs, known_lanes,
+  auto& [frame_count, voxels, co_observation, instances, lines, pairs, lasting_error, known_lanes,
          published, next_id, map] = *state_;
   if (observer != nullptr) observer->update_begins();
   const LocalRange range(config_.range, T_map_body);

@@ -5,6 +5,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
+#include "mapping/alignment.hpp"
 #include "mapping/co_observation.hpp"
 #include "mapping/instances.hpp"
 #include "mapping/lanes.hpp"
@@ -25,6 +26,7 @@ struct MapperState {
   Instances instances;
   std::vector<Line> lines;
   std::vector<LinePair> pairs;  ///< of lines that lie side by side
+  FrameError lasting_error = FrameError::Zero();
   std::vector<KnownLane> known_lanes;
   Membership published;   ///< of the last map
   ElementId next_id = 1;  ///< never used before
@@ -32,7 +34,8 @@ struct MapperState {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, pairs, known_lanes, published, next_id, map);
+    archive(frame, voxels, co_observation, instances, lines, pairs, lasting_error, known_lanes,
+            published, next_id, map);
   }
 };
 
