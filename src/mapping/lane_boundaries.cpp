@@ -39,11 +39,12 @@ bool can_join(const Marking& a, bool a_back, const Marking& b, bool b_back, cons
   return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
 }
 
-std::vector<Join> possible_joins(const std::vector<Marking>& lines, const BoundaryConfig& config) {
+std::vector<Join> possible_joins(const std::vector<Marking>& lines, const std::vector<Joint>& joints,
+                                 const BoundaryConfig& config) {
   std::vector<Join> joins;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      if (lines[i].type != lines[j].type) continue;
+      if (lines[i].type != lines[j].type || are_separate(joints, lines[i].id, lines[j].id)) continue;
       for (const bool i_back : {false, true}) {
         for (const bool j_back : {false, true}) {
           if (!can_join(lines[i], i_back, lines[j], j_back, config)) continue;
@@ -111,11 +112,11 @@ LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::
 }  // namespace
 
 std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings,
-                                          const BoundaryConfig& config) {
+                                          const std::vector<Joint>& joints, const BoundaryConfig& config) {
   std::vector<Marking> lines;
   std::ranges::copy_if(markings, std::back_inserter(lines),
                        [](const Marking& m) { return m.type != MarkingType::stopline; });
-  const auto joined = choose_joins(possible_joins(lines, config), lines.size());
+  const auto joined = choose_joins(possible_joins(lines, joints, config), lines.size());
 
   std::vector<LaneBoundary> boundaries;
   std::vector<bool> used(lines.size(), false);

@@ -4,6 +4,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
+#include "mapping/joints.hpp"
 
 namespace laneloom {
 
@@ -14,8 +15,9 @@ struct LaneBoundary {
 };
 
 /// Groups lanelines and roadedges, respectively, whose end points are close and aligned into continuous
-/// boundaries (paper, Sec. III-D-1). The nearest ends are joined first, each end once. By ascending id;
-/// stoplines are left out.
-std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings, const BoundaryConfig& config);
+/// boundaries (paper, Sec. III-D-1), but those that are known to be separate. The nearest ends are joined
+/// first, each end once. By ascending id; stoplines are left out.
+std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings,
+                                          const std::vector<Joint>& joints, const BoundaryConfig& config);
 
 }  // namespace laneloom

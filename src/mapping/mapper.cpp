@@ -9,6 +9,7 @@
 #include "mapping/clustering.hpp"
 #include "mapping/crossings.hpp"
 #include "mapping/directions.hpp"
+#include "mapping/joints.hpp"
 #include "mapping/lane_boundaries.hpp"
 #include "mapping/lanes.hpp"
 #include "mapping/line_fusion.hpp"
@@ -51,7 +52,7 @@ struct Input {
 template <class Done>
 std::vector<Marking> fuse_voxels(const Input& input, const MapperConfig& config, Done done,
                                  MapperState& state) {
-  auto& [frame, voxels, co_observation, instances, lines, pairs, lasting_error, known_lanes,
+  auto& [frame, voxels, co_observation, instances, lines, pairs, joints, lasting_error, known_lanes,
          published, next_id, map] = state;
   const auto touched = update_voxels(input.markings, input.range, config.voxel_map, voxels, co_observation);
   done(Stage::voxel_update);
@@ -79,6 +80,7 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   auto detections = sample_detections(input.markings, fusion);
   align_frame(input.T_map_body, config, lines, detections, state.lasting_error);
   const auto matches = associate(lines, fusion, detections);
+  count_joints(matches, lines, config.boundary.max_gap_m, state.joints);
   done(Stage::association);
   const auto observed = fuse_matches(matches, detections, origin, fusion, lines);
   discount_unobserved(observed, {input.T_map_body.inverse(), &input.frame}, input.range, fusion, lines);
@@ -114,7 +116,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const auto done = [observer](Stage stage) {
     if (observer != nullptr) observer->stage_done(stage);
   };
-  auto& [frame_count, voxels, co_observation, instances, lines, pairs, lasting_error, known_lanes,
+  auto& [frame_count, voxels, co_observation, instances, lines, pairs, joints, lasting_error, known_lanes,
          published, next_id, map] = *state_;
   if (observer != nullptr) observer->update_begins();
   const LocalRange range(config_.range, T_map_body);
@@ -126,7 +128,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const Input input{frame, T_map_body, markings, range};
   map.instances = config_.method == "voxels" ? fuse_voxels(input, config_, done, *state_)
                                              : fuse_lines(input, config_, done, *state_);
-  auto boundaries = lane_boundaries(map.instances, config_.boundary);
+  auto boundaries = lane_boundaries(map.instances, joints, config_.boundary);
   std::vector<MeasuredPolyline> measured;
   measured.reserve(boundaries.size());
   for (const LaneBoundary& boundary : boundaries) measured.emplace_back(boundary.marking.points);

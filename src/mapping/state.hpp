@@ -8,6 +8,7 @@
 #include "mapping/alignment.hpp"
 #include "mapping/co_observation.hpp"
 #include "mapping/instances.hpp"
+#include "mapping/joints.hpp"
 #include "mapping/lanes.hpp"
 #include "mapping/line_map.hpp"
 #include "mapping/line_merging.hpp"
@@ -26,6 +27,7 @@ struct MapperState {
   Instances instances;
   std::vector<Line> lines;
   std::vector<LinePair> pairs;  ///< of lines that lie side by side
+  std::vector<Joint> joints;    ///< of lines that end at each other
   FrameError lasting_error = FrameError::Zero();
   std::vector<KnownLane> known_lanes;
   Membership published;   ///< of the last map
@@ -34,7 +36,7 @@ struct MapperState {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, pairs, lasting_error, known_lanes,
+    archive(frame, voxels, co_observation, instances, lines, pairs, joints, lasting_error, known_lanes,
             published, next_id, map);
   }
 };

@@ -13,7 +13,8 @@ using ::testing::ElementsAre;
 
 TEST(LaneBoundaries, JoinsCloseAlignedEndsUnderTheOldestId) {
   const auto boundaries = lane_boundaries(
-      {marking(4, straight({13, 0.2, 0}, {20, 0.2, 0})), marking(7, straight({0, 0, 0}, {10, 0, 0}))}, {});
+      {marking(4, straight({13, 0.2, 0}, {20, 0.2, 0})), marking(7, straight({0, 0, 0}, {10, 0, 0}))}, {},
+      {});
   ASSERT_EQ(boundaries.size(), 1U);
   EXPECT_EQ(boundaries[0].marking.id, 4U);
   EXPECT_THAT(boundaries[0].members, ElementsAre(4, 7));
@@ -24,7 +25,7 @@ TEST(LaneBoundaries, JoinsCloseAlignedEndsUnderTheOldestId) {
 TEST(LaneBoundaries, JoinsWhateverTheirDirections) {
   const Polyline a = straight({0, 0, 0}, {10, 0, 0}), b = straight({20, 0, 0}, {12, 0, 0}),
                  c = straight({22, 0, 0}, {30, 0, 0});
-  const auto boundaries = lane_boundaries({marking(1, a), marking(2, b), marking(3, c)}, {});
+  const auto boundaries = lane_boundaries({marking(1, a), marking(2, b), marking(3, c)}, {}, {});
   ASSERT_EQ(boundaries.size(), 1U);
   EXPECT_DOUBLE_EQ(length(boundaries[0].marking.points), 30.0);
   EXPECT_EQ(boundaries[0].marking.points.front(), Point(0, 0, 0));
@@ -32,7 +33,7 @@ TEST(LaneBoundaries, JoinsWhateverTheirDirections) {
 
 TEST(LaneBoundaries, LeavesApartWhatIsNotOneLine) {
   const Marking line = marking(1, straight({0, 0, 0}, {10, 0, 0}));
-  const auto count = [&](const Marking& other) { return lane_boundaries({line, other}, {}).size(); };
+  const auto count = [&](const Marking& other) { return lane_boundaries({line, other}, {}, {}).size(); };
   EXPECT_EQ(count(marking(2, straight({16, 0, 0}, {20, 0, 0}))), 2U);                         // too far
   EXPECT_EQ(count(marking(2, straight({12, 1, 0}, {20, 1, 0}))), 2U);                         // beside
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {15, 3, 0}))), 2U);                         // turning off
@@ -40,12 +41,19 @@ TEST(LaneBoundaries, LeavesApartWhatIsNotOneLine) {
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {20, 0, 0}))), 1U);
 }
 
+TEST(LaneBoundaries, WhatIsKnownToBeSeparateStaysApart) {
+  const std::vector<Marking> pieces{marking(4, straight({12, 0, 0}, {20, 0, 0})),
+                                    marking(7, straight({0, 0, 0}, {10, 0, 0}))};
+  EXPECT_EQ(lane_boundaries(pieces, {{.a = 4, .b = 7, .apart = 10.0}}, {}).size(), 2U);
+  EXPECT_EQ(lane_boundaries(pieces, {{.a = 4, .b = 7, .together = 10.0, .apart = 10.0}}, {}).size(), 1U);
+}
+
 TEST(LaneBoundaries, EachEndIsJoinedOnceToTheNearest) {
   // A fork: the straight continuation is nearer than the one that is set off.
   const auto boundaries = lane_boundaries(
       {marking(1, straight({0, 0, 0}, {10, 0, 0})), marking(2, straight({13, 0.7, 0}, {20, 0.7, 0})),
        marking(3, straight({12, 0, 0}, {20, 0, 0}))},
-      {});
+      {}, {});
   ASSERT_EQ(boundaries.size(), 2U);
   EXPECT_THAT(boundaries[0].members, ElementsAre(1, 3));
 }
@@ -53,7 +61,7 @@ TEST(LaneBoundaries, EachEndIsJoinedOnceToTheNearest) {
 TEST(LaneBoundaries, OverlappingEndsDoNotRunBack) {
   const auto boundaries = lane_boundaries(
       {marking(1, straight({0, 0, 0}, {10, 0, 0}, 6)), marking(2, straight({9, 0.1, 0}, {20, 0.1, 0}, 12))},
-      {});
+      {}, {});
   ASSERT_EQ(boundaries.size(), 1U);
   const auto& points = boundaries[0].marking.points;
   for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GT(points[i].x(), points[i - 1].x());
@@ -65,14 +73,14 @@ TEST(LaneBoundaries, ARingOfPiecesStaysOpen) {
     pieces.push_back(
         marking(static_cast<ElementId>(k + 1), test::arc({0, 0, 0}, 12, 90 * k + 1, 90 * k + 89)));
   }
-  const auto boundaries = lane_boundaries(pieces, {});
+  const auto boundaries = lane_boundaries(pieces, {}, {});
   ASSERT_EQ(boundaries.size(), 1U);
   EXPECT_THAT(boundaries[0].members, ElementsAre(1, 2, 3, 4));
 }
 
 TEST(LaneBoundaries, StoplinesAreNone) {
   EXPECT_TRUE(
-      lane_boundaries({marking(1, straight({0, 0, 0}, {0, 4, 0}), MarkingType::stopline)}, {}).empty());
+      lane_boundaries({marking(1, straight({0, 0, 0}, {0, 4, 0}), MarkingType::stopline)}, {}, {}).empty());
 }
 
 }  // namespace

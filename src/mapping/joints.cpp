@@ -1,0 +1,80 @@
+#include "mapping/joints.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace laneloom {
+namespace {
+
+constexpr double kMemory = 0.97;       // of the counts, per frame: about 30 frames
+constexpr double kMinFrames = 4.0;     // before a joint is judged
+constexpr double kMaxTogether = 0.25;  // share of the frames; a network cuts a line for a short while only
+constexpr double kEndStations = 3.0;   // from an end, within which a detection saw it
+
+/// The detections that saw each end of a line: its first station and its last one.
+using Views = std::array<std::vector<std::size_t>, 2>;
+
+std::vector<Views> views_of_ends(const std::vector<LineMatch>& matches, const std::vector<Line>& lines) {
+  std::vector<Views> views(lines.size());
+  for (const LineMatch& match : matches) {
+    const auto last = static_cast<double>(lines[match.line].stations.size() - 1);
+    const auto [lowest, highest] =
+        std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });
+    if (lowest.foot.index <= kEndStations) views[match.line][0].push_back(match.detection);
+    if (highest.foot.index >= last - kEndStations) views[match.line][1].push_back(match.detection);
+  }
+  return views;
+}
+
+Point end_of(const Line& line, std::size_t end) {
+  return end == 0 ? line.stations.front().position : line.stations.back().position;
+}
+
+std::pair<ElementId, ElementId> key(ElementId a, ElementId b) { return std::minmax(a, b); }
+
+const Joint* find(const std::vector<Joint>& joints, ElementId a, ElementId b) {
+  const auto found = std::ranges::find(joints, key(a, b), [](const Joint& j) { return std::pair(j.a, j.b); });
+  return found == joints.end() ? nullptr : &*found;
+}
+
+bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
+  return std::ranges::find_first_of(a, b) != a.end();
+}
+
+}  // namespace
+
+void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
+                  std::vector<Joint>& joints) {
+  const std::vector<Views> views = views_of_ends(matches, lines);
+  std::vector<Joint> counted;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      if (is_stopline(lines[i].type()) || is_stopline(lines[j].type())) continue;
+      for (const auto& [end_i, end_j] : {std::pair(0U, 0U), {0U, 1U}, {1U, 0U}, {1U, 1U}}) {
+        const Point gap = end_of(lines[i], end_i) - end_of(lines[j], end_j);
+        if (gap.head<2>().norm() > max_gap_m) continue;
+        const auto [a, b] = key(lines[i].id, lines[j].id);
+        const Joint* known = find(joints, a, b);
+        Joint joint = known != nullptr ? *known : Joint{a, b};
+        const bool one = shared(views[i][end_i], views[j][end_j]);
+        const bool two = !one && !views[i][end_i].empty() && !views[j][end_j].empty();
+        joint.together = kMemory * joint.together + (one ? 1.0 : 0.0);
+        joint.apart = kMemory * joint.apart + (two ? 1.0 : 0.0);
+        counted.push_back(joint);
+        break;
+      }
+    }
+  }
+  joints = std::move(counted);
+}
+
+bool are_separate(const std::vector<Joint>& joints, ElementId a, ElementId b) {
+  const Joint* joint = find(joints, a, b);
+  if (joint == nullptr) return false;
+  const double frames = joint->together + joint->apart;
+  return frames >= kMinFrames && joint->together < kMaxTogether * frames;
+}
+
+}  // namespace laneloom
