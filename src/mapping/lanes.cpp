@@ -12,7 +12,7 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kPairsPerBoundary = 2;   // (b_i, b_i+1) and (b_i, b_i+2)
+constexpr std::size_t kMaxBetween = 1;         // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
 
 /// A sample on the right boundary with its foot on the left one.
@@ -31,6 +31,41 @@ using Occupied = std::vector<Range>;
 
 bool contains(const Occupied& occupied, double arc_m) {
   return std::ranges::any_of(occupied, [&](const Range& r) { return r.from_m < arc_m && arc_m < r.to_m; });
+}
+
+Occupied joined(Occupied a, const Occupied& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Two boundaries that may bound a lane.
+struct Pair {
+  std::size_t left, right;
+  bool adjacent;  ///< no other boundary between them
+  std::uint32_t section;
+};
+
+/// How many boundaries lie between two that lie side by side, and beside both.
+std::size_t count_between(const SectionGraph& graph, std::size_t left, std::size_t right) {
+  return static_cast<std::size_t>(std::ranges::count_if(graph.right_of[left], [&](const SideBySide& b) {
+    return std::ranges::count(graph.right_of[b.right], right, &SideBySide::right) > 0;
+  }));
+}
+
+/// Neighbouring boundaries first.
+std::vector<Pair> pairs(const SectionGraph& graph) {
+  std::vector<Pair> result;
+  for (std::size_t between = 0; between <= kMaxBetween; ++between) {
+    for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
+      for (const std::size_t left : graph.sections[section].boundaries) {
+        for (const SideBySide& beside : graph.right_of[left]) {
+          if (count_between(graph, left, beside.right) == between)
+            result.push_back({left, beside.right, between == 0, section});
+        }
+      }
+    }
+  }
+  return result;
 }
 
 std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const MeasuredPolyline& right,
@@ -121,13 +156,13 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
                                  const std::vector<MeasuredPolyline>& measured, const LaneConfig& config) {
   std::vector<Lane> lanes;
   std::vector<Occupied> used_right_side(boundaries.size()), used_left_side(boundaries.size());
-  const auto pair_lanes = [&](std::size_t left, std::size_t right, bool adjacent, std::uint32_t section) {
+  const auto is_edge = [&](std::size_t i) { return boundaries[i].marking.type == MarkingType::roadedge; };
+  const auto pair_lanes = [&](const Pair& pair, const Occupied& left_used, const Occupied& right_used) {
+    const auto& [left, right, adjacent, section] = pair;
     // Between two edges so far apart, there rather is a verge.
-    const bool kerb = adjacent && (boundaries[left].marking.type == MarkingType::roadedge) !=
-                                      (boundaries[right].marking.type == MarkingType::roadedge);
-    const auto sections =
-        cross_sections(measured[left], measured[right], used_right_side[left], used_left_side[right],
-                       kerb ? config.max_kerb_width_m : config.max_width_m, config);
+    const bool kerb = adjacent && is_edge(left) != is_edge(right);
+    const auto sections = cross_sections(measured[left], measured[right], left_used, right_used,
+                                         kerb ? config.max_kerb_width_m : config.max_width_m, config);
     for (std::size_t begin = 0; begin < sections.size();) {
       const std::size_t end = std::max(run_end(sections, begin, config), begin + 1);
       const double min_length_m = sections[begin].wide ? kMinKerbLaneLength_m : config.min_length_m;
@@ -143,13 +178,19 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
       begin = end;
     }
   };
-  for (std::size_t rank = 0; rank < kPairsPerBoundary; ++rank) {
-    for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
-      for (const std::size_t left : graph.sections[section].boundaries) {
-        if (rank < graph.right_of[left].size())
-          pair_lanes(left, graph.right_of[left][rank].right, rank == 0, section);
-      }
+  std::vector<Pair> between_edges;
+  for (const Pair& pair : pairs(graph)) {
+    if (is_edge(pair.left) && is_edge(pair.right)) {
+      between_edges.push_back(pair);
+    } else {
+      pair_lanes(pair, used_right_side[pair.left], used_left_side[pair.right]);
     }
+  }
+  // What lies beyond the edge of a road with lanes is a verge, a pavement or a cycle track.
+  const std::vector<Occupied> road_on_right = used_right_side, road_on_left = used_left_side;
+  for (const Pair& pair : between_edges) {
+    pair_lanes(pair, joined(used_right_side[pair.left], road_on_left[pair.left]),
+               joined(used_left_side[pair.right], road_on_right[pair.right]));
   }
   return lanes;
 }

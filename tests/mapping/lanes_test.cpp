@@ -57,6 +57,20 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   EXPECT_EQ(left->section, right->section);
 }
 
+TEST(Lanes, BetweenTwoEdgesThereIsOneWithoutMarkings) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
+                               boundary(2, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});
+  EXPECT_EQ(lanes.size(), 1U);
+}
+
+TEST(Lanes, BeyondTheEdgeOfARoadWithLanesIsNone) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 7, 0}, {30, 7, 0})),
+                               boundary(2, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
+                               boundary(3, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_TRUE(between(lanes, 1, 2));
+}
+
 TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
   std::vector<KnownLane> known{{.id = 7,
                                 .boundary_a = 1,
