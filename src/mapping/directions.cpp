@@ -166,6 +166,9 @@ void turn(Lane& lane) {
   std::swap(lane.left_boundary, lane.right_boundary);
   std::swap(lane.left_range, lane.right_range);
   std::swap(lane.left_neighbour, lane.right_neighbour);
+  const double total_m = length(lane.centerline);
+  std::ranges::reverse(lane.inferred_ranges);
+  for (Range& range : lane.inferred_ranges) range = {total_m - range.to_m, total_m - range.from_m};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 namespace laneloom {
 namespace {
 
+constexpr double kMinGap_m = 1.0;  // a shorter one is no more than the distance between vertices
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// One end of a marking.
@@ -100,7 +101,11 @@ LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::
     if (boundary.marking.points.empty()) {
       boundary.marking = std::move(next);
     } else {
-      append(boundary.marking, ahead_of(boundary.marking, next));
+      const Marking ahead = ahead_of(boundary.marking, next);
+      const double end_m = length(boundary.marking.points);
+      const double gap_m = (ahead.points.front() - boundary.marking.points.back()).head<2>().norm();
+      if (gap_m > kMinGap_m) boundary.bridged.push_back({end_m, end_m + gap_m});
+      append(boundary.marking, ahead);
     }
     entered = joined[entered.marking][!entered.at_back];
   }
@@ -110,6 +115,13 @@ LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::
 }
 
 }  // namespace
+
+void reverse(LaneBoundary& boundary) {
+  const double total_m = length(boundary.marking.points);
+  reverse(boundary.marking);
+  std::ranges::reverse(boundary.bridged);
+  for (Range& range : boundary.bridged) range = {total_m - range.to_m, total_m - range.from_m};
+}
 
 std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings,
                                           const std::vector<Joint>& joints, const BoundaryConfig& config) {

@@ -12,7 +12,11 @@ namespace laneloom {
 struct LaneBoundary {
   Marking marking;                 ///< has the id of its oldest member
   std::vector<ElementId> members;  ///< ids of the markings that it is made of, ascending
+  std::vector<Range> bridged{};    ///< the gaps between them, along the marking
 };
+
+/// The same boundary, run through in the other direction.
+void reverse(LaneBoundary& boundary);
 
 /// Groups lanelines and roadedges, respectively, whose end points are close and aligned into continuous
 /// boundaries (paper, Sec. III-D-1), but those that are known to be separate. The nearest ends are joined

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "laneloom/polyline.hpp"
@@ -29,8 +30,8 @@ struct CrossSection {
 /// Which stretches of a boundary's one side belong to a lane already.
 using Occupied = std::vector<Range>;
 
-bool contains(const Occupied& occupied, double arc_m) {
-  return std::ranges::any_of(occupied, [&](const Range& r) { return r.from_m < arc_m && arc_m < r.to_m; });
+bool contains(const std::vector<Range>& ranges, double arc_m) {
+  return std::ranges::any_of(ranges, [&](const Range& r) { return r.from_m < arc_m && arc_m < r.to_m; });
 }
 
 Occupied joined(Occupied a, const Occupied& b) {
@@ -106,24 +107,48 @@ std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin
   return end;
 }
 
-Lane make_lane(const std::vector<CrossSection>& sections, std::size_t begin, std::size_t end,
+/// The last range grows by the stretch, if that follows it.
+void append(std::vector<Range>& ranges, const Range& stretch) {
+  if (!ranges.empty() && ranges.back().to_m == stretch.from_m) {
+    ranges.back().to_m = stretch.to_m;
+  } else {
+    ranges.push_back(stretch);
+  }
+}
+
+/// How sure a lane is that lies between two markings.
+void set_trust(const Marking& left, const Marking& right, Lane& lane) {
+  const bool tentative = left.status == ElementStatus::tentative || right.status == ElementStatus::tentative;
+  lane.status = tentative ? ElementStatus::tentative : ElementStatus::confirmed;
+  lane.existence_probability = std::min(left.existence_probability, right.existence_probability);
+}
+
+Lane make_lane(std::span<const CrossSection> sections, const LaneBoundary& left, const LaneBoundary& right,
                const LaneConfig& config) {
-  Lane lane;
-  lane.left_range = {sections[begin].left_arc_m, sections[end - 1].left_arc_m};
-  lane.right_range = {sections[begin].right_arc_m, sections[end - 1].right_arc_m};
+  Lane lane{.left_boundary = left.marking.id, .right_boundary = right.marking.id};
+  lane.left_range = {sections.front().left_arc_m, sections.back().left_arc_m};
+  lane.right_range = {sections.front().right_arc_m, sections.back().right_arc_m};
+  set_trust(left.marking, right.marking, lane);
   // Sides and centerline all go through the cross-sections, so that the one is left of the other wherever the
   // boundaries' own vertices are.
-  double width_sum_m = 0.0;
+  double width_sum_m = 0.0, arc_m = 0.0;
   const auto every = static_cast<std::size_t>(std::max(1.0, config.centerline_step_m / config.step_m));
-  for (std::size_t i = begin; i < end; ++i) {
-    width_sum_m += sections[i].width_m;
-    if ((i - begin) % every != 0 && i + 1 != end) continue;
-    lane.left.push_back(sections[i].left);
-    lane.right.push_back(sections[i].right);
-    lane.centerline.push_back(0.5 * (sections[i].left + sections[i].right));
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const CrossSection& section = sections[i];
+    width_sum_m += section.width_m;
+    if (i % every != 0 && i + 1 != sections.size()) continue;
+    const Point center = 0.5 * (section.left + section.right);
+    const double from_m = arc_m;
+    if (!lane.centerline.empty()) arc_m += (center - lane.centerline.back()).head<2>().norm();
+    if (contains(left.bridged, section.left_arc_m) || contains(right.bridged, section.right_arc_m))
+      append(lane.inferred_ranges, {from_m, arc_m});
+    lane.left.push_back(section.left);
+    lane.right.push_back(section.right);
+    lane.centerline.push_back(center);
   }
   lane.left = MeasuredPolyline(lane.left).points();
-  lane.width_m = width_sum_m / static_cast<double>(end - begin);
+  lane.width_m = width_sum_m / static_cast<double>(sections.size());
+  std::erase_if(lane.inferred_ranges, [](const Range& range) { return range.length() <= 0.0; });
   return lane;
 }
 
@@ -167,9 +192,8 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
       const std::size_t end = std::max(run_end(sections, begin, config), begin + 1);
       const double min_length_m = sections[begin].wide ? kMinKerbLaneLength_m : config.min_length_m;
       if (sections[end - 1].left_arc_m - sections[begin].left_arc_m >= min_length_m) {
-        Lane lane = make_lane(sections, begin, end, config);
-        lane.left_boundary = boundaries[left].marking.id;
-        lane.right_boundary = boundaries[right].marking.id;
+        Lane lane = make_lane(std::span(sections).subspan(begin, end - begin), boundaries[left],
+                              boundaries[right], config);
         lane.section = section;
         used_right_side[left].push_back(lane.left_range);
         used_left_side[right].push_back(lane.right_range);

@@ -104,7 +104,7 @@ SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d&
     for (const std::size_t k : section.boundaries) {
       turned[k] = (*opposed[k] != *opposed[longest]) != turn_longest;
       if (!turned[k]) continue;
-      reverse(boundaries[k].marking);
+      reverse(boundaries[k]);
       measured[k] = MeasuredPolyline(boundaries[k].marking.points);
     }
     result.sections.push_back(std::move(section));

@@ -48,6 +48,20 @@ TEST(LaneBoundaries, WhatIsKnownToBeSeparateStaysApart) {
   EXPECT_EQ(lane_boundaries(pieces, {{.a = 4, .b = 7, .together = 10.0, .apart = 10.0}}, {}).size(), 1U);
 }
 
+TEST(LaneBoundaries, KnowTheGapsThatTheyBridge) {
+  auto boundaries = lane_boundaries(
+      {marking(1, straight({0, 0, 0}, {10, 0, 0})), marking(2, straight({12, 0, 0}, {20, 0, 0})),
+       marking(3, straight({20.5, 0, 0}, {30, 0, 0}))},
+      {}, {});
+  ASSERT_EQ(boundaries.size(), 1U);
+  ASSERT_EQ(boundaries[0].bridged.size(), 1U);
+  EXPECT_NEAR(boundaries[0].bridged[0].from_m, 10.0, 1e-9);
+  EXPECT_NEAR(boundaries[0].bridged[0].to_m, 12.0, 1e-9);
+  reverse(boundaries[0]);
+  EXPECT_NEAR(boundaries[0].bridged[0].from_m, 18.0, 1e-9);
+  EXPECT_NEAR(boundaries[0].bridged[0].to_m, 20.0, 1e-9);
+}
+
 TEST(LaneBoundaries, EachEndIsJoinedOnceToTheNearest) {
   // A fork: the straight continuation is nearer than the one that is set off.
   const auto boundaries = lane_boundaries(

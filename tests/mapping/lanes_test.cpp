@@ -71,6 +71,28 @@ TEST(Lanes, BeyondTheEdgeOfARoadWithLanesIsNone) {
   EXPECT_TRUE(between(lanes, 1, 2));
 }
 
+TEST(Lanes, SayWhereTheyWereInferredAcrossAGap) {
+  auto left = boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}));
+  left.bridged = {{10, 14}};
+  const auto lanes = lanes_of({left, boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
+  ASSERT_EQ(lanes.size(), 1U);
+  ASSERT_EQ(lanes[0].inferred_ranges.size(), 1U);
+  EXPECT_NEAR(lanes[0].inferred_ranges[0].from_m, 10.0, 1.0);
+  EXPECT_NEAR(lanes[0].inferred_ranges[0].to_m, 14.0, 1.0);
+}
+
+TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
+  auto left = boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}));
+  auto right = boundary(2, straight({0, 0, 0}, {30, 0, 0}));
+  left.marking.existence_probability = 0.9;
+  right.marking.existence_probability = 0.6;
+  right.marking.status = ElementStatus::tentative;
+  const auto lanes = lanes_of({left, right});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_EQ(lanes[0].existence_probability, 0.6);
+  EXPECT_EQ(lanes[0].status, ElementStatus::tentative);
+}
+
 TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
   std::vector<KnownLane> known{{.id = 7,
                                 .boundary_a = 1,
