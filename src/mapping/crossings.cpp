@@ -60,23 +60,6 @@ std::optional<double> turn_misfit(const Lane& from, const Lane& to, const Linkag
   return longer_m / config.max_turn_gap_m;
 }
 
-/// A cubic that leaves and enters in the lanes' directions.
-Polyline path_between(const Lane& from, const Lane& to) {
-  const Point a = from.centerline.back(), b = to.centerline.front();
-  const double length_m = (b - a).head<2>().norm();
-  const Eigen::Vector2d begin = length_m * leaving(from), end = length_m * entering(to);
-  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kPathStep_m)));
-  Polyline path;
-  for (int i = 0; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
-    const double blend = t * t * (3.0 - 2.0 * t);  // Hermite's basis
-    Point point = a + blend * (b - a);
-    point.head<2>() += t * (1.0 - t) * ((1.0 - t) * begin - t * end);
-    path.push_back(point);
-  }
-  return path;
-}
-
 /// Where linkages begin and end already.
 class Linked {
  public:
@@ -133,6 +116,29 @@ double confidence(const Crossing& crossing) {
 }
 
 }  // namespace
+
+Linkage::Turn turn_between(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to);
+  if (a.dot(b) < -kMinTurnSine) return Turn::u_turn;
+  if (std::abs(cross(a, b)) < kMinTurnSine) return Turn::straight;
+  return cross(a, b) > 0.0 ? Turn::left : Turn::right;
+}
+
+Polyline path_between(const Lane& from, const Lane& to) {
+  const Point a = from.centerline.back(), b = to.centerline.front();
+  const double length_m = (b - a).head<2>().norm();
+  const Eigen::Vector2d begin = length_m * leaving(from), end = length_m * entering(to);
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kPathStep_m)));
+  Polyline path;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    const double blend = t * t * (3.0 - 2.0 * t);  // Hermite's basis
+    Point point = a + blend * (b - a);
+    point.head<2>() += t * (1.0 - t) * ((1.0 - t) * begin - t * end);
+    path.push_back(point);
+  }
+  return path;
+}
 
 void link_across_intersections(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries,
                                const LinkageConfig& config, std::vector<Linkage>& linkages) {

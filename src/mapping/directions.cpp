@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/ego_track.hpp"
 #include "mapping/stoplines.hpp"
 
 namespace laneloom {
@@ -23,22 +24,7 @@ constexpr double kEdgeBetweenEvidence = 2.0;  // of an edge for them
 constexpr double kWrongSide = -6.0;           // that traffic keeps to the other side
 constexpr double kKnown = 1.5;                // from which the direction is said
 
-constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
-constexpr double kMaxHeight_m = 2.0;
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
-
-/// 1: the vehicle drives along the lane, -1: against it, 0: elsewhere or across.
-double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
-  const MeasuredPolyline line(lane.centerline);
-  const Point vehicle = T_map_body.translation();
-  const Projection foot = line.project(vehicle);
-  if (!foot.inside || foot.distance_m > 0.5 * lane.width_m) return 0.0;
-  if (std::abs(foot.foot.z() - vehicle.z()) > kMaxHeight_m) return 0.0;
-  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
-  const double cosine = line.direction(foot.arc_m).dot(heading);
-  if (std::abs(cosine) < kMinAlongLane * heading.norm()) return 0.0;
-  return cosine > 0.0 ? 1.0 : -1.0;
-}
 
 /// 1: stoplines lie at the lane's end, -1: at its start, 0: at none or both.
 double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, const StoplineConfig& config) {

@@ -9,6 +9,7 @@
 #include "mapping/clustering.hpp"
 #include "mapping/crossings.hpp"
 #include "mapping/directions.hpp"
+#include "mapping/ego_track.hpp"
 #include "mapping/joints.hpp"
 #include "mapping/lane_boundaries.hpp"
 #include "mapping/lanes.hpp"
@@ -52,20 +53,22 @@ struct Input {
 template <class Done>
 std::vector<Marking> fuse_voxels(const Input& input, const MapperConfig& config, Done done,
                                  MapperState& state) {
-  auto& [frame, voxels, co_observation, instances, lines, pairs, joints, lasting_error, known_lanes,
-         published, next_id, map] = state;
+  auto& voxels = state.voxels;
+  auto& co_observation = state.co_observation;
+  auto& instances = state.instances;
   const auto touched = update_voxels(input.markings, input.range, config.voxel_map, voxels, co_observation);
   done(Stage::voxel_update);
   const auto reliable = reliable_voxels(touched.all, voxels, instances, config.voxel_map.min_detections);
   done(Stage::reliable_voxels);
-  cluster(reliable, config.clustering, input.frame.stamp_ns, voxels, co_observation, instances, next_id);
+  cluster(reliable, config.clustering, input.frame.stamp_ns, voxels, co_observation, instances,
+          state.next_id);
   count_observations(touched.by_detection, voxels, instances);
   done(Stage::clustering);
   clear_outside(input.range, state);
   done(Stage::local_range);
   const Eigen::Vector2d forward = input.T_map_body.linear().col(0).head<2>();
   update_polylines(config.polyline, config.style, voxels, forward, instances);
-  auto markings = markings_in_range(input.range, config.polyline.min_length_m, instances, next_id);
+  auto markings = markings_in_range(input.range, config.polyline.min_length_m, instances, state.next_id);
   done(Stage::polylines);
   return markings;
 }
@@ -116,19 +119,19 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const auto done = [observer](Stage stage) {
     if (observer != nullptr) observer->stage_done(stage);
   };
-  auto& [frame_count, voxels, co_observation, instances, lines, pairs, joints, lasting_error, known_lanes,
-         published, next_id, map] = *state_;
+  MapperState& state = *state_;
+  LocalMap& map = state.map;
   if (observer != nullptr) observer->update_begins();
   const LocalRange range(config_.range, T_map_body);
-  ++frame_count;
+  ++state.frame;
 
   const auto markings = preprocess(frame, T_map_body, config_.preprocess);
   done(Stage::preprocess);
   map = LocalMap{.stamp_ns = frame.stamp_ns, .T_map_body = T_map_body};
   const Input input{frame, T_map_body, markings, range};
-  map.instances = config_.method == "voxels" ? fuse_voxels(input, config_, done, *state_)
-                                             : fuse_lines(input, config_, done, *state_);
-  auto boundaries = lane_boundaries(map.instances, joints, config_.boundary);
+  map.instances = config_.method == "voxels" ? fuse_voxels(input, config_, done, state)
+                                             : fuse_lines(input, config_, done, state);
+  auto boundaries = lane_boundaries(map.instances, state.joints, config_.boundary);
   std::vector<MeasuredPolyline> measured;
   measured.reserve(boundaries.size());
   for (const LaneBoundary& boundary : boundaries) measured.emplace_back(boundary.marking.points);
@@ -136,19 +139,20 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const SectionGraph sections = road_sections(config_.section, T_map_body, boundaries, measured);
   done(Stage::road_sections);
   map.lanes = generate_lanes(sections, boundaries, measured, config_.lane);
-  identify_lanes(frame_count, config_.lane, map.lanes, known_lanes, next_id);
+  identify_lanes(state.frame, config_.lane, map.lanes, state.known_lanes, state.next_id);
   find_neighbours(map.lanes);
   done(Stage::lanes);
   map.linkages = generate_linkages(map.lanes, config_.linkage);
-  observe_directions(map.lanes, T_map_body, map.instances, config_.stopline, known_lanes);
-  find_directions(boundaries, config_.direction, known_lanes, map.lanes, map.linkages);
+  observe_directions(map.lanes, T_map_body, map.instances, config_.stopline, state.known_lanes);
+  find_directions(boundaries, config_.direction, state.known_lanes, map.lanes, map.linkages);
   link_across_intersections(map.lanes, boundaries, config_.linkage, map.linkages);
+  link_ego_track(map.lanes, T_map_body, state.ego_track, map.linkages);
   map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);
   done(Stage::linkages);
 
   Membership now = membership(boundaries, map.stoplines);
-  map.lineage = lineage(published, now);
-  published = std::move(now);
+  map.lineage = lineage(state.published, now);
+  state.published = std::move(now);
   for (LaneBoundary& boundary : boundaries) map.boundaries.push_back(std::move(boundary.marking));
   return map;
 }

@@ -7,6 +7,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/alignment.hpp"
 #include "mapping/co_observation.hpp"
+#include "mapping/ego_track.hpp"
 #include "mapping/instances.hpp"
 #include "mapping/joints.hpp"
 #include "mapping/lanes.hpp"
@@ -30,6 +31,7 @@ struct MapperState {
   std::vector<Joint> joints;    ///< of lines that end at each other
   FrameError lasting_error = FrameError::Zero();
   std::vector<KnownLane> known_lanes;
+  EgoTrack ego_track;
   Membership published;   ///< of the last map
   ElementId next_id = 1;  ///< never used before
   LocalMap map;           ///< the last one
@@ -37,7 +39,7 @@ struct MapperState {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(frame, voxels, co_observation, instances, lines, pairs, joints, lasting_error, known_lanes,
-            published, next_id, map);
+            ego_track, published, next_id, map);
   }
 };
 

@@ -1,0 +1,70 @@
+#include "mapping/ego_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/crossings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
+constexpr double kMaxHeight_m = 2.0;
+constexpr double kConfidence = 0.95;
+
+bool beside(const Lane& a, const Lane& b) {
+  return a.left_neighbour == b.id || a.right_neighbour == b.id || b.left_neighbour == a.id ||
+         b.right_neighbour == a.id;
+}
+
+void follow(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track) {
+  const auto in_map = [&](ElementId id) { return std::ranges::count(lanes, id, &Lane::id) > 0; };
+  std::erase_if(track.steps, [&](const auto& step) { return !in_map(step.first) || !in_map(step.second); });
+  const auto now =
+      std::ranges::find_if(lanes, [&](const Lane& lane) { return ego_sense(lane, T_map_body) > 0.0; });
+  if (now == lanes.end() || now->id == track.lane) return;
+  const auto before = std::ranges::find(lanes, track.lane, &Lane::id);
+  if (before != lanes.end() && !beside(*before, *now)) track.steps.emplace_back(before->id, now->id);
+  track.lane = now->id;
+}
+
+}  // namespace
+
+double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
+  const MeasuredPolyline line(lane.centerline);
+  const Point vehicle = T_map_body.translation();
+  const Projection foot = line.project(vehicle);
+  if (!foot.inside || foot.distance_m > 0.5 * lane.width_m) return 0.0;
+  if (std::abs(foot.foot.z() - vehicle.z()) > kMaxHeight_m) return 0.0;
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
+  const double cosine = line.direction(foot.arc_m).dot(heading);
+  if (std::abs(cosine) < kMinAlongLane * heading.norm()) return 0.0;
+  return cosine > 0.0 ? 1.0 : -1.0;
+}
+
+void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track,
+                    std::vector<Linkage>& linkages) {
+  follow(lanes, T_map_body, track);
+  for (const auto& [from, to] : track.steps) {
+    const auto known = std::ranges::find_if(
+        linkages, [&](const Linkage& linkage) { return linkage.from == from && linkage.to == to; });
+    if (known == linkages.end()) {
+      const Lane &left = *std::ranges::find(lanes, from, &Lane::id),
+                 &entered = *std::ranges::find(lanes, to, &Lane::id);
+      linkages.push_back({.from = from,
+                          .to = to,
+                          .kind = Linkage::Kind::ego_track,
+                          .turn = turn_between(left, entered),
+                          .confidence = kConfidence,
+                          .path = path_between(left, entered)});
+    } else if (known->kind == Linkage::Kind::intersection) {
+      known->kind = Linkage::Kind::ego_track;
+      known->confidence = kConfidence;
+    }
+  }
+  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
+}
+
+}  // namespace laneloom
