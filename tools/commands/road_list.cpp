@@ -20,10 +20,10 @@ std::vector<DriveSpec> RoadList::drives(const NoiseProfile& noise) const {
   return drives;
 }
 
-void add_road_list(CLI::App& command, RoadList& roads) {
+void add_roads(CLI::App& command, RoadList& roads) {
   CLI::Option_group* road = command.add_option_group("Roads", "any number of");
   road->add_option("--scenario", roads.scenarios, "A built-in road")->check(CLI::IsMember(scenario_names()));
-  road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log, driven as recorded")
+  road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log")
       ->check(CLI::ExistingDirectory);
   road->add_option("--lanelet2", roads.lanelet2, "A Lanelet2 map (.osm), driven along its lanes")
       ->check(CLI::ExistingFile);
@@ -31,14 +31,18 @@ void add_road_list(CLI::App& command, RoadList& roads) {
   command.add_option("--seeds", roads.seeds, "Of the noise; every road is driven with each")
       ->delimiter(',')
       ->capture_default_str();
+  command.add_option("--drift", roads.drift, "Of the odometry, as a share of the distance driven")
+      ->check(CLI::Range(0.0, 0.2));
+}
+
+void add_road_list(CLI::App& command, RoadList& roads) {
+  add_roads(command, roads);
   command.add_option("--speed", roads.speed_mps, "In m/s; recorded drives keep theirs")
       ->check(CLI::Range(0.1, 60.0))
       ->capture_default_str();
   command.add_option("--duration", roads.duration_s, "Seconds per drive; one that is not closed ends sooner")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--drift", roads.drift, "Of the odometry, as a share of the distance driven")
-      ->check(CLI::Range(0.0, 0.2));
 }
 
 }  // namespace laneloom

@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// Drives over several roads: options of `experiment` and `calibrate`.
+/// Drives over several roads: options of `experiment`, `calibrate` and `drive`.
 struct RoadList {
   std::vector<std::string> scenarios, argoverse2, lanelet2;
   std::vector<std::uint64_t> seeds{1};
@@ -21,6 +21,9 @@ struct RoadList {
   std::vector<DriveSpec> drives(const NoiseProfile& noise) const;
 };
 
+/// --scenario, --argoverse2, --lanelet2, --seeds and --drift.
+void add_roads(CLI::App& command, RoadList& roads);
+/// These, --speed and --duration.
 void add_road_list(CLI::App& command, RoadList& roads);
 
 }  // namespace laneloom

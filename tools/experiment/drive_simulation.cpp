@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/odometry.hpp"
 #include "simulation/perception.hpp"
 
 namespace laneloom {
@@ -11,27 +12,6 @@ namespace {
 
 constexpr double kPeriod_s = 0.1;
 constexpr std::int64_t kPeriod_ns = 100'000'000;
-
-/// Adds up the true motion, with an error in every step.
-class Odometry {
- public:
-  Odometry(const Eigen::Isometry3d& start, double drift) : true_(start), told_(start), drift_(drift) {}
-
-  const Eigen::Isometry3d& move_to(const Eigen::Isometry3d& T_map_body) {
-    constexpr double kYawPerMetre = 0.01;  // of the drift: after s metres, 0.005 s^2 of it are sideways
-    Eigen::Isometry3d step = true_.inverse() * T_map_body;
-    const double length_m = step.translation().norm();
-    step.translation() *= 1.0 + drift_;
-    step.rotate(Eigen::AngleAxisd(kYawPerMetre * drift_ * length_m, Point::UnitZ()));
-    true_ = T_map_body;
-    told_ = told_ * step;
-    return told_;
-  }
-
- private:
-  Eigen::Isometry3d true_, told_;
-  double drift_;
-};
 
 }  // namespace
 

@@ -28,7 +28,7 @@ struct SimulatedFrame {
 
 /// Ten frames per second, from 0.1 s on. The same spec gives the same frames.
 ///
-/// A drifting odometry is wrong in scale, and turns away so that half of the drift is sideways after 100 m.
+/// How an odometry drifts is in simulation/odometry.hpp.
 std::vector<SimulatedFrame> simulate(const DriveSpec& spec);
 
 }  // namespace laneloom

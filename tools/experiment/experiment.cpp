@@ -1,13 +1,10 @@
 #include "experiment/experiment.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "experiment/oracle.hpp"
+#include "experiment/parallel.hpp"
 #include "laneloom/mapper.hpp"
 
 namespace laneloom {
@@ -89,26 +86,8 @@ class DriveRun {
 
 std::vector<SubjectResult> run(const ExperimentSpec& spec) {
   std::vector<std::vector<SubjectResult>> of_drive(spec.drives.size());
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr failure;
-  std::mutex failing;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < spec.drives.size(); i = next++) {
-      try {
-        of_drive[i] = DriveRun(spec, spec.drives[i]).results();
-      } catch (...) {
-        const std::lock_guard lock(failing);
-        failure = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    const std::size_t count = std::max(1U, std::thread::hardware_concurrency());
-    threads.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work);
-  }
-  if (failure) std::rethrow_exception(failure);
+  in_parallel(spec.drives.size(),
+              [&](std::size_t i) { of_drive[i] = DriveRun(spec, spec.drives[i]).results(); });
 
   std::vector<SubjectResult> sums;
   for (std::vector<SubjectResult>& results : of_drive) {
