@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
   laneloom::add_replay(app);
   laneloom::add_record(app);
   laneloom::add_import(app);
+  laneloom::add_drive(app);
   try {
     app.parse(argc, argv);
     return 0;

@@ -19,5 +19,6 @@ void add_experiment(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_record(CLI::App& app);
 void add_import(CLI::App& app);
+void add_drive(CLI::App& app);
 
 }  // namespace laneloom

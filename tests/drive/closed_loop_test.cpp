@@ -1,0 +1,137 @@
+#include "drive/closed_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+namespace {
+
+void run(ClosedLoop& loop, double duration_s) {
+  while (loop.time_s() < duration_s) loop.step();
+}
+
+class BuiltInRoad : public testing::TestWithParam<std::string> {};
+
+TEST_P(BuiltInRoad, WithoutNoiseTheLaneIsNeverLeft) {
+  const Road road = make_scenario(GetParam());
+  LocalMapService service{Config{}};
+  ClosedLoop loop(road, {}, service);
+  run(loop, 100.0);
+  const DriveScore score = loop.score();
+  EXPECT_TRUE(score.departures.empty());
+  EXPECT_GT(score.driven_m, 600.0);
+  EXPECT_LT(score.standing_s, 20.0);
+  EXPECT_LT(score.guessed_m(), 0.01 * score.driven_m);
+  EXPECT_LT(score.lateral_m.mean(), 0.15);
+  EXPECT_LT(score.lateral_mps2.quantile(1.0), 3.0);
+}
+
+std::vector<std::string> all_but_the_town() {
+  std::vector<std::string> names = scenario_names();
+  std::erase(names, "town");
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BuiltInRoad, testing::ValuesIn(all_but_the_town()));
+
+// In the town's wide intersection, the map's path for the turn cuts the corner.
+TEST(ClosedLoop, WithoutNoiseTheTownsLanesAreLeftInTurnsAtMost) {
+  const Road road = make_scenario("town");
+  LocalMapService service{Config{}};
+  ClosedLoop loop(road, {}, service);
+  run(loop, 300.0);
+  const DriveScore score = loop.score();
+  EXPECT_GT(score.driven_m, 2000.0);
+  EXPECT_LE(score.departures.size(), 2U);
+  for (const Departure& departure : score.departures) EXPECT_TRUE(departure.in_intersection);
+}
+
+TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
+  const Road road = make_scenario("split");
+  const auto drive = [&](std::uint64_t seed) {
+    LocalMapService service{Config{}};
+    ClosedLoop loop(road, {.noise = noise_profile("inhouse"), .seed = seed, .drift = 0.01}, service);
+    run(loop, 40.0);
+    return std::pair(loop.vehicle().rear_axle, loop.driven_m());
+  };
+  EXPECT_EQ(drive(1), drive(1));
+  EXPECT_NE(drive(1), drive(2));
+}
+
+/// A map that slips to the left, by up to 2 m.
+class SlippingMap : public LocalMapService {
+ public:
+  using LocalMapService::LocalMapService;
+  const LocalMap& newest(std::int64_t now_ns) override {
+    map_ = LocalMapService::newest(now_ns);
+    slip_m_ = std::min(2.0, slip_m_ + 0.01);
+    for (Lane& lane : map_.lanes) {
+      for (Polyline* line : {&lane.left, &lane.right, &lane.centerline})
+        for (Point& point : *line) point.y() += slip_m_;
+    }
+    return map_;
+  }
+
+ private:
+  LocalMap map_;
+  double slip_m_ = 0.0;
+};
+
+TEST(ClosedLoop, AWrongMapLeadsOutOfTheLaneAndThatIsSeen) {
+  const Road road = make_scenario("straight");
+  SlippingMap service{Config{}};
+  ClosedLoop loop(road, {}, service);
+  run(loop, 30.0);
+  const DriveScore score = loop.score();
+  ASSERT_FALSE(score.departures.empty());
+  EXPECT_EQ(score.departures[0].how, LaneTracker::Verdict::changed_lane);
+  EXPECT_FALSE(score.departures[0].guessed);
+  EXPECT_NEAR(score.departures[0].place.y(), -1.5 * 3.5 + 1.75, 0.5);
+  EXPECT_GT(score.lateral_m.quantile(1.0), 1.5);
+  EXPECT_GE(score.border_crossings, 1U);
+  EXPECT_EQ(score.restarts(), score.departures.size() + score.road_ends);
+}
+
+/// No map comes after `last_s`.
+class BreakingMap : public LocalMapService {
+ public:
+  BreakingMap(const Config& config, double last_s) : LocalMapService(config), last_s_(last_s) {}
+  const LocalMap& newest(std::int64_t now_ns) override {
+    return static_cast<double>(now_ns) * 1e-9 > last_s_ ? none_ : LocalMapService::newest(now_ns);
+  }
+
+ private:
+  double last_s_;
+  LocalMap none_;
+};
+
+TEST(ClosedLoop, WithoutAMapItStandsAndThenCreepsOnAGuess) {
+  const Road road = make_scenario("straight");
+  BreakingMap service(Config{}, 0.0);
+  ClosedLoop loop(road, {}, service);
+  run(loop, 4.5);
+  EXPECT_EQ(loop.driven_m(), 0.0);
+  run(loop, 20.0);
+  EXPECT_NEAR(loop.vehicle().speed_mps, 2.0, 1e-6);
+  const DriveScore score = loop.score();
+  ASSERT_EQ(score.guesses.size(), 1U);
+  EXPECT_EQ(score.guesses[0].cause, Guess::Cause::no_lane);
+  EXPECT_NEAR(score.guessed_m(), score.driven_m, 0.5);
+}
+
+TEST(ClosedLoop, WhenMapsStopItGoesOnByWhatItRemembersAndThenGuesses) {
+  const Road road = make_scenario("straight");
+  BreakingMap service(Config{}, 8.0);
+  ClosedLoop loop(road, {}, service);
+  run(loop, 14.0);
+  const DriveScore score = loop.score();
+  EXPECT_NEAR(score.remembered_m, 28.0, 8.0);  // what lay before the vehicle when the last map came
+  EXPECT_GT(score.guessed_m(), 10.0);
+  EXPECT_TRUE(score.departures.empty());
+}
+
+}  // namespace
+}  // namespace laneloom

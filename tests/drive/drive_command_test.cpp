@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tools/process.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Runs the real `laneloom drive`.
+class DriveCommand : public testing::Test {
+ protected:
+  ~DriveCommand() override { unlink(file_.c_str()); }
+
+  int run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "drive"});
+    return Process(arguments, file_).wait();
+  }
+  std::string output() const { return content(file_); }
+
+  const std::string file_ = testing::TempDir() + "laneloom_drive_" + std::to_string(getpid());
+};
+
+TEST_F(DriveCommand, DrivesSeveralRoadsAndSeeds) {
+  ASSERT_EQ(run({"--scenario", "straight", "--scenario", "hill", "--seeds", "1,2", "--noise", "none", "--km",
+                 "0.2", "--json", "--require-lane"}),
+            0)
+      << output();
+  const json result = json::parse(output());
+  ASSERT_EQ(result.at("drives").size(), 4U);
+  EXPECT_EQ(result.at("drives")[2].at("road"), "hill");
+  EXPECT_EQ(result.at("drives")[3].at("seed"), 2);
+  EXPECT_NEAR(result.at("drives")[0].at("driven_m"), 200.0, 1.0);
+  EXPECT_NEAR(result.at("all").at("driven_m"), 800.0, 4.0);
+  EXPECT_LT(result.at("all").at("lateral_error_m").at("max"), 0.2);
+}
+
+TEST_F(DriveCommand, FailsOnRequestWhenTheLaneIsLeft) {
+  // Lanes of this width are none for the map, and straight on leads out of the bend.
+  const std::string config = file_ + ".yaml";
+  std::ofstream(config) << "mapper:\n  lane:\n    min_width_m: 1.0\n    max_width_m: 1.5\n    "
+                           "max_kerb_width_m: 1.5\n";
+  const std::vector<std::string> words{"--scenario", "overpass", "--duration", "200", "--config", config};
+  EXPECT_EQ(run(words), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("overpass, seed 1: "));
+  std::vector<std::string> strict = words;
+  strict.emplace_back("--require-lane");
+  EXPECT_EQ(run(strict), 1);
+  unlink(config.c_str());
+}
+
+TEST_F(DriveCommand, WrongInputIsNamed) {
+  EXPECT_NE(run({}), 0);
+  EXPECT_NE(run({"--scenario", "nowhere"}), 0);
+  EXPECT_NE(run({"--scenario", "hill", "--noise", "loud"}), 0);
+  EXPECT_NE(run({"--scenario", "hill", "--km", "-1"}), 0);
+  EXPECT_NE(run({"--scenario", "hill", "--km", "1", "--duration", "5"}), 0);
+  EXPECT_NE(run({"--scenario", "hill", "--dds", "--preset", "av2"}), 0);
+  EXPECT_EQ(run({"--lanelet2", LANELOOM_COMMAND}), 1);
+  EXPECT_THAT(output(), HasSubstr(LANELOOM_COMMAND));
+  EXPECT_EQ(run({"--scenario", "hill", "--scenario", "curve", "--dds"}), 1);
+  EXPECT_THAT(output(), HasSubstr("one road"));
+}
+
+TEST_F(DriveCommand, DrivesOnTheMapOfARunningService) {
+  const std::string domain = std::to_string(20 + getpid() % 180);
+  const Process service({LANELOOM_SERVICE, "--domain", domain, "--vehicle-id", "test"}, file_ + ".log");
+  ASSERT_EQ(run({"--scenario", "straight", "--noise", "none", "--duration", "10", "--dds", "--domain", domain,
+                 "--vehicle-id", "test", "--json", "--require-lane"}),
+            0)
+      << output() << content(file_ + ".log");
+  const json all = json::parse(output()).at("all");
+  EXPECT_GT(all.at("driven_m"), 10.0);
+  EXPECT_LT(all.at("standing_s"), 6.0);
+  unlink((file_ + ".log").c_str());
+}
+
+TEST_F(DriveCommand, SaysThatNoServiceIsThere) {
+  const std::string domain = std::to_string(20 + getpid() % 180);
+  EXPECT_EQ(run({"--scenario", "straight", "--dds", "--domain", domain, "--vehicle-id", "nobody"}), 1);
+  EXPECT_THAT(output(), HasSubstr("no service"));
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,169 @@
+#include "drive/path_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drive/steering.hpp"
+#include "maps.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr Linkage::Turn kNoWish = Linkage::Turn::unknown;
+
+/// Plans again and again while the vehicle goes along the plan, so that it has bent to the way.
+Plan settled_plan(const LocalMap& map, Bicycle vehicle, Linkage::Turn wanted = kNoWish, int metres = 40) {
+  Plan plan;
+  for (int i = 0; i <= metres; ++i) {
+    plan = next_plan(map, vehicle, plan, wanted);
+    const MeasuredPolyline path(plan.path);
+    const Projection foot = path.project({vehicle.rear_axle.x(), vehicle.rear_axle.y(), 0});
+    const double ahead_m = i < metres ? 1.0 : 0.0;
+    vehicle.rear_axle = path.at(foot.arc_m + ahead_m).head<2>();
+    const Eigen::Vector2d along = path.direction(foot.arc_m + ahead_m);
+    vehicle.heading_rad = std::atan2(along.y(), along.x());
+  }
+  return plan;
+}
+
+double distance(const Plan& plan, const Point& point) {
+  return MeasuredPolyline(plan.path).project(point).distance_m;
+}
+
+TEST(Planner, FollowsAStraightLane) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {100, 0, 0}))};
+  const Bicycle vehicle{.rear_axle = {0.0, 0.5}, .speed_mps = 5.0};
+  const Plan first = next_plan(map, vehicle, {}, kNoWish);
+  EXPECT_LT(distance(first, {0, 0.5, 0}), 0.01);   // from where it is
+  EXPECT_LT(distance(first, {20, 0.0, 0}), 0.01);  // into the middle
+  EXPECT_EQ(first.support_at({1, 0.5, 0}), Support::mapped);
+  EXPECT_EQ(first.support_at({30, 0, 0}), Support::mapped);
+  EXPECT_EQ(first.support.size(), first.path.size());
+}
+
+TEST(Planner, FollowsABendThroughASuccessor) {
+  const Polyline arc = left_arc(15.0, 2.0);
+  LocalMap map;
+  map.lanes = {lane_of(1, {arc.begin(), arc.begin() + 15}), lane_of(2, {arc.begin() + 14, arc.end()})};
+  map.linkages = {link(1, 2)};
+  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  for (std::size_t i = 0; i < 25; ++i) EXPECT_LT(distance(plan, arc[i]), 0.1) << i;
+  EXPECT_EQ(plan.support_at(arc[25]), Support::mapped);
+}
+
+TEST(Planner, CrossesAGapOnTheLinkagesPath) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {10, 0, 0})),
+               lane_of(2, straight_line({25, 1, 0}, {60, 1, 0}))};
+  map.linkages = {link(1, 2, Linkage::Turn::straight, {{10, 0, 0}, {15, 0.5, 0}, {20, 0.5, 0}, {25, 1, 0}})};
+  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  EXPECT_LT(distance(plan, {17, 0.5, 0}), 0.1);
+  EXPECT_LT(distance(plan, {35, 1, 0}), 0.05);
+  EXPECT_EQ(plan.support_at({17, 0.5, 0}), Support::mapped);
+}
+
+LocalMap crossing() {
+  LocalMap map;
+  map.lanes = {
+      lane_of(1, straight_line({-60, 0, 0}, {-10, 0, 0})), lane_of(2, straight_line({10, 0, 0}, {60, 0, 0})),
+      lane_of(3, straight_line({0, 10, 0}, {0, 60, 0})), lane_of(4, straight_line({0, -10, 0}, {0, -60, 0}))};
+  map.linkages = {link(1, 2, Linkage::Turn::straight), link(1, 3, Linkage::Turn::left),
+                  link(1, 4, Linkage::Turn::right)};
+  return map;
+}
+
+TEST(Planner, TakesTheWantedTurn) {
+  const Bicycle vehicle{.rear_axle = {-20.0, 0.0}, .speed_mps = 5.0};
+  EXPECT_LT(distance(next_plan(crossing(), vehicle, {}, Linkage::Turn::straight), {15, 0, 0}), 0.1);
+  EXPECT_LT(distance(next_plan(crossing(), vehicle, {}, Linkage::Turn::left), {0, 14, 0}), 0.1);
+  EXPECT_LT(distance(next_plan(crossing(), vehicle, {}, Linkage::Turn::right), {0, -14, 0}), 0.1);
+}
+
+TEST(Planner, KeepsTheTurnThatItIsInWhenTheLaneBehindIsForgotten) {
+  LocalMap map = crossing();
+  const Bicycle before{.rear_axle = {-12.0, 0.0}, .speed_mps = 5.0};
+  const Plan turning = next_plan(map, before, {}, Linkage::Turn::left);
+  map.lanes.erase(map.lanes.begin());
+  map.linkages.clear();
+  const Bicycle within{.rear_axle = {-8.0, 0.1}, .speed_mps = 5.0};
+  const Plan plan = next_plan(map, within, turning, Linkage::Turn::straight);
+  EXPECT_LT(distance(plan, {0, 14, 0}), 0.2);
+  EXPECT_EQ(plan.support_at({-5, 0.6, 0}), Support::remembered);
+  EXPECT_EQ(plan.support_at({0, 14, 0}), Support::mapped);
+  const Plan blind = next_plan({}, within, turning, Linkage::Turn::straight);
+  EXPECT_LT(distance(blind, {0, 14, 0}), 0.2);
+  EXPECT_EQ(blind.support_at({0, 14, 0}), Support::remembered);
+}
+
+TEST(Planner, GuessesOnWhereTheLaneEnds) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {15, 0, 0}))};
+  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  EXPECT_EQ(plan.support_at({10, 0, 0}), Support::mapped);
+  EXPECT_EQ(plan.support_at({20, 0, 0}), Support::guessed);
+  EXPECT_LT(distance(plan, {35, 0, 0}), 0.1);
+  EXPECT_GT(MeasuredPolyline(plan.path).length(), 40.0);
+}
+
+TEST(Planner, GoesAlongALaneAgainstItsPoints) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({20, 0, 0}, {-20, 0, 0})),
+               lane_of(2, straight_line({60, 0, 0}, {20, 0, 0}))};
+  for (Lane& lane : map.lanes) lane.direction = Lane::Direction::against_centerline;
+  map.linkages = {link(2, 1)};
+  const Plan plan = next_plan(map, {.rear_axle = {0.0, 0.3}, .speed_mps = 5.0}, {}, kNoWish);
+  EXPECT_LT(distance(plan, {30, 0, 0}), 0.05);
+  EXPECT_EQ(plan.support_at({30, 0, 0}), Support::mapped);
+}
+
+TEST(Planner, ChangesLanesWhereItsLaneEnds) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({0, 0, 0}, {40, 0, 0})),
+               lane_of(2, straight_line({0, 3.5, 0}, {90, 3.5, 0}))};
+  for (Point& point : map.lanes[0].right) point.y() += point.x() / 40.0;
+  map.lanes[0].left_neighbour = 2;
+  map.lanes[0].left_boundary = 7;
+  Marking boundary;
+  boundary.id = 7;
+  boundary.styles = {{{0.0, 80.0}, MarkingStyle::dashed}};
+  map.boundaries = {boundary};
+  const Plan plan = settled_plan(map, {.rear_axle = {2.0, 0.0}, .speed_mps = 5.0}, kNoWish, 30);
+  EXPECT_LT(distance(plan, {60, 3.5, 0}), 0.1);
+  EXPECT_EQ(plan.support_at({60, 3.5, 0}), Support::mapped);
+}
+
+TEST(Planner, NoMapGivesAPlanStraightOn) {
+  const Plan plan = next_plan({}, {.heading_rad = 0.5 * std::numbers::pi}, {}, kNoWish);
+  EXPECT_LT(distance(plan, {0, 30, 0}), 1e-6);
+  EXPECT_TRUE(std::ranges::all_of(plan.support, [](Support s) { return s == Support::guessed; }));
+}
+
+TEST(Planner, DoesNotFollowALaneThatCrossesOrLiesBeside) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({5, -30, 0}, {5, 30, 0})),
+               lane_of(2, straight_line({-20, 3.5, 0}, {50, 3.5, 0}))};
+  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  EXPECT_LT(distance(plan, {30, 0, 0}), 1e-6);
+}
+
+TEST(Planner, BendsWithoutAJumpToALaneThatHasMoved) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {200, 0, 0}))};
+  const Bicycle vehicle{.rear_axle = {10.0, 0.0}, .speed_mps = 10.0};
+  const Plan before = next_plan(map, vehicle, {}, kNoWish);
+  map.lanes = {lane_of(9, straight_line({-20, 0.4, 0}, {200, 0.4, 0}))};
+  const Plan after = next_plan(map, vehicle, before, kNoWish);
+  EXPECT_LT(distance(after, {10, 0, 0}), 0.01);
+  EXPECT_LT(distance(after, {12, 0, 0}), 0.05);
+  EXPECT_LT(distance(after, {40, 0.4, 0}), 0.01);
+  const MeasuredPolyline path(after.path);
+  for (double arc_m = 4.0; arc_m < 30.0; arc_m += 1.0)
+    EXPECT_LT(std::abs(curvature_at(path, arc_m)), 0.01);  // 6 offset / length^2 at most
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <stdexcept>
+
+#include "commands/commands.hpp"
+#include "commands/drive_tables.hpp"
+#include "commands/options.hpp"
+#include "commands/road_list.hpp"
+#include "commands/stop_signal.hpp"
+#include "drive/closed_loop.hpp"
+#include "drive/dds_map_service.hpp"
+#include "experiment/parallel.hpp"
+#include "laneloom/config_file.hpp"
+
+namespace laneloom {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr int kLeftLane = 1;
+constexpr std::chrono::seconds kPatience{10};
+
+struct Options {
+  RoadList roads;
+  std::string noise = "inhouse";
+  double duration_s = 120.0;
+  double km = 0.0;
+  std::string config, preset;
+  DdsConfig dds;
+  bool over_dds = false;
+  bool require_lane = false;
+  bool json = false;
+};
+
+bool is_over(const Options& options, const ClosedLoop& loop) {
+  return options.km > 0.0 ? loop.driven_m() >= 1000.0 * options.km : loop.time_s() >= options.duration_s;
+}
+
+ClosedLoopSpec loop_spec(const DriveSpec& drive, const Options& options) {
+  return {
+      .noise = drive.noise, .seed = drive.seed, .speed_mps = options.roads.speed_mps, .drift = drive.drift};
+}
+
+Config read_config(const Options& options) {
+  Config config = options.config.empty() ? Config{} : load_config(options.config);
+  if (!options.preset.empty()) apply_preset(config, options.preset);
+  validate(config);
+  return config;
+}
+
+std::vector<DriveResult> drive_offline(const std::vector<DriveSpec>& drives, const Options& options) {
+  const Config config = read_config(options);
+  std::vector<DriveResult> results(drives.size());
+  in_parallel(drives.size(), [&](std::size_t i) {
+    LocalMapService service(config);
+    ClosedLoop loop(*drives[i].road, loop_spec(drives[i], options), service);
+    while (!is_over(options, loop) && !stop_requested()) loop.step();
+    results[i] = {drives[i].road->name, drives[i].seed, loop.score()};
+  });
+  return results;
+}
+
+void connect(const DdsMapService& service) {
+  const auto deadline = SteadyClock::now() + kPatience;
+  while (!service.connected() && SteadyClock::now() < deadline) {
+    if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
+  }
+  if (!service.connected()) throw std::runtime_error("no service takes part");
+  sleep_until(SteadyClock::now() + kDiscovery);
+}
+
+std::vector<DriveResult> drive_over_dds(const std::vector<DriveSpec>& drives, const Options& options) {
+  if (drives.size() != 1) throw std::runtime_error("over DDS it is one road with one seed");
+  DdsMapService service(options.dds);
+  connect(service);
+  ClosedLoopSpec spec = loop_spec(drives.front(), options);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  spec.start_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  std::random_device device;
+  spec.session_id = (std::uint64_t{device()} << 32U) + 1U;
+  ClosedLoop loop(*drives.front().road, spec, service);
+  for (auto due = SteadyClock::now(); !is_over(options, loop) && sleep_until(due);
+       due += std::chrono::milliseconds(10))
+    loop.step();
+  if (service.received() == 0) throw std::runtime_error("no map came");
+  return {{drives.front().road->name, drives.front().seed, loop.score()}};
+}
+
+void drive(const Options& options) {
+  catch_stop_signals();
+  const std::vector<DriveSpec> drives = options.roads.drives(noise_profile(options.noise));
+  const auto start = SteadyClock::now();
+  const std::vector<DriveResult> results =
+      options.over_dds ? drive_over_dds(drives, options) : drive_offline(drives, options);
+  if (options.json) {
+    fmt::print("{}\n", drive_json(results).dump());
+  } else {
+    fmt::print("{}{:.1f} s spent\n", drive_table(results),
+               std::chrono::duration<double>(SteadyClock::now() - start).count());
+  }
+  const bool left = std::ranges::any_of(
+      results, [](const DriveResult& result) { return !result.score.departures.empty(); });
+  if (options.require_lane && left) throw CLI::RuntimeError(kLeftLane);
+}
+
+}  // namespace
+
+void add_drive(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "drive", "Steers a simulated vehicle by the map alone, and says how well it keeps its lane");
+  command->footer("Exit code: 1 the vehicle left its lane (--require-lane).");
+  const auto options = std::make_shared<Options>();
+  add_roads(*command, options->roads);
+  command->add_option("--speed", options->roads.speed_mps, "Of the vehicle at most, in m/s")
+      ->check(CLI::Range(1.0, 40.0))
+      ->capture_default_str();
+  command->add_option("--noise", options->noise, "How the detections differ from the truth")
+      ->check(CLI::IsMember(noise_profile_names()))
+      ->capture_default_str();
+  auto* duration = command->add_option("--duration", options->duration_s, "Simulated seconds per drive")
+                       ->check(CLI::PositiveNumber)
+                       ->capture_default_str();
+  command->add_option("--km", options->km, "Kilometres per drive, instead")
+      ->check(CLI::PositiveNumber)
+      ->excludes(duration);
+  auto* config =
+      command->add_option("--config", options->config, "Configuration file")->check(CLI::ExistingFile);
+  auto* preset = command->add_option("--preset", options->preset, "Range, and alpha_n of the voxel method")
+                     ->check(CLI::IsMember({"inhouse", "av2"}));
+  command->add_flag("--dds", options->over_dds, "In real time, by the map of a running laneloomd")
+      ->excludes(config)
+      ->excludes(preset);
+  add_dds(*command, options->dds);
+  command->add_flag("--require-lane", options->require_lane, "Fail if the vehicle leaves its lane");
+  command->add_flag("--json", options->json, "One JSON object");
+  command->callback([options] { drive(*options); });
+}
+
+}  // namespace laneloom

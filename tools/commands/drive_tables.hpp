@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "drive/drive_score.hpp"
+
+namespace laneloom {
+
+struct DriveResult {
+  std::string road;
+  std::uint64_t seed = 1;
+  DriveScore score;
+};
+
+/// A line per drive and one for all, and where lanes were left.
+std::string drive_table(const std::vector<DriveResult>& results);
+
+/// The same for machines, with every departure and guess.
+nlohmann::json drive_json(const std::vector<DriveResult>& results);
+
+}  // namespace laneloom

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace laneloom {
+
+inline constexpr double kWheelbase_m = 2.8;
+inline constexpr double kMaxSteering_rad = 0.6;
+inline constexpr double kMaxSteeringRate_radps = 0.6;
+inline constexpr double kMaxAcceleration_mps2 = 1.5;
+inline constexpr double kMaxBraking_mps2 = 3.0;
+
+/// What a planner wants of the vehicle.
+struct Command {
+  double steering_rad = 0.0;
+  double speed_mps = 0.0;
+};
+
+/// A kinematic bicycle on a plane: where its rear axle is, and which way it goes.
+struct Bicycle {
+  Eigen::Vector2d rear_axle = Eigen::Vector2d::Zero();
+  double heading_rad = 0.0;
+  double speed_mps = 0.0;
+  double steering_rad = 0.0;
+
+  /// To the left, 1/m.
+  double curvature() const;
+  Eigen::Vector2d direction() const;
+  /// Midway between the axles.
+  Eigen::Vector2d centre() const { return rear_axle + 0.5 * kWheelbase_m * direction(); }
+  /// Follows a command, as far and as fast as steering and speed can change.
+  void step(const Command& command, double dt_s);
+};
+
+}  // namespace laneloom

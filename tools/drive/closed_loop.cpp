@@ -1,0 +1,178 @@
+#include "drive/closed_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "drive/steering.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 10'000'000;
+constexpr std::int64_t kStepsPerTick = 10;
+constexpr double kTick_s = 0.1;
+constexpr double kPatience_s = 5.0;  // before the vehicle creeps
+constexpr double kCreep_mps = 2.0;
+constexpr double kPutBack_m = 20.0;  // beyond where it left its lane
+constexpr double kNear_m = 10.0;
+constexpr double kBodyWidth_m = 1.9;
+
+Point on_ground(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.0}; }
+
+}  // namespace
+
+ClosedLoop::ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& service)
+    : road_(road),
+      spec_(std::move(spec)),
+      service_(service),
+      lanes_(road),
+      navigator_(road, lanes_),
+      perception_(road, spec_.noise, SensorView{}, spec_.seed),
+      delays_(spec_.seed) {
+  restart(navigator_.at_begin());
+}
+
+std::int64_t ClosedLoop::now_ns() const { return spec_.start_ns + steps_ * kPeriod_ns; }
+
+void ClosedLoop::restart(const Navigator::Start& start) {
+  ++spec_.session_id;
+  lanes_.place(start.lane);
+  vehicle_ = start.vehicle;
+  odometry_.emplace(lanes_.on_surface(vehicle_), spec_.drift);
+  in_network_.clear();
+  begun_ns_ = now_ns();
+  started_ = false;
+  plan_ = {};
+  over_border_ = false;
+  last_curvature_ = last_lateral_mps2_ = 0.0;
+}
+
+void ClosedLoop::step() {
+  sense();
+  if (steps_ % kStepsPerTick == 0) {
+    plan();
+    judge();
+  }
+  const Command command =
+      plan_.path.empty() ? Command{} : follow(MeasuredPolyline(plan_.path), told_, wanted_speed());
+  vehicle_.step(command, kPeriod_s);
+  score_.driven_m += vehicle_.speed_mps * kPeriod_s;
+  if (vehicle_.speed_mps == 0.0) score_.standing_s += kPeriod_s;
+  score_.time_s += kPeriod_s;
+  ++steps_;
+}
+
+void ClosedLoop::sense() {
+  const Eigen::Isometry3d T_map_body = lanes_.on_surface(vehicle_);
+  const Eigen::Isometry3d& T_told = odometry_->move_to(T_map_body);
+  const Eigen::Vector3d ahead = T_told.linear().col(0);
+  told_ = vehicle_;
+  told_.rear_axle = T_told.translation().head<2>();
+  told_.heading_rad = std::atan2(ahead.y(), ahead.x());
+
+  VehiclePose pose{.stamp_ns = now_ns(),
+                   .sequence = static_cast<std::uint64_t>(steps_),
+                   .session_id = spec_.session_id,
+                   .position = T_told.translation(),
+                   .orientation = Eigen::Quaterniond(T_told.linear()).normalized()};
+  service_.send(pose);
+  if (steps_ % kStepsPerTick == 0) {
+    pose.position = T_map_body.translation();
+    pose.orientation = Eigen::Quaterniond(T_map_body.linear()).normalized();
+    DetectionFrame frame = perception_.observe(pose);
+    frame.session_id = spec_.session_id;
+    // A network's latency; frames keep their order, as the longest is only a period more than the shortest.
+    const auto delay_ns = static_cast<std::int64_t>(delays_.uniform(50e6, 150e6));
+    in_network_.push_back({now_ns() + delay_ns, std::move(frame)});
+  }
+  while (!in_network_.empty() && in_network_.front().due_ns <= now_ns()) {
+    service_.send(in_network_.front().frame, now_ns());
+    in_network_.pop_front();
+  }
+}
+
+void ClosedLoop::plan() {
+  const LocalMap& newest = service_.newest(now_ns());
+  const LocalMap none;
+  const LocalMap& map = newest.stamp_ns >= begun_ns_ ? newest : none;
+  Plan next = next_plan(map, told_, plan_, navigator_.wanted_turn());
+  cause_ = cause_of_guess(map);
+  if (!started_) {
+    const bool has_lane = next.support_at(on_ground(told_.rear_axle)) == Support::mapped;
+    const bool impatient = static_cast<double>(now_ns() - begun_ns_) * 1e-9 > kPatience_s;
+    if (!has_lane && !impatient) return;
+    started_ = true;
+  }
+  plan_ = std::move(next);
+}
+
+double ClosedLoop::wanted_speed() const {
+  const bool known = std::ranges::any_of(plan_.support, [](Support s) { return s != Support::guessed; });
+  return known ? spec_.speed_mps : std::min(kCreep_mps, spec_.speed_mps);
+}
+
+Guess::Cause ClosedLoop::cause_of_guess(const LocalMap& map) const {
+  const bool lanes_near = std::ranges::any_of(map.lanes, [&](const Lane& lane) {
+    return MeasuredPolyline(lane.centerline).project(on_ground(told_.rear_axle)).distance_m < kNear_m;
+  });
+  if (lanes_.in_intersection()) return Guess::Cause::no_linkage;
+  return lanes_near ? Guess::Cause::lane_ended : Guess::Cause::no_lane;
+}
+
+void ClosedLoop::judge() {
+  const Support support = plan_.support_at(on_ground(told_.rear_axle));
+  if (started_) count_support(support);
+  const auto verdict = lanes_.move_to(vehicle_.centre(), vehicle_.direction());
+  if (verdict == LaneTracker::Verdict::in_lane) {
+    if (navigator_.follow(lanes_.lanes())) ++score_.missed_turns;
+    if (started_) count_comfort();
+    return;
+  }
+  if (guess_) score_.guesses.push_back(*std::exchange(guess_, std::nullopt));
+  if (verdict == LaneTracker::Verdict::road_ended) {
+    ++score_.road_ends;
+    return restart(navigator_.back_on_drive());
+  }
+  score_.departures.push_back({.how = verdict,
+                               .time_s = now_s(),
+                               .place = lanes_.on_surface(vehicle_).translation(),
+                               .lane = road_.lanes[lanes_.lanes().front()].id,
+                               .in_intersection = lanes_.in_intersection(),
+                               .guessed = support == Support::guessed});
+  restart(navigator_.further_on(vehicle_.rear_axle, kPutBack_m));
+}
+
+void ClosedLoop::count_support(Support support) {
+  const double moved_m = score_.driven_m - std::exchange(last_driven_m_, score_.driven_m);
+  if (moved_m == 0.0) return;
+  if (support == Support::remembered) score_.remembered_m += moved_m;
+  if (support != Support::guessed) {
+    if (guess_) score_.guesses.push_back(*std::exchange(guess_, std::nullopt));
+    return;
+  }
+  if (!guess_)
+    guess_ = {.cause = cause_, .time_s = now_s(), .place = lanes_.on_surface(vehicle_).translation()};
+  guess_->duration_s += kTick_s;
+  guess_->distance_m += moved_m;
+}
+
+void ClosedLoop::count_comfort() {
+  const double curvature = vehicle_.curvature();
+  const double lateral_mps2 = vehicle_.speed_mps * vehicle_.speed_mps * curvature;
+  score_.lateral_m.add(std::abs(lanes_.offset_m()));
+  score_.lateral_mps2.add(std::abs(lateral_mps2));
+  score_.jerk_mps3.add(std::abs(lateral_mps2 - std::exchange(last_lateral_mps2_, lateral_mps2)) / kTick_s);
+  score_.curvature_rate.add(std::abs(curvature - std::exchange(last_curvature_, curvature)) / kTick_s);
+  const bool over = std::abs(lanes_.offset_m()) + 0.5 * kBodyWidth_m > 0.5 * lanes_.width_m();
+  if (over && !over_border_) ++score_.border_crossings;
+  over_border_ = over;
+}
+
+DriveScore ClosedLoop::score() const {
+  DriveScore score = score_;
+  if (guess_) score.guesses.push_back(*guess_);
+  return score;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <deque>
+#include <iosfwd>
+#include <optional>
+
+#include "drive/drive_score.hpp"
+#include "drive/map_service.hpp"
+#include "drive/navigator.hpp"
+#include "drive/path_planner.hpp"
+#include "simulation/noise_profile.hpp"
+#include "simulation/odometry.hpp"
+#include "simulation/perception.hpp"
+
+namespace laneloom {
+
+struct ClosedLoopSpec {
+  NoiseProfile noise;
+  std::uint64_t seed = 1;
+  double speed_mps = 10.0;       ///< at most
+  double drift = 0.0;            ///< of the odometry, as a share of the distance driven
+  std::int64_t start_ns = 1;     ///< of the sensor clock
+  std::uint64_t session_id = 1;  ///< of the first start; each restart has the next one
+};
+
+/// A vehicle that is steered by the map which a service makes of what the vehicle sees on its way. The true
+/// road only gives detections, poses, the turns that a driver would ask for, and the score.
+///
+/// When the vehicle has left its lane, it is put back onto its route further on; when the road ends, onto the
+/// drive behind where a missed turn led away from it, or else at its begin. Either restarts perception and
+/// odometry, and with that the map. Until the first map with a lane under it the vehicle stands; after a few
+/// seconds without one it creeps on.
+///
+/// Deterministic as far as the service is. Not thread-safe.
+class ClosedLoop {
+ public:
+  static constexpr double kPeriod_s = 0.01;
+
+  /// All must outlive this. Throws std::runtime_error where the road's drive is on none of its lanes.
+  ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& service);
+
+  /// One period: sensing, the planner's turn ten times a second, control, motion.
+  void step();
+  /// So far; what has not ended yet included.
+  DriveScore score() const;
+  double driven_m() const { return score_.driven_m; }
+  double time_s() const { return score_.time_s; }
+
+  /// As it truly is.
+  const Bicycle& vehicle() const { return vehicle_; }
+  const Plan& present_plan() const { return plan_; }
+
+ private:
+  struct Pending {
+    std::int64_t due_ns = 0;
+    DetectionFrame frame;
+  };
+
+  std::int64_t now_ns() const;
+  double now_s() const { return static_cast<double>(steps_) * kPeriod_s; }
+  void restart(const Navigator::Start& start);
+  void sense();
+  void plan();
+  void judge();
+  void count_support(Support support);
+  void count_comfort();
+  Guess::Cause cause_of_guess(const LocalMap& map) const;
+  double wanted_speed() const;
+
+  const Road& road_;
+  ClosedLoopSpec spec_;
+  MapService& service_;
+  LaneTracker lanes_;
+  Navigator navigator_;
+  Perception perception_;
+  Random delays_;
+  std::int64_t steps_ = 0;
+  // Since the last restart.
+  Bicycle vehicle_;  ///< true
+  Bicycle told_;     ///< where the odometry says that it is
+  std::optional<Odometry> odometry_;
+  std::deque<Pending> in_network_;
+  std::int64_t begun_ns_ = 0;
+  bool started_ = false;
+  Plan plan_;
+  // For the score.
+  DriveScore score_;
+  std::optional<Guess> guess_;
+  Guess::Cause cause_ = Guess::Cause::no_lane;
+  bool over_border_ = false;
+  double last_curvature_ = 0.0, last_lateral_mps2_ = 0.0, last_driven_m_ = 0.0;
+};
+
+}  // namespace laneloom

@@ -1,0 +1,46 @@
+#include "drive/dds_map_service.hpp"
+
+#include <utility>
+
+namespace laneloom {
+
+DdsMapService::DdsMapService(const DdsConfig& dds)
+    : participant_(dds, "laneloom drive"),
+      detections_(participant_),
+      poses_(participant_),
+      maps_(participant_, {.sample = [this](PublishedMap&& map) { take(std::move(map)); },
+                           .refused = {},
+                           .matched = {},
+                           .alive =
+                               [this](int writers) {
+                                 if (writers == 0) lose();
+                               },
+                           .deadline_missed = {}}) {}
+
+bool DdsMapService::connected() const {
+  return detections_.matched() > 0 && poses_.matched() > 0 && maps_.matched() > 0;
+}
+
+std::uint64_t DdsMapService::received() const {
+  const std::lock_guard lock(mutex_);
+  return received_;
+}
+
+void DdsMapService::take(PublishedMap&& map) {
+  const std::lock_guard lock(mutex_);
+  ++received_;
+  arrived_ = map.state == MapState::stale ? LocalMap{} : std::move(map.map);
+}
+
+void DdsMapService::lose() {
+  const std::lock_guard lock(mutex_);
+  arrived_ = {};
+}
+
+const LocalMap& DdsMapService::newest(std::int64_t) {
+  const std::lock_guard lock(mutex_);
+  newest_ = arrived_;
+  return newest_;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <mutex>
+
+#include "drive/map_service.hpp"
+#include "laneloom/dds/reader.hpp"
+#include "laneloom/dds/writer.hpp"
+
+namespace laneloom {
+
+/// A running laneloomd, over DDS. Throws std::runtime_error when it can't take part.
+class DdsMapService : public MapService {
+ public:
+  explicit DdsMapService(const DdsConfig& dds);
+
+  /// The service reads what is sent, and its maps are read here.
+  bool connected() const;
+  /// Maps that came so far, of any state.
+  std::uint64_t received() const;
+
+  void send(const VehiclePose& pose) override { poses_.write(pose); }
+  void send(const DetectionFrame& frame, std::int64_t) override { detections_.write(frame); }
+  const LocalMap& newest(std::int64_t) override;
+
+ private:
+  void take(PublishedMap&& map);
+  void lose();
+
+  mutable std::mutex mutex_;
+  LocalMap arrived_;  // guarded, as the count
+  std::uint64_t received_ = 0;
+  LocalMap newest_;
+  dds::Participant participant_;
+  dds::Writer<DetectionFrame> detections_;
+  dds::Writer<VehiclePose> poses_;
+  dds::Reader<PublishedMap> maps_;  // last: its callbacks end first
+};
+
+}  // namespace laneloom

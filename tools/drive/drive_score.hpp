@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drive/lane_tracker.hpp"
+#include "evaluation/distribution.hpp"
+
+/// How well a vehicle was driven.
+namespace laneloom {
+
+/// The vehicle's centre left its lane.
+struct Departure {
+  LaneTracker::Verdict how = LaneTracker::Verdict::off_lanes;
+  double time_s = 0.0;
+  Point place = Point::Zero();  ///< map frame
+  ElementId lane = kNoElement;  ///< of the truth, the last one that it was in
+  bool in_intersection = false;
+  bool guessed = false;  ///< the map had given no way there
+};
+
+/// A stretch where the map gave no way, and had given none before.
+struct Guess {
+  enum class Cause : std::uint8_t {
+    lane_ended,  ///< the lane that was followed had ended, and nothing led on
+    no_linkage,  ///< the same, before or in an intersection
+    no_lane      ///< there was no lane near the vehicle
+  };
+  Cause cause = Cause::no_lane;
+  double time_s = 0.0;
+  Point place = Point::Zero();  ///< where it began
+  double duration_s = 0.0;
+  double distance_m = 0.0;
+};
+
+const char* name(LaneTracker::Verdict verdict);
+const char* name(Guess::Cause cause);
+
+struct DriveScore {
+  double time_s = 0.0;  ///< simulated
+  double standing_s = 0.0;
+  double driven_m = 0.0;
+  double remembered_m = 0.0;           ///< of these, on the way that an earlier map gave
+  Distribution lateral_m;              ///< of the centre from the true centerline, absolute
+  Distribution lateral_mps2;           ///< acceleration, absolute
+  Distribution jerk_mps3;              ///< lateral, absolute
+  Distribution curvature_rate;         ///< absolute, 1/(m s)
+  std::uint64_t border_crossings = 0;  ///< of the body, as often as it began
+  std::uint64_t road_ends = 0;         ///< after each, the vehicle begins anew
+  std::uint64_t missed_turns = 0;
+  std::vector<Departure> departures;  ///< after each, the vehicle is put back
+  std::vector<Guess> guesses;
+
+  double guessed_m() const;
+  std::uint64_t restarts() const { return road_ends + departures.size(); }
+  DriveScore& operator+=(const DriveScore& other);
+};
+
+}  // namespace laneloom

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "laneloom/mapping_session.hpp"
+
+namespace laneloom {
+
+/// The lane map service, as a vehicle reaches it. Times are those of the sensor clock.
+class MapService {
+ public:
+  virtual ~MapService() = default;
+  virtual void send(const VehiclePose& pose) = 0;
+  virtual void send(const DetectionFrame& frame, std::int64_t now_ns) = 0;
+  /// The newest map, which stays until the next call; without lanes where there is none, or it is stale.
+  virtual const LocalMap& newest(std::int64_t now_ns) = 0;
+};
+
+/// The service's own session, without DDS.
+class LocalMapService : public MapService {
+ public:
+  explicit LocalMapService(const Config& config) : session_(config) {}
+  void send(const VehiclePose& pose) override { session_.add(pose); }
+  void send(const DetectionFrame& frame, std::int64_t now_ns) override { session_.add(frame, now_ns); }
+  const LocalMap& newest(std::int64_t now_ns) override {
+    session_.expire(now_ns);
+    return session_.map();
+  }
+
+ private:
+  MappingSession session_;
+};
+
+}  // namespace laneloom

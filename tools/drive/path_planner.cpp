@@ -1,0 +1,220 @@
+#include "drive/path_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "drive/lines.hpp"
+#include "drive/ways.hpp"
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kStep_m = 0.5;
+constexpr double kBehind_m = 12.0;  // enough to tell a bend from noise
+constexpr double kHorizon_m = 45.0;
+// Which lane a plan runs on.
+constexpr double kMaxLateral_m = 1.6;
+constexpr double kMinAlignment = 0.8;  // cosine
+constexpr double kCompared_m = 12.0;
+constexpr double kCostPerMetreAhead = 0.1;
+constexpr double kCostOfOncoming_m = 1.0;
+// How a plan bends to the way.
+constexpr double kMinBlend_m = 12.0;
+constexpr double kBlend_s = 2.0;
+constexpr double kMaxSlope = 0.5;
+constexpr double kMinGap_m = 2.0;
+
+Point on_ground(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.0}; }
+
+/// The previous plan as it is now: shed behind the vehicle, and long enough ahead of it.
+Plan carried_on(const Bicycle& vehicle, Plan plan) {
+  if (plan.path.empty()) {
+    const Eigen::Vector2d back = vehicle.rear_axle - kBehind_m * vehicle.direction();
+    plan.path = {on_ground(back), on_ground(back + kStep_m * vehicle.direction())};
+    plan.support.assign(2, Support::guessed);
+  }
+  const double behind_m = MeasuredPolyline(plan.path).project(on_ground(vehicle.rear_axle)).arc_m - kBehind_m;
+  const std::vector<double> arcs_m = arc_lengths(plan.path);
+  const auto shed = std::max<std::ptrdiff_t>(
+      0, std::upper_bound(arcs_m.begin(), arcs_m.end(), behind_m) - arcs_m.begin() - 1);
+  plan.path.erase(plan.path.begin(), plan.path.begin() + shed);
+  plan.support.erase(plan.support.begin(), plan.support.begin() + shed);
+  std::ranges::replace(plan.support, Support::mapped, Support::remembered);
+  prolong(plan.path, kHorizon_m + kBehind_m - length(plan.path), kStep_m);
+  plan.support.resize(plan.path.size(), Support::guessed);
+  return plan;
+}
+
+/// Where a plan comes onto a lane of the map.
+struct Entry {
+  Way way;
+  double arc_m = 0.0;    ///< on the way
+  double ahead_m = 0.0;  ///< of the vehicle
+  double cost_m = 0.0;
+};
+
+std::optional<Entry> entry_into(const Lane& lane, const MeasuredPolyline& track, double vehicle_m) {
+  const MeasuredPolyline line(lane.centerline);
+  std::optional<Entry> entry;
+  double lateral_m = 0.0;
+  int samples = 0;
+  for (double ahead_m = 0.0; ahead_m <= kHorizon_m; ahead_m += 1.0) {
+    if (entry && ahead_m > entry->ahead_m + kCompared_m) break;
+    const Projection foot = line.project(track.at(vehicle_m + ahead_m));
+    const double along = line.direction(foot.arc_m).dot(track.direction(vehicle_m + ahead_m));
+    if (!foot.inside || foot.distance_m > kMaxLateral_m || std::abs(along) < kMinAlignment) continue;
+    const bool against = along < 0.0;
+    if (!entry) entry = {{&lane, against}, against ? line.length() - foot.arc_m : foot.arc_m, ahead_m};
+    if (entry->way.against != against) continue;
+    lateral_m += foot.distance_m;
+    ++samples;
+  }
+  if (entry)
+    entry->cost_m = lateral_m / samples + kCostPerMetreAhead * entry->ahead_m +
+                    (entry->way.oncoming() ? kCostOfOncoming_m : 0.0);
+  return entry;
+}
+
+std::optional<Entry> find_entry(const LocalMap& map, const MeasuredPolyline& track, double vehicle_m) {
+  std::optional<Entry> best;
+  for (const Lane& lane : map.lanes) {
+    const std::optional<Entry> entry = entry_into(lane, track, vehicle_m);
+    if (entry && (!best || entry->cost_m < best->cost_m)) best = entry;
+  }
+  return best;
+}
+
+/// The centerlines and paths from an entry on, from a little behind it.
+Polyline way_ahead(const LocalMap& map, const Entry& entry, Linkage::Turn wanted) {
+  Way way = entry.way;
+  const MeasuredPolyline first(way.centerline());
+  Polyline line = first.slice({std::max(0.0, entry.arc_m - kBehind_m), first.length()});
+  std::set<ElementId> walked;
+  while (length(line) < kHorizon_m + kBehind_m && walked.insert(way.lane->id).second) {
+    const std::vector<Passage> all = passages(map, way);
+    if (const Passage* passage = choose(all, wanted)) {
+      append(line, passage->path);
+      append(line, passage->to.centerline());
+      if (!passage->path.empty()) wanted = Linkage::Turn::straight;  // the intersection is behind
+      way = passage->to;
+    } else if (const Way other = beside(map, way); other.lane != nullptr) {
+      line = change_over(line, other.centerline());
+      way = other;
+    } else {
+      break;
+    }
+  }
+  return line;
+}
+
+/// Goes on along what the earlier maps gave, beginning at the end of `way` without a step.
+void remember(const Plan& earlier, const MeasuredPolyline& track, Plan& way) {
+  const Projection foot = track.project(way.path.back());
+  if (!foot.inside || foot.distance_m > kMaxLateral_m) return;
+  const Point shift = way.path.back() - foot.foot;
+  const std::vector<double> arcs_m = arc_lengths(earlier.path);
+  for (std::size_t i = 0; i < earlier.path.size(); ++i) {
+    const double beyond_m = arcs_m[i] - foot.arc_m;
+    if (beyond_m < kStep_m) continue;
+    if (earlier.support[i] == Support::guessed) break;
+    way.path.emplace_back(earlier.path[i] + (1.0 - smooth_step(beyond_m / kMinBlend_m)) * shift);
+    way.support.push_back(Support::remembered);
+  }
+}
+
+/// The way on the map: from `entry` on, if not from a little behind it, to the horizon.
+Plan way_of(const LocalMap& map, const Entry& entry, const Plan& earlier, const MeasuredPolyline& track,
+            Linkage::Turn wanted) {
+  Plan way{smoothed(MeasuredPolyline(way_ahead(map, entry, wanted)).resample(kStep_m)), {}};
+  way.support.assign(way.path.size(), Support::mapped);
+  remember(earlier, track, way);
+  prolong(way.path, kHorizon_m + kBehind_m - length(way.path), kStep_m);
+  way.support.resize(way.path.size(), Support::guessed);
+  return way;
+}
+
+/// Bends from `track` to `way`: a cubic that begins with the track's offset and angle, and ends with none.
+class Blend {
+ public:
+  Blend(double offset_m, double slope, double length_m)
+      : offset_m_(offset_m), slope_(std::clamp(slope, -kMaxSlope, kMaxSlope)), length_m_(length_m) {}
+  double offset_at(double s_m) const {
+    const double t = std::clamp(s_m / length_m_, 0.0, 1.0);
+    return offset_m_ * (1.0 - smooth_step(t)) + slope_ * length_m_ * t * (1.0 - t) * (1.0 - t);
+  }
+
+ private:
+  double offset_m_, slope_, length_m_;
+};
+
+Plan until(const Plan& plan, double arc_m) {
+  const std::vector<double> arcs_m = arc_lengths(plan.path);
+  const auto kept = std::lower_bound(arcs_m.begin(), arcs_m.end(), arc_m - 0.3 * kStep_m) - arcs_m.begin();
+  return {{plan.path.begin(), plan.path.begin() + kept}, {plan.support.begin(), plan.support.begin() + kept}};
+}
+
+/// Adds to `plan`, which ends at `from_m` of the track: on beside `way`, ever nearer to it.
+void approach(const MeasuredPolyline& track, double from_m, double blend_m, const Plan& way, Plan& plan) {
+  const MeasuredPolyline line(way.path);
+  const Projection foot = line.project(track.at(from_m));
+  const Eigen::Vector2d along = line.direction(foot.arc_m), now = track.direction(from_m);
+  const Blend blend(foot.lateral_m, cross(along, now) / std::max(0.1, along.dot(now)), blend_m);
+  for (double arc_m = foot.arc_m; arc_m <= line.length(); arc_m += kStep_m) {
+    const Eigen::Vector2d ahead = line.direction(arc_m);
+    const Point left(-ahead.y(), ahead.x(), 0.0);
+    plan.path.emplace_back(line.at(arc_m) + blend.offset_at(arc_m - foot.arc_m) * left);
+    plan.support.push_back(way.support_at(line.at(arc_m)));
+  }
+}
+
+/// Adds to `plan`, which ends at `from_m` of the track: a bend, and the way from the bend's end on.
+void bend_over(const MeasuredPolyline& track, double from_m, double bend_m, const Plan& way, Plan& plan) {
+  const MeasuredPolyline line(way.path);
+  const double to_m = line.project(track.at(from_m + bend_m)).arc_m;
+  for (const Point& point :
+       bend_between(track.at(from_m), track.direction(from_m), line.at(to_m), line.direction(to_m))) {
+    plan.path.push_back(point);
+    plan.support.push_back(Support::mapped);
+  }
+  for (double arc_m = to_m + kStep_m; arc_m <= line.length(); arc_m += kStep_m) {
+    plan.path.push_back(line.at(arc_m));
+    plan.support.push_back(way.support_at(line.at(arc_m)));
+  }
+}
+
+}  // namespace
+
+Support Plan::support_at(const Point& place) const {
+  if (path.empty()) return Support::guessed;
+  const auto distance = [&](const Point& point) { return (point - place).head<2>().squaredNorm(); };
+  const auto nearest = std::ranges::min_element(path, {}, distance);
+  return support[static_cast<std::size_t>(nearest - path.begin())];
+}
+
+Plan next_plan(const LocalMap& map, const Bicycle& vehicle, const Plan& previous, Linkage::Turn wanted) {
+  Plan earlier = carried_on(vehicle, previous);
+  const MeasuredPolyline track(earlier.path);
+  const double vehicle_m = track.project(on_ground(vehicle.rear_axle)).arc_m;
+  const std::optional<Entry> entry = find_entry(map, track, vehicle_m);
+  if (!entry) return earlier;
+  const Plan way = way_of(map, *entry, earlier, track, wanted);
+  const double blend_m = std::max(kMinBlend_m, kBlend_s * vehicle.speed_mps);
+  // Up to shortly before the entry, the plan stays as it is.
+  const double from_m = vehicle_m + std::max(0.0, entry->ahead_m - blend_m);
+  Plan next = until(earlier, from_m);
+  const std::size_t kept = next.path.size();
+  if (entry->ahead_m > kMinGap_m)
+    bend_over(track, from_m, blend_m, way, next);
+  else
+    approach(track, from_m, blend_m, way, next);
+  for (std::size_t i = kept; i < next.path.size(); ++i) {
+    const Projection foot = track.project(next.path[i]);
+    if (foot.arc_m < vehicle_m + entry->ahead_m - kStep_m) next.support[i] = earlier.support_at(foot.foot);
+  }
+  return next;
+}
+
+}  // namespace laneloom
