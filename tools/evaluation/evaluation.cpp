@@ -63,8 +63,8 @@ void add_candidates(const std::vector<LinePiece>& truths, const SampleGrid& grid
   }
 }
 
-std::vector<LineMatch> match(const std::vector<LinePiece>& truths,
-                             const std::vector<LinePiece>& predictions) {
+std::vector<TruePositive> match(const std::vector<LinePiece>& truths,
+                                const std::vector<LinePiece>& predictions) {
   std::vector<Polyline> truth_samples;
   truth_samples.reserve(truths.size());
   for (const LinePiece& truth : truths) truth_samples.push_back(truth.samples);
@@ -77,7 +77,7 @@ std::vector<LineMatch> match(const std::vector<LinePiece>& truths,
            std::tie(a.matched, b.chamfer_m, b.truth, b.prediction);
   });
 
-  std::vector<LineMatch> matches;
+  std::vector<TruePositive> matches;
   std::vector<bool> truth_used(truths.size()), prediction_used(predictions.size());
   for (const Candidate& candidate : candidates) {
     if (truth_used[candidate.truth] || prediction_used[candidate.prediction]) continue;
@@ -145,7 +145,7 @@ void add(const FrameComparison& frame, MapScore& score) {
   for (std::size_t i = 0; i < kLineKindCount; ++i) {
     const KindComparison& comparison = frame.by_kind[i];
     Score added{comparison.truths.size(), comparison.predictions.size(), comparison.matches.size(), 0.0};
-    for (const LineMatch& match : comparison.matches) added.chamfer_distances_m += match.chamfer_m;
+    for (const TruePositive& match : comparison.matches) added.chamfer_distances_m += match.chamfer_m;
     score.by_kind[i] += added;
   }
   ++score.frames;
@@ -158,7 +158,7 @@ std::vector<TruthOutcome> truth_outcomes(const KindComparison& comparison) {
     if (comparison.truths[piece].samples.size() > comparison.truths[best].samples.size()) best = piece;
   }
   std::vector<const LinePiece*> prediction_of(comparison.truths.size(), nullptr);
-  for (const LineMatch& match : comparison.matches)
+  for (const TruePositive& match : comparison.matches)
     prediction_of[match.truth] = &comparison.predictions[match.prediction];
   std::vector<TruthOutcome> outcomes;
   outcomes.reserve(longest.size());

@@ -51,8 +51,8 @@ struct LinePiece {
   Polyline samples;      ///< the same every 0.1 m
 };
 
-/// A true positive.
-struct LineMatch {
+/// A prediction and the truth that it matches.
+struct TruePositive {
   std::size_t truth = 0;       ///< index of its piece
   std::size_t prediction = 0;  ///< likewise
   double chamfer_m = 0.0;      ///< mean distance of the matched samples
@@ -60,7 +60,7 @@ struct LineMatch {
 
 struct KindComparison {
   std::vector<LinePiece> truths, predictions;
-  std::vector<LineMatch> matches;
+  std::vector<TruePositive> matches;
 };
 
 /// One frame: which predictions are true positives of which truth lines.

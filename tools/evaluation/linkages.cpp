@@ -205,7 +205,7 @@ void add_linkages(const TruthTopology& truth, const Places& places, const LocalM
 void add_stoplines(const TruthTopology& truth, const FrameComparison& frame, const Places& places,
                    const LocalMap& map, PairScore& score) {
   const KindComparison& stoplines = frame.of(LineKind::stopline);
-  for (const LineMatch& match : stoplines.matches) {
+  for (const TruePositive& match : stoplines.matches) {
     const std::set<std::size_t>& expected = truth.lanes_of_stopline.at(stoplines.truths[match.truth].line);
     const std::size_t line = stoplines.predictions[match.prediction].line;
     if (line < map.boundaries.size()) continue;  // a boundary of this type ends no lanes

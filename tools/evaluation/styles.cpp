@@ -25,7 +25,7 @@ double StyleScore::unknown_share() const { return share(unknown, right + wrong +
 void add_styles(const FrameComparison& frame, const std::vector<KindLine>& truth,
                 const std::vector<KindLine>& predictions, StyleScore& score) {
   const KindComparison& lanelines = frame.of(LineKind::laneline);
-  for (const LineMatch& match : lanelines.matches) {
+  for (const TruePositive& match : lanelines.matches) {
     const KindLine& truth_line = truth[lanelines.truths[match.truth].line];
     const MarkingStyle expected = style_at(truth_line, 0.0);
     if (expected == MarkingStyle::unknown) continue;

@@ -9,7 +9,7 @@ namespace {
 void add_confidences(const KindComparison& comparison, const std::vector<KindLine>& predictions,
                      Trust& trust) {
   std::vector<bool> right(comparison.predictions.size());
-  for (const LineMatch& match : comparison.matches) right[match.prediction] = true;
+  for (const TruePositive& match : comparison.matches) right[match.prediction] = true;
   for (std::size_t i = 0; i < right.size(); ++i) {
     const double confidence = predictions[comparison.predictions[i].line].confidence;
     if (confidence < 0.0) continue;

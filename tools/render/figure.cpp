@@ -17,17 +17,17 @@ constexpr double kPanelTitleHeight = 22.0;
 void draw_scale(Canvas& canvas, const Pixel& bottom_left) {
   constexpr double kLength_m = 10.0;
   const Pixel from = bottom_left + Pixel(10.0, -10.0),
-              to = from + Pixel(kLength_m * View::kPixelsPerMetre, 0.0);
+              to = from + Pixel(kLength_m * PanelView::kPixelsPerMetre, 0.0);
   const Pixel tick(0.0, 4.0);
   canvas.stroke({from - tick, from, to, to - tick}, {palette::kText, 1.4, {}});
   canvas.text((from + to) / 2 - Pixel(0.0, 5.0), "10 m", 11.0, palette::kText, Align::centre);
 }
 
 void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range, const Pixel& top_left) {
-  const Pixel size = View::size(range);
+  const Pixel size = PanelView::size(range);
   Pixel at = top_left;
   for (const Panel& panel : moment.panels) {
-    const View view(range, moment.T_map_body, at + Pixel(0.0, kPanelTitleHeight));
+    const PanelView view(range, moment.T_map_body, at + Pixel(0.0, kPanelTitleHeight));
     canvas.text(at + Pixel(1.0, 15.0), panel.title, 13.0, palette::kText, Align::left, true);
     canvas.text(at + Pixel(size.x() - 1.0, 15.0), moment.label, 12.0, palette::kFaint, Align::right);
     draw_panel(canvas, view, range, panel);
@@ -39,7 +39,7 @@ void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range,
 }  // namespace
 
 void draw_figure(const Figure& figure, const std::string& path) {
-  const Pixel panel = View::size(figure.range);
+  const Pixel panel = PanelView::size(figure.range);
   std::size_t columns = 1;
   for (const Moment& moment : figure.moments) columns = std::max(columns, moment.panels.size());
   const double row_height = kPanelTitleHeight + panel.y() + kGap;

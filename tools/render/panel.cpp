@@ -26,7 +26,7 @@ Outline arrow_head(const Pixel& tip, const Pixel& direction, double size) {
   return {tip, tip - along + 0.45 * across, tip - 0.7 * along, tip - along - 0.45 * across, tip};
 }
 
-void draw_marking(Canvas& canvas, const View& view, const Marking& marking) {
+void draw_marking(Canvas& canvas, const PanelView& view, const Marking& marking) {
   if (!drawable(marking.points)) return;
   const double opacity =
       marking.existence_probability < 0.0 ? 1.0 : 0.3 + 0.7 * marking.existence_probability;
@@ -40,7 +40,7 @@ void draw_marking(Canvas& canvas, const View& view, const Marking& marking) {
   for (const StyleRange& style : marking.styles) draw(line.slice(style.range), style.style);
 }
 
-void draw_lane(Canvas& canvas, const View& view, const Lane& lane, const Colour& colour) {
+void draw_lane(Canvas& canvas, const PanelView& view, const Lane& lane, const Colour& colour) {
   Polyline area = lane.left;
   area.insert(area.end(), lane.right.rbegin(), lane.right.rend());
   canvas.fill(view.map(area), colour);
@@ -76,7 +76,7 @@ Polyline linkage_path(const Linkage& linkage, const Lane& from, const Lane& to) 
   return path;
 }
 
-void draw_linkages(Canvas& canvas, const View& view, const LocalMap& map) {
+void draw_linkages(Canvas& canvas, const PanelView& view, const LocalMap& map) {
   std::map<ElementId, const Lane*> lanes;
   for (const Lane& lane : map.lanes)
     if (drawable(lane.centerline)) lanes.emplace(lane.id, &lane);
@@ -90,7 +90,7 @@ void draw_linkages(Canvas& canvas, const View& view, const LocalMap& map) {
 }
 
 /// A car of usual size, the origin below its rear axle.
-void draw_vehicle(Canvas& canvas, const View& view) {
+void draw_vehicle(Canvas& canvas, const PanelView& view) {
   const auto outline = [&](double rear, double front, double half_width, double corner) {
     return Outline{view.body(rear, half_width),
                    view.body(front - corner, half_width),
@@ -104,7 +104,7 @@ void draw_vehicle(Canvas& canvas, const View& view) {
   canvas.fill(outline(-0.6, -0.1, 0.70, 0.0), {0.80, 0.86, 0.93});
 }
 
-void draw_box(Canvas& canvas, const View& view, const RangeConfig& range) {
+void draw_box(Canvas& canvas, const PanelView& view, const RangeConfig& range) {
   const Pixel top_left = view.body(range.forward_max_m, range.side_max_m);
   const Pixel bottom_right = view.body(range.forward_min_m, -range.side_max_m);
   canvas.stroke(rectangle(top_left, bottom_right - top_left), {palette::kBox, 0.9, {5.0, 4.0}});
@@ -112,22 +112,22 @@ void draw_box(Canvas& canvas, const View& view, const RangeConfig& range) {
 
 }  // namespace
 
-View::View(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, const Pixel& top_left)
+PanelView::PanelView(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, const Pixel& top_left)
     : origin_(top_left +
               kPixelsPerMetre * Pixel(range.side_max_m + kAroundBox_m, range.forward_max_m + kAroundBox_m)),
       top_left_(top_left),
       T_body_map_(T_map_body.inverse()) {}
 
-Pixel View::size(const RangeConfig& range) {
+Pixel PanelView::size(const RangeConfig& range) {
   return kPixelsPerMetre * Pixel(2.0 * range.side_max_m + 2.0 * kAroundBox_m,
                                  range.forward_max_m - range.forward_min_m + 2.0 * kAroundBox_m);
 }
 
-Pixel View::body(double forward_m, double left_m) const {
+Pixel PanelView::body(double forward_m, double left_m) const {
   return origin_ - kPixelsPerMetre * Pixel(left_m, forward_m);
 }
 
-Outline View::map(const Polyline& line) const {
+Outline PanelView::map(const Polyline& line) const {
   Outline pixels;
   pixels.reserve(line.size());
   for (const Point& point : line) {
@@ -137,8 +137,8 @@ Outline View::map(const Polyline& line) const {
   return pixels;
 }
 
-void draw_panel(Canvas& canvas, const View& view, const RangeConfig& range, const Panel& panel) {
-  const Pixel size = View::size(range);
+void draw_panel(Canvas& canvas, const PanelView& view, const RangeConfig& range, const Panel& panel) {
+  const Pixel size = PanelView::size(range);
   canvas.clip(view.top_left(), size);
   canvas.fill(rectangle(view.top_left(), size), palette::kGround);
   for (const Lane& lane : panel.map.lanes)

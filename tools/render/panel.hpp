@@ -6,9 +6,9 @@
 namespace laneloom {
 
 /// Where things of the map come to lie on the canvas: body frame, forward up.
-class View {
+class PanelView {
  public:
-  View(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, const Pixel& top_left);
+  PanelView(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, const Pixel& top_left);
 
   static Pixel size(const RangeConfig& range);
   static constexpr double kPixelsPerMetre = 13.0;
@@ -23,7 +23,7 @@ class View {
   Eigen::Isometry3d T_body_map_;
 };
 
-void draw_panel(Canvas& canvas, const View& view, const RangeConfig& range, const Panel& panel);
+void draw_panel(Canvas& canvas, const PanelView& view, const RangeConfig& range, const Panel& panel);
 
 /// The key to the colours, in as many lines as fit into `width`.
 void draw_legend(Canvas& canvas, const Pixel& top_left, double width);
