@@ -206,8 +206,17 @@ struct DdsConfig {
   std::string profile_name;       ///< of a participant in the file
 };
 
+/// A standard-definition map that supplies and confirms linkages across intersections (paper, Sec. III-D-4).
+struct SdMapConfig {
+  std::string file;  ///< OpenStreetMap extract (XML); empty: none
+  // Where on earth the map frame's origin is: x points east, y north. WGS84.
+  double origin_latitude_deg = 0.0;
+  double origin_longitude_deg = 0.0;
+};
+
 struct Config {
   MapperConfig mapper;
+  SdMapConfig sd_map;
   SyncConfig sync;
   GateConfig gate;
   ServiceConfig service;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "laneloom/config.hpp"
+#include "laneloom/sd_map.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom {
@@ -45,8 +46,8 @@ class StageObserver {
 /// Not thread-safe: one thread at a time.
 class Mapper {
  public:
-  /// `config` must be valid (see validate() in laneloom/config_file.hpp).
-  explicit Mapper(const MapperConfig& config);
+  /// `config` must be valid (see validate() in laneloom/config_file.hpp). `sd_map` is in the map frame.
+  explicit Mapper(const MapperConfig& config, SdMap sd_map = {});
   ~Mapper();
   Mapper(Mapper&&) noexcept;
   Mapper& operator=(Mapper&&) noexcept;
@@ -68,6 +69,7 @@ class Mapper {
 
  private:
   MapperConfig config_;
+  SdMap sd_map_;
   std::unique_ptr<MapperState> state_;
 };
 

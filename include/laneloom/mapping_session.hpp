@@ -22,7 +22,7 @@ namespace laneloom {
 /// thread at a time.
 class MappingSession {
  public:
-  /// `config` must be valid; its parts mapper, sync and gate are used.
+  /// `config` must be valid; its parts mapper, sd_map, sync and gate are used. Throws as load_sd_map().
   explicit MappingSession(const Config& config);
   ~MappingSession();
   MappingSession(MappingSession&&) noexcept;

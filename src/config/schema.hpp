@@ -220,9 +220,17 @@ void visit(auto& v, Is<DdsConfig> auto& c) {
   v.path("profile_name", profile_name);
 }
 
+void visit(auto& v, Is<SdMapConfig> auto& c) {
+  auto& [file, origin_latitude_deg, origin_longitude_deg] = c;
+  v.path("file", file);
+  v.number("origin_latitude_deg", origin_latitude_deg, "deg", -90, 90);
+  v.number("origin_longitude_deg", origin_longitude_deg, "deg", -180, 180);
+}
+
 void visit(auto& v, Is<Config> auto& c) {
-  auto& [mapper, sync, gate, service, dds] = c;
+  auto& [mapper, sd_map, sync, gate, service, dds] = c;
   v.section("mapper", mapper);
+  v.section("sd_map", sd_map);
   v.section("sync", sync);
   v.section("gate", gate);
   v.section("service", service);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -23,12 +22,18 @@ struct Crossing {
   double misfit = 0.0;  ///< 0: as it should be; 1: just acceptable
   std::size_t from = 0, to = 0;
   Turn turn = Turn::straight;
+  bool confirmed = false;  ///< by the SD map
 };
 
 Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }
 Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, false); }
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {
   return (to.centerline.front() - from.centerline.back()).head<2>();
+}
+
+/// Beyond which no way leads from one lane into another.
+double max_gap_m(const LinkageConfig& config) {
+  return std::max(config.max_crossing_gap_m, 2.0 * config.max_turn_gap_m);
 }
 
 /// How badly `to` lies ahead of `from`; empty: it does not.
@@ -46,29 +51,58 @@ std::optional<double> straight_misfit(const Lane& from, const Lane& to, const Li
   return 0.5 * (lateral_m / config.max_crossing_lateral_m + angle / max_angle);
 }
 
-/// How badly one turns from `from` into `to`; empty: not at all.
-std::optional<double> turn_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
+/// Where the extensions of two lanes meet: so far ahead of the one and before the other.
+struct Corner {
+  double before_m, after_m;
+};
+
+/// Empty where the lanes do not turn.
+std::optional<Corner> corner_between(const Lane& from, const Lane& to) {
   const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
   const double sine = cross(a, b);
   if (std::abs(sine) < kMinTurnSine) return std::nullopt;
   // from + before * a = to - after * b
-  const double before_m = cross(gap, b) / sine, after_m = cross(a, gap) / sine;
-  const double shorter_m = std::min(before_m, after_m), longer_m = std::max(before_m, after_m);
+  return Corner{cross(gap, b) / sine, cross(a, gap) / sine};
+}
+
+/// How badly one turns from `from` into `to`; empty: not at all.
+std::optional<double> turn_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
+  const auto corner = corner_between(from, to);
+  if (!corner) return std::nullopt;
+  const double shorter_m = std::min(corner->before_m, corner->after_m);
+  const double longer_m = std::max(corner->before_m, corner->after_m);
   // A circle that touches both lanes' extensions has radius * tan(angle / 2) to either point of contact.
-  const double tangent = (1.0 - a.dot(b)) / std::abs(sine);
+  const Eigen::Vector2d a = leaving(from), b = entering(to);
+  const double tangent = (1.0 - a.dot(b)) / std::abs(cross(a, b));
   if (shorter_m < config.min_turn_radius_m * tangent || longer_m > config.max_turn_gap_m) return std::nullopt;
   return longer_m / config.max_turn_gap_m;
 }
 
-/// Where linkages begin and end already.
-class Linked {
+/// The ways by which lanes are left and entered already.
+class Taken {
  public:
-  explicit Linked(const std::vector<Linkage>& linkages) : linkages_(linkages) {}
-  bool goes_on(const Lane& lane) const { return std::ranges::count(linkages_, lane.id, &Linkage::from) > 0; }
-  bool is_reached(const Lane& lane) const { return std::ranges::count(linkages_, lane.id, &Linkage::to) > 0; }
+  /// `linkages` are those by markings.
+  Taken(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) {
+    for (const Linkage& linkage : linkages) {
+      const Lane &from = *std::ranges::find(lanes, linkage.from, &Lane::id),
+                 &to = *std::ranges::find(lanes, linkage.to, &Lane::id);
+      const Turn turn = turn_between(from, to);
+      take(from, to, turn);
+      if (turn != Turn::straight) continue;
+      // Where markings lead straight on, there is no intersection.
+      for (const Turn side : {Turn::left, Turn::right, Turn::u_turn}) take(from, to, side);
+    }
+  }
+  bool contains(const Lane& from, const Lane& to, Turn turn) const {
+    return left_.contains({from.id, turn}) || entered_.contains({to.id, turn});
+  }
+  void take(const Lane& from, const Lane& to, Turn turn) {
+    left_.emplace(from.id, turn);
+    entered_.emplace(to.id, turn);
+  }
 
  private:
-  const std::vector<Linkage>& linkages_;
+  std::set<std::pair<ElementId, Turn>> left_, entered_;
 };
 
 /// Whether no lane of the same direction lies beside it on the side that is turned to.
@@ -85,19 +119,36 @@ bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lan
   return known && is_outermost(from, turn, lanes) && is_outermost(to, turn, lanes);
 }
 
-std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes, const Linked& linked,
+/// How `to` may follow `from`, if at all.
+std::optional<Crossing> crossing(const Lane& from, const Lane& to, const std::vector<Lane>& lanes,
+                                 SdMap::Verdict verdict, const LinkageConfig& config) {
+  const bool confirmed = verdict == SdMap::Verdict::connected;
+  if (verdict == SdMap::Verdict::forbidden) return std::nullopt;
+  if (const auto straight = straight_misfit(from, to, config))
+    return Crossing{.misfit = *straight, .turn = Turn::straight, .confirmed = confirmed};
+  const Turn side = cross(leaving(from), entering(to)) > 0.0 ? Turn::left : Turn::right;
+  if (!can_turn(from, to, side, lanes)) return std::nullopt;
+  if (const auto turn = turn_misfit(from, to, config))
+    return Crossing{.misfit = *turn, .turn = side, .confirmed = confirmed};
+  const double gap_m = gap_between(from, to).norm();
+  const bool ahead = gap_between(from, to).dot(leaving(from)) > 0.0;
+  if (!confirmed || !ahead || gap_m > config.max_turn_gap_m) return std::nullopt;
+  return Crossing{.misfit = 1.0 + gap_m, .turn = turn_between(from, to), .confirmed = true};
+}
+
+std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes, const SdMap& sd_map,
                                          const LinkageConfig& config) {
   std::vector<Crossing> crossings;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    if (linked.goes_on(lanes[i])) continue;
     for (std::size_t j = 0; j < lanes.size(); ++j) {
-      if (i == j || linked.is_reached(lanes[j])) continue;
-      if (const auto straight = straight_misfit(lanes[i], lanes[j], config))
-        crossings.push_back({*straight, i, j, Turn::straight});
-      const Turn turn = cross(leaving(lanes[i]), entering(lanes[j])) > 0.0 ? Turn::left : Turn::right;
-      if (!can_turn(lanes[i], lanes[j], turn, lanes)) continue;
-      if (const auto misfit = turn_misfit(lanes[i], lanes[j], config))
-        crossings.push_back({*misfit, i, j, turn});
+      if (i == j || gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
+      const auto verdict =
+          sd_map.empty() ? SdMap::Verdict::unknown : sd_map.verdict(lanes[i].centerline, lanes[j].centerline);
+      auto found = crossing(lanes[i], lanes[j], lanes, verdict, config);
+      if (!found) continue;
+      found->from = i;
+      found->to = j;
+      crossings.push_back(*found);
     }
   }
   std::ranges::sort(crossings, {},
@@ -112,19 +163,12 @@ bool crosses_edge(const Polyline& path, const std::vector<LaneBoundary>& boundar
 }
 
 double confidence(const Crossing& crossing) {
+  if (crossing.confirmed) return 0.95;
   return crossing.turn == Turn::straight ? 0.9 - 0.5 * crossing.misfit : 0.8 - 0.4 * crossing.misfit;
 }
 
-}  // namespace
-
-Linkage::Turn turn_between(const Lane& from, const Lane& to) {
-  const Eigen::Vector2d a = leaving(from), b = entering(to);
-  if (a.dot(b) < -kMinTurnSine) return Turn::u_turn;
-  if (std::abs(cross(a, b)) < kMinTurnSine) return Turn::straight;
-  return cross(a, b) > 0.0 ? Turn::left : Turn::right;
-}
-
-Polyline path_between(const Lane& from, const Lane& to) {
+/// A cubic that leaves and enters in the lanes' directions.
+Polyline straight_path(const Lane& from, const Lane& to) {
   const Point a = from.centerline.back(), b = to.centerline.front();
   const double length_m = (b - a).head<2>().norm();
   const Eigen::Vector2d begin = length_m * leaving(from), end = length_m * entering(to);
@@ -140,24 +184,64 @@ Polyline path_between(const Lane& from, const Lane& to) {
   return path;
 }
 
-void link_across_intersections(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries,
-                               const LinkageConfig& config, std::vector<Linkage>& linkages) {
-  std::set<std::pair<std::size_t, Turn>> left, entered;
-  std::vector<Linkage> found;
-  for (const auto& [misfit, i, j, turn] : possible_crossings(lanes, Linked(linkages), config)) {
-    if (left.contains({i, turn}) || entered.contains({j, turn})) continue;
-    Polyline path = path_between(lanes[i], lanes[j]);
-    if (crosses_edge(path, boundaries)) continue;
-    left.emplace(i, turn);
-    entered.emplace(j, turn);
-    found.push_back({.from = lanes[i].id,
-                     .to = lanes[j].id,
-                     .kind = Linkage::Kind::intersection,
-                     .turn = turn,
-                     .confidence = confidence({misfit, i, j, turn}),
-                     .path = std::move(path)});
+Point moved(const Point& point, const Eigen::Vector2d& by) { return point + Point(by.x(), by.y(), 0.0); }
+
+/// Straight on from the end that is further from where the lanes' extensions meet, then about that corner:
+/// Bezier's cubic nearest to an arc. A way that cut the corner would lead over the kerb.
+Polyline turning_path(const Lane& from, const Lane& to, double before_m, double after_m) {
+  constexpr double kArc = 0.55;  // of the way to the corner, for a quarter of a circle
+  const double reach_m = std::min(before_m, after_m);
+  const Point &start = from.centerline.back(), &end = to.centerline.front();
+  const Point a = moved(start, (before_m - reach_m) * leaving(from)),
+              d = moved(end, (reach_m - after_m) * entering(to));
+  const Point b = moved(a, kArc * reach_m * leaving(from)), c = moved(d, -kArc * reach_m * entering(to));
+  const int steps = std::max(2, static_cast<int>(std::ceil(1.6 * reach_m / kPathStep_m)));
+  Polyline path{start};
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps, s = 1.0 - t;
+    path.push_back(s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d);
   }
-  std::ranges::move(found, std::back_inserter(linkages));
+  path.push_back(end);
+  path = MeasuredPolyline(path).points();
+  const double length_m = length(path);
+  const std::vector<double> arc_m = arc_lengths(path);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    path[i].z() = start.z() + (end.z() - start.z()) * arc_m[i] / length_m;
+  return path;
+}
+
+}  // namespace
+
+Linkage::Turn turn_between(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to);
+  if (a.dot(b) < -kMinTurnSine) return Turn::u_turn;
+  if (std::abs(cross(a, b)) < kMinTurnSine) return Turn::straight;
+  return cross(a, b) > 0.0 ? Turn::left : Turn::right;
+}
+
+Polyline path_between(const Lane& from, const Lane& to) {
+  if (const auto corner = corner_between(from, to); corner && corner->before_m > 0.0 && corner->after_m > 0.0)
+    return turning_path(from, to, corner->before_m, corner->after_m);
+  return straight_path(from, to);
+}
+
+void link_across_intersections(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries,
+                               const SdMap& sd_map, const LinkageConfig& config,
+                               std::vector<Linkage>& linkages) {
+  Taken taken(lanes, linkages);
+  for (const Crossing& crossing : possible_crossings(lanes, sd_map, config)) {
+    const Lane &from = lanes[crossing.from], &to = lanes[crossing.to];
+    if (taken.contains(from, to, crossing.turn)) continue;
+    Polyline path = path_between(from, to);
+    if (crosses_edge(path, boundaries)) continue;
+    taken.take(from, to, crossing.turn);
+    linkages.push_back({.from = from.id,
+                        .to = to.id,
+                        .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,
+                        .turn = crossing.turn,
+                        .confidence = confidence(crossing),
+                        .path = std::move(path)});
+  }
   std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
 }
 

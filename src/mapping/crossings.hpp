@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/sd_map.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/lane_boundaries.hpp"
 
@@ -19,7 +20,11 @@ Polyline path_between(const Lane& from, const Lane& to);
 /// right: from the outermost lane of its direction into the outermost one, on an arc that is wide enough,
 /// where the driving directions of both are known. No way leads over an edge, and for each kind of turn, no
 /// lane is left or entered twice. Each linkage has a path, and a confidence that falls with the misfit.
+///
+/// Where both lanes lie on streets of `sd_map` (paper, Sec. III-D-4), that decides: it confirms or forbids
+/// the way, or supplies one between lanes that lie less regularly.
 void link_across_intersections(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries,
-                               const LinkageConfig& config, std::vector<Linkage>& linkages);
+                               const SdMap& sd_map, const LinkageConfig& config,
+                               std::vector<Linkage>& linkages);
 
 }  // namespace laneloom

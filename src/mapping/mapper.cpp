@@ -108,8 +108,8 @@ const char* name(Stage stage) {
   return kNames.at(static_cast<std::size_t>(stage));
 }
 
-Mapper::Mapper(const MapperConfig& config)
-    : config_(config), state_(std::make_unique<MapperState>(config.voxel_map)) {}
+Mapper::Mapper(const MapperConfig& config, SdMap sd_map)
+    : config_(config), sd_map_(std::move(sd_map)), state_(std::make_unique<MapperState>(config.voxel_map)) {}
 Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
@@ -145,7 +145,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   map.linkages = generate_linkages(map.lanes, config_.linkage);
   observe_directions(map.lanes, T_map_body, map.instances, config_.stopline, state.known_lanes);
   find_directions(boundaries, config_.direction, state.known_lanes, map.lanes, map.linkages);
-  link_across_intersections(map.lanes, boundaries, config_.linkage, map.linkages);
+  link_across_intersections(map.lanes, boundaries, sd_map_, config_.linkage, map.linkages);
   link_ego_track(map.lanes, T_map_body, state.ego_track, map.linkages);
   map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);
   done(Stage::linkages);

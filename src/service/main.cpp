@@ -10,6 +10,7 @@
 #include <string>
 
 #include "laneloom/config_file.hpp"
+#include "laneloom/sd_map.hpp"
 #include "service/executor.hpp"
 #include "service/service.hpp"
 #include "service/signals.hpp"
@@ -84,6 +85,7 @@ int start(const Options& options) {
     return EX_CONFIG;
   }
   if (options.check_only) {
+    load_sd_map(config.sd_map);
     std::printf("configuration %s is valid\n", config_hash(config).c_str());
     return EX_OK;
   }

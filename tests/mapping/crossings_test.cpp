@@ -22,8 +22,8 @@ Lane lane(ElementId id, Polyline centerline) {
 
 std::vector<Linkage> crossings(const std::vector<Lane>& lanes, std::vector<Linkage> known = {},
                                const LinkageConfig& config = {},
-                               const std::vector<LaneBoundary>& boundaries = {}) {
-  link_across_intersections(lanes, boundaries, config, known);
+                               const std::vector<LaneBoundary>& boundaries = {}, const SdMap& sd_map = {}) {
+  link_across_intersections(lanes, boundaries, sd_map, config, known);
   return known;
 }
 
@@ -122,6 +122,66 @@ TEST(Crossings, AtACrossroadsEveryWayLeadsStraightLeftAndRight) {
   EXPECT_THAT(pairs_of(linkages, Turn::right),
               ElementsAre(Pair(1, 12), Pair(2, 13), Pair(3, 14), Pair(4, 11)));
   EXPECT_EQ(linkages.size(), 12U);
+}
+
+TEST(Crossings, AKerbThatLeadsRoundTheCornerLeavesTheOtherWays) {
+  const auto linkages = crossings(crossroads(), {{.from = 1, .to = 12}});
+  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ElementsAre(Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+  EXPECT_EQ(linkages.size(), 12U);
+}
+
+TEST(Crossings, ATurnGoesStraightOnFirstWhereTheCornerIsFar) {
+  // 20 m ahead and 6 m to the right: an arc of 6 m, after 14 m.
+  const auto linkages = crossings({driven(1, {-20, 0, 0}, {0, 0, 0}), driven(2, {20, -6, 1}, {20, -20, 1})});
+  ASSERT_EQ(linkages.size(), 1U);
+  const Polyline& path = linkages[0].path;
+  EXPECT_TRUE(path.front().isApprox(Point(0, 0, 0)));
+  EXPECT_TRUE(path.back().isApprox(Point(20, -6, 1)));
+  const MeasuredPolyline measured(path);
+  for (double x = 1.0; x < 14.0; x += 1.0) EXPECT_NEAR(measured.project({x, 0, 0}).distance_m, 0.0, 1e-6);
+  const Eigen::Vector2d center(14, -6);
+  for (const Point& p : path) {
+    if (p.x() <= 14.0) continue;
+    EXPECT_NEAR((p.head<2>() - center).norm(), 6.0, 0.1);
+  }
+}
+
+/// Streets along the crossroads' arms, meeting at node 5.
+SdMap streets(bool east_is_oneway_in = false, std::vector<SdRestriction> restrictions = {}) {
+  const auto arm = [](std::int64_t id, const Eigen::Vector2d& end) {
+    return SdWay{.id = id, .nodes = {id, 5}, .points = {end, {0, 0}}};
+  };
+  std::vector<SdWay> ways{arm(1, {-60, 0}), arm(2, {0, -60}), arm(3, {60, 0}), arm(4, {0, 60})};
+  ways[2].oneway = east_is_oneway_in;
+  return {std::move(ways), std::move(restrictions)};
+}
+
+TEST(Crossings, AnSdMapConfirmsThem) {
+  const auto linkages = crossings(crossroads(), {}, {}, {}, streets());
+  EXPECT_EQ(linkages.size(), 12U);
+  for (const Linkage& l : linkages) {
+    EXPECT_EQ(l.kind, Linkage::Kind::sd_map);
+    EXPECT_GT(l.confidence, 0.9);
+  }
+}
+
+TEST(Crossings, AnSdMapForbidsThem) {
+  const auto no_left =
+      crossings(crossroads(), {}, {}, {}, streets(false, {{.from_way = 1, .via_node = 5, .to_way = 4}}));
+  EXPECT_THAT(pairs_of(no_left, Linkage::Turn::left), ElementsAre(Pair(2, 11), Pair(3, 12), Pair(4, 13)));
+  EXPECT_EQ(no_left.size(), 11U);
+}
+
+TEST(Crossings, AnSdMapSuppliesWaysBetweenLanesThatLieIrregularly) {
+  // 40 degrees to the left: neither straight on nor a turn.
+  const double s = std::sin(40 * std::numbers::pi / 180), c = std::cos(40 * std::numbers::pi / 180);
+  const std::vector<Lane> lanes{driven(1, {-20, 0, 0}, {-8, 0, 0}),
+                                driven(2, {8 * c, 8 * s, 0}, {20 * c, 20 * s, 0})};
+  EXPECT_THAT(crossings(lanes), IsEmpty());
+  const SdMap street({{.id = 1, .nodes = {1, 2, 3}, .points = {{-60, 0}, {0, 0}, {60 * c, 60 * s}}}}, {});
+  const auto linkages = crossings(lanes, {}, {}, {}, street);
+  ASSERT_EQ(linkages.size(), 1U);
+  EXPECT_EQ(linkages[0].kind, Linkage::Kind::sd_map);
 }
 
 TEST(Crossings, TurnsAskForKnownDirections) {

@@ -1,0 +1,118 @@
+#include "laneloom/sd_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <set>
+#include <stdexcept>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kCell_m = 50.0;
+constexpr double kMaxDistance_m = 15.0;  // of a lane from the middle of its street
+constexpr double kMinCosine = 0.8;       // between a lane and its street
+constexpr double kMaxWay_m = 80.0;       // between the two lanes, beyond what a straight line needs
+
+struct Foot {
+  double distance_m, along_m;
+};
+
+Foot foot_on(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d along = to - from;
+  const double share = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return {(point - from - share * along).norm(), share * along.norm()};
+}
+
+std::pair<int, int> cell_of(const Eigen::Vector2d& point) {
+  const Eigen::Vector2d cell = (point / kCell_m).array().floor();
+  return {static_cast<int>(cell.x()), static_cast<int>(cell.y())};
+}
+
+}  // namespace
+
+SdMap::SdMap(std::vector<SdWay> ways, std::vector<SdRestriction> restrictions) : ways_(std::move(ways)) {
+  for (const SdRestriction& restriction : restrictions)
+    restrictions_[{restriction.from_way, restriction.via_node}].push_back(restriction);
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    const SdWay& way = ways_[i];
+    if (way.nodes.size() < 2 || way.nodes.size() != way.points.size())
+      throw std::invalid_argument("way " + std::to_string(way.id) +
+                                  " needs as many points as nodes, two at least");
+    for (std::size_t k = 1; k < way.nodes.size(); ++k) {
+      if ((way.points[k] - way.points[k - 1]).squaredNorm() <= 0.0) continue;
+      segments_.push_back({i, way.nodes[k - 1], way.nodes[k], way.points[k - 1], way.points[k]});
+      if (!way.oneway)
+        segments_.push_back({i, way.nodes[k], way.nodes[k - 1], way.points[k], way.points[k - 1]});
+    }
+  }
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Segment& segment = segments_[i];
+    leaving_[segment.begin].push_back(i);
+    const auto [low_x, low_y] = cell_of(segment.from.cwiseMin(segment.to).array() - kMaxDistance_m);
+    const auto [high_x, high_y] = cell_of(segment.from.cwiseMax(segment.to).array() + kMaxDistance_m);
+    for (int x = low_x; x <= high_x; ++x)
+      for (int y = low_y; y <= high_y; ++y) cells_[{x, y}].push_back(i);
+  }
+}
+
+const SdMap::Segment* SdMap::nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const {
+  const auto cell = cells_.find(cell_of(point));
+  if (cell == cells_.end()) return nullptr;
+  const Segment* best = nullptr;
+  double best_m = kMaxDistance_m;
+  for (const std::size_t i : cell->second) {
+    const Segment& segment = segments_[i];
+    if ((segment.to - segment.from).normalized().dot(direction) < kMinCosine) continue;
+    const double distance_m = foot_on(segment.from, segment.to, point).distance_m;
+    if (distance_m < best_m) {
+      best = &segment;
+      best_m = distance_m;
+    }
+  }
+  return best;
+}
+
+bool SdMap::may_follow(const Segment& segment, const Segment& next) const {
+  if (next.end == segment.begin) return false;  // about turn
+  const std::int64_t from = ways_[segment.way].id, to = ways_[next.way].id;
+  const auto found = restrictions_.find({from, segment.end});
+  if (found == restrictions_.end()) return true;
+  return std::ranges::all_of(found->second, [to](const SdRestriction& restriction) {
+    return restriction.only == (restriction.to_way == to);
+  });
+}
+
+SdMap::Verdict SdMap::verdict(const Polyline& from, const Polyline& to) const {
+  const Eigen::Vector2d end = from.back().head<2>(), begin = to.front().head<2>();
+  const Segment* left = nearest(end, end_direction(from, true));
+  const Segment* entered = nearest(begin, -end_direction(to, false));
+  if (left == nullptr || entered == nullptr) return Verdict::unknown;
+  const double left_at_m = foot_on(left->from, left->to, end).along_m;
+  const double entered_at_m = foot_on(entered->from, entered->to, begin).along_m;
+  if (left == entered) return entered_at_m > left_at_m ? Verdict::connected : Verdict::forbidden;
+
+  // Dijkstra's search over segments, by the way to their beginning.
+  const double max_m = (begin - end).norm() + kMaxWay_m;
+  using Open = std::pair<double, const Segment*>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  std::set<const Segment*> closed;
+  open.emplace(-left_at_m, left);
+  while (!open.empty()) {
+    const auto [way_m, segment] = open.top();
+    open.pop();
+    if (segment == entered) return Verdict::connected;
+    if (!closed.insert(segment).second) continue;
+    const double next_m = way_m + (segment->to - segment->from).norm();
+    const auto following = leaving_.find(segment->end);
+    if (next_m > max_m || following == leaving_.end()) continue;
+    for (const std::size_t i : following->second)
+      if (may_follow(*segment, segments_[i])) open.emplace(next_m, &segments_[i]);
+  }
+  return Verdict::forbidden;
+}
+
+}  // namespace laneloom

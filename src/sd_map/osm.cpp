@@ -1,0 +1,137 @@
+#include <GeographicLib/LocalCartesian.hpp>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <pugixml.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "laneloom/sd_map.hpp"
+
+namespace laneloom {
+namespace {
+
+using OsmId = std::int64_t;
+
+/// Values of the tag highway that motor vehicles drive on, but for their links.
+const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",     "secondary",
+                                          "tertiary", "unclassified", "residential", "living_street",
+                                          "service",  "road"};
+constexpr double kMaxDistance_m = 1e6;  // from the origin; beyond, the projection means nothing
+
+std::string_view tag(const pugi::xml_node& element, const char* key) {
+  return element.find_child_by_attribute("tag", "k", key).attribute("v").as_string();
+}
+
+[[noreturn]] void refuse(const pugi::xml_node& element, const std::string& complaint) {
+  throw std::runtime_error(std::string(element.name()) + " " + element.attribute("id").as_string() + " " +
+                           complaint);
+}
+
+OsmId id_of(const pugi::xml_node& element, const char* attribute = "id") {
+  return element.attribute(attribute).as_llong();
+}
+
+std::map<OsmId, Eigen::Vector2d> read_nodes(const pugi::xml_node& osm, const SdMapConfig& config) {
+  const GeographicLib::LocalCartesian projection(config.origin_latitude_deg, config.origin_longitude_deg);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::map<OsmId, Eigen::Vector2d> nodes;
+  for (const pugi::xml_node& node : osm.children("node")) {
+    const double lat_deg = node.attribute("lat").as_double(kNone);
+    const double lon_deg = node.attribute("lon").as_double(kNone);
+    if (!(std::abs(lat_deg) <= 90.0) || !(std::abs(lon_deg) <= 180.0))
+      refuse(node, "has no latitude and longitude in degrees");
+    double east_m = 0.0, north_m = 0.0, up_m = 0.0;
+    projection.Forward(lat_deg, lon_deg, 0.0, east_m, north_m, up_m);
+    if (std::hypot(east_m, north_m) <= kMaxDistance_m)
+      nodes.emplace(id_of(node), Eigen::Vector2d(east_m, north_m));
+  }
+  return nodes;
+}
+
+bool is_street(const pugi::xml_node& way) {
+  std::string_view highway = tag(way, "highway");
+  if (highway.ends_with("_link")) highway.remove_suffix(std::string_view("_link").size());
+  return kStreets.contains(highway);
+}
+
+/// Splits off what lies outside of the extract, whose nodes are not in it.
+void add_way(const pugi::xml_node& element, const std::map<OsmId, Eigen::Vector2d>& nodes,
+             std::vector<SdWay>& ways) {
+  const std::string_view oneway = tag(element, "oneway"), junction = tag(element, "junction");
+  SdWay way{
+      .id = id_of(element),
+      .nodes = {},
+      .points = {},
+      .oneway = oneway == "yes" || oneway == "1" || oneway == "true" || oneway == "-1" ||
+                (oneway.empty() && (junction == "roundabout" || tag(element, "highway") == "motorway"))};
+  const auto finish = [&] {
+    if (way.nodes.size() >= 2) ways.push_back(way);
+    way.nodes.clear();
+    way.points.clear();
+  };
+  std::vector<OsmId> refs;
+  for (const pugi::xml_node& nd : element.children("nd")) refs.push_back(id_of(nd, "ref"));
+  if (oneway == "-1") std::ranges::reverse(refs);
+  for (const OsmId ref : refs) {
+    const auto node = nodes.find(ref);
+    if (node == nodes.end()) {
+      finish();
+      continue;
+    }
+    way.nodes.push_back(ref);
+    way.points.push_back(node->second);
+  }
+  finish();
+}
+
+/// Restrictions by a single node; others, and those for some vehicles or hours only, are left out.
+std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
+  if (tag(relation, "type") != "restriction") return std::nullopt;
+  const std::string_view kind = tag(relation, "restriction");
+  if (!kind.starts_with("no_") && !kind.starts_with("only_")) return std::nullopt;
+  std::optional<OsmId> from, via, to;
+  for (const pugi::xml_node& member : relation.children("member")) {
+    const std::string_view role = member.attribute("role").as_string();
+    const std::string_view type = member.attribute("type").as_string();
+    if (role == "from" && type == "way") from = id_of(member, "ref");
+    if (role == "to" && type == "way") to = id_of(member, "ref");
+    if (role == "via" && type == "node") via = id_of(member, "ref");
+  }
+  if (!from || !via || !to) return std::nullopt;
+  return SdRestriction{*from, *via, *to, kind.starts_with("only_")};
+}
+
+SdMap read(const std::string& file, const SdMapConfig& config) {
+  pugi::xml_document document;
+  if (const auto result = document.load_file(file.c_str()); !result)
+    throw std::runtime_error(std::string(result.description()) + " at byte " + std::to_string(result.offset));
+  const pugi::xml_node osm = document.child("osm");
+  if (!osm) throw std::runtime_error("has no element osm");
+  const auto nodes = read_nodes(osm, config);
+  std::vector<SdWay> ways;
+  for (const pugi::xml_node& way : osm.children("way"))
+    if (is_street(way)) add_way(way, nodes, ways);
+  if (ways.empty()) throw std::runtime_error("has no street within 1000 km of the configured origin");
+  std::vector<SdRestriction> restrictions;
+  for (const pugi::xml_node& relation : osm.children("relation"))
+    if (const auto found = restriction(relation)) restrictions.push_back(*found);
+  return {std::move(ways), std::move(restrictions)};
+}
+
+}  // namespace
+
+SdMap load_sd_map(const SdMapConfig& config) {
+  if (config.file.empty()) return {};
+  try {
+    return read(config.file, config);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(config.file + ": " + error.what());
+  }
+}
+
+}  // namespace laneloom

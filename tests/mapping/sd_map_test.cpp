@@ -1,0 +1,78 @@
+#include "laneloom/sd_map.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::straight;
+using Verdict = SdMap::Verdict;
+
+/// A main street from west to east through (0, 0), and a side street to the north.
+std::vector<SdWay> streets() {
+  return {{.id = 1, .nodes = {10, 11, 12}, .points = {{-100, 0}, {0, 0}, {100, 0}}},
+          {.id = 2, .nodes = {11, 13}, .points = {{0, 0}, {0, 100}}}};
+}
+
+const Polyline kFromWest = straight({-30, -2, 0}, {-10, -2, 0}), kToEast = straight({10, -2, 0}, {30, -2, 0}),
+               kToNorth = straight({2, 10, 0}, {2, 30, 0}), kFromNorth = straight({-2, 30, 0}, {-2, 10, 0}),
+               kToWest = straight({-10, 2, 0}, {-30, 2, 0});
+
+TEST(SdMap, StreetsThatMeetAreConnected) {
+  const SdMap map(streets(), {});
+  EXPECT_EQ(map.verdict(kFromWest, kToEast), Verdict::connected);
+  EXPECT_EQ(map.verdict(kFromWest, kToNorth), Verdict::connected);
+  EXPECT_EQ(map.verdict(kFromNorth, kToWest), Verdict::connected);
+}
+
+TEST(SdMap, AboutTurnsAreForbidden) {
+  EXPECT_EQ(SdMap(streets(), {}).verdict(kFromWest, kToWest), Verdict::forbidden);
+}
+
+TEST(SdMap, StreetsThatDoNotMeetAreNotConnected) {
+  std::vector<SdWay> ways = streets();
+  ways[1].nodes = {99, 13};  // a bridge over the main street
+  EXPECT_EQ(SdMap(ways, {}).verdict(kFromWest, kToNorth), Verdict::forbidden);
+}
+
+TEST(SdMap, AOnewayStreetIsNotEnteredAgainstItsSense) {
+  std::vector<SdWay> ways = streets();
+  ways[1].oneway = true;  // leads north
+  EXPECT_EQ(SdMap(ways, {}).verdict(kFromWest, kToNorth), Verdict::connected);
+  EXPECT_EQ(SdMap(ways, {}).verdict(kFromNorth, kToWest), Verdict::unknown);  // no such lane can be
+}
+
+TEST(SdMap, RestrictionsHold) {
+  const SdRestriction no_left{.from_way = 1, .via_node = 11, .to_way = 2};
+  EXPECT_EQ(SdMap(streets(), {no_left}).verdict(kFromWest, kToNorth), Verdict::forbidden);
+  EXPECT_EQ(SdMap(streets(), {no_left}).verdict(kFromWest, kToEast), Verdict::connected);
+  const SdRestriction only_straight{.from_way = 1, .via_node = 11, .to_way = 1, .only = true};
+  EXPECT_EQ(SdMap(streets(), {only_straight}).verdict(kFromWest, kToNorth), Verdict::forbidden);
+  EXPECT_EQ(SdMap(streets(), {only_straight}).verdict(kFromWest, kToEast), Verdict::connected);
+}
+
+TEST(SdMap, LanesBesideEveryStreetAreUnknown) {
+  const SdMap map(streets(), {});
+  EXPECT_EQ(map.verdict(straight({-30, -40, 0}, {-10, -40, 0}), kToEast), Verdict::unknown);
+  EXPECT_EQ(SdMap().verdict(kFromWest, kToEast), Verdict::unknown);
+}
+
+TEST(SdMap, AcrossADualCarriagewayTheShortWayBetweenItsNodesCounts) {
+  const SdMap map({{.id = 1, .nodes = {1, 2, 3}, .points = {{-100, 0}, {0, 0}, {100, 0}}, .oneway = true},
+                   {.id = 2, .nodes = {4, 5, 6}, .points = {{100, 12}, {0, 12}, {-100, 12}}, .oneway = true},
+                   {.id = 3, .nodes = {2, 5}, .points = {{0, 0}, {0, 12}}},
+                   {.id = 4, .nodes = {5, 7}, .points = {{0, 12}, {0, 100}}}},
+                  {});
+  EXPECT_EQ(map.verdict(kFromWest, straight({2, 25, 0}, {2, 40, 0})), Verdict::connected);
+  EXPECT_EQ(map.verdict(kFromWest, straight({-10, 12, 0}, {-30, 12, 0})), Verdict::connected);
+}
+
+TEST(SdMap, WaysNeedTheirPoints) {
+  EXPECT_THROW(SdMap({{.id = 1, .nodes = {1, 2}, .points = {{0, 0}}}}, {}), std::invalid_argument);
+  EXPECT_THROW(SdMap({{.id = 1, .nodes = {1}, .points = {{0, 0}}}}, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "laneloom/sd_map.hpp"
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::straight;
+using ::testing::HasSubstr;
+using Verdict = SdMap::Verdict;
+
+/// About (48, 9): nodes on a cross, whose arms are about 111 m (latitude) and 74 m (longitude) long.
+const std::string kNodes = R"(
+  <node id="1" lat="48.000" lon="8.999"/> <node id="5" lat="48.000" lon="9.000"/>
+  <node id="3" lat="48.000" lon="9.001"/> <node id="4" lat="48.001" lon="9.000"/>)";
+const std::string kMain =
+    R"(<way id="10"><nd ref="1"/><nd ref="5"/><nd ref="3"/><tag k="highway" v="primary"/></way>)";
+
+/// A way from the crossing to the north.
+std::string side(const std::string& highway, const std::string& oneway = "no") {
+  return R"(<way id="20"><nd ref="5"/><nd ref="4"/><tag k="highway" v=")" + highway +
+         R"("/><tag k="oneway" v=")" + oneway + R"("/></way>)";
+}
+
+class OsmFile : public ::testing::Test {
+ protected:
+  ~OsmFile() override { std::filesystem::remove(config_.file); }
+
+  SdMap read(const std::string& elements) {
+    std::ofstream(config_.file) << "<osm version=\"0.6\">" << elements << "</osm>";
+    return load_sd_map(config_);
+  }
+  std::string complaint(const std::string& elements) {
+    try {
+      read(elements);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  SdMapConfig config_{.file = (std::filesystem::temp_directory_path() /
+                               (std::string("laneloom_") +
+                                ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".osm"))
+                                  .string(),
+                      .origin_latitude_deg = 48.0,
+                      .origin_longitude_deg = 9.0};
+  const Polyline from_west_ = straight({-30, -2, 0}, {-10, -2, 0}),
+                 to_north_ = straight({2, 10, 0}, {2, 30, 0}),
+                 from_north_ = straight({-2, 30, 0}, {-2, 10, 0}),
+                 to_west_ = straight({-10, 2, 0}, {-30, 2, 0});
+};
+
+TEST_F(OsmFile, GivesStreetsInTheMapFrame) {
+  const SdMap map = read(kNodes + kMain + side("residential"));
+  EXPECT_EQ(map.verdict(from_west_, to_north_), Verdict::connected);
+  EXPECT_EQ(map.verdict(from_north_, to_west_), Verdict::connected);
+  EXPECT_EQ(map.verdict(straight({-200, 0, 0}, {-100, 0, 0}), to_north_), Verdict::unknown);
+}
+
+TEST_F(OsmFile, ReadsOnewayStreetsEitherWay) {
+  EXPECT_EQ(read(kNodes + kMain + side("road", "yes")).verdict(from_north_, to_west_), Verdict::unknown);
+  EXPECT_EQ(read(kNodes + kMain + side("road", "-1")).verdict(from_west_, to_north_), Verdict::unknown);
+  EXPECT_EQ(read(kNodes + kMain + side("road", "no")).verdict(from_west_, to_north_), Verdict::connected);
+}
+
+TEST_F(OsmFile, ReadsTurnRestrictions) {
+  const std::string no_left = R"(<relation id="7">
+      <tag k="type" v="restriction"/><tag k="restriction" v="no_left_turn"/>
+      <member type="way" role="from" ref="10"/><member type="node" role="via" ref="5"/>
+      <member type="way" role="to" ref="20"/></relation>)";
+  EXPECT_EQ(read(kNodes + kMain + side("road") + no_left).verdict(from_west_, to_north_), Verdict::forbidden);
+}
+
+TEST_F(OsmFile, LeavesOutPathsAndWhatLiesOutsideOfTheExtract) {
+  EXPECT_EQ(read(kNodes + kMain + side("footway")).verdict(from_west_, to_north_), Verdict::unknown);
+  const std::string cut =
+      R"(<way id="20"><nd ref="99"/><nd ref="5"/><nd ref="4"/><tag k="highway" v="road"/></way>)";
+  EXPECT_EQ(read(kNodes + kMain + cut).verdict(from_west_, to_north_), Verdict::connected);
+}
+
+TEST_F(OsmFile, NamesWhatIsWrong) {
+  EXPECT_THAT(complaint(R"(<node id="1" lat="91" lon="9"/>)"), HasSubstr("node 1"));
+  EXPECT_THAT(complaint(R"(<node id="1" lat="48"/>)"), HasSubstr("node 1"));
+  EXPECT_THAT(complaint(kNodes), HasSubstr("no street"));
+  EXPECT_THAT(complaint("<unclosed"), HasSubstr(config_.file));
+  config_.origin_latitude_deg = -48.0;
+  EXPECT_THAT(complaint(kNodes + kMain), HasSubstr("origin"));
+}
+
+TEST_F(OsmFile, WithoutAFileThereIsNone) {
+  EXPECT_TRUE(load_sd_map({}).empty());
+  config_.file += ".missing";
+  EXPECT_THROW(load_sd_map(config_), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace laneloom
