@@ -162,6 +162,13 @@ bool crosses_edge(const Polyline& path, const std::vector<LaneBoundary>& boundar
   });
 }
 
+/// Lanes that lead into each other straight on run the same way.
+void agree_on_direction(Lane& from, Lane& to) {
+  using Direction = Lane::Direction;
+  if (from.direction == Direction::unknown && to.direction == Direction::unknown) return;
+  from.direction = to.direction = Direction::along_centerline;
+}
+
 double confidence(const Crossing& crossing) {
   if (crossing.confirmed) return 0.95;
   return crossing.turn == Turn::straight ? 0.9 - 0.5 * crossing.misfit : 0.8 - 0.4 * crossing.misfit;
@@ -225,23 +232,29 @@ Polyline path_between(const Lane& from, const Lane& to) {
   return straight_path(from, to);
 }
 
-void link_across_intersections(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries,
-                               const SdMap& sd_map, const LinkageConfig& config,
+void link_across_intersections(const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
+                               const LinkageConfig& config, std::vector<Lane>& lanes,
                                std::vector<Linkage>& linkages) {
   Taken taken(lanes, linkages);
-  for (const Crossing& crossing : possible_crossings(lanes, sd_map, config)) {
-    const Lane &from = lanes[crossing.from], &to = lanes[crossing.to];
-    if (taken.contains(from, to, crossing.turn)) continue;
+  const auto link = [&](const Crossing& crossing) {
+    Lane &from = lanes[crossing.from], &to = lanes[crossing.to];
+    if (taken.contains(from, to, crossing.turn)) return;
     Polyline path = path_between(from, to);
-    if (crosses_edge(path, boundaries)) continue;
+    if (crosses_edge(path, boundaries)) return;
     taken.take(from, to, crossing.turn);
+    if (crossing.turn == Turn::straight) agree_on_direction(from, to);
     linkages.push_back({.from = from.id,
                         .to = to.id,
                         .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,
                         .turn = crossing.turn,
                         .confidence = confidence(crossing),
                         .path = std::move(path)});
-  }
+  };
+  // Straight on first: what that tells of directions, turns depend on.
+  for (const Crossing& crossing : possible_crossings(lanes, sd_map, config))
+    if (crossing.turn == Turn::straight) link(crossing);
+  for (const Crossing& crossing : possible_crossings(lanes, sd_map, config))
+    if (crossing.turn != Turn::straight) link(crossing);
   std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
 }
 

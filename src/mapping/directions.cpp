@@ -17,6 +17,7 @@ namespace {
 // Log odds that a lane runs along its centerline.
 constexpr double kEgoEvidence = 0.5;       // per frame
 constexpr double kStoplineEvidence = 0.3;  // per frame
+constexpr double kDoubleLine_m = 0.8;      // between its two lines
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
 constexpr double kDividerEvidence = 1.0;      // of a solid or dashed line for or against opposite directions
@@ -89,6 +90,17 @@ double divider_evidence(const Marking& boundary, const Range& range) {
   return solid_m > dashed_m ? kDividerEvidence : -kDividerEvidence;
 }
 
+/// Whether the lanes are neighbours, be it across a double line.
+bool is_left_of(const Lane& lane, const Lane& other) {
+  if (lane.right_neighbour != kNoElement) return lane.right_neighbour == other.id;
+  if (other.left_neighbour != kNoElement) return false;
+  const MeasuredPolyline right(lane.right), left(other.left);
+  const double middle_m = 0.5 * right.length();
+  const Projection foot = left.project(right.at(middle_m));
+  const bool along = right.direction(middle_m).dot(left.direction(foot.arc_m)) > 0.0;
+  return foot.inside && along && foot.distance_m < kDoubleLine_m;
+}
+
 /// 1 where traffic keeps right, -1 where it keeps left, 0 where that is not said.
 double driving_side(const DirectionConfig& config) {
   if (config.driving_side == "unknown") return 0.0;
@@ -113,7 +125,7 @@ Model build_model(const std::vector<Lane>& lanes, const Groups& groups,
     const bool left_edge = lane.left_neighbour == kNoElement && is_edge(lane.left_boundary);
     edges[groups[i]].add(side * kEdgeEvidence * ((right_edge ? 1.0 : 0.0) - (left_edge ? 1.0 : 0.0)));
     for (std::size_t k = 0; k < lanes.size(); ++k) {
-      if (lane.right_neighbour != lanes[k].id || groups[i] == groups[k]) continue;
+      if (groups[i] == groups[k] || !is_left_of(lane, lanes[k])) continue;
       opposed[{groups[i], groups[k]}].add(divider_evidence(boundary(lane.right_boundary), lane.right_range));
     }
   }

@@ -145,7 +145,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   map.linkages = generate_linkages(map.lanes, config_.linkage);
   observe_directions(map.lanes, T_map_body, map.instances, config_.stopline, state.known_lanes);
   find_directions(boundaries, config_.direction, state.known_lanes, map.lanes, map.linkages);
-  link_across_intersections(map.lanes, boundaries, sd_map_, config_.linkage, map.linkages);
+  link_across_intersections(boundaries, sd_map_, config_.linkage, map.lanes, map.linkages);
   link_ego_track(map.lanes, T_map_body, state.ego_track, map.linkages);
   map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);
   done(Stage::linkages);

@@ -20,10 +20,10 @@ Lane lane(ElementId id, Polyline centerline) {
   return l;
 }
 
-std::vector<Linkage> crossings(const std::vector<Lane>& lanes, std::vector<Linkage> known = {},
+std::vector<Linkage> crossings(std::vector<Lane> lanes, std::vector<Linkage> known = {},
                                const LinkageConfig& config = {},
                                const std::vector<LaneBoundary>& boundaries = {}, const SdMap& sd_map = {}) {
-  link_across_intersections(lanes, boundaries, sd_map, config, known);
+  link_across_intersections(boundaries, sd_map, config, lanes, known);
   return known;
 }
 
@@ -188,6 +188,15 @@ TEST(Crossings, TurnsAskForKnownDirections) {
   std::vector<Lane> lanes = crossroads();
   for (Lane& l : lanes) l.direction = Lane::Direction::unknown;
   for (const Linkage& l : crossings(lanes)) EXPECT_EQ(l.turn, Linkage::Turn::straight);
+}
+
+TEST(Crossings, StraightOnTheDirectionIsKept) {
+  std::vector<Lane> lanes{driven(1, {0, 0, 0}, {10, 0, 0}), lane(2, straight({30, 0, 0}, {40, 0, 0})),
+                          lane(3, straight({30, 20, 0}, {40, 20, 0}))};
+  std::vector<Linkage> linkages;
+  link_across_intersections({}, {}, {}, lanes, linkages);
+  EXPECT_EQ(lanes[1].direction, Lane::Direction::along_centerline);
+  EXPECT_EQ(lanes[2].direction, Lane::Direction::unknown);
 }
 
 TEST(Crossings, TurnsLeadFromTheOutermostLane) {

@@ -86,6 +86,18 @@ TEST_F(Directions, InLeftHandTrafficTheOtherWayRound) {
   EXPECT_FALSE(runs_forward(12));
 }
 
+TEST_F(Directions, ADoubleLineIsOne) {
+  boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
+  lanes_[0].right_neighbour = lanes_[1].left_neighbour = kNoElement;
+  lanes_[1].left_boundary = 4;
+  lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
+  divider(MarkingStyle::solid);
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
 TEST_F(Directions, ADashedLineDoesNotTell) {
   divider(MarkingStyle::dashed);
   find();

@@ -132,8 +132,8 @@ TEST_F(LineFusion, TheTypeIsThatOfMostObservations) {
 TEST_F(LineFusion, NothingIsKeptBeyondTheRange) {
   see({straight({-60, 0, 0}, {90, 0, 0})});
   ASSERT_EQ(lines_.size(), 1U);
-  EXPECT_GE(lines_[0].stations.front().position.x(), -15.0);
-  EXPECT_LE(lines_[0].stations.back().position.x(), 40.0);
+  EXPECT_GE(lines_[0].stations.front().position.x(), -30.0);  // 5 m and a margin of 25 m
+  EXPECT_LE(lines_[0].stations.back().position.x(), 55.0);
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ namespace {
 
 TEST(LocalRange, TurnsWithTheVehicle) {
   const LocalRange range({}, test::at(100, 50, std::numbers::pi / 2));
-  EXPECT_TRUE(range.keeps({100, 89, 0}));  // 39 m ahead: within the margin
-  EXPECT_FALSE(range.keeps({100, 91, 0}));
-  EXPECT_TRUE(range.keeps({116, 50, 0}));  // 16 m to the right: within the margin
-  EXPECT_FALSE(range.keeps({118, 50, 0}));
+  EXPECT_TRUE(range.keeps({100, 104, 0}));  // 54 m ahead: within the margin
+  EXPECT_FALSE(range.keeps({100, 106, 0}));
+  EXPECT_TRUE(range.keeps({117, 50, 0}));  // 17 m to the right: within the margin
+  EXPECT_FALSE(range.keeps({119, 50, 0}));
   EXPECT_TRUE(range.keeps({100, 50, 500}));  // any height
 }
 

@@ -62,10 +62,10 @@ TEST_F(SemanticVoxels, CountsEachTypeApart) {
 
 TEST_F(SemanticVoxels, AllocatesOnlyWithinTheRangeAndItsMargin) {
   see({line(MarkingType::laneline, {-100, 0.1, 0.1}, {100, 0.1, 0.1})});
-  EXPECT_NE(at(39.9, 0.1), kNoVoxel);  // 30 m and a margin of 10 m
-  EXPECT_EQ(at(40.3, 0.1), kNoVoxel);
-  EXPECT_NE(at(-14.9, 0.1), kNoVoxel);
-  EXPECT_EQ(at(-15.3, 0.1), kNoVoxel);
+  EXPECT_NE(at(54.9, 0.1), kNoVoxel);  // 30 m and a margin of 25 m
+  EXPECT_EQ(at(55.3, 0.1), kNoVoxel);
+  EXPECT_NE(at(-29.9, 0.1), kNoVoxel);
+  EXPECT_EQ(at(-30.3, 0.1), kNoVoxel);
 }
 
 TEST_F(SemanticVoxels, ReliableIsWhatWasDetectedMoreOftenThanAlphaN) {
