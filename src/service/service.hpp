@@ -39,6 +39,7 @@ class Service {
   void ingest(std::int64_t now_ns);
   /// Sets the verdict; true when it changed.
   bool judge(const Tick& tick, std::uint64_t resets);
+  void log_tick(const Tick& tick) const;
   void publish_map(std::int64_t now_ns, MappingSession::Progress&& progress);
   void publish_status(std::int64_t now_ns);
   ServiceStatus status(std::int64_t now_ns) const;
