@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   laneloom::add_record(app);
   laneloom::add_import(app);
   laneloom::add_drive(app);
+  laneloom::add_bench(app);
   try {
     app.parse(argc, argv);
     return 0;

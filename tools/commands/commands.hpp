@@ -20,5 +20,6 @@ void add_replay(CLI::App& app);
 void add_record(CLI::App& app);
 void add_import(CLI::App& app);
 void add_drive(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }  // namespace laneloom

@@ -10,6 +10,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "bench/publication_log.hpp"
+#include "bench/system_clock.hpp"
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "commands/road_source.hpp"
@@ -35,7 +37,7 @@ struct Options {
   double duration_s = 0.0;
   bool loop = false;
   int readers = 0;
-  std::string truth, frames;
+  std::string truth, frames, times;
 };
 
 /// A perception and localisation stack on a simulated drive. Its sensor clock starts with the system clock
@@ -50,8 +52,9 @@ class Publisher {
         perception_(options.source.perception(road)),
         delays_(options.source.seed),
         session_id_(new_session_id()),
-        start_ns_(std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()) {
+        start_ns_(system_now_ns()) {
     if (!options.frames.empty()) record_ = std::make_unique<JsonLinesWriter>(options.frames);
+    if (!options.times.empty()) times_ = std::make_unique<PublicationLogWriter>(options.times);
   }
 
   /// Of the topic that has fewer.
@@ -75,6 +78,7 @@ class Publisher {
 
   void finish() {
     if (record_) record_->close();
+    if (times_) times_->close();
     fmt::print("{} frames published", delivered_);
     if (not_taken_ > 0) fmt::print(", {} messages not taken by DDS", not_taken_);
     fmt::print("\n");
@@ -108,6 +112,7 @@ class Publisher {
   }
 
   void deliver(const FrameRecord& record) {
+    if (times_) times_->add(record.frame.sequence, system_now_ns());
     if (!detections_.write(record.frame)) ++not_taken_;
     if (record_) record_->write(record);
     ++delivered_;
@@ -123,6 +128,7 @@ class Publisher {
   std::int64_t start_ns_;
   std::deque<Pending> in_network_;
   std::unique_ptr<JsonLinesWriter> record_;
+  std::unique_ptr<PublicationLogWriter> times_;
   std::uint64_t delivered_ = 0;
   std::uint64_t not_taken_ = 0;
 };
@@ -183,6 +189,7 @@ void add_publish(CLI::App& app) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   command->add_option("--frames", options->frames, "Detections and exact poses to write (.frames.jsonl)");
+  command->add_option("--times", options->times, "When each frame was published, to write (.csv)");
   command->add_flag_callback("--list", list, "List the built-in roads and kinds of noise")
       ->trigger_on_parse();
   command->callback([options] { publish(*options); });

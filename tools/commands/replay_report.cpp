@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <variant>
 
+#include "commands/time_table.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -17,18 +19,10 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-void print_row(const char* name, const TimeSummary& time) {
-  fmt::print("{:<16} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f}\n", name, time.mean_ms, time.p50_ms, time.p99_ms,
-             time.max_ms);
-}
-
 void print_times(const StageTimer& timer) {
-  fmt::print("{:<16} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "mean", "p50", "p99", "max");
-  for (std::size_t i = 0; i < kStageCount; ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (timer.reached(stage)) print_row(name(stage), timer.stage(stage));
-  }
-  print_row("total", timer.total());
+  print_time_header("milliseconds");
+  print_stage_rows(timer);
+  print_time_row("total", timer.total());
 }
 
 double recorded_s(const ReplayResult& result) {
@@ -37,10 +31,6 @@ double recorded_s(const ReplayResult& result) {
 
 double per_map(std::size_t count, const ReplayResult& result) {
   return result.maps > 0 ? static_cast<double>(count) / static_cast<double>(result.maps) : 0.0;
-}
-
-nlohmann::json to_json(const TimeSummary& time) {
-  return {{"mean", time.mean_ms}, {"p50", time.p50_ms}, {"p99", time.p99_ms}, {"max", time.max_ms}};
 }
 
 nlohmann::json to_json(const ReplayResult& result) {
@@ -56,11 +46,8 @@ nlohmann::json to_json(const ReplayResult& result) {
                        {{"boundaries", per_map(result.boundaries, result)},
                         {"lanes", per_map(result.lanes, result)},
                         {"linkages", per_map(result.linkages, result)}}}};
+  json["ms"] = to_json(result.timer);
   json["ms"]["total"] = to_json(result.timer.total());
-  for (std::size_t i = 0; i < kStageCount; ++i) {
-    const auto stage = static_cast<Stage>(i);
-    if (result.timer.reached(stage)) json["ms"][name(stage)] = to_json(result.timer.stage(stage));
-  }
   return json;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/stage_timer.hpp"
+#include "bench/stage_timer.hpp"
 #include "evaluation/evaluation.hpp"
 #include "replay/replay.hpp"
 

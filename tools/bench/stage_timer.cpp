@@ -1,4 +1,4 @@
-#include "commands/stage_timer.hpp"
+#include "bench/stage_timer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,8 @@ double milliseconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
+}  // namespace
+
 TimeSummary summarise(std::vector<double> values_ms) {
   if (values_ms.empty()) return {};
   std::sort(values_ms.begin(), values_ms.end());
@@ -22,8 +24,6 @@ TimeSummary summarise(std::vector<double> values_ms) {
   return {std::accumulate(values_ms.begin(), values_ms.end(), 0.0) / count, quantile(0.5), quantile(0.99),
           values_ms.back()};
 }
-
-}  // namespace
 
 void StageTimer::update_begins() {
   for (std::vector<double>& stage_ms : stages_ms_) stage_ms.push_back(0.0);

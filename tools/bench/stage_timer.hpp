@@ -9,6 +9,9 @@
 
 namespace laneloom {
 
+/// Mean, p50, p99 and maximum, by nearest rank. 0 where there are none.
+TimeSummary summarise(std::vector<double> values_ms);
+
 /// Measures the mapper's stages, frame by frame.
 class StageTimer : public StageObserver {
  public:

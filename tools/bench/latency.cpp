@@ -1,0 +1,214 @@
+#include "bench/latency.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <mutex>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+#include <unordered_map>
+
+#include "bench/child_process.hpp"
+#include "bench/process_usage.hpp"
+#include "bench/publication_log.hpp"
+#include "bench/stage_timer.hpp"
+#include "bench/system_clock.hpp"
+#include "io/work_folder.hpp"
+#include "laneloom/dds/reader.hpp"
+
+namespace laneloom {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kPatience{15};
+constexpr std::chrono::seconds kSettling{2};  // after the first map: discovery, first lines
+
+double milliseconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-6; }
+
+/// The planning participant: keeps when each map came.
+class MapListener {
+ public:
+  explicit MapListener(const DdsConfig& dds)
+      : participant_(dds, "laneloom bench"),
+        reader_(participant_, {.sample = [this](PublishedMap&& map) { take(map); }}) {}
+
+  std::vector<ReceivedMap> maps() const {
+    const std::lock_guard lock(mutex_);
+    return maps_;
+  }
+  bool has_fused() const {
+    const std::lock_guard lock(mutex_);
+    return !maps_.empty() && !maps_.back().fused_frames.empty();
+  }
+
+ private:
+  void take(const PublishedMap& map) {
+    ReceivedMap received{map.sequence, map.published_ns, system_now_ns(), {}};
+    received.fused_frames.reserve(map.fused_frames.size());
+    for (const FusedFrame& frame : map.fused_frames) received.fused_frames.push_back(frame.sequence);
+    const std::lock_guard lock(mutex_);
+    maps_.push_back(std::move(received));
+  }
+
+  mutable std::mutex mutex_;
+  std::vector<ReceivedMap> maps_;
+  dds::Participant participant_;
+  dds::Reader<PublishedMap> reader_;  // last: it calls into what is above
+};
+
+/// Keeps cores busy while it lives.
+class BusyThreads {
+ public:
+  explicit BusyThreads(unsigned count) {
+    threads_.reserve(count);
+    for (unsigned i = 0; i < count; ++i) {
+      threads_.emplace_back([](const std::stop_token& stopped) {
+        while (!stopped.stop_requested()) {
+        }
+      });
+    }
+  }
+
+ private:
+  std::vector<std::jthread> threads_;
+};
+
+/// A program of the measurement, whose last words are told when it ends by itself.
+class Party {
+ public:
+  Party(std::vector<std::string> command, std::string log)
+      : name_(command.front()), log_(std::move(log)), process_(std::move(command), log_) {}
+
+  void check() {
+    if (process_.running()) return;
+    std::ostringstream words;
+    words << std::ifstream(log_).rdbuf();
+    throw std::runtime_error(name_ + ": ended by itself: " + words.str());
+  }
+  ChildProcess& process() { return process_; }
+
+ private:
+  std::string name_, log_;
+  ChildProcess process_;
+};
+
+void write_config(const std::string& file, const DdsConfig& dds) {
+  std::ofstream out(file);
+  out << "service:\n  log_level: debug\ndds:\n  domain: " << dds.domain << "\n  vehicle_id: '"
+      << dds.vehicle_id << "'\n  transport: " << dds.transport << '\n';
+  out.close();
+  if (!out) throw std::runtime_error(file + ": cannot be written");
+}
+
+std::vector<std::string> publish_command(const LatencySpec& spec, const std::string& times) {
+  return {spec.publisher.string(),
+          "publish",
+          "--scenario",
+          spec.scenario,
+          "--noise",
+          spec.noise,
+          "--speed",
+          fmt::format("{}", spec.speed_mps),
+          "--loop",
+          "--domain",
+          std::to_string(spec.dds.domain),
+          "--vehicle-id",
+          spec.dds.vehicle_id,
+          "--wait-for-readers",
+          "1",
+          "--times",
+          times};
+}
+
+void wait_for_maps(const MapListener& listener, Party& service, Party& publisher) {
+  const auto deadline = SteadyClock::now() + kPatience;
+  while (!listener.has_fused()) {
+    service.check();
+    publisher.check();
+    if (SteadyClock::now() > deadline) throw std::runtime_error("no map came");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  std::this_thread::sleep_for(kSettling);
+}
+
+/// Those that began from `from_ns` to `to_ns`.
+std::vector<LoggedTick> ticks_between(std::vector<LoggedTick> ticks, std::int64_t from_ns,
+                                      std::int64_t to_ns) {
+  std::erase_if(ticks,
+                [&](const LoggedTick& tick) { return tick.start_ns < from_ns || tick.start_ns > to_ns; });
+  return ticks;
+}
+
+}  // namespace
+
+LatencyResult latencies(const std::vector<LoggedTick>& ticks, const std::vector<ReceivedMap>& maps,
+                        const std::map<std::uint64_t, std::int64_t>& published) {
+  std::unordered_map<std::uint64_t, const ReceivedMap*> by_sequence;
+  for (const ReceivedMap& map : maps) by_sequence.emplace(map.sequence, &map);
+  LatencyResult result;
+  std::vector<double> delay_ms, tick_ms, publication_ms, detections_ms;
+  for (const LoggedTick& tick : ticks) {
+    ++result.ticks;
+    result.missed_deadlines += tick.missed;
+    delay_ms.push_back(milliseconds(tick.delay_ns));
+    const auto found = by_sequence.find(tick.map);
+    if (found == by_sequence.end()) {
+      ++result.maps_lost;
+      continue;
+    }
+    const ReceivedMap& map = *found->second;
+    tick_ms.push_back(milliseconds(map.callback_ns - tick.start_ns));
+    publication_ms.push_back(milliseconds(map.callback_ns - map.published_ns));
+    for (const std::uint64_t frame : map.fused_frames) {
+      const auto at = published.find(frame);
+      if (at != published.end()) detections_ms.push_back(milliseconds(map.callback_ns - at->second));
+    }
+  }
+  result.frames = detections_ms.size();
+  result.tick_delay = summarise(std::move(delay_ms));
+  result.tick_to_callback = summarise(std::move(tick_ms));
+  result.publication_to_callback = summarise(std::move(publication_ms));
+  result.detections_to_callback = summarise(std::move(detections_ms));
+  return result;
+}
+
+LatencyResult measure_latency(const LatencySpec& spec) {
+  const WorkFolder folder;
+  const std::string config = folder.file("laneloomd.yaml"), times = folder.file("times.csv"),
+                    log = folder.file("laneloomd.log");
+  write_config(config, spec.dds);
+  MapListener listener(spec.dds);
+  Party service({spec.service.string(), "--config", config}, log);
+  Party publisher(publish_command(spec, times), folder.file("publish.log"));
+  wait_for_maps(listener, service, publisher);
+
+  const pid_t id = service.process().id();
+  const double cpu_before_s = cpu_s(id);
+  const std::int64_t from_ns = system_now_ns();
+  {
+    const BusyThreads load(spec.busy_threads);
+    std::this_thread::sleep_for(std::chrono::duration<double>(spec.duration_s));
+  }
+  service.check();
+  publisher.check();
+  const std::int64_t to_ns = system_now_ns();
+  const double cpu_used_s = cpu_s(id) - cpu_before_s;
+  const double peak_mb = peak_rss_mb(id);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the last map is on its way
+  publisher.process().stop();
+  service.process().stop();
+
+  LatencyResult result = latencies(ticks_between(read_tick_log(log), from_ns, to_ns), listener.maps(),
+                                   read_publication_log(times));
+  result.service_cpu_percent = 100.0 * cpu_used_s / (static_cast<double>(to_ns - from_ns) * 1e-9);
+  result.service_peak_rss_mb = peak_mb;
+  return result;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,148 @@
+// Micro-benchmarks: every stage of the mapper, and what lies between it and the wire or a file. Each
+// iteration of a stage is one more frame of a drive through the town, timed by itself.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "experiment/drive_simulation.hpp"
+#include "io/json_lines.hpp"
+#include "laneloom/dds/cdr.hpp"
+#include "laneloom/mapper.hpp"
+#include "laneloom/messages.hpp"
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr const char* kFrameId = "map";
+
+/// A minute of the default load.
+const std::vector<SimulatedFrame>& frames() {
+  static const std::vector<SimulatedFrame> drive =
+      simulate({.road = std::make_shared<const Road>(make_scenario("town", 10.0)),
+                .noise = noise_profile("inhouse"),
+                .duration_s = 60.0});
+  return drive;
+}
+
+/// The time of one stage in the last update.
+class OneStage : public StageObserver {
+ public:
+  explicit OneStage(Stage stage) : stage_(stage) {}
+  void update_begins() override {
+    elapsed_ = Clock::duration::zero();
+    start_ = Clock::now();
+  }
+  void stage_done(Stage stage) override {
+    const Clock::time_point now = Clock::now();
+    if (stage == stage_) elapsed_ += now - start_;
+    start_ = now;
+  }
+  double seconds() const { return std::chrono::duration<double>(elapsed_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Stage stage_;
+  Clock::time_point start_;
+  Clock::duration elapsed_{};
+};
+
+void stage(benchmark::State& state, Stage stage, const MapperConfig& config) {
+  Mapper mapper(config);
+  OneStage watch(stage);
+  std::size_t next = 0;
+  for ([[maybe_unused]] auto iteration : state) {
+    if (next == frames().size()) {
+      mapper.reset();
+      next = 0;
+    }
+    const FrameRecord& record = frames()[next++].record;
+    mapper.update(record.frame, transform(record.pose), &watch);
+    state.SetIterationTime(watch.seconds());
+  }
+}
+
+/// The map after the drive.
+const PublishedMap& last_map() {
+  static const PublishedMap published = [] {
+    Mapper mapper(MapperConfig{});
+    for (const SimulatedFrame& frame : frames())
+      mapper.update(frame.record.frame, transform(frame.record.pose));
+    PublishedMap map;
+    map.frame_id = kFrameId;
+    map.map = mapper.map();
+    return map;
+  }();
+  return published;
+}
+
+void map_to_cdr(benchmark::State& state) {
+  std::vector<std::uint8_t> bytes;
+  for ([[maybe_unused]] auto iteration : state) {
+    dds::to_cdr(last_map(), kFrameId, bytes);
+    benchmark::DoNotOptimize(bytes.data());
+  }
+}
+
+void map_from_cdr(benchmark::State& state) {
+  std::vector<std::uint8_t> bytes;
+  dds::to_cdr(last_map(), kFrameId, bytes);
+  for ([[maybe_unused]] auto iteration : state) {
+    PublishedMap map;
+    dds::from_cdr(bytes, kFrameId, map);
+    benchmark::DoNotOptimize(map);
+  }
+}
+
+void detections_from_cdr(benchmark::State& state) {
+  std::vector<std::uint8_t> bytes;
+  dds::to_cdr(frames().back().record.frame, kFrameId, bytes);
+  for ([[maybe_unused]] auto iteration : state) {
+    DetectionFrame frame;
+    dds::from_cdr(bytes, kFrameId, frame);
+    benchmark::DoNotOptimize(frame);
+  }
+}
+
+void frame_from_json_line(benchmark::State& state) {
+  const std::string line = to_json_line(frames().back().record);
+  for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(frame_from_json(line));
+}
+
+void map_to_json_line(benchmark::State& state) {
+  for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(to_json_line(last_map().map));
+}
+
+/// Those of the method's stages that its updates reach.
+void register_stages(const std::string& method) {
+  MapperConfig config;
+  config.method = method;
+  class Reached : public StageObserver {
+   public:
+    void update_begins() override {}
+    void stage_done(Stage stage) override { stages.push_back(stage); }
+    std::vector<Stage> stages;
+  } reached;
+  Mapper(config).update(DetectionFrame{}, Eigen::Isometry3d::Identity(), &reached);
+  for (const Stage one : reached.stages)
+    benchmark::RegisterBenchmark((method + "/" + name(one)).c_str(), stage, one, config)->UseManualTime();
+}
+
+}  // namespace
+}  // namespace laneloom
+
+int main(int argc, char** argv) {
+  laneloom::register_stages("lines");
+  laneloom::register_stages("voxels");
+  benchmark::RegisterBenchmark("map_to_cdr", laneloom::map_to_cdr);
+  benchmark::RegisterBenchmark("map_from_cdr", laneloom::map_from_cdr);
+  benchmark::RegisterBenchmark("detections_from_cdr", laneloom::detections_from_cdr);
+  benchmark::RegisterBenchmark("frame_from_json", laneloom::frame_from_json_line);
+  benchmark::RegisterBenchmark("map_to_json", laneloom::map_to_json_line);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

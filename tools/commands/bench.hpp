@@ -1,0 +1,13 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace laneloom {
+
+/// Subcommands of `laneloom bench`, registered as those in commands.hpp.
+void add_bench_latency(CLI::App& bench);
+void add_bench_scale(CLI::App& bench);
+
+}  // namespace laneloom

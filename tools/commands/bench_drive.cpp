@@ -1,0 +1,46 @@
+#include "commands/bench_drive.hpp"
+
+#include "laneloom/config_file.hpp"
+#include "simulation/scenarios.hpp"
+
+namespace laneloom {
+
+DriveSpec BenchDrive::spec() const {
+  return {.road = std::make_shared<const Road>(make_scenario(scenario, speed_mps)),
+          .noise = noise_profile(noise),
+          .seed = seed,
+          .duration_s = duration_s};
+}
+
+MapperConfig BenchDrive::mapper_config() const {
+  Config read = config.empty() ? Config{} : load_config(config);
+  apply_preset(read, preset);
+  validate(read);
+  return read.mapper;
+}
+
+void add_bench_road(CLI::App& command, BenchDrive& drive) {
+  command.add_option("--scenario", drive.scenario, "A built-in road")
+      ->check(CLI::IsMember(scenario_names()))
+      ->capture_default_str();
+  command.add_option("--noise", drive.noise, "How the detections differ from the truth")
+      ->check(CLI::IsMember(noise_profile_names()))
+      ->capture_default_str();
+  command.add_option("--speed", drive.speed_mps, "Of the vehicle, in m/s")
+      ->check(CLI::Range(0.1, 60.0))
+      ->capture_default_str();
+  command.add_option("--duration", drive.duration_s, "Seconds that are measured")
+      ->check(CLI::Range(0.1, 86'400.0))
+      ->capture_default_str();
+}
+
+void add_bench_drive(CLI::App& command, BenchDrive& drive) {
+  add_bench_road(command, drive);
+  command.add_option("--seed", drive.seed, "Of the noise")->capture_default_str();
+  command.add_option("--preset", drive.preset, "Range, and alpha_n of the voxel method")
+      ->check(CLI::IsMember({"inhouse", "av2"}))
+      ->capture_default_str();
+  command.add_option("--config", drive.config, "Configuration file")->check(CLI::ExistingFile);
+}
+
+}  // namespace laneloom

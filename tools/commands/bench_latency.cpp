@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bench/latency.hpp"
+#include "commands/bench.hpp"
+#include "commands/bench_drive.hpp"
+#include "commands/time_table.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  BenchDrive drive;
+  DdsConfig dds;
+  bool load = false;
+  bool json = false;
+};
+
+LatencySpec latency_spec(const Options& options) {
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  LatencySpec spec{.service = self.parent_path() / "laneloomd",
+                   .publisher = self,
+                   .dds = options.dds,
+                   .scenario = options.drive.scenario,
+                   .noise = options.drive.noise,
+                   .speed_mps = options.drive.speed_mps,
+                   .duration_s = options.drive.duration_s,
+                   .busy_threads = options.load ? std::thread::hardware_concurrency() : 0};
+  spec.dds.vehicle_id = fmt::format("bench_{}", getpid());  // apart from every other vehicle
+  return spec;
+}
+
+nlohmann::json to_json(const LatencySpec& spec, const LatencyResult& result) {
+  return {{"duration_s", spec.duration_s},
+          {"transport", spec.dds.transport},
+          {"busy_threads", spec.busy_threads},
+          {"ticks", result.ticks},
+          {"missed_deadlines", result.missed_deadlines},
+          {"maps_lost", result.maps_lost},
+          {"frames", result.frames},
+          {"ms",
+           {{"tick_delay", to_json(result.tick_delay)},
+            {"tick_to_callback", to_json(result.tick_to_callback)},
+            {"publication_to_callback", to_json(result.publication_to_callback)},
+            {"detections_to_callback", to_json(result.detections_to_callback)}}},
+          {"service",
+           {{"cpu_percent", result.service_cpu_percent}, {"peak_rss_mb", result.service_peak_rss_mb}}}};
+}
+
+void print(const LatencySpec& spec, const LatencyResult& result) {
+  print_time_header("milliseconds");
+  print_time_row("tick: delay", result.tick_delay);
+  print_time_row("tick to callback", result.tick_to_callback);
+  print_time_row("publication to callback", result.publication_to_callback);
+  print_time_row("detections to callback", result.detections_to_callback);
+  fmt::print("{} ticks by {} with {} busy threads: {} deadlines missed, {} maps lost, {} frames\n",
+             result.ticks, spec.dds.transport, spec.busy_threads, result.missed_deadlines, result.maps_lost,
+             result.frames);
+  fmt::print("the service: {:.1f} % of a core, peak memory {:.0f} MB\n", result.service_cpu_percent,
+             result.service_peak_rss_mb);
+}
+
+void latency(const Options& options) {
+  const LatencySpec spec = latency_spec(options);
+  const LatencyResult result = measure_latency(spec);
+  options.json ? fmt::print("{}\n", to_json(spec, result).dump()) : print(spec, result);
+}
+
+}  // namespace
+
+void add_bench_latency(CLI::App& bench) {
+  CLI::App* command = bench.add_subcommand(
+      "latency", "Times ticks and maps of a real service, from a real publisher to this process, over DDS");
+  const auto options = std::make_shared<Options>();
+  options->drive.duration_s = 30.0;
+  add_bench_road(*command, options->drive);
+  command->add_option("--domain", options->dds.domain, "DDS domain")
+      ->check(CLI::Range(0, 232))
+      ->capture_default_str();
+  command->add_option("--transport", options->dds.transport, "Of the service and this process")
+      ->check(CLI::IsMember({"udp", "udp+shm"}))
+      ->capture_default_str();
+  command->add_flag("--load", options->load, "Keep all cores busy meanwhile");
+  command->add_flag("--json", options->json, "One JSON object");
+  command->callback([options] { latency(*options); });
+}
+
+}  // namespace laneloom
