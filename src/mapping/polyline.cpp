@@ -9,6 +9,8 @@
 namespace laneloom {
 namespace {
 
+constexpr std::size_t kStride = 8;  // between the vertices that are looked at first
+
 constexpr double kCoincident_m = 1e-9;
 
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
@@ -63,7 +65,17 @@ Projection MeasuredPolyline::project(const Point& point) const {
     best.distance_m = horizontal_distance(point, best.foot);
     return best;
   }
+  // Along the line, the distance changes no faster than the arc length: what must be farther than a few of
+  // the vertices is passed over.
+  double bound_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points_.size(); i += kStride)
+    bound_m = std::min(bound_m, (point - points_[i]).head<2>().squaredNorm());
+  bound_m = std::sqrt(bound_m);
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    const double slack_m = horizontal_distance(point, points_[i]) - bound_m;
+    const double from_m = arc_[i];
+    while (i + 1 < points_.size() && arc_[i + 1] - from_m < slack_m) ++i;
+    if (i + 1 == points_.size()) break;
     const Eigen::Vector2d along = (points_[i + 1] - points_[i]).head<2>();
     const double segment_m = arc_[i + 1] - arc_[i];
     const Eigen::Vector2d offset = (point - points_[i]).head<2>();

@@ -31,7 +31,10 @@ std::string_view reason(Gate::Verdict verdict) {
 
 struct MappingSession::State {
   explicit State(const Config& c)
-      : gate_config(c.gate), pose_gate(c.gate), synchroniser(c.sync), mapper(c.mapper, load_sd_map(c.sd_map)) {}
+      : gate_config(c.gate),
+        pose_gate(c.gate),
+        synchroniser(c.sync),
+        mapper(c.mapper, load_sd_map(c.sd_map)) {}
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);

@@ -79,7 +79,27 @@ TEST(Polyline, CosineAgreesWithTheMathematicalOne) {
   }
 }
 
-TEST(Polylines, IntersectWhereTheyCrossOrTouch) {
+TEST(MeasuredPolyline, ProjectOnTheNearestOfAllSegments) {
+  // A spiral comes near a point again and again.
+  Polyline line;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = 0.1 * i, radius_m = 30.0 - 0.05 * i;
+    line.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), 0.01 * i);
+  }
+  const MeasuredPolyline measured(line);
+  for (double x = -35.0; x <= 35.0; x += 3.1) {
+    for (double y = -35.0; y <= 35.0; y += 2.7) {
+      double nearest_m = 1e9;
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const MeasuredPolyline segment(Polyline{line[i], line[i + 1]});
+        nearest_m = std::min(nearest_m, segment.project({x, y, 0}).distance_m);
+      }
+      EXPECT_NEAR(measured.project({x, y, 0}).distance_m, nearest_m, 1e-9);
+    }
+  }
+}
+
+TEST(Polyline, IntersectWhereTheyCrossOrTouch) {
   const Polyline line{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}};
   EXPECT_TRUE(intersect(line, {{8, 5, 3}, {12, 5, 3}}));  // seen from above
   EXPECT_TRUE(intersect(line, {{5, 0, 0}, {5, 4, 0}}));
