@@ -55,8 +55,8 @@ TEST(MapperMeter, StartsAnewWhenItsCostIsTaken) {
 }
 
 TEST(ProcessUsage, GrowsWithWhatIsUsed) {
-  const double peak_mb = peak_rss_mb(getpid()), used_s = cpu_s(getpid());
-  EXPECT_GE(peak_mb, rss_mb(getpid()));
+  const double now_mb = rss_mb(getpid()), peak_mb = peak_rss_mb(getpid()), used_s = cpu_s(getpid());
+  EXPECT_GE(peak_mb + 1.0, now_mb);  // the kernel counts pages in batches
   {
     const std::vector<char> touched(64U << 20U, 1);
     EXPECT_GT(rss_mb(getpid()), 64.0);
