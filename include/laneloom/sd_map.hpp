@@ -31,7 +31,7 @@ class SdMap {
  public:
   SdMap() = default;
   /// Throws std::invalid_argument where a way has not as many points as nodes, or fewer than two.
-  SdMap(std::vector<SdWay> ways, std::vector<SdRestriction> restrictions);
+  SdMap(std::vector<SdWay> ways, const std::vector<SdRestriction>& restrictions);
 
   bool empty() const { return segments_.empty(); }
 

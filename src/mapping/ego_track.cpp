@@ -47,18 +47,18 @@ double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
 void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track,
                     std::vector<Linkage>& linkages) {
   follow(lanes, T_map_body, track);
-  for (const auto& [from, to] : track.steps) {
+  for (const EgoTrack::Step& step : track.steps) {
     const auto known = std::ranges::find_if(
-        linkages, [&](const Linkage& linkage) { return linkage.from == from && linkage.to == to; });
+        linkages, [&](const Linkage& linkage) { return EgoTrack::Step(linkage.from, linkage.to) == step; });
     if (known == linkages.end()) {
-      const Lane &left = *std::ranges::find(lanes, from, &Lane::id),
-                 &entered = *std::ranges::find(lanes, to, &Lane::id);
-      linkages.push_back({.from = from,
-                          .to = to,
+      const Lane& from = *std::ranges::find(lanes, step.first, &Lane::id);
+      const Lane& to = *std::ranges::find(lanes, step.second, &Lane::id);
+      linkages.push_back({.from = from.id,
+                          .to = to.id,
                           .kind = Linkage::Kind::ego_track,
-                          .turn = turn_between(left, entered),
+                          .turn = turn_between(from, to),
                           .confidence = kConfidence,
-                          .path = path_between(left, entered)});
+                          .path = path_between(from, to)});
     } else if (known->kind == Linkage::Kind::intersection) {
       known->kind = Linkage::Kind::ego_track;
       known->confidence = kConfidence;

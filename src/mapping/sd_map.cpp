@@ -34,7 +34,8 @@ std::pair<int, int> cell_of(const Eigen::Vector2d& point) {
 
 }  // namespace
 
-SdMap::SdMap(std::vector<SdWay> ways, std::vector<SdRestriction> restrictions) : ways_(std::move(ways)) {
+SdMap::SdMap(std::vector<SdWay> ways, const std::vector<SdRestriction>& restrictions)
+    : ways_(std::move(ways)) {
   for (const SdRestriction& restriction : restrictions)
     restrictions_[{restriction.from_way, restriction.via_node}].push_back(restriction);
   for (std::size_t i = 0; i < ways_.size(); ++i) {

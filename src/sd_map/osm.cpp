@@ -120,7 +120,7 @@ SdMap read(const std::string& file, const SdMapConfig& config) {
   std::vector<SdRestriction> restrictions;
   for (const pugi::xml_node& relation : osm.children("relation"))
     if (const auto found = restriction(relation)) restrictions.push_back(*found);
-  return {std::move(ways), std::move(restrictions)};
+  return {std::move(ways), restrictions};
 }
 
 }  // namespace

@@ -147,13 +147,13 @@ TEST(Crossings, ATurnGoesStraightOnFirstWhereTheCornerIsFar) {
 }
 
 /// Streets along the crossroads' arms, meeting at node 5.
-SdMap streets(bool east_is_oneway_in = false, std::vector<SdRestriction> restrictions = {}) {
+SdMap streets(bool east_is_oneway_in = false, const std::vector<SdRestriction>& restrictions = {}) {
   const auto arm = [](std::int64_t id, const Eigen::Vector2d& end) {
     return SdWay{.id = id, .nodes = {id, 5}, .points = {end, {0, 0}}};
   };
   std::vector<SdWay> ways{arm(1, {-60, 0}), arm(2, {0, -60}), arm(3, {60, 0}), arm(4, {0, 60})};
   ways[2].oneway = east_is_oneway_in;
-  return {std::move(ways), std::move(restrictions)};
+  return {std::move(ways), restrictions};
 }
 
 TEST(Crossings, AnSdMapConfirmsThem) {
