@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "laneloom/types.hpp"
 
 namespace laneloom {
 
@@ -9,6 +9,9 @@ inline constexpr double kMaxSteering_rad = 0.6;
 inline constexpr double kMaxSteeringRate_radps = 0.6;
 inline constexpr double kMaxAcceleration_mps2 = 1.5;
 inline constexpr double kMaxBraking_mps2 = 3.0;
+
+/// The plane that a vehicle is steered on, for lines that carry heights along.
+inline Point on_ground(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.0}; }
 
 /// What a planner wants of the vehicle.
 struct Command {

@@ -18,8 +18,6 @@ constexpr double kPutBack_m = 20.0;  // beyond where it left its lane
 constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
 
-Point on_ground(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.0}; }
-
 }  // namespace
 
 ClosedLoop::ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& service)

@@ -15,8 +15,6 @@ constexpr double kBeside_m = 6.0;       // of another lane of the street
 constexpr double kMinAlignment = 0.85;  // cosine: of the same direction
 constexpr int kMaxDepth = 12;
 
-Point on_ground(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.0}; }
-
 double grade_along(const MeasuredPolyline& line, double arc_m) {
   const double from_m = std::max(0.0, arc_m - 2.0), to_m = std::min(line.length(), arc_m + 2.0);
   return (line.at(to_m).z() - line.at(from_m).z()) / std::max(0.1, to_m - from_m);

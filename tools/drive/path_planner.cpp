@@ -27,8 +27,6 @@ constexpr double kBlend_s = 2.0;
 constexpr double kMaxSlope = 0.5;
 constexpr double kMinGap_m = 2.0;
 
-Point on_ground(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.0}; }
-
 /// The previous plan as it is now: shed behind the vehicle, and long enough ahead of it.
 Plan carried_on(const Bicycle& vehicle, Plan plan) {
   if (plan.path.empty()) {

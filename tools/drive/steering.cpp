@@ -15,8 +15,6 @@ constexpr double kMaxLateral_mps2 = 2.0;
 constexpr double kComfortableBraking_mps2 = 1.5;
 constexpr double kStep_m = 1.0;
 
-Point at_height_zero(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0.0}; }
-
 /// Without the steps that a polyline's segments have.
 Eigen::Vector2d direction_at(const MeasuredPolyline& path, double arc_m) {
   const Eigen::Vector2d chord =
@@ -48,7 +46,7 @@ double curvature_at(const MeasuredPolyline& path, double arc_m, double max_reach
 }
 
 Command follow(const MeasuredPolyline& path, const Bicycle& vehicle, double speed_mps) {
-  const Projection foot = path.project(at_height_zero(vehicle.rear_axle));
+  const Projection foot = path.project(on_ground(vehicle.rear_axle));
   const Eigen::Vector2d along = direction_at(path, foot.arc_m);
   const double sine = cross(along, vehicle.direction());
   const double reach_m = std::max(kMinReach_m, kReach_s * vehicle.speed_mps);
