@@ -1,7 +1,8 @@
 #include <GeographicLib/LocalCartesian.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <pugixml.hpp>
