@@ -195,15 +195,19 @@ struct ServiceConfig {
   double degraded_after_s = 0.25;  ///< without detections or poses, it is DEGRADED
   double status_period_s = 1.0;
   std::string log_level = "info";
+  std::string snapshot_file;  ///< what a restarted service goes on with; empty: none
+  double snapshot_period_s = 1.0;
+  double snapshot_max_age_s = 5.0;  ///< an older one is refused
 };
 
 struct DdsConfig {
   int domain = 0;
   std::string vehicle_id = "ego";  ///< names the DDS partition
   std::string map_frame_id = "map";
-  std::string transport = "udp";  ///< udp, or udp+shm: shared memory is for participants of one user
-  std::string profile_file;       ///< Fast DDS XML profile; empty: none
-  std::string profile_name;       ///< of a participant in the file
+  std::string transport = "udp";   ///< udp, or udp+shm: shared memory is for participants of one user
+  std::string profile_file;        ///< Fast DDS XML profile; empty: none
+  std::string profile_name;        ///< of a participant in the file
+  std::string security_directory;  ///< DDS-Security: an identity and what it may do; empty: open to all
 };
 
 /// A standard-definition map that supplies and confirms linkages across intersections (paper, Sec. III-D-4).

@@ -202,22 +202,27 @@ void visit(auto& v, Is<GateConfig> auto& c) {
 }
 
 void visit(auto& v, Is<ServiceConfig> auto& c) {
-  auto& [tick_rate_hz, stale_after_s, degraded_after_s, status_period_s, log_level] = c;
+  auto& [tick_rate_hz, stale_after_s, degraded_after_s, status_period_s, log_level, snapshot_file,
+         snapshot_period_s, snapshot_max_age_s] = c;
   v.number("tick_rate_hz", tick_rate_hz, "Hz", 1, 100);
   v.number("stale_after_s", stale_after_s, "s", 0.05, 60);
   v.number("degraded_after_s", degraded_after_s, "s", 0.05, 60);
   v.number("status_period_s", status_period_s, "s", 0.1, 60);
   v.choice("log_level", log_level, "debug|info|warn|error|off");
+  v.path("snapshot_file", snapshot_file);
+  v.number("snapshot_period_s", snapshot_period_s, "s", 0.1, 60);
+  v.number("snapshot_max_age_s", snapshot_max_age_s, "s", 0.1, 60);
 }
 
 void visit(auto& v, Is<DdsConfig> auto& c) {
-  auto& [domain, vehicle_id, map_frame_id, transport, profile_file, profile_name] = c;
+  auto& [domain, vehicle_id, map_frame_id, transport, profile_file, profile_name, security_directory] = c;
   v.number("domain", domain, "", 0, 232);
   v.identifier("vehicle_id", vehicle_id);
   v.identifier("map_frame_id", map_frame_id);
   v.choice("transport", transport, "udp|udp+shm");
   v.path("profile_file", profile_file);
   v.path("profile_name", profile_name);
+  v.path("security_directory", security_directory);
 }
 
 void visit(auto& v, Is<SdMapConfig> auto& c) {

@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 namespace laneloom::dds {
 namespace {
@@ -70,6 +72,30 @@ void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
   }
 }
 
+/// The file of this name as an URI. Fast DDS itself says nothing of a file that it cannot read.
+std::string readable(const std::filesystem::path& directory, const char* name) {
+  const auto file = std::filesystem::absolute(directory / name);
+  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file)) {
+    throw std::runtime_error("dds.security_directory: cannot read " + file.string());
+  }
+  return "file://" + file.string();
+}
+
+void set_security(const std::string& directory, DomainParticipantQos& qos) {
+  const std::string authentication = "dds.sec.auth.builtin.PKI-DH.";
+  const std::string access = "dds.sec.access.builtin.Access-Permissions.";
+  auto& properties = qos.properties().properties();
+  properties.emplace_back("dds.sec.auth.plugin", "builtin.PKI-DH");
+  properties.emplace_back(authentication + "identity_ca", readable(directory, "identity_ca.cert.pem"));
+  properties.emplace_back(authentication + "identity_certificate", readable(directory, "cert.pem"));
+  properties.emplace_back(authentication + "private_key", readable(directory, "key.pem"));
+  properties.emplace_back("dds.sec.access.plugin", "builtin.Access-Permissions");
+  properties.emplace_back(access + "permissions_ca", readable(directory, "permissions_ca.cert.pem"));
+  properties.emplace_back(access + "governance", readable(directory, "governance.p7s"));
+  properties.emplace_back(access + "permissions", readable(directory, "permissions.p7s"));
+  properties.emplace_back("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
 int depth(TopicKind kind) {
   switch (kind) {
     case TopicKind::detections:
@@ -114,6 +140,7 @@ DomainParticipantQos participant_qos(const DdsConfig& config, const std::string&
   } else {
     load_profile(config, qos);
   }
+  if (!config.security_directory.empty()) set_security(config.security_directory, qos);
   qos.name(name);
   return qos;
 }

@@ -30,11 +30,19 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
 /// A reader that a writer knows of may need so much longer to know the writer; what is sent before is lost.
 inline constexpr std::chrono::seconds kDiscovery{1};
 
-/// --domain and --vehicle-id: which service is meant.
+/// Which service is meant, and how it is reached.
 inline void add_dds(CLI::App& command, DdsConfig& dds) {
   command.add_option("--domain", dds.domain, "DDS domain")->check(CLI::Range(0, 232))->capture_default_str();
   command.add_option("--vehicle-id", dds.vehicle_id, "Names the vehicle's DDS partition")
       ->capture_default_str();
+  command.add_option("--transport", dds.transport, "udp+shm: among processes of one user")
+      ->check(CLI::IsMember({"udp", "udp+shm"}))
+      ->capture_default_str();
+  auto* file = command.add_option("--profile-file", dds.profile_file,
+                                  "Fast DDS XML profiles, for other networks; as dds.profile_file");
+  command.add_option("--profile-name", dds.profile_name, "Of the participant in that file")->needs(file);
+  command.add_option("--security", dds.security_directory,
+                     "Folder with the identity for DDS-Security; as dds.security_directory");
 }
 
 inline const std::map<std::string, Compression> kCompressions{
