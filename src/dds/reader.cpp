@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dds/convert.hpp"
+#include "dds/lost_samples.hpp"
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
 
@@ -55,6 +56,7 @@ class Reader<T>::Impl : public DataReaderListener {
     Sample<MessageOf<T>> sample;
     SampleInfo info;
     while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
+      if (const auto lost = lost_samples_.before(info.sample_identity)) call(callbacks_.lost, lost);
       if (info.valid_data) receive(sample);
     }
   }
@@ -88,6 +90,7 @@ class Reader<T>::Impl : public DataReaderListener {
 
   std::shared_ptr<Participant::Impl> participant_;
   ReaderCallbacks<T> callbacks_;
+  LostSamples lost_samples_;  ///< used by the callback on data alone, which DDS never runs twice at a time
   DataReader* reader_ = nullptr;
   std::atomic<int> matched_ = 0;
 };

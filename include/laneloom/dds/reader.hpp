@@ -17,6 +17,8 @@ struct ReaderCallbacks {
   /// A sample that is no valid T, with a stable name of the reason:
   /// malformed, unknown_enum, not_finite, not_a_rotation, wrong_frame, wrong_size.
   std::function<void(std::string_view reason)> refused;
+  /// So many samples of a writer never arrived, between two that did.
+  std::function<void(std::uint64_t samples)> lost;
   std::function<void(int writers)> matched;            ///< writers that are matched now
   std::function<void(int writers)> alive;              ///< writers that assert their liveliness now
   std::function<void(std::uint64_t)> deadline_missed;  ///< in total
