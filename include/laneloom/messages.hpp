@@ -18,7 +18,8 @@ enum class StateReason : std::uint8_t {
   unsynchronised,
   starting,
   reset,
-  overloaded
+  overloaded,
+  another_service
 };
 
 /// Names one detection frame that went into the map.

@@ -31,6 +31,8 @@ inline const char* name(StateReason reason) {
       return "reset";
     case StateReason::overloaded:
       return "overloaded";
+    case StateReason::another_service:
+      return "another_service";
   }
   return "unknown";
 }

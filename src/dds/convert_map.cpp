@@ -157,7 +157,7 @@ Refusal from_msg(const msg::LaneMap& from, const std::string& /*map_frame_id*/, 
   to.age_s = intake.number(from.age_s());
   to.state = intake.enumeration(from.state(), MapState::stale);
   to.reasons = convert_all<StateReason>(from.reasons(), [&](msg::StateReason reason) {
-    return intake.enumeration(reason, StateReason::overloaded);
+    return intake.enumeration(reason, StateReason::another_service);
   });
   to.map.T_map_body =
       Eigen::Translation3d(intake.point(from.pose().position())) * intake.rotation(from.pose().orientation());

@@ -53,7 +53,7 @@ Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_
   to.session_id = from.header().session_id();
   to.state = intake.enumeration(from.state(), MapState::stale);
   to.reasons = convert_all<StateReason>(from.reasons(), [&](msg::StateReason reason) {
-    return intake.enumeration(reason, StateReason::overloaded);
+    return intake.enumeration(reason, StateReason::another_service);
   });
   to.uptime_s = intake.number(from.uptime_s());
   to.detections_age_s = intake.number(from.detections_age_s());

@@ -10,6 +10,7 @@ dds::ReaderCallbacks<DetectionFrame> take_detections(IngestionQueue& queue,
   dds::ReaderCallbacks<DetectionFrame> callbacks;
   callbacks.sample = [&queue, now_ns](DetectionFrame&& frame) { queue.push(std::move(frame), now_ns()); };
   callbacks.refused = [&queue](std::string_view reason) { queue.refuse_detections(reason); };
+  callbacks.lost = [&queue](std::uint64_t samples) { queue.lose_detections(samples); };
   return callbacks;
 }
 
@@ -18,18 +19,29 @@ dds::ReaderCallbacks<VehiclePose> take_poses(IngestionQueue& queue,
   dds::ReaderCallbacks<VehiclePose> callbacks;
   callbacks.sample = [&queue, now_ns](VehiclePose&& pose) { queue.push(std::move(pose), now_ns()); };
   callbacks.refused = [&queue](std::string_view reason) { queue.refuse_pose(reason); };
+  callbacks.lost = [&queue](std::uint64_t samples) { queue.lose_poses(samples); };
+  return callbacks;
+}
+
+dds::ReaderCallbacks<ServiceStatus> look_for_others(std::uint64_t session_id, IngestionQueue& queue,
+                                                    const std::function<std::int64_t()>& now_ns) {
+  dds::ReaderCallbacks<ServiceStatus> callbacks;
+  callbacks.sample = [session_id, &queue, now_ns](ServiceStatus&& status) {
+    if (status.session_id != session_id) queue.note_other_service(now_ns());
+  };
   return callbacks;
 }
 
 }  // namespace
 
-Endpoints::Endpoints(const DdsConfig& config, IngestionQueue& queue,
+Endpoints::Endpoints(const DdsConfig& config, std::uint64_t session_id, IngestionQueue& queue,
                      const std::function<std::int64_t()>& now_ns)
     : participant_(config, "laneloomd"),
       map(participant_),
       road_markings(participant_),
       status(participant_),
       detections_(participant_, take_detections(queue, now_ns)),
-      poses_(participant_, take_poses(queue, now_ns)) {}
+      poses_(participant_, take_poses(queue, now_ns)),
+      services_(participant_, look_for_others(session_id, queue, now_ns)) {}
 
 }  // namespace laneloom

@@ -15,8 +15,10 @@ namespace laneloom {
 /// Everything of the service that DDS sees, as one object: it can be made anew while the map lives on.
 class Endpoints {
  public:
-  /// What arrives goes into `queue`, which must outlive this. Throws std::runtime_error.
-  Endpoints(const DdsConfig& config, IngestionQueue& queue, const std::function<std::int64_t()>& now_ns);
+  /// What arrives goes into `queue`, which must outlive this; so does that another service than that of
+  /// `session_id` has the same vehicle. Throws std::runtime_error.
+  Endpoints(const DdsConfig& config, std::uint64_t session_id, IngestionQueue& queue,
+            const std::function<std::int64_t()>& now_ns);
 
  private:
   dds::Participant participant_;
@@ -29,6 +31,7 @@ class Endpoints {
  private:
   dds::Reader<DetectionFrame> detections_;
   dds::Reader<VehiclePose> poses_;
+  dds::Reader<ServiceStatus> services_;
 };
 
 }  // namespace laneloom

@@ -25,6 +25,8 @@ Verdict Health::assess(std::int64_t now_ns, const Arrivals& arrivals) const {
   add_if(!arrivals.fused_ns && !reset_ns_, StateReason::starting);
   add_if(!older(reset_ns_, kRecent_s) || (!arrivals.fused_ns && reset_ns_), StateReason::reset);
   add_if(!older(overload_ns_, kRecent_s), StateReason::overloaded);
+  // It may miss one of its times.
+  add_if(!older(arrivals.other_service_ns, 2.5 * config_.status_period_s), StateReason::another_service);
 
   const bool stale = older(arrivals.fused_ns, config_.stale_after_s);
   // Both inputs come, yet nothing is fused: no pose matches.

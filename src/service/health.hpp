@@ -14,7 +14,8 @@ namespace laneloom {
 struct Arrivals {
   std::optional<std::int64_t> detections_ns;
   std::optional<std::int64_t> poses_ns;
-  std::optional<std::int64_t> fused_ns;  ///< arrival of the newest frame in the map
+  std::optional<std::int64_t> fused_ns;          ///< arrival of the newest frame in the map
+  std::optional<std::int64_t> other_service_ns;  ///< a status of another service of this vehicle
 };
 
 struct Verdict {

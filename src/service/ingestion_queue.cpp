@@ -7,8 +7,8 @@
 namespace laneloom {
 
 IngestionQueue::IngestionQueue(const SyncConfig& config) : config_(config) {
-  for (const auto* name :
-       {"detections_received", "poses_received", "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
+  for (const auto* name : {"detections_received", "detections_lost", "poses_received", "poses_lost",
+                           "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
     state_.counters.add(name, 0);
   }
 }
@@ -45,6 +45,21 @@ void IngestionQueue::refuse_pose(std::string_view reason) {
   const std::lock_guard lock(mutex_);
   state_.counters.add("poses_received");
   state_.counters.add("poses_refused_" + std::string(reason));
+}
+
+void IngestionQueue::note_other_service(std::int64_t arrival_ns) {
+  const std::lock_guard lock(mutex_);
+  state_.other_service_ns = arrival_ns;
+}
+
+void IngestionQueue::lose_detections(std::uint64_t count) {
+  const std::lock_guard lock(mutex_);
+  state_.counters.add("detections_lost", count);
+}
+
+void IngestionQueue::lose_poses(std::uint64_t count) {
+  const std::lock_guard lock(mutex_);
+  state_.counters.add("poses_lost", count);
 }
 
 std::vector<Arrival> IngestionQueue::drain() {

@@ -34,6 +34,12 @@ class IngestionQueue {
   void refuse_detections(std::string_view reason);
   void refuse_pose(std::string_view reason);
 
+  /// Another service of the same vehicle was heard.
+  void note_other_service(std::int64_t arrival_ns);
+  /// So many never came.
+  void lose_detections(std::uint64_t count);
+  void lose_poses(std::uint64_t count);
+
   /// All messages, in the order of their arrival.
   std::vector<Arrival> drain();
 
@@ -43,6 +49,7 @@ class IngestionQueue {
     std::size_t queued_frames = 0;
     std::optional<std::int64_t> newest_frame_ns;  ///< arrival
     std::optional<std::int64_t> newest_pose_ns;
+    std::optional<std::int64_t> other_service_ns;
   };
   Snapshot snapshot() const;
 

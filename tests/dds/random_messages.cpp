@@ -139,7 +139,7 @@ msg::LaneMap RandomMessages::lane_map() {
   m.published_ns(stamp());
   m.age_s(number());
   m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_OVERLOADED); }));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_ANOTHER_SERVICE); }));
   m.pose(pose());
   m.fused_frames(several(4, [&] {
     msg::FusedFrame frame;
@@ -181,7 +181,7 @@ msg::ServiceStatus RandomMessages::service_status() {
   msg::ServiceStatus m;
   m.header(header());
   m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_OVERLOADED); }));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_ANOTHER_SERVICE); }));
   m.uptime_s(number());
   m.detections_age_s(number());
   m.poses_age_s(number());

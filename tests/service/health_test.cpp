@@ -63,6 +63,14 @@ TEST_F(HealthTest, AResetIsSaidUntilTheMapLivesAgain) {
   EXPECT_EQ(assess(0, 0, 0), (Verdict{MapState::ok, {}}));
 }
 
+TEST_F(HealthTest, AnotherServiceIsSaidForAsLongAsItIsHeard) {
+  const auto heard_ago = [&](std::int64_t ago_ms) {
+    return health_.assess(now_ns_, {now_ns_, now_ns_, now_ns_, now_ns_ - ago_ms * kMs});
+  };
+  EXPECT_EQ(heard_ago(2500), (Verdict{MapState::degraded, {StateReason::another_service}}));
+  EXPECT_EQ(heard_ago(2501), (Verdict{MapState::ok, {}}));
+}
+
 TEST(Age, IsMinusOneBeforeTheFirst) {
   EXPECT_EQ(age_s(5, std::nullopt), -1.0);
   EXPECT_DOUBLE_EQ(age_s(1'500 * kMs, 1'000 * kMs), 0.5);

@@ -73,6 +73,17 @@ TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
   EXPECT_FALSE(queue.snapshot().newest_frame_ns);
 }
 
+TEST(IngestionQueue, CountsWhatNeverCame) {
+  IngestionQueue queue(capacities(2, 2));
+  queue.lose_detections(3);
+  queue.lose_poses(4);
+  queue.lose_poses(1);
+  const auto counters = queue.snapshot().counters;
+  EXPECT_EQ(counters["detections_lost"], 3U);
+  EXPECT_EQ(counters["poses_lost"], 5U);
+  EXPECT_EQ(counters["detections_received"], 0U);
+}
+
 TEST(IngestionQueue, CountsExactlyWhileThreadsPush) {
   IngestionQueue queue(capacities(16, 16));
   constexpr std::uint64_t kEach = 5000;
