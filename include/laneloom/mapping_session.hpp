@@ -43,6 +43,20 @@ class MappingSession {
   };
   Progress take_progress();
 
+  /// What the map is of: beside the mapper's state, what another session needs to go on with it.
+  struct Checkpoint {
+    std::int64_t frame_stamp_ns = 0;    ///< of the newest frame in the map
+    std::int64_t frame_arrival_ns = 0;  ///< its arrival, by the clock of expire()
+    std::int64_t pose_stamp_ns = 0;     ///< of the newest pose
+    std::uint64_t pose_session_id = 0;
+    Point position = Point::Zero();
+  };
+  /// None while the map is empty.
+  std::optional<Checkpoint> checkpoint() const;
+  /// Goes on from there, with the state that its mapper had. If the first pose can't follow on the one
+  /// before, the map is none of its frame, and is cleared.
+  void resume(const Checkpoint& checkpoint, MapperState state);
+
   const LocalMap& map() const;
   Mapper& mapper();
   /// Frames that wait for their poses.

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "mapping/state.hpp"
 #include "service/gate.hpp"
 #include "service/synchroniser.hpp"
 
@@ -11,6 +12,15 @@ namespace laneloom {
 namespace {
 
 constexpr std::size_t kMaxSources = 8;  // a source is remembered for ever
+
+using Checkpoint = MappingSession::Checkpoint;
+
+bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateConfig& config) {
+  const double step_s = static_cast<double>(pose.stamp_ns - checkpoint.pose_stamp_ns) / 1e9;
+  return pose.session_id == checkpoint.pose_session_id && step_s > 0.0 &&
+         (pose.position - checkpoint.position).norm() <=
+             config.max_pose_jump_m + config.max_speed_mps * step_s;
+}
 
 std::string_view reason(Gate::Verdict verdict) {
   switch (verdict) {
@@ -39,6 +49,7 @@ struct MappingSession::State {
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
   std::string_view check_source(const DetectionFrame& frame);
+  void check_resumed(const VehiclePose& pose);
   void fuse_ready();
   void fuse(const SynchronisedFrame& synchronised);
   void reset();
@@ -53,6 +64,8 @@ struct MappingSession::State {
   Mapper mapper;
   std::optional<std::int64_t> newest_stamp_ns;
   std::optional<std::int64_t> newest_arrival_ns;
+  std::optional<VehiclePose> newest_pose;
+  std::optional<Checkpoint> resumed;  ///< until the first pose
   Counters counters;
   Progress progress;
   StageObserver* observer = nullptr;
@@ -67,10 +80,17 @@ std::string_view MappingSession::State::add(const VehiclePose& pose) {
     reset();
     synchroniser.clear_poses();
   }
+  check_resumed(pose);
   counters.add("poses_accepted");
+  newest_pose = pose;
   synchroniser.add(pose);
   fuse_ready();
   return {};
+}
+
+void MappingSession::State::check_resumed(const VehiclePose& pose) {
+  if (resumed && !follows(pose, *resumed, gate_config)) reset();
+  resumed.reset();
 }
 
 std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t arrival_ns) {
@@ -141,6 +161,22 @@ void MappingSession::expire(std::int64_t now_ns) {
 }
 
 MappingSession::Progress MappingSession::take_progress() { return std::exchange(state_->progress, {}); }
+
+std::optional<MappingSession::Checkpoint> MappingSession::checkpoint() const {
+  const State& state = *state_;
+  if (state.resumed) return state.resumed;
+  if (!state.newest_stamp_ns || !state.newest_pose) return std::nullopt;
+  return Checkpoint{*state.newest_stamp_ns, *state.newest_arrival_ns, state.newest_pose->stamp_ns,
+                    state.newest_pose->session_id, state.newest_pose->position};
+}
+
+void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
+  state_->mapper.load(std::move(state));
+  state_->newest_stamp_ns = checkpoint.frame_stamp_ns;
+  state_->newest_arrival_ns = checkpoint.frame_arrival_ns;
+  state_->resumed = checkpoint;
+}
+
 const LocalMap& MappingSession::map() const { return state_->mapper.map(); }
 Mapper& MappingSession::mapper() { return state_->mapper; }
 std::size_t MappingSession::pending() const { return state_->synchroniser.pending(); }

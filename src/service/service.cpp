@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <exception>
+#include <filesystem>
 #include <random>
 #include <utility>
 #include <variant>
@@ -35,8 +37,9 @@ std::string text(const Verdict& verdict) {
 /// Of counters that should not rise in normal operation.
 bool is_incident(std::string_view counter) {
   return counter.find("_refused_") != std::string_view::npos ||
-         counter.find("_dropped_") != std::string_view::npos || counter == "map_resets" ||
-         counter == "ticks_missed" || counter == "elements_left_out" || counter == "writes_failed";
+         counter.find("_dropped_") != std::string_view::npos || counter.ends_with("_lost") ||
+         counter == "map_resets" || counter == "ticks_missed" || counter == "elements_left_out" ||
+         counter == "writes_failed" || counter == "snapshots_failed";
 }
 
 std::size_t ticks_within(double window_s, double rate_hz) {
@@ -60,13 +63,44 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
       health_(config.service),
       work_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       delay_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
-      next_status_ns_(started_ns_) {
+      next_status_ns_(started_ns_),
+      next_snapshot_ns_(started_ns_) {
+  if (!config.service.snapshot_file.empty()) {
+    resume();
+    snapshots_ = std::make_unique<SnapshotWriter>(config.service.snapshot_file);
+  }
   reopen();
+}
+
+SnapshotStamp Service::snapshot_stamp() const {
+  return {std::string(version()) + " " + config_hash_, now_ns_(), system_now_ns()};
+}
+
+void Service::resume() {
+  const std::string& file = config_.service.snapshot_file;
+  if (!std::filesystem::exists(file)) return;
+  try {
+    auto snapshot =
+        read_snapshot(file, snapshot_stamp(), config_.service.snapshot_max_age_s, config_.mapper.voxel_map);
+    session_.resume(snapshot.checkpoint, std::move(snapshot.state));
+    counters_.add("snapshots_resumed");
+    spdlog::info("event=resumed file={} lanes={}", file, session_.map().lanes.size());
+  } catch (const std::exception& error) {
+    counters_.add("snapshots_refused");
+    spdlog::warn("event=snapshot_refused file={} why=\"{}\"", file, error.what());
+  }
+}
+
+void Service::keep_snapshot(std::int64_t now_ns) {
+  const auto checkpoint = session_.checkpoint();
+  if (!snapshots_ || !checkpoint || now_ns < next_snapshot_ns_) return;
+  next_snapshot_ns_ = now_ns + static_cast<std::int64_t>(config_.service.snapshot_period_s * 1e9);
+  snapshots_->write({snapshot_stamp(), *checkpoint, session_.mapper().state()});
 }
 
 void Service::reopen() {
   endpoints_.reset();  // first, as two services on one vehicle id would be seen otherwise
-  endpoints_ = std::make_unique<Endpoints>(config_.dds, queue_, now_ns_);
+  endpoints_ = std::make_unique<Endpoints>(config_.dds, session_id_, queue_, now_ns_);
 }
 
 void Service::tick(const Tick& tick) {
@@ -74,6 +108,7 @@ void Service::tick(const Tick& tick) {
   auto progress = session_.take_progress();
   const bool changed = judge(tick, progress.resets);
   publish_map(tick.start_ns, std::move(progress));
+  keep_snapshot(tick.start_ns);
   work_.add(milliseconds(now_ns_() - tick.start_ns));
   delay_.add(milliseconds(tick.start_ns - tick.deadline_ns));
   log_tick(tick);
@@ -114,8 +149,9 @@ bool Service::judge(const Tick& tick, std::uint64_t resets) {
   counters_.add("ticks");
   counters_.add("ticks_missed", tick.missed);
 
-  const auto verdict = health_.assess(
-      tick.start_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns, session_.newest_arrival_ns()});
+  const auto verdict =
+      health_.assess(tick.start_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns,
+                                     session_.newest_arrival_ns(), arrived.other_service_ns});
   return std::exchange(verdict_, verdict) != verdict;
 }
 
@@ -178,6 +214,11 @@ Counters Service::all_counters(const IngestionQueue::Snapshot& arrived) const {
   auto all = arrived.counters;
   all.add(session_.counters());
   all.add(counters_);
+  if (snapshots_) {
+    const auto snapshots = snapshots_->totals();
+    all.add("snapshots_written", snapshots.written);
+    all.add("snapshots_failed", snapshots.failed);
+  }
   return all;
 }
 

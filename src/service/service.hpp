@@ -12,6 +12,7 @@
 #include "service/executor.hpp"
 #include "service/health.hpp"
 #include "service/ingestion_queue.hpp"
+#include "service/snapshot_writer.hpp"
 #include "service/time_window.hpp"
 
 namespace laneloom {
@@ -36,6 +37,10 @@ class Service {
   std::string summary() const;
 
  private:
+  /// Goes on with the map of the service before, if it left one.
+  void resume();
+  void keep_snapshot(std::int64_t now_ns);
+  SnapshotStamp snapshot_stamp() const;
   void ingest(std::int64_t now_ns);
   /// Sets the verdict; true when it changed.
   bool judge(const Tick& tick, std::uint64_t resets);
@@ -66,7 +71,9 @@ class Service {
   std::uint64_t map_sequence_ = 0;
   std::uint64_t status_sequence_ = 0;
   std::int64_t next_status_ns_;
-  std::unique_ptr<Endpoints> endpoints_;  ///< last: nothing calls into what is already gone
+  std::int64_t next_snapshot_ns_;
+  std::unique_ptr<SnapshotWriter> snapshots_;  ///< null: none are kept
+  std::unique_ptr<Endpoints> endpoints_;       ///< last: nothing calls into what is already gone
 };
 
 }  // namespace laneloom

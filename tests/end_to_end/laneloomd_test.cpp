@@ -8,31 +8,11 @@
 
 #include "participants.hpp"
 #include "process.hpp"
+#include "service_command.hpp"
 
 // Real processes over real DDS: laneloomd is started as anyone would start it.
 namespace laneloom {
 namespace {
-
-std::vector<std::string> command(const DdsConfig& config, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words{LANELOOMD, "--domain", std::to_string(config.domain), "--vehicle-id",
-                                 config.vehicle_id};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-bool has_lanes(const PublishedMap& map) { return !map.map.lanes.empty(); }
-bool is_good(const PublishedMap& map) { return has_lanes(map) && map.state == MapState::ok; }
-
-/// A file that is removed in the end.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& name, const std::string& text)
-      : path(::testing::TempDir() + std::to_string(getpid()) + name) {
-    std::ofstream(path) << text;
-  }
-  ~TemporaryFile() { unlink(path.c_str()); }
-  const std::string path;
-};
 
 TEST(Laneloomd, DetectionsBecomeLanesAtThePlanner) {
   const auto config = private_config();
@@ -158,10 +138,11 @@ TEST(Laneloomd, DamagedFramesAreRefusedAndCountedWhileGoodOnesGoOn) {
   Listener<PublishedMap> maps(config);
   Listener<ServiceStatus> status(config);
   StraightRoad road(config);
-  road.damage_frames([](DetectionFrame& frame) {
+  road.send_frames([](DetectionFrame frame) {
     auto& point = frame.detections[0].points[0];
     if (frame.sequence % 4 == 1) point.x() = std::numeric_limits<double>::quiet_NaN();
     if (frame.sequence % 4 == 3) frame.detections[0].confidence = 7.0;
+    return std::vector{frame};
   });
   ASSERT_TRUE(maps.wait_for(is_good)) << service.errors();
   road.stop();

@@ -9,6 +9,8 @@ namespace laneloom {
 namespace {
 
 constexpr std::int64_t kStart_ms = 1'700'000'000'000;
+constexpr std::int64_t kStep_ms = 5;
+constexpr std::int64_t kPosePeriod_ms = 10;
 constexpr double kSpeed_mps = 5.0;
 
 }  // namespace
@@ -20,8 +22,11 @@ DdsConfig private_config(const std::string& name) {
   return config;
 }
 
-StraightRoad::StraightRoad(const DdsConfig& config)
-    : participant_(config, "straight road"), detections_(participant_), poses_(participant_) {
+StraightRoad::StraightRoad(const DdsConfig& config, int frame_period_ms)
+    : participant_(config, "straight road"),
+      detections_(participant_),
+      poses_(participant_),
+      frame_period_ms_(frame_period_ms) {
   thread_ = std::jthread([this](const std::stop_token& stopped) { run(stopped); });
 }
 
@@ -32,38 +37,49 @@ void StraightRoad::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void StraightRoad::damage_frames(std::function<void(DetectionFrame&)> damage) {
+void StraightRoad::send_frames(Channel<DetectionFrame> channel) {
   const std::lock_guard lock(mutex_);
-  damage_ = std::move(damage);
+  frame_channel_ = std::move(channel);
+}
+
+void StraightRoad::send_poses(Channel<VehiclePose> channel) {
+  const std::lock_guard lock(mutex_);
+  pose_channel_ = std::move(channel);
 }
 
 void StraightRoad::run(const std::stop_token& stopped) {
   while (!stopped.stop_requested() && (detections_.matched() == 0 || poses_.matched() == 0)) usleep(10'000);
   auto next = std::chrono::steady_clock::now();
-  for (std::int64_t stamp_ms = kStart_ms; !stopped.stop_requested(); stamp_ms += 10) {
-    write(stamp_ms);
-    next += std::chrono::milliseconds(10);
+  for (std::int64_t time_ms = 0; !stopped.stop_requested(); time_ms += kStep_ms) {
+    if (time_ms % kPosePeriod_ms == 0) write_pose(time_ms);
+    if (time_ms > 0 && time_ms % frame_period_ms_ == 0) write_frame(time_ms);
+    next += std::chrono::milliseconds(kStep_ms);
     std::this_thread::sleep_until(next);
   }
 }
 
-void StraightRoad::write(std::int64_t stamp_ms) {
-  const auto step = static_cast<std::uint64_t>(stamp_ms - kStart_ms) / 10;
-  const double x_m = kSpeed_mps * static_cast<double>(step) * 0.01;
-  poses_.write(
-      {.stamp_ns = stamp_ms * 1'000'000, .sequence = step, .session_id = 5, .position = {x_m, 0.0, 0.0}});
-  if (step % 10 != 5) return;
+void StraightRoad::write_pose(std::int64_t time_ms) {
+  const VehiclePose pose{.stamp_ns = (kStart_ms + time_ms) * 1'000'000,
+                         .sequence = static_cast<std::uint64_t>(time_ms / kPosePeriod_ms),
+                         .session_id = 5,
+                         .position = {kSpeed_mps * static_cast<double>(time_ms) / 1e3, 0.0, 0.0}};
+  const std::lock_guard lock(mutex_);
+  for (const auto& sent : pose_channel_ ? pose_channel_(pose) : std::vector{pose}) poses_.write(sent);
+}
+
+void StraightRoad::write_frame(std::int64_t time_ms) {
   // As a network does, it delivers late.
-  DetectionFrame frame{.stamp_ns = (stamp_ms - 40) * 1'000'000, .sequence = step / 10, .session_id = 6};
+  DetectionFrame frame{.stamp_ns = (kStart_ms + time_ms - 40) * 1'000'000,
+                       .sequence = static_cast<std::uint64_t>(time_ms / frame_period_ms_),
+                       .session_id = 6};
   for (const double y_m : {-1.75, 1.75}) {
     frame.detections.push_back(Detection{.confidence = 0.9, .points = {{-5.0, y_m, 0.0}, {25.0, y_m, 0.0}}});
   }
-  {
-    const std::lock_guard lock(mutex_);
-    if (damage_ && frame.sequence % 2 == 1) damage_(frame);
+  const std::lock_guard lock(mutex_);
+  for (const auto& sent : frame_channel_ ? frame_channel_(frame) : std::vector{frame}) {
+    detections_.write(sent);
+    ++frames_written_;
   }
-  detections_.write(frame);
-  ++frames_written_;
 }
 
 }  // namespace laneloom

@@ -17,28 +17,36 @@ namespace laneloom {
 /// A domain and vehicle of this test process alone; `name` tells its vehicles apart.
 DdsConfig private_config(const std::string& name = "car");
 
-/// Perception and odometry of a car on a straight road with one lane: frames at 10 Hz, poses at 100 Hz, in a
-/// thread of its own. Stamps advance by exactly that, however slow the host is.
+/// What is sent instead of a message; empty: it is lost.
+template <class T>
+using Channel = std::function<std::vector<T>(T)>;
+
+/// Perception and odometry of a car on a straight road with one lane: frames at 10 Hz or another rate, poses
+/// at 100 Hz, in a thread of its own. Stamps advance by exactly that, however slow the host is.
 class StraightRoad {
  public:
-  explicit StraightRoad(const DdsConfig& config);
+  explicit StraightRoad(const DdsConfig& config, int frame_period_ms = 100);
   ~StraightRoad();
 
-  /// Every other frame is damaged from now on.
-  void damage_frames(std::function<void(DetectionFrame&)> damage);
+  /// What goes wrong on the way from now on; an empty function: nothing.
+  void send_frames(Channel<DetectionFrame> channel);
+  void send_poses(Channel<VehiclePose> channel);
   std::uint64_t frames_written() const { return frames_written_; }
   /// Ends the thread; nothing is written any more.
   void stop();
 
  private:
   void run(const std::stop_token& stopped);
-  void write(std::int64_t stamp_ms);
+  void write_pose(std::int64_t time_ms);
+  void write_frame(std::int64_t time_ms);
 
   dds::Participant participant_;
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
   std::mutex mutex_;
-  std::function<void(DetectionFrame&)> damage_;
+  Channel<DetectionFrame> frame_channel_;
+  Channel<VehiclePose> pose_channel_;
+  int frame_period_ms_;
   std::atomic<std::uint64_t> frames_written_ = 0;
   std::jthread thread_;
 };

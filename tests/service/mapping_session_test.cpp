@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "mapping/state.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -166,6 +168,37 @@ TEST_F(MappingSessionTest, SourcesAreBounded) {
   }
   EXPECT_EQ(session_.counters()["frames_fused"], 8U);
   EXPECT_EQ(session_.counters()["detections_refused_too_many_sources"], 2U);
+}
+
+TEST_F(MappingSessionTest, AnotherSessionGoesOnWhereOneEnded) {
+  EXPECT_FALSE(session_.checkpoint());
+  drive(10'000, 12'000);
+  ASSERT_TRUE(session_.checkpoint());
+  MappingSession next{Config{}};
+  next.resume(*session_.checkpoint(), session_.mapper().state());
+  EXPECT_EQ(next.map().lanes.size(), 1U);
+  EXPECT_EQ(next.newest_arrival_ns(), session_.newest_arrival_ns());
+  for (std::int64_t t = 13'000; t < 13'200; t += 10) next.add(pose(t));
+  next.add(frame(13'100), 0);
+  EXPECT_EQ(next.counters()["frames_fused"], 1U);
+  EXPECT_EQ(next.counters()["map_resets"], 0U);
+  ASSERT_EQ(next.map().lanes.size(), 1U);
+  EXPECT_EQ(next.map().lanes[0].id, session_.map().lanes[0].id);
+}
+
+TEST_F(MappingSessionTest, AMapOfAnotherPoseFrameIsNotGoneOnWith) {
+  drive(10'000, 12'000);
+  const auto checkpoint = *session_.checkpoint();
+  auto far = pose(12'500);
+  far.position.x() += 200.0;
+  for (const auto& first : {pose(12'500, 2), pose(11'000), far}) {
+    MappingSession next{Config{}};
+    next.resume(checkpoint, session_.mapper().state());
+    next.add(first);
+    EXPECT_TRUE(next.map().lanes.empty());
+    EXPECT_EQ(next.counters()["map_resets"], 1U);
+    EXPECT_FALSE(next.checkpoint());
+  }
 }
 
 // What the service drained in bites, a replay feeds in one go.

@@ -1,0 +1,361 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <deque>
+#include <map>
+#include <memory>
+
+#include "participants.hpp"
+#include "process.hpp"
+#include "service_command.hpp"
+
+// What the planner sees of each fault, and which counter tells; README, "When things go wrong".
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kHour_ns = 3'600'000'000'000;
+
+bool has_reason(const PublishedMap& map, StateReason reason) {
+  return std::find(map.reasons.begin(), map.reasons.end(), reason) != map.reasons.end();
+}
+
+/// A message of which nothing arrives.
+template <class T>
+std::vector<T> lose(const T& /*message*/) {
+  return {};
+}
+
+/// Everything arrives so many messages later.
+template <class T>
+Channel<T> delay(std::size_t messages) {
+  return [messages, waiting = std::deque<T>()](T message) mutable {
+    waiting.push_back(std::move(message));
+    if (waiting.size() <= messages) return std::vector<T>{};
+    std::vector<T> sent{waiting.front()};
+    waiting.pop_front();
+    return sent;
+  };
+}
+
+/// Of each pair the second arrives first.
+template <class T>
+Channel<T> swap_pairs() {
+  return [held = std::vector<T>()](T message) mutable {
+    held.push_back(std::move(message));
+    if (held.size() < 2) return std::vector<T>{};
+    std::swap(held[0], held[1]);
+    return std::exchange(held, {});
+  };
+}
+
+class Faults : public ::testing::Test {
+ protected:
+  /// A road on which all is well.
+  void start(int frame_period_ms = 100, const std::vector<std::string>& more = {}) {
+    maps_.forget();
+    status_.forget();
+    service_ = std::make_unique<Process>(command(config_, more));
+    road_ = std::make_unique<StraightRoad>(config_, frame_period_ms);
+    ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
+    maps_.forget();
+  }
+  /// The planner is told, and the map is still there.
+  bool says(MapState state, StateReason reason) {
+    return maps_.wait_for([&](const PublishedMap& map) {
+      return map.state == state && has_reason(map, reason) && has_lanes(map);
+    });
+  }
+  /// The fault ends.
+  bool recovers() {
+    road_->send_frames({});
+    road_->send_poses({});
+    maps_.forget();
+    return maps_.wait_for(is_good);
+  }
+  std::map<std::string, std::uint64_t> counters() {
+    std::map<std::string, std::uint64_t> result;
+    // Written once a second: of what happened before this call.
+    status_.forget();
+    status_.wait_for([&](const ServiceStatus& status) {
+      result = {status.counters.begin(), status.counters.end()};
+      return true;
+    });
+    return result;
+  }
+  bool counts(const std::string& counter) {
+    return status_.wait_for([&](const ServiceStatus& status) {
+      return std::any_of(status.counters.begin(), status.counters.end(),
+                         [&](const auto& entry) { return entry.first == counter && entry.second > 0; });
+    });
+  }
+  /// `maps` maps in a row are good.
+  bool stays_good(std::size_t maps) {
+    maps_.forget();
+    if (!maps_.wait_for([&, seen = std::size_t{0}](const PublishedMap&) mutable { return ++seen == maps; })) {
+      return false;
+    }
+    const auto samples = maps_.samples();
+    return std::all_of(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(maps), is_good);
+  }
+
+  const DdsConfig config_ = private_config();
+  std::unique_ptr<Process> service_;
+  Listener<PublishedMap> maps_{config_};
+  Listener<ServiceStatus> status_{config_};
+  std::unique_ptr<StraightRoad> road_;
+};
+
+TEST_F(Faults, DetectionsStop) {
+  start();
+  road_->send_frames(lose<DetectionFrame>);
+  EXPECT_TRUE(says(MapState::degraded, StateReason::no_detections));
+  EXPECT_TRUE(says(MapState::stale, StateReason::no_detections));
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, PosesStop) {
+  start();
+  road_->send_poses(lose<VehiclePose>);
+  EXPECT_TRUE(says(MapState::stale, StateReason::no_poses));
+  EXPECT_TRUE(counts("detections_refused_unsynchronised"));
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, PosesThatAreALittleLateAreWaitedFor) {
+  for (const std::size_t late : {5U, 15U}) {
+    if (!service_) start();
+    road_->send_poses(delay<VehiclePose>(late));
+    EXPECT_TRUE(stays_good(20)) << late * 10 << " ms";
+    road_->send_poses({});
+  }
+  EXPECT_EQ(counters()["detections_refused_unsynchronised"], 0U);
+}
+
+TEST_F(Faults, PosesThatAreHalfASecondLateMakeTheMapOld) {
+  start();
+  road_->send_poses(delay<VehiclePose>(50));
+  const auto is_old = [](const PublishedMap& map) {
+    return map.state == MapState::stale && map.age_s > 0.4 && !map.fused_frames.empty() && has_lanes(map);
+  };
+  EXPECT_TRUE(maps_.wait_for(is_old));
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, PosesThatAreLaterStillMatchNothing) {
+  start();
+  road_->send_poses(delay<VehiclePose>(100));
+  EXPECT_TRUE(says(MapState::stale, StateReason::unsynchronised));
+  EXPECT_TRUE(counts("detections_refused_unsynchronised"));
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, MessagesOutOfOrderAreRefused) {
+  start();
+  road_->send_frames(swap_pairs<DetectionFrame>());
+  road_->send_poses(swap_pairs<VehiclePose>());
+  EXPECT_TRUE(counts("detections_refused_late"));
+  EXPECT_TRUE(counts("poses_refused_late"));
+  EXPECT_TRUE(recovers());
+  EXPECT_EQ(counters()["map_resets"], 0U);
+}
+
+TEST_F(Faults, RepeatedMessagesAreRefused) {
+  start();
+  road_->send_frames([](const DetectionFrame& frame) { return std::vector{frame, frame}; });
+  road_->send_poses([](const VehiclePose& pose) { return std::vector{pose, pose}; });
+  EXPECT_TRUE(stays_good(10));
+  EXPECT_TRUE(counts("detections_refused_repeated"));
+  EXPECT_TRUE(counts("poses_refused_repeated"));
+  EXPECT_EQ(counters()["map_resets"], 0U);
+}
+
+TEST_F(Faults, DetectionsAtHalfTheRateAreEnough) {
+  start(200);
+  EXPECT_TRUE(stays_good(20));
+}
+
+TEST_F(Faults, DetectionsAtFourTimesTheRateAreAllFused) {
+  start(25);
+  EXPECT_TRUE(stays_good(20));
+  EXPECT_EQ(counters()["frames_dropped_queue_full"], 0U);
+}
+
+TEST_F(Faults, ABurstOfDetectionsIsFusedWhole) {
+  start();
+  road_->send_frames([held = std::vector<DetectionFrame>()](DetectionFrame frame) mutable {
+    held.push_back(std::move(frame));
+    return held.size() < 10 ? std::vector<DetectionFrame>{} : std::exchange(held, {});
+  });
+  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return map.fused_frames.size() >= 10; }));
+  EXPECT_TRUE(recovers());
+  EXPECT_EQ(counters()["detections_refused_late"], 0U);
+}
+
+TEST_F(Faults, StampsThatJumpResetTheMap) {
+  for (const std::int64_t jump_ns : {kHour_ns, -kHour_ns}) {
+    service_.reset();
+    road_.reset();
+    start();
+    const auto jump = [jump_ns](auto message) {
+      message.stamp_ns += jump_ns;
+      return std::vector{message};
+    };
+    road_->send_frames(jump);
+    road_->send_poses(jump);
+    EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
+    EXPECT_TRUE(maps_.wait_for(is_good));
+    EXPECT_TRUE(counts("map_resets"));
+    EXPECT_TRUE(counts("poses_refused_outlier"));
+  }
+}
+
+TEST_F(Faults, APoseThatJumpsAndStaysResetsTheMap) {
+  start();
+  road_->send_poses([](VehiclePose pose) {
+    pose.position.x() += 100.0;
+    return std::vector{pose};
+  });
+  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
+  EXPECT_TRUE(maps_.wait_for(is_good));
+  EXPECT_EQ(counters()["poses_refused_outlier"], 2U);
+}
+
+TEST_F(Faults, SinglePosesThatJumpAreRefused) {
+  start();
+  road_->send_poses([](VehiclePose pose) {
+    if (pose.sequence % 7 == 0) pose.position.x() += 100.0;
+    return std::vector{pose};
+  });
+  EXPECT_TRUE(counts("poses_refused_outlier"));
+  EXPECT_TRUE(stays_good(10));
+  EXPECT_EQ(counters()["map_resets"], 0U);
+}
+
+TEST_F(Faults, ARestartedPerceptionBeginsANewMap) {
+  start();
+  road_.reset();
+  EXPECT_TRUE(says(MapState::stale, StateReason::no_detections));
+  road_ = std::make_unique<StraightRoad>(config_);
+  road_->send_frames([](DetectionFrame frame) {
+    frame.session_id = 7;
+    return std::vector{frame};
+  });
+  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
+  EXPECT_TRUE(maps_.wait_for(is_good));
+}
+
+TEST_F(Faults, AStoppedPlannerHoldsUpNobody) {
+  start();
+  const Process planner({LANELOOM, "pnc", "--domain", std::to_string(config_.domain), "--vehicle-id",
+                         config_.vehicle_id, "--record", "/dev/null"});
+  Listener<PublishedMap> other(config_);
+  ASSERT_TRUE(other.wait_for(is_good));
+  planner.signal(SIGSTOP);
+  ASSERT_TRUE(stays_good(50));
+  const auto samples = maps_.samples();
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].sequence, samples[0].sequence + i) << "a map was held up or lost";
+  }
+  EXPECT_EQ(counters()["writes_failed"], 0U);
+}
+
+TEST_F(Faults, AServiceThatHangsIsNoticed) {
+  start();
+  service_->signal(SIGSTOP);
+  EXPECT_TRUE(maps_.wait_for_alive(0));
+  service_->signal(SIGCONT);
+  EXPECT_TRUE(maps_.wait_for_alive(1));
+  EXPECT_TRUE(counts("ticks_missed"));
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, TwoServicesOfOneVehicleSaySo) {
+  start();
+  auto second = std::make_unique<Process>(command(config_));
+  std::map<std::uint64_t, bool> warned;
+  EXPECT_TRUE(maps_.wait_for([&](const PublishedMap& map) {
+    if (has_reason(map, StateReason::another_service)) warned[map.session_id] = true;
+    return warned.size() == 2;
+  }));
+  second.reset();
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, KilledWithSharedMemoryItStartsAgain) {
+  const TemporaryFile file("shm.yaml", "dds:\n  transport: udp+shm\n");
+  auto with_memory = config_;
+  with_memory.transport = "udp+shm";
+  Listener<PublishedMap> maps(with_memory);
+  const StraightRoad road(with_memory);
+  for (int i = 0; i < 4; ++i) {
+    Process service(command(config_, {"--config", file.path}));
+    maps.forget();
+    ASSERT_TRUE(maps.wait_for(is_good)) << service.errors();
+    service.signal(SIGKILL);
+    ASSERT_EQ(service.wait(), -SIGKILL);
+  }
+}
+
+class WarmRestart : public Faults {
+ protected:
+  WarmRestart()
+      : snapshot_("snapshot", ""),
+        file_("warm.yaml", "service:\n  snapshot_file: " + snapshot_.path + "\n  snapshot_period_s: 0.1\n") {
+    unlink(snapshot_.path.c_str());
+  }
+  /// Kills the service, which had lanes, and starts it again.
+  void restart(const std::vector<std::string>& more) {
+    ASSERT_TRUE(counts("snapshots_written")) << service_->errors();
+    ASSERT_TRUE(maps_.wait_for(is_good));
+    service_->signal(SIGKILL);
+    ASSERT_EQ(service_->wait(), -SIGKILL);
+    ASSERT_TRUE(maps_.wait_for_alive(0));
+    before_ = maps_.samples().back();
+    maps_.forget();
+    status_.forget();
+    service_ = std::make_unique<Process>(command(config_, more));
+    ASSERT_TRUE(maps_.wait_for([](const PublishedMap&) { return true; })) << service_->errors();
+    first_ = maps_.samples().front();
+  }
+
+  const TemporaryFile snapshot_, file_;
+  PublishedMap before_, first_;  ///< the last map before the restart, the first one after it
+};
+
+TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
+  start(100, {"--config", file_.path});
+  restart({"--config", file_.path});
+  ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
+  EXPECT_NE(first_.session_id, before_.session_id);
+  EXPECT_EQ(first_.map.lanes[0].id, before_.map.lanes[0].id);
+  EXPECT_GT(first_.age_s, 0.0);
+  ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
+  EXPECT_EQ(maps_.samples().back().map.lanes[0].id, before_.map.lanes[0].id);
+  EXPECT_EQ(counters()["map_resets"], 0U);
+}
+
+TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
+  start(100, {"--config", file_.path});
+  restart({"--config", file_.path, "--preset", "av2"});
+  EXPECT_TRUE(first_.map.lanes.empty());
+  EXPECT_NE(service_->errors().find("snapshot_refused"), std::string::npos) << service_->errors();
+  EXPECT_TRUE(counts("snapshots_refused"));
+  EXPECT_TRUE(maps_.wait_for(is_good));
+}
+
+TEST_F(WarmRestart, ForgetsAMapOfAnotherPoseFrame) {
+  start(100, {"--config", file_.path});
+  road_->send_poses(lose<VehiclePose>);
+  restart({"--config", file_.path});
+  ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
+  road_->send_poses([](VehiclePose pose) {
+    pose.session_id = 99;
+    return std::vector{pose};
+  });
+  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
+  EXPECT_TRUE(maps_.wait_for(is_good));
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/messages.hpp"
+
+namespace laneloom {
+
+/// laneloomd for the vehicle of `config`.
+inline std::vector<std::string> command(const DdsConfig& config, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words{LANELOOMD, "--domain", std::to_string(config.domain), "--vehicle-id",
+                                 config.vehicle_id};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+inline bool has_lanes(const PublishedMap& map) { return !map.map.lanes.empty(); }
+inline bool is_good(const PublishedMap& map) { return has_lanes(map) && map.state == MapState::ok; }
+
+/// A file that is removed in the end.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& name, const std::string& text)
+      : path(::testing::TempDir() + std::to_string(getpid()) + name) {
+    std::ofstream(path) << text;
+  }
+  ~TemporaryFile() { unlink(path.c_str()); }
+  const std::string path;
+};
+
+}  // namespace laneloom
