@@ -58,6 +58,15 @@ struct TimeSummary {
   double max_ms = 0.0;
 };
 
+/// What came of one session of a source of detections.
+struct SourceStatus {
+  std::string source;
+  std::uint64_t session_id = 0;
+  std::uint64_t first_sequence = 0;
+  std::uint64_t last_sequence = 0;  ///< the largest
+  std::uint64_t frames = 0;
+};
+
 /// Topic status.
 struct ServiceStatus {
   std::uint64_t sequence = 0;
@@ -72,6 +81,7 @@ struct ServiceStatus {
   TimeSummary tick_delay;
   std::uint32_t pending_frames = 0;
   std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< name, count
+  std::vector<SourceStatus> sources;
   std::string version;
   std::string config_hash;
 };

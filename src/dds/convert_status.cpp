@@ -20,6 +20,21 @@ TimeSummary from_msg(const msg::TimeSummary& from, Intake& intake) {
           intake.number(from.max_ms())};
 }
 
+msg::SourceStatus to_msg(const SourceStatus& from) {
+  msg::SourceStatus to;
+  to.source(from.source.c_str());
+  to.session_id(from.session_id);
+  to.first_sequence(from.first_sequence);
+  to.last_sequence(from.last_sequence);
+  to.frames(from.frames);
+  return to;
+}
+
+SourceStatus from_msg(const msg::SourceStatus& from) {
+  return {from.source().to_string(), from.session_id(), from.first_sequence(), from.last_sequence(),
+          from.frames()};
+}
+
 }  // namespace
 
 std::size_t to_msg(const ServiceStatus& from, const std::string& /*map_frame_id*/, msg::ServiceStatus& to) {
@@ -41,9 +56,14 @@ std::size_t to_msg(const ServiceStatus& from, const std::string& /*map_frame_id*
     counter.value(value);
     to.counters().push_back(counter);
   }
+  const std::size_t sources = std::min<std::size_t>(from.sources.size(), msg::MAX_SOURCES);
+  to.sources().clear();
+  for (std::size_t i = from.sources.size() - sources; i < from.sources.size(); ++i) {
+    to.sources().push_back(to_msg(from.sources[i]));
+  }
   to.version(from.version.c_str());
   to.config_hash(from.config_hash.c_str());
-  return from.counters.size() - to.counters().size();
+  return from.counters.size() - to.counters().size() + from.sources.size() - sources;
 }
 
 Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_id*/, ServiceStatus& to) {
@@ -64,6 +84,7 @@ Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_
   to.counters.clear();
   for (const auto& counter : from.counters())
     to.counters.emplace_back(counter.name().to_string(), counter.value());
+  to.sources = convert_all<SourceStatus>(from.sources(), [](const auto& source) { return from_msg(source); });
   to.version = from.version().to_string();
   to.config_hash = from.config_hash().to_string();
   return intake.refusal();

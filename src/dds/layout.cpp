@@ -75,6 +75,11 @@ void counter(CdrScanner& cdr) {
   cdr.numbers(kLongLong);
 }
 
+void source(CdrScanner& cdr) {
+  cdr.text(kTextBound);
+  cdr.numbers(kLongLong, 4);
+}
+
 }  // namespace
 
 void scan(CdrScanner& cdr, const msg::Detections* /*type*/) {
@@ -119,6 +124,7 @@ void scan(CdrScanner& cdr, const msg::ServiceStatus* /*type*/) {
   cdr.numbers(kDouble, 11);
   cdr.numbers(kLong);
   cdr.sequence(msg::MAX_COUNTERS, counter);
+  cdr.sequence(msg::MAX_SOURCES, source);
   cdr.text(kTextBound);
   cdr.text(kTextBound);
 }

@@ -5,6 +5,11 @@
 #include <string>
 
 namespace laneloom {
+namespace {
+
+constexpr std::size_t kMaxSources = 16;
+
+}  // namespace
 
 IngestionQueue::IngestionQueue(const SyncConfig& config) : config_(config) {
   for (const auto* name : {"detections_received", "detections_lost", "poses_received", "poses_lost",
@@ -17,6 +22,7 @@ void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
   state_.counters.add("detections_received");
   state_.newest_frame_ns = arrival_ns;
+  note_source(frame);
   push(frames_, config_.queue_capacity, {std::move(frame), arrival_ns}, "frames_dropped_queue_full");
 }
 
@@ -33,6 +39,20 @@ void IngestionQueue::push(Queue& queue, int capacity, Arrival&& arrival, std::st
     state_.counters.add(dropped);
   }
   queue.push_back({next_order_++, std::move(arrival)});
+}
+
+void IngestionQueue::note_source(const DetectionFrame& frame) {
+  auto& sources = state_.sources;
+  const auto known = std::find_if(sources.begin(), sources.end(), [&](const SourceStatus& source) {
+    return source.session_id == frame.session_id && source.source == frame.source;
+  });
+  if (known == sources.end()) {
+    if (sources.size() == kMaxSources) sources.erase(sources.begin());
+    sources.push_back({frame.source, frame.session_id, frame.sequence, frame.sequence, 1});
+  } else {
+    known->last_sequence = std::max(known->last_sequence, frame.sequence);
+    ++known->frames;
+  }
 }
 
 void IngestionQueue::refuse_detections(std::string_view reason) {

@@ -12,6 +12,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/counters.hpp"
+#include "laneloom/messages.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom {
@@ -50,6 +51,7 @@ class IngestionQueue {
     std::optional<std::int64_t> newest_frame_ns;  ///< arrival
     std::optional<std::int64_t> newest_pose_ns;
     std::optional<std::int64_t> other_service_ns;
+    std::vector<SourceStatus> sources;  ///< the newest sessions, in the order of their beginning
   };
   Snapshot snapshot() const;
 
@@ -61,6 +63,7 @@ class IngestionQueue {
   using Queue = std::deque<Numbered>;
 
   void push(Queue& queue, int capacity, Arrival&& arrival, std::string_view dropped);
+  void note_source(const DetectionFrame& frame);
 
   SyncConfig config_;
   mutable std::mutex mutex_;

@@ -205,6 +205,7 @@ ServiceStatus Service::status(std::int64_t now_ns) const {
   status.pending_frames = static_cast<std::uint32_t>(session_.pending() + arrived.queued_frames);
   const auto counters = all_counters(arrived);
   status.counters.assign(counters.values().begin(), counters.values().end());
+  status.sources = arrived.sources;
   status.version = version();
   status.config_hash = config_hash_;
   return status;

@@ -90,8 +90,11 @@ TEST(Bounds, MessagesOfWhatIsTooLargeAreValid) {
 
   ServiceStatus status;
   status.counters.resize(msg::MAX_COUNTERS + 1);
+  status.sources.resize(msg::MAX_SOURCES + 2);
+  status.sources.back().session_id = 9;
   msg::ServiceStatus status_message;
-  EXPECT_EQ(to_msg(status, "map", status_message), 1U);
+  EXPECT_EQ(to_msg(status, "map", status_message), 1U + 2U);
+  EXPECT_EQ(status_message.sources().back().session_id(), 9U) << "the newest are left out";
 }
 
 }  // namespace

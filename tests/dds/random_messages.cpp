@@ -194,6 +194,15 @@ msg::ServiceStatus RandomMessages::service_status() {
     counter.value(id());
     return counter;
   }));
+  m.sources(several(5, [&] {
+    msg::SourceStatus source;
+    source.source(text("camera").c_str());
+    source.session_id(id());
+    source.first_sequence(id());
+    source.last_sequence(id());
+    source.frames(id());
+    return source;
+  }));
   m.version(text("version").c_str());
   m.config_hash(text("hash").c_str());
   return m;

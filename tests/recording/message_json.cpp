@@ -154,6 +154,7 @@ json json_of(const msg::ServiceStatus& m) {
           {"tick_delay", of(m.tick_delay())},
           {"pending_frames", m.pending_frames()},
           {"counters", of(m.counters())},
+          {"sources", of(m.sources())},
           {"version", m.version().to_string()},
           {"config_hash", m.config_hash().to_string()}};
 }

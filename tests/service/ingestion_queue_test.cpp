@@ -73,6 +73,30 @@ TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
   EXPECT_FALSE(queue.snapshot().newest_frame_ns);
 }
 
+TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
+  IngestionQueue queue(capacities(2, 2));
+  const auto push = [&](const std::string& source, std::uint64_t session, std::uint64_t sequence) {
+    auto of_source = frame(sequence);
+    of_source.source = source;
+    of_source.session_id = session;
+    queue.push(std::move(of_source), 0);
+  };
+  for (const std::uint64_t sequence : {5U, 6U, 9U, 8U}) push("front", 1, sequence);
+  push("front", 2, 0);
+  push("rear", 1, 3);
+  const auto sources = queue.snapshot().sources;
+  ASSERT_EQ(sources.size(), 3U);
+  EXPECT_EQ(sources[0].first_sequence, 5U);
+  EXPECT_EQ(sources[0].last_sequence, 9U);
+  EXPECT_EQ(sources[0].frames, 4U);
+  EXPECT_EQ(sources[1].session_id, 2U);
+  EXPECT_EQ(sources[2].source, "rear");
+
+  for (std::uint64_t session = 10; session < 30; ++session) push("front", session, 0);
+  ASSERT_EQ(queue.snapshot().sources.size(), 16U);
+  EXPECT_EQ(queue.snapshot().sources.front().session_id, 14U);
+}
+
 TEST(IngestionQueue, CountsWhatNeverCame) {
   IngestionQueue queue(capacities(2, 2));
   queue.lose_detections(3);
