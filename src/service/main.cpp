@@ -1,4 +1,3 @@
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sysexits.h>
 #include <systemd/sd-daemon.h>
@@ -12,6 +11,7 @@
 #include "laneloom/config_file.hpp"
 #include "laneloom/sd_map.hpp"
 #include "service/executor.hpp"
+#include "service/log.hpp"
 #include "service/service.hpp"
 #include "service/signals.hpp"
 
@@ -34,13 +34,6 @@ Config configure(const Options& options) {
   if (options.domain) config.dds.domain = *options.domain;
   validate(config);
   return config;
-}
-
-void set_up_log(const ServiceConfig& config) {
-  auto log = std::make_shared<spdlog::logger>("laneloomd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  log->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
-  log->set_level(spdlog::level::from_str(config.log_level));
-  spdlog::set_default_logger(std::move(log));
 }
 
 /// After a change of the network, interfaces that were down are only seen by new endpoints.
@@ -89,7 +82,7 @@ int start(const Options& options) {
     std::printf("configuration %s is valid\n", config_hash(config).c_str());
     return EX_OK;
   }
-  set_up_log(config.service);
+  set_up_log(config.service.log_level);
   run(config);
   return EX_OK;
 }
