@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "laneloom/config.hpp"
 
@@ -35,6 +36,9 @@ void apply_preset(Config& config, std::string_view preset);
 
 /// The whole configuration as a file that load_config() reads back unchanged, with units and ranges.
 std::string dump(const Config& config);
+
+/// The keys ("section.key") whose values differ, in the order of the file.
+std::vector<std::string> changed_keys(const Config& before, const Config& after);
 
 /// Names the values of a configuration: 16 hexadecimal digits, the same on every host.
 std::string config_hash(const Config& config);

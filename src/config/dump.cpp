@@ -1,6 +1,9 @@
+#include <cstddef>
 #include <cstdint>
 #include <iomanip>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "laneloom/config_file.hpp"
 #include "schema.hpp"
@@ -74,6 +77,37 @@ class Hash {
   void mix(unsigned char byte) { value = (value ^ byte) * 1099511628211U; }
 };
 
+/// Every key with its value.
+class List {
+ public:
+  template <class C>
+  void section(const char* key, const C& child) {
+    const auto outer = std::exchange(prefix_, prefix_ + key + ".");
+    visit(*this, child);
+    prefix_ = outer;
+  }
+  void number(const char* key, double number, const char* /*unit*/, double /*min*/, double /*max*/) {
+    add(key, to_text(number));
+  }
+  void flag(const char* key, bool flag) { add(key, flag ? "true" : "false"); }
+  void choice(const char* key, const std::string& content, const char* /*choices*/) { add(key, content); }
+  void identifier(const char* key, const std::string& content) { add(key, content); }
+  void path(const char* key, const std::string& content) { add(key, content); }
+
+  std::vector<std::pair<std::string, std::string>> values;
+
+ private:
+  void add(const char* key, std::string value) { values.emplace_back(prefix_ + key, std::move(value)); }
+
+  std::string prefix_;
+};
+
+List list(const Config& config) {
+  List result;
+  visit(result, config);
+  return result;
+}
+
 }  // namespace
 }  // namespace config
 
@@ -81,6 +115,16 @@ std::string dump(const Config& config) {
   config::Dump result;
   config::visit(result, config);
   return result.text;
+}
+
+std::vector<std::string> changed_keys(const Config& before, const Config& after) {
+  const auto old_values = config::list(before).values;
+  auto new_values = config::list(after).values;
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < new_values.size(); ++i) {
+    if (new_values[i] != old_values[i]) result.push_back(std::move(new_values[i].first));
+  }
+  return result;
 }
 
 std::string config_hash(const Config& config) {

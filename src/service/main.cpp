@@ -7,6 +7,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "laneloom/config_file.hpp"
 #include "laneloom/sd_map.hpp"
@@ -23,6 +24,7 @@ struct Options {
   std::string preset;
   std::optional<std::string> vehicle_id;
   std::optional<int> domain;
+  std::optional<std::string> snapshot_file;
   bool check_only = false;
 };
 
@@ -32,19 +34,37 @@ Config configure(const Options& options) {
   if (!options.preset.empty()) apply_preset(config, options.preset);
   if (options.vehicle_id) config.dds.vehicle_id = *options.vehicle_id;
   if (options.domain) config.dds.domain = *options.domain;
+  if (options.snapshot_file) config.service.snapshot_file = *options.snapshot_file;
   validate(config);
   return config;
 }
 
-/// After a change of the network, interfaces that were down are only seen by new endpoints.
-void reload(Service& service) {
+/// Takes over what can change while it runs, and says what can't.
+void reconfigure(Config& running, const Options& options) try {
+  const auto wanted = configure(options);
+  for (const auto& key : changed_keys(running, wanted)) {
+    if (key == "service.log_level") {
+      running.service.log_level = wanted.service.log_level;
+      set_log_level(running.service.log_level);
+      spdlog::info("event=changed key={} value={}", key, running.service.log_level);
+    } else {
+      spdlog::warn("event=needs_restart key={}", key);
+    }
+  }
+} catch (const ConfigError& error) {
+  spdlog::error("event=configuration_refused reason=\"{}\"", error.what());
+}
+
+void reload(Service& service, Config& running, const Options& options) {
   sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(steady_now_ns() / 1000));
+  reconfigure(running, options);
+  // After a change of the network, interfaces that were down are only seen by new endpoints.
   service.reopen();
   sd_notify(0, "READY=1");
   spdlog::info("event=reopened");
 }
 
-void run(const Config& config) {
+void run(Config config, const Options& options) {
   const Signals signals;
   Service service(config, steady_now_ns);
   spdlog::info("event=started version={} config={} domain={} vehicle={}", version(), config_hash(config),
@@ -59,7 +79,7 @@ void run(const Config& config) {
   };
   const auto sleep_until = [&](std::int64_t deadline_ns) {
     auto wake = signals.sleep_until(deadline_ns);
-    for (; wake == Wake::reload; wake = signals.sleep_until(deadline_ns)) reload(service);
+    for (; wake == Wake::reload; wake = signals.sleep_until(deadline_ns)) reload(service, config, options);
     return wake == Wake::deadline;
   };
   const auto period_ns = static_cast<std::int64_t>(1e9 / config.service.tick_rate_hz);
@@ -83,7 +103,7 @@ int start(const Options& options) {
     return EX_OK;
   }
   set_up_log(config.service.log_level);
-  run(config);
+  run(std::move(config), options);
   return EX_OK;
 }
 
@@ -99,6 +119,8 @@ int main(int argc, char** argv) try {
   app.add_option("--vehicle-id", options.vehicle_id,
                  "Vehicle (DDS partition), instead of the configured one");
   app.add_option("--domain", options.domain, "DDS domain, instead of the configured one");
+  app.add_option("--snapshot", options.snapshot_file,
+                 "File that keeps the map for a restart, instead of the configured one");
   app.add_flag("--check-config", options.check_only, "Check the configuration and exit");
   app.set_version_flag("--version", laneloom::version());
   CLI11_PARSE(app, argc, argv);

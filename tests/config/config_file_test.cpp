@@ -184,6 +184,21 @@ TEST(ConfigHash, NamesTheValues) {
   EXPECT_NE(config_hash(config), hash);
 }
 
+TEST(ChangedKeys, NamesEachKeyWhoseValueDiffers) {
+  EXPECT_THAT(changed_keys(Config{}, Config{}), ::testing::IsEmpty());
+  Config config;
+  config.mapper.preprocess.reject_zigzag = !config.mapper.preprocess.reject_zigzag;
+  config.mapper.stopline.max_gap_m += 1e-9;
+  config.sync.queue_capacity += 1;
+  config.service.log_level = "off";
+  config.dds.vehicle_id = "car";
+  config.dds.profile_file = "profile.xml";
+  EXPECT_THAT(changed_keys(Config{}, config),
+              ::testing::ElementsAre("mapper.preprocess.reject_zigzag", "mapper.stopline.max_gap_m",
+                                     "sync.queue_capacity", "service.log_level", "dds.vehicle_id",
+                                     "dds.profile_file"));
+}
+
 /// The file without its comment lines.
 std::string settings_of(const std::filesystem::path& path) {
   std::ifstream file(path);

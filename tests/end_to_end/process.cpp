@@ -62,4 +62,12 @@ std::string Process::errors() const {
   return text.str();
 }
 
+bool Process::wait_for_error(const std::string& text) const {
+  for (int i = 0; i < 3000; ++i) {
+    if (errors().find(text) != std::string::npos) return true;
+    usleep(10'000);
+  }
+  return false;
+}
+
 }  // namespace laneloom

@@ -22,6 +22,8 @@ class Process {
   std::optional<int> wait();
   /// What it wrote on standard error so far.
   std::string errors() const;
+  /// Waits (for half a minute at most) until it wrote `text` there.
+  bool wait_for_error(const std::string& text) const;
 
  private:
   pid_t pid_ = -1;

@@ -28,9 +28,10 @@ class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& text)
       : path(::testing::TempDir() + std::to_string(getpid()) + name) {
-    std::ofstream(path) << text;
+    write(text);
   }
   ~TemporaryFile() { unlink(path.c_str()); }
+  void write(const std::string& text) const { std::ofstream(path) << text; }
   const std::string path;
 };
 

@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "participants.hpp"
+#include "process.hpp"
+#include "service_command.hpp"
+
+// SIGHUP: what of the configuration changes while laneloomd runs.
+namespace laneloom {
+namespace {
+
+constexpr const char* kBefore = "service:\n  log_level: info\nmapper:\n  lane:\n    min_width_m: 2.5\n";
+
+bool is_published(const PublishedMap&) { return true; }
+
+TEST(Reload, TakesOverTheLogLevelAndNamesWhatNeedsARestart) {
+  const TemporaryFile file("reload.yaml", kBefore);
+  const auto config = private_config();
+  const Process service(command(config, {"--config", file.path}));
+  Listener<PublishedMap> maps(config);
+  ASSERT_TRUE(maps.wait_for(is_published)) << service.errors();
+  const auto session = maps.samples().back().session_id;
+  EXPECT_EQ(service.errors().find("event=tick"), std::string::npos) << "a tick is logged at level debug";
+
+  file.write("service:\n  log_level: debug\nmapper:\n  lane:\n    min_width_m: 2.25\n");
+  service.signal(SIGHUP);
+  ASSERT_TRUE(service.wait_for_error("event=reopened")) << service.errors();
+  EXPECT_TRUE(service.wait_for_error("event=tick"));
+  const auto log = service.errors();
+  EXPECT_NE(log.find("event=changed key=service.log_level value=debug\n"), std::string::npos) << log;
+  EXPECT_NE(log.find("event=needs_restart key=mapper.lane.min_width_m\n"), std::string::npos) << log;
+  EXPECT_EQ(log.find("needs_restart key=service"), std::string::npos) << log;
+  maps.forget();
+  ASSERT_TRUE(maps.wait_for(is_published));
+  EXPECT_EQ(maps.samples().back().session_id, session);
+}
+
+TEST(Reload, AnInvalidFileIsRefusedAndTheServiceGoesOn) {
+  const TemporaryFile file("refused.yaml", kBefore);
+  const auto config = private_config();
+  const Process service(command(config, {"--config", file.path}));
+  Listener<PublishedMap> maps(config);
+  ASSERT_TRUE(maps.wait_for(is_published)) << service.errors();
+
+  file.write("service:\n  log_level: debug\n  tick_rate_hz: 1000\n");
+  service.signal(SIGHUP);
+  ASSERT_TRUE(service.wait_for_error("event=reopened")) << service.errors();
+  maps.forget();
+  ASSERT_TRUE(maps.wait_for(is_published));
+  const auto log = service.errors();
+  EXPECT_NE(log.find("error event=configuration_refused reason=\"" + file.path +
+                     ":3: service.tick_rate_hz: 1000 is not in 1 .. 100\""),
+            std::string::npos)
+      << log;
+  EXPECT_EQ(log.find("event=changed"), std::string::npos) << log;
+  EXPECT_EQ(log.find("event=tick"), std::string::npos) << log;
+
+  // A mended file is taken.
+  file.write("service:\n  log_level: debug\n");
+  service.signal(SIGHUP);
+  EXPECT_TRUE(service.wait_for_error("event=tick")) << service.errors();
+}
+
+TEST(Log, GoesToStandardErrorWhereThatIsNotTheJournal) {
+  setenv("JOURNAL_STREAM", "8:1", 1);  // inherited from a service, but redirected
+  const Process service(command(private_config()));
+  unsetenv("JOURNAL_STREAM");
+  EXPECT_TRUE(service.wait_for_error("info event=started")) << service.errors();
+}
+
+}  // namespace
+}  // namespace laneloom
