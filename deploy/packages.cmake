@@ -1,0 +1,34 @@
+# Three Debian packages, one per component: laneloomd, laneloom, laneloom-dev.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "laneloom maintainers <maintainers@laneloom.invalid>")
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL service tools development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+set(CPACK_DEBIAN_SERVICE_PACKAGE_NAME laneloomd)
+set(CPACK_DEBIAN_SERVICE_PACKAGE_SECTION misc)
+set(CPACK_COMPONENT_SERVICE_DESCRIPTION "The service laneloomd, run by systemd.")
+set(CPACK_DEBIAN_SERVICE_PACKAGE_DEPENDS "init-system-helpers, systemd")
+set(CPACK_DEBIAN_SERVICE_PACKAGE_RECOMMENDS laneloom)
+set(control ${CMAKE_CURRENT_SOURCE_DIR}/debian)
+set(CPACK_DEBIAN_SERVICE_PACKAGE_CONTROL_EXTRA
+    ${control}/conffiles ${control}/postinst ${control}/prerm ${control}/postrm)
+set(CPACK_DEBIAN_SERVICE_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME laneloom)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION misc)
+set(CPACK_COMPONENT_TOOLS_DESCRIPTION "The command that publishes, follows, records, replays, draws and rates.")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS laneloomd)
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME laneloom-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "IDL of the topics, and readers and writers of them for C++.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfastcdr-dev, libfastrtps-dev")
+
+include(CPack)
