@@ -4,12 +4,12 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <utility>
 
 #include "dds/convert.hpp"
-#include "dds/lost_samples.hpp"
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
 
@@ -56,7 +56,7 @@ class Reader<T>::Impl : public DataReaderListener {
     Sample<MessageOf<T>> sample;
     SampleInfo info;
     while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK) {
-      if (const auto lost = lost_samples_.before(info.sample_identity)) call(callbacks_.lost, lost);
+      number(info.sample_identity);
       if (info.valid_data) receive(sample);
     }
   }
@@ -73,6 +73,13 @@ class Reader<T>::Impl : public DataReaderListener {
   }
 
  private:
+  void number(const eprosima::fastrtps::rtps::SampleIdentity& sample) noexcept {
+    const auto& guid = sample.writer_guid();
+    WriterId writer;
+    const auto entity = std::copy_n(guid.guidPrefix.value, guid.guidPrefix.size, writer.begin());
+    std::copy_n(guid.entityId.value, guid.entityId.size, entity);
+    call(callbacks_.numbered, writer, sample.sequence_number().to64long());
+  }
   void receive(const Sample<MessageOf<T>>& sample) noexcept {
     try {
       T message;
@@ -90,7 +97,6 @@ class Reader<T>::Impl : public DataReaderListener {
 
   std::shared_ptr<Participant::Impl> participant_;
   ReaderCallbacks<T> callbacks_;
-  LostSamples lost_samples_;  ///< used by the callback on data alone, which DDS never runs twice at a time
   DataReader* reader_ = nullptr;
   std::atomic<int> matched_ = 0;
 };

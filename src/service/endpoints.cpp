@@ -10,7 +10,9 @@ dds::ReaderCallbacks<DetectionFrame> take_detections(IngestionQueue& queue,
   dds::ReaderCallbacks<DetectionFrame> callbacks;
   callbacks.sample = [&queue, now_ns](DetectionFrame&& frame) { queue.push(std::move(frame), now_ns()); };
   callbacks.refused = [&queue](std::string_view reason) { queue.refuse_detections(reason); };
-  callbacks.lost = [&queue](std::uint64_t samples) { queue.lose_detections(samples); };
+  callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
+    queue.number_detections(writer, number);
+  };
   return callbacks;
 }
 
@@ -19,7 +21,9 @@ dds::ReaderCallbacks<VehiclePose> take_poses(IngestionQueue& queue,
   dds::ReaderCallbacks<VehiclePose> callbacks;
   callbacks.sample = [&queue, now_ns](VehiclePose&& pose) { queue.push(std::move(pose), now_ns()); };
   callbacks.refused = [&queue](std::string_view reason) { queue.refuse_pose(reason); };
-  callbacks.lost = [&queue](std::uint64_t samples) { queue.lose_poses(samples); };
+  callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
+    queue.number_pose(writer, number);
+  };
   return callbacks;
 }
 

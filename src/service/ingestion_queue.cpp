@@ -72,14 +72,14 @@ void IngestionQueue::note_other_service(std::int64_t arrival_ns) {
   state_.other_service_ns = arrival_ns;
 }
 
-void IngestionQueue::lose_detections(std::uint64_t count) {
+void IngestionQueue::number_detections(const dds::WriterId& writer, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  state_.counters.add("detections_lost", count);
+  state_.counters.add("detections_lost", lost_frames_.before(writer, number));
 }
 
-void IngestionQueue::lose_poses(std::uint64_t count) {
+void IngestionQueue::number_pose(const dds::WriterId& writer, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  state_.counters.add("poses_lost", count);
+  state_.counters.add("poses_lost", lost_poses_.before(writer, number));
 }
 
 std::vector<Arrival> IngestionQueue::drain() {

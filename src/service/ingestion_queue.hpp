@@ -14,6 +14,7 @@
 #include "laneloom/counters.hpp"
 #include "laneloom/messages.hpp"
 #include "laneloom/types.hpp"
+#include "service/lost_messages.hpp"
 
 namespace laneloom {
 
@@ -37,9 +38,9 @@ class IngestionQueue {
 
   /// Another service of the same vehicle was heard.
   void note_other_service(std::int64_t arrival_ns);
-  /// So many never came.
-  void lose_detections(std::uint64_t count);
-  void lose_poses(std::uint64_t count);
+  /// Before each of these: its writer, and its number among that writer's. Tells what never came.
+  void number_detections(const dds::WriterId& writer, std::uint64_t number);
+  void number_pose(const dds::WriterId& writer, std::uint64_t number);
 
   /// All messages, in the order of their arrival.
   std::vector<Arrival> drain();
@@ -70,6 +71,8 @@ class IngestionQueue {
   std::uint64_t next_order_ = 0;
   Queue frames_;
   Queue poses_;
+  LostMessages lost_frames_;
+  LostMessages lost_poses_;
   Snapshot state_;
 };
 

@@ -73,7 +73,9 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
 }
 
 SnapshotStamp Service::snapshot_stamp() const {
-  return {std::string(version()) + " " + config_hash_, now_ns_(), system_now_ns()};
+  Config of_the_map = config_;
+  of_the_map.service = {};
+  return {std::string(version()) + " " + config_hash(of_the_map), now_ns_(), system_now_ns()};
 }
 
 void Service::resume() {

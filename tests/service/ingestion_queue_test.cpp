@@ -99,9 +99,9 @@ TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
 
 TEST(IngestionQueue, CountsWhatNeverCame) {
   IngestionQueue queue(capacities(2, 2));
-  queue.lose_detections(3);
-  queue.lose_poses(4);
-  queue.lose_poses(1);
+  queue.number_detections({1}, 7);
+  queue.number_detections({1}, 11);
+  for (const std::uint64_t number : {1U, 6U, 8U}) queue.number_pose({2}, number);
   const auto counters = queue.snapshot().counters;
   EXPECT_EQ(counters["detections_lost"], 3U);
   EXPECT_EQ(counters["poses_lost"], 5U);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,6 +10,9 @@
 
 namespace laneloom::dds {
 
+/// Of one writer in the domain, for as long as it lives.
+using WriterId = std::array<std::uint8_t, 16>;
+
 /// Called by threads of DDS. They must return quickly, not make or end readers or writers, and not throw
 /// (what they throw is swallowed). Any of them may be empty.
 template <class T>
@@ -17,8 +21,8 @@ struct ReaderCallbacks {
   /// A sample that is no valid T, with a stable name of the reason:
   /// malformed, unknown_enum, not_finite, not_a_rotation, wrong_frame, wrong_size.
   std::function<void(std::string_view reason)> refused;
-  /// So many samples of a writer never arrived, between two that did.
-  std::function<void(std::uint64_t samples)> lost;
+  /// Before each of these: who wrote it, and the number that it has among its writer's samples.
+  std::function<void(const WriterId& writer, std::uint64_t number)> numbered;
   std::function<void(int writers)> matched;            ///< writers that are matched now
   std::function<void(int writers)> alive;              ///< writers that assert their liveliness now
   std::function<void(std::uint64_t)> deadline_missed;  ///< in total
