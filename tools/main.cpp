@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
   laneloom::add_import(app);
   laneloom::add_drive(app);
   laneloom::add_bench(app);
+  laneloom::add_soak(app);
   try {
     app.parse(argc, argv);
     return 0;

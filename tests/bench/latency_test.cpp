@@ -79,13 +79,15 @@ TEST_F(LogFile, AMalformedTickIsNamed) {
 }
 
 TEST_F(LogFile, PublicationsAreReadAsTheyWereWritten) {
-  PublicationLogWriter writer(file_);
+  PublicationLogWriter writer(file_, 77);
   writer.add(1, 1'700'000'000'000'000'001);
   writer.add(2, 5);
-  writer.close();
   const std::map<std::uint64_t, std::int64_t> expected{{1, 1'700'000'000'000'000'001}, {2, 5}};
-  EXPECT_EQ(read_publication_log(file_), expected);
-  EXPECT_THROW(PublicationLogWriter("/nowhere/times.csv"), std::runtime_error);
+  const auto log = read_publication_log(file_);  // as if the writer had been killed
+  EXPECT_EQ(log.session_id, 77U);
+  EXPECT_EQ(log.times_ns, expected);
+  writer.close();
+  EXPECT_THROW(PublicationLogWriter("/nowhere/times.csv", 1), std::runtime_error);
 }
 
 TEST(MeasureLatency, NamesAServiceThatEndsByItself) {

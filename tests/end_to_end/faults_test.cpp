@@ -325,6 +325,7 @@ class WarmRestart : public Faults {
 
 TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
   start(100, {"--config", file_.path});
+  file_.write("service:\n  snapshot_file: " + snapshot_.path + "\n  log_level: debug\n");
   restart({"--config", file_.path});
   ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
   EXPECT_NE(first_.session_id, before_.session_id);

@@ -205,7 +205,7 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   service.process().stop();
 
   LatencyResult result = latencies(ticks_between(read_tick_log(log), from_ns, to_ns), listener.maps(),
-                                   read_publication_log(times));
+                                   read_publication_log(times).times_ns);
   result.service_cpu_percent = 100.0 * cpu_used_s / (static_cast<double>(to_ns - from_ns) * 1e-9);
   result.service_peak_rss_mb = peak_mb;
   return result;

@@ -6,13 +6,14 @@
 
 namespace laneloom {
 
-PublicationLogWriter::PublicationLogWriter(const std::filesystem::path& path) : path_(path), out_(path) {
-  out_ << "sequence,published_ns\n";
+PublicationLogWriter::PublicationLogWriter(const std::filesystem::path& path, std::uint64_t session_id)
+    : path_(path), session_id_(session_id), out_(path) {
+  out_ << "session_id,sequence,published_ns" << std::endl;
   if (!out_) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
 void PublicationLogWriter::add(std::uint64_t sequence, std::int64_t published_ns) {
-  out_ << sequence << ',' << published_ns << '\n';
+  out_ << session_id_ << ',' << sequence << ',' << published_ns << std::endl;
 }
 
 void PublicationLogWriter::close() {
@@ -20,13 +21,14 @@ void PublicationLogWriter::close() {
   if (!out_) throw std::runtime_error(path_.string() + ": writing failed");
 }
 
-std::map<std::uint64_t, std::int64_t> read_publication_log(const std::filesystem::path& path) {
-  std::map<std::uint64_t, std::int64_t> times;
+PublicationLog read_publication_log(const std::filesystem::path& path) {
+  PublicationLog log;
   for_each_csv_row(path, [&](std::string_view row) {
+    log.session_id = take_number<std::uint64_t>(row);
     const auto sequence = take_number<std::uint64_t>(row);
-    times[sequence] = take_number<std::int64_t>(row);
+    log.times_ns[sequence] = take_number<std::int64_t>(row);
   });
-  return times;
+  return log;
 }
 
 }  // namespace laneloom

@@ -7,21 +7,28 @@
 
 namespace laneloom {
 
-/// When each detection frame was handed to DDS, as a table "sequence,published_ns" (system clock).
+/// When each detection frame of a session was handed to DDS, as a table "session_id,sequence,published_ns"
+/// (system clock). Written through: what a killed publisher wrote is there.
 class PublicationLogWriter {
  public:
   /// Throws std::runtime_error where the file cannot be written.
-  explicit PublicationLogWriter(const std::filesystem::path& path);
+  PublicationLogWriter(const std::filesystem::path& path, std::uint64_t session_id);
   void add(std::uint64_t sequence, std::int64_t published_ns);
   /// Throws std::runtime_error where writing failed.
   void close();
 
  private:
   std::filesystem::path path_;
+  std::uint64_t session_id_;
   std::ofstream out_;
 };
 
-/// Times by sequence. Throws std::runtime_error naming file and line.
-std::map<std::uint64_t, std::int64_t> read_publication_log(const std::filesystem::path& path);
+struct PublicationLog {
+  std::uint64_t session_id = 0;
+  std::map<std::uint64_t, std::int64_t> times_ns;  ///< by sequence
+};
+
+/// Throws std::runtime_error naming file and line.
+PublicationLog read_publication_log(const std::filesystem::path& path);
 
 }  // namespace laneloom

@@ -21,5 +21,6 @@ void add_record(CLI::App& app);
 void add_import(CLI::App& app);
 void add_drive(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_soak(CLI::App& app);
 
 }  // namespace laneloom

@@ -54,7 +54,7 @@ class Publisher {
         session_id_(new_session_id()),
         start_ns_(system_now_ns()) {
     if (!options.frames.empty()) record_ = std::make_unique<JsonLinesWriter>(options.frames);
-    if (!options.times.empty()) times_ = std::make_unique<PublicationLogWriter>(options.times);
+    if (!options.times.empty()) times_ = std::make_unique<PublicationLogWriter>(options.times, session_id_);
   }
 
   /// Of the topic that has fewer.

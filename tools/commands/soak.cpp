@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "commands/stop_signal.hpp"
+#include "endurance/soak.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  SoakSpec spec;
+  double minutes = 1.0;
+};
+
+void print(const SoakResult& result) {
+  fmt::print("| {:<20} | {:>5} |\n|---|---|\n", "fault", "times");
+  for (const auto& [fault, times] : result.faults) fmt::print("| {:<20} | {:>5} |\n", fault, times);
+  fmt::print("\n| {:<20} | published | fused | refused | dropped | pending | lost | unexplained |\n",
+             "session of the service");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  for (const auto& [session, account] : result.accounts) {
+    fmt::print("| {:<22} | {:>9} | {:>5} | {:>7} | {:>7} | {:>7} | {:>4} | {:>11} |\n", session,
+               account.published, account.fused, account.refused, account.dropped, account.pending,
+               account.lost, account.unexplained());
+  }
+  fmt::print("\n{} maps, {} missed, {} contract violations\n", result.maps.received, result.maps.missed,
+             result.maps.violations.size());
+  for (const auto& violation : result.maps.violations) fmt::print("violation: {}\n", violation);
+  for (const auto& fault : result.unrecovered) fmt::print("no good map after: {}\n", fault);
+  fmt::print("{}\n", result.passed() ? "passed" : "FAILED");
+}
+
+void run(Options& options) {
+  catch_stop_signals();
+  SoakSpec& spec = options.spec;
+  spec.duration = std::chrono::duration<double>(60.0 * options.minutes);
+  spec.fleet.command = std::filesystem::read_symlink("/proc/self/exe");
+  spec.fleet.service = spec.fleet.command.parent_path() / "laneloomd";
+  spec.fleet.dds.vehicle_id = fmt::format("soak_{}", getpid());  // apart from every other vehicle
+  const SoakResult result = soak(spec, [] { return !stop_requested(); });
+  print(result);
+  if (!result.passed()) throw CLI::RuntimeError(1);
+}
+
+}  // namespace
+
+void add_soak(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "soak", "Runs publisher, service and planner under random faults, and accounts for every frame");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--minutes", options->minutes, "For so long")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", options->spec.seed, "Of the faults")->capture_default_str();
+  command->add_option("--domain", options->spec.fleet.dds.domain, "DDS domain")
+      ->check(CLI::Range(0, 232))
+      ->capture_default_str();
+  command->footer(
+      "Exit code 1: a frame is not accounted for, a map broke the contract, or none came after a fault.");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/child_process.hpp"
+#include "bench/publication_log.hpp"
+#include "io/work_folder.hpp"
+#include "laneloom/config.hpp"
+
+namespace laneloom {
+
+/// A publisher, a service and a planner of one vehicle, as processes; each start of one is a session of its
+/// own.
+class Fleet {
+ public:
+  struct Spec {
+    std::filesystem::path service;  ///< laneloomd
+    std::filesystem::path command;  ///< laneloom
+    DdsConfig dds;
+    std::string scenario = "town";
+    std::string noise = "inhouse";
+  };
+  /// Starts all three. Throws std::runtime_error where one cannot be started.
+  explicit Fleet(Spec spec);
+
+  enum class Member { publisher, service, planner };
+  void signal(Member member, int number);
+  /// Ends it at once, as a crash does, and starts it again.
+  void kill_and_restart(Member member);
+  /// Ends it as an operator does, and starts it again.
+  void restart(Member member);
+  /// Ends it as an operator does.
+  void stop(Member member);
+
+  /// What all publishers so far wrote down of themselves.
+  std::vector<PublicationLog> publications() const;
+
+ private:
+  std::unique_ptr<ChildProcess>& process(Member member);
+  void start(Member member);
+  std::vector<std::string> command_of(Member member);
+  std::vector<std::string> vehicle() const;
+
+  Spec spec_;
+  WorkFolder folder_;
+  std::vector<std::string> logs_;  ///< of the publishers, a file each
+  std::unique_ptr<ChildProcess> publisher_, service_, planner_;
+};
+
+const char* name(Fleet::Member member);
+
+}  // namespace laneloom
