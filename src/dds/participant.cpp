@@ -15,11 +15,11 @@ Participant::Participant(const DdsConfig& config, const std::string& name)
     : impl_(std::make_shared<Impl>(config, name)) {}
 
 Participant::Impl::Impl(const DdsConfig& config, const std::string& name)
-    : map_frame_id_(config.map_frame_id) {
+    : map_frame_id_(config.map_frame_id), security_directory_(config.security_directory) {
   const auto qos = participant_qos(config, name);
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
       static_cast<DomainId_t>(config.domain), qos);
-  if (!participant_) throw std::runtime_error("DDS refused to make a participant");
+  if (!participant_) throw refusal("participant in domain " + std::to_string(config.domain));
 
   PublisherQos publisher_qos = PUBLISHER_QOS_DEFAULT;
   publisher_qos.partition().push_back(config.vehicle_id.c_str());
@@ -29,7 +29,7 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name)
   subscriber_ = participant_->create_subscriber(subscriber_qos);
   if (!publisher_ || !subscriber_) {
     close();
-    throw std::runtime_error("DDS refused to make a publisher or a subscriber");
+    throw refusal("publisher or subscriber");
   }
 }
 
@@ -44,8 +44,16 @@ Topic* Participant::Impl::topic(const std::string& name, const TypeSupport& type
   if (auto* known = dynamic_cast<Topic*>(participant_->lookup_topicdescription(name))) return known;
   participant_->register_type(type);
   auto* topic = participant_->create_topic(name, type.get_type_name(), TOPIC_QOS_DEFAULT);
-  if (!topic) throw std::runtime_error("DDS refused to make the topic " + name);
+  if (!topic) throw refusal("topic " + name);
   return topic;
+}
+
+std::runtime_error Participant::Impl::refusal(const std::string& entity) const {
+  std::string text = "DDS refused to make a " + entity;
+  if (!security_directory_.empty()) {
+    text += "; dds.security_directory: not valid, or not permitted to the identity in " + security_directory_;
+  }
+  return std::runtime_error(text);
 }
 
 }  // namespace laneloom::dds

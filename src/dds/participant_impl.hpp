@@ -4,6 +4,7 @@
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "laneloom/dds/participant.hpp"
@@ -24,11 +25,14 @@ class Participant::Impl {
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }
+  /// To be thrown when DDS made no `entity`, of which it does not say why.
+  std::runtime_error refusal(const std::string& entity) const;
 
  private:
   void close();
 
   std::string map_frame_id_;
+  std::string security_directory_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;

@@ -82,9 +82,13 @@ std::string readable(const std::filesystem::path& directory, const char* name) {
 }
 
 void set_security(const std::string& directory, DomainParticipantQos& qos) {
+  // A Fast DDS that was built without it ignores the properties.
+  if (HAVE_SECURITY == 0) throw std::runtime_error("dds.security_directory: this Fast DDS has no security");
   const std::string authentication = "dds.sec.auth.builtin.PKI-DH.";
   const std::string access = "dds.sec.access.builtin.Access-Permissions.";
   auto& properties = qos.properties().properties();
+  // Of two properties of one name, the first would count.
+  std::erase_if(properties, [](const auto& property) { return property.name().starts_with("dds.sec."); });
   properties.emplace_back("dds.sec.auth.plugin", "builtin.PKI-DH");
   properties.emplace_back(authentication + "identity_ca", readable(directory, "identity_ca.cert.pem"));
   properties.emplace_back(authentication + "identity_certificate", readable(directory, "cert.pem"));

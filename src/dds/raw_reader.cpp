@@ -4,7 +4,6 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -26,7 +25,7 @@ class RawReader<T>::Impl : public DataReaderListener {
       : participant_(std::move(participant)), callback_(std::move(callback)) {
     auto* topic = participant_->topic(Traits::kName, TypeSupport(new RawType<typename Traits::Type>));
     reader_ = participant_->subscriber().create_datareader(topic, reader_qos(Traits::kKind), this);
-    if (!reader_) throw std::runtime_error(std::string("DDS refused to make a reader of ") + Traits::kName);
+    if (!reader_) throw participant_->refusal(std::string("reader of ") + Traits::kName);
   }
   ~Impl() override {
     reader_->set_listener(nullptr);

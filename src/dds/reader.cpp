@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "dds/convert.hpp"
@@ -41,7 +41,7 @@ class Reader<T>::Impl : public DataReaderListener {
       : participant_(std::move(participant)), callbacks_(std::move(callbacks)) {
     auto* topic = participant_->topic(Traits::kName, TypeSupport(new typename Traits::Type));
     reader_ = participant_->subscriber().create_datareader(topic, reader_qos(Traits::kKind), this);
-    if (!reader_) throw std::runtime_error(std::string("DDS refused to make a reader of ") + Traits::kName);
+    if (!reader_) throw participant_->refusal(std::string("reader of ") + Traits::kName);
   }
   ~Impl() override {
     reader_->set_listener(nullptr);

@@ -2,7 +2,7 @@
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
 
-#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "dds/convert.hpp"
@@ -21,7 +21,7 @@ class Writer<T>::Impl {
   explicit Impl(std::shared_ptr<Participant::Impl> participant) : participant_(std::move(participant)) {
     auto* topic = participant_->topic(Traits::kName, TypeSupport(new typename Traits::Type));
     writer_ = participant_->publisher().create_datawriter(topic, writer_qos(Traits::kKind));
-    if (!writer_) throw std::runtime_error(std::string("DDS refused to make a writer of ") + Traits::kName);
+    if (!writer_) throw participant_->refusal(std::string("writer of ") + Traits::kName);
   }
   ~Impl() { participant_->publisher().delete_datawriter(writer_); }
   Impl(const Impl&) = delete;
