@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "identities.hpp"
+#include "loopback_capture.hpp"
+#include "participants.hpp"
+#include "process.hpp"
+#include "service.hpp"
+
+// DDS-Security, with the certificates that tools/make-certificates makes: who belongs is heard, and nobody
+// else.
+namespace laneloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+using As = std::function<DdsConfig(const std::string& identity)>;
+
+/// A service, and those who follow it.
+struct Followed {
+  explicit Followed(const As& as) : service(as("service")), maps(as("pnc")), status(as("observer")) {}
+
+  std::set<std::uint64_t> sessions() {
+    std::set<std::uint64_t> result;
+    for (const auto& map : maps.samples()) result.insert(map.session_id);
+    return result;
+  }
+
+  Service service;
+  Listener<PublishedMap> maps;
+  Listener<ServiceStatus> status;
+};
+
+bool any(const PublishedMap& /*map*/) { return true; }
+bool is_good(const PublishedMap& map) { return !map.map.lanes.empty() && map.state == MapState::ok; }
+
+/// Ten more maps: time in which others would have been heard, as all of them know each other by then.
+bool goes_on(Followed& followed) {
+  const auto newest = followed.maps.samples().back().sequence;
+  return followed.maps.wait_for([&](const PublishedMap& map) { return map.sequence > newest + 10; });
+}
+
+/// Two of everything, with the same topics, domain and vehicle: neither hears the other.
+void expect_apart(const As& ours, const As& theirs) {
+  Followed our(ours), their(theirs);
+  ASSERT_TRUE(our.maps.wait_for(any)) << our.service.errors();
+  const StraightRoad their_road(theirs("simulator"));
+  ASSERT_TRUE(their.maps.wait_for(is_good)) << their.service.errors();
+  ASSERT_TRUE(goes_on(our));
+  for (const auto& map : our.maps.samples()) EXPECT_EQ(map.age_s, -1.0) << "a stranger's frame was fused";
+
+  our.status.forget();
+  ASSERT_TRUE(our.status.wait_for([](const ServiceStatus&) { return true; }));
+  const auto status = our.status.samples().back();
+  std::map<std::string, std::uint64_t> counters(status.counters.begin(), status.counters.end());
+  EXPECT_EQ(counters.at("detections_received"), 0U);
+  EXPECT_EQ(counters.at("poses_received"), 0U);
+
+  const StraightRoad our_road(ours("simulator"));
+  EXPECT_TRUE(our.maps.wait_for(is_good)) << our.service.errors();
+  ASSERT_TRUE(goes_on(their));
+  EXPECT_EQ(our.sessions().size(), 1U);
+  EXPECT_EQ(their.sessions().size(), 1U);
+  EXPECT_NE(our.sessions(), their.sessions());
+}
+
+TEST(Security, WhoHasNoIdentityIsNotHeardAndHearsNothing) {
+  const auto config = private_config();
+  const Identities identities;
+  expect_apart([&](const std::string& name) { return identities.as(name, config); },
+               [&](const std::string& /*name*/) -> const DdsConfig& { return config; });
+}
+
+TEST(Security, IdentitiesOfAnotherAuthorityAreStrangers) {
+  const auto config = private_config();
+  const Identities ours, theirs;
+  expect_apart([&](const std::string& name) { return ours.as(name, config); },
+               [&](const std::string& name) { return theirs.as(name, config); });
+}
+
+template <class Make>
+bool permitted(const Make& make) {
+  try {
+    make();
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+/// What this identity may do with T: "w", "r", "" or both.
+template <class T>
+std::string rights(const dds::Participant& participant) {
+  std::string result;
+  if (permitted([&] { dds::Writer<T>{participant}; })) result += "w";
+  if (permitted([&] { dds::Reader<T>(participant, {}); })) result += "r";
+  return result;
+}
+
+TEST(Security, EachIdentityMayDoWhatItNeeds) {
+  const Identities identities;
+  // Detections, poses, lane map, road markings, status.
+  const std::map<std::string, std::vector<std::string>> expected{
+      {"service", {"r", "r", "w", "w", "w"}},  {"perception", {"w", "", "", "", ""}},
+      {"odometry", {"", "w", "", "", ""}},     {"pnc", {"", "", "r", "r", "r"}},
+      {"observer", {"r", "r", "r", "r", "r"}}, {"simulator", {"w", "w", "r", "", ""}}};
+  for (const auto& [identity, wanted] : expected) {
+    const dds::Participant participant(identities.as(identity, private_config()), identity);
+    const std::vector<std::string> is{rights<DetectionFrame>(participant), rights<VehiclePose>(participant),
+                                      rights<PublishedMap>(participant), rights<RoadMarkings>(participant),
+                                      rights<ServiceStatus>(participant)};
+    EXPECT_EQ(is, wanted) << identity;
+  }
+}
+
+TEST(Security, PerceptionCannotPublishAMap) {
+  const Identities identities;
+  Service service(identities.as("perception", private_config()));
+  EXPECT_EQ(service.wait(), 1);
+  const auto errors = service.errors();
+  EXPECT_NE(errors.find("laneloomd: DDS refused to make a writer of laneloom/v1/lane_map; "
+                        "dds.security_directory: "),
+            std::string::npos)
+      << errors;
+}
+
+/// Perception's own folder, made to take the word of `authority` as well.
+fs::path gullible_perception(const Identities& identities, const fs::path& authority) {
+  fs::path folder = identities.folder() / "forged";
+  fs::copy(identities.folder() / "perception", folder);
+  std::ofstream(folder / "permissions_ca.cert.pem", std::ios::app) << text_of(authority);
+  return folder;
+}
+
+void openssl(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{"/usr/bin/openssl", "smime", "-text"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  Process process(command);
+  ASSERT_EQ(process.wait(), 0) << process.errors();
+}
+
+/// How many services the planner hears, while one with the identity `other`, which may do it as far as its
+/// own side can tell, publishes maps beside the right one.
+std::size_t services_heard(const Identities& identities, const fs::path& other) {
+  const As as = [&, config = private_config()](const std::string& name) {
+    return identities.as(name, config);
+  };
+  Followed followed(as);
+  EXPECT_TRUE(followed.maps.wait_for(any)) << followed.service.errors();
+  const Service intruder(as(other));
+  for (int i = 0; i < 1000 && intruder.errors().find("event=started") == std::string::npos; ++i)
+    usleep(10'000);
+  EXPECT_NE(intruder.errors().find("event=started"), std::string::npos) << intruder.errors();
+  EXPECT_TRUE(goes_on(followed) && goes_on(followed));
+  return followed.sessions().size();
+}
+
+/// Perception may do everything in these domains, and its own in all.
+Identities::Edit trust_perception_in(const std::string& first, const std::string& last) {
+  return [=](const fs::path& project) {
+    const std::string all =
+        "<topics><topic>laneloom/v1/*</topic></topics><partitions><partition>*</partition></partitions>";
+    replace_in(project / "config/security/permissions/perception.xml", "</allow_rule>",
+               "</allow_rule><allow_rule><domains><id_range><min>" + first + "</min><max>" + last +
+                   "</max></id_range></domains><publish>" + all + "</publish><subscribe>" + all +
+                   "</subscribe></allow_rule>");
+  };
+}
+
+TEST(Security, PermissionsAreCheckedByThoseWhoListen) {
+  // Of its own rules, Fast DDS 2.9 does not look at the domains.
+  const Identities trusted_elsewhere(trust_perception_in("200", "232"));
+  EXPECT_EQ(services_heard(trusted_elsewhere, "perception"), 1U);
+  const Identities trusted_here(trust_perception_in("0", "232"));
+  EXPECT_EQ(services_heard(trusted_here, "perception"), 2U);
+}
+
+TEST(Security, WhoPermitsHimselfMoreIsNotHeard) {
+  const Identities identities;
+  const fs::path folder = gullible_perception(identities, identities.folder() / "ca/identity_ca.cert.pem");
+  const fs::path permissions = folder / "permissions.xml";
+  openssl(
+      {"-verify", "-noverify", "-in", identities.folder() / "service/permissions.p7s", "-out", permissions});
+  replace_in(permissions, "CN=service", "CN=perception");
+  openssl({"-sign", "-in", permissions, "-signer", folder / "cert.pem", "-inkey", folder / "key.pem", "-out",
+           folder / "permissions.p7s"});
+  EXPECT_EQ(services_heard(identities, folder), 1U);
+}
+
+TEST(Security, WhoGovernsHimselfIsNotHeard) {
+  const Identities identities;
+  const Identities lax([](const fs::path& project) {
+    // Two authorities of one name can't be believed side by side.
+    replace_in(project / "tools/make-certificates", "/CN=laneloom", "/CN=lax");
+    replace_in(project / "config/security/governance.xml", "access_control>true", "access_control>false");
+  });
+  const fs::path folder = gullible_perception(identities, lax.folder() / "ca/permissions_ca.cert.pem");
+  fs::copy(lax.folder() / "ca/governance.p7s", folder, fs::copy_options::overwrite_existing);
+  EXPECT_EQ(services_heard(identities, folder), 1U);
+}
+
+/// Whether the name of the map's frame, which is in every pose and map, is seen on the wire.
+bool readable_on_the_wire(const As& as) {
+  const auto marker = as("service").map_frame_id;
+  const LoopbackCapture capture(marker);
+  Followed followed(as);
+  const StraightRoad road(as("simulator"));
+  EXPECT_TRUE(followed.maps.wait_for([&](const PublishedMap& map) {
+    return map.frame_id == marker && is_good(map);
+  })) << followed.service.errors();
+  EXPECT_GT(capture.packets(), 100);
+  return capture.marker_seen();
+}
+
+TEST(Security, NothingCanBeReadOnTheWire) {
+  auto config = private_config();
+  config.map_frame_id = "frame" + std::to_string(getpid());
+  const Identities identities;
+  try {
+    EXPECT_TRUE(readable_on_the_wire([&](const std::string& /*name*/) { return config; }));
+    config.map_frame_id += "x";
+    EXPECT_FALSE(readable_on_the_wire([&](const std::string& name) { return identities.as(name, config); }));
+  } catch (const std::system_error& error) {
+    GTEST_SKIP() << "needs the right to capture packets (root, or CAP_NET_RAW): " << error.what();
+  }
+}
+
+TEST(Security, ALargeMapArrives) {
+  const auto config = private_config();
+  const Identities identities;
+  Listener<PublishedMap> maps(identities.as("pnc", config));
+  const dds::Participant service(identities.as("service", config), "service");
+  dds::Writer<PublishedMap> writer(service);
+  PublishedMap map;
+  map.map.boundaries.assign(40, Marking{.id = 1, .points = Polyline(1024, Point(1, 2, 3))});  // 1 MB
+  ASSERT_TRUE(writer.write(map));
+  EXPECT_TRUE(maps.wait_for([](const PublishedMap& got) { return got.map.boundaries.size() == 40; }));
+}
+
+}  // namespace
+}  // namespace laneloom
