@@ -98,10 +98,17 @@ class Party {
   ChildProcess process_;
 };
 
+DdsConfig dds_of(const LatencySpec& spec, const char* identity) {
+  DdsConfig dds = spec.dds;
+  if (!spec.identities.empty()) dds.security_directory = spec.identities / identity;
+  return dds;
+}
+
 void write_config(const std::string& file, const DdsConfig& dds) {
   std::ofstream out(file);
   out << "service:\n  log_level: debug\ndds:\n  domain: " << dds.domain << "\n  vehicle_id: '"
-      << dds.vehicle_id << "'\n  transport: " << dds.transport << '\n';
+      << dds.vehicle_id << "'\n  transport: " << dds.transport << "\n  security_directory: '"
+      << dds.security_directory << "'\n";
   out.close();
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
@@ -120,6 +127,8 @@ std::vector<std::string> publish_command(const LatencySpec& spec, const std::str
           std::to_string(spec.dds.domain),
           "--vehicle-id",
           spec.dds.vehicle_id,
+          "--security",
+          dds_of(spec, "simulator").security_directory,
           "--wait-for-readers",
           "1",
           "--times",
@@ -182,8 +191,8 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   const WorkFolder folder;
   const std::string config = folder.file("laneloomd.yaml"), times = folder.file("times.csv"),
                     log = folder.file("laneloomd.log");
-  write_config(config, spec.dds);
-  MapListener listener(spec.dds);
+  write_config(config, dds_of(spec, "service"));
+  MapListener listener(dds_of(spec, "pnc"));
   Party service({spec.service.string(), "--config", config}, log);
   Party publisher(publish_command(spec, times), folder.file("publish.log"));
   wait_for_maps(listener, service, publisher);

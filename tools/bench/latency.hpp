@@ -18,6 +18,7 @@ struct LatencySpec {
   std::filesystem::path service;    ///< the program laneloomd
   std::filesystem::path publisher;  ///< the program laneloom
   DdsConfig dds;
+  std::filesystem::path identities;  ///< of tools/make-certificates; empty: without security
   std::string scenario, noise;
   double speed_mps = 10.0;
   double duration_s = 30.0;   ///< that is measured

@@ -18,6 +18,7 @@ namespace {
 struct Options {
   BenchDrive drive;
   DdsConfig dds;
+  std::filesystem::path identities;
   bool load = false;
   bool json = false;
 };
@@ -27,6 +28,7 @@ LatencySpec latency_spec(const Options& options) {
   LatencySpec spec{.service = self.parent_path() / "laneloomd",
                    .publisher = self,
                    .dds = options.dds,
+                   .identities = options.identities,
                    .scenario = options.drive.scenario,
                    .noise = options.drive.noise,
                    .speed_mps = options.drive.speed_mps,
@@ -39,6 +41,7 @@ LatencySpec latency_spec(const Options& options) {
 nlohmann::json to_json(const LatencySpec& spec, const LatencyResult& result) {
   return {{"duration_s", spec.duration_s},
           {"transport", spec.dds.transport},
+          {"secured", !spec.identities.empty()},
           {"busy_threads", spec.busy_threads},
           {"ticks", result.ticks},
           {"missed_deadlines", result.missed_deadlines},
@@ -86,6 +89,10 @@ void add_bench_latency(CLI::App& bench) {
   command->add_option("--transport", options->dds.transport, "Of the service and this process")
       ->check(CLI::IsMember({"udp", "udp+shm"}))
       ->capture_default_str();
+  command
+      ->add_option("--identities", options->identities,
+                   "With DDS-Security: folder of tools/make-certificates")
+      ->check(CLI::ExistingDirectory);
   command->add_flag("--load", options->load, "Keep all cores busy meanwhile");
   command->add_flag("--json", options->json, "One JSON object");
   command->callback([options] { latency(*options); });
