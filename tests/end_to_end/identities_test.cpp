@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -66,6 +67,20 @@ TEST(Identities, OtherDomainsAreClosed) {
   const Identities identities({}, {"--domains", "200-232"});
   Service service(identities.as("service", private_config()));
   EXPECT_EQ(service.wait(), 1) << service.errors();
+}
+
+TEST(Identities, AreReadAgainAtAReload) {
+  const auto config = private_config();
+  const Identities identities;
+  Service service(identities.as("service", config));
+  Listener<PublishedMap> maps(identities.as("pnc", config));
+  ASSERT_TRUE(maps.wait_for([](const PublishedMap&) { return true; })) << service.errors();
+  const fs::path key = identities.folder() / "service/key.pem";
+  fs::remove(key);
+  service.signal(SIGHUP);
+  EXPECT_EQ(service.wait(), 1);
+  EXPECT_NE(service.errors().find("dds.security_directory: cannot read " + key.string()), std::string::npos)
+      << service.errors();
 }
 
 TEST(Identities, ServeTheTools) {
