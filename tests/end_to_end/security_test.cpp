@@ -14,8 +14,7 @@
 #include "process.hpp"
 #include "service.hpp"
 
-// DDS-Security, with the certificates that tools/make-certificates makes: who belongs is heard, and nobody
-// else.
+// DDS-Security with the files of tools/make-certificates: who belongs is heard, and nobody else.
 namespace laneloom {
 namespace {
 
@@ -131,11 +130,11 @@ TEST(Security, PerceptionCannotPublishAMap) {
       << errors;
 }
 
-/// Perception's own folder, made to take the word of `authority` as well.
-fs::path gullible_perception(const Identities& identities, const fs::path& authority) {
+/// Perception's own folder, made to take the word of `certificates` as well.
+fs::path gullible_perception(const Identities& identities, const std::string& certificates) {
   fs::path folder = identities.folder() / "forged";
   fs::copy(identities.folder() / "perception", folder);
-  std::ofstream(folder / "permissions_ca.cert.pem", std::ios::app) << text_of(authority);
+  std::ofstream(folder / "permissions_ca.cert.pem", std::ios::app) << certificates;
   return folder;
 }
 
@@ -184,7 +183,9 @@ TEST(Security, PermissionsAreCheckedByThoseWhoListen) {
 
 TEST(Security, WhoPermitsHimselfMoreIsNotHeard) {
   const Identities identities;
-  const fs::path folder = gullible_perception(identities, identities.folder() / "ca/identity_ca.cert.pem");
+  const fs::path folder =
+      gullible_perception(identities, text_of(identities.folder() / "ca/identity_ca.cert.pem") +
+                                          text_of(identities.folder() / "perception/cert.pem"));
   const fs::path permissions = folder / "permissions.xml";
   openssl(
       {"-verify", "-noverify", "-in", identities.folder() / "service/permissions.p7s", "-out", permissions});
@@ -201,7 +202,8 @@ TEST(Security, WhoGovernsHimselfIsNotHeard) {
     replace_in(project / "tools/make-certificates", "/CN=laneloom", "/CN=lax");
     replace_in(project / "config/security/governance.xml", "access_control>true", "access_control>false");
   });
-  const fs::path folder = gullible_perception(identities, lax.folder() / "ca/permissions_ca.cert.pem");
+  const fs::path folder =
+      gullible_perception(identities, text_of(lax.folder() / "ca/permissions_ca.cert.pem"));
   fs::copy(lax.folder() / "ca/governance.p7s", folder, fs::copy_options::overwrite_existing);
   EXPECT_EQ(services_heard(identities, folder), 1U);
 }
