@@ -8,7 +8,7 @@
 
 #include "participants.hpp"
 #include "process.hpp"
-#include "service_command.hpp"
+#include "service.hpp"
 
 // What the planner sees of each fault, and which counter tells; README, "When things go wrong".
 namespace laneloom {

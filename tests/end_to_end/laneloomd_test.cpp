@@ -8,7 +8,7 @@
 
 #include "participants.hpp"
 #include "process.hpp"
-#include "service_command.hpp"
+#include "service.hpp"
 
 // Real processes over real DDS: laneloomd is started as anyone would start it.
 namespace laneloom {

@@ -5,7 +5,7 @@
 
 #include "participants.hpp"
 #include "process.hpp"
-#include "service_command.hpp"
+#include "service.hpp"
 
 // SIGHUP: what of the configuration changes while laneloomd runs.
 namespace laneloom {
