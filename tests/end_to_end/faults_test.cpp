@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <memory>
@@ -268,6 +269,29 @@ TEST_F(Faults, AServiceThatHangsIsNoticed) {
   EXPECT_TRUE(maps_.wait_for_alive(1));
   EXPECT_TRUE(counts("ticks_missed"));
   EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, TheSystemClockMayJump) {
+#ifndef LIBFAKETIME
+  GTEST_SKIP() << "libfaketime is missing, or does not go with a sanitizer";
+#else
+  const TemporaryFile clock("clock", "+0\n");
+  std::vector<std::string> words{"/usr/bin/env", "LD_PRELOAD=" LIBFAKETIME,
+                                 "FAKETIME_TIMESTAMP_FILE=" + clock.path, "FAKETIME_NO_CACHE=1",
+                                 "DONT_FAKE_MONOTONIC=1"};
+  for (const auto& word : command(config_)) words.push_back(word);
+  service_ = std::make_unique<Process>(words);
+  road_ = std::make_unique<StraightRoad>(config_);
+  ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
+  const auto before_ns = maps_.samples().back().published_ns;
+  for (const std::string jump : {"+3600\n", "-3600\n"}) {
+    clock.write(jump);
+    ASSERT_TRUE(maps_.wait_for([&](const PublishedMap& map) {
+      return std::abs(map.published_ns - before_ns) > kHour_ns / 2;
+    })) << "the clock did not jump";
+    EXPECT_TRUE(stays_good(20));
+  }
+#endif
 }
 
 TEST_F(Faults, TwoServicesOfOneVehicleSaySo) {
