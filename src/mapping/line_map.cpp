@@ -70,8 +70,10 @@ StationGrid::StationGrid(const std::vector<Line>& lines) {
   entries_.resize(count);
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    const bool on_stopline = is_stopline(lines[i].type());
     for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
-      entries_[next[cell(lines[i].stations[k])]++] = {i, k};
+      const Station& station = lines[i].stations[k];
+      entries_[next[cell(station)]++] = {station.position, i, k, on_stopline};
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -63,25 +64,28 @@ Eigen::Vector2d direction_at(const Line& line, std::size_t station);
 /// Finds stations by place: a uniform grid over the stations of one instant.
 class StationGrid {
  public:
+  /// What is asked of a station again and again lies together, in the order in which it is walked.
   struct Entry {
+    Point position = Point::Zero();
     std::uint32_t line = 0;
     std::uint32_t station = 0;
+    bool on_stopline = false;
   };
 
   explicit StationGrid(const std::vector<Line>& lines);
 
-  /// Calls `visit(line, station)` for every station within a cell of `point`, in a fixed order.
+  /// Calls `visit(entry)` for every station within a cell of `point`, in a fixed order.
   template <class Visit>
   void around(const Point& point, Visit&& visit) const {
     if (entries_.empty()) return;
     const Eigen::Vector2i center = cell_of(point);
-    for (int y = center.y() - 1; y <= center.y() + 1; ++y) {
-      for (int x = center.x() - 1; x <= center.x() + 1; ++x) {
-        if (x < 0 || y < 0 || x >= size_.x() || y >= size_.y()) continue;
-        const std::size_t cell = cell_number({x, y});
-        for (std::uint32_t i = starts_[cell]; i < starts_[cell + 1]; ++i)
-          visit(entries_[i].line, entries_[i].station);
-      }
+    const int first_x = std::max(center.x() - 1, 0), last_x = std::min(center.x() + 1, size_.x() - 1);
+    const int first_y = std::max(center.y() - 1, 0), last_y = std::min(center.y() + 1, size_.y() - 1);
+    if (first_x > last_x) return;
+    for (int y = first_y; y <= last_y; ++y) {
+      // The cells of a row follow one another.
+      const std::uint32_t end = starts_[cell_number({last_x, y}) + 1];
+      for (std::uint32_t i = starts_[cell_number({first_x, y})]; i < end; ++i) visit(entries_[i]);
     }
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -20,20 +19,26 @@ constexpr std::size_t kStride = 3;  // between the stations that look for neighb
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
 /// Pairs of lines that come near each other somewhere, each once, in order.
-std::set<IndexPair> neighbours(const std::vector<Line>& lines, const FusionConfig& config) {
-  std::set<IndexPair> pairs;
+std::vector<IndexPair> neighbours(const std::vector<Line>& lines, const FusionConfig& config) {
+  std::vector<IndexPair> pairs;
   const StationGrid grid(lines);
   const double reach_m = config.merge_distance_m + config.station_spacing_m;
+  std::vector<bool> near(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    near.assign(lines.size(), false);
+    const bool on_stopline = is_stopline(lines[i].type());
     for (std::size_t k = 0; k < lines[i].stations.size(); k += kStride) {
       const Point& point = lines[i].stations[k].position;
-      grid.around(point, [&](std::uint32_t j, std::uint32_t station) {
-        if (j == i || is_stopline(lines[i].type()) != is_stopline(lines[j].type())) return;
-        const double distance_m = (lines[j].stations[station].position - point).head<2>().norm();
-        if (distance_m < reach_m) pairs.insert(std::minmax<std::size_t>(i, j));
+      grid.around(point, [&](const StationGrid::Entry& entry) {
+        if (near[entry.line] || entry.on_stopline != on_stopline) return;
+        near[entry.line] = (entry.position - point).head<2>().squaredNorm() < reach_m * reach_m;
       });
     }
+    for (std::size_t j = 0; j < lines.size(); ++j)
+      if (near[j] && j != i) pairs.push_back(std::minmax(i, j));
   }
+  std::ranges::sort(pairs);
+  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
   return pairs;
 }
 

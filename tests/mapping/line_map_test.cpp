@@ -37,8 +37,9 @@ TEST(StationGrid, FindsEveryStationWithinACell) {
   for (const Point& point :
        {Point(0, 6, 0), Point(-12, 0, 0), Point(40, 8, 0), Point(1000, -1000, 0), Point(-30, 5, 9)}) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> found;
-    grid.around(point, [&](std::uint32_t line, std::uint32_t station) {
-      EXPECT_TRUE(found.insert({line, station}).second);
+    grid.around(point, [&](const StationGrid::Entry& entry) {
+      EXPECT_TRUE(found.insert({entry.line, entry.station}).second);
+      EXPECT_EQ(entry.position, lines[entry.line].stations[entry.station].position);
     });
     for (std::uint32_t i = 0; i < lines.size(); ++i) {
       for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
@@ -51,7 +52,7 @@ TEST(StationGrid, FindsEveryStationWithinACell) {
 }
 
 TEST(StationGrid, OfNothingFindsNothing) {
-  StationGrid({}).around({0, 0, 0}, [](std::uint32_t, std::uint32_t) { ADD_FAILURE(); });
+  StationGrid({}).around({0, 0, 0}, [](const StationGrid::Entry&) { ADD_FAILURE(); });
 }
 
 }  // namespace
