@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/nearest_stations.hpp"
 
 namespace laneloom {
 namespace {
-
-constexpr double kMaxHeight_m = 2.0;  // a line this far above or below is on another road
 
 struct Candidate {
   double score = 0.0;
@@ -23,61 +21,6 @@ Eigen::Vector2d direction_of(const Polyline& samples, std::size_t i) {
   return (samples[after] - samples[before]).head<2>().normalized();
 }
 
-/// A line's station that is nearest to a point.
-struct Nearest {
-  std::uint32_t line = 0;
-  std::uint32_t station = 0;
-  double squared_m2 = 0.0;  ///< its distance
-};
-
-/// Finds for a point the nearest station of every line beside it. Keeps its memory from point to point.
-class NearestStations {
- public:
-  explicit NearestStations(const std::vector<Line>& lines) : grid_(lines), slots_(lines.size(), kNone) {}
-
-  /// By line, in no meaningful order; good until the next call.
-  const std::vector<Nearest>& around(const Point& point, bool on_stopline) {
-    for (const Nearest& nearest : near_) slots_[nearest.line] = kNone;
-    near_.clear();
-    grid_.around(point, [&](const StationGrid::Entry& entry) {
-      if (entry.on_stopline != on_stopline) return;
-      const Point offset = entry.position - point;
-      if (std::abs(offset.z()) > kMaxHeight_m) return;
-      const double squared_m2 = offset.head<2>().squaredNorm();
-      std::uint32_t& slot = slots_[entry.line];
-      if (slot == kNone) {
-        slot = static_cast<std::uint32_t>(near_.size());
-        near_.push_back({entry.line, entry.station, squared_m2});
-      } else if (squared_m2 < near_[slot].squared_m2) {
-        near_[slot] = {entry.line, entry.station, squared_m2};
-      }
-    });
-    return near_;
-  }
-
- private:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-  StationGrid grid_;
-  std::vector<std::uint32_t> slots_;  ///< by line: where in near_ it is
-  std::vector<Nearest> near_;
-};
-
-/// Whether `point` lies within the gate of the line's course before or after a station: without it, no foot
-/// there does. Needs no root and no quotient.
-bool may_lie_within(double gate_m, const Line& line, std::size_t nearest, const Point& point) {
-  constexpr double kRounding = 1.0 + 1e-9;
-  const auto& stations = line.stations;
-  const std::size_t first = nearest == 0 ? 0 : nearest - 1;
-  const std::size_t last = std::min(nearest + 1, stations.size() - 1);
-  for (std::size_t i = first; i < last; ++i) {
-    const Eigen::Vector2d along = (stations[i + 1].position - stations[i].position).head<2>();
-    const double area_m2 = cross(along, (point - stations[i].position).head<2>());
-    if (area_m2 * area_m2 <= kRounding * gate_m * gate_m * along.squaredNorm()) return true;
-  }
-  return false;
-}
-
 /// All lines that a detection's samples lie beside, with the samples that do.
 void find_candidates(std::size_t index, const SampledDetection& detection, const std::vector<Line>& lines,
                      double min_cosine, double gate_m, NearestStations& nearest_stations,
@@ -85,9 +28,8 @@ void find_candidates(std::size_t index, const SampledDetection& detection, const
   std::map<std::uint32_t, Candidate> by_line;
   for (std::size_t i = 0; i < detection.samples.size(); ++i) {
     const Point& point = detection.samples[i];
-    for (const Nearest& n : nearest_stations.around(point, is_stopline(detection.type))) {
+    for (const NearestStation& n : nearest_stations.around(point)) {
       const Line& line = lines[n.line];
-      if (!may_lie_within(gate_m, line, n.station, point)) continue;
       const StationFoot foot = foot_at(line, n.station, point);
       const double last = static_cast<double>(line.stations.size() - 1);
       if (foot.index < -0.5 || foot.index > last + 0.5 || std::abs(foot.lateral_m) > gate_m) continue;
@@ -126,10 +68,11 @@ std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarkin
 std::vector<LineMatch> associate(const std::vector<Line>& lines, const FusionConfig& config,
                                  std::vector<SampledDetection>& detections) {
   const double min_cosine = cos_degrees(config.gate_angle_deg);
-  NearestStations nearest_stations(lines);
+  NearestStations along(lines, false, config.gate_m), across(lines, true, config.gate_m);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < detections.size(); ++i) {
-    find_candidates(i, detections[i], lines, min_cosine, config.gate_m, nearest_stations, candidates);
+    find_candidates(i, detections[i], lines, min_cosine, config.gate_m,
+                    is_stopline(detections[i].type) ? across : along, candidates);
   }
   std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::score);
 

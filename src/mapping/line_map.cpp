@@ -6,12 +6,6 @@
 #include "laneloom/polyline.hpp"
 
 namespace laneloom {
-namespace {
-
-constexpr double kCell_m = 2.0;  // no less than a gate and a station's spacing
-
-}  // namespace
-
 MarkingType Line::type() const {
   return static_cast<MarkingType>(std::ranges::max_element(type_votes) - type_votes.begin());
 }
@@ -50,32 +44,32 @@ Eigen::Vector2d direction_at(const Line& line, std::size_t station) {
   return (line.stations[after].position - line.stations[before].position).head<2>().normalized();
 }
 
-StationGrid::StationGrid(const std::vector<Line>& lines) {
+StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
+  std::vector<Entry> all;
   Eigen::AlignedBox2d bounds;
-  std::size_t count = 0;
-  for (const Line& line : lines) {
-    for (const Station& station : line.stations) bounds.extend(station.position.head<2>());
-    count += line.stations.size();
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    const bool wanted = is_stopline(lines[i].type()) == of_stoplines;
+    for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
+      const Point& position = lines[i].stations[k].position;
+      bounds.extend(position.head<2>());
+      if (wanted) all.push_back({position, i, k});
+    }
   }
-  if (count == 0) return;
+  if (all.empty()) return;
   origin_ = bounds.min();
   size_ = (bounds.sizes() / kCell_m).array().floor().cast<int>() + 1;
   // Counting sort by cell; within a cell by line and station.
   starts_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
-  const auto cell = [&](const Station& station) { return cell_number(cell_of(station.position)); };
-  for (const Line& line : lines) {
-    for (const Station& station : line.stations) ++starts_[cell(station) + 1];
+  std::vector<std::size_t> cells;
+  cells.reserve(all.size());
+  for (const Entry& entry : all) {
+    cells.push_back(cell_number(cell_of(entry.position)));
+    ++starts_[cells.back() + 1];
   }
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  entries_.resize(count);
+  entries_.resize(all.size());
   std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    const bool on_stopline = is_stopline(lines[i].type());
-    for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
-      const Station& station = lines[i].stations[k];
-      entries_[next[cell(station)]++] = {station.position, i, k, on_stopline};
-    }
-  }
+  for (std::size_t i = 0; i < all.size(); ++i) entries_[next[cells[i]]++] = all[i];
 }
 
 Eigen::Vector2i StationGrid::cell_of(const Point& point) const {

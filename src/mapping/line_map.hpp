@@ -69,10 +69,11 @@ class StationGrid {
     Point position = Point::Zero();
     std::uint32_t line = 0;
     std::uint32_t station = 0;
-    bool on_stopline = false;
   };
+  static constexpr double kCell_m = 2.0;  ///< no less than a gate and a station's spacing
 
-  explicit StationGrid(const std::vector<Line>& lines);
+  /// Of all stoplines, or of all other lines.
+  StationGrid(const std::vector<Line>& lines, bool of_stoplines);
 
   /// Calls `visit(entry)` for every station within a cell of `point`, in a fixed order.
   template <class Visit>

@@ -21,17 +21,16 @@ using IndexPair = std::pair<std::size_t, std::size_t>;
 /// Pairs of lines that come near each other somewhere, each once, in order.
 std::vector<IndexPair> neighbours(const std::vector<Line>& lines, const FusionConfig& config) {
   std::vector<IndexPair> pairs;
-  const StationGrid grid(lines);
+  const StationGrid along(lines, false), across(lines, true);
   const double reach_m = config.merge_distance_m + config.station_spacing_m;
   std::vector<bool> near(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     near.assign(lines.size(), false);
-    const bool on_stopline = is_stopline(lines[i].type());
+    const StationGrid& grid = is_stopline(lines[i].type()) ? across : along;
     for (std::size_t k = 0; k < lines[i].stations.size(); k += kStride) {
       const Point& point = lines[i].stations[k].position;
       grid.around(point, [&](const StationGrid::Entry& entry) {
-        if (near[entry.line] || entry.on_stopline != on_stopline) return;
-        near[entry.line] = (entry.position - point).head<2>().squaredNorm() < reach_m * reach_m;
+        if ((entry.position - point).head<2>().squaredNorm() < reach_m * reach_m) near[entry.line] = true;
       });
     }
     for (std::size_t j = 0; j < lines.size(); ++j)

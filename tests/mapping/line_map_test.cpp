@@ -33,7 +33,7 @@ TEST(StationFoot, BeyondAnEndTheIndexSaysHowFar) {
 TEST(StationGrid, FindsEveryStationWithinACell) {
   const std::vector<Line> lines{test::line(1, test::straight({-30, 5, 0}, {40, 8, 0}, 71)),
                                 test::line(2, test::arc({0, 0, 0}, 12, 0, 270))};
-  const StationGrid grid(lines);
+  const StationGrid grid(lines, false);
   for (const Point& point :
        {Point(0, 6, 0), Point(-12, 0, 0), Point(40, 8, 0), Point(1000, -1000, 0), Point(-30, 5, 9)}) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> found;
@@ -52,7 +52,7 @@ TEST(StationGrid, FindsEveryStationWithinACell) {
 }
 
 TEST(StationGrid, OfNothingFindsNothing) {
-  StationGrid({}).around({0, 0, 0}, [](const StationGrid::Entry&) { ADD_FAILURE(); });
+  StationGrid({}, false).around({0, 0, 0}, [](const StationGrid::Entry&) { ADD_FAILURE(); });
 }
 
 }  // namespace

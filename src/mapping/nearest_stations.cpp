@@ -1,0 +1,71 @@
+#include "mapping/nearest_stations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace laneloom {
+namespace {
+
+constexpr double kMaxHeight_m = 2.0;  // a line this far above or below is on another road
+constexpr double kRounding = 1.0 + 1e-9;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// How far a point that lies on a line may be from the nearest station: its foot is at most half a segment
+/// away from it, or, outside of a bend, at the station itself. Infinite where segments are so long or bends
+/// so sharp that it isn't so.
+double squared_reach_m2(const Line& line, double gate_m) {
+  double longest_m2 = 0.0, least_cosine = 1.0;
+  Eigen::Vector2d before = Eigen::Vector2d::Zero();
+  for (std::size_t i = 1; i < line.stations.size(); ++i) {
+    const Eigen::Vector2d along = (line.stations[i].position - line.stations[i - 1].position).head<2>();
+    longest_m2 = std::max(longest_m2, along.squaredNorm());
+    if (i > 1) least_cosine = std::min(least_cosine, before.normalized().dot(along.normalized()));
+    before = along;
+  }
+  if (least_cosine <= 0.0) return kFar;
+  const double beside_m2 = gate_m * gate_m + 0.25 * longest_m2;
+  const double outside_m = gate_m / least_cosine;
+  const double reach_m2 = kRounding * std::max(beside_m2, outside_m * outside_m);
+  return reach_m2 < StationGrid::kCell_m * StationGrid::kCell_m ? reach_m2 : kFar;
+}
+
+}  // namespace
+
+NearestStations::NearestStations(const std::vector<Line>& lines, bool of_stoplines, double gate_m)
+    : grid_(lines, of_stoplines), slots_(lines.size(), kNone) {
+  squared_reach_m2_.reserve(lines.size());
+  for (const Line& line : lines) squared_reach_m2_.push_back(squared_reach_m2(line, gate_m));
+}
+
+const std::vector<NearestStation>& NearestStations::around(const Point& point) {
+  // Of a line that runs on another level, the nearest station on this one may be anywhere.
+  if (collect(point, true)) collect(point, false);
+  return near_;
+}
+
+bool NearestStations::collect(const Point& point, bool within_reach) {
+  for (const NearestStation& nearest : near_) slots_[nearest.line] = kNone;
+  near_.clear();
+  bool other_level = false;
+  grid_.around(point, [&](const StationGrid::Entry& entry) {
+    const Point offset = entry.position - point;
+    if (std::abs(offset.z()) > kMaxHeight_m) {
+      other_level = true;
+      return;
+    }
+    const double squared_m2 = offset.head<2>().squaredNorm();
+    if (within_reach && squared_m2 > squared_reach_m2_[entry.line]) return;
+    std::uint32_t& slot = slots_[entry.line];
+    if (slot == kNone) {
+      slot = static_cast<std::uint32_t>(near_.size());
+      near_.push_back({entry.line, entry.station, squared_m2});
+    } else if (squared_m2 < near_[slot].squared_m2) {
+      near_[slot] = {entry.line, entry.station, squared_m2};
+    }
+  });
+  return other_level;
+}
+
+}  // namespace laneloom
