@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "laneloom/types.hpp"
@@ -39,16 +41,30 @@ class MeasuredPolyline {
   Point at(double arc_m) const;
   /// Horizontal unit direction of the segment that holds an arc length; zero for a single point.
   Eigen::Vector2d direction(double arc_m) const;
-  /// The nearest foot of `point`; the first one where several are equally near.
-  Projection project(const Point& point) const;
+  /// The same at a foot on this line, without search.
+  Eigen::Vector2d direction(const Projection& foot) const;
+  /// The nearest foot of `point`; the first one where several are equally near. Where none is as near as
+  /// `within_m`, `distance_m` is infinite and the foot not `inside`.
+  Projection project(const Point& point,
+                     double within_m = std::numeric_limits<double>::infinity()) const;
   /// The stretch between two arc lengths (from < to, both clamped), with its inner vertices.
   Polyline slice(const Range& range) const;
   /// Points every `step_m` (slightly less, so that both ends are met), at least two.
   Polyline resample(double step_m) const;
 
  private:
+  struct Nearest;
+  void consider(std::size_t segment, const Point& point, Nearest& nearest) const;
+  void search_along_course(const Point& point, Nearest& nearest) const;
+  void search_everywhere(const Point& point, Nearest& nearest) const;
+  Eigen::Vector2d segment_direction(std::size_t end) const;
+
   Polyline points_;
   std::vector<double> arc_;
+  // What tells from afar where on the line a foot is: in the frame of its first point and its course.
+  Eigen::Vector2d course_ = Eigen::Vector2d::UnitX();  ///< from the first point to the last
+  Eigen::AlignedBox2d bounds_;                         ///< along the course, and to the left of it
+  double cosine_ = 1.0, sine_ = 0.0;                   ///< of the largest angle of a segment to the course
 };
 
 /// Horizontal direction in which `line` leaves its end (`at_back`) or its start, over its last `reach_m`.

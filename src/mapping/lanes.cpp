@@ -77,7 +77,7 @@ std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const Mea
   for (int i = 0; i <= steps; ++i) {
     const double arc_m = right.length() * i / steps;
     const Point point = right.at(arc_m);
-    const Projection foot = left.project(point);
+    const Projection foot = left.project(point, max_width_m);
     const bool free = !contains(left_used, foot.arc_m) && !contains(right_used, arc_m);
     const bool width_ok = foot.distance_m >= config.min_width_m && foot.distance_m <= max_width_m;
     sections.push_back({.left_arc_m = foot.arc_m,
@@ -155,7 +155,7 @@ Lane make_lane(std::span<const CrossSection> sections, const LaneBoundary& left,
 /// How many points of `line` lie within half a lane of `other`.
 std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
   return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
-    const Projection foot = other.project(point);
+    const Projection foot = other.project(point, max_distance_m);
     return foot.inside && foot.distance_m < max_distance_m;
   }));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -41,20 +42,44 @@ std::vector<IndexPair> neighbours(const std::vector<Line>& lines, const FusionCo
   return pairs;
 }
 
-bool lies_beside(const Line& line, const Line& other, double distance_m) {
-  Polyline points;
-  for (const Station& station : other.stations) points.push_back(station.position);
-  const MeasuredPolyline measured(points);
-  const auto beside = std::ranges::count_if(line.stations, [&](const Station& station) {
-    const Projection foot = measured.project(station.position);
-    return foot.distance_m < distance_m && std::abs(foot.foot.z() - station.position.z()) < kMaxHeight_m;
-  });
-  return static_cast<double>(beside) >= kMinBeside * static_cast<double>(line.stations.size());
+/// The lines' courses, measured when they are first asked for.
+class Courses {
+ public:
+  explicit Courses(const std::vector<Line>& lines) : lines_(lines), measured_(lines.size()) {}
+
+  const MeasuredPolyline& operator[](std::size_t line) {
+    auto& measured = measured_[line];
+    if (!measured) {
+      Polyline points;
+      points.reserve(lines_[line].stations.size());
+      for (const Station& station : lines_[line].stations) points.push_back(station.position);
+      measured.emplace(points);
+    }
+    return *measured;
+  }
+
+ private:
+  const std::vector<Line>& lines_;
+  std::vector<std::optional<MeasuredPolyline>> measured_;
+};
+
+bool lies_beside(const Line& line, const MeasuredPolyline& other, double distance_m) {
+  const auto count = line.stations.size();
+  const double needed = kMinBeside * static_cast<double>(count);
+  std::size_t beside = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (static_cast<double>(beside + (count - k)) < needed) return false;
+    const Point& point = line.stations[k].position;
+    const Projection foot = other.project(point, distance_m);
+    if (foot.distance_m < distance_m && std::abs(foot.foot.z() - point.z()) < kMaxHeight_m) ++beside;
+  }
+  return static_cast<double>(beside) >= needed;
 }
 
-bool side_by_side(const Line& a, const Line& b, const FusionConfig& config) {
-  const bool a_shorter = a.stations.size() < b.stations.size();
-  return lies_beside(a_shorter ? a : b, a_shorter ? b : a, config.merge_distance_m);
+bool side_by_side(const std::vector<Line>& lines, std::size_t a, std::size_t b, double distance_m,
+                  Courses& courses) {
+  if (lines[b].stations.size() <= lines[a].stations.size()) std::swap(a, b);
+  return lies_beside(lines[a], courses[b], distance_m);
 }
 
 bool mostly_observed(const StationsObserved& observed, std::size_t line) {
@@ -89,8 +114,9 @@ void merge_doubles(const StationsObserved& observed, const FusionConfig& config,
                    std::vector<LinePair>& pairs) {
   std::vector<LinePair> kept;
   std::vector<bool> gone(lines.size(), false);
+  Courses courses(lines);
   for (const auto& [i, j] : neighbours(lines, config)) {
-    if (gone[i] || gone[j] || !side_by_side(lines[i], lines[j], config)) continue;
+    if (gone[i] || gone[j] || !side_by_side(lines, i, j, config.merge_distance_m, courses)) continue;
     const LinePair pair =
         counted(pairs, lines[i], lines[j], mostly_observed(observed, i), mostly_observed(observed, j));
     if (is_double(pair)) {

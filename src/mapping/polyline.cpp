@@ -13,7 +13,13 @@ constexpr std::size_t kStride = 8;  // between the vertices that are looked at f
 
 constexpr double kCoincident_m = 1e-9;
 
+constexpr double kMargin_m = 1e-6;        // far above rounding: what is as near is compared to the last bit
+constexpr double kMinAlongCourse = 0.2;   // cosine; a line that turns away further winds
+
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
+
+/// Squared; what is further off than this is further than `distance_m` also after rounding.
+double squared_bound_m2(double distance_m) { return (distance_m + kMargin_m) * (distance_m + kMargin_m); }
 
 }  // namespace
 
@@ -38,6 +44,16 @@ MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
       points_.push_back(point);
   }
   arc_ = arc_lengths(points_);
+  const Eigen::Vector2d chord = (points_.back() - points_.front()).head<2>();
+  if (chord.norm() > kCoincident_m) course_ = chord.normalized();
+  for (const Point& point : points_) {
+    const Eigen::Vector2d offset = (point - points_.front()).head<2>();
+    bounds_.extend(Eigen::Vector2d(course_.dot(offset), cross(course_, offset)));
+  }
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    cosine_ = std::min(cosine_, course_.dot(segment_direction(i)));
+  cosine_ -= 1e-9;
+  sine_ = std::sqrt(1.0 - cosine_ * cosine_);
 }
 
 Point MeasuredPolyline::at(double arc_m) const {
@@ -49,52 +65,108 @@ Point MeasuredPolyline::at(double arc_m) const {
   return points_[i - 1] + share * (points_[i] - points_[i - 1]);
 }
 
+Eigen::Vector2d MeasuredPolyline::segment_direction(std::size_t end) const {
+  return (points_[end] - points_[end - 1]).head<2>() / (arc_[end] - arc_[end - 1]);
+}
+
 Eigen::Vector2d MeasuredPolyline::direction(double arc_m) const {
   if (points_.size() < 2) return Eigen::Vector2d::Zero();
   const auto after = std::upper_bound(arc_.begin(), arc_.end(), arc_m);
   const auto i =
       std::clamp<std::size_t>(static_cast<std::size_t>(after - arc_.begin()), 1, points_.size() - 1);
-  return (points_[i] - points_[i - 1]).head<2>() / (arc_[i] - arc_[i - 1]);
+  return segment_direction(i);
 }
 
-Projection MeasuredPolyline::project(const Point& point) const {
-  Projection best;
-  best.distance_m = std::numeric_limits<double>::infinity();
-  if (points_.size() == 1) {
-    best.foot = points_.front();
-    best.distance_m = horizontal_distance(point, best.foot);
-    return best;
-  }
-  // Along the line, the distance changes no faster than the arc length: what must be farther than a few of
-  // the vertices is passed over.
-  double bound_m = std::numeric_limits<double>::infinity();
+Eigen::Vector2d MeasuredPolyline::direction(const Projection& foot) const {
+  if (points_.size() < 2) return Eigen::Vector2d::Zero();
+  std::size_t i = foot.segment + 1;
+  while (i + 1 < points_.size() && arc_[i] <= foot.arc_m) ++i;
+  return segment_direction(i);
+}
+
+/// The nearest foot so far.
+struct MeasuredPolyline::Nearest {
+  double bound_m2 = 0.0;  ///< what is further off, squared, need not be considered
+  double distance_m = std::numeric_limits<double>::infinity();
+  std::size_t segment = std::numeric_limits<std::size_t>::max();
+  double share = 0.0;  ///< of the segment; beyond 0..1 where the foot is at its end
+};
+
+void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest& nearest) const {
+  const Eigen::Vector2d start = points_[segment].head<2>();
+  const Eigen::Vector2d along = points_[segment + 1].head<2>() - start;
+  const double segment_m = arc_[segment + 1] - arc_[segment];
+  const double share = (point.head<2>() - start).dot(along) / (segment_m * segment_m);
+  const Eigen::Vector2d foot = start + std::clamp(share, 0.0, 1.0) * along;
+  const double squared_m2 = (point.head<2>() - foot).squaredNorm();
+  if (squared_m2 > nearest.bound_m2) return;
+  const double distance_m = std::sqrt(squared_m2);
+  if (distance_m > nearest.distance_m || (distance_m == nearest.distance_m && segment > nearest.segment))
+    return;
+  nearest = {squared_bound_m2(distance_m), distance_m, segment, share};
+}
+
+/// From where the point is along the course to both sides. All of the line lies within a cone about the
+/// course from any of its vertices. Once the point lies behind that, what follows is further than the vertex.
+void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest) const {
+  const auto ahead = [&](const Point& vertex) { return course_.dot((point - vertex).head<2>()); };
+  const auto is_behind = [&](const Point& vertex, double sense) {
+    const Eigen::Vector2d offset = (point - vertex).head<2>();
+    const double along_edge =
+        sense * course_.dot(offset) * cosine_ + std::abs(cross(course_, offset)) * sine_;
+    return along_edge <= 0.0 && offset.squaredNorm() > nearest.bound_m2;
+  };
+  const auto after = std::partition_point(points_.begin() + 1, points_.end() - 1,
+                                          [&](const Point& vertex) { return ahead(vertex) >= 0.0; });
+  const auto middle = static_cast<std::size_t>(after - points_.begin()) - 1;
+  consider(middle, point, nearest);
+  for (std::size_t i = middle + 1; i + 1 < points_.size() && !is_behind(points_[i], 1.0); ++i)
+    consider(i, point, nearest);
+  for (std::size_t i = middle; i > 0 && !is_behind(points_[i], -1.0); --i) consider(i - 1, point, nearest);
+}
+
+/// Along the line, the distance changes no faster than the arc length: what must be farther than a few of the
+/// vertices is passed over.
+void MeasuredPolyline::search_everywhere(const Point& point, Nearest& nearest) const {
+  double squared_m2 = nearest.bound_m2;
   for (std::size_t i = 0; i < points_.size(); i += kStride)
-    bound_m = std::min(bound_m, (point - points_[i]).head<2>().squaredNorm());
-  bound_m = std::sqrt(bound_m);
+    squared_m2 = std::min(squared_m2, (point - points_[i]).head<2>().squaredNorm());
+  const double bound_m = std::sqrt(squared_m2) + kMargin_m;
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
     const double slack_m = horizontal_distance(point, points_[i]) - bound_m;
     const double from_m = arc_[i];
     while (i + 1 < points_.size() && arc_[i + 1] - from_m < slack_m) ++i;
-    if (i + 1 == points_.size()) break;
-    const Eigen::Vector2d along = (points_[i + 1] - points_[i]).head<2>();
-    const double segment_m = arc_[i + 1] - arc_[i];
-    const Eigen::Vector2d offset = (point - points_[i]).head<2>();
-    const double share = offset.dot(along) / (segment_m * segment_m);
-    const double clamped = std::clamp(share, 0.0, 1.0);
-    const Point foot = points_[i] + clamped * (points_[i + 1] - points_[i]);
-    const double distance_m = horizontal_distance(point, foot);
-    if (distance_m >= best.distance_m) continue;
-    const bool before_start = i == 0 && share < 0.0;
-    const bool after_end = i + 2 == points_.size() && share > 1.0;
-    const double side = cross(along, offset) / segment_m;
-    best = {.arc_m = arc_[i] + clamped * segment_m,
-            .distance_m = distance_m,
-            .lateral_m = before_start || after_end ? side : std::copysign(distance_m, side),
-            .inside = !before_start && !after_end,
-            .segment = i,
-            .foot = foot};
+    if (i + 1 < points_.size()) consider(i, point, nearest);
   }
-  return best;
+}
+
+Projection MeasuredPolyline::project(const Point& point, double within_m) const {
+  Projection result;
+  result.distance_m = std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d offset = (point - points_.front()).head<2>();
+  Nearest nearest{.bound_m2 = squared_bound_m2(within_m)};
+  const Eigen::Vector2d place(course_.dot(offset), cross(course_, offset));
+  if (bounds_.squaredExteriorDistance(place) > nearest.bound_m2)
+    return result;
+  if (points_.size() == 1) {
+    result.foot = points_.front();
+    result.distance_m = horizontal_distance(point, result.foot);
+    return result;
+  }
+  cosine_ > kMinAlongCourse ? search_along_course(point, nearest) : search_everywhere(point, nearest);
+  if (nearest.distance_m > within_m) return result;
+  const auto& [bound, distance_m, i, share] = nearest;
+  const double clamped = std::clamp(share, 0.0, 1.0);
+  const double segment_m = arc_[i + 1] - arc_[i];
+  const bool before_start = i == 0 && share < 0.0;
+  const bool after_end = i + 2 == points_.size() && share > 1.0;
+  const double side = cross((points_[i + 1] - points_[i]).head<2>(), (point - points_[i]).head<2>()) / segment_m;
+  return {.arc_m = arc_[i] + clamped * segment_m,
+          .distance_m = distance_m,
+          .lateral_m = before_start || after_end ? side : std::copysign(distance_m, side),
+          .inside = !before_start && !after_end,
+          .segment = i,
+          .foot = points_[i] + clamped * (points_[i + 1] - points_[i])};
 }
 
 Polyline MeasuredPolyline::slice(const Range& range) const {

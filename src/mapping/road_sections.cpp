@@ -19,19 +19,31 @@ struct Overlap {
   bool opposed = false;    ///< a and b run against each other
 };
 
+/// A boundary's points, evenly spaced, with the directions in which it leaves them.
+struct Samples {
+  Polyline points;
+  std::vector<Eigen::Vector2d> directions;
+};
+
+Samples sample(const MeasuredPolyline& line) {
+  Samples samples{line.resample(kSampleStep_m), {}};
+  samples.directions.reserve(samples.points.size());
+  for (std::size_t i = 0; i < samples.points.size(); ++i) {
+    const std::size_t k = std::min(i, samples.points.size() - 2);
+    samples.directions.push_back((samples.points[k + 1] - samples.points[k]).head<2>().normalized());
+  }
+  return samples;
+}
+
 /// Empty where no point of `a` has its foot inside of `b`, near and in a similar direction.
-std::optional<Overlap> overlap(const MeasuredPolyline& a, const MeasuredPolyline& b,
-                               const SectionConfig& config) {
-  const double min_cosine = cos_degrees(config.max_angle_deg);
+std::optional<Overlap> overlap(const Samples& a, const MeasuredPolyline& b, double max_distance_m,
+                               double min_cosine) {
   double lateral_sum_m = 0.0, cosine_sum = 0.0;
   int count = 0;
-  const Polyline samples = a.resample(kSampleStep_m);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Projection foot = b.project(samples[i]);
-    if (!foot.inside || foot.distance_m > config.max_distance_m) continue;
-    const std::size_t k = std::min(i, samples.size() - 2);
-    const Eigen::Vector2d along_a = (samples[k + 1] - samples[k]).head<2>().normalized();
-    const double cosine = along_a.dot(b.direction(foot.arc_m));
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    const Projection foot = b.project(a.points[i], max_distance_m);
+    if (!foot.inside) continue;
+    const double cosine = a.directions[i].dot(b.direction(foot));
     if (std::abs(cosine) < min_cosine) continue;
     lateral_sum_m += foot.lateral_m;
     cosine_sum += cosine;
@@ -48,12 +60,17 @@ struct Edge {
 using Graph = std::vector<std::vector<Edge>>;
 
 Graph overlap_graph(const std::vector<MeasuredPolyline>& lines, const SectionConfig& config) {
+  const double min_cosine = cos_degrees(config.max_angle_deg);
+  std::vector<Samples> samples;
+  samples.reserve(lines.size());
+  for (const MeasuredPolyline& line : lines) samples.push_back(sample(line));
   Graph graph(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      const auto j_beside_i = overlap(lines[j], lines[i], config);
-      const auto i_beside_j = overlap(lines[i], lines[j], config);
-      if (!j_beside_i || !i_beside_j) continue;
+      const auto j_beside_i = overlap(samples[j], lines[i], config.max_distance_m, min_cosine);
+      if (!j_beside_i) continue;
+      const auto i_beside_j = overlap(samples[i], lines[j], config.max_distance_m, min_cosine);
+      if (!i_beside_j) continue;
       graph[i].push_back({j, *j_beside_i});
       graph[j].push_back({i, *i_beside_j});
     }
@@ -64,7 +81,7 @@ Graph overlap_graph(const std::vector<MeasuredPolyline>& lines, const SectionCon
 /// Whether the line has to be turned to run with the vehicle.
 bool against_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_map_body) {
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
-  const Eigen::Vector2d direction = line.direction(line.project(T_map_body.translation()).arc_m);
+  const Eigen::Vector2d direction = line.direction(line.project(T_map_body.translation()));
   return direction.dot(heading) < -kAlignedCosine * heading.norm();
 }
 
