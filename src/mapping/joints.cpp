@@ -28,15 +28,27 @@ std::vector<Views> views_of_ends(const std::vector<LineMatch>& matches, const st
   return views;
 }
 
-Point end_of(const Line& line, std::size_t end) {
-  return end == 0 ? line.stations.front().position : line.stations.back().position;
+/// What says whether two lines meet: their ends, seen from above.
+struct Ends {
+  std::array<Eigen::Vector2d, 2> at;
+  bool of_stopline = false;
+};
+
+std::vector<Ends> ends_of(const std::vector<Line>& lines) {
+  std::vector<Ends> ends;
+  ends.reserve(lines.size());
+  for (const Line& line : lines)
+    ends.push_back({{line.stations.front().position.head<2>(), line.stations.back().position.head<2>()},
+                    is_stopline(line.type())});
+  return ends;
 }
 
 std::pair<ElementId, ElementId> key(ElementId a, ElementId b) { return std::minmax(a, b); }
+std::pair<ElementId, ElementId> key_of(const Joint& joint) { return {joint.a, joint.b}; }
 
 const Joint* find(const std::vector<Joint>& joints, ElementId a, ElementId b) {
-  const auto found = std::ranges::find(joints, key(a, b), [](const Joint& j) { return std::pair(j.a, j.b); });
-  return found == joints.end() ? nullptr : &*found;
+  const auto found = std::ranges::lower_bound(joints, key(a, b), {}, key_of);
+  return found == joints.end() || key_of(*found) != key(a, b) ? nullptr : &*found;
 }
 
 bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
@@ -48,13 +60,14 @@ bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
                   std::vector<Joint>& joints) {
   const std::vector<Views> views = views_of_ends(matches, lines);
+  const std::vector<Ends> ends = ends_of(lines);
   std::vector<Joint> counted;
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (ends[i].of_stopline) continue;
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      if (is_stopline(lines[i].type()) || is_stopline(lines[j].type())) continue;
+      if (ends[j].of_stopline) continue;
       for (const auto& [end_i, end_j] : {std::pair(0U, 0U), {0U, 1U}, {1U, 0U}, {1U, 1U}}) {
-        const Point gap = end_of(lines[i], end_i) - end_of(lines[j], end_j);
-        if (gap.head<2>().norm() > max_gap_m) continue;
+        if ((ends[i].at[end_i] - ends[j].at[end_j]).squaredNorm() > max_gap_m * max_gap_m) continue;
         const auto [a, b] = key(lines[i].id, lines[j].id);
         const Joint* known = find(joints, a, b);
         Joint joint = known != nullptr ? *known : Joint{a, b};
@@ -67,6 +80,7 @@ void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>
       }
     }
   }
+  std::ranges::sort(counted, {}, key_of);
   joints = std::move(counted);
 }
 

@@ -21,7 +21,8 @@ struct Joint {
   }
 };
 
-/// Counts for the lines that end within `max_gap_m` of each other how the frame's detections saw them.
+/// Counts for the lines that end within `max_gap_m` of each other how the frame's detections saw them. Joints
+/// are in the order of their ids.
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
                   std::vector<Joint>& joints);
 

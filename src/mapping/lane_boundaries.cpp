@@ -45,10 +45,11 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const std::v
   std::vector<Join> joins;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      if (lines[i].type != lines[j].type || are_separate(joints, lines[i].id, lines[j].id)) continue;
+      if (lines[i].type != lines[j].type) continue;
       for (const bool i_back : {false, true}) {
         for (const bool j_back : {false, true}) {
           if (!can_join(lines[i], i_back, lines[j], j_back, config)) continue;
+          if (are_separate(joints, lines[i].id, lines[j].id)) continue;
           const double gap_m = (end_point(lines[j], j_back) - end_point(lines[i], i_back)).head<2>().norm();
           joins.push_back({gap_m, {i, i_back}, {j, j_back}});
         }

@@ -1,6 +1,7 @@
 #include "mapping/lanes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -46,26 +47,29 @@ struct Pair {
   std::uint32_t section;
 };
 
-/// How many boundaries lie between two that lie side by side, and beside both.
+/// How many boundaries lie between two that lie side by side, and beside both; no more than one too many.
 std::size_t count_between(const SectionGraph& graph, std::size_t left, std::size_t right) {
-  return static_cast<std::size_t>(std::ranges::count_if(graph.right_of[left], [&](const SideBySide& b) {
-    return std::ranges::count(graph.right_of[b.right], right, &SideBySide::right) > 0;
-  }));
+  std::size_t count = 0;
+  for (const SideBySide& between : graph.right_of[left]) {
+    if (count > kMaxBetween) break;
+    if (std::ranges::count(graph.right_of[between.right], right, &SideBySide::right) > 0) ++count;
+  }
+  return count;
 }
 
 /// Neighbouring boundaries first.
 std::vector<Pair> pairs(const SectionGraph& graph) {
-  std::vector<Pair> result;
-  for (std::size_t between = 0; between <= kMaxBetween; ++between) {
-    for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
-      for (const std::size_t left : graph.sections[section].boundaries) {
-        for (const SideBySide& beside : graph.right_of[left]) {
-          if (count_between(graph, left, beside.right) == between)
-            result.push_back({left, beside.right, between == 0, section});
-        }
+  std::array<std::vector<Pair>, kMaxBetween + 1> by_count;
+  for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
+    for (const std::size_t left : graph.sections[section].boundaries) {
+      for (const SideBySide& beside : graph.right_of[left]) {
+        const std::size_t between = count_between(graph, left, beside.right);
+        if (between <= kMaxBetween) by_count[between].push_back({left, beside.right, between == 0, section});
       }
     }
   }
+  std::vector<Pair> result;
+  for (const auto& group : by_count) result.insert(result.end(), group.begin(), group.end());
   return result;
 }
 

@@ -234,6 +234,10 @@ void prune_lines(const LocalRange& range, const FusionConfig& config, std::vecto
     const auto dead = [&](const Station& s) {
       return s.log_odds < config.min_log_odds || !range.keeps(s.position);
     };
+    if (line.stations.size() >= 2 && std::ranges::none_of(line.stations, dead)) {
+      kept.push_back(std::move(line));
+      continue;
+    }
     std::vector<Line> pieces;
     for (std::size_t begin = 0; begin < line.stations.size();) {
       std::size_t end = begin;

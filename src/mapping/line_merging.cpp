@@ -93,11 +93,12 @@ double evidence(const Line& line, const FusionConfig& config) {
   return sum;
 }
 
+std::pair<ElementId, ElementId> key_of(const LinePair& pair) { return {pair.a, pair.b}; }
+
 LinePair counted(const std::vector<LinePair>& pairs, const Line& a, const Line& b, bool a_seen, bool b_seen) {
   LinePair pair{std::min(a.id, b.id), std::max(a.id, b.id)};
-  const auto known =
-      std::ranges::find_if(pairs, [&](const LinePair& p) { return p.a == pair.a && p.b == pair.b; });
-  if (known != pairs.end()) pair = *known;
+  const auto known = std::ranges::lower_bound(pairs, key_of(pair), {}, key_of);
+  if (known != pairs.end() && key_of(*known) == key_of(pair)) pair = *known;
   pair.together = kMemory * pair.together + (a_seen && b_seen ? 1.0 : 0.0);
   pair.apart = kMemory * pair.apart + (a_seen != b_seen ? 1.0 : 0.0);
   return pair;
@@ -125,6 +126,7 @@ void merge_doubles(const StationsObserved& observed, const FusionConfig& config,
       kept.push_back(pair);
     }
   }
+  std::ranges::sort(kept, {}, key_of);
   pairs = std::move(kept);
   std::size_t index = 0;
   std::erase_if(lines, [&](const Line&) { return gone[index++]; });

@@ -23,7 +23,8 @@ struct LinePair {
 
 /// Counts which neighbouring lines are seen together, and takes away the double of a line: of two that lie
 /// side by side and are not seen together, the one with less evidence. `observed` says for every line which
-/// of its stations were observed in this frame; lines that are newer than it may follow.
+/// of its stations were observed in this frame; lines that are newer than it may follow. Pairs are in the
+/// order of their ids.
 void merge_doubles(const StationsObserved& observed, const FusionConfig& config, std::vector<Line>& lines,
                    std::vector<LinePair>& pairs);
 
