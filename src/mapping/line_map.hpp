@@ -85,8 +85,9 @@ class StationGrid {
     if (first_x > last_x) return;
     for (int y = first_y; y <= last_y; ++y) {
       // The cells of a row follow one another.
-      const std::uint32_t end = starts_[cell_number({last_x, y}) + 1];
-      for (std::uint32_t i = starts_[cell_number({first_x, y})]; i < end; ++i) visit(entries_[i]);
+      const Entry* const end = entries_.data() + starts_[cell_number({last_x, y}) + 1];
+      for (const Entry* entry = entries_.data() + starts_[cell_number({first_x, y})]; entry != end; ++entry)
+        visit(*entry);
     }
   }
 

@@ -34,29 +34,30 @@ double squared_reach_m2(const Line& line, double gate_m) {
 }  // namespace
 
 NearestStations::NearestStations(const std::vector<Line>& lines, bool of_stoplines, double gate_m)
-    : grid_(lines, of_stoplines), slots_(lines.size(), kNone) {
+    : grid_(lines, of_stoplines), unlimited_m2_(lines.size(), kFar), slots_(lines.size(), kNone) {
   squared_reach_m2_.reserve(lines.size());
   for (const Line& line : lines) squared_reach_m2_.push_back(squared_reach_m2(line, gate_m));
 }
 
 const std::vector<NearestStation>& NearestStations::around(const Point& point) {
   // Of a line that runs on another level, the nearest station on this one may be anywhere.
-  if (collect(point, true)) collect(point, false);
+  if (collect(point, squared_reach_m2_)) collect(point, unlimited_m2_);
   return near_;
 }
 
-bool NearestStations::collect(const Point& point, bool within_reach) {
+bool NearestStations::collect(const Point& point, const std::vector<double>& squared_reach_m2) {
   for (const NearestStation& nearest : near_) slots_[nearest.line] = kNone;
   near_.clear();
   bool other_level = false;
-  grid_.around(point, [&](const StationGrid::Entry& entry) {
-    const Point offset = entry.position - point;
+  const double* const reach_m2 = squared_reach_m2.data();
+  grid_.around(point, [this, &other_level, reach_m2, center = point](const StationGrid::Entry& entry) {
+    const Point offset = entry.position - center;
     if (std::abs(offset.z()) > kMaxHeight_m) {
       other_level = true;
       return;
     }
     const double squared_m2 = offset.head<2>().squaredNorm();
-    if (within_reach && squared_m2 > squared_reach_m2_[entry.line]) return;
+    if (squared_m2 > reach_m2[entry.line]) return;
     std::uint32_t& slot = slots_[entry.line];
     if (slot == kNone) {
       slot = static_cast<std::uint32_t>(near_.size());

@@ -27,10 +27,11 @@ class NearestStations {
 
  private:
   /// Returns whether any station is on another level.
-  bool collect(const Point& point, bool within_reach);
+  bool collect(const Point& point, const std::vector<double>& squared_reach_m2);
 
   StationGrid grid_;
-  std::vector<double> squared_reach_m2_;  ///< by line
+  std::vector<double> squared_reach_m2_;  ///< by line, as far as what follows
+  std::vector<double> unlimited_m2_;
   std::vector<std::uint32_t> slots_;      ///< by line: where in near_ it is
   std::vector<NearestStation> near_;
 };

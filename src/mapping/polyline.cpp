@@ -116,11 +116,14 @@ void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest)
         sense * course_.dot(offset) * cosine_ + std::abs(cross(course_, offset)) * sine_;
     return along_edge <= 0.0 && offset.squaredNorm() > nearest.bound_m2;
   };
-  const auto after = std::partition_point(points_.begin() + 1, points_.end() - 1,
-                                          [&](const Point& vertex) { return ahead(vertex) >= 0.0; });
-  const auto middle = static_cast<std::size_t>(after - points_.begin()) - 1;
+  // Vertices mostly are evenly spaced.
+  const std::size_t last = points_.size() - 2;
+  const double guess = ahead(points_.front()) / bounds_.sizes().x() * static_cast<double>(last);
+  auto middle = static_cast<std::size_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
+  while (middle < last && ahead(points_[middle + 1]) >= 0.0) ++middle;
+  while (middle > 0 && ahead(points_[middle]) < 0.0) --middle;
   consider(middle, point, nearest);
-  for (std::size_t i = middle + 1; i + 1 < points_.size() && !is_behind(points_[i], 1.0); ++i)
+  for (std::size_t i = middle + 1; i <= last && !is_behind(points_[i], 1.0); ++i)
     consider(i, point, nearest);
   for (std::size_t i = middle; i > 0 && !is_behind(points_[i], -1.0); --i) consider(i - 1, point, nearest);
 }
