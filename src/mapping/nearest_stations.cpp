@@ -16,16 +16,19 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// away from it, or, outside of a bend, at the station itself. Infinite where segments are so long or bends
 /// so sharp that it isn't so.
 double squared_reach_m2(const Line& line, double gate_m) {
-  double longest_m2 = 0.0, least_cosine = 1.0;
+  double longest_m = 0.0, least_cosine = 1.0;
   Eigen::Vector2d before = Eigen::Vector2d::Zero();
   for (std::size_t i = 1; i < line.stations.size(); ++i) {
     const Eigen::Vector2d along = (line.stations[i].position - line.stations[i - 1].position).head<2>();
-    longest_m2 = std::max(longest_m2, along.squaredNorm());
-    if (i > 1) least_cosine = std::min(least_cosine, before.normalized().dot(along.normalized()));
-    before = along;
+    const double segment_m = along.norm();
+    if (segment_m <= 0.0) return kFar;
+    const Eigen::Vector2d direction = along / segment_m;
+    longest_m = std::max(longest_m, segment_m);
+    if (i > 1) least_cosine = std::min(least_cosine, before.dot(direction));
+    before = direction;
   }
   if (least_cosine <= 0.0) return kFar;
-  const double beside_m2 = gate_m * gate_m + 0.25 * longest_m2;
+  const double beside_m2 = gate_m * gate_m + 0.25 * longest_m * longest_m;
   const double outside_m = gate_m / least_cosine;
   const double reach_m2 = kRounding * std::max(beside_m2, outside_m * outside_m);
   return reach_m2 < StationGrid::kCell_m * StationGrid::kCell_m ? reach_m2 : kFar;
@@ -36,7 +39,10 @@ double squared_reach_m2(const Line& line, double gate_m) {
 NearestStations::NearestStations(const std::vector<Line>& lines, bool of_stoplines, double gate_m)
     : grid_(lines, of_stoplines), unlimited_m2_(lines.size(), kFar), slots_(lines.size(), kNone) {
   squared_reach_m2_.reserve(lines.size());
-  for (const Line& line : lines) squared_reach_m2_.push_back(squared_reach_m2(line, gate_m));
+  for (const Line& line : lines) {
+    const bool wanted = is_stopline(line.type()) == of_stoplines;
+    squared_reach_m2_.push_back(wanted ? squared_reach_m2(line, gate_m) : 0.0);
+  }
 }
 
 const std::vector<NearestStation>& NearestStations::around(const Point& point) {
