@@ -45,8 +45,7 @@ class MeasuredPolyline {
   Eigen::Vector2d direction(const Projection& foot) const;
   /// The nearest foot of `point`; the first one where several are equally near. Where none is as near as
   /// `within_m`, `distance_m` is infinite and the foot not `inside`.
-  Projection project(const Point& point,
-                     double within_m = std::numeric_limits<double>::infinity()) const;
+  Projection project(const Point& point, double within_m = std::numeric_limits<double>::infinity()) const;
   /// The stretch between two arc lengths (from < to, both clamped), with its inner vertices.
   Polyline slice(const Range& range) const;
   /// Points every `step_m` (slightly less, so that both ends are met), at least two.

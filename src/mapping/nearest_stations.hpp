@@ -32,7 +32,7 @@ class NearestStations {
   StationGrid grid_;
   std::vector<double> squared_reach_m2_;  ///< by line, as far as what follows
   std::vector<double> unlimited_m2_;
-  std::vector<std::uint32_t> slots_;      ///< by line: where in near_ it is
+  std::vector<std::uint32_t> slots_;  ///< by line: where in near_ it is
   std::vector<NearestStation> near_;
 };
 

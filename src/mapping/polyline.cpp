@@ -13,8 +13,8 @@ constexpr std::size_t kStride = 8;  // between the vertices that are looked at f
 
 constexpr double kCoincident_m = 1e-9;
 
-constexpr double kMargin_m = 1e-6;        // far above rounding: what is as near is compared to the last bit
-constexpr double kMinAlongCourse = 0.2;   // cosine; a line that turns away further winds
+constexpr double kMargin_m = 1e-6;       // far above rounding: what is as near is compared to the last bit
+constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away further winds
 
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
 
@@ -123,8 +123,7 @@ void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest)
   while (middle < last && ahead(points_[middle + 1]) >= 0.0) ++middle;
   while (middle > 0 && ahead(points_[middle]) < 0.0) --middle;
   consider(middle, point, nearest);
-  for (std::size_t i = middle + 1; i <= last && !is_behind(points_[i], 1.0); ++i)
-    consider(i, point, nearest);
+  for (std::size_t i = middle + 1; i <= last && !is_behind(points_[i], 1.0); ++i) consider(i, point, nearest);
   for (std::size_t i = middle; i > 0 && !is_behind(points_[i], -1.0); --i) consider(i - 1, point, nearest);
 }
 
@@ -149,8 +148,7 @@ Projection MeasuredPolyline::project(const Point& point, double within_m) const 
   const Eigen::Vector2d offset = (point - points_.front()).head<2>();
   Nearest nearest{.bound_m2 = squared_bound_m2(within_m)};
   const Eigen::Vector2d place(course_.dot(offset), cross(course_, offset));
-  if (bounds_.squaredExteriorDistance(place) > nearest.bound_m2)
-    return result;
+  if (bounds_.squaredExteriorDistance(place) > nearest.bound_m2) return result;
   if (points_.size() == 1) {
     result.foot = points_.front();
     result.distance_m = horizontal_distance(point, result.foot);
@@ -163,7 +161,8 @@ Projection MeasuredPolyline::project(const Point& point, double within_m) const 
   const double segment_m = arc_[i + 1] - arc_[i];
   const bool before_start = i == 0 && share < 0.0;
   const bool after_end = i + 2 == points_.size() && share > 1.0;
-  const double side = cross((points_[i + 1] - points_[i]).head<2>(), (point - points_[i]).head<2>()) / segment_m;
+  const double side =
+      cross((points_[i + 1] - points_[i]).head<2>(), (point - points_[i]).head<2>()) / segment_m;
   return {.arc_m = arc_[i] + clamped * segment_m,
           .distance_m = distance_m,
           .lateral_m = before_start || after_end ? side : std::copysign(distance_m, side),

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <random>
 
 #include "mapping/shapes.hpp"
 
@@ -79,24 +82,114 @@ TEST(Polyline, CosineAgreesWithTheMathematicalOne) {
   }
 }
 
-TEST(MeasuredPolyline, ProjectOnTheNearestOfAllSegments) {
-  // A spiral comes near a point again and again.
-  Polyline line;
-  for (int i = 0; i < 400; ++i) {
-    const double angle = 0.1 * i, radius_m = 30.0 - 0.05 * i;
-    line.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), 0.01 * i);
+/// Over all segments, one after the other.
+Projection project_on_every_segment(const MeasuredPolyline& line, const Point& point) {
+  const Polyline& points = line.points();
+  const std::vector<double> arc = arc_lengths(points);
+  Projection best;
+  best.distance_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Eigen::Vector2d along = (points[i + 1] - points[i]).head<2>(),
+                          offset = (point - points[i]).head<2>();
+    const double segment_m = arc[i + 1] - arc[i];
+    const double share = offset.dot(along) / (segment_m * segment_m);
+    const double clamped = std::clamp(share, 0.0, 1.0);
+    const Point foot = points[i] + clamped * (points[i + 1] - points[i]);
+    const double distance_m = (point - foot).head<2>().norm(), side = cross(along, offset) / segment_m;
+    const bool beyond = (i == 0 && share < 0.0) || (i + 2 == points.size() && share > 1.0);
+    if (distance_m >= best.distance_m) continue;
+    best = {.arc_m = arc[i] + clamped * segment_m,
+            .distance_m = distance_m,
+            .lateral_m = beyond ? side : std::copysign(distance_m, side),
+            .inside = !beyond,
+            .segment = i,
+            .foot = foot};
   }
-  const MeasuredPolyline measured(line);
-  for (double x = -35.0; x <= 35.0; x += 3.1) {
-    for (double y = -35.0; y <= 35.0; y += 2.7) {
-      double nearest_m = 1e9;
-      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const MeasuredPolyline segment(Polyline{line[i], line[i + 1]});
-        nearest_m = std::min(nearest_m, segment.project({x, y, 0}).distance_m);
-      }
-      EXPECT_NEAR(measured.project({x, y, 0}).distance_m, nearest_m, 1e-9);
+  return best;
+}
+
+void expect_same(const Projection& a, const Projection& b) {
+  EXPECT_EQ(a.arc_m, b.arc_m);
+  EXPECT_EQ(a.distance_m, b.distance_m);
+  EXPECT_EQ(a.lateral_m, b.lateral_m);
+  EXPECT_EQ(a.inside, b.inside);
+  EXPECT_EQ(a.segment, b.segment);
+  EXPECT_EQ(a.foot, b.foot);
+}
+
+void expect_feet_as_on_every_segment(const Polyline& points, const std::vector<Point>& queries) {
+  constexpr double kWithin_m = 3.0;
+  const MeasuredPolyline line(points);
+  for (const Point& query : queries) {
+    const Projection expected = project_on_every_segment(line, query);
+    const Projection foot = line.project(query), near = line.project(query, kWithin_m);
+    expect_same(foot, expected);
+    EXPECT_EQ(line.direction(foot), line.direction(foot.arc_m));
+    if (expected.distance_m <= kWithin_m) {
+      expect_same(near, expected);
+    } else {
+      EXPECT_EQ(near.distance_m, std::numeric_limits<double>::infinity());
+      EXPECT_FALSE(near.inside);
     }
   }
+}
+
+/// Places on and about a line, some of them far from it.
+std::vector<Point> places_about(const Polyline& line, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  std::vector<Point> places;
+  for (const Point& vertex : line) {
+    for (const double spread_m : {0.0, 0.3, 4.0, 20.0})
+      places.push_back(vertex + spread_m * Point(normal(random), normal(random), 0.0));
+  }
+  return places;
+}
+
+/// From nearly straight to winding about itself: its heading changes by `wobble_rad` from step to step, and
+/// by `bend_rad` on the whole.
+Polyline wander(double wobble_rad, double bend_rad, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  double heading_rad = 3.0 * normal(random);
+  Polyline line{Point(1e4 * normal(random), 1e4 * normal(random), 0.0)};
+  while (line.size() < 60) {
+    heading_rad += bend_rad;
+    const double angle_rad = heading_rad + wobble_rad * normal(random);
+    line.push_back(line.back() + Point(std::cos(angle_rad), std::sin(angle_rad), 0.05 * normal(random)));
+  }
+  return line;
+}
+
+TEST(MeasuredPolyline, ProjectsAsOnEverySegmentToTheLastBit) {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 20; ++round) {
+    for (const double wobble_rad : {0.0, 0.02, 0.2, 0.8}) {
+      for (const double bend_rad : {0.0, 0.01, 0.04, 0.15}) {
+        const Polyline line = wander(wobble_rad, bend_rad, random);
+        expect_feet_as_on_every_segment(line, places_about(line, random));
+      }
+    }
+  }
+}
+
+TEST(MeasuredPolyline, ProjectsAsOnEverySegmentWhereMuchIsEquallyNear) {
+  // On a lattice, points lie on vertices and in the middle between segments.
+  std::mt19937_64 random(1);
+  const auto snapped = [](Polyline points) {
+    for (Point& point : points) point = 0.5 * (2.0 * point).array().round().matrix();
+    return points;
+  };
+  for (int round = 0; round < 50; ++round) {
+    for (const double bend_rad : {0.0, 0.04, 0.3}) {
+      const Polyline line = snapped(wander(0.3, bend_rad, random));
+      expect_feet_as_on_every_segment(line, snapped(places_about(line, random)));
+    }
+  }
+}
+
+TEST(MeasuredPolyline, ProjectsOnASinglePoint) {
+  const MeasuredPolyline point(Polyline{{1, 2, 3}});
+  EXPECT_DOUBLE_EQ(point.project({4, 6, 0}).distance_m, 5.0);
+  EXPECT_EQ(point.project({4, 6, 0}, 4.0).distance_m, std::numeric_limits<double>::infinity());
 }
 
 TEST(Polyline, IntersectWhereTheyCrossOrTouch) {
