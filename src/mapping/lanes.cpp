@@ -81,7 +81,7 @@ std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const Mea
   for (int i = 0; i <= steps; ++i) {
     const double arc_m = right.length() * i / steps;
     const Point point = right.at(arc_m);
-    const Projection foot = left.project(point, max_width_m);
+    const Projection foot = left.project(point);
     const bool free = !contains(left_used, foot.arc_m) && !contains(right_used, arc_m);
     const bool width_ok = foot.distance_m >= config.min_width_m && foot.distance_m <= max_width_m;
     sections.push_back({.left_arc_m = foot.arc_m,

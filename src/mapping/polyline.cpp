@@ -14,7 +14,7 @@ constexpr std::size_t kStride = 8;  // between the vertices that are looked at f
 constexpr double kCoincident_m = 1e-9;
 
 constexpr double kMargin_m = 1e-6;       // far above rounding: what is as near is compared to the last bit
-constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away further winds
+constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away further is searched as a whole
 
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
 

@@ -63,6 +63,7 @@ Line wandering_line(ElementId id, double step_m, double turn_rad, double climb_m
 TEST(NearestStations, MissNoLineThatAPointLiesOn) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> share(0.0, 1.0);
   std::size_t places = 0;
   for (const double step_m : {0.7, 1.0, 1.4, 3.9}) {       // so far apart that none may be within a cell
     for (const double turn_rad : {0.02, 0.3, 1.2, 3.0}) {  // to sharp corners
@@ -73,8 +74,9 @@ TEST(NearestStations, MissNoLineThatAPointLiesOn) {
         const StationGrid grid(lines, false);
         NearestStations nearest_stations(lines, false, kGate_m);
         for (const Line& line : lines) {
-          for (const Station& station : line.stations) {
-            const Point point = station.position + Point(normal(random), normal(random), 0.0);
+          for (std::size_t k = 1; k < line.stations.size(); ++k) {
+            const Point &a = line.stations[k - 1].position, &b = line.stations[k].position;
+            const Point point = a + share(random) * (b - a) + Point(normal(random), normal(random), 0.0);
             const Places all = expected(grid, lines, point);
             EXPECT_EQ(found(nearest_stations, lines, point), all);
             places += all.size();
@@ -84,6 +86,15 @@ TEST(NearestStations, MissNoLineThatAPointLiesOn) {
     }
   }
   EXPECT_GT(places, 1000U);
+}
+
+TEST(NearestStations, FindALineWhoseNearestStationIsOutOfSight) {
+  // The cells begin at -4.4 m: the station at 3.65 m is two cells away from the point, the other one is not.
+  const std::vector<Line> lines{test::line(1, test::straight({-0.85, 0, 0}, {3.65, 0, 0})),
+                                test::line(2, test::straight({-4.4, 3, 0}, {-4.0, 3, 0}))};
+  NearestStations nearest_stations(lines, false, kGate_m);
+  ASSERT_EQ(nearest_stations.around({1.55, 0.1, 0}).size(), 1U);
+  EXPECT_EQ(nearest_stations.around({1.55, 0.1, 0}).front().station, 0U);
 }
 
 TEST(NearestStations, AreOfStoplinesOrOfAllOthers) {
