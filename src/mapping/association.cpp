@@ -31,7 +31,7 @@ void find_candidates(std::size_t index, const SampledDetection& detection, const
     for (const NearestStation& n : nearest_stations.around(point)) {
       const Line& line = lines[n.line];
       const StationFoot foot = foot_at(line, n.station, point);
-      const double last = static_cast<double>(line.stations.size() - 1);
+      const auto last = static_cast<double>(line.stations.size() - 1);
       if (foot.index < -0.5 || foot.index > last + 0.5 || std::abs(foot.lateral_m) > gate_m) continue;
       if (std::abs(direction_of(detection.samples, i).dot(direction_at(line, n.station))) < min_cosine)
         continue;

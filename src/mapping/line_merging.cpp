@@ -35,10 +35,10 @@ std::vector<IndexPair> neighbours(const std::vector<Line>& lines, const FusionCo
       });
     }
     for (std::size_t j = 0; j < lines.size(); ++j)
-      if (near[j] && j != i) pairs.push_back(std::minmax(i, j));
+      if (near[j] && j != i) pairs.emplace_back(std::min(i, j), std::max(i, j));
   }
   std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 
