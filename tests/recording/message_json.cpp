@@ -105,6 +105,14 @@ static json of(const TimeSummary& m) {
   return {{"mean_ms", m.mean_ms()}, {"p50_ms", m.p50_ms()}, {"p99_ms", m.p99_ms()}, {"max_ms", m.max_ms()}};
 }
 
+static json of(const SourceStatus& m) {
+  return {{"source", m.source().to_string()},
+          {"session_id", of(m.session_id())},
+          {"first_sequence", of(m.first_sequence())},
+          {"last_sequence", of(m.last_sequence())},
+          {"frames", of(m.frames())}};
+}
+
 static json of(const Counter& m) { return {{"name", m.name().to_string()}, {"value", of(m.value())}}; }
 
 }  // namespace msg
