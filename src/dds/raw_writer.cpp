@@ -63,5 +63,8 @@ int RawWriter<T>::matched() const {
 
 template class RawWriter<DetectionFrame>;
 template class RawWriter<VehiclePose>;
+template class RawWriter<PublishedMap>;
+template class RawWriter<RoadMarkings>;
+template class RawWriter<ServiceStatus>;
 
 }  // namespace laneloom::dds
