@@ -261,6 +261,21 @@ TEST_F(Faults, AStoppedPlannerHoldsUpNobody) {
   EXPECT_EQ(counters()["writes_failed"], 0U);
 }
 
+// Fast DDS matches two participants no more when only one of them saw the other's lease end.
+TEST_F(Faults, APerceptionThatHangsIsHeardAgain) {
+  service_ = std::make_unique<Process>(command(config_));
+  const Process perception({LANELOOM, "publish", "--scenario", "straight", "--loop", "--domain",
+                            std::to_string(config_.domain), "--vehicle-id", config_.vehicle_id});
+  ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
+  for (int hang_ms = 1200; hang_ms <= 1700; hang_ms += 50) {
+    perception.signal(SIGSTOP);
+    usleep(static_cast<unsigned>(hang_ms) * 1000);
+    perception.signal(SIGCONT);
+    maps_.forget();
+    ASSERT_TRUE(maps_.wait_for(is_good)) << "not heard after " << hang_ms << " ms";
+  }
+}
+
 TEST_F(Faults, AServiceThatHangsIsNoticed) {
   start();
   service_->signal(SIGSTOP);

@@ -20,7 +20,7 @@
 #include "dds/serialise.hpp"
 #include "end_to_end/participants.hpp"
 #include "end_to_end/process.hpp"
-#include "end_to_end/service_command.hpp"
+#include "end_to_end/service.hpp"
 #include "laneloom/dds/raw_reader.hpp"
 #include "laneloom/dds/raw_writer.hpp"
 #include "recording/message_json.hpp"
