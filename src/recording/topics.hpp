@@ -27,23 +27,23 @@ template <class T>
 RecordedTopic topic_of();
 template <>
 inline RecordedTopic topic_of<DetectionFrame>() {
-  return {dds::kDetectionsTopic, "laneloom::msg::Detections", kDetectionsIdl};
+  return {dds::kDetectionsTopic, dds::kDetectionsType, kDetectionsIdl};
 }
 template <>
 inline RecordedTopic topic_of<VehiclePose>() {
-  return {dds::kVehiclePoseTopic, "laneloom::msg::VehiclePose", kVehiclePoseIdl};
+  return {dds::kVehiclePoseTopic, dds::kVehiclePoseType, kVehiclePoseIdl};
 }
 template <>
 inline RecordedTopic topic_of<PublishedMap>() {
-  return {dds::kLaneMapTopic, "laneloom::msg::LaneMap", kLaneMapIdl};
+  return {dds::kLaneMapTopic, dds::kLaneMapType, kLaneMapIdl};
 }
 template <>
 inline RecordedTopic topic_of<RoadMarkings>() {
-  return {dds::kRoadMarkingsTopic, "laneloom::msg::RoadMarkings", kRoadMarkingsIdl};
+  return {dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, kRoadMarkingsIdl};
 }
 template <>
 inline RecordedTopic topic_of<ServiceStatus>() {
-  return {dds::kStatusTopic, "laneloom::msg::ServiceStatus", kServiceStatusIdl};
+  return {dds::kStatusTopic, dds::kStatusType, kServiceStatusIdl};
 }
 
 }  // namespace laneloom

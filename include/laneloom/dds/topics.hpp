@@ -9,4 +9,11 @@ inline constexpr const char* kLaneMapTopic = "laneloom/v1/lane_map";
 inline constexpr const char* kRoadMarkingsTopic = "laneloom/v1/road_markings";
 inline constexpr const char* kStatusTopic = "laneloom/v1/status";
 
+/// Their types, by the names that go over the wire.
+inline constexpr const char* kDetectionsType = "laneloom::msg::Detections";
+inline constexpr const char* kVehiclePoseType = "laneloom::msg::VehiclePose";
+inline constexpr const char* kLaneMapType = "laneloom::msg::LaneMap";
+inline constexpr const char* kRoadMarkingsType = "laneloom::msg::RoadMarkings";
+inline constexpr const char* kStatusType = "laneloom::msg::ServiceStatus";
+
 }  // namespace laneloom::dds

@@ -1,0 +1,170 @@
+#include "laneloom/dds/discovery.hpp"
+
+#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <stdexcept>
+
+#include "dds/qos.hpp"
+
+namespace laneloom::dds {
+namespace {
+
+using namespace eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::GUID_t;
+using eprosima::fastrtps::rtps::GuidPrefix_t;
+using eprosima::fastrtps::rtps::IPLocator;
+using eprosima::fastrtps::rtps::ParticipantDiscoveryInfo;
+using eprosima::fastrtps::rtps::ParticipantProxyData;
+using eprosima::fastrtps::rtps::ReaderDiscoveryInfo;
+using eprosima::fastrtps::rtps::WriterDiscoveryInfo;
+
+std::optional<double> seconds(const eprosima::fastrtps::Duration_t& duration) {
+  if (duration.is_infinite()) return std::nullopt;
+  return static_cast<double>(duration.to_ns()) / 1e9;
+}
+
+Durability to_plain(DurabilityQosPolicyKind kind) {
+  switch (kind) {
+    case VOLATILE_DURABILITY_QOS:
+      return Durability::volatile_;
+    case TRANSIENT_LOCAL_DURABILITY_QOS:
+      return Durability::transient_local;
+    case TRANSIENT_DURABILITY_QOS:
+      return Durability::transient;
+    case PERSISTENT_DURABILITY_QOS:
+      return Durability::persistent;
+  }
+  return Durability::volatile_;
+}
+
+Liveliness to_plain(LivelinessQosPolicyKind kind) {
+  switch (kind) {
+    case AUTOMATIC_LIVELINESS_QOS:
+      return Liveliness::automatic;
+    case MANUAL_BY_PARTICIPANT_LIVELINESS_QOS:
+      return Liveliness::manual_by_participant;
+    case MANUAL_BY_TOPIC_LIVELINESS_QOS:
+      return Liveliness::manual_by_topic;
+  }
+  return Liveliness::automatic;
+}
+
+/// Of a writer's or a reader's announcement. Who it is of, is left open.
+template <class Data>
+Endpoint to_plain(const Data& data, bool is_writer) {
+  Endpoint endpoint;
+  endpoint.is_writer = is_writer;
+  endpoint.topic = data.topicName().to_string();
+  endpoint.type = data.typeName().to_string();
+  endpoint.partitions = data.m_qos.m_partition.getNames();
+  endpoint.reliable = data.m_qos.m_reliability.kind == RELIABLE_RELIABILITY_QOS;
+  endpoint.durability = to_plain(data.m_qos.m_durability.kind);
+  endpoint.deadline_s = seconds(data.m_qos.m_deadline.period);
+  endpoint.liveliness = to_plain(data.m_qos.m_liveliness.kind);
+  endpoint.lease_s = seconds(data.m_qos.m_liveliness.lease_duration);
+  endpoint.exclusive = data.m_qos.m_ownership.kind == EXCLUSIVE_OWNERSHIP_QOS;
+  return endpoint;
+}
+
+Peer to_plain(const ParticipantProxyData& data) {
+  std::ostringstream id;
+  id << data.m_guid.guidPrefix;
+  const auto& locators = data.default_locators.unicast;
+  return {id.str(), data.m_participantName.to_string(),
+          locators.empty() ? std::string() : IPLocator::ip_to_string(locators[0])};
+}
+
+}  // namespace
+
+class Discovery::Impl : public DomainParticipantListener {
+ public:
+  Impl(const DdsConfig& config, const std::string& name)
+      : participant_(DomainParticipantFactory::get_instance()->create_participant(
+            static_cast<DomainId_t>(config.domain), participant_qos(config, name), this,
+            StatusMask::none())) {
+    if (!participant_) throw std::runtime_error("DDS refused to make a participant");
+  }
+  ~Impl() override {
+    participant_->set_listener(nullptr);
+    DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  std::vector<Peer> participants() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<Peer> result;
+    result.reserve(peers_.size());
+    for (const auto& [prefix, peer] : peers_) result.push_back(peer);
+    return result;
+  }
+
+  std::vector<Endpoint> endpoints() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<Endpoint> result;
+    result.reserve(endpoints_.size());
+    for (const auto& [guid, endpoint] : endpoints_) {
+      const auto peer = peers_.find(guid.guidPrefix);
+      if (peer == peers_.end()) continue;
+      result.push_back(endpoint);
+      result.back().participant = peer->second;
+    }
+    return result;
+  }
+
+  void on_participant_discovery(DomainParticipant* /*participant*/,
+                                ParticipantDiscoveryInfo&& info) override {
+    const auto& prefix = info.info.m_guid.guidPrefix;
+    const std::lock_guard lock(mutex_);
+    if (info.status == ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT ||
+        info.status == ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT) {
+      peers_.insert_or_assign(prefix, to_plain(info.info));
+    } else {
+      peers_.erase(prefix);
+      std::erase_if(endpoints_, [&](const auto& entry) { return entry.first.guidPrefix == prefix; });
+    }
+  }
+  void on_publisher_discovery(DomainParticipant* /*participant*/, WriterDiscoveryInfo&& info) override {
+    note(info.info, true, info.status == WriterDiscoveryInfo::REMOVED_WRITER);
+  }
+  void on_subscriber_discovery(DomainParticipant* /*participant*/, ReaderDiscoveryInfo&& info) override {
+    note(info.info, false, info.status == ReaderDiscoveryInfo::REMOVED_READER);
+  }
+
+ private:
+  template <class Data>
+  void note(const Data& data, bool is_writer, bool removed) {
+    const std::lock_guard lock(mutex_);
+    if (removed) {
+      endpoints_.erase(data.guid());
+    } else {
+      endpoints_.insert_or_assign(data.guid(), to_plain(data, is_writer));
+    }
+  }
+
+  // DDS itself keeps as much of everyone who is there.
+  mutable std::mutex mutex_;
+  std::map<GuidPrefix_t, Peer> peers_;
+  std::map<GUID_t, Endpoint> endpoints_;
+  DomainParticipant* participant_;  ///< the last, as it calls back from its beginning
+};
+
+Discovery::Discovery(const DdsConfig& config, const std::string& name)
+    : impl_(std::make_unique<Impl>(config, name)) {}
+Discovery::Discovery(Discovery&&) noexcept = default;
+Discovery& Discovery::operator=(Discovery&&) noexcept = default;
+Discovery::~Discovery() = default;
+
+std::vector<Peer> Discovery::participants() const { return impl_->participants(); }
+std::vector<Endpoint> Discovery::endpoints() const { return impl_->endpoints(); }
+
+}  // namespace laneloom::dds
