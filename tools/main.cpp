@@ -12,6 +12,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   laneloom::add_publish(app);
   laneloom::add_pnc(app);
+  laneloom::add_status(app);
   laneloom::add_render(app);
   laneloom::add_evaluate(app);
   laneloom::add_simulate(app);

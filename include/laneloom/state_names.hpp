@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "laneloom/messages.hpp"
 
 /// What people read for the states of a map, in logs and in the planner's view.
@@ -35,6 +38,13 @@ inline const char* name(StateReason reason) {
       return "another_service";
   }
   return "unknown";
+}
+
+/// "DEGRADED no_poses reset"
+inline std::string state_text(MapState state, const std::vector<StateReason>& reasons) {
+  std::string text = name(state);
+  for (const StateReason reason : reasons) text += std::string(" ") + name(reason);
+  return text;
 }
 
 }  // namespace laneloom

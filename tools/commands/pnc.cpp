@@ -1,14 +1,8 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <cstdio>
-#include <deque>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -16,6 +10,8 @@
 #include <variant>
 
 #include "commands/commands.hpp"
+#include "commands/inbox.hpp"
+#include "commands/live_display.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
 #include "io/json_lines.hpp"
@@ -44,35 +40,9 @@ struct Notice {
   std::string event, text;
 };
 using Event = std::variant<PublishedMap, Notice>;
+using Events = Inbox<Event>;  // of more than fit, the oldest maps show as missed
 
-/// From DDS's threads to ours. Holds a few seconds of maps; of more, the oldest are dropped, and show as
-/// missed.
-class Inbox {
- public:
-  void put(Event event) {
-    const std::lock_guard lock(mutex_);
-    events_.push_back(std::move(event));
-    if (events_.size() > kCapacity) events_.pop_front();
-    arrived_.notify_one();
-  }
-
-  /// The next event; nothing if none comes within `patience`.
-  std::optional<Event> take(std::chrono::milliseconds patience) {
-    std::unique_lock lock(mutex_);
-    if (!arrived_.wait_for(lock, patience, [this] { return !events_.empty(); })) return std::nullopt;
-    Event event = std::move(events_.front());
-    events_.pop_front();
-    return event;
-  }
-
- private:
-  static constexpr std::size_t kCapacity = 64;
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::deque<Event> events_;
-};
-
-dds::ReaderCallbacks<PublishedMap> callbacks_into(Inbox& inbox) {
+dds::ReaderCallbacks<PublishedMap> callbacks_into(Events& inbox) {
   return {.sample = [&inbox](PublishedMap&& map) { inbox.put(std::move(map)); },
           .refused =
               [&inbox](std::string_view reason) {
@@ -93,41 +63,28 @@ dds::ReaderCallbacks<PublishedMap> callbacks_into(Inbox& inbox) {
 /// Shows updates as they come: redrawn in place on a terminal, else a line a second, or JSON.
 class Display {
  public:
-  explicit Display(bool json) : json_(json), terminal_(!json && isatty(STDOUT_FILENO) == 1) {}
+  explicit Display(bool json) : json_(json) {}
 
   void show(const PncUpdate& update) {
     shown_.clear();
-    if (json_) return print_line(to_json(update).dump());
-    if (terminal_) return redraw(describe(update));
+    if (json_) return output_.print_line(to_json(update).dump());
+    if (output_.is_terminal()) return output_.redraw(describe(update));
     const bool due = SteadyClock::now() >= next_line_;
     if (!due && update.violations.empty()) return;
     if (due) next_line_ = SteadyClock::now() + std::chrono::seconds(1);
-    print_line(summarise(update));
+    output_.print_line(summarise(update));
   }
 
   void show(const Notice& notice) {
-    if (json_) return print_line(nlohmann::json{{"event", notice.event}}.dump());
+    if (json_) return output_.print_line(nlohmann::json{{"event", notice.event}}.dump());
     // Once between maps: deadlines are missed again and again.
     if (!shown_.insert(notice.event).second) return;
-    drawn_lines_ = 0;
-    print_line(notice.text);
+    output_.print_line(notice.text);
   }
 
  private:
-  static void print_line(const std::string& line) {
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
-  }
-
-  void redraw(const std::string& text) {
-    if (drawn_lines_ > 0) fmt::print("\x1b[{}A\x1b[J", drawn_lines_);
-    drawn_lines_ = std::count(text.begin(), text.end(), '\n');
-    fmt::print("{}", text);
-    std::fflush(stdout);
-  }
-
-  bool json_, terminal_;
-  std::ptrdiff_t drawn_lines_ = 0;
+  bool json_;
+  LiveDisplay output_;
   SteadyClock::time_point next_line_;
   std::set<std::string> shown_;  ///< notices since the last map
 };
@@ -157,7 +114,7 @@ class Follower {
   }
 
   Tally run() {
-    Inbox inbox;
+    Events inbox;
     const dds::Participant participant(options_.dds, "laneloom pnc");
     const dds::Reader<PublishedMap> reader(participant, callbacks_into(inbox));
     const auto end = SteadyClock::now() + std::chrono::duration<double>(options_.duration_s);

@@ -18,12 +18,6 @@ std::string ids_text(const std::vector<ElementId>& ids) {
 
 json id_json(ElementId id) { return id == kNoElement ? json() : json(id); }
 
-std::string state_text(const PublishedMap& map) {
-  std::string text = name(map.state);
-  for (const StateReason reason : map.reasons) text += fmt::format(" {}", name(reason));
-  return text;
-}
-
 std::string age_text(const PublishedMap& map) {
   return map.age_s < 0.0 ? "nothing fused yet" : fmt::format("{:.0f} ms", map.age_s * 1e3);
 }
@@ -58,8 +52,8 @@ std::string describe(const PncUpdate& update) {
       "successors      {}\n"
       "width ahead     {}\n"
       "in the map      {} lanes, {} boundaries, {} stoplines, {} linkages\n",
-      update.map.sequence, state_text(update.map), age_text(update.map), id_text(ego.lane),
-      ego.lane == kNoElement ? "" : fmt::format("{:+.2f} m from its middle", ego.offset_m),
+      update.map.sequence, state_text(update.map.state, update.map.reasons), age_text(update.map),
+      id_text(ego.lane), ego.lane == kNoElement ? "" : fmt::format("{:+.2f} m from its middle", ego.offset_m),
       id_text(ego.left_neighbour), id_text(ego.right_neighbour), ids_text(ego.successors), widths_text(ego),
       map.lanes.size(), map.boundaries.size(), map.stoplines.size(), map.linkages.size());
   for (const Violation& violation : update.violations)
@@ -72,9 +66,9 @@ std::string summarise(const PncUpdate& update) {
   const EgoView& ego = update.ego;
   std::string text = fmt::format(
       "map {} {}, age {}, ego lane {} (left {}, right {}, then {}), width {}, {} lanes, {} linkages",
-      update.map.sequence, state_text(update.map), age_text(update.map), id_text(ego.lane),
-      id_text(ego.left_neighbour), id_text(ego.right_neighbour), ids_text(ego.successors), widths_text(ego),
-      map.lanes.size(), map.linkages.size());
+      update.map.sequence, state_text(update.map.state, update.map.reasons), age_text(update.map),
+      id_text(ego.lane), id_text(ego.left_neighbour), id_text(ego.right_neighbour), ids_text(ego.successors),
+      widths_text(ego), map.lanes.size(), map.linkages.size());
   for (const Violation& violation : update.violations)
     text += fmt::format("; VIOLATION {}: {}", name(violation.rule), violation.detail);
   return text;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+namespace laneloom {
+
+/// What others call themselves, without what a terminal would obey.
+inline std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');
+  return text;
+}
+
+}  // namespace laneloom
