@@ -13,6 +13,7 @@ int run(int argc, char** argv) {
   laneloom::add_publish(app);
   laneloom::add_pnc(app);
   laneloom::add_status(app);
+  laneloom::add_doctor(app);
   laneloom::add_render(app);
   laneloom::add_evaluate(app);
   laneloom::add_simulate(app);

@@ -81,7 +81,7 @@ class Watch {
     if (heard.when != SteadyClock::time_point()) heard.previous = std::move(heard.status);
     heard.status = status;
     heard.when = now;
-    exit_code_ = static_cast<int>(status.state);
+    exit_code_ = static_cast<int>(status.state);  // 0 OK, 1 DEGRADED, 2 STALE
     if (options_.json) {
       output_.print_line(
           to_json(status, heard.before()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));

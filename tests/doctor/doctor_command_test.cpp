@@ -1,0 +1,112 @@
+#include "processes.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Doctor : public Processes {
+ protected:
+  std::vector<std::string> doctor() const { return command({LANELOOM_COMMAND, "doctor", "--json"}); }
+
+  std::vector<std::string> ids() const {
+    const nlohmann::json report = json();
+    std::vector<std::string> result;
+    for (const auto& finding : report.at("findings")) result.push_back(finding.at("id"));
+    return result;
+  }
+  std::string found(const std::string& id) const {
+    const nlohmann::json report = json();
+    for (const auto& finding : report.at("findings"))
+      if (finding.at("id") == id) return finding.at("found");
+    return {};
+  }
+  bool run_until_found(const std::vector<std::string>& words, const std::string& id) const {
+    return run_until(words, [&](int code) { return code == 1 && !found(id).empty(); });
+  }
+};
+
+TEST_F(Doctor, FindsNothingWhereNothingIsWrong) {
+  const Process running(service(), file("service.log"));
+  const Process publishing(command(publisher()), file("publish.log"));
+  EXPECT_TRUE(run_until(doctor(), [](int code) { return code == 0; })) << output();
+  EXPECT_TRUE(json().at("findings").empty());
+  EXPECT_EQ(json().at("participants").size(), 2U);
+  EXPECT_TRUE(run_until(command({LANELOOM_COMMAND, "doctor"}), [](int code) { return code == 0; }));
+  EXPECT_THAT(output(), HasSubstr("Nothing wrong was found."));
+}
+
+TEST_F(Doctor, FindsAWrongPartition) {
+  const Process running(service(), file("service.log"));
+  const Process publishing(command(publisher(), domain_, "other"), file("publish.log"));
+  ASSERT_TRUE(run_until_found(doctor(), "wrong_partition")) << output();
+  EXPECT_THAT(ids(), testing::IsSupersetOf({"no_detections", "no_poses", "state_no_detections"}));
+  EXPECT_THAT(found("wrong_partition"), HasSubstr("\"laneloom publish\""));
+  EXPECT_THAT(found("wrong_partition"), HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\""));
+}
+
+TEST_F(Doctor, FindsAServiceOfAnotherVehicle) {
+  const Process running(service(), file("service.log"));
+  ASSERT_TRUE(
+      run_until_found(command({LANELOOM_COMMAND, "doctor", "--json"}, domain_, "other"), "no_service"))
+      << output();
+  EXPECT_THAT(found("no_service"), HasSubstr("services in the partition \"" + vehicle_ + "\""));
+}
+
+TEST_F(Doctor, FindsAWrongDomain) {
+  const Process running(service(), file("service.log"));
+  const auto words =
+      command({LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"}, domain_ + 45, vehicle_);
+  EXPECT_TRUE(run_until(words, [&](int code) {
+    return code == 1 && found("empty_domain").find(" " + std::to_string(domain_)) != std::string::npos;
+  })) << output();
+  EXPECT_THAT(ids(), ElementsAre("empty_domain"));
+}
+
+TEST_F(Doctor, FindsTwoServicesAndWhatTheySay) {
+  const Process one(service(), file("one.log"));
+  const Process other(service(), file("other.log"));
+  ASSERT_TRUE(run_until_found(doctor(), "two_services")) << output();
+  EXPECT_TRUE(run_until_found(doctor(), "state_another_service")) << output();
+}
+
+TEST_F(Doctor, FindsPosesInAnotherFrame) {
+  std::ofstream(file("config.yaml")) << "dds:\n  map_frame_id: utm\n";
+  auto words = service();
+  words.insert(words.end(), {"--config", file("config.yaml")});
+  const Process running(words, file("service.log"));
+  const Process publishing(command(publisher()), file("publish.log"));
+  ASSERT_TRUE(run_until_found(doctor(), "poses_refused_wrong_frame")) << output();
+  EXPECT_THAT(found("poses_refused_wrong_frame"), HasSubstr("The service refused"));
+}
+
+TEST_F(Doctor, FindsAWrongConfiguration) {
+  std::ofstream(file("config.yaml")) << "dds:\n  domain: 1\n  vehicle: ego\n";
+  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 1);
+  EXPECT_THAT(ids(), ElementsAre("configuration"));
+  EXPECT_THAT(found("configuration"), HasSubstr(file("config.yaml") + ":3: dds.vehicle"));
+
+  std::ofstream(file("config.yaml")) << "dds:\n  profile_file: /nowhere.xml\n  profile_name: mine\n";
+  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 1);
+  EXPECT_THAT(ids(), ElementsAre("participant"));
+  EXPECT_THAT(found("participant"), HasSubstr("/nowhere.xml"));
+}
+
+TEST_F(Doctor, OptionsOverrideTheConfigurationWhereverTheyStand) {
+  std::ofstream(file("config.yaml")) << "dds:\n  domain: 99\n  vehicle_id: of_the_file\n";
+  const std::string domain = std::to_string(domain_);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--domain", domain, "--config", file("config.yaml")},
+        std::vector<std::string>{"--config", file("config.yaml"), "--domain", domain}}) {
+    std::vector<std::string> all{LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"};
+    all.insert(all.end(), words.begin(), words.end());
+    run(all);
+    EXPECT_EQ(json().at("domain"), domain_);
+    EXPECT_EQ(json().at("vehicle_id"), "of_the_file");
+  }
+}
+
+}  // namespace
+}  // namespace laneloom

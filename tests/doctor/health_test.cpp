@@ -1,0 +1,69 @@
+#include "scenes.hpp"
+
+#include "doctor/refusals.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(HealthFindings, TheStatesReasons) {
+  Observed seen = healthy();
+  seen.services[0].last.state = MapState::stale;
+  seen.services[0].last.reasons = {StateReason::no_poses, StateReason::overloaded};
+  const Findings found = health_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("state_no_poses", "state_overloaded"));
+  EXPECT_EQ(found[0].found, "The service says STALE: no_poses.");
+}
+
+TEST(HealthFindings, WhatTwoServicesSayAlikeIsToldOnce) {
+  Observed seen = healthy();
+  seen.services[0].last.reasons = {StateReason::another_service};
+  seen.services.push_back(seen.services[0]);
+  EXPECT_THAT(ids(findings(seen)), ElementsAre("state_another_service"));
+}
+
+TEST(HealthFindings, CountersThatRise) {
+  Observed seen = healthy();
+  seen.services[0].last.counters = {{"frames_fused", 20},
+                                    {"poses_lost", 4},
+                                    {"detections_refused_late", 3},
+                                    {"poses_refused_wrong_frame", 7}};
+  const Findings found = health_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("poses_lost", "poses_refused_wrong_frame"));
+  EXPECT_EQ(found[0].found, "poses_lost: poses were lost on the way (2 more).");
+  EXPECT_EQ(found[1].found,
+            "The service refused 7 poses (wrong_frame): their frame_id is not the map frame.");
+  EXPECT_THAT(found[1].remedy, HasSubstr("dds.map_frame_id"));
+}
+
+TEST(HealthFindings, EveryReasonOfTheServiceIsExplained) {
+  const std::string unknown(explain_refusal("no such reason").cause);
+  for (const char* reason :
+       {"malformed", "unknown_enum", "not_finite", "not_a_rotation", "wrong_frame", "wrong_size", "stamp",
+        "coordinate", "too_few_points", "confidence", "stddev", "too_long", "repeated", "late", "outlier",
+        "too_many_sources", "unsynchronised", "reset"})
+    EXPECT_NE(explain_refusal(reason).cause, unknown) << reason;
+}
+
+TEST(HealthFindings, AServiceThatIsNotHeard) {
+  Observed seen = healthy();
+  seen.services.clear();
+  const Findings found = health_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("service_silent"));
+  EXPECT_EQ(found[0].found, "\"laneloomd\" (10.0.0.1) publishes maps, but no status of it came within 3 s.");
+}
+
+TEST(HealthFindings, WhatAServiceWouldRefuse) {
+  Observed seen = healthy();
+  seen.poses.refused = {{"wrong_frame", 5}};
+  EXPECT_THAT(health_findings(seen), IsEmpty()) << "the service knows better";
+  seen.services.clear();
+  seen.endpoints.erase(seen.endpoints.begin());
+  EXPECT_THAT(ids(health_findings(seen)), ElementsAre("poses_refused_wrong_frame"));
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,86 @@
+#include "doctor/host.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "recording/temporary_folder.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<int> domains(const std::string& lines) {
+  std::istringstream in("  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt\n" +
+                        lines);
+  return listening_domains(in);
+}
+
+TEST(Host, DomainsShowByTheirPorts) {
+  // 7400 = 1CE8, 7410 = 1CF2; domain 4: 8400 = 20D0, 8413 = 20DD.
+  EXPECT_THAT(domains("  10: 00000000:1CE8 00000000:0000 07\n  11: 00000000:1CF2 00000000:0000 07\n"
+                      "  12: 0100007F:20DD 00000000:0000 07\n  13: 00000000:20D0 00000000:0000 07\n"),
+              ElementsAre(0, 4));
+}
+
+TEST(Host, APortAloneIsNoDomain) {
+  EXPECT_THAT(domains("  10: 00000000:1CE8 00000000:0000 07\n"), IsEmpty());
+  EXPECT_THAT(domains("  10: 00000000:1CF2 00000000:0000 07\n"), IsEmpty());
+  // 7400 and 7650: the multicast ports of two domains.
+  EXPECT_THAT(domains("  10: 00000000:1CE8 00000000:0000 07\n  11: 00000000:1DE2 00000000:0000 07\n"),
+              IsEmpty());
+}
+
+TEST(Host, OtherLinesAreNone) {
+  EXPECT_THAT(domains("nonsense\n 1: x:y\n 2: 00000000:\n 3: 0:1CE8Z\n\n"), IsEmpty());
+}
+
+TEST(Host, SharedMemoryThatNobodyHasMapped) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path shm = temporary.file("shm"), proc = temporary.file("proc");
+  std::filesystem::create_directories(shm);
+  std::filesystem::create_directories(proc / "12");
+  std::filesystem::create_directories(proc / "sys");
+  for (const char* name :
+       {"fastrtps_aa", "fastrtps_aa_el", "fastrtps_port7411", "sem.fastrtps_port7411_mutex", "other"})
+    std::ofstream(shm / name) << "x";
+  std::ofstream(proc / "12" / "maps") << "7f00-7f01 rw-s 00000000 00:1a 22 /dev/shm/fastrtps_aa\n"
+                                         "7f02-7f03 r-xp 00000000 00:1a 23 /usr/lib/libfastrtps.so\n";
+  auto files = shared_memory_files(shm, proc);
+  std::ranges::sort(files, {}, &SharedMemoryFile::name);
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].name, "fastrtps_aa");
+  EXPECT_TRUE(files[0].ours);
+  EXPECT_FALSE(files[0].stale);
+  EXPECT_EQ(files[1].name, "fastrtps_port7411");
+  EXPECT_TRUE(files[1].stale);
+  EXPECT_FALSE(files[1].owner.empty());
+
+  EXPECT_THAT(shared_memory_files(temporary.file("missing"), proc), IsEmpty());
+}
+
+TEST(Host, SharedMemoryOfAUserWhoseMappingsAreHidden) {
+  constexpr uid_t kNobody = 65534;
+  const TemporaryFolder temporary;
+  const std::filesystem::path shm = temporary.file("shm"), proc = temporary.file("proc");
+  std::filesystem::create_directories(shm);
+  std::filesystem::create_directories(proc);
+  std::ofstream(shm / "fastrtps_bb") << "x";
+  if (chown((shm / "fastrtps_bb").c_str(), kNobody, kNobody) != 0) GTEST_SKIP() << "needs root";
+  auto files = shared_memory_files(shm, proc);
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_FALSE(files[0].ours);
+  EXPECT_TRUE(files[0].stale);
+
+  std::filesystem::create_directories(proc / "13");  // without the file `maps`
+  ASSERT_EQ(chown((proc / "13").c_str(), kNobody, kNobody), 0);
+  EXPECT_FALSE(shared_memory_files(shm, proc)[0].stale);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,76 @@
+#include <csignal>
+#include <set>
+#include <sstream>
+
+#include "processes.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::HasSubstr;
+
+class Status : public Processes {
+ protected:
+  std::vector<std::string> once() const { return command({LANELOOM_COMMAND, "status", "--once", "--json"}); }
+};
+
+TEST_F(Status, NobodyIsHeard) {
+  EXPECT_EQ(run(command({LANELOOM_COMMAND, "status", "--once", "--duration", "0.5"})), 3);
+  EXPECT_THAT(output(), HasSubstr("no service of vehicle \"" + vehicle_ + "\" was heard"));
+}
+
+TEST_F(Status, TheExitCodeIsTheState) {
+  const Process running(service(), file("service.log"));
+  ASSERT_TRUE(run_until(once(), [](int code) { return code == 2; })) << output();
+  EXPECT_EQ(json().at("state"), "STALE");
+  EXPECT_THAT(json().at("reasons"), testing::Contains("no_detections"));
+  EXPECT_TRUE(json().at("detections_age_s").is_null());
+
+  const Process publishing(command(publisher()), file("publish.log"));
+  ASSERT_TRUE(run_until(once(), [](int code) { return code == 0; })) << output();
+  EXPECT_EQ(json().at("state"), "OK");
+  EXPECT_GT(json().at("counters").at("frames_fused"), 0);
+  EXPECT_EQ(json().at("sources").at(0).at("source"), "laneloom publish");
+
+  const Process other(service(), file("other.log"));
+  EXPECT_TRUE(run_until(once(), [&](int code) {
+    return code == 1 && json().at("reasons") == nlohmann::json{"another_service"};
+  })) << output();
+}
+
+TEST_F(Status, FollowsAllServicesOfAVehicle) {
+  const Process one(service(), file("one.log"));
+  const Process other(service(), file("other.log"));
+  Process status(command({LANELOOM_COMMAND, "status", "--json"}), file("status.log"));
+  std::set<std::uint64_t> sessions;
+  bool rose = false;
+  for (int i = 0; i < 600 && !(rose && sessions.size() == 2); ++i) {
+    usleep(50'000);
+    std::istringstream lines(content(file("status.log")));
+    for (std::string line; std::getline(lines, line) && !lines.eof();) {
+      const auto json = nlohmann::json::parse(line);
+      sessions.insert(json.at("session_id").get<std::uint64_t>());
+      rose = rose || (json.at("rises").is_object() && json.at("rises").value("ticks", 0) > 0);
+    }
+  }
+  EXPECT_EQ(sessions.size(), 2U);
+  EXPECT_TRUE(rose);
+  status.signal(SIGTERM);
+  EXPECT_EQ(status.wait(), 2) << "the newest status said STALE";
+}
+
+TEST_F(Status, IsRedrawnInPlaceOnATerminal) {
+  const Process one(service(), file("one.log"));
+  const Process other(service(), file("other.log"));
+  const std::string status = std::string(LANELOOM_COMMAND) + " status --domain " + std::to_string(domain_) +
+                             " --vehicle-id " + vehicle_;
+  const Process terminal({"/usr/bin/script", "-q", "-f", "-c", status, "/dev/null"}, file("terminal.log"));
+  const auto shown = [&] { return content(file("terminal.log")); };
+  for (int i = 0; i < 600 && shown().find("2 SERVICES OF ONE VEHICLE") == std::string::npos; ++i)
+    usleep(50'000);
+  EXPECT_THAT(shown(), HasSubstr("2 SERVICES OF ONE VEHICLE"));
+  EXPECT_THAT(shown(), HasSubstr("A\x1b[J")) << "nothing was drawn over";
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,67 @@
+#include "scenes.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Streams, AWriterOfWhichNothingComes) {
+  Observed seen = healthy();
+  seen.detections = {};
+  const Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("detections_silent"));
+  EXPECT_EQ(found[0].found, "\"perception\" (10.0.0.1) writes detections, but none came within 3 s.");
+  seen.endpoints.erase(seen.endpoints.begin() + 1);
+  EXPECT_THAT(stream_findings(seen), IsEmpty()) << "nobody writes: topic_findings() say so";
+}
+
+TEST(Streams, Rates) {
+  const auto found_at = [](std::uint64_t detections, std::uint64_t poses, double window_s) {
+    Observed seen = healthy();
+    seen.detections.messages = detections;
+    seen.poses.messages = poses;
+    seen.detections.window_s = seen.poses.window_s = window_s;
+    return ids(stream_findings(seen));
+  };
+  EXPECT_THAT(found_at(2, 41, 2.0), IsEmpty());      // 0.5 and 20 a second
+  EXPECT_THAT(found_at(101, 4001, 2.0), IsEmpty());  // 50 and 2000
+  EXPECT_THAT(found_at(2, 41, 2.1), ElementsAre("detections_slow", "poses_slow"));
+  EXPECT_THAT(found_at(102, 41, 2.0), ElementsAre("detections_fast"));
+  EXPECT_THAT(found_at(1, 1, 0.9), IsEmpty()) << "too early to tell";
+}
+
+TEST(Streams, DetectionsAndPosesOfDifferentClocks) {
+  // In healthy(), detections are 90 ms behind poses: 50.0 s at 2.0 s, and 50.1 s at 2.01 s.
+  Observed seen = healthy();
+  seen.detections.newest->stamp_ns -= 400'000'000;
+  EXPECT_THAT(stream_findings(seen), IsEmpty());
+  seen.detections.newest->stamp_ns -= 20'000'000;
+  Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("sensor_clocks"));
+  EXPECT_EQ(found[0].found, "Stamps of detections are 0.5 s behind those of poses.");
+  seen.detections.newest->stamp_ns = 3'650'100'000'000;
+  found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("sensor_clocks"));
+  EXPECT_EQ(found[0].found, "Stamps of detections are 3600.0 s ahead of those of poses.");
+
+  // Poses that stopped a second ago are not of another clock.
+  seen = healthy();
+  seen.poses.newest->stamp_ns -= 1'000'000'000;
+  seen.poses.newest->arrival_ns -= 1'000'000'000;
+  EXPECT_THAT(stream_findings(seen), IsEmpty());
+}
+
+TEST(Streams, AHostWithAnotherClock) {
+  Observed seen = healthy();
+  seen.services[0].clock_offset_s = -2.0;
+  const Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("host_clocks"));
+  EXPECT_EQ(found[0].found, "The system clock of the service's host is 2.0 s ahead of the one here.");
+  seen.services[0].statuses = 1;
+  EXPECT_THAT(stream_findings(seen), IsEmpty()) << "it may have been kept for late joiners";
+}
+
+}  // namespace
+}  // namespace laneloom

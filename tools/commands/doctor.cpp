@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "commands/stop_signal.hpp"
+#include "doctor/observer.hpp"
+#include "doctor/report.hpp"
+#include "laneloom/config_file.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr int kFindings = 1;
+
+struct Options {
+  DdsConfig dds;
+  std::string config_problem;
+  double duration_s = 3.0;
+  bool json = false;
+};
+
+/// Options given beside the file are parsed after it, and so override it.
+void read_config(const std::string& file, Options& options) {
+  try {
+    options.dds = load_config(file).dds;
+  } catch (const ConfigError& error) {
+    options.config_problem = error.what();
+  }
+}
+
+Finding refused_configuration(const std::string& problem) {
+  return {"configuration", fmt::format("The configuration is refused: {}.", problem),
+          "The service does not start with it. Nothing else was looked at.",
+          "Mend it; `laneloomd --config FILE --check-config` checks it again."};
+}
+
+Finding refused_participant(const std::string& problem) {
+  return {"participant", fmt::format("No participant can be made: {}.", problem),
+          "Others with these settings can't take part either. Nothing else was looked at.",
+          "Mend the key that is named, or see what Fast DDS wrote above."};
+}
+
+/// What is found, with what it was found in.
+std::pair<Observed, Findings> examine(const Options& options) {
+  Observed seen;
+  seen.dds = options.dds;
+  if (!options.config_problem.empty()) return {seen, {refused_configuration(options.config_problem)}};
+  try {
+    const Observer observer(options.dds);
+    const auto duration = std::chrono::milliseconds(std::llround(options.duration_s * 1e3));
+    sleep_until(std::chrono::steady_clock::now() + duration);
+    seen = observer.observed();
+  } catch (const std::exception& error) {
+    return {seen, {refused_participant(error.what())}};
+  }
+  return {seen, findings(seen)};
+}
+
+void doctor(const Options& options) {
+  catch_stop_signals();
+  const auto [seen, found] = examine(options);
+  if (options.json)
+    fmt::print("{}\n",
+               report_json(seen, found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  else
+    fmt::print("{}", report(seen, found));
+  if (!found.empty()) throw CLI::RuntimeError(kFindings);
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("doctor", "Finds why nothing arrives");
+  command->footer(fmt::format("Exit code: 0 nothing wrong was found; {} something was.", kFindings));
+  const auto options = std::make_shared<Options>();
+  command
+      ->add_option_function<std::string>(
+          "--config", [options](const std::string& file) { read_config(file, *options); },
+          "Configuration of the service, checked too; its section dds says where to look")
+      ->trigger_on_parse();
+  add_dds(*command, options->dds);
+  command->add_option("--duration", options->duration_s, "Seconds to watch")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "One JSON object");
+  command->callback([options] { doctor(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,26 @@
+#include "doctor/findings.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace laneloom {
+
+Findings findings(const Observed& seen) {
+  Findings all = presence_findings(seen);
+  // Two services, or two readers of one participant, may give the same.
+  const auto add = [&](Findings more) {
+    for (Finding& finding : more)
+      if (std::ranges::find(all, finding.found, &Finding::found) == all.end())
+        all.push_back(std::move(finding));
+  };
+  if (!seen.participants.empty()) {
+    add(topic_findings(seen));
+    add(qos_findings(seen));
+    add(stream_findings(seen));
+    add(health_findings(seen));
+  }
+  add(shared_memory_findings(seen));
+  return all;
+}
+
+}  // namespace laneloom

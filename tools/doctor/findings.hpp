@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "doctor/observed.hpp"
+
+/// Why nothing arrives. Pure functions, one per subject.
+namespace laneloom {
+
+struct Finding {
+  std::string id;      ///< for machines
+  std::string found;   ///< what is so
+  std::string why;     ///< why that matters
+  std::string remedy;  ///< what to do
+};
+using Findings = std::vector<Finding>;
+
+/// Whether anybody is in the domain, and the one service of the vehicle is.
+Findings presence_findings(const Observed& seen);
+/// Who writes or reads under another name, type or partition than the service, and what nobody writes.
+Findings topic_findings(const Observed& seen);
+/// Which writers and readers of the vehicle would match, but for their quality of service.
+Findings qos_findings(const Observed& seen);
+/// Whether the inputs come, how often, and by which clocks.
+Findings stream_findings(const Observed& seen);
+/// What the service says of itself, and what it refuses.
+Findings health_findings(const Observed& seen);
+/// What is in the way of shared memory, where that is used.
+Findings shared_memory_findings(const Observed& seen);
+
+/// All of these, in this order, each once. Where nobody is there, no more is said of those who are not.
+Findings findings(const Observed& seen);
+
+}  // namespace laneloom

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "doctor/endpoints.hpp"
+#include "doctor/findings.hpp"
+#include "doctor/refusals.hpp"
+#include "io/printable.hpp"
+#include "laneloom/dds/topics.hpp"
+#include "laneloom/state_names.hpp"
+#include "status/report.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Incident {
+  std::string_view counter, what, remedy;
+};
+
+constexpr std::string_view kNetwork =
+    "See whether the network loses packets, and whether net.core.rmem_max of the kernel allows 4 MB.";
+constexpr std::string_view kLoad =
+    "See whether the host is overloaded, or give the service a real-time priority.";
+
+constexpr std::array kIncidents{
+    Incident{"detections_lost", "detections were lost on the way", kNetwork},
+    Incident{"poses_lost", "poses were lost on the way", kNetwork},
+    Incident{"frames_dropped_queue_full", "frames were dropped from a full queue (sync.queue_capacity)",
+             kLoad},
+    Incident{"poses_dropped_queue_full", "poses were dropped from a full queue (sync.pose_queue_capacity)",
+             kLoad},
+    Incident{"elements_left_out", "elements of maps exceed the bounds of the IDL",
+             "See the log of the service."},
+    Incident{"writes_failed", "DDS did not take what the service wrote", "See the log of the service."},
+    Incident{"snapshots_failed", "the snapshot could not be written",
+             "See the log of the service, and the rights and space of the folder of service.snapshot_file."}};
+
+struct Explanation {
+  std::string_view why, remedy;
+};
+
+Explanation explain(StateReason reason) {
+  switch (reason) {
+    case StateReason::no_detections:
+      return {"No detections arrived for longer than service.degraded_after_s.",
+              "See that perception runs, and what else is found of detections."};
+    case StateReason::no_poses:
+      return {"No poses arrived for longer than service.degraded_after_s.",
+              "See that odometry runs, and what else is found of poses."};
+    case StateReason::unsynchronised:
+      return {"Detections arrive, but no poses around their stamps.",
+              explain_refusal("unsynchronised").remedy};
+    case StateReason::starting:
+      return {"Nothing was mapped yet.", "See what keeps detections or poses from being mapped."};
+    case StateReason::reset:
+      return {"The map began anew a moment ago, as pose or stamps jumped.",
+              "See whether two writers take turns, or a clock or localisation jumps."};
+    case StateReason::overloaded:
+      return {"Frames were dropped, or a tick missed its deadline.", kLoad};
+    case StateReason::another_service:
+      return {"Another service publishes maps for the same vehicle.",
+              "End one of them, or give each vehicle an id of its own."};
+  }
+  return {"This version of the doctor does not know it.", "See the log of the service."};
+}
+
+void judge_state(const ServiceStatus& status, Findings& found) {
+  for (const StateReason reason : status.reasons) {
+    const auto [why, remedy] = explain(reason);
+    found.push_back({fmt::format("state_{}", name(reason)),
+                     fmt::format("The service says {}: {}.", name(status.state), name(reason)),
+                     std::string(why), std::string(remedy)});
+  }
+}
+
+/// `subject` is detections or poses.
+Finding refusal(std::string_view by_whom, std::string_view subject, std::string_view reason,
+                std::uint64_t count) {
+  const Refusal why = explain_refusal(reason);
+  return {printable(fmt::format("{}_refused_{}", subject, reason)),
+          printable(fmt::format("{} refused {} {} ({}): {}.", by_whom, count, subject, reason, why.cause)),
+          "What is refused is not mapped.", std::string(why.remedy)};
+}
+
+void judge_counter(const std::string& counter, std::uint64_t rise, Findings& found) {
+  constexpr std::string_view kRefused = "_refused_";
+  const auto at = counter.find(kRefused);
+  if (at != std::string::npos) {
+    const std::string_view text = counter;
+    found.push_back(refusal("The service", text.substr(0, at), text.substr(at + kRefused.size()), rise));
+    return;
+  }
+  const auto* const known = std::ranges::find(kIncidents, counter, &Incident::counter);
+  if (known == kIncidents.end()) return;
+  found.push_back({counter, fmt::format("{}: {} ({} more).", counter, known->what, rise),
+                   "The map lacks what they would have added.", std::string(known->remedy)});
+}
+
+/// What no service was there to refuse.
+void judge_own(const char* subject, const InputObserved& input, Findings& found) {
+  for (const auto& [reason, count] : input.refused)
+    found.push_back(refusal("The doctor, as the service would,", subject, reason, count));
+}
+
+}  // namespace
+
+Findings health_findings(const Observed& seen) {
+  Findings found;
+  if (seen.services.empty()) {
+    judge_own("detections", seen.detections, found);
+    judge_own("poses", seen.poses, found);
+    const auto all = services(seen);
+    const auto silent = std::ranges::find_if(
+        all, [&](const auto& service) { return is_of_vehicle(service, seen.dds.vehicle_id); });
+    if (silent != all.end())
+      found.push_back({"service_silent",
+                       fmt::format("{} publishes maps, but no status of it came within {} s.",
+                                   who(silent->participant), seen.duration_s),
+                       "It hangs, or its data does not arrive here.",
+                       "See its log (journalctl -u laneloom). If it runs: a firewall may pass multicast "
+                       "alone, or it sends by shared memory to processes that can't read it."});
+  }
+  for (const ServiceObserved& service : seen.services) {
+    judge_state(service.last, found);
+    for (const auto& [counter, rise] : rises(service.last, service.first))
+      judge_counter(counter, rise, found);
+  }
+  return found;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,122 @@
+#include "doctor/host.hpp"
+
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+namespace laneloom {
+namespace {
+
+// Ports of discovery, as the RTPS standard has them by default.
+constexpr int kFirstPort = 7400;
+constexpr int kPortsPerDomain = 250;
+constexpr int kFirstUnicast = 10;
+constexpr int kDomains = 233;
+
+constexpr std::string_view kPrefix = "fastrtps_";
+
+namespace fs = std::filesystem;
+
+/// The local port of a line of /proc/net/udp: "  12: 00000000:1CE8 00000000:0000 07 …".
+std::optional<int> local_port(const std::string& line) {
+  std::istringstream words(line);
+  std::string number, address;
+  if (!(words >> number >> address)) return std::nullopt;
+  const auto colon = address.rfind(':');
+  if (colon == std::string::npos) return std::nullopt;
+  int port = 0;
+  const char* end = address.data() + address.size();
+  const auto [rest, error] = std::from_chars(address.data() + colon + 1, end, port, 16);
+  return error == std::errc() && rest == end ? std::optional(port) : std::nullopt;
+}
+
+std::optional<uid_t> owner_of(const fs::path& path) {
+  struct stat info = {};
+  return stat(path.c_str(), &info) == 0 ? std::optional(info.st_uid) : std::nullopt;
+}
+
+std::string name_of(uid_t owner) {
+  const passwd* entry = getpwuid(owner);
+  return entry ? entry->pw_name : std::to_string(owner);
+}
+
+/// What processes have mapped.
+struct Mappings {
+  std::set<std::string> files;  ///< names of Fast DDS's
+  std::set<uid_t> unreadable;   ///< owners of processes that don't show theirs
+};
+
+void add_mappings(std::istream& maps, Mappings& mappings) {
+  for (std::string line; std::getline(maps, line);) {
+    const auto slash = line.rfind('/');
+    if (slash == std::string::npos || line.compare(slash + 1, kPrefix.size(), kPrefix) != 0) continue;
+    mappings.files.insert(line.substr(slash + 1, line.find(' ', slash) - slash - 1));
+  }
+}
+
+bool is_process(const fs::path& path) {
+  const std::string name = path.filename();
+  return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+Mappings mappings_of(const fs::path& processes) {
+  Mappings mappings;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(processes, ignored)) {
+    if (!is_process(entry.path())) continue;
+    const auto owner = owner_of(entry.path());
+    std::ifstream maps(entry.path() / "maps");
+    if (maps)
+      add_mappings(maps, mappings);
+    else if (owner)  // else it has ended meanwhile
+      mappings.unreadable.insert(*owner);
+  }
+  return mappings;
+}
+
+}  // namespace
+
+std::vector<int> listening_domains(std::istream& sockets) {
+  std::set<int> ports;
+  for (std::string line; std::getline(sockets, line);) {
+    if (const auto port = local_port(line)) ports.insert(*port);
+  }
+  std::vector<int> domains;
+  for (int domain = 0; domain < kDomains; ++domain) {
+    const int multicast = kFirstPort + kPortsPerDomain * domain;
+    // Others may use the one port by chance; a participant has one of the others, too.
+    const auto unicast = ports.lower_bound(multicast + kFirstUnicast);
+    if (ports.contains(multicast) && unicast != ports.end() && *unicast < multicast + kPortsPerDomain)
+      domains.push_back(domain);
+  }
+  return domains;
+}
+
+std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const fs::path& processes) {
+  const Mappings mappings = mappings_of(processes);
+  std::vector<SharedMemoryFile> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename();
+    const auto owner = owner_of(entry.path());
+    if (!owner || !name.starts_with(kPrefix) || name.ends_with("_el")) continue;
+    const bool ours = *owner == geteuid();
+    files.push_back(
+        {.name = name,
+         .owner = name_of(*owner),
+         .ours = ours,
+         .stale = !mappings.files.contains(name) && (ours || !mappings.unreadable.contains(*owner))});
+  }
+  return files;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/dds/discovery.hpp"
+#include "laneloom/messages.hpp"
+
+/// What `laneloom doctor` sees, as plain data for findings.hpp to judge.
+namespace laneloom {
+
+/// Messages of one input topic, as a reader of the doctor's own got them.
+struct InputObserved {
+  struct Newest {
+    std::int64_t stamp_ns = 0;    ///< sensor clock
+    std::int64_t arrival_ns = 0;  ///< steady clock, which is one for all inputs
+  };
+  std::uint64_t messages = 0;                    ///< refused ones included
+  std::map<std::string, std::uint64_t> refused;  ///< by reason
+  double window_s = 0.0;                         ///< from the first message to the end of the observation
+  std::optional<Newest> newest;                  ///< that was not refused
+};
+
+/// What one service told of itself.
+struct ServiceObserved {
+  ServiceStatus first, last;
+  /// Of `last`'s clock behind ours, transmission included; of all statuses, the nearest to zero.
+  double clock_offset_s = 0.0;
+  std::uint64_t statuses = 0;
+};
+
+/// A file of Fast DDS in /dev/shm.
+struct SharedMemoryFile {
+  std::string name, owner;
+  bool ours = false;   ///< of the user that the doctor runs as
+  bool stale = false;  ///< no process has it mapped
+};
+
+struct Observed {
+  DdsConfig dds;
+  double duration_s = 0.0;
+  std::vector<dds::Peer> participants;  ///< all but those of doctors
+  std::vector<dds::Endpoint> endpoints;
+  InputObserved detections, poses;
+  std::vector<ServiceObserved> services;  ///< of this vehicle, by session
+  std::vector<int> listening_domains;     ///< that processes of this host are in
+  std::vector<SharedMemoryFile> shared_memory;
+};
+
+}  // namespace laneloom

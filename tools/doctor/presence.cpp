@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+#include "doctor/endpoints.hpp"
+#include "doctor/findings.hpp"
+
+namespace laneloom {
+namespace {
+
+Finding empty_domain(const Observed& seen) {
+  std::vector<int> others = seen.listening_domains;
+  std::erase(others, seen.dds.domain);
+  const std::string elsewhere =
+      others.empty() ? "" : fmt::format(" Processes of this host are in domain {}.", fmt::join(others, ", "));
+  return {"empty_domain", fmt::format("Nobody else is in domain {}.{}", seen.dds.domain, elsewhere),
+          "Participants of different domains never see each other.",
+          "Start all with the same domain (dds.domain, --domain). Those on other hosts also need a network "
+          "that passes multicast, or a profile with their addresses (dds.profile_file), and UDP ports from "
+          "7400 on that no firewall closes; with DDS-Security, an identity that they trust (--security)."};
+}
+
+Finding no_service(const Observed& seen, const std::vector<dds::Endpoint>& all) {
+  std::set<std::string> others;
+  for (const auto& service : all) others.insert(partitions_text(service.partitions));
+  const std::string elsewhere =
+      others.empty() ? "" : fmt::format(" There are services in {}.", fmt::join(others, ", in "));
+  return {"no_service",
+          fmt::format("No service publishes maps for vehicle \"{}\" in domain {}.{}", seen.dds.vehicle_id,
+                      seen.dds.domain, elsewhere),
+          "Without it there are no maps. Each vehicle has a partition of its own, named by its id.",
+          others.empty() ? "Start laneloomd (systemctl status laneloom tells why it does not run)."
+                         : "Use one vehicle id in all participants (dds.vehicle_id, --vehicle-id)."};
+}
+
+Finding two_services(const Observed& seen, const std::vector<dds::Endpoint>& all) {
+  std::vector<std::string> names;
+  std::ranges::transform(all, std::back_inserter(names),
+                         [](const auto& service) { return who(service.participant); });
+  return {"two_services",
+          fmt::format("{} services publish maps for vehicle \"{}\": {}.", all.size(), seen.dds.vehicle_id,
+                      fmt::join(names, ", ")),
+          "Readers get the maps of both in turn, with ids that have nothing to do with each other.",
+          "End one of them, or give each vehicle an id of its own."};
+}
+
+}  // namespace
+
+Findings presence_findings(const Observed& seen) {
+  if (seen.participants.empty()) return {empty_domain(seen)};
+  const auto all = services(seen);
+  std::vector<dds::Endpoint> ours;
+  std::ranges::copy_if(all, std::back_inserter(ours),
+                       [&](const auto& service) { return is_of_vehicle(service, seen.dds.vehicle_id); });
+  if (ours.empty()) return {no_service(seen, all)};
+  if (ours.size() > 1) return {two_services(seen, ours)};
+  return {};
+}
+
+}  // namespace laneloom

@@ -1,0 +1,56 @@
+#include "doctor/refusals.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace laneloom {
+namespace {
+
+constexpr std::string_view kWriter = "Mend what writes them.";
+constexpr std::string_view kGate =
+    "If they are right, the section `gate` of the configuration has the limit.";
+constexpr std::string_view kIdl =
+    "Generate its types from this version's IDL, as plain XCDR1; the bounds are part of it.";
+
+constexpr std::array kRefusals{
+    Refusal{"malformed", "their bytes are no message of the topic's type", kIdl},
+    Refusal{"unknown_enum", "an enumeration has a value that the IDL does not know", kIdl},
+    Refusal{"not_finite", "they hold a NaN or an infinity", kWriter},
+    Refusal{"not_a_rotation", "their quaternion is not of length one",
+            "Normalise it where they are written."},
+    Refusal{
+        "wrong_frame", "their frame_id is not the map frame",
+        "Set dds.map_frame_id to the frame that poses are given in, or the frame_id of the poses to that."},
+    Refusal{"wrong_size", "lists that belong together differ in length", kWriter},
+    Refusal{"stamp", "their stamp is zero, negative or absurd", "Stamp them in nanoseconds, at measurement."},
+    Refusal{"coordinate", "a coordinate is further out than gate.max_coordinate_m", kGate},
+    Refusal{"too_few_points", "a polyline has less than two points",
+            "Leave such lines out where they are written."},
+    Refusal{"confidence", "a confidence is not within 0..1", kWriter},
+    Refusal{"stddev", "a standard deviation is negative", kWriter},
+    Refusal{"too_long", "the lines of a frame are longer together than gate.max_frame_length_m", kGate},
+    Refusal{"repeated", "their stamp is that of the one before",
+            "See whether two writers send the same data, or one sends it twice."},
+    Refusal{"late", "their stamp is before one that was taken already",
+            "Write them in the order of their stamps; see whether two writers share a source name."},
+    Refusal{"outlier",
+            "their stamp or position jumped (gate.max_stamp_step_s, max_speed_mps, max_pose_jump_m)",
+            "See whether two writers take turns, or a clock or localisation jumps. Three in a row that agree "
+            "are believed, and begin a new map."},
+    Refusal{"too_many_sources", "more sources of detections were seen than are followed",
+            "Keep the field `source` the same from frame to frame."},
+    Refusal{"unsynchronised", "no poses around their stamp came in time",
+            "See whether both use one clock, poses come at 20 Hz or more (sync.max_pose_gap_s), and no later "
+            "than sync.max_wait_s after the frame."},
+    Refusal{"reset", "they waited for poses when the map began anew",
+            "See why it did: pose or stamp jumped."}};
+
+}  // namespace
+
+Refusal explain_refusal(std::string_view reason) {
+  const auto* const known = std::ranges::find(kRefusals, reason, &Refusal::reason);
+  if (known != kRefusals.end()) return *known;
+  return {reason, "they are not what the service takes", "See the log of the service."};
+}
+
+}  // namespace laneloom

@@ -1,0 +1,45 @@
+#include "doctor/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "doctor/endpoints.hpp"
+#include "io/printable.hpp"
+
+namespace laneloom {
+
+using nlohmann::json;
+
+std::string report(const Observed& seen, const Findings& found) {
+  std::vector<std::string> names;
+  std::ranges::transform(seen.participants, std::back_inserter(names), who);
+  std::string text = printable(fmt::format(
+      "Domain {}, vehicle \"{}\", watched for {:.1f} s: {} participants{}{}.", seen.dds.domain,
+      seen.dds.vehicle_id, seen.duration_s, names.size(), names.empty() ? "" : ": ", fmt::join(names, ", ")));
+  if (found.empty()) return text + "\nNothing wrong was found.\n";
+  text += "\n";
+  for (std::size_t i = 0; i < found.size(); ++i)
+    text += fmt::format("\n{}. {}\n   Why it matters: {}\n   What to do: {}\n", i + 1,
+                        printable(found[i].found), printable(found[i].why), printable(found[i].remedy));
+  return text;
+}
+
+json report_json(const Observed& seen, const Findings& found) {
+  json participants = json::array(), findings = json::array();
+  for (const dds::Peer& peer : seen.participants)
+    participants.push_back({{"id", peer.id}, {"name", peer.name}, {"address", peer.address}});
+  for (const Finding& finding : found)
+    findings.push_back(
+        {{"id", finding.id}, {"found", finding.found}, {"why", finding.why}, {"remedy", finding.remedy}});
+  return {{"domain", seen.dds.domain},
+          {"vehicle_id", seen.dds.vehicle_id},
+          {"duration_s", seen.duration_s},
+          {"participants", participants},
+          {"findings", findings}};
+}
+
+}  // namespace laneloom

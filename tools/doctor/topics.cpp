@@ -1,0 +1,128 @@
+#include "laneloom/dds/topics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <sstream>
+
+#include "doctor/endpoints.hpp"
+#include "doctor/findings.hpp"
+
+namespace laneloom {
+namespace {
+
+using dds::Endpoint;
+
+struct Topic {
+  const char* id;
+  const char* what;
+  const char* name;
+  const char* type;
+  bool input;  ///< of the service
+};
+
+constexpr std::array kTopics{
+    Topic{"detections", "detections", dds::kDetectionsTopic, dds::kDetectionsType, true},
+    Topic{"poses", "poses", dds::kVehiclePoseTopic, dds::kVehiclePoseType, true},
+    Topic{"lane_map", "the lane map", dds::kLaneMapTopic, dds::kLaneMapType, false},
+    Topic{"road_markings", "the road markings", dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, false}};
+
+/// What a topic is named at heart: without case, separators, version, and prefixes that bridges add.
+std::string heart(const std::string& topic) {
+  std::string result, part;
+  std::istringstream parts(topic);
+  while (std::getline(parts, part, '/')) {
+    std::erase_if(part, [](unsigned char c) { return std::isalnum(c) == 0; });
+    std::ranges::transform(part, part.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool version =
+        part.size() > 1 && part[0] == 'v' &&
+        std::all_of(part.begin() + 1, part.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (!version && part != "rt" && part != "laneloom") result += part;
+  }
+  return result;
+}
+
+/// Perception and the like write inputs; planners read outputs.
+bool is_at_far_end(const Endpoint& endpoint, const Topic& topic) { return endpoint.is_writer == topic.input; }
+
+const char* verb(const Topic& topic) { return topic.input ? "writes" : "reads"; }
+
+/// Endpoints at the far end that connect to the service of this vehicle, if their quality of service does.
+bool is_right(const Endpoint& endpoint, const Topic& topic, const std::string& vehicle_id) {
+  return is_at_far_end(endpoint, topic) && endpoint.topic == topic.name && endpoint.type == topic.type &&
+         is_of_vehicle(endpoint, vehicle_id);
+}
+
+Finding nobody_writes(const Observed& seen, const Topic& topic) {
+  return {fmt::format("no_{}", topic.id),
+          fmt::format(R"(Nobody writes {} for vehicle "{}" (topic {}, type {}, partition "{}").)", topic.what,
+                      seen.dds.vehicle_id, topic.name, topic.type, seen.dds.vehicle_id),
+          "The service maps nothing without detections and poses, both of the same vehicle.",
+          "Start what writes them, in this domain and partition."};
+}
+
+Finding wrong_type(const Endpoint& endpoint, const Topic& topic) {
+  return {"wrong_type",
+          fmt::format("{} {} {} with the type {}, not {}.", who(endpoint.participant),
+                      endpoint.is_writer ? "writes" : "reads", topic.name, endpoint.type, topic.type),
+          "Writers and readers with different type names never match.",
+          "Generate its types from the IDL files of laneloom, and keep the name that they give."};
+}
+
+Finding similar_name(const Endpoint& endpoint, const Topic& topic) {
+  return {"similar_topic",
+          fmt::format("{} {} the topic {}, not {}.", who(endpoint.participant), verb(topic), endpoint.topic,
+                      topic.name),
+          "Topics match by their whole name, version and case included, with no prefix.",
+          fmt::format("If these are {} of laneloom, name the topic {}.", topic.what, topic.name)};
+}
+
+Finding wrong_partition(const Observed& seen, const Endpoint& endpoint, const Topic& topic) {
+  return {"wrong_partition",
+          fmt::format("{} {} {} in {}, not \"{}\".", who(endpoint.participant), verb(topic), topic.what,
+                      partitions_text(endpoint.partitions), seen.dds.vehicle_id),
+          "Each vehicle has a partition of its own, named by its id; nothing crosses over.",
+          fmt::format("If it belongs to this vehicle, set its partition to \"{}\" (dds.vehicle_id, "
+                      "--vehicle-id).",
+                      seen.dds.vehicle_id)};
+}
+
+/// Whether a service of some vehicle is at the other end.
+bool is_served(const Observed& seen, const Endpoint& endpoint) {
+  const auto all = services(seen);
+  return std::ranges::any_of(all, [&](const Endpoint& service) {
+    return partitions_match(service.partitions, endpoint.partitions);
+  });
+}
+
+void judge(const Observed& seen, const Topic& topic, Findings& found) {
+  const std::string& vehicle_id = seen.dds.vehicle_id;
+  const bool connected = std::ranges::any_of(
+      seen.endpoints, [&](const Endpoint& endpoint) { return is_right(endpoint, topic, vehicle_id); });
+  if (topic.input && !connected) found.push_back(nobody_writes(seen, topic));
+  for (const Endpoint& endpoint : seen.endpoints) {
+    const bool of_vehicle = is_of_vehicle(endpoint, vehicle_id);
+    if (endpoint.topic == topic.name) {
+      if (of_vehicle && endpoint.type != topic.type) found.push_back(wrong_type(endpoint, topic));
+      if (!of_vehicle && !connected && is_at_far_end(endpoint, topic) &&
+          (topic.input || !is_served(seen, endpoint))) {
+        found.push_back(wrong_partition(seen, endpoint, topic));
+      }
+    } else if (!connected && is_at_far_end(endpoint, topic) && heart(endpoint.topic) == heart(topic.name)) {
+      found.push_back(similar_name(endpoint, topic));
+    }
+  }
+}
+
+}  // namespace
+
+Findings topic_findings(const Observed& seen) {
+  Findings found;
+  for (const Topic& topic : kTopics) judge(seen, topic, found);
+  return found;
+}
+
+}  // namespace laneloom
