@@ -347,7 +347,7 @@ class WarmRestart : public Faults {
   /// Kills the service, which had lanes, and starts it again.
   void restart(const std::vector<std::string>& more) {
     ASSERT_TRUE(counts("snapshots_written")) << service_->errors();
-    ASSERT_TRUE(maps_.wait_for(is_good));
+    ASSERT_TRUE(stays_good(10));  // a snapshot at each
     service_->signal(SIGKILL);
     ASSERT_EQ(service_->wait(), -SIGKILL);
     ASSERT_TRUE(maps_.wait_for_alive(0));
