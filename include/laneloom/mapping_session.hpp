@@ -51,7 +51,7 @@ class MappingSession {
     std::uint64_t pose_session_id = 0;
     Point position = Point::Zero();
   };
-  /// None while the map is empty.
+  /// None while nothing was fused into the map here.
   std::optional<Checkpoint> checkpoint() const;
   /// Goes on from there, with the state that its mapper had. If the first pose can't follow on the one
   /// before, the map is none of its frame, and is cleared.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <utility>
 
 namespace laneloom {
 namespace {
@@ -21,6 +22,7 @@ IngestionQueue::IngestionQueue(const SyncConfig& config) : config_(config) {
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
   state_.counters.add("detections_received");
+  state_.counters.add("detections_lost", std::exchange(frames_missing_, 0));
   state_.newest_frame_ns = arrival_ns;
   note_source(frame);
   push(frames_, config_.queue_capacity, {std::move(frame), arrival_ns}, "frames_dropped_queue_full");
@@ -29,6 +31,7 @@ void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
 void IngestionQueue::push(VehiclePose&& pose, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
   state_.counters.add("poses_received");
+  state_.counters.add("poses_lost", std::exchange(poses_missing_, 0));
   state_.newest_pose_ns = arrival_ns;
   push(poses_, config_.pose_queue_capacity, {std::move(pose), arrival_ns}, "poses_dropped_queue_full");
 }
@@ -58,12 +61,14 @@ void IngestionQueue::note_source(const DetectionFrame& frame) {
 void IngestionQueue::refuse_detections(std::string_view reason) {
   const std::lock_guard lock(mutex_);
   state_.counters.add("detections_received");
+  state_.counters.add("detections_lost", std::exchange(frames_missing_, 0));
   state_.counters.add("detections_refused_" + std::string(reason));
 }
 
 void IngestionQueue::refuse_pose(std::string_view reason) {
   const std::lock_guard lock(mutex_);
   state_.counters.add("poses_received");
+  state_.counters.add("poses_lost", std::exchange(poses_missing_, 0));
   state_.counters.add("poses_refused_" + std::string(reason));
 }
 
@@ -74,12 +79,12 @@ void IngestionQueue::note_other_service(std::int64_t arrival_ns) {
 
 void IngestionQueue::number_detections(const dds::WriterId& writer, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  state_.counters.add("detections_lost", lost_frames_.before(writer, number));
+  frames_missing_ += lost_frames_.before(writer, number);
 }
 
 void IngestionQueue::number_pose(const dds::WriterId& writer, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  state_.counters.add("poses_lost", lost_poses_.before(writer, number));
+  poses_missing_ += lost_poses_.before(writer, number);
 }
 
 std::vector<Arrival> IngestionQueue::drain() {

@@ -73,6 +73,9 @@ class IngestionQueue {
   Queue poses_;
   LostMessages lost_frames_;
   LostMessages lost_poses_;
+  // Counted with the message that shows it, so that the sums are right at every instant.
+  std::uint64_t frames_missing_ = 0;
+  std::uint64_t poses_missing_ = 0;
   Snapshot state_;
 };
 

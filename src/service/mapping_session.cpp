@@ -15,9 +15,12 @@ constexpr std::size_t kMaxSources = 8;  // a source is remembered for ever
 
 using Checkpoint = MappingSession::Checkpoint;
 
-bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateConfig& config) {
+/// `max_pause_s` is how long the service may have been away.
+bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateConfig& config,
+             double max_pause_s) {
   const double step_s = static_cast<double>(pose.stamp_ns - checkpoint.pose_stamp_ns) / 1e9;
   return pose.session_id == checkpoint.pose_session_id && step_s > 0.0 &&
+         step_s <= config.max_stamp_step_s + max_pause_s &&
          (pose.position - checkpoint.position).norm() <=
              config.max_pose_jump_m + config.max_speed_mps * step_s;
 }
@@ -42,6 +45,7 @@ std::string_view reason(Gate::Verdict verdict) {
 struct MappingSession::State {
   explicit State(const Config& c)
       : gate_config(c.gate),
+        max_pause_s(c.service.snapshot_max_age_s),
         pose_gate(c.gate),
         synchroniser(c.sync),
         mapper(c.mapper, load_sd_map(c.sd_map)) {}
@@ -58,6 +62,7 @@ struct MappingSession::State {
   }
 
   GateConfig gate_config;
+  double max_pause_s;
   Gate pose_gate;
   std::map<std::string, Gate> frame_gates;  ///< by source
   Synchroniser synchroniser;
@@ -66,6 +71,7 @@ struct MappingSession::State {
   std::optional<std::int64_t> newest_arrival_ns;
   std::optional<VehiclePose> newest_pose;
   std::optional<Checkpoint> resumed;  ///< until the first pose
+  bool resumed_only = false;          ///< nothing was fused since
   Counters counters;
   Progress progress;
   StageObserver* observer = nullptr;
@@ -89,7 +95,7 @@ std::string_view MappingSession::State::add(const VehiclePose& pose) {
 }
 
 void MappingSession::State::check_resumed(const VehiclePose& pose) {
-  if (resumed && !follows(pose, *resumed, gate_config)) reset();
+  if (resumed && !follows(pose, *resumed, gate_config, max_pause_s)) reset();
   resumed.reset();
 }
 
@@ -123,6 +129,7 @@ void MappingSession::State::fuse_ready() {
 void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   const auto& frame = synchronised.pending.frame;
   const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
+  resumed_only = false;
   newest_stamp_ns = frame.stamp_ns;
   newest_arrival_ns = synchronised.pending.arrival_ns;
   counters.add("frames_fused");
@@ -164,8 +171,7 @@ MappingSession::Progress MappingSession::take_progress() { return std::exchange(
 
 std::optional<MappingSession::Checkpoint> MappingSession::checkpoint() const {
   const State& state = *state_;
-  if (state.resumed) return state.resumed;
-  if (!state.newest_stamp_ns || !state.newest_pose) return std::nullopt;
+  if (!state.newest_stamp_ns || !state.newest_pose || state.resumed_only) return std::nullopt;
   return Checkpoint{*state.newest_stamp_ns, *state.newest_arrival_ns, state.newest_pose->stamp_ns,
                     state.newest_pose->session_id, state.newest_pose->position};
 }
@@ -175,6 +181,7 @@ void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
   state_->newest_stamp_ns = checkpoint.frame_stamp_ns;
   state_->newest_arrival_ns = checkpoint.frame_arrival_ns;
   state_->resumed = checkpoint;
+  state_->resumed_only = true;
 }
 
 const LocalMap& MappingSession::map() const { return state_->mapper.map(); }

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <random>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -80,7 +81,8 @@ SnapshotStamp Service::snapshot_stamp() const {
 
 void Service::resume() {
   const std::string& file = config_.service.snapshot_file;
-  if (!std::filesystem::exists(file)) return;
+  std::error_code unknown;
+  if (!std::filesystem::exists(file, unknown) && !unknown) return;
   try {
     auto snapshot =
         read_snapshot(file, snapshot_stamp(), config_.service.snapshot_max_age_s, config_.mapper.voxel_map);
@@ -91,6 +93,7 @@ void Service::resume() {
     counters_.add("snapshots_refused");
     spdlog::warn("event=snapshot_refused file={} why=\"{}\"", file, error.what());
   }
+  std::filesystem::remove(file, unknown);  // a map that ends the service does so once
 }
 
 void Service::keep_snapshot(std::int64_t now_ns) {
@@ -151,9 +154,10 @@ bool Service::judge(const Tick& tick, std::uint64_t resets) {
   counters_.add("ticks");
   counters_.add("ticks_missed", tick.missed);
 
-  const auto verdict =
-      health_.assess(tick.start_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns,
-                                     session_.newest_arrival_ns(), arrived.other_service_ns});
+  // A map of before is none to drive on until a frame has confirmed it.
+  const auto fused_ns = session_.counters()["frames_fused"] > 0 ? session_.newest_arrival_ns() : std::nullopt;
+  const auto verdict = health_.assess(
+      tick.start_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns, fused_ns, arrived.other_service_ns});
   return std::exchange(verdict_, verdict) != verdict;
 }
 

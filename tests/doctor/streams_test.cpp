@@ -27,7 +27,8 @@ TEST(Streams, Rates) {
   };
   EXPECT_THAT(found_at(2, 41, 2.0), IsEmpty());      // 0.5 and 20 a second
   EXPECT_THAT(found_at(101, 4001, 2.0), IsEmpty());  // 50 and 2000
-  EXPECT_THAT(found_at(2, 41, 2.1), ElementsAre("detections_slow", "poses_slow"));
+  EXPECT_THAT(found_at(30, 60, 2.97), IsEmpty()) << "20 poses a second, and the window ends before the next";
+  EXPECT_THAT(found_at(2, 41, 6.1), ElementsAre("detections_slow", "poses_slow"));
   EXPECT_THAT(found_at(102, 41, 2.0), ElementsAre("detections_fast"));
   EXPECT_THAT(found_at(1, 1, 0.9), IsEmpty()) << "too early to tell";
 }

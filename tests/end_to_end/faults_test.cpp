@@ -97,7 +97,12 @@ class Faults : public ::testing::Test {
       return false;
     }
     const auto samples = maps_.samples();
-    return std::all_of(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(maps), is_good);
+    // A busy host is no fault of what is tested.
+    const auto good = [](const PublishedMap& map) {
+      return is_good(map) || (has_lanes(map) && map.state == MapState::degraded &&
+                              map.reasons == std::vector{StateReason::overloaded});
+    };
+    return std::all_of(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(maps), good);
   }
 
   const DdsConfig config_ = private_config();
@@ -158,7 +163,7 @@ TEST_F(Faults, MessagesOutOfOrderAreRefused) {
   road_->send_poses(swap_pairs<VehiclePose>());
   EXPECT_TRUE(counts("detections_refused_late"));
   EXPECT_TRUE(counts("poses_refused_late"));
-  EXPECT_TRUE(recovers());
+  EXPECT_TRUE(stays_good(10));
   EXPECT_EQ(counters()["map_resets"], 0U);
 }
 
@@ -189,6 +194,7 @@ TEST_F(Faults, ABurstOfDetectionsIsFusedWhole) {
     held.push_back(std::move(frame));
     return held.size() < 10 ? std::vector<DetectionFrame>{} : std::exchange(held, {});
   });
+  EXPECT_TRUE(says(MapState::stale, StateReason::no_detections)) << "between the bursts";
   EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return map.fused_frames.size() >= 10; }));
   EXPECT_TRUE(recovers());
   EXPECT_EQ(counters()["detections_refused_late"], 0U);
@@ -347,7 +353,6 @@ class WarmRestart : public Faults {
   /// Kills the service, which had lanes, and starts it again.
   void restart(const std::vector<std::string>& more) {
     ASSERT_TRUE(counts("snapshots_written")) << service_->errors();
-    ASSERT_TRUE(stays_good(10));  // a snapshot at each
     service_->signal(SIGKILL);
     ASSERT_EQ(service_->wait(), -SIGKILL);
     ASSERT_TRUE(maps_.wait_for_alive(0));
@@ -365,9 +370,12 @@ class WarmRestart : public Faults {
 
 TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
   start(100, {"--config", file_.path});
-  file_.write("service:\n  snapshot_file: " + snapshot_.path + "\n  log_level: debug\n");
+  ASSERT_TRUE(stays_good(10));  // a snapshot at each
+  file_.write("service:\n  snapshot_file: " + snapshot_.path +
+              "\n  stale_after_s: 30\n  degraded_after_s: 20\n");
   restart({"--config", file_.path});
   ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
+  EXPECT_EQ(first_.state, MapState::stale) << "no frame has confirmed it";
   EXPECT_NE(first_.session_id, before_.session_id);
   EXPECT_EQ(first_.map.lanes[0].id, before_.map.lanes[0].id);
   EXPECT_GT(first_.age_s, 0.0);
@@ -378,6 +386,7 @@ TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
 
 TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
   start(100, {"--config", file_.path});
+  ASSERT_TRUE(stays_good(10));  // a snapshot at each
   restart({"--config", file_.path, "--preset", "av2"});
   EXPECT_TRUE(first_.map.lanes.empty());
   EXPECT_NE(service_->errors().find("snapshot_refused"), std::string::npos) << service_->errors();
@@ -387,6 +396,7 @@ TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
 
 TEST_F(WarmRestart, ForgetsAMapOfAnotherPoseFrame) {
   start(100, {"--config", file_.path});
+  ASSERT_TRUE(stays_good(10));  // a snapshot at each
   road_->send_poses(lose<VehiclePose>);
   restart({"--config", file_.path});
   ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();

@@ -102,10 +102,13 @@ TEST(IngestionQueue, CountsWhatNeverCame) {
   queue.number_detections({1}, 7);
   queue.number_detections({1}, 11);
   for (const std::uint64_t number : {1U, 6U, 8U}) queue.number_pose({2}, number);
+  EXPECT_EQ(queue.snapshot().counters["detections_lost"], 0U) << "before the message that shows it";
+  queue.refuse_detections("malformed");
+  queue.push(pose(8), 0);
   const auto counters = queue.snapshot().counters;
   EXPECT_EQ(counters["detections_lost"], 3U);
   EXPECT_EQ(counters["poses_lost"], 5U);
-  EXPECT_EQ(counters["detections_received"], 0U);
+  EXPECT_EQ(counters["detections_received"], 1U);
 }
 
 TEST(IngestionQueue, CountsExactlyWhileThreadsPush) {

@@ -178,6 +178,7 @@ TEST_F(MappingSessionTest, AnotherSessionGoesOnWhereOneEnded) {
   next.resume(*session_.checkpoint(), session_.mapper().state());
   EXPECT_EQ(next.map().lanes.size(), 1U);
   EXPECT_EQ(next.newest_arrival_ns(), session_.newest_arrival_ns());
+  EXPECT_FALSE(next.checkpoint()) << "a map that was only resumed would be kept for ever";
   for (std::int64_t t = 13'000; t < 13'200; t += 10) next.add(pose(t));
   next.add(frame(13'100), 0);
   EXPECT_EQ(next.counters()["frames_fused"], 1U);
@@ -191,7 +192,9 @@ TEST_F(MappingSessionTest, AMapOfAnotherPoseFrameIsNotGoneOnWith) {
   const auto checkpoint = *session_.checkpoint();
   auto far = pose(12'500);
   far.position.x() += 200.0;
-  for (const auto& first : {pose(12'500, 2), pose(11'000), far}) {
+  auto late = pose(60'000);
+  late.position.x() = 120.0;
+  for (const auto& first : {pose(12'500, 2), pose(11'000), far, late}) {
     MappingSession next{Config{}};
     next.resume(checkpoint, session_.mapper().state());
     next.add(first);

@@ -24,8 +24,10 @@ struct Input {
 
 void judge_rate(const Input& input, Findings& found) {
   if (input.messages.messages == 0 || input.messages.window_s < kMinWindow_s) return;
-  const double rate_hz = static_cast<double>(input.messages.messages - 1) / input.messages.window_s;
-  if (rate_hz < input.min_rate_hz)
+  // The window ends between two messages: one of them more or less decides nothing.
+  const double messages = static_cast<double>(input.messages.messages);
+  const double rate_hz = (messages - 1.0) / input.messages.window_s;
+  if ((messages + 1.0) / input.messages.window_s < input.min_rate_hz)
     found.push_back({fmt::format("{}_slow", input.what),
                      fmt::format("{:.1f} {} come in a second; it should be {} at least.", rate_hz, input.what,
                                  input.min_rate_hz),
