@@ -71,7 +71,6 @@ struct MappingSession::State {
   std::optional<std::int64_t> newest_arrival_ns;
   std::optional<VehiclePose> newest_pose;
   std::optional<Checkpoint> resumed;  ///< until the first pose
-  bool resumed_only = false;          ///< nothing was fused since
   Counters counters;
   Progress progress;
   StageObserver* observer = nullptr;
@@ -129,7 +128,6 @@ void MappingSession::State::fuse_ready() {
 void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   const auto& frame = synchronised.pending.frame;
   const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
-  resumed_only = false;
   newest_stamp_ns = frame.stamp_ns;
   newest_arrival_ns = synchronised.pending.arrival_ns;
   counters.add("frames_fused");
@@ -171,7 +169,7 @@ MappingSession::Progress MappingSession::take_progress() { return std::exchange(
 
 std::optional<MappingSession::Checkpoint> MappingSession::checkpoint() const {
   const State& state = *state_;
-  if (!state.newest_stamp_ns || !state.newest_pose || state.resumed_only) return std::nullopt;
+  if (!state.newest_stamp_ns || state.counters["frames_fused"] == 0) return std::nullopt;
   return Checkpoint{*state.newest_stamp_ns, *state.newest_arrival_ns, state.newest_pose->stamp_ns,
                     state.newest_pose->session_id, state.newest_pose->position};
 }
@@ -181,7 +179,6 @@ void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
   state_->newest_stamp_ns = checkpoint.frame_stamp_ns;
   state_->newest_arrival_ns = checkpoint.frame_arrival_ns;
   state_->resumed = checkpoint;
-  state_->resumed_only = true;
 }
 
 const LocalMap& MappingSession::map() const { return state_->mapper.map(); }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <system_error>
 #include <utility>
@@ -155,7 +156,8 @@ bool Service::judge(const Tick& tick, std::uint64_t resets) {
   counters_.add("ticks_missed", tick.missed);
 
   // A map of before is none to drive on until a frame has confirmed it.
-  const auto fused_ns = session_.counters()["frames_fused"] > 0 ? session_.newest_arrival_ns() : std::nullopt;
+  const auto checkpoint = session_.checkpoint();
+  const auto fused_ns = checkpoint ? std::optional(checkpoint->frame_arrival_ns) : std::nullopt;
   const auto verdict = health_.assess(
       tick.start_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns, fused_ns, arrived.other_service_ns});
   return std::exchange(verdict_, verdict) != verdict;

@@ -1,31 +1,18 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <deque>
 #include <map>
 #include <memory>
 
-#include "participants.hpp"
-#include "process.hpp"
-#include "service.hpp"
+#include "faults.hpp"
 
 // What the planner sees of each fault, and which counter tells; README, "When things go wrong".
 namespace laneloom {
 namespace {
 
 constexpr std::int64_t kHour_ns = 3'600'000'000'000;
-
-bool has_reason(const PublishedMap& map, StateReason reason) {
-  return std::find(map.reasons.begin(), map.reasons.end(), reason) != map.reasons.end();
-}
-
-/// A message of which nothing arrives.
-template <class T>
-std::vector<T> lose(const T& /*message*/) {
-  return {};
-}
 
 /// Everything arrives so many messages later.
 template <class T>
@@ -49,68 +36,6 @@ Channel<T> swap_pairs() {
     return std::exchange(held, {});
   };
 }
-
-class Faults : public ::testing::Test {
- protected:
-  /// A road on which all is well.
-  void start(int frame_period_ms = 100, const std::vector<std::string>& more = {}) {
-    maps_.forget();
-    status_.forget();
-    service_ = std::make_unique<Process>(command(config_, more));
-    road_ = std::make_unique<StraightRoad>(config_, frame_period_ms);
-    ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
-    maps_.forget();
-  }
-  /// The planner is told, and the map is still there.
-  bool says(MapState state, StateReason reason) {
-    return maps_.wait_for([&](const PublishedMap& map) {
-      return map.state == state && has_reason(map, reason) && has_lanes(map);
-    });
-  }
-  /// The fault ends.
-  bool recovers() {
-    road_->send_frames({});
-    road_->send_poses({});
-    maps_.forget();
-    return maps_.wait_for(is_good);
-  }
-  std::map<std::string, std::uint64_t> counters() {
-    std::map<std::string, std::uint64_t> result;
-    // Written once a second: of what happened before this call.
-    status_.forget();
-    status_.wait_for([&](const ServiceStatus& status) {
-      result = {status.counters.begin(), status.counters.end()};
-      return true;
-    });
-    return result;
-  }
-  bool counts(const std::string& counter) {
-    return status_.wait_for([&](const ServiceStatus& status) {
-      return std::any_of(status.counters.begin(), status.counters.end(),
-                         [&](const auto& entry) { return entry.first == counter && entry.second > 0; });
-    });
-  }
-  /// `maps` maps in a row are good.
-  bool stays_good(std::size_t maps) {
-    maps_.forget();
-    if (!maps_.wait_for([&, seen = std::size_t{0}](const PublishedMap&) mutable { return ++seen == maps; })) {
-      return false;
-    }
-    const auto samples = maps_.samples();
-    // A busy host is no fault of what is tested.
-    const auto good = [](const PublishedMap& map) {
-      return is_good(map) || (has_lanes(map) && map.state == MapState::degraded &&
-                              map.reasons == std::vector{StateReason::overloaded});
-    };
-    return std::all_of(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(maps), good);
-  }
-
-  const DdsConfig config_ = private_config();
-  std::unique_ptr<Process> service_;
-  Listener<PublishedMap> maps_{config_};
-  Listener<ServiceStatus> status_{config_};
-  std::unique_ptr<StraightRoad> road_;
-};
 
 TEST_F(Faults, DetectionsStop) {
   start();
@@ -344,71 +269,6 @@ TEST_F(Faults, KilledWithSharedMemoryItStartsAgain) {
     service.signal(SIGKILL);
     ASSERT_EQ(service.wait(), -SIGKILL);
   }
-}
-
-class WarmRestart : public Faults {
- protected:
-  WarmRestart()
-      : snapshot_("snapshot", ""),
-        file_("warm.yaml", "service:\n  snapshot_file: " + snapshot_.path + "\n  snapshot_period_s: 0.1\n") {
-    unlink(snapshot_.path.c_str());
-  }
-  /// Kills the service, which had lanes, and starts it again.
-  void restart(const std::vector<std::string>& more) {
-    ASSERT_TRUE(counts("snapshots_written")) << service_->errors();
-    service_->signal(SIGKILL);
-    ASSERT_EQ(service_->wait(), -SIGKILL);
-    ASSERT_TRUE(maps_.wait_for_alive(0));
-    before_ = maps_.samples().back();
-    maps_.forget();
-    status_.forget();
-    service_ = std::make_unique<Process>(command(config_, more));
-    ASSERT_TRUE(maps_.wait_for([](const PublishedMap&) { return true; })) << service_->errors();
-    first_ = maps_.samples().front();
-  }
-
-  const TemporaryFile snapshot_, file_;
-  PublishedMap before_, first_;  ///< the last map before the restart, the first one after it
-};
-
-TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
-  start(100, {"--config", file_.path});
-  ASSERT_TRUE(stays_good(10));  // a snapshot at each
-  file_.write("service:\n  snapshot_file: " + snapshot_.path +
-              "\n  stale_after_s: 30\n  degraded_after_s: 20\n");
-  restart({"--config", file_.path});
-  ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
-  EXPECT_EQ(first_.state, MapState::stale) << "no frame has confirmed it";
-  EXPECT_NE(first_.session_id, before_.session_id);
-  EXPECT_EQ(first_.map.lanes[0].id, before_.map.lanes[0].id);
-  EXPECT_GT(first_.age_s, 0.0);
-  ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
-  EXPECT_EQ(maps_.samples().back().map.lanes[0].id, before_.map.lanes[0].id);
-  EXPECT_EQ(counters()["map_resets"], 0U);
-}
-
-TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
-  start(100, {"--config", file_.path});
-  ASSERT_TRUE(stays_good(10));  // a snapshot at each
-  restart({"--config", file_.path, "--preset", "av2"});
-  EXPECT_TRUE(first_.map.lanes.empty());
-  EXPECT_NE(service_->errors().find("snapshot_refused"), std::string::npos) << service_->errors();
-  EXPECT_TRUE(counts("snapshots_refused"));
-  EXPECT_TRUE(maps_.wait_for(is_good));
-}
-
-TEST_F(WarmRestart, ForgetsAMapOfAnotherPoseFrame) {
-  start(100, {"--config", file_.path});
-  ASSERT_TRUE(stays_good(10));  // a snapshot at each
-  road_->send_poses(lose<VehiclePose>);
-  restart({"--config", file_.path});
-  ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
-  road_->send_poses([](VehiclePose pose) {
-    pose.session_id = 99;
-    return std::vector{pose};
-  });
-  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
-  EXPECT_TRUE(maps_.wait_for(is_good));
 }
 
 }  // namespace

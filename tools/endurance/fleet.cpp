@@ -30,18 +30,6 @@ Fleet::Fleet(Spec spec) : spec_(std::move(spec)) {
   for (const Member member : {Member::service, Member::publisher, Member::planner}) start(member);
 }
 
-std::unique_ptr<ChildProcess>& Fleet::process(Member member) {
-  switch (member) {
-    case Member::publisher:
-      return publisher_;
-    case Member::service:
-      return service_;
-    case Member::planner:
-      break;
-  }
-  return planner_;
-}
-
 std::vector<std::string> Fleet::vehicle() const {
   return {"--domain", std::to_string(spec_.dds.domain), "--vehicle-id", spec_.dds.vehicle_id};
 }
@@ -66,17 +54,17 @@ void Fleet::start(Member member) {
   auto command = command_of(member);
   const auto more = vehicle();
   command.insert(command.end(), more.begin(), more.end());
-  process(member) = std::make_unique<ChildProcess>(command, folder_.file(name(member)));
+  processes_[member] = std::make_unique<ChildProcess>(command, folder_.file(name(member)));
 }
 
-void Fleet::signal(Member member, int number) { kill(process(member)->id(), number); }
+void Fleet::signal(Member member, int number) { kill(processes_[member]->id(), number); }
 
 void Fleet::kill_and_restart(Member member) {
-  process(member).reset();
+  processes_[member].reset();
   start(member);
 }
 
-void Fleet::stop(Member member) { process(member)->stop(); }
+void Fleet::stop(Member member) { processes_[member]->stop(); }
 
 void Fleet::restart(Member member) {
   stop(member);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,7 +40,6 @@ class Fleet {
   std::vector<PublicationLog> publications() const;
 
  private:
-  std::unique_ptr<ChildProcess>& process(Member member);
   void start(Member member);
   std::vector<std::string> command_of(Member member);
   std::vector<std::string> vehicle() const;
@@ -47,7 +47,7 @@ class Fleet {
   Spec spec_;
   WorkFolder folder_;
   std::vector<std::string> logs_;  ///< of the publishers, a file each
-  std::unique_ptr<ChildProcess> publisher_, service_, planner_;
+  std::map<Member, std::unique_ptr<ChildProcess>> processes_;
 };
 
 const char* name(Fleet::Member member);

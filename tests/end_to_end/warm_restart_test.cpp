@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <memory>
+
+#include "faults.hpp"
+
+// What a service that was killed goes on with; README, "When things go wrong".
+namespace laneloom {
+namespace {
+
+class WarmRestart : public Faults {
+ protected:
+  WarmRestart()
+      : snapshot_("snapshot", ""),
+        file_("warm.yaml", "service:\n  snapshot_file: " + snapshot_.path + "\n  snapshot_period_s: 0.1\n") {
+    unlink(snapshot_.path.c_str());
+  }
+  /// Kills the service, which had lanes, and starts it again.
+  void restart(const std::vector<std::string>& more) {
+    ASSERT_TRUE(counts("snapshots_written")) << service_->errors();
+    service_->signal(SIGKILL);
+    ASSERT_EQ(service_->wait(), -SIGKILL);
+    ASSERT_TRUE(maps_.wait_for_alive(0));
+    before_ = maps_.samples().back();
+    maps_.forget();
+    status_.forget();
+    service_ = std::make_unique<Process>(command(config_, more));
+    ASSERT_TRUE(maps_.wait_for([](const PublishedMap&) { return true; })) << service_->errors();
+    first_ = maps_.samples().front();
+  }
+
+  const TemporaryFile snapshot_, file_;
+  PublishedMap before_, first_;  ///< the last map before the restart, the first one after it
+};
+
+TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
+  start(100, {"--config", file_.path});
+  ASSERT_TRUE(stays_good(10));  // a snapshot at each
+  file_.write("service:\n  snapshot_file: " + snapshot_.path +
+              "\n  stale_after_s: 30\n  degraded_after_s: 20\n");
+  restart({"--config", file_.path});
+  ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
+  EXPECT_EQ(first_.state, MapState::stale) << "no frame has confirmed it";
+  EXPECT_NE(first_.session_id, before_.session_id);
+  EXPECT_EQ(first_.map.lanes[0].id, before_.map.lanes[0].id);
+  EXPECT_GT(first_.age_s, 0.0);
+  ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
+  EXPECT_EQ(maps_.samples().back().map.lanes[0].id, before_.map.lanes[0].id);
+  EXPECT_EQ(counters()["map_resets"], 0U);
+}
+
+TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
+  start(100, {"--config", file_.path});
+  ASSERT_TRUE(stays_good(10));  // a snapshot at each
+  restart({"--config", file_.path, "--preset", "av2"});
+  EXPECT_TRUE(first_.map.lanes.empty());
+  EXPECT_NE(service_->errors().find("snapshot_refused"), std::string::npos) << service_->errors();
+  EXPECT_TRUE(counts("snapshots_refused"));
+  EXPECT_TRUE(maps_.wait_for(is_good));
+}
+
+TEST_F(WarmRestart, ForgetsAMapOfAnotherPoseFrame) {
+  start(100, {"--config", file_.path});
+  ASSERT_TRUE(stays_good(10));  // a snapshot at each
+  road_->send_poses(lose<VehiclePose>);
+  restart({"--config", file_.path});
+  ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
+  road_->send_poses([](VehiclePose pose) {
+    pose.session_id = 99;
+    return std::vector{pose};
+  });
+  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
+  EXPECT_TRUE(maps_.wait_for(is_good));
+}
+
+}  // namespace
+}  // namespace laneloom
