@@ -21,8 +21,7 @@ IngestionQueue::IngestionQueue(const SyncConfig& config) : config_(config) {
 
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
-  state_.counters.add("detections_received");
-  state_.counters.add("detections_lost", std::exchange(frames_missing_, 0));
+  count_frame();
   state_.newest_frame_ns = arrival_ns;
   note_source(frame);
   push(frames_, config_.queue_capacity, {std::move(frame), arrival_ns}, "frames_dropped_queue_full");
@@ -30,8 +29,7 @@ void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
 
 void IngestionQueue::push(VehiclePose&& pose, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
-  state_.counters.add("poses_received");
-  state_.counters.add("poses_lost", std::exchange(poses_missing_, 0));
+  count_pose();
   state_.newest_pose_ns = arrival_ns;
   push(poses_, config_.pose_queue_capacity, {std::move(pose), arrival_ns}, "poses_dropped_queue_full");
 }
@@ -58,17 +56,25 @@ void IngestionQueue::note_source(const DetectionFrame& frame) {
   }
 }
 
-void IngestionQueue::refuse_detections(std::string_view reason) {
-  const std::lock_guard lock(mutex_);
+void IngestionQueue::count_frame() {
   state_.counters.add("detections_received");
   state_.counters.add("detections_lost", std::exchange(frames_missing_, 0));
+}
+
+void IngestionQueue::count_pose() {
+  state_.counters.add("poses_received");
+  state_.counters.add("poses_lost", std::exchange(poses_missing_, 0));
+}
+
+void IngestionQueue::refuse_detections(std::string_view reason) {
+  const std::lock_guard lock(mutex_);
+  count_frame();
   state_.counters.add("detections_refused_" + std::string(reason));
 }
 
 void IngestionQueue::refuse_pose(std::string_view reason) {
   const std::lock_guard lock(mutex_);
-  state_.counters.add("poses_received");
-  state_.counters.add("poses_lost", std::exchange(poses_missing_, 0));
+  count_pose();
   state_.counters.add("poses_refused_" + std::string(reason));
 }
 

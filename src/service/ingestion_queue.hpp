@@ -65,6 +65,8 @@ class IngestionQueue {
 
   void push(Queue& queue, int capacity, Arrival&& arrival, std::string_view dropped);
   void note_source(const DetectionFrame& frame);
+  void count_frame();
+  void count_pose();
 
   SyncConfig config_;
   mutable std::mutex mutex_;
