@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
 constexpr double kMaxHeight_m = 2.0;
+constexpr double kMaxOverlap_m = 2.0;  // of two lanes that follow one another
 constexpr double kConfidence = 0.95;
 
 bool beside(const Lane& a, const Lane& b) {
@@ -19,14 +20,23 @@ bool beside(const Lane& a, const Lane& b) {
          b.right_neighbour == a.id;
 }
 
+/// Whether `to` begins where `from` ends or further on. What lies behind was not driven into: the vehicle is
+/// where both meet.
+bool leads_ahead(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d gap = (to.centerline.front() - from.centerline.back()).head<2>();
+  return gap.dot(end_direction(from.centerline, true)) > -kMaxOverlap_m;
+}
+
 void follow(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track) {
   const auto in_map = [&](ElementId id) { return std::ranges::count(lanes, id, &Lane::id) > 0; };
   std::erase_if(track.steps, [&](const auto& step) { return !in_map(step.first) || !in_map(step.second); });
-  const auto now =
-      std::ranges::find_if(lanes, [&](const Lane& lane) { return ego_sense(lane, T_map_body) > 0.0; });
-  if (now == lanes.end() || now->id == track.lane) return;
+  const auto drives_in = [&](const Lane& lane) { return ego_sense(lane, T_map_body) > 0.0; };
   const auto before = std::ranges::find(lanes, track.lane, &Lane::id);
-  if (before != lanes.end() && !beside(*before, *now)) track.steps.emplace_back(before->id, now->id);
+  if (before != lanes.end() && drives_in(*before)) return;
+  const auto now = std::ranges::find_if(lanes, drives_in);
+  if (now == lanes.end()) return;
+  if (before != lanes.end() && !beside(*before, *now) && leads_ahead(*before, *now))
+    track.steps.emplace_back(before->id, now->id);
   track.lane = now->id;
 }
 

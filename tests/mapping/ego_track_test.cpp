@@ -71,6 +71,20 @@ TEST_F(EgoTrackTest, CrossingALaneOrDrivingAgainstItIsNone) {
   EXPECT_THAT(drive(50, 0, 2 * kNorth), IsEmpty());
 }
 
+TEST_F(EgoTrackTest, WhereLanesMeetTheOneBehindWasNotDrivenInto) {
+  drive(1, 0);
+  lanes_[0] = lane(1, {2, 0, 0}, {20, 0, 0});
+  lanes_.push_back(lane(5, {-20, 0, 0}, {2, 0, 0}));
+  EXPECT_THAT(drive(1.5, 0), IsEmpty());
+  EXPECT_THAT(drive(3, 0), testing::SizeIs(1));
+}
+
+TEST_F(EgoTrackTest, ItStaysInALaneForAsLongAsThatIsThere) {
+  drive(10, 0);
+  lanes_.insert(lanes_.begin(), lane(5, {8, 0.5, 0}, {40, 0.5, 0}));
+  EXPECT_THAT(drive(12, 0), IsEmpty());
+}
+
 TEST_F(EgoTrackTest, ItEndsWithItsLanes) {
   drive(10, 0);
   ASSERT_EQ(drive(45, 0).size(), 1U);
