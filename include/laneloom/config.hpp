@@ -13,9 +13,10 @@ struct RangeConfig {
   double forward_min_m = -5.0;
   double forward_max_m = 30.0;
   double side_max_m = 15.0;
-  /// What is this far beyond the box is kept, so that it has gathered evidence when it enters. Ours.
+  /// What is this far beyond the box is kept, so that it has gathered evidence when it enters. Lines are
+  /// published there too, as far as they have it. Ours.
   double margin_forward_m = 25.0;
-  double margin_side_m = 3.0;
+  double margin_side_m = 5.0;
 };
 
 /// Paper, Sec. III-A. A turn above `zigzag_angle_deg` between consecutive segments is a zig or a zag. Ours.

@@ -96,17 +96,13 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
 
 }  // namespace
 
-std::vector<Marking> publish_lines(const std::vector<Line>& lines, const LocalRange& range,
-                                   const MapperConfig& config) {
+std::vector<Marking> publish_lines(const std::vector<Line>& lines, const MapperConfig& config) {
   std::vector<Marking> markings;
   for (const Line& line : lines) {
     const Stations stations = published_stretch(line, config.fusion);
     if (stations.size() < 2) continue;
-    const Marking marking = as_marking(line, stations, config);
-    const auto stretches = range.inside(marking.points);
-    const auto longest = std::ranges::max_element(stretches, {}, &Range::length);
-    if (longest == stretches.end() || longest->length() < config.fusion.min_length_m) continue;
-    markings.push_back(slice(marking, *longest));
+    Marking marking = as_marking(line, stations, config);
+    if (length(marking.points) >= config.fusion.min_length_m) markings.push_back(std::move(marking));
   }
   std::ranges::sort(markings, {}, &Marking::id);
   return markings;

@@ -5,12 +5,10 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/line_map.hpp"
-#include "mapping/local_range.hpp"
 
 namespace laneloom {
 
-/// The lines with enough evidence, within the local range, as markings.
-std::vector<Marking> publish_lines(const std::vector<Line>& lines, const LocalRange& range,
-                                   const MapperConfig& config);
+/// The lines with enough evidence as markings, as far as they are kept: also beyond the local range.
+std::vector<Marking> publish_lines(const std::vector<Line>& lines, const MapperConfig& config);
 
 }  // namespace laneloom

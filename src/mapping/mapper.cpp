@@ -93,7 +93,7 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   merge_doubles(observed, fusion, lines, state.pairs);
   prune_lines(input.range, fusion, lines, state.next_id);
   done(Stage::line_set);
-  auto markings = publish_lines(lines, input.range, config);
+  auto markings = publish_lines(lines, config);
   done(Stage::polylines);
   return markings;
 }

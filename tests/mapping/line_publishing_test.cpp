@@ -15,21 +15,21 @@ using test::straight;
 
 class LinePublishing : public ::testing::Test {
  protected:
-  std::vector<Marking> publish() { return publish_lines({line_}, LocalRange({}, test::at(0)), {}); }
+  std::vector<Marking> publish() { return publish_lines({line_}, {}); }
   void believe(std::size_t from, std::size_t to, double log_odds) {
     for (std::size_t i = from; i < to; ++i) line_.stations[i].log_odds = log_odds;
   }
   Line line_ = line(4, straight({-12, 0, 0}, {38, 0, 0}, 51));
 };
 
-TEST_F(LinePublishing, OnlyWhatHasEvidenceAndOnlyInTheRange) {
+TEST_F(LinePublishing, WhatHasEvidenceAsFarAsItReaches) {
   believe(0, 51, -0.1);
   EXPECT_TRUE(publish().empty());
   believe(0, 40, 1.0);
   const auto markings = publish();
   ASSERT_EQ(markings.size(), 1U);
   EXPECT_EQ(markings[0].id, 4U);
-  EXPECT_NEAR(markings[0].points.front().x(), -5.0, 1e-9);
+  EXPECT_NEAR(markings[0].points.front().x(), -12.0, 1e-9);
   EXPECT_NEAR(markings[0].points.back().x(), 27.0, 1e-9);
   EXPECT_EQ(markings[0].status, ElementStatus::tentative);
   believe(0, 40, 3.0);
@@ -73,7 +73,7 @@ TEST_F(LinePublishing, StylesFollowTheVotes) {
   const auto styles = publish()[0].styles;
   ASSERT_EQ(styles.size(), 2U);
   EXPECT_EQ(styles[0].style, MarkingStyle::solid);
-  EXPECT_NEAR(styles[0].range.to_m, 13.0, 1.01);
+  EXPECT_NEAR(styles[0].range.to_m, 20.0, 1.01);
   EXPECT_EQ(styles[1].style, MarkingStyle::dashed);
 }
 
