@@ -38,21 +38,26 @@ double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, co
   return std::clamp(sense, -1.0, 1.0);
 }
 
-/// Lanes that continue one another: one variable of the model.
+/// Lanes that continue one another, or lie along the same side of one boundary: one variable of the model.
 class Groups {
  public:
   Groups(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) : of_(lanes.size()) {
     std::iota(of_.begin(), of_.end(), 0U);
-    std::map<ElementId, std::size_t> index;
-    for (std::size_t i = 0; i < lanes.size(); ++i) index.emplace(lanes[i].id, i);
-    for (const Linkage& linkage : linkages) {
-      const std::size_t from = of_[index.at(linkage.from)], to = of_[index.at(linkage.to)];
-      std::ranges::replace(of_, std::max(from, to), std::min(from, to));
+    std::map<ElementId, std::size_t> index, left_of, right_of;
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+      index.emplace(lanes[i].id, i);
+      join(i, left_of.emplace(lanes[i].right_boundary, i).first->second);
+      join(i, right_of.emplace(lanes[i].left_boundary, i).first->second);
     }
+    for (const Linkage& linkage : linkages) join(index.at(linkage.from), index.at(linkage.to));
   }
   std::size_t operator[](std::size_t lane) const { return of_[lane]; }
 
  private:
+  void join(std::size_t a, std::size_t b) {
+    std::ranges::replace(of_, std::size_t{std::max(of_[a], of_[b])}, std::size_t{std::min(of_[a], of_[b])});
+  }
+
   std::vector<std::size_t> of_;
 };
 

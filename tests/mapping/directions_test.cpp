@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
