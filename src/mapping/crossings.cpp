@@ -82,23 +82,20 @@ std::optional<double> turn_misfit(const Lane& from, const Lane& to, const Linkag
 class Taken {
  public:
   /// `linkages` are those by markings.
-  Taken(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) {
+  explicit Taken(const std::vector<Linkage>& linkages) {
     for (const Linkage& linkage : linkages) {
-      const Lane &from = *std::ranges::find(lanes, linkage.from, &Lane::id),
-                 &to = *std::ranges::find(lanes, linkage.to, &Lane::id);
-      const Turn turn = turn_between(from, to);
-      take(from, to, turn);
-      if (turn != Turn::straight) continue;
+      take(linkage.from, linkage.to, linkage.turn);
+      if (linkage.turn != Turn::straight) continue;
       // Where markings lead straight on, there is no intersection.
-      for (const Turn side : {Turn::left, Turn::right, Turn::u_turn}) take(from, to, side);
+      for (const Turn side : {Turn::left, Turn::right, Turn::u_turn}) take(linkage.from, linkage.to, side);
     }
   }
-  bool contains(const Lane& from, const Lane& to, Turn turn) const {
-    return left_.contains({from.id, turn}) || entered_.contains({to.id, turn});
+  bool contains(ElementId from, ElementId to, Turn turn) const {
+    return left_.contains({from, turn}) || entered_.contains({to, turn});
   }
-  void take(const Lane& from, const Lane& to, Turn turn) {
-    left_.emplace(from.id, turn);
-    entered_.emplace(to.id, turn);
+  void take(ElementId from, ElementId to, Turn turn) {
+    left_.emplace(from, turn);
+    entered_.emplace(to, turn);
   }
 
  private:
@@ -226,6 +223,11 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to) {
   return cross(a, b) > 0.0 ? Turn::left : Turn::right;
 }
 
+void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages) {
+  const auto lane = [&](ElementId id) -> const Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
+  for (Linkage& linkage : linkages) linkage.turn = turn_between(lane(linkage.from), lane(linkage.to));
+}
+
 Polyline path_between(const Lane& from, const Lane& to) {
   if (const auto corner = corner_between(from, to); corner && corner->before_m > 0.0 && corner->after_m > 0.0)
     return turning_path(from, to, corner->before_m, corner->after_m);
@@ -235,13 +237,13 @@ Polyline path_between(const Lane& from, const Lane& to) {
 void link_across_intersections(const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
                                const LinkageConfig& config, std::vector<Lane>& lanes,
                                std::vector<Linkage>& linkages) {
-  Taken taken(lanes, linkages);
+  Taken taken(linkages);
   const auto link = [&](const Crossing& crossing) {
     Lane &from = lanes[crossing.from], &to = lanes[crossing.to];
-    if (taken.contains(from, to, crossing.turn)) return;
+    if (taken.contains(from.id, to.id, crossing.turn)) return;
     Polyline path = path_between(from, to);
     if (crosses_edge(path, boundaries)) return;
-    taken.take(from, to, crossing.turn);
+    taken.take(from.id, to.id, crossing.turn);
     if (crossing.turn == Turn::straight) agree_on_direction(from, to);
     linkages.push_back({.from = from.id,
                         .to = to.id,

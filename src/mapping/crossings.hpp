@@ -12,6 +12,9 @@ namespace laneloom {
 /// Which way `to` turns off from `from`.
 Linkage::Turn turn_between(const Lane& from, const Lane& to);
 
+/// Says of every linkage which way it turns.
+void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
+
 /// From the end of one lane to the start of another: a cubic that leaves and enters in their directions.
 Polyline path_between(const Lane& from, const Lane& to);
 

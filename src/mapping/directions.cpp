@@ -203,8 +203,11 @@ void find_directions(const std::vector<LaneBoundary>& boundaries, const Directio
     turn(lanes[i]);
     turned.push_back(lanes[i].id);
   }
-  for (Linkage& linkage : linkages)
-    if (std::ranges::count(turned, linkage.from) > 0) std::swap(linkage.from, linkage.to);
+  for (Linkage& linkage : linkages) {
+    if (std::ranges::count(turned, linkage.from) == 0) continue;
+    std::swap(linkage.from, linkage.to);
+    std::ranges::reverse(linkage.path);
+  }
 }
 
 }  // namespace laneloom

@@ -7,11 +7,30 @@
 #include <tuple>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/crossings.hpp"
 
 namespace laneloom {
 namespace {
 
 constexpr double kOverlapTolerance_m = 2.0;  // by which a successor may begin before its predecessor ends
+constexpr double kMinGap_m = 1.0;            // a shorter one is no more than the distance between vertices
+constexpr double kPathStep_m = 1.0;
+
+/// The courses of boundaries by their ids.
+class Boundaries {
+ public:
+  Boundaries(const std::vector<LaneBoundary>& boundaries, const std::vector<MeasuredPolyline>& measured)
+      : boundaries_(boundaries), measured_(measured) {}
+  const MeasuredPolyline& at(ElementId id) const {
+    const auto found = std::ranges::lower_bound(boundaries_, id, {}, id_of);
+    return measured_[static_cast<std::size_t>(found - boundaries_.begin())];
+  }
+
+ private:
+  static ElementId id_of(const LaneBoundary& boundary) { return boundary.marking.id; }
+  const std::vector<LaneBoundary>& boundaries_;
+  const std::vector<MeasuredPolyline>& measured_;
+};
 
 /// One side of a lane.
 struct Side {
@@ -31,10 +50,29 @@ std::optional<double> shared_gap(const Side& from, const Side& to, double max_ga
   return std::max(gap_m, 0.0);
 }
 
+/// From the end of `from` to the start of `to`, beside the boundary that they share; empty where they meet.
+Polyline path_along(const MeasuredPolyline& boundary, const Range& gap, const Lane& from, const Lane& to) {
+  if (gap.length() < kMinGap_m) return {};
+  const Point &start = from.centerline.back(), &end = to.centerline.front();
+  const double start_m = boundary.project(start).lateral_m, end_m = boundary.project(end).lateral_m;
+  const int steps = static_cast<int>(std::ceil(gap.length() / kPathStep_m));
+  Polyline path{start};
+  for (int i = 1; i < steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const double arc_m = gap.from_m + share * gap.length();
+    const Eigen::Vector2d along =
+        (boundary.at(arc_m + kPathStep_m) - boundary.at(arc_m - kPathStep_m)).head<2>().normalized();
+    const double lateral_m = start_m + share * (end_m - start_m);
+    path.push_back(boundary.at(arc_m) + lateral_m * Point(-along.y(), along.x(), 0.0));
+  }
+  path.push_back(end);
+  return path;
+}
+
 /// The lane that comes next along one side of `from`.
 template <class SideOf>
-void link_along(const Lane& from, const std::vector<Lane>& lanes, const LinkageConfig& config, SideOf side_of,
-                std::vector<Linkage>& linkages) {
+void link_along(const Lane& from, const std::vector<Lane>& lanes, const Boundaries& boundaries,
+                const LinkageConfig& config, SideOf side_of, std::vector<Linkage>& linkages) {
   const Lane* next = nullptr;
   double next_gap_m = std::numeric_limits<double>::infinity();
   for (const Lane& to : lanes) {
@@ -45,10 +83,20 @@ void link_along(const Lane& from, const std::vector<Lane>& lanes, const LinkageC
     next_gap_m = *gap_m;
   }
   if (next == nullptr) return;
+  const Side side = side_of(from);
   linkages.push_back({.from = from.id,
                       .to = next->id,
                       .kind = Linkage::Kind::shared_boundary,
-                      .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m});
+                      .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
+                      .path = path_along(boundaries.at(side.boundary),
+                                         {side.range.to_m, side_of(*next).range.from_m}, from, *next)});
+}
+
+/// Between aligned lanes; empty where they meet.
+Polyline path_across(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d gap = (to.centerline.front() - from.centerline.back()).head<2>();
+  if (gap.dot(end_direction(from.centerline, true)) < kMinGap_m) return {};
+  return path_between(from, to);
 }
 
 /// Confidence that `to` continues `from` by the geometry of their centerlines; empty: it does not.
@@ -67,11 +115,15 @@ std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageC
 
 }  // namespace
 
-std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes, const LinkageConfig& config) {
+std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes,
+                                       const std::vector<LaneBoundary>& boundaries,
+                                       const std::vector<MeasuredPolyline>& measured,
+                                       const LinkageConfig& config) {
+  const Boundaries by_id(boundaries, measured);
   std::vector<Linkage> linkages;
   for (const Lane& from : lanes) {
-    link_along(from, lanes, config, left_side, linkages);
-    link_along(from, lanes, config, right_side, linkages);
+    link_along(from, lanes, by_id, config, left_side, linkages);
+    link_along(from, lanes, by_id, config, right_side, linkages);
     for (const Lane& to : lanes) {
       if (to.id == from.id) continue;
       const auto confidence = alignment(from, to, config);
@@ -79,7 +131,8 @@ std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes, const Lin
       linkages.push_back({.from = from.id,
                           .to = to.id,
                           .kind = Linkage::Kind::geometric_alignment,
-                          .confidence = *confidence});
+                          .confidence = *confidence,
+                          .path = path_across(from, to)});
     }
   }
   std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });

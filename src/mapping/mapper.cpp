@@ -142,9 +142,10 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   identify_lanes(state.frame, config_.lane, map.lanes, state.known_lanes, state.next_id);
   find_neighbours(map.lanes);
   done(Stage::lanes);
-  map.linkages = generate_linkages(map.lanes, config_.linkage);
+  map.linkages = generate_linkages(map.lanes, boundaries, measured, config_.linkage);
   observe_directions(map.lanes, T_map_body, map.instances, config_.stopline, state.known_lanes);
   find_directions(boundaries, config_.direction, state.known_lanes, map.lanes, map.linkages);
+  find_turns(map.lanes, map.linkages);
   link_across_intersections(boundaries, sd_map_, config_.linkage, map.lanes, map.linkages);
   link_ego_track(map.lanes, T_map_body, state.ego_track, map.linkages);
   map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);

@@ -23,6 +23,7 @@ Lane lane(ElementId id, Polyline centerline) {
 std::vector<Linkage> crossings(std::vector<Lane> lanes, std::vector<Linkage> known = {},
                                const LinkageConfig& config = {},
                                const std::vector<LaneBoundary>& boundaries = {}, const SdMap& sd_map = {}) {
+  find_turns(lanes, known);
   link_across_intersections(boundaries, sd_map, config, lanes, known);
   return known;
 }

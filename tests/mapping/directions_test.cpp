@@ -154,6 +154,27 @@ TEST_F(Directions, CrossingTheLaneSaysNothing) {
   EXPECT_FALSE(known(12));
 }
 
+TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
+  lanes_ = {lane(12, 2, 0, 10), lane(13, 2, 30, 40)};  // along the edge, on both sides of an intersection
+  observe(test::at(5, 1.75));
+  find("unknown");
+  EXPECT_TRUE(known(12) || !known(13));
+  for (int i = 0; i < 5; ++i) observe(test::at(5, 1.75));
+  find("unknown");
+  EXPECT_TRUE(known(12) && known(13));
+  EXPECT_TRUE(runs_forward(13));
+}
+
+TEST_F(Directions, AWayIsTurnedWithItsLanes) {
+  lanes_ = {lane(11, 1, 0, 10), lane(12, 1, 20, 40)};
+  linkages_ = {{.from = 11, .to = 12, .path = {{10, 5.25, 0}, {20, 5.25, 0}}}};
+  for (int i = 0; i < 5; ++i) observe(test::at(5, 5.25, std::numbers::pi));
+  find("unknown");
+  ASSERT_FALSE(runs_forward(11));
+  EXPECT_EQ(linkages_[0].from, 12U);
+  EXPECT_EQ(linkages_[0].path.front().x(), 20.0);
+}
+
 TEST_F(Directions, LanesThatContinueOneAnotherRunTheSameWay) {
   lanes_ = {lane(11, 1, 0, 20), lane(13, 1, 20, 40)};
   linkages_ = {{.from = 11, .to = 13}};

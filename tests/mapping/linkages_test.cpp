@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
+#include "mapping/crossings.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
@@ -21,9 +24,16 @@ Lane lane(ElementId id, std::pair<ElementId, Range> left, std::pair<ElementId, R
   return l;
 }
 
+std::vector<Linkage> linkages_of(const std::vector<Lane>& lanes) {
+  std::vector<LaneBoundary> boundaries;
+  for (const ElementId id : {10U, 11U, 20U, 21U, 22U, 30U, 40U})
+    boundaries.push_back(test::boundary(id, test::straight({0, 0, 0}, {60, 0, 0})));
+  return generate_linkages(lanes, boundaries, test::measure(boundaries), {});
+}
+
 std::vector<std::tuple<ElementId, ElementId, Kind>> links(const std::vector<Lane>& lanes) {
   std::vector<std::tuple<ElementId, ElementId, Kind>> result;
-  for (const Linkage& l : generate_linkages(lanes, {})) result.emplace_back(l.from, l.to, l.kind);
+  for (const Linkage& l : linkages_of(lanes)) result.emplace_back(l.from, l.to, l.kind);
   return result;
 }
 
@@ -74,12 +84,44 @@ TEST(Linkages, ConfidenceFallsWithTheGap) {
   double before = 1.1;
   for (const double gap_m : {0.0, 2.0, 4.0}) {
     const Lane to = lane(2, {20, {0, 20}}, {21, {0, 20}}, test::straight({20 + gap_m, 0, 0}, {40, 0, 0}));
-    const auto linkages = generate_linkages({from, to}, {});
+    const auto linkages = linkages_of({from, to});
     ASSERT_EQ(linkages.size(), 1U);
     EXPECT_LT(linkages[0].confidence, before);
     before = linkages[0].confidence;
   }
   EXPECT_GE(before, 0.5);
+}
+
+TEST(Linkages, RoundACornerTheWayKeepsBesideTheSharedEdge) {
+  // The edge: 20 m east, a quarter of a circle of 8 m to the right, 20 m south. 12.6 m of arc.
+  Polyline edge = test::straight({0, -1.75, 0}, {20, -1.75, 0});
+  for (const Point& point : test::arc({20, -9.75, 0}, 8, 90, 0)) edge.push_back(point);
+  for (const Point& point : test::straight({28, -9.75, 0}, {28, -29.75, 0})) edge.push_back(point);
+  const std::vector<LaneBoundary> boundaries{test::boundary(20, edge)};
+  const double arc_m = 4.0 * std::numbers::pi;
+  const Lane from = lane(1, {10, {0, 20}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0}));
+  const Lane to = lane(2, {11, {0, 20}}, {20, {20 + arc_m, 40 + arc_m}},
+                       test::straight({29.75, -9.75, 0}, {29.75, -29.75, 0}));
+  auto linkages = generate_linkages({from, to}, boundaries, test::measure(boundaries), {});
+  ASSERT_EQ(linkages.size(), 1U);
+  const Polyline& path = linkages[0].path;
+  ASSERT_GT(path.size(), 10U);
+  EXPECT_TRUE(path.front().isApprox(from.centerline.back()));
+  EXPECT_TRUE(path.back().isApprox(to.centerline.front()));
+  for (const Point& point : path) EXPECT_NEAR((point - Point(20, -9.75, 0)).norm(), 9.75, 0.25);
+  find_turns({from, to}, linkages);
+  EXPECT_EQ(linkages[0].turn, Linkage::Turn::right);
+}
+
+TEST(Linkages, LanesThatMeetNeedNoPath) {
+  const Lane from = lane(1, {10, {0, 20}}, {11, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0}));
+  for (const double gap_m : {0.0, 0.5, 3.0}) {
+    const Lane shared =
+        lane(2, {10, {20 + gap_m, 40}}, {21, {0, 20}}, test::straight({20 + gap_m, 0, 0}, {40, 0, 0}));
+    const Lane aligned =
+        lane(2, {20, {0, 20}}, {21, {0, 20}}, test::straight({20 + gap_m, 0, 0}, {40, 0, 0}));
+    for (const Lane& to : {shared, aligned}) EXPECT_EQ(linkages_of({from, to})[0].path.empty(), gap_m < 1.0);
+  }
 }
 
 }  // namespace
