@@ -16,7 +16,8 @@ constexpr double kAlignedCosine =
 /// How `a` lies to `b` over the part of `a` that is beside `b`.
 struct Overlap {
   double lateral_m = 0.0;  ///< mean; positive: a is left of b, as b runs
-  bool opposed = false;    ///< a and b run against each other
+  double length_m = 0.0;
+  bool opposed = false;  ///< a and b run against each other
 };
 
 /// A boundary's points, evenly spaced, with the directions in which it leaves them.
@@ -50,7 +51,7 @@ std::optional<Overlap> overlap(const Samples& a, const MeasuredPolyline& b, doub
     ++count;
   }
   if (count == 0) return std::nullopt;
-  return Overlap{lateral_sum_m / count, cosine_sum < 0.0};
+  return Overlap{lateral_sum_m / count, count * kSampleStep_m, cosine_sum < 0.0};
 }
 
 struct Edge {
@@ -78,11 +79,25 @@ Graph overlap_graph(const std::vector<MeasuredPolyline>& lines, const SectionCon
   return graph;
 }
 
-/// Whether the line has to be turned to run with the vehicle.
-bool against_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_map_body) {
+/// Cosine between a line and the vehicle's heading, where the line passes it.
+double along_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_map_body) {
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
-  const Eigen::Vector2d direction = line.direction(line.project(T_map_body.translation()));
-  return direction.dot(heading) < -kAlignedCosine * heading.norm();
+  return line.direction(line.project(T_map_body.translation())).dot(heading) / heading.norm();
+}
+
+/// Whether a section runs against the vehicle in the direction of one of its boundaries. All have a say, by
+/// their lengths, as one alone may turn off into another road. `opposed` compares them with each other.
+bool against_heading(const std::vector<std::size_t>& section, std::size_t boundary,
+                     const std::vector<MeasuredPolyline>& measured,
+                     const std::vector<std::optional<bool>>& opposed, const Eigen::Isometry3d& T_map_body) {
+  double sum_m = 0.0, total_m = 0.0;
+  for (const std::size_t k : section) {
+    const double length_m = measured[k].length();
+    const double sense = *opposed[k] == *opposed[boundary] ? 1.0 : -1.0;
+    sum_m += sense * length_m * along_heading(measured[k], T_map_body);
+    total_m += length_m;
+  }
+  return sum_m < -kAlignedCosine * total_m;
 }
 
 /// Depth-first search from `start`; says for every boundary that it reaches whether it runs against `start`.
@@ -117,7 +132,7 @@ SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d&
     visit(graph, i, opposed, section.boundaries);
     const std::size_t longest = *std::ranges::max_element(
         section.boundaries, {}, [&](std::size_t k) { return measured[k].length(); });
-    const bool turn_longest = against_heading(measured[longest], T_map_body);
+    const bool turn_longest = against_heading(section.boundaries, longest, measured, opposed, T_map_body);
     for (const std::size_t k : section.boundaries) {
       turned[k] = (*opposed[k] != *opposed[longest]) != turn_longest;
       if (!turned[k]) continue;
@@ -131,7 +146,7 @@ SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d&
   for (std::size_t i = 0; i < graph.size(); ++i) {
     for (const Edge& edge : graph[i]) {
       const double lateral_m = turned[i] ? -edge.overlap.lateral_m : edge.overlap.lateral_m;
-      if (lateral_m < 0.0) result.right_of[i].push_back({edge.to, -lateral_m});
+      if (lateral_m < 0.0) result.right_of[i].push_back({edge.to, -lateral_m, edge.overlap.length_m});
     }
     std::ranges::stable_sort(result.right_of[i], {}, &SideBySide::distance_m);
   }

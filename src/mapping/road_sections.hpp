@@ -13,6 +13,7 @@ namespace laneloom {
 struct SideBySide {
   std::size_t right = 0;    ///< index of the boundary on the right
   double distance_m = 0.0;  ///< mean
+  double length_m = 0.0;    ///< of that stretch
 };
 
 /// Lane boundaries that run side by side (paper, Sec. III-D-2).

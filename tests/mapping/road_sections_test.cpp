@@ -45,6 +45,18 @@ TEST(RoadSections, AllRunWithTheVehicle) {
   EXPECT_LT(boundaries[1].marking.points.front().x(), boundaries[1].marking.points.back().x());
 }
 
+TEST(RoadSections, AnEdgeThatTurnsOffDoesNotTurnTheRest) {
+  // Beyond an intersection: two lines that lead on, and the edge, which comes round the corner from the
+  // right.
+  Polyline edge = straight({46, -4, 0}, {26, -4, 0});
+  for (const Point& point : straight({24, -6, 0}, {24, -21, 0})) edge.push_back(point);
+  std::vector<LaneBoundary> boundaries{boundary(1, edge), boundary(2, straight({45, 0, 0}, {25, 0, 0})),
+                                       boundary(3, straight({45, 3.5, 0}, {25, 3.5, 0}))};
+  sections_of(boundaries);
+  for (const LaneBoundary& line : boundaries)
+    EXPECT_LT(line.marking.points.front().x(), line.marking.points.back().x());
+}
+
 TEST(RoadSections, TheRightOnesComeByTheirDistance) {
   std::vector<LaneBoundary> boundaries{
       boundary(1, straight({30, -7, 0}, {0, -7, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
