@@ -14,7 +14,8 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kMaxBetween = 1;         // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
+constexpr std::size_t kMaxBetween = 1;  // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
+constexpr double kMinBetween = 0.5;     // of the stretch; a shorter boundary takes part of it, and no more
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
 
 /// A sample on the right boundary with its foot on the left one.
@@ -47,14 +48,24 @@ struct Pair {
   std::uint32_t section;
 };
 
-/// How many boundaries lie between two that lie side by side, and beside both; no more than one too many.
-std::size_t count_between(const SectionGraph& graph, std::size_t left, std::size_t right) {
-  std::size_t count = 0;
-  for (const SideBySide& between : graph.right_of[left]) {
-    if (count > kMaxBetween) break;
-    if (std::ranges::count(graph.right_of[between.right], right, &SideBySide::right) > 0) ++count;
+/// The boundaries between `left` and one on its right.
+struct Between {
+  bool any = false;
+  std::size_t count =
+      0;  ///< of those that are beside both over much of the stretch; no more than one too many
+};
+
+Between between(const SectionGraph& graph, std::size_t left, const SideBySide& right) {
+  Between result;
+  for (const SideBySide& middle : graph.right_of[left]) {
+    if (result.count > kMaxBetween) break;
+    const auto& beyond = graph.right_of[middle.right];
+    const auto found = std::ranges::find(beyond, right.right, &SideBySide::right);
+    if (found == beyond.end()) continue;
+    result.any = true;
+    if (std::min(middle.length_m, found->length_m) >= kMinBetween * right.length_m) ++result.count;
   }
-  return count;
+  return result;
 }
 
 /// Neighbouring boundaries first.
@@ -63,8 +74,8 @@ std::vector<Pair> pairs(const SectionGraph& graph) {
   for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
     for (const std::size_t left : graph.sections[section].boundaries) {
       for (const SideBySide& beside : graph.right_of[left]) {
-        const std::size_t between = count_between(graph, left, beside.right);
-        if (between <= kMaxBetween) by_count[between].push_back({left, beside.right, between == 0, section});
+        const auto [any, count] = between(graph, left, beside);
+        if (count <= kMaxBetween) by_count[count].push_back({left, beside.right, !any, section});
       }
     }
   }

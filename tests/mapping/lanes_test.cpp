@@ -186,6 +186,16 @@ TEST(Lanes, DoNotOverlapWhereANarrowStripRunsBeside) {
   EXPECT_EQ(lanes[0].right_boundary, 2U);
 }
 
+TEST(Lanes, GoOnWhereADoubleLineEndsAndOneLineBeginsBesideIt) {
+  // Both halves of the double line lie between the left edge of the road and the line, but for a metre only.
+  const auto lanes = lanes_of(
+      {boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})), boundary(2, straight({0, 0.2, 0}, {21, 0.2, 0})),
+       boundary(3, straight({0, 0.1, 0}, {21, 0.1, 0})), boundary(4, straight({20, 0, 0}, {60, 0, 0}))});
+  const Lane* after = between(lanes, 1, 4);
+  ASSERT_TRUE(after);
+  EXPECT_GT(after->left_range.length(), 35.0);
+}
+
 TEST(Lanes, InABendOfTwelveMetres) {
   const auto lanes = lanes_of(
       {boundary(1, test::arc({0, 0, 0}, 10.25, -90, 0)), boundary(2, test::arc({0, 0, 0}, 13.75, -90, 0))});
