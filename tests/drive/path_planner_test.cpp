@@ -83,6 +83,36 @@ TEST(Planner, TakesTheWantedTurn) {
   EXPECT_LT(distance(next_plan(crossing(), vehicle, {}, Linkage::Turn::right), {0, -14, 0}), 0.1);
 }
 
+TEST(Planner, TakesATurnThatComesIntoTheMapLateUnlessItIsPastIt) {
+  LocalMap without = crossing();
+  std::erase_if(without.linkages, [](const Linkage& linkage) { return linkage.to == 3; });
+  const Bicycle before{.rear_axle = {-12.0, 0.0}, .speed_mps = 5.0};
+  const Plan straight_on = next_plan(without, before, {}, Linkage::Turn::left);
+  EXPECT_LT(distance(straight_on, {15, 0, 0}), 0.1);
+  EXPECT_LT(distance(next_plan(crossing(), before, straight_on, Linkage::Turn::left), {0, 14, 0}), 0.1);
+  const Bicycle past{.rear_axle = {-5.0, 0.0}, .speed_mps = 5.0};
+  EXPECT_LT(distance(next_plan(crossing(), past, straight_on, Linkage::Turn::left), {15, 0, 0}), 0.1);
+}
+
+TEST(Planner, KeepsToThePassageThatItHasBegunWhateverLaneComesUp) {
+  const Bicycle before{.rear_axle = {-11.0, 0.0}, .speed_mps = 5.0};
+  const Plan turning = next_plan(crossing(), before, {}, Linkage::Turn::left);
+  LocalMap map = crossing();
+  map.lanes.push_back(lane_of(5, straight_line({-10, 0, 0}, {10, 0, 0})));  // a ghost across
+  const Bicycle within{.rear_axle = {-8.0, 0.1}, .speed_mps = 5.0};
+  EXPECT_LT(distance(next_plan(map, within, turning, Linkage::Turn::left), {0, 14, 0}), 0.2);
+}
+
+TEST(Planner, SaysThatItLooksForATurnThatIsNotInTheMap) {
+  const Bicycle near{.rear_axle = {-20.0, 0.0}, .speed_mps = 5.0}, far{.rear_axle = {-40.0, 0.0}};
+  LocalMap map = crossing();
+  EXPECT_FALSE(next_plan(map, near, {}, Linkage::Turn::left).looks_for_turn);
+  std::erase_if(map.linkages, [](const Linkage& linkage) { return linkage.to == 3; });
+  EXPECT_TRUE(next_plan(map, near, {}, Linkage::Turn::left).looks_for_turn);
+  EXPECT_FALSE(next_plan(map, far, {}, Linkage::Turn::left).looks_for_turn);
+  EXPECT_FALSE(next_plan(map, near, {}, Linkage::Turn::straight).looks_for_turn);
+}
+
 TEST(Planner, KeepsTheTurnThatItIsInWhenTheLaneBehindIsForgotten) {
   LocalMap map = crossing();
   const Bicycle before{.rear_axle = {-12.0, 0.0}, .speed_mps = 5.0};

@@ -14,7 +14,8 @@ constexpr std::int64_t kStepsPerTick = 10;
 constexpr double kTick_s = 0.1;
 constexpr double kPatience_s = 5.0;  // before the vehicle creeps
 constexpr double kCreep_mps = 2.0;
-constexpr double kPutBack_m = 20.0;  // beyond where it left its lane
+constexpr double kLooking_mps = 5.0;  // for the way that turns off
+constexpr double kPutBack_m = 20.0;   // beyond where it left its lane
 constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
 
@@ -107,7 +108,8 @@ void ClosedLoop::plan() {
 
 double ClosedLoop::wanted_speed() const {
   const bool known = std::ranges::any_of(plan_.support, [](Support s) { return s != Support::guessed; });
-  return known ? spec_.speed_mps : std::min(kCreep_mps, spec_.speed_mps);
+  const double at_most_mps = !known ? kCreep_mps : plan_.looks_for_turn ? kLooking_mps : spec_.speed_mps;
+  return std::min(at_most_mps, spec_.speed_mps);
 }
 
 Guess::Cause ClosedLoop::cause_of_guess(const LocalMap& map) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "drive/lines.hpp"
 #include "drive/ways.hpp"
@@ -21,6 +22,9 @@ constexpr double kMinAlignment = 0.8;  // cosine
 constexpr double kCompared_m = 12.0;
 constexpr double kCostPerMetreAhead = 0.1;
 constexpr double kCostOfOncoming_m = 1.0;
+constexpr double kPreview_m = 3.0;
+constexpr double kMaxOffPath_m = 0.4;
+constexpr double kLookForTurn_m = 20.0;  // before the lane's end
 // How a plan bends to the way.
 constexpr double kMinBlend_m = 12.0;
 constexpr double kBlend_s = 2.0;
@@ -76,27 +80,77 @@ std::optional<Entry> entry_into(const Lane& lane, const MeasuredPolyline& track,
   return entry;
 }
 
-std::optional<Entry> find_entry(const LocalMap& map, const MeasuredPolyline& track, double vehicle_m) {
-  std::optional<Entry> best;
+const Passage* find(const std::vector<Passage>& all, ElementId into) {
+  const auto found = std::ranges::find(all, into, [](const Passage& passage) { return passage.to.lane->id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// On the passage that the vehicle has begun, where the map still has it.
+std::optional<Entry> on_passage(const LocalMap& map, const Passing& passing) {
+  const auto from = std::ranges::find(map.lanes, passing.from, &Lane::id);
+  if (from == map.lanes.end()) return std::nullopt;
+  const Way way{&*from, passing.against};
+  if (find(passages(map, way), passing.into) == nullptr) return std::nullopt;
+  return Entry{way, length(from->centerline)};
+}
+
+/// Onto the lane that the track runs on, or the nearest ahead; in between, the passage that was begun, or the
+/// lane that it led into.
+std::optional<Entry> find_entry(const LocalMap& map, const MeasuredPolyline& track, double vehicle_m,
+                                const Passing& passing) {
+  std::optional<Entry> best, after;
   for (const Lane& lane : map.lanes) {
     const std::optional<Entry> entry = entry_into(lane, track, vehicle_m);
     if (entry && (!best || entry->cost_m < best->cost_m)) best = entry;
+    if (entry && lane.id == passing.from && entry->ahead_m == 0.0) return entry;
+    if (entry && lane.id == passing.into) after = entry;
   }
-  return best;
+  if (after && after->ahead_m == 0.0) return after;
+  if (const auto between = on_passage(map, passing)) return between;
+  return after ? after : best;
 }
 
+/// Whether the vehicle may still take a passage: straight on, it does not leave the path too soon.
+bool can_take(const Passage& passage, const Bicycle& vehicle) {
+  if (passage.path.size() < 2) return true;
+  const Eigen::Vector2d ahead = vehicle.rear_axle + kPreview_m * vehicle.direction();
+  const Projection foot = MeasuredPolyline(passage.path).project(on_ground(ahead));
+  return foot.distance_m < kMaxOffPath_m || (!foot.inside && foot.arc_m == 0.0);
+}
+
+/// The passage for the wanted turn, where that can be taken still; null where none leads on.
+const Passage* next_passage(const std::vector<Passage>& all, ElementId begun, const Bicycle& vehicle,
+                            Linkage::Turn wanted) {
+  const Passage* const wished = choose(all, wanted);
+  const Passage* const kept = find(all, begun);
+  return kept == nullptr || can_take(*wished, vehicle) ? wished : kept;
+}
+
+bool is_bend(Linkage::Turn turn) { return turn == Linkage::Turn::left || turn == Linkage::Turn::right; }
+
 /// The centerlines and paths from an entry on, from a little behind it.
-Polyline way_ahead(const LocalMap& map, const Entry& entry, Linkage::Turn wanted) {
+Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehicle, Linkage::Turn wanted,
+                   Plan& plan) {
   Way way = entry.way;
   const MeasuredPolyline first(way.centerline());
   Polyline line = first.slice({std::max(0.0, entry.arc_m - kBehind_m), first.length()});
+  const double end_m = entry.ahead_m + first.length() - entry.arc_m;
+  const ElementId begun = way.lane->id == plan.passing.from ? plan.passing.into : kNoElement;
+  plan.passing = {};
   std::set<ElementId> walked;
   while (length(line) < kHorizon_m + kBehind_m && walked.insert(way.lane->id).second) {
     const std::vector<Passage> all = passages(map, way);
-    if (const Passage* passage = choose(all, wanted)) {
+    const Passage* const passage =
+        next_passage(all, walked.size() == 1 ? begun : kNoElement, vehicle, wanted);
+    if (walked.size() == 1) {
+      const bool found = passage != nullptr && (passage->path.empty() || passage->turn == wanted);
+      plan.looks_for_turn = is_bend(wanted) && end_m < kLookForTurn_m && !found;
+      if (passage != nullptr) plan.passing = {way.lane->id, way.against, passage->to.lane->id};
+    }
+    if (passage != nullptr) {
       append(line, passage->path);
       append(line, passage->to.centerline());
-      if (!passage->path.empty()) wanted = Linkage::Turn::straight;  // the intersection is behind
+      if (passage->turn == wanted) wanted = Linkage::Turn::straight;  // the intersection is behind
       way = passage->to;
     } else if (const Way other = beside(map, way); other.lane != nullptr) {
       line = change_over(line, other.centerline());
@@ -124,9 +178,10 @@ void remember(const Plan& earlier, const MeasuredPolyline& track, Plan& way) {
 }
 
 /// The way on the map: from `entry` on, if not from a little behind it, to the horizon.
-Plan way_of(const LocalMap& map, const Entry& entry, const Plan& earlier, const MeasuredPolyline& track,
-            Linkage::Turn wanted) {
-  Plan way{smoothed(MeasuredPolyline(way_ahead(map, entry, wanted)).resample(kStep_m)), {}};
+Plan way_of(const LocalMap& map, const Entry& entry, const Bicycle& vehicle, const Plan& earlier,
+            const MeasuredPolyline& track, Linkage::Turn wanted) {
+  Plan way{.passing = earlier.passing};
+  way.path = smoothed(MeasuredPolyline(way_ahead(map, entry, vehicle, wanted, way)).resample(kStep_m));
   way.support.assign(way.path.size(), Support::mapped);
   remember(earlier, track, way);
   prolong(way.path, kHorizon_m + kBehind_m - length(way.path), kStep_m);
@@ -196,13 +251,15 @@ Plan next_plan(const LocalMap& map, const Bicycle& vehicle, const Plan& previous
   Plan earlier = carried_on(vehicle, previous);
   const MeasuredPolyline track(earlier.path);
   const double vehicle_m = track.project(on_ground(vehicle.rear_axle)).arc_m;
-  const std::optional<Entry> entry = find_entry(map, track, vehicle_m);
+  const std::optional<Entry> entry = find_entry(map, track, vehicle_m, previous.passing);
   if (!entry) return earlier;
-  const Plan way = way_of(map, *entry, earlier, track, wanted);
+  const Plan way = way_of(map, *entry, vehicle, earlier, track, wanted);
   const double blend_m = std::max(kMinBlend_m, kBlend_s * vehicle.speed_mps);
   // Up to shortly before the entry, the plan stays as it is.
   const double from_m = vehicle_m + std::max(0.0, entry->ahead_m - blend_m);
   Plan next = until(earlier, from_m);
+  next.passing = way.passing;
+  next.looks_for_turn = way.looks_for_turn;
   const std::size_t kept = next.path.size();
   if (entry->ahead_m > kMinGap_m)
     bend_over(track, from_m, blend_m, way, next);
