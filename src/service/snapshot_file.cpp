@@ -4,12 +4,11 @@
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/string.hpp>
-#include <cstdio>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "service/private_file.hpp"
 #include "snapshot/snapshot.hpp"
 
 namespace laneloom {
@@ -35,14 +34,6 @@ std::string digest(std::string_view bytes) {
   return {reinterpret_cast<const char*>(canonical.digest), kDigestBytes};
 }
 
-std::string contents(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("cannot be read");
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return std::move(bytes).str();
-}
-
 void check(const SnapshotStamp& stamp, const SnapshotStamp& now, double max_age_s) {
   if (stamp.maker != now.maker) throw std::runtime_error("made by " + stamp.maker + ", not by " + now.maker);
   for (const std::int64_t age_ns : {now.steady_ns - stamp.steady_ns, now.system_ns - stamp.system_ns}) {
@@ -58,17 +49,12 @@ void write_snapshot(const std::string& file, const Snapshot& snapshot) {
   cereal::PortableBinaryOutputArchive archive(body);
   archive(snapshot.stamp, snapshot.checkpoint, to_bytes(snapshot.state));
   const std::string bytes = std::move(body).str();
-  const std::string unfinished = file + ".new";
-  std::ofstream out(unfinished, std::ios::binary);
-  out << digest(bytes) << bytes;
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + unfinished);
-  if (std::rename(unfinished.c_str(), file.c_str()) != 0) throw std::runtime_error("cannot replace " + file);
+  replace_private_file(file, digest(bytes) + bytes);
 }
 
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
                        const VoxelMapConfig& config) {
-  const std::string bytes = contents(file);
+  const std::string bytes = read_private_file(file);
   // Lengths are only believed in what is as it was written.
   if (bytes.size() < kDigestBytes || digest(std::string_view(bytes).substr(kDigestBytes)) !=
                                          std::string_view(bytes).substr(0, kDigestBytes)) {

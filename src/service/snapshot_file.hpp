@@ -23,11 +23,11 @@ struct Snapshot {
   MapperState state;
 };
 
-/// Takes the place of `file` as a whole. Throws std::runtime_error.
+/// Takes the place of `file` as a whole; only this user reads it. Throws std::runtime_error.
 void write_snapshot(const std::string& file, const Snapshot& snapshot);
 
-/// The snapshot, if it is undamaged, of the same maker as `now`, and by both clocks at most `max_age_s`
-/// older. Throws std::runtime_error that says why it is refused.
+/// The snapshot, if its file is one of this user's or root's, undamaged, of the same maker as `now`, and by
+/// both clocks at most `max_age_s` older. Throws std::runtime_error that says why it is refused.
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
                        const VoxelMapConfig& config);
 

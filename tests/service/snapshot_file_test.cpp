@@ -95,12 +95,17 @@ TEST_F(SnapshotFileTest, IsRefusedWhereverItIsDamaged) {
   }
 }
 
-TEST_F(SnapshotFileTest, FailsWhereItCanNotBeWritten) {
-  EXPECT_THROW(write_snapshot(folder_ + "/none/map", snapshot()), std::runtime_error);
+TEST_F(SnapshotFileTest, IsRefusedWhereItMayBeAnothers) {
+  write_snapshot(folder_ + "/elsewhere", snapshot());
+  std::filesystem::create_symlink(folder_ + "/elsewhere", file_);
+  EXPECT_EQ(refusal(soon_), "is a link");
+}
+
+TEST_F(SnapshotFileTest, IsReadByItsUserAlone) {
+  const auto before = umask(0);
   write_snapshot(file_, snapshot());
-  std::filesystem::create_symlink("/dev/full", file_ + ".new");  // a full disk
-  EXPECT_THROW(write_snapshot(file_, snapshot()), std::runtime_error);
-  EXPECT_EQ(refusal(soon_), "") << "the one before is lost";
+  umask(before);
+  EXPECT_EQ(std::filesystem::status(file_).permissions(), std::filesystem::perms{0600});
 }
 
 TEST_F(SnapshotFileTest, TheWriterCountsWhatItDid) {
