@@ -52,6 +52,7 @@ class SdMap {
   };
   using Cell = std::pair<int, int>;
 
+  void enter_into_cells(std::size_t index);
   const Segment* nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const;
   bool may_follow(const Segment& segment, const Segment& next) const;
 
@@ -65,7 +66,7 @@ class SdMap {
 /// Reads an OpenStreetMap extract (XML): its highways for motor vehicles, one-way streets and turn
 /// restrictions, with the map frame's origin as configured: x east, y north. An empty file name gives an
 /// empty map. Throws std::runtime_error naming the file and, where it can, the element, if it cannot be read
-/// or holds no street.
+/// or holds no street, or more than 20000 km of them.
 SdMap load_sd_map(const SdMapConfig& config);
 
 }  // namespace laneloom

@@ -50,12 +50,26 @@ SdMap::SdMap(std::vector<SdWay> ways, const std::vector<SdRestriction>& restrict
     }
   }
   for (std::size_t i = 0; i < segments_.size(); ++i) {
-    const Segment& segment = segments_[i];
-    leaving_[segment.begin].push_back(i);
-    const auto [low_x, low_y] = cell_of(segment.from.cwiseMin(segment.to).array() - kMaxDistance_m);
-    const auto [high_x, high_y] = cell_of(segment.from.cwiseMax(segment.to).array() + kMaxDistance_m);
-    for (int x = low_x; x <= high_x; ++x)
-      for (int y = low_y; y <= high_y; ++y) cells_[{x, y}].push_back(i);
+    leaving_[segments_[i].begin].push_back(i);
+    enter_into_cells(i);
+  }
+}
+
+// Piece by piece: the box around a long slanting segment would hold the square of its cells.
+void SdMap::enter_into_cells(std::size_t index) {
+  const Eigen::Vector2d from = segments_[index].from, along = segments_[index].to - from;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(along.norm() / kCell_m)));
+  for (int i = 0; i < pieces; ++i) {
+    const Eigen::Vector2d begin = from + along * (static_cast<double>(i) / pieces);
+    const Eigen::Vector2d end = from + along * (static_cast<double>(i + 1) / pieces);
+    const auto [low_x, low_y] = cell_of(begin.cwiseMin(end).array() - kMaxDistance_m);
+    const auto [high_x, high_y] = cell_of(begin.cwiseMax(end).array() + kMaxDistance_m);
+    for (int x = low_x; x <= high_x; ++x) {
+      for (int y = low_y; y <= high_y; ++y) {
+        auto& cell = cells_[{x, y}];
+        if (cell.empty() || cell.back() != index) cell.push_back(index);
+      }
+    }
   }
 }
 

@@ -23,6 +23,7 @@ const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",
                                           "tertiary", "unclassified", "residential", "living_street",
                                           "service",  "road"};
 constexpr double kMaxDistance_m = 1e6;  // from the origin; beyond, the projection means nothing
+constexpr double kMaxStreets_m = 2e7;   // in all: a few bytes can name streets that would take all memory
 
 std::string_view tag(const pugi::xml_node& element, const char* key) {
   return element.find_child_by_attribute("tag", "k", key).attribute("v").as_string();
@@ -90,6 +91,13 @@ void add_way(const pugi::xml_node& element, const std::map<OsmId, Eigen::Vector2
   finish();
 }
 
+double total_length_m(const std::vector<SdWay>& ways) {
+  double total_m = 0.0;
+  for (const SdWay& way : ways)
+    for (std::size_t i = 1; i < way.points.size(); ++i) total_m += (way.points[i] - way.points[i - 1]).norm();
+  return total_m;
+}
+
 /// Restrictions by a single node; others, and those for some vehicles or hours only, are left out.
 std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
   if (tag(relation, "type") != "restriction") return std::nullopt;
@@ -118,6 +126,7 @@ SdMap read(const std::string& file, const SdMapConfig& config) {
   for (const pugi::xml_node& way : osm.children("way"))
     if (is_street(way)) add_way(way, nodes, ways);
   if (ways.empty()) throw std::runtime_error("has no street within 1000 km of the configured origin");
+  if (total_length_m(ways) > kMaxStreets_m) throw std::runtime_error("has more than 20000 km of streets");
   std::vector<SdRestriction> restrictions;
   for (const pugi::xml_node& relation : osm.children("relation"))
     if (const auto found = restriction(relation)) restrictions.push_back(*found);

@@ -69,6 +69,21 @@ TEST(SdMap, AcrossADualCarriagewayTheShortWayBetweenItsNodesCounts) {
   EXPECT_EQ(map.verdict(kFromWest, straight({-10, 12, 0}, {-30, 12, 0})), Verdict::connected);
 }
 
+TEST(SdMap, ALongSlantingStreetIsFoundAllAlong) {
+  const SdMap map({{.id = 1, .nodes = {1, 2}, .points = {{0, 0}, {4000, 3000}}}}, {});
+  const Point along(0.8, 0.6, 0.0), left(-0.6, 0.8, 0.0);
+  const auto verdict_at = [&](double along_m, double left_m) {
+    const Point at = along_m * along + left_m * left;
+    return map.verdict(straight(at, at + 10.0 * along), straight(at + 20.0 * along, at + 30.0 * along));
+  };
+  for (double along_m = 0.0; along_m < 4950.0; along_m += 7.0) {
+    for (const double left_m : {-14.9, 0.0, 14.9})
+      EXPECT_EQ(verdict_at(along_m, left_m), Verdict::connected) << along_m << " " << left_m;
+    for (const double left_m : {-15.1, 15.1})
+      EXPECT_EQ(verdict_at(along_m, left_m), Verdict::unknown) << along_m << " " << left_m;
+  }
+}
+
 TEST(SdMap, WaysNeedTheirPoints) {
   EXPECT_THROW(SdMap({{.id = 1, .nodes = {1, 2}, .points = {{0, 0}}}}, {}), std::invalid_argument);
   EXPECT_THROW(SdMap({{.id = 1, .nodes = {1}, .points = {{0, 0}}}}, {}), std::invalid_argument);

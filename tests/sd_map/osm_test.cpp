@@ -5,6 +5,7 @@
 
 #include "laneloom/sd_map.hpp"
 #include "mapping/shapes.hpp"
+#include "recording/allocations.hpp"
 
 namespace laneloom {
 namespace {
@@ -90,6 +91,22 @@ TEST_F(OsmFile, NamesWhatIsWrong) {
   EXPECT_THAT(complaint("<unclosed"), HasSubstr(config_.file));
   config_.origin_latitude_deg = -48.0;
   EXPECT_THAT(complaint(kNodes + kMain), HasSubstr("origin"));
+}
+
+TEST_F(OsmFile, TakesLittleMemoryForALongStreet) {
+  const std::string ends = R"(<node id="1" lat="48" lon="9"/><node id="2" lat="48.5" lon="9.7"/>)";
+  watch_allocations();
+  EXPECT_FALSE(
+      read(ends + R"(<way id="10"><nd ref="1"/><nd ref="2"/><tag k="highway" v="trunk"/></way>)").empty());
+  EXPECT_LT(peak_bytes(), 5'000'000U);
+}
+
+TEST_F(OsmFile, RefusesMoreStreetsThanMemoryHolds) {
+  const std::string ends =
+      R"(<node id="1" lat="44" lon="9"/><node id="2" lat="52" lon="9"/>)";  // 889 km apart
+  std::string way = R"(<way id="10"><tag k="highway" v="trunk"/>)";
+  for (int i = 0; i < 12; ++i) way += R"(<nd ref="1"/><nd ref="2"/>)";
+  EXPECT_THAT(complaint(ends + way + "</way>"), HasSubstr("more than 20000 km"));
 }
 
 TEST_F(OsmFile, WithoutAFileThereIsNone) {
