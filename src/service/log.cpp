@@ -4,10 +4,13 @@
 #include <spdlog/sinks/systemd_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
+#include <systemd/sd-daemon.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 namespace laneloom {
@@ -34,6 +37,14 @@ void set_up_log(const std::string& level) {
   log->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
   spdlog::set_default_logger(std::move(log));
   set_log_level(level);
+}
+
+void print_error(const std::string& text) {
+  const char* priority = writes_to_journal() ? SD_ERR : "";
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::fprintf(stderr, "%slaneloomd: %s\n", priority, line.c_str());
+  }
 }
 
 void set_log_level(const std::string& level) { spdlog::set_level(spdlog::level::from_str(level)); }

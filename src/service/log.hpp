@@ -8,6 +8,10 @@ namespace laneloom {
 /// and to standard error, with times, elsewhere.
 void set_up_log(const std::string& level);
 
+/// An error before there is a log, in one or more lines on standard error; with a priority where that is the
+/// journal.
+void print_error(const std::string& text);
+
 /// "debug", "info", "warn", "error" or "off".
 void set_log_level(const std::string& level);
 

@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -94,7 +96,7 @@ int start(const Options& options) {
   try {
     config = configure(options);
   } catch (const ConfigError& error) {
-    std::fprintf(stderr, "laneloomd: %s\n", error.what());
+    print_error(error.what());
     return EX_CONFIG;
   }
   if (options.check_only) {
@@ -123,9 +125,16 @@ int main(int argc, char** argv) try {
                  "File that keeps the map for a restart, instead of the configured one");
   app.add_flag("--check-config", options.check_only, "Check the configuration and exit");
   app.set_version_flag("--version", laneloom::version());
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& end) {
+    std::ostringstream complaint;
+    const int code = app.exit(end, std::cout, complaint);
+    laneloom::print_error(complaint.str());
+    return code;
+  }
   return laneloom::start(options);
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "laneloomd: %s\n", error.what());
+  laneloom::print_error(error.what());
   return EXIT_FAILURE;
 }

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <sstream>
 
 #include "participants.hpp"
 #include "process.hpp"
@@ -68,6 +69,24 @@ TEST(Log, GoesToStandardErrorWhereThatIsNotTheJournal) {
   const Process service(command(private_config()));
   unsetenv("JOURNAL_STREAM");
   EXPECT_TRUE(service.wait_for_error("info event=started")) << service.errors();
+}
+
+TEST(Log, ErrorsBeforeItHaveAPriorityInTheJournal) {
+  const TemporaryFile file("wrong.yaml", "sync:\n  max_wiat_s: 0.5\n");
+  for (const auto& options :
+       {std::vector<std::string>{"--config", file.path}, std::vector<std::string>{"--nonsense"}}) {
+    std::vector<std::string> words{
+        "/bin/sh", "-c", "export JOURNAL_STREAM=$(stat -L -c %d:%i /dev/stderr); exec \"$0\" \"$@\""};
+    for (const auto& word : command(private_config(), options)) words.push_back(word);
+    Process service(words);
+    EXPECT_NE(service.wait(), 0);
+    std::istringstream lines(service.errors());
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+      EXPECT_TRUE(line.starts_with("<3>laneloomd: ")) << line;
+    }
+    EXPECT_GT(count, 0);
+  }
 }
 
 }  // namespace
