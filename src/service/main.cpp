@@ -5,10 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "laneloom/config_file.hpp"
@@ -41,23 +44,42 @@ Config configure(const Options& options) {
   return config;
 }
 
+/// What the service runs with.
+struct Running {
+  Config config;
+  std::string profile;  ///< what the profile's file said at the start: Fast DDS reads it once
+};
+
+/// Empty where there is none.
+std::string profile_of(const Config& config) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(config.dds.profile_file, unknown)) return {};
+  std::ostringstream text;
+  text << std::ifstream(config.dds.profile_file).rdbuf();
+  return std::move(text).str();
+}
+
 /// Takes over what can change while it runs, and says what can't.
-void reconfigure(Config& running, const Options& options) try {
+void reconfigure(Running& running, const Options& options) try {
   const auto wanted = configure(options);
-  for (const auto& key : changed_keys(running, wanted)) {
+  auto& config = running.config;
+  for (const auto& key : changed_keys(config, wanted)) {
     if (key == "service.log_level") {
-      running.service.log_level = wanted.service.log_level;
-      set_log_level(running.service.log_level);
-      spdlog::info("event=changed key={} value={}", key, running.service.log_level);
+      config.service.log_level = wanted.service.log_level;
+      set_log_level(config.service.log_level);
+      spdlog::info("event=changed key={} value={}", key, config.service.log_level);
     } else {
       spdlog::warn("event=needs_restart key={}", key);
     }
+  }
+  if (profile_of(config) != running.profile) {
+    spdlog::warn("event=needs_restart key=dds.profile_file why=\"its content changed\"");
   }
 } catch (const ConfigError& error) {
   spdlog::error("event=configuration_refused reason=\"{}\"", error.what());
 }
 
-void reload(Service& service, Config& running, const Options& options) {
+void reload(Service& service, Running& running, const Options& options) {
   sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(steady_now_ns() / 1000));
   reconfigure(running, options);
   // After a change of the network, interfaces that were down are only seen by new endpoints.
@@ -66,8 +88,9 @@ void reload(Service& service, Config& running, const Options& options) {
   spdlog::info("event=reopened");
 }
 
-void run(Config config, const Options& options) {
+void run(const Config& config, const Options& options) {
   const Signals signals;
+  Running running{config, profile_of(config)};
   Service service(config, steady_now_ns);
   spdlog::info("event=started version={} config={} domain={} vehicle={}", version(), config_hash(config),
                config.dds.domain, config.dds.vehicle_id);
@@ -81,7 +104,7 @@ void run(Config config, const Options& options) {
   };
   const auto sleep_until = [&](std::int64_t deadline_ns) {
     auto wake = signals.sleep_until(deadline_ns);
-    for (; wake == Wake::reload; wake = signals.sleep_until(deadline_ns)) reload(service, config, options);
+    for (; wake == Wake::reload; wake = signals.sleep_until(deadline_ns)) reload(service, running, options);
     return wake == Wake::deadline;
   };
   const auto period_ns = static_cast<std::int64_t>(1e9 / config.service.tick_rate_hz);
@@ -105,7 +128,7 @@ int start(const Options& options) {
     return EX_OK;
   }
   set_up_log(config.service.log_level);
-  run(std::move(config), options);
+  run(config, options);
   return EX_OK;
 }
 

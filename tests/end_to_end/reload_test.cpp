@@ -64,6 +64,26 @@ TEST(Reload, AnInvalidFileIsRefusedAndTheServiceGoesOn) {
   EXPECT_TRUE(service.wait_for_error("event=tick")) << service.errors();
 }
 
+TEST(Reload, SaysThatAProfileThatChangedNeedsARestart) {
+  const std::string profile =
+      "<dds xmlns='http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles'><profiles>"
+      "<participant profile_name='mine'><rtps/></participant></profiles></dds>\n";
+  const TemporaryFile profiles("profiles.xml", profile);
+  const TemporaryFile file("profile.yaml",
+                           "dds:\n  profile_file: " + profiles.path + "\n  profile_name: mine\n");
+  const Process service(command(private_config(), {"--config", file.path}));
+  ASSERT_TRUE(service.wait_for_error("event=started")) << service.errors();
+  service.signal(SIGHUP);
+  ASSERT_TRUE(service.wait_for_error("event=reopened")) << service.errors();
+  EXPECT_EQ(service.errors().find("event=needs_restart"), std::string::npos) << service.errors();
+
+  profiles.write(profile + "<!-- edited -->\n");
+  service.signal(SIGHUP);
+  EXPECT_TRUE(
+      service.wait_for_error("event=needs_restart key=dds.profile_file why=\"its content changed\"\n"))
+      << service.errors();
+}
+
 TEST(Log, GoesToStandardErrorWhereThatIsNotTheJournal) {
   setenv("JOURNAL_STREAM", "8:1", 1);  // inherited from a service, but redirected
   const Process service(command(private_config()));
