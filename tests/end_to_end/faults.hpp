@@ -33,7 +33,9 @@ class Faults : public ::testing::Test {
   void start(int frame_period_ms = 100, const std::vector<std::string>& more = {}) {
     maps_.forget();
     status_.forget();
-    service_ = std::make_unique<Process>(command(config_, more));
+    auto words = started_by_;
+    for (const auto& word : command(config_, more)) words.push_back(word);
+    service_ = std::make_unique<Process>(words);
     road_ = std::make_unique<StraightRoad>(config_, frame_period_ms);
     ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
     maps_.forget();
@@ -44,15 +46,21 @@ class Faults : public ::testing::Test {
       return map.state == state && has_reason(map, reason) && has_lanes(map);
     });
   }
+  /// A good map comes from now on.
+  bool is_good_again() {
+    maps_.forget();
+    return maps_.wait_for(is_good);
+  }
   /// The fault ends.
   bool recovers() {
     road_->send_frames({});
     road_->send_poses({});
-    maps_.forget();
-    return maps_.wait_for(is_good);
+    return is_good_again();
   }
-  std::map<std::string, std::uint64_t> counters() {
-    std::map<std::string, std::uint64_t> result;
+  using CounterValues = std::map<std::string, std::uint64_t>;
+
+  CounterValues counters() {
+    CounterValues result;
     // Written once a second: of what happened before this call.
     status_.forget();
     status_.wait_for([&](const ServiceStatus& status) {
@@ -61,10 +69,12 @@ class Faults : public ::testing::Test {
     });
     return result;
   }
-  bool counts(const std::string& counter) {
+  /// Beyond what it was `before` the fault: some counters rise while all begins, too.
+  bool rises(const std::string& counter, CounterValues before) {
     return status_.wait_for([&](const ServiceStatus& status) {
-      return std::any_of(status.counters.begin(), status.counters.end(),
-                         [&](const auto& entry) { return entry.first == counter && entry.second > 0; });
+      const CounterValues now(status.counters.begin(), status.counters.end());
+      const auto found = now.find(counter);
+      return found != now.end() && found->second > before[counter];
     });
   }
   /// `maps` maps in a row are good.
@@ -83,6 +93,7 @@ class Faults : public ::testing::Test {
   }
 
   const DdsConfig config_ = private_config();
+  std::vector<std::string> started_by_;  ///< a program that starts the service; empty: none
   std::unique_ptr<Process> service_;
   Listener<PublishedMap> maps_{config_};
   Listener<ServiceStatus> status_{config_};

@@ -18,7 +18,7 @@ class WarmRestart : public Faults {
   }
   /// Kills the service, which had lanes, and starts it again.
   void restart(const std::vector<std::string>& more) {
-    ASSERT_TRUE(counts("snapshots_written")) << service_->errors();
+    ASSERT_TRUE(rises("snapshots_written", counters())) << service_->errors();
     service_->signal(SIGKILL);
     ASSERT_EQ(service_->wait(), -SIGKILL);
     ASSERT_TRUE(maps_.wait_for_alive(0));
@@ -47,7 +47,9 @@ TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
   EXPECT_GT(first_.age_s, 0.0);
   ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
   EXPECT_EQ(maps_.samples().back().map.lanes[0].id, before_.map.lanes[0].id);
-  EXPECT_EQ(counters()["map_resets"], 0U);
+  auto since_restart = counters();
+  EXPECT_EQ(since_restart["snapshots_resumed"], 1U);
+  EXPECT_EQ(since_restart["map_resets"], 0U);
 }
 
 TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
@@ -56,7 +58,7 @@ TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
   restart({"--config", file_.path, "--preset", "av2"});
   EXPECT_TRUE(first_.map.lanes.empty());
   EXPECT_NE(service_->errors().find("snapshot_refused"), std::string::npos) << service_->errors();
-  EXPECT_TRUE(counts("snapshots_refused"));
+  EXPECT_EQ(counters()["snapshots_refused"], 1U);
   EXPECT_TRUE(maps_.wait_for(is_good));
 }
 
@@ -71,7 +73,7 @@ TEST_F(WarmRestart, ForgetsAMapOfAnotherPoseFrame) {
     return std::vector{pose};
   });
   EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
-  EXPECT_TRUE(maps_.wait_for(is_good));
+  EXPECT_TRUE(is_good_again());
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <memory>
+
+#include "faults.hpp"
+
+// What the planner sees of processes that are killed, hang or are there twice; README, "When things go
+// wrong".
+namespace laneloom {
+namespace {
+
+TEST_F(Faults, ARestartedPerceptionBeginsANewMap) {
+  start();
+  road_.reset();
+  EXPECT_TRUE(says(MapState::stale, StateReason::no_detections));
+  road_ = std::make_unique<StraightRoad>(config_);
+  road_->send_frames([](DetectionFrame frame) {
+    frame.session_id = 7;
+    return std::vector{frame};
+  });
+  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
+  EXPECT_TRUE(is_good_again());
+}
+
+TEST_F(Faults, AStoppedPlannerHoldsUpNobody) {
+  start();
+  const Process planner({LANELOOM, "pnc", "--domain", std::to_string(config_.domain), "--vehicle-id",
+                         config_.vehicle_id, "--record", "/dev/null"});
+  Listener<PublishedMap> other(config_);
+  ASSERT_TRUE(other.wait_for(is_good));
+  planner.signal(SIGSTOP);
+  ASSERT_TRUE(stays_good(50));
+  const auto samples = maps_.samples();
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].sequence, samples[0].sequence + i) << "a map was held up or lost";
+  }
+  EXPECT_EQ(counters()["writes_failed"], 0U);
+}
+
+// Fast DDS matches two participants no more when only one of them saw the other's lease end.
+TEST_F(Faults, APerceptionThatHangsIsHeardAgain) {
+  service_ = std::make_unique<Process>(command(config_));
+  const Process perception({LANELOOM, "publish", "--scenario", "straight", "--loop", "--domain",
+                            std::to_string(config_.domain), "--vehicle-id", config_.vehicle_id});
+  ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
+  for (int hang_ms = 1200; hang_ms <= 1700; hang_ms += 50) {
+    perception.signal(SIGSTOP);
+    usleep(static_cast<unsigned>(hang_ms) * 1000);
+    perception.signal(SIGCONT);
+    ASSERT_TRUE(is_good_again()) << "not heard after " << hang_ms << " ms";
+  }
+}
+
+TEST_F(Faults, AServiceThatHangsIsNoticed) {
+  start();
+  const auto before = counters();
+  service_->signal(SIGSTOP);
+  EXPECT_TRUE(maps_.wait_for_alive(0));
+  service_->signal(SIGCONT);
+  EXPECT_TRUE(maps_.wait_for_alive(1));
+  EXPECT_TRUE(rises("ticks_missed", before));
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, TheSystemClockMayJump) {
+#ifndef LIBFAKETIME
+  GTEST_SKIP() << "libfaketime is missing, or does not go with a sanitizer";
+#else
+  constexpr std::int64_t kHalfAnHour_ns = 1'800'000'000'000;
+  const TemporaryFile clock("clock", "+0\n");
+  started_by_ = {"/usr/bin/env", "LD_PRELOAD=" LIBFAKETIME, "FAKETIME_TIMESTAMP_FILE=" + clock.path,
+                 "FAKETIME_NO_CACHE=1", "DONT_FAKE_MONOTONIC=1"};
+  start();
+  ASSERT_TRUE(is_good_again());
+  const auto before_ns = maps_.samples().back().published_ns;
+  for (const std::string jump : {"+3600\n", "-3600\n"}) {
+    clock.write(jump);
+    ASSERT_TRUE(maps_.wait_for([&](const PublishedMap& map) {
+      return std::abs(map.published_ns - before_ns) > kHalfAnHour_ns;
+    })) << "the clock did not jump";
+    EXPECT_TRUE(stays_good(20));
+  }
+#endif
+}
+
+TEST_F(Faults, TwoServicesOfOneVehicleSaySo) {
+  start();
+  auto second = std::make_unique<Process>(command(config_));
+  std::map<std::uint64_t, bool> warned;
+  EXPECT_TRUE(maps_.wait_for([&](const PublishedMap& map) {
+    if (has_reason(map, StateReason::another_service)) warned[map.session_id] = true;
+    return warned.size() == 2;
+  }));
+  second.reset();
+  EXPECT_TRUE(recovers());
+}
+
+TEST_F(Faults, KilledWithSharedMemoryItStartsAgain) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "Fast DDS synchronises its shared memory by what the sanitizer does not see";
+#endif
+  const TemporaryFile file("shm.yaml", "dds:\n  transport: udp+shm\n");
+  auto with_memory = config_;
+  with_memory.transport = "udp+shm";
+  Listener<PublishedMap> maps(with_memory);
+  const StraightRoad road(with_memory);
+  for (int i = 0; i < 4; ++i) {
+    Process service(command(config_, {"--config", file.path}));
+    maps.forget();
+    ASSERT_TRUE(maps.wait_for(is_good)) << service.errors();
+    service.signal(SIGKILL);
+    ASSERT_EQ(service.wait(), -SIGKILL);
+  }
+}
+
+}  // namespace
+}  // namespace laneloom
