@@ -156,5 +156,25 @@ TEST_F(MadeUpLog, BadFilesAreNamedWithKeyOrLine) {
   EXPECT_NE(error().find("log_map_archive"), std::string::npos) << error();
 }
 
+TEST_F(MadeUpLog, WhatWouldTakeAllMemoryIsRefused) {
+  std::string far = map("NONE");
+  far.replace(far.find("\"x\":20"), 6, "\"x\":1e300");
+  write("log_map_archive_x.json", far);
+  EXPECT_NE(error().find("lane_segments.10.left_lane_boundary[1].x: is too far away"), std::string::npos)
+      << error();
+  std::string long_lane = map("NONE");
+  long_lane.replace(long_lane.find("\"x\":20"), 6, "\"x\":300001");
+  write("log_map_archive_x.json", long_lane);
+  EXPECT_NE(error().find("lane_segments.10.left_lane_boundary: is beyond 300 km"), std::string::npos)
+      << error();
+  std::string wide_area = map("NONE");
+  wide_area.replace(wide_area.find("\"x\":25"), 6, "\"x\":300001");
+  write("log_map_archive_x.json", wide_area);
+  EXPECT_NE(error().find("drivable_areas.1.area_boundary: is beyond 300 km"), std::string::npos) << error();
+  write("log_map_archive_x.json", map("NONE"));
+  write("city_SE3_egovehicle.csv", "header\n0,1,0,0,0,0,0,0\n3600000000001,1,0,0,0,0,0,0\n");
+  EXPECT_NE(error().find("city_SE3_egovehicle.csv: lasts longer than an hour"), std::string::npos) << error();
+}
+
 }  // namespace
 }  // namespace laneloom

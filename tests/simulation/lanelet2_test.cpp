@@ -155,6 +155,9 @@ TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
             std::string::npos);
   EXPECT_NE(error("<osm><node id='8' lat='95' lon='3'/></osm>").find("node 8"), std::string::npos);
   EXPECT_THROW(load_lanelet2(path.parent_path() / "absent.osm"), std::runtime_error);
+  const std::string far = two_lanes() + node(7, 2e5, 0) + node(8, 2e5, -3) + way(41, {1, 7}, "") +
+                          way(42, {4, 8}, "") + lanelet(31, 41, 42) + "</osm>";
+  EXPECT_NE(error(far).find("relation 31: is beyond 300 km of lines"), std::string::npos) << error(far);
 }
 
 }  // namespace

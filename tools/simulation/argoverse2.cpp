@@ -22,9 +22,18 @@ constexpr double kJoin_m = 0.05;
 constexpr double kJoinEdges_m = 1.5;  // outlines end a little before the area that adjoins
 constexpr double kAlongEdge_m = 0.5;
 constexpr std::int64_t kPosePeriod_ns = 10'000'000;
+constexpr std::int64_t kMaxDrive_ns = 3'600'000'000'000;
+constexpr double kMaxCoordinate_m = 1e7;
+
+double coordinate(const json& value) {
+  const double result_m = number(value);
+  if (!(std::abs(result_m) < kMaxCoordinate_m)) throw JsonError("is too far away");
+  return result_m;
+}
 
 Point xyz(const json& value) {
-  return {required(value, "x", number), required(value, "y", number), required(value, "z", number)};
+  return {required(value, "x", coordinate), required(value, "y", coordinate),
+          required(value, "z", coordinate)};
 }
 
 Polyline xyz_line(const json& value) {
@@ -93,6 +102,7 @@ class LaneReader {
   std::pair<Polyline, ElementId> border(const json& segment, const char* points_key, const char* mark_key,
                                         bool left) {
     Polyline points = required(segment, points_key, xyz_line);
+    if (!limit_.add(points)) throw JsonError(points_key, LengthLimit::kComplaint);
     const std::optional<MarkingStyle> style = painted_style(required(segment, mark_key, text), left);
     if (!style) return {std::move(points), kNoElement};
     const auto [known, is_new] = marking_of_.try_emplace(shape(points), markings_.size() + 1);
@@ -100,6 +110,7 @@ class LaneReader {
     return {std::move(points), known->second};
   }
 
+  LengthLimit limit_;
   std::vector<RoadLane> lanes_;
   std::vector<RoadMarking> markings_;
   std::map<std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>>, ElementId> marking_of_;
@@ -127,8 +138,11 @@ Road read_map(const json& archive) {
   std::move(lanes).finish(road);
   join_markings(road, kJoin_m);
   std::vector<Polyline> areas;
-  for_each_member(archive, "drivable_areas",
-                  [&](const json& area) { areas.push_back(required(area, "area_boundary", xyz_line)); });
+  LengthLimit limit;
+  for_each_member(archive, "drivable_areas", [&](const json& area) {
+    areas.push_back(required(area, "area_boundary", xyz_line));
+    if (!limit.add(areas.back())) throw JsonError("area_boundary", LengthLimit::kComplaint);
+  });
   Road edges;
   for (Polyline& edge : outer_edges(areas))
     edges.markings.push_back(
@@ -166,7 +180,11 @@ std::filesystem::path map_archive(const std::filesystem::path& directory) {
 }  // namespace
 
 std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory) {
-  return read_pose_csv(log_directory / "city_SE3_egovehicle.csv");
+  const std::filesystem::path file = log_directory / "city_SE3_egovehicle.csv";
+  std::vector<VehiclePose> poses = read_pose_csv(file);
+  if (poses.back().stamp_ns - poses.front().stamp_ns > kMaxDrive_ns)
+    throw std::runtime_error(file.string() + ": lasts longer than an hour");
+  return poses;
 }
 
 Road load_argoverse2(const std::filesystem::path& log_directory) {

@@ -80,6 +80,11 @@ bool runs_along(const Polyline& border, const MeasuredPolyline& edge, double tol
 
 }  // namespace
 
+bool LengthLimit::add(const Polyline& line) {
+  total_m_ += length(line);
+  return total_m_ <= 300e3;
+}
+
 Polyline midway(const Polyline& left, const Polyline& right, double step_m) {
   const MeasuredPolyline a(left), b(right);
   const int steps = std::max(1, static_cast<int>(std::ceil(std::max(a.length(), b.length()) / step_m)));

@@ -5,6 +5,18 @@
 /// What every source of roads does with the lines that it has found.
 namespace laneloom {
 
+/// How much of lines a road may have: a few bytes can name lines that would, sampled, take all memory.
+class LengthLimit {
+ public:
+  static constexpr const char* kComplaint = "is beyond 300 km of lines, which is the most for a road";
+
+  /// False: it is too much.
+  bool add(const Polyline& line);
+
+ private:
+  double total_m_ = 0.0;
+};
+
 /// The line midway between two borders that run side by side, with a point every `step_m` or less.
 Polyline midway(const Polyline& left, const Polyline& right, double step_m = 1.0);
 

@@ -166,9 +166,12 @@ bool is_vehicle_lane(const pugi::xml_node& relation) {
 
 std::vector<Lanelet> read_lanes(const pugi::xml_node& osm, const std::map<OsmId, Way>& ways, Road& road) {
   std::vector<Lanelet> lanelets;
+  LengthLimit limit;
   for (const pugi::xml_node& relation : osm.children("relation")) {
     if (!is_vehicle_lane(relation)) continue;
     Lanelet lanelet{border(relation, "left", ways), border(relation, "right", ways)};
+    if (!limit.add(lanelet.left.points) || !limit.add(lanelet.right.points))
+      refuse(relation, LengthLimit::kComplaint);
     align(lanelet.left, lanelet.right);
     const auto [left, right] = std::pair(lanelet.left.marking, lanelet.right.marking);
     road.lanes.push_back({.id = road.lanes.size() + 1,
