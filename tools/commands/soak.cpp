@@ -32,7 +32,7 @@ void print(const SoakResult& result) {
   fmt::print("\n{} maps, {} missed, {} contract violations\n", result.maps.received, result.maps.missed,
              result.maps.violations.size());
   for (const auto& violation : result.maps.violations) fmt::print("violation: {}\n", violation);
-  for (const auto& fault : result.unrecovered) fmt::print("no good map after: {}\n", fault);
+  for (const auto& failure : result.failures) fmt::print("{}\n", failure);
   fmt::print("{}\n", result.passed() ? "passed" : "FAILED");
 }
 
@@ -62,7 +62,8 @@ void add_soak(CLI::App& app) {
       ->check(CLI::Range(0, 232))
       ->capture_default_str();
   command->footer(
-      "Exit code 1: a frame is not accounted for, a map broke the contract, or none came after a fault.");
+      "Exit code 1: a frame is not accounted for, a map broke the contract, no good one came after a fault "
+      "(to the planner too), or a process ended by itself.");
   command->callback([options] { run(*options); });
 }
 

@@ -10,13 +10,13 @@
 
 namespace laneloom {
 
-const char* name(Fleet::Member member) {
+const char* Fleet::name(Member member) {
   switch (member) {
-    case Fleet::Member::publisher:
+    case Member::publisher:
       return "publisher";
-    case Fleet::Member::service:
+    case Member::service:
       return "service";
-    case Fleet::Member::planner:
+    case Member::planner:
       return "planner";
   }
   return "";
@@ -47,24 +47,40 @@ std::vector<std::string> Fleet::command_of(Member member) {
     case Member::planner:
       break;
   }
-  return {spec_.command, "pnc"};
+  return {spec_.command, "pnc", "--json"};
 }
 
 void Fleet::start(Member member) {
   auto command = command_of(member);
   const auto more = vehicle();
   command.insert(command.end(), more.begin(), more.end());
-  processes_[member] = std::make_unique<ChildProcess>(command, folder_.file(name(member)));
+  processes_[member] = std::make_unique<ChildProcess>(command, output_of(member));
 }
 
-void Fleet::signal(Member member, int number) { kill(processes_[member]->id(), number); }
+void Fleet::signal(Member member, int number) { kill(processes_.at(member)->id(), number); }
 
 void Fleet::kill_and_restart(Member member) {
-  processes_[member].reset();
+  processes_.erase(member);
   start(member);
 }
 
-void Fleet::stop(Member member) { processes_[member]->stop(); }
+void Fleet::stop(Member member) {
+  processes_.at(member)->stop();
+  processes_.erase(member);
+}
+
+std::vector<Fleet::Member> Fleet::restart_ended() {
+  std::vector<Member> ended;
+  for (const auto& [member, process] : processes_) {
+    if (!process->running()) ended.push_back(member);
+  }
+  for (const Member member : ended) start(member);
+  return ended;
+}
+
+bool Fleet::planner_gets_maps(const MapNumber& newest, std::chrono::seconds patience) const {
+  return wait_for_planner(output_of(Member::planner), newest, patience);
+}
 
 void Fleet::restart(Member member) {
   stop(member);

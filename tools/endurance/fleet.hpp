@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "bench/child_process.hpp"
 #include "bench/publication_log.hpp"
+#include "endurance/planner_output.hpp"
 #include "io/work_folder.hpp"
 #include "laneloom/config.hpp"
 
@@ -28,6 +30,7 @@ class Fleet {
   explicit Fleet(Spec spec);
 
   enum class Member { publisher, service, planner };
+  static const char* name(Member member);
   void signal(Member member, int number);
   /// Ends it at once, as a crash does, and starts it again.
   void kill_and_restart(Member member);
@@ -35,6 +38,11 @@ class Fleet {
   void restart(Member member);
   /// Ends it as an operator does.
   void stop(Member member);
+  /// Those that have ended without being told to; they are started again.
+  std::vector<Member> restart_ended();
+
+  /// Waits for a map at the planner, as wait_for_planner() does.
+  bool planner_gets_maps(const MapNumber& newest, std::chrono::seconds patience) const;
 
   /// What all publishers so far wrote down of themselves.
   std::vector<PublicationLog> publications() const;
@@ -43,13 +51,12 @@ class Fleet {
   void start(Member member);
   std::vector<std::string> command_of(Member member);
   std::vector<std::string> vehicle() const;
+  std::string output_of(Member member) const { return folder_.file(name(member)); }
 
   Spec spec_;
   WorkFolder folder_;
-  std::vector<std::string> logs_;  ///< of the publishers, a file each
-  std::map<Member, std::unique_ptr<ChildProcess>> processes_;
+  std::vector<std::string> logs_;                              ///< of the publishers, a file each
+  std::map<Member, std::unique_ptr<ChildProcess>> processes_;  ///< those that are to run
 };
-
-const char* name(Fleet::Member member);
 
 }  // namespace laneloom

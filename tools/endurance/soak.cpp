@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <stdexcept>
 #include <thread>
@@ -15,11 +14,10 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 using Member = Fleet::Member;
-constexpr std::chrono::seconds kPatience{30};
 
 struct Fault {
-  const char* name;
-  void (*make)(Fleet& fleet, Member member, Random& random);
+  std::string name;
+  std::function<void(Fleet& fleet, Random& random)> make;
 };
 
 void hang(Fleet& fleet, Member member, Random& random) {
@@ -28,21 +26,25 @@ void hang(Fleet& fleet, Member member, Random& random) {
   fleet.signal(member, SIGCONT);
 }
 
-const std::array kFaults{
-    Fault{"kill", [](Fleet& fleet, Member member, Random& /*random*/) { fleet.kill_and_restart(member); }},
-    Fault{"end", [](Fleet& fleet, Member member, Random& /*random*/) { fleet.restart(member); }},
-    Fault{"hang", hang}, Fault{"reload", [](Fleet& fleet, Member /*member*/, Random& /*random*/) {
-                                 fleet.signal(Member::service, SIGHUP);
-                               }}};
+std::vector<Fault> all_faults() {
+  std::vector<Fault> faults{
+      {"reload service", [](Fleet& fleet, Random& /*random*/) { fleet.signal(Member::service, SIGHUP); }}};
+  for (const Member member : {Member::publisher, Member::service, Member::planner}) {
+    const std::string name = Fleet::name(member);
+    faults.push_back(
+        {"kill " + name, [member](Fleet& fleet, Random& /*random*/) { fleet.kill_and_restart(member); }});
+    faults.push_back({"end " + name, [member](Fleet& fleet, Random& /*random*/) { fleet.restart(member); }});
+    faults.push_back(
+        {"hang " + name, [member](Fleet& fleet, Random& random) { hang(fleet, member, random); }});
+  }
+  return faults;
+}
 
-/// Its name.
-std::string make_a_fault(Fleet& fleet, Random& random) {
-  constexpr std::array kMembers{Member::publisher, Member::service, Member::planner};
-  const Member member = kMembers.at(random.below(kMembers.size()));
-  const Fault& fault = kFaults.at(random.below(kFaults.size()));
-  fault.make(fleet, member, random);
-  return std::string(fault.name) == "reload" ? "reload service"
-                                             : fmt::format("{} {}", fault.name, name(member));
+/// Who got no good map in time, in words; empty: nobody.
+std::string without_map(const Watch& watch, const Fleet& fleet, std::chrono::seconds patience) {
+  if (!watch.wait_for_good_map(patience)) return "no good map came";
+  if (!fleet.planner_gets_maps(watch.newest(), patience)) return "the planner got no map";
+  return {};
 }
 
 }  // namespace
@@ -50,7 +52,7 @@ std::string make_a_fault(Fleet& fleet, Random& random) {
 bool SoakResult::passed() const {
   const bool explained = std::all_of(accounts.begin(), accounts.end(),
                                      [](const auto& session) { return session.second.unexplained() == 0; });
-  return explained && !accounts.empty() && maps.violations.empty() && unrecovered.empty();
+  return explained && !accounts.empty() && maps.violations.empty() && failures.empty();
 }
 
 SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
@@ -58,17 +60,24 @@ SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
   SoakResult result;
   Watch watch(spec.fleet.dds);
   Fleet fleet(spec.fleet);
-  if (!watch.wait_for_good_map(kPatience)) throw std::runtime_error("no good map came");
+  if (!watch.wait_for_good_map(spec.patience)) throw std::runtime_error("no good map came");
 
+  const auto faults = all_faults();
   const auto end = std::chrono::steady_clock::now() + spec.duration;
   while (std::chrono::steady_clock::now() < end && go_on()) {
-    const std::string fault = make_a_fault(fleet, random);
-    ++result.faults[fault];
-    if (!watch.wait_for_good_map(kPatience)) result.unrecovered.push_back(fault);
+    const Fault& fault = faults[random.below(faults.size())];
+    fault.make(fleet, random);
+    ++result.faults[fault.name];
+    const std::string failure = without_map(watch, fleet, spec.patience);
+    if (!failure.empty()) result.failures.push_back(fmt::format("{} after: {}", failure, fault.name));
     std::this_thread::sleep_for(Seconds(random.uniform(0.5, 4.0)));
+    for (const Member member : fleet.restart_ended()) {
+      result.failures.push_back(fmt::format("the {} ended after: {}", Fleet::name(member), fault.name));
+    }
   }
   fleet.stop(Member::publisher);
-  if (!watch.wait_for_settled_status(kPatience)) result.unrecovered.emplace_back("end of the publisher");
+  if (!watch.wait_for_settled_status(spec.patience))
+    result.failures.emplace_back("no settled status came after the publisher's end");
 
   const auto publications = fleet.publications();
   for (const auto& [id, session] : watch.sessions()) {

@@ -16,21 +16,22 @@ namespace laneloom {
 struct SoakSpec {
   Fleet::Spec fleet;
   std::chrono::duration<double> duration{60};
-  std::uint64_t seed = 1;  ///< of the faults
+  std::uint64_t seed = 1;             ///< of the faults
+  std::chrono::seconds patience{30};  ///< until good maps follow a fault
 };
 
 struct SoakResult {
   std::map<std::uint64_t, Account> accounts;  ///< by session of the service
   Watch::Maps maps;
-  std::map<std::string, int> faults;     ///< how often each was made
-  std::vector<std::string> unrecovered;  ///< faults after which no good map came
+  std::map<std::string, int> faults;  ///< how often each was made
+  std::vector<std::string> failures;  ///< what did not recover from a fault, or ended by itself
 
   bool passed() const;
 };
 
-/// Runs a fleet for so long, with one random fault after another; every fault ends, and a good map must
-/// follow. `go_on` is asked between faults. Throws std::runtime_error where the fleet cannot be started or no
-/// map comes.
+/// Runs a fleet for so long, with one random fault after another; every fault ends, a good map must
+/// follow, also at the planner, and no process may end by itself. `go_on` is asked between faults. Throws
+/// std::runtime_error where the fleet cannot be started or no map comes.
 SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on);
 
 }  // namespace laneloom

@@ -33,7 +33,7 @@ Watch::Watch(const DdsConfig& dds)
                                      }}),
       status_reader_(participant_, {.sample = [this](ServiceStatus&& status) { take(std::move(status)); }}) {}
 
-bool Watch::wait_for_good_map(std::chrono::seconds patience) {
+bool Watch::wait_for_good_map(std::chrono::seconds patience) const {
   const auto good_maps = [this] {
     const std::lock_guard lock(mutex_);
     return good_maps_;
@@ -41,7 +41,7 @@ bool Watch::wait_for_good_map(std::chrono::seconds patience) {
   return wait_until_it_rises(good_maps, patience);
 }
 
-bool Watch::wait_for_settled_status(std::chrono::seconds patience) {
+bool Watch::wait_for_settled_status(std::chrono::seconds patience) const {
   const auto settled_statuses = [this] {
     const std::lock_guard lock(mutex_);
     return settled_statuses_;
@@ -57,6 +57,11 @@ std::map<std::uint64_t, Watch::Session> Watch::sessions() const {
 Watch::Maps Watch::maps() const {
   const std::lock_guard lock(mutex_);
   return maps_;
+}
+
+MapNumber Watch::newest() const {
+  const std::lock_guard lock(mutex_);
+  return previous_ ? MapNumber{previous_->session_id, previous_->sequence} : MapNumber{};
 }
 
 void Watch::take(PublishedMap&& map) {

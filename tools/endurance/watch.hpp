@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "endurance/planner_output.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/messages.hpp"
@@ -20,9 +21,9 @@ class Watch {
   explicit Watch(const DdsConfig& dds);
 
   /// Waits until a map that is OK and has lanes is published after this call; false: not within `patience`.
-  bool wait_for_good_map(std::chrono::seconds patience);
+  bool wait_for_good_map(std::chrono::seconds patience) const;
   /// Waits for a status that is written after this call, with nothing pending.
-  bool wait_for_settled_status(std::chrono::seconds patience);
+  bool wait_for_settled_status(std::chrono::seconds patience) const;
 
   struct Session {
     ServiceStatus last;
@@ -36,6 +37,8 @@ class Watch {
     std::vector<std::string> violations;  ///< of the contract
   };
   Maps maps() const;
+  /// The last map that came.
+  MapNumber newest() const;
 
  private:
   void take(PublishedMap&& map);

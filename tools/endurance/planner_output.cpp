@@ -1,0 +1,43 @@
+#include "endurance/planner_output.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "laneloom/state_names.hpp"
+
+namespace laneloom {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// A line that is cut is none.
+bool is_fresh_map(const std::string& line, const MapNumber& newest) {
+  const auto update = nlohmann::json::parse(line, nullptr, false);
+  if (!update.is_object() || update.value("event", "") != "map") return false;
+  const bool later = update.at("session_id") != newest.session_id || update.at("sequence") > newest.sequence;
+  return later && update.at("state") != name(MapState::stale);
+}
+
+}  // namespace
+
+bool wait_for_planner(const std::string& file, const MapNumber& newest, std::chrono::seconds patience) {
+  const auto deadline = SteadyClock::now() + patience;
+  std::ifstream in(file);
+  in.seekg(0, std::ios::end);
+  std::string line, part;
+  while (SteadyClock::now() < deadline) {
+    std::getline(in, part);
+    line += part;
+    if (!in.good()) {
+      in.clear();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    } else {
+      if (is_fresh_map(line, newest)) return true;
+      line.clear();
+    }
+  }
+  return false;
+}
+
+}  // namespace laneloom
