@@ -19,6 +19,7 @@ namespace laneloom::dds {
 namespace {
 
 using namespace eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::DiscoveryProtocol_t;
 using eprosima::fastrtps::rtps::GUID_t;
 using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::rtps::IPLocator;
@@ -83,14 +84,22 @@ Peer to_plain(const ParticipantProxyData& data) {
           locators.empty() ? std::string() : IPLocator::ip_to_string(locators[0])};
 }
 
+/// Of one who is told of everybody: a plain client of a discovery server hears of those alone with whom it
+/// has topics in common.
+DomainParticipantQos observer_qos(const DdsConfig& config, const std::string& name) {
+  auto qos = participant_qos(config, name);
+  auto& protocol = qos.wire_protocol().builtin.discovery_config.discoveryProtocol;
+  if (protocol == DiscoveryProtocol_t::CLIENT) protocol = DiscoveryProtocol_t::SUPER_CLIENT;
+  return qos;
+}
+
 }  // namespace
 
 class Discovery::Impl : public DomainParticipantListener {
  public:
   Impl(const DdsConfig& config, const std::string& name)
       : participant_(DomainParticipantFactory::get_instance()->create_participant(
-            static_cast<DomainId_t>(config.domain), participant_qos(config, name), this,
-            StatusMask::none())) {
+            static_cast<DomainId_t>(config.domain), observer_qos(config, name), this, StatusMask::none())) {
     if (!participant_) throw std::runtime_error("DDS refused to make a participant");
   }
   ~Impl() override {

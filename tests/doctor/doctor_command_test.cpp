@@ -47,6 +47,44 @@ TEST_F(Doctor, FindsAWrongPartition) {
   EXPECT_THAT(found("wrong_partition"), HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\""));
 }
 
+/// Those who find each other through a server of this host.
+class DoctorBehindAServer : public Doctor {
+ protected:
+  void SetUp() override {
+    if (access(kServer, X_OK) != 0) GTEST_SKIP() << "there is no discovery server (fastdds-tools)";
+    std::string profile = content(LANELOOM_PROFILES "/discovery_server.xml");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      for (auto at = profile.find(from); at != std::string::npos; at = profile.find(from, at + to.size()))
+        profile.replace(at, from.size(), to);
+    };
+    replace("192.0.2.1", "127.0.0.1");
+    replace("11811", port_);
+    std::ofstream(file("profile.xml")) << profile;
+    std::ofstream(file("config.yaml"))
+        << "dds:\n  profile_file: " << file("profile.xml") << "\n  profile_name: discovery_server\n";
+  }
+  std::vector<std::string> server() const { return {kServer, "-i", "0", "-l", "127.0.0.1", "-p", port_}; }
+  std::vector<std::string> configured(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--config", file("config.yaml")});
+    return words;
+  }
+  std::vector<std::string> profiled(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--profile-file", file("profile.xml"), "--profile-name", "discovery_server"});
+    return words;
+  }
+
+  static constexpr const char* kServer = "/usr/bin/fast-discovery-server";
+  const std::string port_ = std::to_string(20000 + getpid() % 10000);
+};
+
+TEST_F(DoctorBehindAServer, SeesEverybody) {
+  const Process serving(server(), file("server.log"));
+  const Process running(configured(service()), file("service.log"));
+  const Process publishing(command(profiled(publisher()), domain_, "other"), file("publish.log"));
+  ASSERT_TRUE(run_until_found(configured(doctor()), "wrong_partition")) << output();
+  EXPECT_THAT(found("wrong_partition"), HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\""));
+}
+
 TEST_F(Doctor, FindsAServiceOfAnotherVehicle) {
   const Process running(service(), file("service.log"));
   ASSERT_TRUE(
