@@ -101,7 +101,9 @@ class RecordingReader {
 
   /// The next message in the order of log times (of equal ones: in the order of the file). None: the end.
   std::optional<RecordedMessage> next();
-  /// The same without a look into the message: of any that has the name and type of a topic of laneloom.
+  /// The next detections or pose: what the service published is passed over unread.
+  std::optional<RecordedMessage> next_input();
+  /// Like next(), without a look into the message: of any that has the name and type of a topic of laneloom.
   std::optional<RawMessage> next_raw();
 
   /// Messages that were passed over so far, as "<topic>: <reason>".

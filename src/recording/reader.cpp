@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <type_traits>
 #include <utility>
 
 #include "laneloom/dds/cdr.hpp"
@@ -13,6 +14,9 @@ namespace laneloom {
 namespace {
 
 constexpr std::string_view kForeignTopic = "not a topic of laneloom";
+
+template <class T>
+constexpr bool kIsInput = std::is_same_v<T, DetectionFrame> || std::is_same_v<T, VehiclePose>;
 
 /// A channel that has the topic's name, but another type or encoding, would be taken for what it is not.
 template <class T>
@@ -35,15 +39,18 @@ class RecordingReader::Impl {
   Impl(const std::string& path, std::string map_frame_id, const RecordingLimits& limits)
       : map_frame_id_(std::move(map_frame_id)), file_(path, limits) {}
 
-  std::optional<RecordedMessage> next() {
+  std::optional<RecordedMessage> next(bool inputs_only) {
     while (const auto message = file_.next()) {
       RecordedMessage recorded{static_cast<std::int64_t>(message->log_time_ns),
                                static_cast<std::int64_t>(message->publish_time_ns),
                                {}};
+      bool passed_over = false;
       const auto convert = [&]<class T>(std::in_place_type_t<T> /*type*/) {
-        return dds::from_cdr(message->data, map_frame_id_, recorded.message.emplace<T>());
+        passed_over = inputs_only && !kIsInput<T>;
+        return passed_over ? std::string_view()
+                           : dds::from_cdr(message->data, map_frame_id_, recorded.message.emplace<T>());
       };
-      if (accept(*message, convert)) return recorded;
+      if (accept(*message, convert) && !passed_over) return recorded;
     }
     return std::nullopt;
   }
@@ -99,7 +106,8 @@ RecordingReader::RecordingReader(RecordingReader&&) noexcept = default;
 RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = default;
 RecordingReader::~RecordingReader() = default;
 
-std::optional<RecordedMessage> RecordingReader::next() { return impl_->next(); }
+std::optional<RecordedMessage> RecordingReader::next() { return impl_->next(false); }
+std::optional<RecordedMessage> RecordingReader::next_input() { return impl_->next(true); }
 std::optional<RawMessage> RecordingReader::next_raw() { return impl_->next_raw(); }
 const Counters& RecordingReader::refused() const { return impl_->refused(); }
 bool RecordingReader::cut_off() const { return impl_->cut_off(); }

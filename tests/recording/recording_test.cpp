@@ -148,6 +148,27 @@ VehiclePose pose_at(std::int64_t stamp_ns) {
   return pose;
 }
 
+TEST(Recording, InputsAreReadWithoutWhatWasPublished) {
+  const TemporaryFolder folder;
+  RecordingWriter writer(folder.file("r.mcap"));
+  writer.write_cdr<PublishedMap>(Bytes{1, 2, 3}, 1);  // nobody looks into it
+  writer.write(pose_at(7), 2);
+  writer.write(plain<ServiceStatus>(random_message<ServiceStatus>(1)), 3);
+  writer.write(plain<RoadMarkings>(random_message<RoadMarkings>(1)), 4);
+  writer.write(plain<DetectionFrame>(random_message<DetectionFrame>(1)), 5);
+  writer.close();
+  RecordingReader reader(writer.path());
+  const auto pose = reader.next_input();
+  ASSERT_TRUE(pose);
+  EXPECT_EQ(std::get<VehiclePose>(pose->message).stamp_ns, 7);
+  const auto detections = reader.next_input();
+  ASSERT_TRUE(detections);
+  EXPECT_TRUE(std::holds_alternative<DetectionFrame>(detections->message));
+  EXPECT_EQ(detections->log_time_ns, 5);
+  EXPECT_FALSE(reader.next_input());
+  EXPECT_TRUE(reader.refused().values().empty());
+}
+
 TEST(Recording, TopicsAreMergedInTheOrderOfLogTimes) {
   const TemporaryFolder folder;
   RecordingWriter writer(folder.file("r.mcap"), {.chunk_bytes = 500});

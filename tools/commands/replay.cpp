@@ -96,7 +96,8 @@ ReplayResult run(const Options& options, const std::string& config_file, const s
   Replay replay(config, take_map, &result.timer);
   ProgressBar bar;
   const auto start = SteadyClock::now();
-  while (std::optional<RecordedMessage> message = source->next()) {
+  const auto next = [&] { return options.verify ? source->next() : source->next_input(); };
+  while (std::optional<RecordedMessage> message = next()) {
     bar.show(source->progress());
     if (options.verify) result.add_live(message->message);
     replay.add(std::move(*message));

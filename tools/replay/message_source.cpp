@@ -15,6 +15,7 @@ class McapMessages : public MessageSource {
   McapMessages(const std::string& path, const std::string& map_frame_id) : reader_(path, map_frame_id) {}
 
   std::optional<RecordedMessage> next() override { return reader_.next(); }
+  std::optional<RecordedMessage> next_input() override { return reader_.next_input(); }
   std::optional<RawMessage> next_raw() override { return reader_.next_raw(); }
   double progress() const override { return reader_.progress(); }
   Counters refused() const override { return reader_.refused(); }
@@ -39,6 +40,8 @@ class JsonLinesMessages : public MessageSource {
     frame_ = std::move(record->frame);
     return RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
   }
+
+  std::optional<RecordedMessage> next_input() override { return next(); }
 
   std::optional<RawMessage> next_raw() override {
     const std::optional<RecordedMessage> message = next();

@@ -15,6 +15,8 @@ class MessageSource {
 
   /// None: the end. Throws std::runtime_error naming file and place of what is malformed.
   virtual std::optional<RecordedMessage> next() = 0;
+  /// The next detections or pose; what a service published is passed over unread.
+  virtual std::optional<RecordedMessage> next_input() = 0;
   /// The next one as it goes over the wire.
   virtual std::optional<RawMessage> next_raw() = 0;
   /// How much was read, from 0 to 1.
