@@ -91,15 +91,12 @@ FrameError estimate_error(const std::vector<LineMatch>& matches,
   return error;
 }
 
-void align_frame(const Eigen::Isometry3d& T_map_body, const MapperConfig& config,
-                 const std::vector<Line>& lines, std::vector<SampledDetection>& detections,
-                 FrameError& lasting) {
+void align_frame(const Eigen::Isometry3d& T_map_body, const MapperConfig& config, LineMatcher& matcher,
+                 std::vector<SampledDetection>& detections, FrameError& lasting) {
   const AlignmentConfig& limits = config.alignment;
   const FrameError limit{limits.max_longitudinal_m, limits.max_lateral_m, limits.max_yaw_deg * kDegree};
-  auto seen = detections;
-  const auto matches = associate(lines, config.fusion, seen);
-  const FrameError error =
-      estimate_error(matches, detections, lines, T_map_body, config.fusion.confirm_log_odds);
+  const FrameError error = estimate_error(matcher.match(detections), detections, matcher.lines(), T_map_body,
+                                          config.fusion.confirm_log_odds);
   const FrameError passing = (error - lasting).cwiseMin(limit).cwiseMax(-limit);
   lasting += kLasting * (error - lasting);
   for (SampledDetection& detection : detections) apply(passing, T_map_body, detection.samples);

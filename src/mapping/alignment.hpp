@@ -21,9 +21,9 @@ FrameError estimate_error(const std::vector<LineMatch>& matches,
                           const Eigen::Isometry3d& T_map_body, double min_log_odds);
 
 /// Takes a frame's error out of its detections, within the configured limits, but for what lasts: that is a
-/// drift of the poses, with which the map has to go. `lasting` is its running mean. Ours.
-void align_frame(const Eigen::Isometry3d& T_map_body, const MapperConfig& config,
-                 const std::vector<Line>& lines, std::vector<SampledDetection>& detections,
-                 FrameError& lasting);
+/// drift of the poses, with which the map has to go. `lasting` is its running mean. `matcher` is of the map's
+/// lines. Ours.
+void align_frame(const Eigen::Isometry3d& T_map_body, const MapperConfig& config, LineMatcher& matcher,
+                 std::vector<SampledDetection>& detections, FrameError& lasting);
 
 }  // namespace laneloom

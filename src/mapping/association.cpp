@@ -2,50 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "laneloom/polyline.hpp"
-#include "mapping/nearest_stations.hpp"
 
 namespace laneloom {
 namespace {
-
-struct Candidate {
-  double score = 0.0;
-  LineMatch match;
-};
 
 Eigen::Vector2d direction_of(const Polyline& samples, std::size_t i) {
   const std::size_t before = i == 0 ? 0 : i - 1;
   const std::size_t after = std::min(i + 1, samples.size() - 1);
   return (samples[after] - samples[before]).head<2>().normalized();
-}
-
-/// All lines that a detection's samples lie beside, with the samples that do.
-void find_candidates(std::size_t index, const SampledDetection& detection, const std::vector<Line>& lines,
-                     double min_cosine, double gate_m, NearestStations& nearest_stations,
-                     std::vector<Candidate>& candidates) {
-  std::map<std::uint32_t, Candidate> by_line;
-  for (std::size_t i = 0; i < detection.samples.size(); ++i) {
-    const Point& point = detection.samples[i];
-    for (const NearestStation& n : nearest_stations.around(point)) {
-      const Line& line = lines[n.line];
-      const StationFoot foot = foot_at(line, n.station, point);
-      const auto last = static_cast<double>(line.stations.size() - 1);
-      if (foot.index < -0.5 || foot.index > last + 0.5 || std::abs(foot.lateral_m) > gate_m) continue;
-      if (std::abs(direction_of(detection.samples, i).dot(direction_at(line, n.station))) < min_cosine)
-        continue;
-      Candidate& candidate = by_line[n.line];
-      const double fit = foot.lateral_m / gate_m;
-      candidate.score += 1.0 - fit * fit;
-      candidate.match.samples.push_back({i, foot});
-    }
-  }
-  for (auto& [line, candidate] : by_line) {
-    candidate.match.detection = index;
-    candidate.match.line = line;
-    candidates.push_back(std::move(candidate));
-  }
 }
 
 }  // namespace
@@ -65,36 +31,82 @@ std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarkin
   return detections;
 }
 
-std::vector<LineMatch> associate(const std::vector<Line>& lines, const FusionConfig& config,
-                                 std::vector<SampledDetection>& detections) {
-  const double min_cosine = cos_degrees(config.gate_angle_deg);
-  NearestStations along(lines, false, config.gate_m), across(lines, true, config.gate_m);
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < detections.size(); ++i) {
-    find_candidates(i, detections[i], lines, min_cosine, config.gate_m,
-                    is_stopline(detections[i].type) ? across : along, candidates);
+struct LineMatcher::Candidate {
+  double score = 0.0;
+  LineMatch match;
+};
+
+LineMatcher::LineMatcher(const std::vector<Line>& lines, const FusionConfig& config)
+    : lines_(lines),
+      config_(config),
+      min_cosine_(cos_degrees(config.gate_angle_deg)),
+      along_(lines, false, config.gate_m),
+      across_(lines, true, config.gate_m) {}
+
+/// All lines that a detection's samples lie beside, with the samples that do.
+void LineMatcher::find_candidates(std::size_t index, const SampledDetection& detection, std::size_t stride,
+                                  std::vector<Candidate>& candidates) {
+  NearestStations& nearest_stations = is_stopline(detection.type) ? across_ : along_;
+  const auto first = std::ssize(candidates);
+  const auto of_line = [&](std::size_t line) -> Candidate& {
+    const auto known = std::find_if(candidates.begin() + first, candidates.end(),
+                                    [line](const Candidate& c) { return c.match.line == line; });
+    if (known != candidates.end()) return *known;
+    candidates.push_back({0.0, {index, line, {}}});
+    candidates.back().match.samples.reserve(detection.samples.size() / stride + 1);
+    return candidates.back();
+  };
+  for (std::size_t i = 0; i < detection.samples.size(); i += stride) {
+    const Point& point = detection.samples[i];
+    const Eigen::Vector2d direction = direction_of(detection.samples, i);
+    for (const NearestStation& n : nearest_stations.around(point)) {
+      const Line& line = lines_[n.line];
+      const StationFoot foot = foot_at(line, n.station, point);
+      const auto last = static_cast<double>(line.stations.size() - 1);
+      if (foot.index < -0.5 || foot.index > last + 0.5) continue;
+      if (std::abs(foot.lateral_m) > config_.gate_m) continue;
+      if (std::abs(direction.dot(direction_at(line, n.station))) < min_cosine_) continue;
+      Candidate& candidate = of_line(n.line);
+      const double fit = foot.lateral_m / config_.gate_m;
+      candidate.score += 1.0 - fit * fit;
+      candidate.match.samples.push_back({i, foot});
+    }
   }
+  std::sort(candidates.begin() + first, candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.match.line < b.match.line; });
+}
+
+std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& detections,
+                                          std::size_t stride) {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < detections.size(); ++i) find_candidates(i, detections[i], stride, candidates);
   std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::score);
 
-  std::vector<std::vector<bool>> observed(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) observed[i].assign(lines[i].stations.size(), false);
+  std::vector<std::vector<bool>> explained(detections.size()), observed(lines_.size());
+  for (std::size_t i = 0; i < detections.size(); ++i) explained[i].resize(detections[i].samples.size());
+  for (std::size_t i = 0; i < lines_.size(); ++i) observed[i].resize(lines_[i].stations.size());
+  const double step_m = static_cast<double>(stride) * config_.sample_step_m;
   std::vector<LineMatch> matches;
   for (auto& [score, match] : candidates) {
-    auto& explained = detections[match.detection].explained;
+    auto& used = explained[match.detection];
     auto& taken = observed[match.line];
     const auto station = [](const SampleMatch& s) {
       return static_cast<std::size_t>(std::lround(std::max(0.0, s.foot.index - 1e-6)));
     };
-    std::erase_if(match.samples,
-                  [&](const SampleMatch& s) { return explained[s.sample] || taken[station(s)]; });
-    if (static_cast<double>(match.samples.size()) * config.sample_step_m < config.min_overlap_m) continue;
-    for (const SampleMatch& s : match.samples) explained[s.sample] = true;
+    std::erase_if(match.samples, [&](const SampleMatch& s) { return used[s.sample] || taken[station(s)]; });
+    if (static_cast<double>(match.samples.size()) * step_m < config_.min_overlap_m) continue;
+    for (const SampleMatch& s : match.samples) used[s.sample] = true;
     const auto [first, last] =
         std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });
     for (std::size_t k = station(first); k <= station(last); ++k) taken[k] = true;
     matches.push_back(std::move(match));
   }
   return matches;
+}
+
+void mark_explained(const std::vector<LineMatch>& matches, std::vector<SampledDetection>& detections) {
+  for (const LineMatch& match : matches)
+    for (const SampleMatch& s : match.samples) detections[match.detection].explained[s.sample] = true;
 }
 
 }  // namespace laneloom

@@ -6,6 +6,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/line_map.hpp"
+#include "mapping/nearest_stations.hpp"
 #include "mapping/preprocess.hpp"
 
 namespace laneloom {
@@ -29,16 +30,37 @@ struct SampledDetection {
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
   double confidence = 0.0;
-  std::vector<bool> explained;  ///< per sample: some line was matched to it
+  std::vector<bool> explained;  ///< per sample: some line accounts for it
 };
 
 std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,
                                                 const FusionConfig& config);
 
-/// Which detection observes which line: pairs that lie close and run alike, the best fit first. No place of a
-/// line is observed by two detections of one frame, since what is seen side by side is not one line; no
-/// sample observes two lines. Marks the explained samples.
-std::vector<LineMatch> associate(const std::vector<Line>& lines, const FusionConfig& config,
-                                 std::vector<SampledDetection>& detections);
+/// Tells which detection observes which of the lines of one instant. Not thread-safe.
+class LineMatcher {
+ public:
+  /// `lines` have to stay as they are.
+  LineMatcher(const std::vector<Line>& lines, const FusionConfig& config);
+
+  /// Pairs that lie close and run alike, the best fit first. No place of a line is observed by two detections
+  /// of one frame, since what is seen side by side is not one line; no sample observes two lines. Looks at
+  /// every `stride`-th sample only.
+  std::vector<LineMatch> match(const std::vector<SampledDetection>& detections, std::size_t stride = 1);
+
+  const std::vector<Line>& lines() const { return lines_; }
+
+ private:
+  struct Candidate;
+  void find_candidates(std::size_t index, const SampledDetection& detection, std::size_t stride,
+                       std::vector<Candidate>& candidates);
+
+  const std::vector<Line>& lines_;
+  FusionConfig config_;
+  double min_cosine_;
+  NearestStations along_, across_;
+};
+
+/// Marks the samples that were matched.
+void mark_explained(const std::vector<LineMatch>& matches, std::vector<SampledDetection>& detections);
 
 }  // namespace laneloom

@@ -6,6 +6,12 @@
 #include "laneloom/polyline.hpp"
 
 namespace laneloom {
+namespace {
+
+constexpr double kCell_m = 1.0;  // about a gate and a station's spacing: what is looked for is in few cells
+
+}  // namespace
+
 MarkingType Line::type() const {
   return static_cast<MarkingType>(std::ranges::max_element(type_votes) - type_votes.begin());
 }
@@ -63,7 +69,7 @@ StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
   std::vector<std::size_t> cells;
   cells.reserve(all.size());
   for (const Entry& entry : all) {
-    cells.push_back(cell_number(cell_of(entry.position)));
+    cells.push_back(cell_number(cell_of(entry.position.head<2>())));
     ++starts_[cells.back() + 1];
   }
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
@@ -72,12 +78,10 @@ StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
   for (std::size_t i = 0; i < all.size(); ++i) entries_[next[cells[i]]++] = all[i];
 }
 
-Eigen::Vector2i StationGrid::cell_of(const Point& point) const {
-  // Clamped, so that a point far away does not overflow.
-  const Eigen::Vector2d cell = ((point.head<2>() - origin_) / kCell_m).array().floor();
-  return cell.cwiseMax(-2.0)
-      .cwiseMin(size_.cast<double>().array().matrix() + Eigen::Vector2d(2, 2))
-      .cast<int>();
+Eigen::Vector2i StationGrid::cell_of(const Eigen::Vector2d& place) const {
+  // Clamped, so that what is far away does not overflow.
+  const Eigen::Vector2d cell = ((place - origin_) / kCell_m).array().floor();
+  return cell.cwiseMax(-1.0).cwiseMin(size_.cast<double>()).cast<int>();
 }
 
 }  // namespace laneloom

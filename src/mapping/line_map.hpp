@@ -70,29 +70,28 @@ class StationGrid {
     std::uint32_t line = 0;
     std::uint32_t station = 0;
   };
-  static constexpr double kCell_m = 2.0;  ///< no less than a gate and a station's spacing
-
   /// Of all stoplines, or of all other lines.
   StationGrid(const std::vector<Line>& lines, bool of_stoplines);
 
-  /// Calls `visit(entry)` for every station within a cell of `point`, in a fixed order.
+  /// Calls `visit(entry)` for every station that is within `reach_m` of `point`, and for some that are little
+  /// further, in a fixed order.
   template <class Visit>
-  void around(const Point& point, Visit&& visit) const {
+  void around(const Point& point, double reach_m, Visit&& visit) const {
     if (entries_.empty()) return;
-    const Eigen::Vector2i center = cell_of(point);
-    const int first_x = std::max(center.x() - 1, 0), last_x = std::min(center.x() + 1, size_.x() - 1);
-    const int first_y = std::max(center.y() - 1, 0), last_y = std::min(center.y() + 1, size_.y() - 1);
-    if (first_x > last_x) return;
-    for (int y = first_y; y <= last_y; ++y) {
+    const Eigen::Vector2d reach(reach_m, reach_m);
+    const Eigen::Vector2i first = cell_of(point.head<2>() - reach).cwiseMax(0);
+    const Eigen::Vector2i last = cell_of(point.head<2>() + reach).cwiseMin(size_ - Eigen::Vector2i::Ones());
+    if (first.x() > last.x()) return;
+    for (int y = first.y(); y <= last.y(); ++y) {
       // The cells of a row follow one another.
-      const Entry* const end = entries_.data() + starts_[cell_number({last_x, y}) + 1];
-      for (const Entry* entry = entries_.data() + starts_[cell_number({first_x, y})]; entry != end; ++entry)
+      const Entry* const end = entries_.data() + starts_[cell_number({last.x(), y}) + 1];
+      for (const Entry* entry = entries_.data() + starts_[cell_number({first.x(), y})]; entry != end; ++entry)
         visit(*entry);
     }
   }
 
  private:
-  Eigen::Vector2i cell_of(const Point& point) const;
+  Eigen::Vector2i cell_of(const Eigen::Vector2d& place) const;
   std::size_t cell_number(const Eigen::Vector2i& cell) const {
     return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(size_.x()) +
            static_cast<std::size_t>(cell.x());

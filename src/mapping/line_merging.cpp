@@ -23,14 +23,16 @@ using IndexPair = std::pair<std::size_t, std::size_t>;
 std::vector<IndexPair> neighbours(const std::vector<Line>& lines, const FusionConfig& config) {
   std::vector<IndexPair> pairs;
   const StationGrid along(lines, false), across(lines, true);
-  const double reach_m = config.merge_distance_m + config.station_spacing_m;
+  // What lies beside a line has one of its stations this near, unless these are twice as far apart as wanted.
+  const double reach_m = std::sqrt(config.merge_distance_m * config.merge_distance_m +
+                                   config.station_spacing_m * config.station_spacing_m);
   std::vector<bool> near(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     near.assign(lines.size(), false);
     const StationGrid& grid = is_stopline(lines[i].type()) ? across : along;
     for (std::size_t k = 0; k < lines[i].stations.size(); k += kStride) {
       const Point& point = lines[i].stations[k].position;
-      grid.around(point, [&](const StationGrid::Entry& entry) {
+      grid.around(point, reach_m, [&](const StationGrid::Entry& entry) {
         if ((entry.position - point).head<2>().squaredNorm() < reach_m * reach_m) near[entry.line] = true;
       });
     }

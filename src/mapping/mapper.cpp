@@ -81,8 +81,10 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   const Point origin = input.T_map_body.translation();
   auto& lines = state.lines;
   auto detections = sample_detections(input.markings, fusion);
-  align_frame(input.T_map_body, config, lines, detections, state.lasting_error);
-  const auto matches = associate(lines, fusion, detections);
+  LineMatcher matcher(lines, fusion);
+  align_frame(input.T_map_body, config, matcher, detections, state.lasting_error);
+  const auto matches = matcher.match(detections);
+  mark_explained(matches, detections);
   count_joints(matches, lines, config.boundary.max_gap_m, state.joints);
   done(Stage::association);
   const auto observed = fuse_matches(matches, detections, origin, fusion, lines);

@@ -18,7 +18,7 @@ struct NearestStation {
 class NearestStations {
  public:
   /// Of all stoplines, or of all other lines. A point is on a line where its foot (see foot_at) is no further
-  /// aside than `gate_m`. `lines` are not needed later on.
+  /// aside than `gate_m`; outside of a sharp bend, within 2 m of it. `lines` are not needed later on.
   NearestStations(const std::vector<Line>& lines, bool of_stoplines, double gate_m);
 
   /// Leaves out what lies on another level, and lines that the point is too far from to lie on. Each line
@@ -26,13 +26,10 @@ class NearestStations {
   const std::vector<NearestStation>& around(const Point& point);
 
  private:
-  /// Returns whether any station is on another level.
-  bool collect(const Point& point, const std::vector<double>& squared_reach_m2);
-
   StationGrid grid_;
-  std::vector<double> squared_reach_m2_;  ///< by line, as far as what follows
-  std::vector<double> unlimited_m2_;
-  std::vector<std::uint32_t> slots_;  ///< by line: where in near_ it is
+  std::vector<double> squared_reach_m2_;  ///< by line, as far as slots_
+  double furthest_m_ = 0.0;               ///< of these, its root
+  std::vector<std::uint32_t> slots_;      ///< by line: where in near_ it is
   std::vector<NearestStation> near_;
 };
 

@@ -40,10 +40,15 @@ class Alignment : public ::testing::Test {
     return sample_detections(markings, {});
   }
 
+  void align(std::vector<SampledDetection>& frame) {
+    LineMatcher matcher(lines_, config_.fusion);
+    align_frame(T_map_body_, config_, matcher, frame, lasting_);
+  }
+
   /// How far the detections lie beside their lines after aligning them.
   double residual_m(const FrameError& error) {
     auto frame = detections(error);
-    align_frame(T_map_body_, config_, lines_, frame, lasting_);
+    align(frame);
     double largest_m = 0.0;
     for (std::size_t i = 0; i + 1 < frame.size(); ++i)
       largest_m = std::max(
@@ -60,8 +65,8 @@ class Alignment : public ::testing::Test {
 
 TEST_F(Alignment, FindsWhatAllDetectionsHaveInCommon) {
   const FrameError error{0.3, 0.0, 0.01};
-  auto frame = detections(error);
-  const auto matches = associate(lines_, config_.fusion, frame);
+  const auto frame = detections(error);
+  const auto matches = LineMatcher(lines_, config_.fusion).match(frame);
   const FrameError found = estimate_error(matches, frame, lines_, T_map_body_, 2.0);
   // Drawn towards none, the less the more lines tell.
   EXPECT_GT(found.z(), 0.006);
@@ -85,7 +90,7 @@ TEST_F(Alignment, OneLineAmongOthersDoesNotTurnTheFrame) {
   auto frame = detections(FrameError::Zero());
   for (Point& p : frame[0].samples) p += Point(-0.3, 0.2, 0.0);
   const Polyline right = frame[1].samples;
-  align_frame(T_map_body_, config_, lines_, frame, lasting_);
+  align(frame);
   EXPECT_LT(test::max_distance(frame[1].samples, right), 0.05);
 }
 

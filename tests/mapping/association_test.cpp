@@ -18,9 +18,9 @@ std::vector<SampledDetection> detect(const std::vector<Polyline>& lines,
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> matched(const std::vector<Line>& lines,
-                                                         std::vector<SampledDetection> detections) {
+                                                         const std::vector<SampledDetection>& detections) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const LineMatch& match : associate(lines, {}, detections))
+  for (const LineMatch& match : LineMatcher(lines, {}).match(detections))
     pairs.emplace_back(match.detection, match.line);
   std::ranges::sort(pairs);
   return pairs;
@@ -71,7 +71,9 @@ TEST(Association, OneDetectionMayObserveTwoLinesInARow) {
   const std::vector<Line> lines{line(1, straight({0, 0, 0}, {10, 0, 0}, 11)),
                                 line(2, straight({14, 0, 0}, {30, 0, 0}, 17))};
   auto detections = detect({straight({0, 0.1, 0}, {30, 0.1, 0})});
-  EXPECT_EQ(associate(lines, {}, detections).size(), 2U);
+  const auto matches = LineMatcher(lines, {}).match(detections);
+  EXPECT_EQ(matches.size(), 2U);
+  mark_explained(matches, detections);
   const auto unexplained = std::ranges::count(detections[0].explained, false);
   EXPECT_NEAR(static_cast<double>(unexplained), 6.0, 2.0);  // the gap of 4 m, less half a spacing at each end
 }

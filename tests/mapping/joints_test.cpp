@@ -17,8 +17,7 @@ class Joints : public ::testing::Test {
     std::vector<ObservedMarking> markings;
     for (const Polyline& points : seen)
       markings.push_back({.type = MarkingType::laneline, .confidence = 0.9, .points = points});
-    auto detections = sample_detections(markings, {});
-    count_joints(associate(lines_, {}, detections), lines_, max_gap_m, joints_);
+    count_joints(LineMatcher(lines_, {}).match(sample_detections(markings, {})), lines_, max_gap_m, joints_);
   }
 
   const Polyline first_ = straight({0, 0, 0}, {10, 0, 0}, 11), second_ = straight({12, 0, 0}, {22, 0, 0}, 11),

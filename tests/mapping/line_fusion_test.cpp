@@ -16,7 +16,8 @@ class LineFusion : public ::testing::Test {
     std::vector<ObservedMarking> markings;
     for (const Polyline& points : polylines) markings.push_back({type, MarkingStyle::solid, 0.8, points});
     auto detections = sample_detections(markings, config_);
-    const auto matches = associate(lines_, config_, detections);
+    const auto matches = LineMatcher(lines_, config_).match(detections);
+    mark_explained(matches, detections);
     const auto observed = fuse_matches(matches, detections, Point::Zero(), config_, lines_);
     discount_unobserved(observed, {Eigen::Isometry3d::Identity(), &frame_}, range_, config_, lines_);
     extend_lines(matches, Point::Zero(), config_, detections, lines_);

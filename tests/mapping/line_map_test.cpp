@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 
 #include "mapping/shapes.hpp"
@@ -30,29 +31,32 @@ TEST(StationFoot, BeyondAnEndTheIndexSaysHowFar) {
   EXPECT_DOUBLE_EQ(after.lateral_m, 0.2);
 }
 
-TEST(StationGrid, FindsEveryStationWithinACell) {
+TEST(StationGrid, FindsEveryStationWithinReach) {
   const std::vector<Line> lines{test::line(1, test::straight({-30, 5, 0}, {40, 8, 0}, 71)),
                                 test::line(2, test::arc({0, 0, 0}, 12, 0, 270))};
   const StationGrid grid(lines, false);
   for (const Point& point :
-       {Point(0, 6, 0), Point(-12, 0, 0), Point(40, 8, 0), Point(1000, -1000, 0), Point(-30, 5, 9)}) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> found;
-    grid.around(point, [&](const StationGrid::Entry& entry) {
-      EXPECT_TRUE(found.insert({entry.line, entry.station}).second);
-      EXPECT_EQ(entry.position, lines[entry.line].stations[entry.station].position);
-    });
-    for (std::uint32_t i = 0; i < lines.size(); ++i) {
-      for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
-        const double distance_m = (lines[i].stations[k].position - point).head<2>().norm();
-        if (distance_m >= 2.0) continue;
-        EXPECT_TRUE(found.contains({i, k})) << point.transpose();
+       {Point(0, 6, 0), Point(-12, 0, 0), Point(40, 8, 0), Point(1e9, -1e9, 0), Point(-30, 5, 9)}) {
+    for (const double reach_m : {0.4, 0.9, 2.3, 1e10}) {
+      std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+      grid.around(point, reach_m, [&](const StationGrid::Entry& entry) {
+        EXPECT_TRUE(found.insert({entry.line, entry.station}).second);
+        EXPECT_EQ(entry.position, lines[entry.line].stations[entry.station].position);
+        EXPECT_LT((entry.position - point).head<2>().norm(), std::numbers::sqrt2 * (reach_m + 1.0));
+      });
+      for (std::uint32_t i = 0; i < lines.size(); ++i) {
+        for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
+          const double distance_m = (lines[i].stations[k].position - point).head<2>().norm();
+          if (distance_m >= reach_m) continue;
+          EXPECT_TRUE(found.contains({i, k})) << point.transpose();
+        }
       }
     }
   }
 }
 
 TEST(StationGrid, OfNothingFindsNothing) {
-  StationGrid({}, false).around({0, 0, 0}, [](const StationGrid::Entry&) { ADD_FAILURE(); });
+  StationGrid({}, false).around({0, 0, 0}, 5.0, [](const StationGrid::Entry&) { ADD_FAILURE(); });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <random>
 
 #include "mapping/shapes.hpp"
@@ -31,31 +32,33 @@ Places found(NearestStations& nearest_stations, const std::vector<Line>& lines, 
   return places;
 }
 
-/// From all stations of the cells around the point, whatever their line's reach.
-Places expected(const StationGrid& grid, const std::vector<Line>& lines, const Point& point) {
-  std::map<std::uint32_t, std::pair<double, std::uint32_t>> nearest;
-  grid.around(point, [&](const StationGrid::Entry& entry) {
-    const Point offset = entry.position - point;
-    if (std::abs(offset.z()) > 2.0) return;
-    const double distance_m = offset.head<2>().norm();
-    const auto [known, is_new] = nearest.try_emplace(entry.line, distance_m, entry.station);
-    if (!is_new && distance_m < known->second.first) known->second = {distance_m, entry.station};
-  });
+/// From all stations of the point's level that are within reach.
+Places expected(const std::vector<Line>& lines, const Point& point, double reach_m) {
   Places places;
-  for (const auto& [line, station] : nearest)
-    if (lies_on(lines[line], station.second, point)) places.emplace(line, station.second);
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    double nearest_m = reach_m;
+    std::optional<std::uint32_t> nearest;
+    for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
+      const Point offset = lines[i].stations[k].position - point;
+      const double distance_m = offset.head<2>().norm();
+      if (std::abs(offset.z()) > 2.0 || distance_m >= nearest_m) continue;
+      nearest_m = distance_m;
+      nearest = k;
+    }
+    if (nearest && lies_on(lines[i], *nearest, point)) places.emplace(i, *nearest);
+  }
   return places;
 }
 
-/// Stations about `step_m` apart, whose heading and height wander.
-Line wandering_line(ElementId id, double step_m, double turn_rad, double climb_m, std::mt19937_64& random) {
+/// On one of two levels; stations about `step_m` apart, whose heading and height wander.
+Line wandering_line(ElementId id, double step_m, double turn_rad, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   double heading_rad = 3.0 * normal(random);
-  Polyline points{10.0 * Point(normal(random), normal(random), 0.1 * normal(random))};
+  Polyline points{Point(10.0 * normal(random), 10.0 * normal(random), id % 2 == 0 ? 5.0 : 0.0)};
   while (points.size() < 40) {
     heading_rad += turn_rad * normal(random);
     points.push_back(points.back() + Point(step_m * std::cos(heading_rad), step_m * std::sin(heading_rad),
-                                           climb_m * normal(random)));
+                                           0.02 * normal(random)));
   }
   return test::line(id, points);
 }
@@ -65,22 +68,19 @@ TEST(NearestStations, MissNoLineThatAPointLiesOn) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> share(0.0, 1.0);
   std::size_t places = 0;
-  for (const double step_m : {0.7, 1.0, 1.4, 3.9}) {       // so far apart that none may be within a cell
+  for (const double step_m : {0.7, 1.0, 1.4, 3.9, 9.0}) {
+    const double reach_m = std::max(2.0, std::hypot(kGate_m, 0.5 * step_m));
     for (const double turn_rad : {0.02, 0.3, 1.2, 3.0}) {  // to sharp corners
-      for (const double climb_m : {0.02, 0.7}) {           // to another level and back
-        std::vector<Line> lines;
-        for (ElementId id = 1; id <= 8; ++id)
-          lines.push_back(wandering_line(id, step_m, turn_rad, climb_m, random));
-        const StationGrid grid(lines, false);
-        NearestStations nearest_stations(lines, false, kGate_m);
-        for (const Line& line : lines) {
-          for (std::size_t k = 1; k < line.stations.size(); ++k) {
-            const Point &a = line.stations[k - 1].position, &b = line.stations[k].position;
-            const Point point = a + share(random) * (b - a) + Point(normal(random), normal(random), 0.0);
-            const Places all = expected(grid, lines, point);
-            EXPECT_EQ(found(nearest_stations, lines, point), all);
-            places += all.size();
-          }
+      std::vector<Line> lines;
+      for (ElementId id = 1; id <= 12; ++id) lines.push_back(wandering_line(id, step_m, turn_rad, random));
+      NearestStations nearest_stations(lines, false, kGate_m);
+      for (const Line& line : lines) {
+        for (std::size_t k = 1; k < line.stations.size(); ++k) {
+          const Point &a = line.stations[k - 1].position, &b = line.stations[k].position;
+          const Point point = a + share(random) * (b - a) + Point(normal(random), normal(random), 0.0);
+          const Places all = expected(lines, point, reach_m);
+          EXPECT_EQ(found(nearest_stations, lines, point), all);
+          places += all.size();
         }
       }
     }
@@ -88,13 +88,19 @@ TEST(NearestStations, MissNoLineThatAPointLiesOn) {
   EXPECT_GT(places, 1000U);
 }
 
-TEST(NearestStations, FindALineWhoseNearestStationIsOutOfSight) {
-  // The cells begin at -4.4 m: the station at 3.65 m is two cells away from the point, the other one is not.
-  const std::vector<Line> lines{test::line(1, test::straight({-0.85, 0, 0}, {3.65, 0, 0})),
-                                test::line(2, test::straight({-4.4, 3, 0}, {-4.0, 3, 0}))};
+TEST(NearestStations, FindALineWhoseStationsAreFarApart) {
+  const std::vector<Line> lines{test::line(1, test::straight({0, 0, 0}, {9, 0, 0}))};
   NearestStations nearest_stations(lines, false, kGate_m);
-  ASSERT_EQ(nearest_stations.around({1.55, 0.1, 0}).size(), 1U);
-  EXPECT_EQ(nearest_stations.around({1.55, 0.1, 0}).front().station, 0U);
+  ASSERT_EQ(nearest_stations.around({4.4, 0.6, 0}).size(), 1U);
+  EXPECT_EQ(nearest_stations.around({4.4, 0.6, 0}).front().station, 0U);
+  EXPECT_EQ(nearest_stations.around({4.6, 0.6, 0}).front().station, 1U);
+}
+
+TEST(NearestStations, OfASharpBendAreFoundTwoMetresOutsideOfIt) {
+  const std::vector<Line> lines{test::line(1, {{-1, 0, 0}, {0, 0, 0}, {-1, 0.1, 0}})};
+  NearestStations nearest_stations(lines, false, kGate_m);
+  EXPECT_EQ(nearest_stations.around({1.9, 0, 0}).size(), 1U);
+  EXPECT_TRUE(nearest_stations.around({2.1, 0, 0}).empty());
 }
 
 TEST(NearestStations, AreOfStoplinesOrOfAllOthers) {
