@@ -36,8 +36,7 @@ std::vector<Equation> equations(const LineMatch& match, const SampledDetection& 
                                 const Eigen::Isometry3d& T_map_body, double min_log_odds) {
   const Eigen::Matrix2d R_map_body = heading_of(T_map_body);
   std::vector<Equation> rows;
-  for (std::size_t i = 0; i < match.samples.size(); i += kStride) {
-    const SampleMatch& sample = match.samples[i];
+  for (const SampleMatch& sample : match.samples) {
     const std::size_t k = station_of(sample, line);
     if (!sample.foot.inside || line.stations[k].log_odds < min_log_odds) continue;
     const Eigen::Vector2d along = R_map_body.transpose() * direction_at(line, k);
@@ -95,8 +94,8 @@ void align_frame(const Eigen::Isometry3d& T_map_body, const MapperConfig& config
                  std::vector<SampledDetection>& detections, FrameError& lasting) {
   const AlignmentConfig& limits = config.alignment;
   const FrameError limit{limits.max_longitudinal_m, limits.max_lateral_m, limits.max_yaw_deg * kDegree};
-  const FrameError error = estimate_error(matcher.match(detections), detections, matcher.lines(), T_map_body,
-                                          config.fusion.confirm_log_odds);
+  const FrameError error = estimate_error(matcher.match(detections, kStride), detections, matcher.lines(),
+                                          T_map_body, config.fusion.confirm_log_odds);
   const FrameError passing = (error - lasting).cwiseMin(limit).cwiseMax(-limit);
   lasting += kLasting * (error - lasting);
   for (SampledDetection& detection : detections) apply(passing, T_map_body, detection.samples);
