@@ -9,7 +9,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kSampleStep_m = 1.0;
+constexpr double kSampleStep_m = 4.0;  // the length of a lane, at least
 constexpr double kAlignedCosine =
     0.2;  // with the heading: below, a road crosses the vehicle's rather than follows it
 
@@ -19,6 +19,13 @@ struct Overlap {
   double length_m = 0.0;
   bool opposed = false;  ///< a and b run against each other
 };
+
+/// How `b` then lies to `a`.
+Overlap seen_from_other(const Overlap& overlap) {
+  return {.lateral_m = overlap.opposed ? overlap.lateral_m : -overlap.lateral_m,
+          .length_m = overlap.length_m,
+          .opposed = overlap.opposed};
+}
 
 /// A boundary's points, evenly spaced, with the directions in which it leaves them.
 struct Samples {
@@ -68,12 +75,12 @@ Graph overlap_graph(const std::vector<MeasuredPolyline>& lines, const SectionCon
   Graph graph(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      const auto j_beside_i = overlap(samples[j], lines[i], config.max_distance_m, min_cosine);
-      if (!j_beside_i) continue;
-      const auto i_beside_j = overlap(samples[i], lines[j], config.max_distance_m, min_cosine);
-      if (!i_beside_j) continue;
-      graph[i].push_back({j, *j_beside_i});
-      graph[j].push_back({i, *i_beside_j});
+      const bool i_is_longer = lines[i].length() >= lines[j].length();
+      const std::size_t longer = i_is_longer ? i : j, shorter = i_is_longer ? j : i;
+      const auto beside = overlap(samples[shorter], lines[longer], config.max_distance_m, min_cosine);
+      if (!beside) continue;
+      graph[longer].push_back({shorter, *beside});
+      graph[shorter].push_back({longer, seen_from_other(*beside)});
     }
   }
   return graph;

@@ -73,6 +73,19 @@ TEST(RoadSections, TheRightOnesComeByTheirDistance) {
   EXPECT_NEAR(graph.right_of[1][1].distance_m, 7.0, 1e-9);
 }
 
+TEST(RoadSections, OfTwoThatLieSideBySideOneIsOnTheRight) {
+  // Staggered, bent towards each other, and run through in either direction.
+  for (const bool turned : {false, true}) {
+    std::vector<LaneBoundary> boundaries{boundary(1, {{0, 0, 0}, {20, 1, 0}, {40, 0, 0}}),
+                                         boundary(2, {{30, 4, 0}, {45, 3.5, 0}, {60, 4, 0}})};
+    if (turned) std::ranges::reverse(boundaries[1].marking.points);
+    const auto graph = sections_of(boundaries);
+    ASSERT_EQ(graph.right_of[1].size(), 1U);
+    EXPECT_EQ(graph.right_of[1][0].right, 0U);
+    EXPECT_TRUE(graph.right_of[0].empty());
+  }
+}
+
 TEST(RoadSections, ARoadThatCrossesTheVehiclesKeepsItsOwnDirection) {
   std::vector<LaneBoundary> boundaries{boundary(1, straight({20, 15, 0}, {20, -15, 0})),
                                        boundary(2, straight({23.5, -15, 0}, {23.5, 10, 0}))};
