@@ -52,6 +52,8 @@ class MeasuredPolyline {
   Polyline resample(double step_m) const;
 
  private:
+  /// `after` is the first vertex beyond the arc length.
+  Point at(double arc_m, std::size_t after) const;
   struct Nearest;
   void consider(std::size_t segment, const Point& point, Nearest& nearest) const;
   void search_along_course(const Point& point, Nearest& nearest) const;

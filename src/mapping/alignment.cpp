@@ -36,6 +36,7 @@ std::vector<Equation> equations(const LineMatch& match, const SampledDetection& 
                                 const Eigen::Isometry3d& T_map_body, double min_log_odds) {
   const Eigen::Matrix2d R_map_body = heading_of(T_map_body);
   std::vector<Equation> rows;
+  rows.reserve(match.samples.size());
   for (const SampleMatch& sample : match.samples) {
     const std::size_t k = station_of(sample, line);
     if (!sample.foot.inside || line.stations[k].log_odds < min_log_odds) continue;
@@ -69,6 +70,7 @@ FrameError estimate_error(const std::vector<LineMatch>& matches,
                           const std::vector<SampledDetection>& detections, const std::vector<Line>& lines,
                           const Eigen::Isometry3d& T_map_body, double min_log_odds) {
   std::vector<std::vector<Equation>> by_line;
+  by_line.reserve(matches.size());
   for (const LineMatch& match : matches) {
     auto rows = equations(match, detections[match.detection], lines[match.line], T_map_body, min_log_odds);
     if (!rows.empty()) by_line.push_back(std::move(rows));

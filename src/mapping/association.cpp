@@ -87,6 +87,7 @@ std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& d
   for (std::size_t i = 0; i < lines_.size(); ++i) observed[i].resize(lines_[i].stations.size());
   const double step_m = static_cast<double>(stride) * config_.sample_step_m;
   std::vector<LineMatch> matches;
+  matches.reserve(candidates.size());
   for (auto& [score, match] : candidates) {
     auto& used = explained[match.detection];
     auto& taken = observed[match.line];

@@ -51,14 +51,18 @@ Eigen::Vector2d direction_at(const Line& line, std::size_t station) {
 }
 
 StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
+  const auto wanted = [&](const Line& line) { return is_stopline(line.type()) == of_stoplines; };
+  std::size_t count = 0;
+  for (const Line& line : lines) count += wanted(line) ? line.stations.size() : 0U;
   std::vector<Entry> all;
+  all.reserve(count);
   Eigen::AlignedBox2d bounds;
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    const bool wanted = is_stopline(lines[i].type()) == of_stoplines;
-    for (std::uint32_t k = 0; k < lines[i].stations.size(); ++k) {
-      const Point& position = lines[i].stations[k].position;
-      bounds.extend(position.head<2>());
-      if (wanted) all.push_back({position, i, k});
+    if (!wanted(lines[i])) continue;
+    const auto& stations = lines[i].stations;
+    for (std::uint32_t k = 0; k < stations.size(); ++k) {
+      bounds.extend(stations[k].position.head<2>());
+      all.push_back({stations[k].position, i, k});
     }
   }
   if (all.empty()) return;
@@ -79,9 +83,11 @@ StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
 }
 
 Eigen::Vector2i StationGrid::cell_of(const Eigen::Vector2d& place) const {
-  // Clamped, so that what is far away does not overflow.
-  const Eigen::Vector2d cell = ((place - origin_) / kCell_m).array().floor();
-  return cell.cwiseMax(-1.0).cwiseMin(size_.cast<double>()).cast<int>();
+  // Clamped, so that what is far away does not overflow; and truncated where it is positive, which is quicker
+  // than to round down.
+  const Eigen::Vector2d cells = (place - origin_) / kCell_m;
+  const Eigen::Array2d clamped = cells.cwiseMax(-1.0).cwiseMin(size_.cast<double>());
+  return ((clamped + 1.0).cast<int>() - 1).matrix();
 }
 
 }  // namespace laneloom

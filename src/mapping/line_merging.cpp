@@ -73,9 +73,10 @@ bool lies_beside(const Line& line, const MeasuredPolyline& other, double distanc
     if (static_cast<double>(beside + (count - k)) < needed) return false;
     const Point& point = line.stations[k].position;
     const Projection foot = other.project(point, distance_m);
-    if (foot.distance_m < distance_m && std::abs(foot.foot.z() - point.z()) < kMaxHeight_m) ++beside;
+    if (foot.distance_m >= distance_m || std::abs(foot.foot.z() - point.z()) >= kMaxHeight_m) continue;
+    if (static_cast<double>(++beside) >= needed) return true;
   }
-  return static_cast<double>(beside) >= needed;
+  return false;
 }
 
 bool side_by_side(const std::vector<Line>& lines, std::size_t a, std::size_t b, double distance_m,

@@ -28,6 +28,7 @@ Stations published_stretch(const Line& line, const FusionConfig& config) {
 /// Twice by the neighbours; the ends stay.
 Polyline smoothed(Stations stations) {
   Polyline points;
+  points.reserve(stations.size());
   for (const Station& station : stations) points.push_back(station.position);
   for (int pass = 0; pass < 2; ++pass) {
     const Polyline before = points;
@@ -75,6 +76,7 @@ double existence_probability(double log_odds, const FusionConfig& config) {
 
 Marking as_marking(const Line& line, Stations stations, const MapperConfig& config) {
   Marking marking{.id = line.id, .type = line.type(), .points = smoothed(stations)};
+  marking.lateral_stddev_m.reserve(stations.size());
   for (const Station& station : stations)
     marking.lateral_stddev_m.push_back(lateral_stddev_m(station, config.fusion));
   if (is_stopline(marking.type)) {

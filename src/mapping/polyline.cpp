@@ -39,28 +39,35 @@ double length(const Polyline& line) {
 MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
   assert(!points.empty());
   points_.reserve(points.size());
+  arc_.reserve(points.size());
   for (const Point& point : points) {
-    if (points_.empty() || horizontal_distance(points_.back(), point) > kCoincident_m)
-      points_.push_back(point);
+    const double step_m = points_.empty() ? 0.0 : horizontal_distance(points_.back(), point);
+    if (!points_.empty() && step_m <= kCoincident_m) continue;
+    points_.push_back(point);
+    arc_.push_back(length() + step_m);
   }
-  arc_ = arc_lengths(points_);
   const Eigen::Vector2d chord = (points_.back() - points_.front()).head<2>();
   if (chord.norm() > kCoincident_m) course_ = chord.normalized();
   for (const Point& point : points_) {
     const Eigen::Vector2d offset = (point - points_.front()).head<2>();
     bounds_.extend(Eigen::Vector2d(course_.dot(offset), cross(course_, offset)));
   }
-  for (std::size_t i = 1; i < points_.size(); ++i)
-    cosine_ = std::min(cosine_, course_.dot(segment_direction(i)));
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    const double along_m = course_.dot((points_[i] - points_[i - 1]).head<2>());
+    cosine_ = std::min(cosine_, along_m / (arc_[i] - arc_[i - 1]));
+  }
   cosine_ -= 1e-9;
   sine_ = std::sqrt(1.0 - cosine_ * cosine_);
 }
 
 Point MeasuredPolyline::at(double arc_m) const {
+  const auto after = std::upper_bound(arc_.begin(), arc_.end(), arc_m);
+  return at(arc_m, static_cast<std::size_t>(after - arc_.begin()));
+}
+
+Point MeasuredPolyline::at(double arc_m, std::size_t i) const {
   if (arc_m <= 0.0) return points_.front();
   if (arc_m >= length()) return points_.back();
-  const auto after = std::upper_bound(arc_.begin(), arc_.end(), arc_m);
-  const auto i = static_cast<std::size_t>(after - arc_.begin());
   const double share = (arc_m - arc_[i - 1]) / (arc_[i] - arc_[i - 1]);
   return points_[i - 1] + share * (points_[i] - points_[i - 1]);
 }
@@ -172,7 +179,9 @@ Projection MeasuredPolyline::project(const Point& point, double within_m) const 
 }
 
 Polyline MeasuredPolyline::slice(const Range& range) const {
-  Polyline out{at(range.from_m)};
+  Polyline out;
+  out.reserve(points_.size() + 2);
+  out.push_back(at(range.from_m));
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (arc_[i] > range.from_m + kCoincident_m && arc_[i] < range.to_m - kCoincident_m)
       out.push_back(points_[i]);
@@ -185,8 +194,11 @@ Polyline MeasuredPolyline::resample(double step_m) const {
   const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length() / step_m)));
   Polyline out;
   out.reserve(steps + 1);
+  std::size_t after = 0;
   for (std::size_t i = 0; i <= steps; ++i) {
-    out.push_back(at(length() * static_cast<double>(i) / static_cast<double>(steps)));
+    const double arc_m = length() * static_cast<double>(i) / static_cast<double>(steps);
+    while (after < arc_.size() && arc_[after] <= arc_m) ++after;
+    out.push_back(at(arc_m, after));
   }
   return out;
 }
