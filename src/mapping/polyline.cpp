@@ -65,11 +65,11 @@ Point MeasuredPolyline::at(double arc_m) const {
   return at(arc_m, static_cast<std::size_t>(after - arc_.begin()));
 }
 
-Point MeasuredPolyline::at(double arc_m, std::size_t i) const {
+Point MeasuredPolyline::at(double arc_m, std::size_t after) const {
   if (arc_m <= 0.0) return points_.front();
   if (arc_m >= length()) return points_.back();
-  const double share = (arc_m - arc_[i - 1]) / (arc_[i] - arc_[i - 1]);
-  return points_[i - 1] + share * (points_[i] - points_[i - 1]);
+  const double share = (arc_m - arc_[after - 1]) / (arc_[after] - arc_[after - 1]);
+  return points_[after - 1] + share * (points_[after] - points_[after - 1]);
 }
 
 Eigen::Vector2d MeasuredPolyline::segment_direction(std::size_t end) const {
