@@ -100,7 +100,19 @@ TEST(Planner, KeepsToThePassageThatItHasBegunWhateverLaneComesUp) {
   LocalMap map = crossing();
   map.lanes.push_back(lane_of(5, straight_line({-10, 0, 0}, {10, 0, 0})));  // a ghost across
   const Bicycle within{.rear_axle = {-8.0, 0.1}, .speed_mps = 5.0};
-  EXPECT_LT(distance(next_plan(map, within, turning, Linkage::Turn::left), {0, 14, 0}), 0.2);
+  Plan plan = next_plan(map, within, turning, Linkage::Turn::left);
+  EXPECT_LT(distance(plan, {0, 14, 0}), 0.2);
+  map.linkages.clear();
+  map.lanes.erase(map.lanes.begin());  // nor the lane that it came from
+  for (int tick = 0; tick < 3; ++tick) plan = next_plan(map, within, plan, Linkage::Turn::left);
+  EXPECT_LT(distance(plan, {0, 14, 0}), 0.2);
+}
+
+TEST(Planner, HasNotBegunAPassageThatLiesAhead) {
+  const Bicycle far{.rear_axle = {-70.0, 0.0}, .speed_mps = 5.0};
+  EXPECT_EQ(next_plan(crossing(), far, {}, Linkage::Turn::left).passing.from, kNoElement);
+  const Bicycle in_lane{.rear_axle = {-50.0, 0.0}, .speed_mps = 5.0};
+  EXPECT_EQ(next_plan(crossing(), in_lane, {}, Linkage::Turn::left).passing.into, 3U);
 }
 
 TEST(Planner, SaysThatItLooksForATurnThatIsNotInTheMap) {

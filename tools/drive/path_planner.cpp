@@ -136,7 +136,8 @@ Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehic
   Polyline line = first.slice({std::max(0.0, entry.arc_m - kBehind_m), first.length()});
   const double end_m = entry.ahead_m + first.length() - entry.arc_m;
   const ElementId begun = way.lane->id == plan.passing.from ? plan.passing.into : kNoElement;
-  plan.passing = {};
+  const bool arrives = way.lane->id == plan.passing.into && entry.ahead_m > 0.0;
+  if (!arrives) plan.passing = {};
   std::set<ElementId> walked;
   while (length(line) < kHorizon_m + kBehind_m && walked.insert(way.lane->id).second) {
     const std::vector<Passage> all = passages(map, way);
@@ -145,7 +146,8 @@ Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehic
     if (walked.size() == 1) {
       const bool found = passage != nullptr && (passage->path.empty() || passage->turn == wanted);
       plan.looks_for_turn = is_bend(wanted) && end_m < kLookForTurn_m && !found;
-      if (passage != nullptr) plan.passing = {way.lane->id, way.against, passage->to.lane->id};
+      if (passage != nullptr && entry.ahead_m == 0.0)
+        plan.passing = {way.lane->id, way.against, passage->to.lane->id};
     }
     if (passage != nullptr) {
       append(line, passage->path);
