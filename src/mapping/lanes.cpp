@@ -14,8 +14,8 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kMaxBetween = 1;  // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
-constexpr double kMinBetween = 0.5;     // of the stretch; a shorter boundary takes part of it, and no more
+constexpr std::size_t kMaxBetween = 1;         // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
+constexpr double kMinBetween = 0.15;           // of the stretch; a shorter boundary only touches it
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
 
 /// A sample on the right boundary with its foot on the left one.
@@ -48,24 +48,23 @@ struct Pair {
   std::uint32_t section;
 };
 
-/// The boundaries between `left` and one on its right.
+/// How many boundaries lie between `left` and one on its right.
 struct Between {
-  bool any = false;
-  std::size_t count =
-      0;  ///< of those that are beside both over much of the stretch; no more than one too many
+  std::size_t all = 0;
+  std::size_t lasting = 0;  ///< those that are beside both over much of the stretch
 };
 
 Between between(const SectionGraph& graph, std::size_t left, const SideBySide& right) {
-  Between result;
+  Between count;
   for (const SideBySide& middle : graph.right_of[left]) {
-    if (result.count > kMaxBetween) break;
+    if (count.lasting > kMaxBetween) break;
     const auto& beyond = graph.right_of[middle.right];
     const auto found = std::ranges::find(beyond, right.right, &SideBySide::right);
     if (found == beyond.end()) continue;
-    result.any = true;
-    if (std::min(middle.length_m, found->length_m) >= kMinBetween * right.length_m) ++result.count;
+    ++count.all;
+    if (std::min(middle.length_m, found->length_m) >= kMinBetween * right.length_m) ++count.lasting;
   }
-  return result;
+  return count;
 }
 
 /// Neighbouring boundaries first.
@@ -74,8 +73,9 @@ std::vector<Pair> pairs(const SectionGraph& graph) {
   for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
     for (const std::size_t left : graph.sections[section].boundaries) {
       for (const SideBySide& beside : graph.right_of[left]) {
-        const auto [any, count] = between(graph, left, beside);
-        if (count <= kMaxBetween) by_count[count].push_back({left, beside.right, !any, section});
+        const auto [all, lasting] = between(graph, left, beside);
+        if (lasting > kMaxBetween) continue;
+        by_count[std::min(all, kMaxBetween)].push_back({left, beside.right, all == 0, section});
       }
     }
   }

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "mapping/markings.hpp"
 
 namespace laneloom {
 namespace {
 
-constexpr double kSampleStep_m = 4.0;  // the length of a lane, at least
+constexpr double kSampleStep_m = 2.0;  // half of the shortest lane
 constexpr double kAlignedCosine =
     0.2;  // with the heading: below, a road crosses the vehicle's rather than follows it
 
@@ -92,37 +94,59 @@ double along_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_ma
   return line.direction(line.project(T_map_body.translation())).dot(heading) / heading.norm();
 }
 
+/// Boundaries that run side by side, and whether they run against each other. Round the corners of an
+/// intersection that may have no answer: then what is nearest to the vehicle decides, and furthest off a lane
+/// is lost.
+class Sections {
+ public:
+  Sections(const Graph& graph, const std::vector<double>& distance_m)
+      : section_(graph.size()), opposed_(graph.size(), false) {
+    std::iota(section_.begin(), section_.end(), 0U);
+    struct Pair {
+      std::size_t a, b;
+      Overlap overlap;
+    };
+    std::vector<Pair> pairs;
+    for (std::size_t a = 0; a < graph.size(); ++a)
+      for (const Edge& edge : graph[a])
+        if (a < edge.to) pairs.push_back({a, edge.to, edge.overlap});
+    std::ranges::stable_sort(pairs, {},
+                             [&](const Pair& p) { return std::max(distance_m[p.a], distance_m[p.b]); });
+    for (const auto& [a, b, overlap] : pairs)
+      if (section_[a] != section_[b]) join(a, b, overlap.opposed);
+  }
+  /// The smallest index of its members.
+  std::size_t section(std::size_t boundary) const { return section_[boundary]; }
+  bool opposed(std::size_t a, std::size_t b) const { return opposed_[a] != opposed_[b]; }
+
+ private:
+  void join(std::size_t a, std::size_t b, bool opposed) {
+    const bool turn = opposed_[a] != (opposed_[b] != opposed);
+    const auto [kept, gone] = std::minmax({section_[a], section_[b]});
+    for (std::size_t k = 0; k < section_.size(); ++k) {
+      if (section_[k] != gone) continue;
+      section_[k] = kept;
+      opposed_[k] = opposed_[k] != turn;
+    }
+  }
+
+  std::vector<std::size_t> section_;
+  std::vector<bool> opposed_;  ///< to the other members, as a whole either way
+};
+
 /// Whether a section runs against the vehicle in the direction of one of its boundaries. All have a say, by
-/// their lengths, as one alone may turn off into another road. `opposed` compares them with each other.
+/// their lengths, as one alone may turn off into another road.
 bool against_heading(const std::vector<std::size_t>& section, std::size_t boundary,
-                     const std::vector<MeasuredPolyline>& measured,
-                     const std::vector<std::optional<bool>>& opposed, const Eigen::Isometry3d& T_map_body) {
+                     const std::vector<MeasuredPolyline>& measured, const Sections& sections,
+                     const Eigen::Isometry3d& T_map_body) {
   double sum_m = 0.0, total_m = 0.0;
   for (const std::size_t k : section) {
     const double length_m = measured[k].length();
-    const double sense = *opposed[k] == *opposed[boundary] ? 1.0 : -1.0;
+    const double sense = sections.opposed(k, boundary) ? -1.0 : 1.0;
     sum_m += sense * length_m * along_heading(measured[k], T_map_body);
     total_m += length_m;
   }
   return sum_m < -kAlignedCosine * total_m;
-}
-
-/// Depth-first search from `start`; says for every boundary that it reaches whether it runs against `start`.
-void visit(const Graph& graph, std::size_t start, std::vector<std::optional<bool>>& opposed,
-           std::vector<std::size_t>& members) {
-  std::vector<std::size_t> stack{start};
-  opposed[start] = false;
-  while (!stack.empty()) {
-    const std::size_t current = stack.back();
-    stack.pop_back();
-    members.push_back(current);
-    for (const Edge& edge : graph[current]) {
-      if (opposed[edge.to]) continue;
-      opposed[edge.to] = *opposed[current] != edge.overlap.opposed;
-      stack.push_back(edge.to);
-    }
-  }
-  std::ranges::sort(members);
 }
 
 }  // namespace
@@ -130,18 +154,23 @@ void visit(const Graph& graph, std::size_t start, std::vector<std::optional<bool
 SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d& T_map_body,
                            std::vector<LaneBoundary>& boundaries, std::vector<MeasuredPolyline>& measured) {
   const Graph graph = overlap_graph(measured, config);
+  std::vector<double> distance_m;
+  distance_m.reserve(measured.size());
+  for (const MeasuredPolyline& line : measured)
+    distance_m.push_back(line.project(T_map_body.translation()).distance_m);
+  const Sections sections(graph, distance_m);
   SectionGraph result;
-  std::vector<std::optional<bool>> opposed(boundaries.size());
   std::vector<bool> turned(boundaries.size(), false);
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    if (opposed[i]) continue;
+    if (sections.section(i) != i) continue;
     RoadSection section;
-    visit(graph, i, opposed, section.boundaries);
+    for (std::size_t k = i; k < boundaries.size(); ++k)
+      if (sections.section(k) == i) section.boundaries.push_back(k);
     const std::size_t longest = *std::ranges::max_element(
         section.boundaries, {}, [&](std::size_t k) { return measured[k].length(); });
-    const bool turn_longest = against_heading(section.boundaries, longest, measured, opposed, T_map_body);
+    const bool turn_longest = against_heading(section.boundaries, longest, measured, sections, T_map_body);
     for (const std::size_t k : section.boundaries) {
-      turned[k] = (*opposed[k] != *opposed[longest]) != turn_longest;
+      turned[k] = sections.opposed(k, longest) != turn_longest;
       if (!turned[k]) continue;
       reverse(boundaries[k]);
       measured[k] = MeasuredPolyline(boundaries[k].marking.points);

@@ -28,8 +28,8 @@ struct SectionGraph {
   std::vector<std::vector<SideBySide>> right_of;
 };
 
-/// Groups the boundaries into road sections: connected components, by depth-first search, of the graph that
-/// joins boundaries of similar direction that overlap. All boundaries of a section are turned to run in one
+/// Groups the boundaries into road sections: connected components of the graph that joins boundaries of
+/// similar direction that overlap. All boundaries of a section are turned to run in one
 /// direction: the vehicle's heading where the section passes it, or else the longest boundary's own.
 /// `measured` is kept parallel.
 SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d& T_map_body,

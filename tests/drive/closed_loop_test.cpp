@@ -128,7 +128,7 @@ TEST(ClosedLoop, WhenMapsStopItGoesOnByWhatItRemembersAndThenGuesses) {
   ClosedLoop loop(road, {}, service);
   run(loop, 14.0);
   const DriveScore score = loop.score();
-  EXPECT_NEAR(score.remembered_m, 28.0, 8.0);  // what lay before the vehicle when the last map came
+  EXPECT_NEAR(score.remembered_m, 46.0, 8.0);  // what lay before the vehicle when the last map came
   EXPECT_GT(score.guessed_m(), 10.0);
   EXPECT_TRUE(score.departures.empty());
 }

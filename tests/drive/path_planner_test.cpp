@@ -115,6 +115,20 @@ TEST(Planner, HasNotBegunAPassageThatLiesAhead) {
   EXPECT_EQ(next_plan(crossing(), in_lane, {}, Linkage::Turn::left).passing.into, 3U);
 }
 
+TEST(Planner, IsNotBetweenLanesWhereTheOneThatItIsInHasBeenDivided) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {30, 0, 0})),
+               lane_of(2, straight_line({30, 0, 0}, {60, 0, 0}))};
+  map.linkages = {link(1, 2)};
+  const Bicycle vehicle{.speed_mps = 5.0};
+  const Plan before = next_plan(map, vehicle, {}, kNoWish);
+  map.lanes[0] = lane_of(1, straight_line({6, 0, 0}, {30, 0, 0}));  // keeps its id
+  map.lanes.push_back(lane_of(3, straight_line({-20, 0, 0}, {6, 0, 0})));
+  map.linkages.push_back(link(3, 1));
+  const Plan plan = next_plan(map, vehicle, before, kNoWish);
+  for (const double x : {1.0, 10.0, 25.0, 40.0}) EXPECT_LT(distance(plan, {x, 0, 0}), 0.1) << x;
+}
+
 TEST(Planner, SaysThatItLooksForATurnThatIsNotInTheMap) {
   const Bicycle near{.rear_axle = {-20.0, 0.0}, .speed_mps = 5.0}, far{.rear_axle = {-40.0, 0.0}};
   LocalMap map = crossing();

@@ -127,7 +127,9 @@ TEST(Crossings, AtACrossroadsEveryWayLeadsStraightLeftAndRight) {
 
 TEST(Crossings, AKerbThatLeadsRoundTheCornerLeavesTheOtherWays) {
   const auto linkages = crossings(crossroads(), {{.from = 1, .to = 12}});
-  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ElementsAre(Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right),
+              ElementsAre(Pair(1, 12), Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+  EXPECT_EQ(std::ranges::count(linkages, Linkage::Kind::shared_boundary, &Linkage::kind), 1);
   EXPECT_EQ(linkages.size(), 12U);
 }
 

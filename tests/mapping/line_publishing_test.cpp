@@ -57,7 +57,8 @@ TEST_F(LinePublishing, ZigzagBetweenStationsIsSmoothed) {
   for (std::size_t i = 0; i < 51; ++i) line_.stations[i].position.y() = i % 2 == 0 ? 0.1 : -0.1;
   believe(0, 51, 1.0);
   const Marking marking = publish()[0];
-  for (const Point& point : marking.points) EXPECT_LT(std::abs(point.y()), 0.06);
+  ASSERT_EQ(marking.points.size(), 51U);
+  for (std::size_t i = 1; i < 50; ++i) EXPECT_LT(std::abs(marking.points[i].y()), 0.06) << i;
 }
 
 TEST_F(LinePublishing, ABendOfTwelveMetresStaysOne) {

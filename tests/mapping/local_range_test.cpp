@@ -13,8 +13,8 @@ TEST(LocalRange, TurnsWithTheVehicle) {
   const LocalRange range({}, test::at(100, 50, std::numbers::pi / 2));
   EXPECT_TRUE(range.keeps({100, 104, 0}));  // 54 m ahead: within the margin
   EXPECT_FALSE(range.keeps({100, 106, 0}));
-  EXPECT_TRUE(range.keeps({117, 50, 0}));  // 17 m to the right: within the margin
-  EXPECT_FALSE(range.keeps({119, 50, 0}));
+  EXPECT_TRUE(range.keeps({119, 50, 0}));  // 19 m to the right: within the margin
+  EXPECT_FALSE(range.keeps({121, 50, 0}));
   EXPECT_TRUE(range.keeps({100, 50, 500}));  // any height
 }
 

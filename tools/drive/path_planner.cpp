@@ -56,6 +56,7 @@ struct Entry {
   double arc_m = 0.0;    ///< on the way
   double ahead_m = 0.0;  ///< of the vehicle
   double cost_m = 0.0;
+  bool between = false;  ///< the vehicle is on the passage behind the way
 };
 
 std::optional<Entry> entry_into(const Lane& lane, const MeasuredPolyline& track, double vehicle_m) {
@@ -85,13 +86,17 @@ const Passage* find(const std::vector<Passage>& all, ElementId into) {
   return found == all.end() ? nullptr : &*found;
 }
 
-/// On the passage that the vehicle has begun, where the map still has it.
-std::optional<Entry> on_passage(const LocalMap& map, const Passing& passing) {
+/// Onto the passage that the vehicle has begun, where the map still has it and it is there.
+std::optional<Entry> on_passage(const LocalMap& map, const Passing& passing, const Point& vehicle) {
   const auto from = std::ranges::find(map.lanes, passing.from, &Lane::id);
   if (from == map.lanes.end()) return std::nullopt;
   const Way way{&*from, passing.against};
-  if (find(passages(map, way), passing.into) == nullptr) return std::nullopt;
-  return Entry{way, length(from->centerline)};
+  const std::vector<Passage> all = passages(map, way);
+  const Passage* const begun = find(all, passing.into);
+  if (begun == nullptr || begun->path.empty()) return std::nullopt;
+  const Projection foot = MeasuredPolyline(begun->path).project(vehicle);
+  if (!foot.inside || foot.distance_m > kMaxLateral_m) return std::nullopt;
+  return Entry{.way = way, .arc_m = length(from->centerline), .between = true};
 }
 
 /// Onto the lane that the track runs on, or the nearest ahead; in between, the passage that was begun, or the
@@ -106,8 +111,8 @@ std::optional<Entry> find_entry(const LocalMap& map, const MeasuredPolyline& tra
     if (entry && lane.id == passing.into) after = entry;
   }
   if (after && after->ahead_m == 0.0) return after;
-  if (const auto between = on_passage(map, passing)) return between;
-  return after ? after : best;
+  if (const auto between = on_passage(map, passing, track.at(vehicle_m))) return between;
+  return after && passing.between ? after : best;
 }
 
 /// Whether the vehicle may still take a passage: straight on, it does not leave the path too soon.
@@ -136,7 +141,7 @@ Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehic
   Polyline line = first.slice({std::max(0.0, entry.arc_m - kBehind_m), first.length()});
   const double end_m = entry.ahead_m + first.length() - entry.arc_m;
   const ElementId begun = way.lane->id == plan.passing.from ? plan.passing.into : kNoElement;
-  const bool arrives = way.lane->id == plan.passing.into && entry.ahead_m > 0.0;
+  const bool arrives = plan.passing.between && way.lane->id == plan.passing.into && entry.ahead_m > 0.0;
   if (!arrives) plan.passing = {};
   std::set<ElementId> walked;
   while (length(line) < kHorizon_m + kBehind_m && walked.insert(way.lane->id).second) {
@@ -147,7 +152,7 @@ Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehic
       const bool found = passage != nullptr && (passage->path.empty() || passage->turn == wanted);
       plan.looks_for_turn = is_bend(wanted) && end_m < kLookForTurn_m && !found;
       if (passage != nullptr && entry.ahead_m == 0.0)
-        plan.passing = {way.lane->id, way.against, passage->to.lane->id};
+        plan.passing = {way.lane->id, way.against, passage->to.lane->id, entry.between};
     }
     if (passage != nullptr) {
       append(line, passage->path);

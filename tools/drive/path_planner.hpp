@@ -20,6 +20,7 @@ struct Passing {
   ElementId from = kNoElement;  ///< none: it follows no lane to its end
   bool against = false;         ///< the order of its points
   ElementId into = kNoElement;
+  bool between = false;  ///< it is in neither
 };
 
 /// The way that the vehicle means to go.

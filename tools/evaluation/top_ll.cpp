@@ -94,8 +94,8 @@ class PublishedGraph {
     }
     std::map<ElementId, ElementId> next;
     for (const Linkage& linkage : map.linkages)
-      if (linkage.kind == Linkage::Kind::shared_boundary && leaving[linkage.from] == 1 &&
-          entering[linkage.to] == 1)
+      if (linkage.path.empty() && linkage.kind == Linkage::Kind::shared_boundary &&
+          leaving[linkage.from] == 1 && entering[linkage.to] == 1)
         next.emplace(linkage.from, linkage.to);
     return next;
   }
