@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/directions.hpp"
 
 namespace laneloom {
 namespace {
@@ -214,6 +215,45 @@ Polyline turning_path(const Lane& from, const Lane& to, double before_m, double 
   return path;
 }
 
+Lane reversed(Lane lane) {
+  std::ranges::reverse(lane.centerline);
+  return lane;
+}
+
+/// The lanes that continue one another with `lane`.
+std::vector<ElementId> linked_with(ElementId lane, const std::vector<Linkage>& linkages) {
+  std::vector<ElementId> ids{lane};
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (const Linkage& linkage : linkages) {
+      const ElementId other = linkage.from == ids[i] ? linkage.to : linkage.from;
+      const bool linked = linkage.from == ids[i] || linkage.to == ids[i];
+      if (linked && std::ranges::count(ids, other) == 0) ids.push_back(other);
+    }
+  }
+  return ids;
+}
+
+/// Beyond an intersection, a lane of unknown direction may run towards the one that leads into it: it is
+/// turned with those that it is linked with.
+void turn_unknown_ahead(const LinkageConfig& config, std::vector<Lane>& lanes,
+                        std::vector<Linkage>& linkages) {
+  const auto is_unknown = [](const Lane& lane) { return lane.direction == Lane::Direction::unknown; };
+  for (const Lane& lane : std::vector<Lane>(lanes)) {
+    const auto leads_into = [&](const Lane& to) {
+      return std::ranges::any_of(lanes, [&](const Lane& from) {
+        return !is_unknown(from) && gap_between(from, to).norm() <= max_gap_m(config) &&
+               straight_misfit(from, to, config).has_value();
+      });
+    };
+    const auto now = std::ranges::find(lanes, lane.id, &Lane::id);
+    if (!is_unknown(*now) || leads_into(*now) || !leads_into(reversed(*now))) continue;
+    const std::vector<ElementId> chain = linked_with(lane.id, linkages);
+    const bool all_unknown = std::ranges::all_of(
+        chain, [&](ElementId id) { return is_unknown(*std::ranges::find(lanes, id, &Lane::id)); });
+    if (all_unknown) turn_lanes(chain, lanes, linkages);
+  }
+}
+
 }  // namespace
 
 Linkage::Turn turn_between(const Lane& from, const Lane& to) {
@@ -237,6 +277,7 @@ Polyline path_between(const Lane& from, const Lane& to) {
 void link_across_intersections(const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
                                const LinkageConfig& config, std::vector<Lane>& lanes,
                                std::vector<Linkage>& linkages) {
+  turn_unknown_ahead(config, lanes, linkages);
   Taken taken(linkages);
   const auto link = [&](const Crossing& crossing) {
     Lane &from = lanes[crossing.from], &to = lanes[crossing.to];

@@ -194,17 +194,22 @@ void find_directions(const std::vector<LaneBoundary>& boundaries, const Directio
   const Groups groups(lanes, linkages);
   const double side = driving_side(config);
   const std::vector<double> belief = beliefs(build_model(lanes, groups, boundaries, known, side), side);
-  std::vector<ElementId> turned;
+  std::vector<ElementId> against;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const double log_odds = belief[groups[i]];
     if (std::abs(log_odds) < kKnown) continue;
     lanes[i].direction = Lane::Direction::along_centerline;
-    if (log_odds > 0.0) continue;
-    turn(lanes[i]);
-    turned.push_back(lanes[i].id);
+    if (log_odds < 0.0) against.push_back(lanes[i].id);
   }
+  turn_lanes(against, lanes, linkages);
+}
+
+void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std::vector<Linkage>& linkages) {
+  const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
+  for (Lane& lane : lanes)
+    if (turned(lane.id)) turn(lane);
   for (Linkage& linkage : linkages) {
-    if (std::ranges::count(turned, linkage.from) == 0) continue;
+    if (!turned(linkage.from)) continue;
     std::swap(linkage.from, linkage.to);
     std::ranges::reverse(linkage.path);
   }

@@ -28,4 +28,7 @@ void find_directions(const std::vector<LaneBoundary>& boundaries, const Directio
                      const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
                      std::vector<Linkage>& linkages);
 
+/// Lets lanes run the other way, with their sides and neighbours, and the linkages between them.
+void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
+
 }  // namespace laneloom

@@ -202,6 +202,18 @@ TEST(Crossings, StraightOnTheDirectionIsKept) {
   EXPECT_EQ(lanes[2].direction, Lane::Direction::unknown);
 }
 
+TEST(Crossings, AheadOfAKnownLaneAnUnknownOneIsTurnedWithWhatItIsLinkedTo) {
+  std::vector<Lane> lanes{driven(1, {-30, 0, 0}, {-10, 0, 0}), lane(2, straight({30, 0, 0}, {10, 0, 0})),
+                          lane(3, straight({50, 0, 0}, {30, 0, 0}))};
+  std::vector<Linkage> linkages{{.from = 3, .to = 2}};
+  link_across_intersections({}, {}, {}, lanes, linkages);
+  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::straight), ElementsAre(Pair(1, 2)));
+  EXPECT_EQ(lanes[1].centerline.front().x(), 10.0);
+  EXPECT_EQ(lanes[2].centerline.front().x(), 30.0);
+  EXPECT_EQ(std::ranges::count(linkages, 2U, &Linkage::from), 1);  // on into 3
+  EXPECT_EQ(lanes[1].direction, Lane::Direction::along_centerline);
+}
+
 TEST(Crossings, TurnsLeadFromTheOutermostLane) {
   // Two lanes from the west; the left one is 1, the right one 5.
   std::vector<Lane> lanes = crossroads();
