@@ -9,15 +9,6 @@
 
 namespace laneloom {
 
-/// Which way `to` turns off from `from`.
-Linkage::Turn turn_between(const Lane& from, const Lane& to);
-
-/// Says of every linkage which way it turns.
-void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
-
-/// From the end of one lane to the start of another: a cubic that leaves and enters in their directions.
-Polyline path_between(const Lane& from, const Lane& to);
-
 /// Across an intersection, where no marking leads. Ours, beyond the paper. A lane that ends goes straight on
 /// into the lane that begins ahead of it in line, and turns into the nearest lane that begins to its left or
 /// right: from the outermost lane of its direction into the outermost one, on an arc that is wide enough,

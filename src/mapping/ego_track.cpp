@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "laneloom/polyline.hpp"
-#include "mapping/crossings.hpp"
+#include "mapping/lane_geometry.hpp"
 
 namespace laneloom {
 namespace {

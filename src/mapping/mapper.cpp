@@ -12,6 +12,7 @@
 #include "mapping/ego_track.hpp"
 #include "mapping/joints.hpp"
 #include "mapping/lane_boundaries.hpp"
+#include "mapping/lane_geometry.hpp"
 #include "mapping/lanes.hpp"
 #include "mapping/line_fusion.hpp"
 #include "mapping/line_merging.hpp"

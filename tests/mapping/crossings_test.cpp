@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/lane_geometry.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "mapping/crossings.hpp"
+#include "mapping/lane_geometry.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {

@@ -1,0 +1,92 @@
+#include "mapping/lane_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kPathStep_m = 1.0;
+
+constexpr double kMinTurnSine = 0.77;  // of the angle between the lanes: a turn is one of 50 to 130 degrees
+
+using Turn = Linkage::Turn;
+
+/// A cubic that leaves and enters in the lanes' directions.
+Polyline straight_path(const Lane& from, const Lane& to) {
+  const Point a = from.centerline.back(), b = to.centerline.front();
+  const double length_m = (b - a).head<2>().norm();
+  const Eigen::Vector2d begin = length_m * leaving(from), end = length_m * entering(to);
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kPathStep_m)));
+  Polyline path;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    const double blend = t * t * (3.0 - 2.0 * t);  // Hermite's basis
+    Point point = a + blend * (b - a);
+    point.head<2>() += t * (1.0 - t) * ((1.0 - t) * begin - t * end);
+    path.push_back(point);
+  }
+  return path;
+}
+
+Point moved(const Point& point, const Eigen::Vector2d& by) { return point + Point(by.x(), by.y(), 0.0); }
+
+/// Straight on from the end that is further from where the lanes' extensions meet, then about that corner:
+/// Bezier's cubic nearest to an arc. A way that cut the corner would lead over the kerb.
+Polyline turning_path(const Lane& from, const Lane& to, double before_m, double after_m) {
+  constexpr double kArc = 0.55;  // of the way to the corner, for a quarter of a circle
+  const double reach_m = std::min(before_m, after_m);
+  const Point &start = from.centerline.back(), &end = to.centerline.front();
+  const Point a = moved(start, (before_m - reach_m) * leaving(from)),
+              d = moved(end, (reach_m - after_m) * entering(to));
+  const Point b = moved(a, kArc * reach_m * leaving(from)), c = moved(d, -kArc * reach_m * entering(to));
+  const int steps = std::max(2, static_cast<int>(std::ceil(1.6 * reach_m / kPathStep_m)));
+  Polyline path{start};
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps, s = 1.0 - t;
+    path.push_back(s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d);
+  }
+  path.push_back(end);
+  path = MeasuredPolyline(path).points();
+  const double length_m = length(path);
+  const std::vector<double> arc_m = arc_lengths(path);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    path[i].z() = start.z() + (end.z() - start.z()) * arc_m[i] / length_m;
+  return path;
+}
+
+}  // namespace
+
+Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }
+Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, false); }
+
+std::optional<Corner> corner_between(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to),
+                        gap = (to.centerline.front() - from.centerline.back()).head<2>();
+  const double sine = cross(a, b);
+  if (std::abs(sine) < kMinTurnSine) return std::nullopt;
+  // from + before * a = to - after * b
+  return Corner{cross(gap, b) / sine, cross(a, gap) / sine};
+}
+
+Linkage::Turn turn_between(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to);
+  if (a.dot(b) < -kMinTurnSine) return Turn::u_turn;
+  if (std::abs(cross(a, b)) < kMinTurnSine) return Turn::straight;
+  return cross(a, b) > 0.0 ? Turn::left : Turn::right;
+}
+
+void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages) {
+  const auto lane = [&](ElementId id) -> const Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
+  for (Linkage& linkage : linkages) linkage.turn = turn_between(lane(linkage.from), lane(linkage.to));
+}
+
+Polyline path_between(const Lane& from, const Lane& to) {
+  if (const auto corner = corner_between(from, to); corner && corner->before_m > 0.0 && corner->after_m > 0.0)
+    return turning_path(from, to, corner->before_m, corner->after_m);
+  return straight_path(from, to);
+}
+
+}  // namespace laneloom

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+/// How one lane lies to another that it leads into.
+namespace laneloom {
+
+/// Unit direction in which a lane is left at its end, or entered at its start; map frame, horizontal.
+Eigen::Vector2d leaving(const Lane& lane);
+Eigen::Vector2d entering(const Lane& lane);
+
+/// Where the extensions of two lanes meet: so far ahead of the one and before the other, in metres.
+struct Corner {
+  double before_m, after_m;
+};
+
+/// Empty where the lanes do not turn.
+std::optional<Corner> corner_between(const Lane& from, const Lane& to);
+
+/// Which way `to` turns off from `from`.
+Linkage::Turn turn_between(const Lane& from, const Lane& to);
+
+/// Says of every linkage which way it turns. The lanes have unique ids, which the linkages refer to.
+void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
+
+/// From the end of one lane to the start of another: straight on a cubic that leaves and enters in their
+/// directions, round a corner on an arc.
+Polyline path_between(const Lane& from, const Lane& to);
+
+}  // namespace laneloom
