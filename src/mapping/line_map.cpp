@@ -83,11 +83,10 @@ StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
 }
 
 Eigen::Vector2i StationGrid::cell_of(const Eigen::Vector2d& place) const {
-  // Clamped, so that what is far away does not overflow; and truncated where it is positive, which is quicker
-  // than to round down.
+  // Clamped, so that what is far away does not overflow. Truncated, as a place before the first cell may
+  // count to that; adding one first would round the end of the last cell up to beyond it.
   const Eigen::Vector2d cells = (place - origin_) / kCell_m;
-  const Eigen::Array2d clamped = cells.cwiseMax(-1.0).cwiseMin(size_.cast<double>());
-  return ((clamped + 1.0).cast<int>() - 1).matrix();
+  return cells.cwiseMax(0.0).cwiseMin(size_.cast<double>()).cast<int>();
 }
 
 }  // namespace laneloom

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -53,6 +54,16 @@ TEST(StationGrid, FindsEveryStationWithinReach) {
       }
     }
   }
+}
+
+TEST(StationGrid, HoldsAStationJustBeforeTheEndOfItsLastCell) {
+  const double last_m = std::nextafter(8.0, 0.0);  // one more cell is 9 when rounded
+  const std::vector<Line> lines{test::line(1, {{0, 0, 0}, {last_m, last_m, 0}})};
+  const StationGrid grid(lines, false);
+  std::set<std::uint32_t> found;
+  grid.around({last_m, last_m, 0}, 0.5,
+              [&](const StationGrid::Entry& entry) { found.insert(entry.station); });
+  EXPECT_EQ(found, std::set<std::uint32_t>{1});
 }
 
 TEST(StationGrid, OfNothingFindsNothing) {
