@@ -24,6 +24,9 @@ using eprosima::fastrtps::types::ReturnCode_t;
 // A map of 500 KB is lost on the way with the kernel's default buffer; the kernel may give less than asked
 // for.
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20;
+// What an Ethernet frame holds: of a larger datagram the loss of one piece loses all, where DDS repairs
+// pieces. The handshakes of DDS-Security do not come through so small.
+constexpr std::uint32_t kMaxDatagramBytes = 1472;
 constexpr std::uint32_t kSharedMemoryBytes = 16U << 20;
 
 eprosima::fastrtps::Duration_t milliseconds(int value) {
@@ -64,6 +67,7 @@ void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
   auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
+  if (config.security_directory.empty()) udp->maxMessageSize = kMaxDatagramBytes;
   qos.transport().user_transports.push_back(udp);
   if (config.transport == "udp+shm") {
     auto shared_memory = std::make_shared<SharedMemTransportDescriptor>();
