@@ -23,10 +23,6 @@ struct Crossing {
   bool confirmed = false;  ///< by the SD map
 };
 
-Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {
-  return (to.centerline.front() - from.centerline.back()).head<2>();
-}
-
 /// Beyond which no way leads from one lane into another.
 double max_gap_m(const LinkageConfig& config) {
   return std::max(config.max_crossing_gap_m, 2.0 * config.max_turn_gap_m);
@@ -176,15 +172,14 @@ std::vector<ElementId> linked_with(ElementId lane, const std::vector<Linkage>& l
 void turn_unknown_ahead(const LinkageConfig& config, std::vector<Lane>& lanes,
                         std::vector<Linkage>& linkages) {
   const auto is_unknown = [](const Lane& lane) { return lane.direction == Lane::Direction::unknown; };
-  for (const Lane& lane : std::vector<Lane>(lanes)) {
-    const auto leads_into = [&](const Lane& to) {
-      return std::ranges::any_of(lanes, [&](const Lane& from) {
-        return !is_unknown(from) && gap_between(from, to).norm() <= max_gap_m(config) &&
-               straight_misfit(from, to, config).has_value();
-      });
-    };
-    const auto now = std::ranges::find(lanes, lane.id, &Lane::id);
-    if (!is_unknown(*now) || leads_into(*now) || !leads_into(reversed(*now))) continue;
+  const auto leads_into = [&](const Lane& to) {
+    return std::ranges::any_of(lanes, [&](const Lane& from) {
+      return !is_unknown(from) && gap_between(from, to).norm() <= max_gap_m(config) &&
+             straight_misfit(from, to, config).has_value();
+    });
+  };
+  for (const Lane& lane : lanes) {
+    if (!is_unknown(lane) || leads_into(lane) || !leads_into(reversed(lane))) continue;
     const std::vector<ElementId> chain = linked_with(lane.id, linkages);
     const bool all_unknown = std::ranges::all_of(
         chain, [&](ElementId id) { return is_unknown(*std::ranges::find(lanes, id, &Lane::id)); });

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
 constexpr double kMaxHeight_m = 2.0;
-constexpr double kMaxOverlap_m = 2.0;  // of two lanes that follow one another
 constexpr double kConfidence = 0.95;
 
 bool beside(const Lane& a, const Lane& b) {
@@ -23,8 +22,7 @@ bool beside(const Lane& a, const Lane& b) {
 /// Whether `to` begins where `from` ends or further on. What lies behind was not driven into: the vehicle is
 /// where both meet.
 bool leads_ahead(const Lane& from, const Lane& to) {
-  const Eigen::Vector2d gap = (to.centerline.front() - from.centerline.back()).head<2>();
-  return gap.dot(end_direction(from.centerline, true)) > -kMaxOverlap_m;
+  return gap_between(from, to).dot(leaving(from)) > -kMaxOverlap_m;
 }
 
 void follow(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track) {

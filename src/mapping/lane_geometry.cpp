@@ -61,10 +61,12 @@ Polyline turning_path(const Lane& from, const Lane& to, double before_m, double 
 
 Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }
 Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, false); }
+Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {
+  return (to.centerline.front() - from.centerline.back()).head<2>();
+}
 
 std::optional<Corner> corner_between(const Lane& from, const Lane& to) {
-  const Eigen::Vector2d a = leaving(from), b = entering(to),
-                        gap = (to.centerline.front() - from.centerline.back()).head<2>();
+  const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
   const double sine = cross(a, b);
   if (std::abs(sine) < kMinTurnSine) return std::nullopt;
   // from + before * a = to - after * b

@@ -13,6 +13,12 @@ namespace laneloom {
 Eigen::Vector2d leaving(const Lane& lane);
 Eigen::Vector2d entering(const Lane& lane);
 
+/// From the end of `from` to the start of `to`; map frame, horizontal, in metres.
+Eigen::Vector2d gap_between(const Lane& from, const Lane& to);
+
+/// By which a lane may begin before the end of the one that it continues, in metres.
+inline constexpr double kMaxOverlap_m = 2.0;
+
 /// Where the extensions of two lanes meet: so far ahead of the one and before the other, in metres.
 struct Corner {
   double before_m, after_m;

@@ -12,8 +12,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kOverlapTolerance_m = 2.0;  // by which a successor may begin before its predecessor ends
-constexpr double kMinGap_m = 1.0;            // a shorter one is no more than the distance between vertices
+constexpr double kMinGap_m = 1.0;  // a shorter one is no more than the distance between vertices
 constexpr double kPathStep_m = 1.0;
 
 /// The courses of boundaries by their ids.
@@ -44,8 +43,7 @@ Side right_side(const Lane& lane) { return {lane.right_boundary, lane.right_rang
 /// or `to` does not follow.
 std::optional<double> shared_gap(const Side& from, const Side& to, double max_gap_m) {
   const double gap_m = to.range.from_m - from.range.to_m;
-  const bool follows =
-      gap_m >= -kOverlapTolerance_m && gap_m <= max_gap_m && to.range.from_m > from.range.from_m;
+  const bool follows = gap_m >= -kMaxOverlap_m && gap_m <= max_gap_m && to.range.from_m > from.range.from_m;
   if (from.boundary != to.boundary || !follows) return std::nullopt;
   return std::max(gap_m, 0.0);
 }
@@ -94,20 +92,17 @@ void link_along(const Lane& from, const std::vector<Lane>& lanes, const Boundari
 
 /// Between aligned lanes; empty where they meet.
 Polyline path_across(const Lane& from, const Lane& to) {
-  const Eigen::Vector2d gap = (to.centerline.front() - from.centerline.back()).head<2>();
-  if (gap.dot(end_direction(from.centerline, true)) < kMinGap_m) return {};
+  if (gap_between(from, to).dot(leaving(from)) < kMinGap_m) return {};
   return path_between(from, to);
 }
 
 /// Confidence that `to` continues `from` by the geometry of their centerlines; empty: it does not.
 std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageConfig& config) {
-  const Eigen::Vector2d leaving = end_direction(from.centerline, true);
-  const Eigen::Vector2d entering = -end_direction(to.centerline, false);
-  if (leaving.dot(entering) < cos_degrees(config.max_angle_deg)) return std::nullopt;
-  const Eigen::Vector2d gap = (to.centerline.front() - from.centerline.back()).head<2>();
-  const double along_m = gap.dot(leaving);
-  const double lateral_m = std::abs(cross(leaving, gap));
-  if (along_m < -kOverlapTolerance_m || along_m > config.max_gap_m) return std::nullopt;
+  const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
+  if (a.dot(b) < cos_degrees(config.max_angle_deg)) return std::nullopt;
+  const double along_m = gap.dot(a);
+  const double lateral_m = std::abs(cross(a, gap));
+  if (along_m < -kMaxOverlap_m || along_m > config.max_gap_m) return std::nullopt;
   if (lateral_m > config.max_lateral_m) return std::nullopt;
   const double misfit = std::max(std::abs(along_m) / config.max_gap_m, lateral_m / config.max_lateral_m);
   return 1.0 - 0.5 * misfit;
