@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPathStep_m = 1.0;
 
+constexpr double kMaxLongerLeg = 1.5;  // of a turn, as a multiple of the shorter
 constexpr double kMinTurnSine = 0.77;  // of the angle between the lanes: a turn is one of 50 to 130 degrees
 
 using Turn = Linkage::Turn;
@@ -33,16 +34,18 @@ Polyline straight_path(const Lane& from, const Lane& to) {
 
 Point moved(const Point& point, const Eigen::Vector2d& by) { return point + Point(by.x(), by.y(), 0.0); }
 
-/// Straight on from the end that is further from where the lanes' extensions meet, then about that corner:
-/// Bezier's cubic nearest to an arc. A way that cut the corner would lead over the kerb.
-Polyline turning_path(const Lane& from, const Lane& to, double before_m, double after_m) {
+/// Straight on from the end that is much further from where the lanes' extensions meet, then about that
+/// corner: Bezier's cubic, which is nearest to an arc where both are as far. A way that cut the corner would
+/// lead over the kerb.
+Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
   constexpr double kArc = 0.55;  // of the way to the corner, for a quarter of a circle
-  const double reach_m = std::min(before_m, after_m);
+  const double reach_m = kMaxLongerLeg * std::min(corner.before_m, corner.after_m);
+  const double before_m = std::min(corner.before_m, reach_m), after_m = std::min(corner.after_m, reach_m);
   const Point &start = from.centerline.back(), &end = to.centerline.front();
-  const Point a = moved(start, (before_m - reach_m) * leaving(from)),
-              d = moved(end, (reach_m - after_m) * entering(to));
-  const Point b = moved(a, kArc * reach_m * leaving(from)), c = moved(d, -kArc * reach_m * entering(to));
-  const int steps = std::max(2, static_cast<int>(std::ceil(1.6 * reach_m / kPathStep_m)));
+  const Point a = moved(start, (corner.before_m - before_m) * leaving(from)),
+              d = moved(end, (after_m - corner.after_m) * entering(to));
+  const Point b = moved(a, kArc * before_m * leaving(from)), c = moved(d, -kArc * after_m * entering(to));
+  const int steps = std::max(2, static_cast<int>(std::ceil(0.8 * (before_m + after_m) / kPathStep_m)));
   Polyline path{start};
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps, s = 1.0 - t;
@@ -87,7 +90,7 @@ void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages) 
 
 Polyline path_between(const Lane& from, const Lane& to) {
   if (const auto corner = corner_between(from, to); corner && corner->before_m > 0.0 && corner->after_m > 0.0)
-    return turning_path(from, to, corner->before_m, corner->after_m);
+    return turning_path(from, to, *corner);
   return straight_path(from, to);
 }
 

@@ -135,19 +135,22 @@ TEST(Crossings, AKerbThatLeadsRoundTheCornerLeavesTheOtherWays) {
 }
 
 TEST(Crossings, ATurnGoesStraightOnFirstWhereTheCornerIsFar) {
-  // 20 m ahead and 6 m to the right: an arc of 6 m, after 14 m.
+  // 20 m ahead and 6 m to the right: the turn begins at most half as far again from the corner as it ends.
   const auto linkages = crossings({driven(1, {-20, 0, 0}, {0, 0, 0}), driven(2, {20, -6, 1}, {20, -20, 1})});
   ASSERT_EQ(linkages.size(), 1U);
   const Polyline& path = linkages[0].path;
   EXPECT_TRUE(path.front().isApprox(Point(0, 0, 0)));
   EXPECT_TRUE(path.back().isApprox(Point(20, -6, 1)));
   const MeasuredPolyline measured(path);
-  for (double x = 1.0; x < 14.0; x += 1.0) EXPECT_NEAR(measured.project({x, 0, 0}).distance_m, 0.0, 1e-6);
-  const Eigen::Vector2d center(14, -6);
-  for (const Point& p : path) {
-    if (p.x() <= 14.0) continue;
-    EXPECT_NEAR((p.head<2>() - center).norm(), 6.0, 0.1);
-  }
+  for (double x = 1.0; x < 11.0; x += 1.0) EXPECT_NEAR(measured.project({x, 0, 0}).distance_m, 0.0, 1e-6);
+  EXPECT_GT(measured.project({13, 0, 0}).distance_m, 0.02);
+}
+
+TEST(Crossings, ATurnOfAQuarterIsAnArc) {
+  const auto linkages = crossings({driven(1, {-20, 0, 0}, {0, 0, 0}), driven(2, {8, -8, 0}, {8, -20, 0})});
+  ASSERT_EQ(linkages.size(), 1U);
+  const Eigen::Vector2d center(0, -8);
+  for (const Point& p : linkages[0].path) EXPECT_NEAR((p.head<2>() - center).norm(), 8.0, 0.1);
 }
 
 /// Streets along the crossroads' arms, meeting at node 5.
