@@ -112,8 +112,10 @@ struct Lane {
   ElementId id = kNoElement;
   ElementId left_boundary = kNoElement;
   ElementId right_boundary = kNoElement;
-  Range left_range;                  ///< on the left boundary
-  Range right_range;                 ///< on the right boundary
+  Range left_range;            ///< on the left boundary
+  Range right_range;           ///< on the right boundary
+  bool left_reversed = false;  ///< the left boundary runs against the lane; not published
+  bool right_reversed = false;
   Polyline left, right, centerline;  ///< map frame, all in the same direction
   double width_m = 0.0;              ///< mean
   ElementId left_neighbour = kNoElement;

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/ego_track.hpp"
+#include "mapping/lane_geometry.hpp"
+#include "mapping/oriented_groups.hpp"
 #include "mapping/stoplines.hpp"
 
 namespace laneloom {
@@ -39,27 +40,30 @@ double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, co
 }
 
 /// Lanes that continue one another, or lie along the same side of one boundary: one variable of the model.
-class Groups {
- public:
-  Groups(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) : of_(lanes.size()) {
-    std::iota(of_.begin(), of_.end(), 0U);
-    std::map<ElementId, std::size_t> index, left_of, right_of;
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-      index.emplace(lanes[i].id, i);
-      join(i, left_of.emplace(lanes[i].right_boundary, i).first->second);
-      join(i, right_of.emplace(lanes[i].left_boundary, i).first->second);
+OrientedGroups group(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) {
+  struct First {
+    std::size_t lane;
+    bool reversed;  ///< the boundary runs against it
+  };
+  OrientedGroups groups(lanes.size());
+  std::map<ElementId, std::size_t> index;
+  std::map<BoundarySide, First> beside;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    index.emplace(lanes[i].id, i);
+    for (const bool left : {true, false}) {
+      const bool reversed = left ? lanes[i].left_reversed : lanes[i].right_reversed;
+      const First& first = beside.emplace(boundary_side(lanes[i], left), First{i, reversed}).first->second;
+      groups.join(first.lane, i, reversed != first.reversed);
     }
-    for (const Linkage& linkage : linkages) join(index.at(linkage.from), index.at(linkage.to));
   }
-  std::size_t operator[](std::size_t lane) const { return of_[lane]; }
+  for (const Linkage& linkage : linkages) groups.join(index.at(linkage.from), index.at(linkage.to), false);
+  return groups;
+}
 
- private:
-  void join(std::size_t a, std::size_t b) {
-    std::ranges::replace(of_, std::size_t{std::max(of_[a], of_[b])}, std::size_t{std::min(of_[a], of_[b])});
-  }
-
-  std::vector<std::size_t> of_;
-};
+/// Whether a lane runs against the first one of its group.
+bool is_opposed(const OrientedGroups& groups, std::size_t lane) {
+  return groups.opposed(lane, groups.group(lane));
+}
 
 struct Mean {
   double sum = 0.0;
@@ -95,9 +99,10 @@ double divider_evidence(const Marking& boundary, const Range& range) {
   return solid_m > dashed_m ? kDividerEvidence : -kDividerEvidence;
 }
 
-/// Whether the lanes are neighbours, be it across a double line.
+/// Whether the lanes are neighbours that run alike, be it across a double line.
 bool is_left_of(const Lane& lane, const Lane& other) {
-  if (lane.right_neighbour != kNoElement) return lane.right_neighbour == other.id;
+  if (lane.right_neighbour != kNoElement)
+    return lane.right_neighbour == other.id && lane.right_boundary == other.left_boundary;
   if (other.left_neighbour != kNoElement) return false;
   const MeasuredPolyline right(lane.right), left(other.left);
   const double middle_m = 0.5 * right.length();
@@ -112,7 +117,7 @@ double driving_side(const DirectionConfig& config) {
   return config.driving_side == "right" ? 1.0 : -1.0;
 }
 
-Model build_model(const std::vector<Lane>& lanes, const Groups& groups,
+Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
                   const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
                   double side) {
   const auto boundary = [&](ElementId id) -> const Marking& {
@@ -124,14 +129,19 @@ Model build_model(const std::vector<Lane>& lanes, const Groups& groups,
   std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane& lane = lanes[i];
+    const std::size_t own = groups.group(i);
+    const bool turned = is_opposed(groups, i);
+    const double sense = turned ? -1.0 : 1.0;
     const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
-    if (remembered != known.end()) model.evidence[groups[i]] += remembered->direction_log_odds;
+    if (remembered != known.end()) model.evidence[own] += sense * remembered->direction_log_odds;
     const bool right_edge = lane.right_neighbour == kNoElement && is_edge(lane.right_boundary);
     const bool left_edge = lane.left_neighbour == kNoElement && is_edge(lane.left_boundary);
-    edges[groups[i]].add(side * kEdgeEvidence * ((right_edge ? 1.0 : 0.0) - (left_edge ? 1.0 : 0.0)));
+    edges[own].add(sense * side * kEdgeEvidence * ((right_edge ? 1.0 : 0.0) - (left_edge ? 1.0 : 0.0)));
     for (std::size_t k = 0; k < lanes.size(); ++k) {
-      if (groups[i] == groups[k] || !is_left_of(lane, lanes[k])) continue;
-      opposed[{groups[i], groups[k]}].add(divider_evidence(boundary(lane.right_boundary), lane.right_range));
+      const std::size_t other = groups.group(k);
+      if (own == other || turned != is_opposed(groups, k) || !is_left_of(lane, lanes[k])) continue;
+      const auto beside = turned ? std::pair(other, own) : std::pair(own, other);
+      opposed[beside].add(divider_evidence(boundary(lane.right_boundary), lane.right_range));
     }
   }
   for (std::size_t i = 0; i < lanes.size(); ++i)
@@ -168,6 +178,9 @@ void turn(Lane& lane) {
   std::swap(lane.left, lane.right);
   std::swap(lane.left_boundary, lane.right_boundary);
   std::swap(lane.left_range, lane.right_range);
+  std::swap(lane.left_reversed, lane.right_reversed);
+  lane.left_reversed = !lane.left_reversed;
+  lane.right_reversed = !lane.right_reversed;
   std::swap(lane.left_neighbour, lane.right_neighbour);
   const double total_m = length(lane.centerline);
   std::ranges::reverse(lane.inferred_ranges);
@@ -191,12 +204,12 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
                      const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
                      std::vector<Linkage>& linkages) {
-  const Groups groups(lanes, linkages);
+  const OrientedGroups groups = group(lanes, linkages);
   const double side = driving_side(config);
   const std::vector<double> belief = beliefs(build_model(lanes, groups, boundaries, known, side), side);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const double log_odds = belief[groups[i]];
+    const double log_odds = (is_opposed(groups, i) ? -1.0 : 1.0) * belief[groups.group(i)];
     if (std::abs(log_odds) < kKnown) continue;
     lanes[i].direction = Lane::Direction::along_centerline;
     if (log_odds < 0.0) against.push_back(lanes[i].id);

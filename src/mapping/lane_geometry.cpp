@@ -62,6 +62,11 @@ Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
 
 }  // namespace
 
+BoundarySide boundary_side(const Lane& lane, bool left) {
+  return left ? BoundarySide{lane.left_boundary, lane.left_reversed}
+              : BoundarySide{lane.right_boundary, !lane.right_reversed};
+}
+
 Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }
 Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, false); }
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {

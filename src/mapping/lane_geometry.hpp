@@ -1,13 +1,26 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <optional>
 #include <vector>
 
 #include "laneloom/types.hpp"
 
-/// How one lane lies to another that it leads into.
+/// How a lane lies to its boundaries, and to another that it leads into.
 namespace laneloom {
+
+/// One side of a boundary.
+struct BoundarySide {
+  ElementId boundary = kNoElement;
+  bool on_left = false;  ///< as the boundary runs
+
+  BoundarySide other() const { return {boundary, !on_left}; }
+  auto operator<=>(const BoundarySide&) const = default;
+};
+
+/// On which side of its left or of its right boundary a lane lies.
+BoundarySide boundary_side(const Lane& lane, bool left);
 
 /// Unit direction in which a lane is left at its end, or entered at its start; map frame, horizontal.
 Eigen::Vector2d leaving(const Lane& lane);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <tuple>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/lane_geometry.hpp"
 
 namespace laneloom {
 namespace {
@@ -41,41 +43,50 @@ Occupied joined(Occupied a, const Occupied& b) {
   return a;
 }
 
-/// Two boundaries that may bound a lane.
+/// Two boundaries that may bound a lane. It runs as the one does that is not reversed.
 struct Pair {
   std::size_t left, right;
+  bool left_reversed, right_reversed;
   bool adjacent;  ///< no other boundary between them
   std::uint32_t section;
 };
 
-/// How many boundaries lie between `left` and one on its right.
+/// How many boundaries lie between one and another beside it.
 struct Between {
   std::size_t all = 0;
   std::size_t lasting = 0;  ///< those that are beside both over much of the stretch
 };
 
-Between between(const SectionGraph& graph, std::size_t left, const SideBySide& right) {
+Between between(const SectionGraph& graph, std::size_t one, const SideBySide& other) {
+  const auto& beyond = graph.beside[other.other];
+  const bool one_on_left = other.opposed == other.on_left();  // of the other
   Between count;
-  for (const SideBySide& middle : graph.right_of[left]) {
+  for (const SideBySide& middle : graph.beside[one]) {
     if (count.lasting > kMaxBetween) break;
-    const auto& beyond = graph.right_of[middle.right];
-    const auto found = std::ranges::find(beyond, right.right, &SideBySide::right);
-    if (found == beyond.end()) continue;
+    if (middle.on_left() != other.on_left()) continue;
+    const auto found = std::ranges::find(beyond, middle.other, &SideBySide::other);
+    if (found == beyond.end() || found->on_left() != one_on_left) continue;
     ++count.all;
-    if (std::min(middle.length_m, found->length_m) >= kMinBetween * right.length_m) ++count.lasting;
+    if (std::min(middle.length_m, found->length_m) >= kMinBetween * other.length_m) ++count.lasting;
   }
   return count;
 }
 
-/// Neighbouring boundaries first.
+/// Neighbouring boundaries first. Of two that are opposed, the lane runs as the older one.
 std::vector<Pair> pairs(const SectionGraph& graph) {
   std::array<std::vector<Pair>, kMaxBetween + 1> by_count;
   for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
-    for (const std::size_t left : graph.sections[section].boundaries) {
-      for (const SideBySide& beside : graph.right_of[left]) {
-        const auto [all, lasting] = between(graph, left, beside);
+    for (const std::size_t one : graph.sections[section].boundaries) {
+      for (const SideBySide& other : graph.beside[one]) {
+        if (other.opposed ? other.other < one : other.on_left()) continue;
+        const auto [all, lasting] = between(graph, one, other);
         if (lasting > kMaxBetween) continue;
-        by_count[std::min(all, kMaxBetween)].push_back({left, beside.right, all == 0, section});
+        Pair pair{one, other.other, false, other.opposed, all == 0, section};
+        if (other.on_left()) {
+          std::swap(pair.left, pair.right);
+          std::swap(pair.left_reversed, pair.right_reversed);
+        }
+        by_count[std::min(all, kMaxBetween)].push_back(pair);
       }
     }
   }
@@ -84,24 +95,52 @@ std::vector<Pair> pairs(const SectionGraph& graph) {
   return result;
 }
 
-std::vector<CrossSection> cross_sections(const MeasuredPolyline& left, const MeasuredPolyline& right,
-                                         const Occupied& left_used, const Occupied& right_used,
-                                         double max_width_m, const LaneConfig& config) {
-  std::vector<CrossSection> sections;
-  const auto steps = static_cast<int>(std::max(1.0, std::ceil(right.length() / config.step_m)));
-  for (int i = 0; i <= steps; ++i) {
-    const double arc_m = right.length() * i / steps;
-    const Point point = right.at(arc_m);
-    const Projection foot = left.project(point);
-    const bool free = !contains(left_used, foot.arc_m) && !contains(right_used, arc_m);
-    const bool width_ok = foot.distance_m >= config.min_width_m && foot.distance_m <= max_width_m;
-    sections.push_back({.left_arc_m = foot.arc_m,
-                        .right_arc_m = arc_m,
-                        .width_m = foot.distance_m,
-                        .wide = foot.distance_m > config.max_width_m,
-                        .left = foot.foot,
-                        .right = point,
-                        .valid = free && width_ok && foot.inside && foot.lateral_m < 0.0});
+/// A boundary, as a lane beside it runs.
+class Side {
+ public:
+  Side(const LaneBoundary& boundary, const MeasuredPolyline& measured, bool reversed,
+       const Occupied& occupied)
+      : boundary_(boundary), measured_(measured), reversed_(reversed), occupied_(occupied) {
+    if (reversed) turned_ = MeasuredPolyline(Polyline(measured.points().rbegin(), measured.points().rend()));
+  }
+  const MeasuredPolyline& line() const { return reversed_ ? turned_ : measured_; }
+  const Marking& marking() const { return boundary_.marking; }
+  bool reversed() const { return reversed_; }
+  bool is_free(double arc_m) const { return !contains(occupied_, own(arc_m)); }
+  bool is_bridged(double arc_m) const { return contains(boundary_.bridged, own(arc_m)); }
+  /// On the boundary as it runs itself.
+  Range own(const Range& range) const {
+    return reversed_ ? Range{own(range.to_m), own(range.from_m)} : range;
+  }
+
+ private:
+  double own(double arc_m) const { return reversed_ ? measured_.length() - arc_m : arc_m; }
+
+  const LaneBoundary& boundary_;
+  const MeasuredPolyline& measured_;
+  bool reversed_;
+  MeasuredPolyline turned_;
+  const Occupied& occupied_;
+};
+
+std::vector<CrossSection> cross_sections(const Side& left, const Side& right, double max_width_m,
+                                         const LaneConfig& config) {
+  const Polyline points = right.line().resample(config.step_m);
+  std::vector<CrossSection> sections(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double arc_m =
+        right.line().length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    if (!right.is_free(arc_m)) continue;
+    const Projection foot = left.line().project(points[i], max_width_m);
+    if (!foot.inside || foot.distance_m < config.min_width_m || foot.lateral_m >= 0.0) continue;
+    if (!left.is_free(foot.arc_m)) continue;
+    sections[i] = {.left_arc_m = foot.arc_m,
+                   .right_arc_m = arc_m,
+                   .width_m = foot.distance_m,
+                   .wide = foot.distance_m > config.max_width_m,
+                   .left = foot.foot,
+                   .right = points[i],
+                   .valid = true};
   }
   return sections;
 }
@@ -138,12 +177,15 @@ void set_trust(const Marking& left, const Marking& right, Lane& lane) {
   lane.existence_probability = std::min(left.existence_probability, right.existence_probability);
 }
 
-Lane make_lane(std::span<const CrossSection> sections, const LaneBoundary& left, const LaneBoundary& right,
+Lane make_lane(std::span<const CrossSection> sections, const Side& left, const Side& right,
                const LaneConfig& config) {
-  Lane lane{.left_boundary = left.marking.id, .right_boundary = right.marking.id};
-  lane.left_range = {sections.front().left_arc_m, sections.back().left_arc_m};
-  lane.right_range = {sections.front().right_arc_m, sections.back().right_arc_m};
-  set_trust(left.marking, right.marking, lane);
+  Lane lane{.left_boundary = left.marking().id,
+            .right_boundary = right.marking().id,
+            .left_range = left.own({sections.front().left_arc_m, sections.back().left_arc_m}),
+            .right_range = right.own({sections.front().right_arc_m, sections.back().right_arc_m}),
+            .left_reversed = left.reversed(),
+            .right_reversed = right.reversed()};
+  set_trust(left.marking(), right.marking(), lane);
   // Sides and centerline all go through the cross-sections, so that the one is left of the other wherever the
   // boundaries' own vertices are.
   double width_sum_m = 0.0, arc_m = 0.0;
@@ -155,7 +197,7 @@ Lane make_lane(std::span<const CrossSection> sections, const LaneBoundary& left,
     const Point center = 0.5 * (section.left + section.right);
     const double from_m = arc_m;
     if (!lane.centerline.empty()) arc_m += (center - lane.centerline.back()).head<2>().norm();
-    if (contains(left.bridged, section.left_arc_m) || contains(right.bridged, section.right_arc_m))
+    if (left.is_bridged(section.left_arc_m) || right.is_bridged(section.right_arc_m))
       append(lane.inferred_ranges, {from_m, arc_m});
     lane.left.push_back(section.left);
     lane.right.push_back(section.right);
@@ -175,11 +217,11 @@ std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, d
   }));
 }
 
-/// Whether two lines run the same way in the middle of the first.
-bool same_way(const Polyline& line, const Polyline& other) {
-  const MeasuredPolyline a(line), b(other);
-  const double middle_m = 0.5 * a.length();
-  return a.direction(middle_m).dot(b.direction(b.project(a.at(middle_m)).arc_m)) >= 0.0;
+/// Whether the first line runs as the second does, in the middle of the first.
+bool same_way(const Polyline& line, const MeasuredPolyline& other) {
+  const MeasuredPolyline measured(line);
+  const double middle_m = 0.5 * measured.length();
+  return measured.direction(middle_m).dot(other.direction(other.project(measured.at(middle_m)))) >= 0.0;
 }
 
 std::pair<ElementId, ElementId> boundary_pair(const Lane& lane) {
@@ -195,24 +237,24 @@ double common_length(const Range& a, const Range& b) {
 std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<LaneBoundary>& boundaries,
                                  const std::vector<MeasuredPolyline>& measured, const LaneConfig& config) {
   std::vector<Lane> lanes;
-  std::vector<Occupied> used_right_side(boundaries.size()), used_left_side(boundaries.size());
+  // Per boundary: its right side, its left side.
+  std::vector<std::array<Occupied, 2>> used(boundaries.size());
   const auto is_edge = [&](std::size_t i) { return boundaries[i].marking.type == MarkingType::roadedge; };
   const auto pair_lanes = [&](const Pair& pair, const Occupied& left_used, const Occupied& right_used) {
-    const auto& [left, right, adjacent, section] = pair;
+    const Side left(boundaries[pair.left], measured[pair.left], pair.left_reversed, left_used);
+    const Side right(boundaries[pair.right], measured[pair.right], pair.right_reversed, right_used);
     // Between two edges so far apart, there rather is a verge.
-    const bool kerb = adjacent && is_edge(left) != is_edge(right);
-    const auto sections = cross_sections(measured[left], measured[right], left_used, right_used,
-                                         kerb ? config.max_kerb_width_m : config.max_width_m, config);
+    const bool kerb = pair.adjacent && is_edge(pair.left) != is_edge(pair.right);
+    const auto sections =
+        cross_sections(left, right, kerb ? config.max_kerb_width_m : config.max_width_m, config);
     for (std::size_t begin = 0; begin < sections.size();) {
       const std::size_t end = std::max(run_end(sections, begin, config), begin + 1);
       const double min_length_m = sections[begin].wide ? kMinKerbLaneLength_m : config.min_length_m;
       if (sections[end - 1].left_arc_m - sections[begin].left_arc_m >= min_length_m) {
-        Lane lane = make_lane(std::span(sections).subspan(begin, end - begin), boundaries[left],
-                              boundaries[right], config);
-        lane.section = section;
-        used_right_side[left].push_back(lane.left_range);
-        used_left_side[right].push_back(lane.right_range);
-        lanes.push_back(std::move(lane));
+        lanes.push_back(make_lane(std::span(sections).subspan(begin, end - begin), left, right, config));
+        lanes.back().section = pair.section;
+        used[pair.left][pair.left_reversed].push_back(lanes.back().left_range);
+        used[pair.right][!pair.right_reversed].push_back(lanes.back().right_range);
       }
       begin = end;
     }
@@ -222,14 +264,14 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
     if (is_edge(pair.left) && is_edge(pair.right)) {
       between_edges.push_back(pair);
     } else {
-      pair_lanes(pair, used_right_side[pair.left], used_left_side[pair.right]);
+      pair_lanes(pair, used[pair.left][pair.left_reversed], used[pair.right][!pair.right_reversed]);
     }
   }
   // What lies beyond the edge of a road with lanes is a verge, a pavement or a cycle track.
-  const std::vector<Occupied> road_on_right = used_right_side, road_on_left = used_left_side;
+  const auto roads = used;
   for (const Pair& pair : between_edges) {
-    pair_lanes(pair, joined(used_right_side[pair.left], road_on_left[pair.left]),
-               joined(used_left_side[pair.right], road_on_right[pair.right]));
+    pair_lanes(pair, joined(used[pair.left][pair.left_reversed], roads[pair.left][!pair.left_reversed]),
+               joined(used[pair.right][!pair.right_reversed], roads[pair.right][pair.right_reversed]));
   }
   return lanes;
 }
@@ -237,31 +279,33 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
 void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<Lane>& lanes,
                     std::vector<KnownLane>& known, ElementId& next_id) {
   struct Match {
-    bool other_boundaries;
-    std::size_t missing;  ///< how little of the lane is covered, for sorting
+    std::size_t covered;  ///< points of the lane
     std::size_t lane, known;
   };
-  std::vector<Match> matches;
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    const MeasuredPolyline centerline(known[k].centerline);
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-      const std::size_t covered = points_beside(lanes[i].centerline, centerline, 0.5 * config.min_width_m);
-      if (covered == 0) continue;
-      const bool other = boundary_pair(lanes[i]) != std::pair(known[k].boundary_a, known[k].boundary_b);
-      matches.push_back({other, std::numeric_limits<std::size_t>::max() - covered, i, k});
-    }
-  }
-  std::ranges::stable_sort(matches, {},
-                           [](const Match& m) { return std::tuple(m.other_boundaries, m.missing); });
-
+  std::vector<std::optional<MeasuredPolyline>> measured(known.size());
   std::vector<bool> taken(known.size(), false);
   std::map<ElementId, double> direction_log_odds;
-  for (const auto& [other_boundaries, missing, i, k] : matches) {
-    if (taken[k] || lanes[i].id != kNoElement) continue;
-    taken[k] = true;
-    lanes[i].id = known[k].id;
-    const double sense = same_way(lanes[i].centerline, known[k].centerline) ? 1.0 : -1.0;
-    direction_log_odds[known[k].id] = sense * known[k].direction_log_odds;
+  // Between the same boundaries first, then wherever a lane has been.
+  for (const bool same_boundaries : {true, false}) {
+    std::vector<Match> matches;
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      for (std::size_t i = 0; i < lanes.size() && !taken[k]; ++i) {
+        const bool same = boundary_pair(lanes[i]) == std::pair(known[k].boundary_a, known[k].boundary_b);
+        if (lanes[i].id != kNoElement || same != same_boundaries) continue;
+        if (!measured[k]) measured[k].emplace(known[k].centerline);
+        const std::size_t covered =
+            points_beside(lanes[i].centerline, *measured[k], 0.5 * config.min_width_m);
+        if (covered > 0) matches.push_back({covered, i, k});
+      }
+    }
+    std::ranges::stable_sort(matches, std::greater{}, &Match::covered);
+    for (const auto& [covered, i, k] : matches) {
+      if (taken[k] || lanes[i].id != kNoElement) continue;
+      taken[k] = true;
+      lanes[i].id = known[k].id;
+      const double sense = same_way(lanes[i].centerline, *measured[k]) ? 1.0 : -1.0;
+      direction_log_odds[known[k].id] = sense * known[k].direction_log_odds;
+    }
   }
   std::erase_if(known, [&](const KnownLane& lane) {
     const bool expired = lane.last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < frame;
@@ -277,17 +321,20 @@ void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<L
 
 void find_neighbours(std::vector<Lane>& lanes) {
   for (Lane& lane : lanes) {
-    double longest_left_m = 0.0, longest_right_m = 0.0;
-    for (const Lane& other : lanes) {
-      if (other.right_boundary == lane.left_boundary) {
-        const double common_m = common_length(other.right_range, lane.left_range);
-        if (common_m > longest_left_m) lane.left_neighbour = other.id, longest_left_m = common_m;
+    const auto across = [&](const BoundarySide& side, const Range& range) {
+      ElementId neighbour = kNoElement;
+      double longest_m = 0.0;
+      for (const Lane& other : lanes) {
+        for (const bool left : {true, false}) {
+          if (boundary_side(other, left) != side.other()) continue;
+          const double common_m = common_length(left ? other.left_range : other.right_range, range);
+          if (common_m > longest_m) neighbour = other.id, longest_m = common_m;
+        }
       }
-      if (other.left_boundary == lane.right_boundary) {
-        const double common_m = common_length(other.left_range, lane.right_range);
-        if (common_m > longest_right_m) lane.right_neighbour = other.id, longest_right_m = common_m;
-      }
-    }
+      return neighbour;
+    };
+    lane.left_neighbour = across(boundary_side(lane, true), lane.left_range);
+    lane.right_neighbour = across(boundary_side(lane, false), lane.right_range);
   }
 }
 

@@ -31,33 +31,43 @@ class Boundaries {
   const std::vector<MeasuredPolyline>& measured_;
 };
 
-/// One side of a lane.
+/// One side of a lane, along the boundary there.
 struct Side {
-  ElementId boundary = kNoElement;
+  BoundarySide of;
   Range range;
+  bool reversed;  ///< the boundary runs against the lane
+  double begin_m() const { return reversed ? range.to_m : range.from_m; }
+  double end_m() const { return reversed ? range.from_m : range.to_m; }
 };
-Side left_side(const Lane& lane) { return {lane.left_boundary, lane.left_range}; }
-Side right_side(const Lane& lane) { return {lane.right_boundary, lane.right_range}; }
-
-/// From the end of one lane to the start of another along their shared boundary; empty where they share none
-/// or `to` does not follow.
-std::optional<double> shared_gap(const Side& from, const Side& to, double max_gap_m) {
-  const double gap_m = to.range.from_m - from.range.to_m;
-  const bool follows = gap_m >= -kMaxOverlap_m && gap_m <= max_gap_m && to.range.from_m > from.range.from_m;
-  if (from.boundary != to.boundary || !follows) return std::nullopt;
-  return std::max(gap_m, 0.0);
+Side side(const Lane& lane, bool left) {
+  return left ? Side{boundary_side(lane, true), lane.left_range, lane.left_reversed}
+              : Side{boundary_side(lane, false), lane.right_range, lane.right_reversed};
 }
 
-/// From the end of `from` to the start of `to`, beside the boundary that they share; empty where they meet.
-Polyline path_along(const MeasuredPolyline& boundary, const Range& gap, const Lane& from, const Lane& to) {
-  if (gap.length() < kMinGap_m) return {};
+/// From the end of one lane to the start of another along the boundary that both lie beside; empty where
+/// there is none or `to` does not follow.
+std::optional<double> shared_gap(const Side& from, const Side& to, double max_gap_m) {
+  if (from.of != to.of || from.reversed != to.reversed) return std::nullopt;
+  const double sense = from.reversed ? -1.0 : 1.0;
+  const double gap_m = sense * (to.begin_m() - from.end_m());
+  const bool follows =
+      gap_m >= -kMaxOverlap_m && gap_m <= max_gap_m && sense * (to.begin_m() - from.begin_m()) > 0.0;
+  return follows ? std::optional(std::max(gap_m, 0.0)) : std::nullopt;
+}
+
+/// From the end of `from` to the start of `to`, beside the boundary that they share, between the arc lengths
+/// on it; empty where they meet.
+Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m, const Lane& from,
+                    const Lane& to) {
+  const double gap_m = std::abs(to_m - from_m);
+  if (gap_m < kMinGap_m) return {};
   const Point &start = from.centerline.back(), &end = to.centerline.front();
   const double start_m = boundary.project(start).lateral_m, end_m = boundary.project(end).lateral_m;
-  const int steps = static_cast<int>(std::ceil(gap.length() / kPathStep_m));
+  const int steps = static_cast<int>(std::ceil(gap_m / kPathStep_m));
   Polyline path{start};
   for (int i = 1; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps;
-    const double arc_m = gap.from_m + share * gap.length();
+    const double arc_m = from_m + share * (to_m - from_m);
     const Eigen::Vector2d along =
         (boundary.at(arc_m + kPathStep_m) - boundary.at(arc_m - kPathStep_m)).head<2>().normalized();
     const double lateral_m = start_m + share * (end_m - start_m);
@@ -68,26 +78,25 @@ Polyline path_along(const MeasuredPolyline& boundary, const Range& gap, const La
 }
 
 /// The lane that comes next along one side of `from`.
-template <class SideOf>
-void link_along(const Lane& from, const std::vector<Lane>& lanes, const Boundaries& boundaries,
-                const LinkageConfig& config, SideOf side_of, std::vector<Linkage>& linkages) {
+void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, const Boundaries& boundaries,
+                const LinkageConfig& config, std::vector<Linkage>& linkages) {
+  const Side begun = side(from, left);
   const Lane* next = nullptr;
   double next_gap_m = std::numeric_limits<double>::infinity();
   for (const Lane& to : lanes) {
     if (to.id == from.id) continue;
-    const auto gap_m = shared_gap(side_of(from), side_of(to), config.max_shared_gap_m);
+    const auto gap_m = shared_gap(begun, side(to, left), config.max_shared_gap_m);
     if (!gap_m || *gap_m >= next_gap_m) continue;
     next = &to;
     next_gap_m = *gap_m;
   }
   if (next == nullptr) return;
-  const Side side = side_of(from);
   linkages.push_back({.from = from.id,
                       .to = next->id,
                       .kind = Linkage::Kind::shared_boundary,
                       .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
-                      .path = path_along(boundaries.at(side.boundary),
-                                         {side.range.to_m, side_of(*next).range.from_m}, from, *next)});
+                      .path = path_along(boundaries.at(begun.of.boundary), begun.end_m(),
+                                         side(*next, left).begin_m(), from, *next)});
 }
 
 /// Between aligned lanes; empty where they meet.
@@ -117,8 +126,7 @@ std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes,
   const Boundaries by_id(boundaries, measured);
   std::vector<Linkage> linkages;
   for (const Lane& from : lanes) {
-    link_along(from, lanes, by_id, config, left_side, linkages);
-    link_along(from, lanes, by_id, config, right_side, linkages);
+    for (const bool left : {true, false}) link_along(from, left, lanes, by_id, config, linkages);
     for (const Lane& to : lanes) {
       if (to.id == from.id) continue;
       const auto confidence = alignment(from, to, config);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "mapping/markings.hpp"
+#include "mapping/oriented_groups.hpp"
 
 namespace laneloom {
 namespace {
@@ -14,20 +14,6 @@ namespace {
 constexpr double kSampleStep_m = 2.0;  // half of the shortest lane
 constexpr double kAlignedCosine =
     0.2;  // with the heading: below, a road crosses the vehicle's rather than follows it
-
-/// How `a` lies to `b` over the part of `a` that is beside `b`.
-struct Overlap {
-  double lateral_m = 0.0;  ///< mean; positive: a is left of b, as b runs
-  double length_m = 0.0;
-  bool opposed = false;  ///< a and b run against each other
-};
-
-/// How `b` then lies to `a`.
-Overlap seen_from_other(const Overlap& overlap) {
-  return {.lateral_m = overlap.opposed ? overlap.lateral_m : -overlap.lateral_m,
-          .length_m = overlap.length_m,
-          .opposed = overlap.opposed};
-}
 
 /// A boundary's points, evenly spaced, with the directions in which it leaves them.
 struct Samples {
@@ -45,13 +31,15 @@ Samples sample(const MeasuredPolyline& line) {
   return samples;
 }
 
-/// Empty where no point of `a` has its foot inside of `b`, near and in a similar direction.
-std::optional<Overlap> overlap(const Samples& a, const MeasuredPolyline& b, double max_distance_m,
-                               double min_cosine) {
+/// How `b` lies beside `a`; empty where no point of `a` has its foot inside of `b`, near and in a similar
+/// direction.
+std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline& b,
+                                       const SectionConfig& config) {
+  const double min_cosine = cos_degrees(config.max_angle_deg);
   double lateral_sum_m = 0.0, cosine_sum = 0.0;
   int count = 0;
   for (std::size_t i = 0; i < a.points.size(); ++i) {
-    const Projection foot = b.project(a.points[i], max_distance_m);
+    const Projection foot = b.project(a.points[i], config.max_distance_m);
     if (!foot.inside) continue;
     const double cosine = a.directions[i].dot(b.direction(foot));
     if (std::abs(cosine) < min_cosine) continue;
@@ -60,17 +48,22 @@ std::optional<Overlap> overlap(const Samples& a, const MeasuredPolyline& b, doub
     ++count;
   }
   if (count == 0) return std::nullopt;
-  return Overlap{lateral_sum_m / count, count * kSampleStep_m, cosine_sum < 0.0};
+  const bool opposed = cosine_sum < 0.0;
+  const double lateral_m = lateral_sum_m / count;  // of `a`, as `b` runs
+  return SideBySide{
+      .lateral_m = opposed ? lateral_m : -lateral_m, .length_m = count * kSampleStep_m, .opposed = opposed};
 }
 
-struct Edge {
-  std::size_t to = 0;
-  Overlap overlap;  ///< of `to` beside the vertex
-};
-using Graph = std::vector<std::vector<Edge>>;
+SideBySide seen_from_other(const SideBySide& beside, std::size_t self) {
+  return {.other = self,
+          .lateral_m = beside.opposed ? beside.lateral_m : -beside.lateral_m,
+          .length_m = beside.length_m,
+          .opposed = beside.opposed};
+}
 
-Graph overlap_graph(const std::vector<MeasuredPolyline>& lines, const SectionConfig& config) {
-  const double min_cosine = cos_degrees(config.max_angle_deg);
+using Graph = std::vector<std::vector<SideBySide>>;
+
+Graph side_by_side(const std::vector<MeasuredPolyline>& lines, const SectionConfig& config) {
   std::vector<Samples> samples;
   samples.reserve(lines.size());
   for (const MeasuredPolyline& line : lines) samples.push_back(sample(line));
@@ -79,10 +72,11 @@ Graph overlap_graph(const std::vector<MeasuredPolyline>& lines, const SectionCon
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       const bool i_is_longer = lines[i].length() >= lines[j].length();
       const std::size_t longer = i_is_longer ? i : j, shorter = i_is_longer ? j : i;
-      const auto beside = overlap(samples[shorter], lines[longer], config.max_distance_m, min_cosine);
+      auto beside = side_by_side(samples[shorter], lines[longer], config);
       if (!beside) continue;
-      graph[longer].push_back({shorter, *beside});
-      graph[shorter].push_back({longer, seen_from_other(*beside)});
+      beside->other = longer;
+      graph[shorter].push_back(*beside);
+      graph[longer].push_back(seen_from_other(*beside, shorter));
     }
   }
   return graph;
@@ -94,50 +88,27 @@ double along_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_ma
   return line.direction(line.project(T_map_body.translation())).dot(heading) / heading.norm();
 }
 
-/// Boundaries that run side by side, and whether they run against each other. Round the corners of an
-/// intersection that may have no answer: then what is nearest to the vehicle decides, and furthest off a lane
-/// is lost.
-class Sections {
- public:
-  Sections(const Graph& graph, const std::vector<double>& distance_m)
-      : section_(graph.size()), opposed_(graph.size(), false) {
-    std::iota(section_.begin(), section_.end(), 0U);
-    struct Pair {
-      std::size_t a, b;
-      Overlap overlap;
-    };
-    std::vector<Pair> pairs;
-    for (std::size_t a = 0; a < graph.size(); ++a)
-      for (const Edge& edge : graph[a])
-        if (a < edge.to) pairs.push_back({a, edge.to, edge.overlap});
-    std::ranges::stable_sort(pairs, {},
-                             [&](const Pair& p) { return std::max(distance_m[p.a], distance_m[p.b]); });
-    for (const auto& [a, b, overlap] : pairs)
-      if (section_[a] != section_[b]) join(a, b, overlap.opposed);
-  }
-  /// The smallest index of its members.
-  std::size_t section(std::size_t boundary) const { return section_[boundary]; }
-  bool opposed(std::size_t a, std::size_t b) const { return opposed_[a] != opposed_[b]; }
-
- private:
-  void join(std::size_t a, std::size_t b, bool opposed) {
-    const bool turn = opposed_[a] != (opposed_[b] != opposed);
-    const auto [kept, gone] = std::minmax({section_[a], section_[b]});
-    for (std::size_t k = 0; k < section_.size(); ++k) {
-      if (section_[k] != gone) continue;
-      section_[k] = kept;
-      opposed_[k] = opposed_[k] != turn;
-    }
-  }
-
-  std::vector<std::size_t> section_;
-  std::vector<bool> opposed_;  ///< to the other members, as a whole either way
-};
+/// What is nearer to the vehicle is joined first.
+OrientedGroups join_sections(const Graph& graph, const std::vector<double>& distance_m) {
+  struct Pair {
+    std::size_t a, b;
+    bool opposed;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t a = 0; a < graph.size(); ++a)
+    for (const SideBySide& beside : graph[a])
+      if (a < beside.other) pairs.push_back({a, beside.other, beside.opposed});
+  std::ranges::stable_sort(pairs, {},
+                           [&](const Pair& p) { return std::max(distance_m[p.a], distance_m[p.b]); });
+  OrientedGroups sections(graph.size());
+  for (const auto& [a, b, opposed] : pairs) sections.join(a, b, opposed);
+  return sections;
+}
 
 /// Whether a section runs against the vehicle in the direction of one of its boundaries. All have a say, by
 /// their lengths, as one alone may turn off into another road.
 bool against_heading(const std::vector<std::size_t>& section, std::size_t boundary,
-                     const std::vector<MeasuredPolyline>& measured, const Sections& sections,
+                     const std::vector<MeasuredPolyline>& measured, const OrientedGroups& sections,
                      const Eigen::Isometry3d& T_map_body) {
   double sum_m = 0.0, total_m = 0.0;
   for (const std::size_t k : section) {
@@ -153,19 +124,18 @@ bool against_heading(const std::vector<std::size_t>& section, std::size_t bounda
 
 SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d& T_map_body,
                            std::vector<LaneBoundary>& boundaries, std::vector<MeasuredPolyline>& measured) {
-  const Graph graph = overlap_graph(measured, config);
+  SectionGraph result{.sections = {}, .beside = side_by_side(measured, config)};
   std::vector<double> distance_m;
   distance_m.reserve(measured.size());
   for (const MeasuredPolyline& line : measured)
     distance_m.push_back(line.project(T_map_body.translation()).distance_m);
-  const Sections sections(graph, distance_m);
-  SectionGraph result;
+  const OrientedGroups sections = join_sections(result.beside, distance_m);
   std::vector<bool> turned(boundaries.size(), false);
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    if (sections.section(i) != i) continue;
+    if (sections.group(i) != i) continue;
     RoadSection section;
     for (std::size_t k = i; k < boundaries.size(); ++k)
-      if (sections.section(k) == i) section.boundaries.push_back(k);
+      if (sections.group(k) == i) section.boundaries.push_back(k);
     const std::size_t longest = *std::ranges::max_element(
         section.boundaries, {}, [&](std::size_t k) { return measured[k].length(); });
     const bool turn_longest = against_heading(section.boundaries, longest, measured, sections, T_map_body);
@@ -177,14 +147,13 @@ SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d&
     }
     result.sections.push_back(std::move(section));
   }
-
-  result.right_of.resize(boundaries.size());
-  for (std::size_t i = 0; i < graph.size(); ++i) {
-    for (const Edge& edge : graph[i]) {
-      const double lateral_m = turned[i] ? -edge.overlap.lateral_m : edge.overlap.lateral_m;
-      if (lateral_m < 0.0) result.right_of[i].push_back({edge.to, -lateral_m, edge.overlap.length_m});
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    for (SideBySide& beside : result.beside[i]) {
+      if (turned[i]) beside.lateral_m = -beside.lateral_m;
+      beside.opposed = beside.opposed != (turned[i] != turned[beside.other]);
     }
-    std::ranges::stable_sort(result.right_of[i], {}, &SideBySide::distance_m);
+    std::ranges::stable_sort(result.beside[i], {},
+                             [](const SideBySide& beside) { return std::abs(beside.lateral_m); });
   }
   return result;
 }

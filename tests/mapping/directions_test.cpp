@@ -165,6 +165,22 @@ TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
   EXPECT_TRUE(runs_forward(13));
 }
 
+TEST_F(Directions, ALaneThatRunsAgainstOthersBesideItsBoundaryIsTurned) {
+  // The second stretch of the left lane was built against its boundaries.
+  lanes_ = {lane(11, 1, 0, 20), lane(13, 1, 20, 40)};
+  Lane& turned = lanes_[1];
+  for (Polyline* line : {&turned.left, &turned.right, &turned.centerline}) std::ranges::reverse(*line);
+  std::swap(turned.left, turned.right);
+  std::swap(turned.left_boundary, turned.right_boundary);
+  turned.left_reversed = turned.right_reversed = true;
+  for (int i = 0; i < 5; ++i) observe(test::at(10, 5.25));
+  find("unknown");
+  EXPECT_TRUE(known(11) && known(13));
+  EXPECT_TRUE(runs_forward(11) && runs_forward(13));
+  EXPECT_EQ(get(13).left_boundary, 1U);
+  EXPECT_FALSE(get(13).left_reversed || get(13).right_reversed);
+}
+
 TEST_F(Directions, AWayIsTurnedWithItsLanes) {
   lanes_ = {lane(11, 1, 0, 10), lane(12, 1, 20, 40)};
   linkages_ = {{.from = 11, .to = 12, .path = {{10, 5.25, 0}, {20, 5.25, 0}}}};

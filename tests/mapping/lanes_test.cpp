@@ -57,6 +57,67 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   EXPECT_EQ(left->section, right->section);
 }
 
+/// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
+/// right. Round its corners no sense of direction fits all.
+std::vector<LaneBoundary> t_junction() {
+  const auto joined = [](Polyline a, const Polyline& b, const Polyline& c) {
+    a.insert(a.end(), b.begin(), b.end());
+    a.insert(a.end(), c.begin(), c.end());
+    return a;
+  };
+  const Polyline west = joined(straight({-30, -3.5, 0}, {13, -3.5, 0}), test::arc({13.5, -6.5, 0}, 3, 90, 0),
+                               straight({16.5, -7, 0}, {16.5, -30, 0}));
+  const Polyline east =
+      joined(straight({23.5, -30, 0}, {23.5, -7, 0}), test::arc({26.5, -6.5, 0}, 3, 180, 90),
+             straight({27, -3.5, 0}, {60, -3.5, 0}));
+  return {boundary(1, straight({-30, 3.5, 0}, {60, 3.5, 0}), MarkingType::roadedge),
+          boundary(2, straight({-30, 0, 0}, {12, 0, 0})),
+          boundary(3, straight({28, 0, 0}, {60, 0, 0})),
+          boundary(4, west, MarkingType::roadedge),
+          boundary(5, east, MarkingType::roadedge),
+          boundary(6, straight({20, -30, 0}, {20, -8, 0}))};
+}
+
+TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
+  const auto lanes = lanes_of(t_junction());
+  ASSERT_EQ(lanes.size(), 6U);
+  for (const Lane& lane : lanes) {
+    EXPECT_NEAR(lane.width_m, 3.5, 0.05);
+    EXPECT_GT(length(lane.centerline), 20.0);
+    EXPECT_LT(MeasuredPolyline(lane.left).project(lane.right[1]).lateral_m, 0.0);
+    // Each has the other one of its road across the centre line.
+    EXPECT_TRUE((lane.left_neighbour == kNoElement) != (lane.right_neighbour == kNoElement));
+    for (const auto& [id, range] :
+         {std::pair(lane.left_boundary, lane.left_range), std::pair(lane.right_boundary, lane.right_range)}) {
+      EXPECT_LT(range.from_m, range.to_m);
+      const auto boundaries = t_junction();
+      const double end_m = length(std::ranges::find(boundaries, id, [](const LaneBoundary& b) {
+                                    return b.marking.id;
+                                  })->marking.points);
+      EXPECT_GE(range.from_m, 0.0);
+      EXPECT_LE(range.to_m, end_m + 1e-9);
+    }
+  }
+}
+
+TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
+  // Both boundaries have the other on their left, whatever way they run.
+  std::vector<LaneBoundary> boundaries{boundary(1, straight({0, 0, 0}, {30, 0, 0})),
+                                       boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))};
+  const SectionGraph graph{.sections = {{{0, 1}}},
+                           .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
+  const auto lanes = generate_lanes(graph, boundaries, test::measure(boundaries), {});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_EQ(lanes[0].right_boundary, 1U);
+  EXPECT_EQ(lanes[0].left_boundary, 2U);
+  EXPECT_TRUE(lanes[0].left_reversed);
+  EXPECT_FALSE(lanes[0].right_reversed);
+  EXPECT_NEAR(lanes[0].left_range.from_m, 10.0, 1e-9);
+  EXPECT_NEAR(lanes[0].left_range.to_m, 40.0, 1e-9);
+  EXPECT_NEAR(lanes[0].right_range.from_m, 0.0, 1e-9);
+  EXPECT_TRUE(lanes[0].centerline.front().isApprox(Point(0, 1.75, 0)));
+}
+
 TEST(Lanes, BetweenTwoEdgesThereIsOneWithoutMarkings) {
   const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
                                boundary(2, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});

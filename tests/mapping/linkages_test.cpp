@@ -52,6 +52,23 @@ TEST(Linkages, BySharedBoundaryAndByAlignment) {
                                         std::tuple(1, 4, Kind::shared_boundary)));
 }
 
+TEST(Linkages, AlongABoundaryThatRunsAgainstTheLanes) {
+  std::vector<Lane> lanes{lane(1, {10, {40, 60}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0})),
+                          lane(2, {10, {10, 36}}, {21, {0, 26}}, test::straight({24, 2, 0}, {50, 2, 0}))};
+  for (Lane& l : lanes) l.left_reversed = true;
+  EXPECT_THAT(links(lanes), ElementsAre(std::tuple(1, 2, Kind::shared_boundary)));
+  const Polyline path = linkages_of(lanes)[0].path;
+  EXPECT_TRUE(path.front().isApprox(lanes[0].centerline.back()));
+  EXPECT_TRUE(path.back().isApprox(lanes[1].centerline.front()));
+}
+
+TEST(Linkages, LanesThatRunAgainstEachOtherAlongABoundaryAreNotLinked) {
+  std::vector<Lane> lanes{lane(1, {10, {0, 20}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0})),
+                          lane(2, {21, {0, 26}}, {10, {24, 50}}, test::straight({50, 2, 0}, {24, 2, 0}))};
+  lanes[1].right_reversed = true;
+  EXPECT_THAT(links(lanes), IsEmpty());
+}
+
 TEST(Linkages, GoToTheNextLaneOnly) {
   const std::vector<Lane> lanes{
       lane(1, {10, {0, 10}}, {20, {0, 10}}, test::straight({0, 0, 0}, {10, 0, 0})),

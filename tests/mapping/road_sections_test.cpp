@@ -64,13 +64,14 @@ TEST(RoadSections, TheRightOnesComeByTheirDistance) {
   const auto graph = sections_of(boundaries);
   const auto right_of = [&](std::size_t i) {
     std::vector<std::size_t> order;
-    for (const SideBySide& other : graph.right_of[i]) order.push_back(other.right);
+    for (const SideBySide& beside : graph.beside[i])
+      if (!beside.on_left()) order.push_back(beside.other);
     return order;
   };
   EXPECT_THAT(right_of(3), ElementsAre(1, 2, 0));
   EXPECT_THAT(right_of(1), ElementsAre(2, 0));
   EXPECT_THAT(right_of(0), ElementsAre());
-  EXPECT_NEAR(graph.right_of[1][1].distance_m, 7.0, 1e-9);
+  EXPECT_NEAR(graph.beside[1][2].lateral_m, -7.0, 1e-9);
 }
 
 TEST(RoadSections, OfTwoThatLieSideBySideOneIsOnTheRight) {
@@ -80,9 +81,10 @@ TEST(RoadSections, OfTwoThatLieSideBySideOneIsOnTheRight) {
                                          boundary(2, {{30, 4, 0}, {45, 3.5, 0}, {60, 4, 0}})};
     if (turned) std::ranges::reverse(boundaries[1].marking.points);
     const auto graph = sections_of(boundaries);
-    ASSERT_EQ(graph.right_of[1].size(), 1U);
-    EXPECT_EQ(graph.right_of[1][0].right, 0U);
-    EXPECT_TRUE(graph.right_of[0].empty());
+    ASSERT_EQ(graph.beside[1].size(), 1U);
+    EXPECT_FALSE(graph.beside[1][0].on_left());
+    ASSERT_EQ(graph.beside[0].size(), 1U);
+    EXPECT_TRUE(graph.beside[0][0].on_left());
   }
 }
 
