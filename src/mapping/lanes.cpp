@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxBetween = 1;         // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
 constexpr double kMinBetween = 0.15;           // of the stretch; a shorter boundary only touches it
+constexpr double kEdgeLine_m = 1.0;            // from an edge to the line that is painted along it
+constexpr double kMinBesideEdge = 0.5;         // of that line
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
 
 /// A sample on the right boundary with its foot on the left one.
@@ -240,11 +242,19 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
   // Per boundary: its right side, its left side.
   std::vector<std::array<Occupied, 2>> used(boundaries.size());
   const auto is_edge = [&](std::size_t i) { return boundaries[i].marking.type == MarkingType::roadedge; };
+  const auto is_outermost = [&](std::size_t i, bool left) {
+    return is_edge(i) || std::ranges::any_of(graph.beside[i], [&](const SideBySide& beside) {
+             return is_edge(beside.other) && beside.on_left() == left &&
+                    std::abs(beside.lateral_m) < kEdgeLine_m &&
+                    beside.length_m >= kMinBesideEdge * measured[i].length();
+           });
+  };
   const auto pair_lanes = [&](const Pair& pair, const Occupied& left_used, const Occupied& right_used) {
     const Side left(boundaries[pair.left], measured[pair.left], pair.left_reversed, left_used);
     const Side right(boundaries[pair.right], measured[pair.right], pair.right_reversed, right_used);
     // Between two edges so far apart, there rather is a verge.
-    const bool kerb = pair.adjacent && is_edge(pair.left) != is_edge(pair.right);
+    const bool kerb = pair.adjacent && is_outermost(pair.left, !pair.left_reversed) !=
+                                           is_outermost(pair.right, pair.right_reversed);
     const auto sections =
         cross_sections(left, right, kerb ? config.max_kerb_width_m : config.max_width_m, config);
     for (std::size_t begin = 0; begin < sections.size();) {

@@ -118,6 +118,15 @@ TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
   EXPECT_TRUE(lanes[0].centerline.front().isApprox(Point(0, 1.75, 0)));
 }
 
+TEST(Lanes, ALineThatIsPaintedAlongAnEdgeLeavesRoomToPark) {
+  for (const double from_edge_m : {0.5, 2.0}) {
+    const auto lanes = lanes_of(
+        {boundary(1, straight({0, 5.5, 0}, {30, 5.5, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
+         boundary(3, straight({0, -from_edge_m, 0}, {30, -from_edge_m, 0}), MarkingType::roadedge)});
+    EXPECT_EQ(between(lanes, 1, 2) != nullptr, from_edge_m < 1.0);
+  }
+}
+
 TEST(Lanes, BetweenTwoEdgesThereIsOneWithoutMarkings) {
   const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
                                boundary(2, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});
