@@ -76,7 +76,7 @@ struct SectionConfig {
 
 /// Paper, Sec. III-D-3; the values are ours.
 struct LaneConfig {
-  double min_width_m = 2.5;
+  double min_width_m = 2.2;
   double max_width_m = 4.5;
   double max_kerb_width_m = 6.5;  ///< where just one side is a roadedge: room to park
   double max_width_variation_m = 0.8;
@@ -122,7 +122,7 @@ struct AlignmentConfig {
 /// Fusion along lines: every line of the map is a row of stations, each with its own lateral estimate and
 /// evidence. Instead of the paper's Sec. III-B and III-C. Ours.
 struct FusionConfig {
-  double sample_step_m = 0.5;      ///< along a detection
+  double sample_step_m = 1.0;      ///< along a detection
   double station_spacing_m = 1.0;  ///< along a line
   // Which detection observes which line.
   double gate_m = 0.6;  ///< lateral

@@ -135,14 +135,14 @@ TEST(Crossings, AKerbThatLeadsRoundTheCornerLeavesTheOtherWays) {
 }
 
 TEST(Crossings, ATurnGoesStraightOnFirstWhereTheCornerIsFar) {
-  // 20 m ahead and 6 m to the right: the turn begins at most half as far again from the corner as it ends.
+  // 20 m ahead and 6 m to the right: the turn begins at most a quarter further from the corner as it ends.
   const auto linkages = crossings({driven(1, {-20, 0, 0}, {0, 0, 0}), driven(2, {20, -6, 1}, {20, -20, 1})});
   ASSERT_EQ(linkages.size(), 1U);
   const Polyline& path = linkages[0].path;
   EXPECT_TRUE(path.front().isApprox(Point(0, 0, 0)));
   EXPECT_TRUE(path.back().isApprox(Point(20, -6, 1)));
   const MeasuredPolyline measured(path);
-  for (double x = 1.0; x < 11.0; x += 1.0) EXPECT_NEAR(measured.project({x, 0, 0}).distance_m, 0.0, 1e-6);
+  for (double x = 1.0; x < 12.0; x += 1.0) EXPECT_NEAR(measured.project({x, 0, 0}).distance_m, 0.0, 1e-6);
   EXPECT_GT(measured.project({13, 0, 0}).distance_m, 0.02);
 }
 

@@ -211,7 +211,7 @@ TEST_P(Width, MustLieInTheInterval) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Interval, Width,
-                         ::testing::Values(std::pair(2.4, false), std::pair(2.6, true), std::pair(4.4, true),
+                         ::testing::Values(std::pair(2.1, false), std::pair(2.3, true), std::pair(4.4, true),
                                            std::pair(4.6, false)));
 
 // Paper, Fig. 5 (c): the valid range is where the distance is steady and in the interval.
