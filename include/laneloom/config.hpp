@@ -76,10 +76,10 @@ struct SectionConfig {
 
 /// Paper, Sec. III-D-3; the values are ours.
 struct LaneConfig {
-  double min_width_m = 2.2;
+  double min_width_m = 2.3;
   double max_width_m = 4.5;
   double max_kerb_width_m = 6.5;  ///< where just one side is a roadedge: room to park
-  double max_width_variation_m = 0.8;
+  double max_width_variation_m = 0.7;
   double min_length_m = 4.0;
   double step_m = 0.5;             ///< between the samples on the right boundary
   double centerline_step_m = 1.0;  ///< between the points of a centerline

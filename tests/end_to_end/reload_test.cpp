@@ -12,7 +12,7 @@
 namespace laneloom {
 namespace {
 
-constexpr const char* kBefore = "service:\n  log_level: info\nmapper:\n  lane:\n    min_width_m: 2.2\n";
+constexpr const char* kBefore = "service:\n  log_level: info\nmapper:\n  lane:\n    min_width_m: 2.3\n";
 
 bool is_published(const PublishedMap&) { return true; }
 

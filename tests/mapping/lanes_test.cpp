@@ -211,7 +211,7 @@ TEST_P(Width, MustLieInTheInterval) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Interval, Width,
-                         ::testing::Values(std::pair(2.1, false), std::pair(2.3, true), std::pair(4.4, true),
+                         ::testing::Values(std::pair(2.2, false), std::pair(2.4, true), std::pair(4.4, true),
                                            std::pair(4.6, false)));
 
 // Paper, Fig. 5 (c): the valid range is where the distance is steady and in the interval.
@@ -222,7 +222,7 @@ TEST(Lanes, EndWhereTheRoadWidens) {
   const Lane& lane = lanes[0];
   EXPECT_NEAR(lane.right_range.from_m, 0.0, 1e-9);
   EXPECT_GT(lane.left_range.to_m, 20.0);
-  EXPECT_LT(lane.left_range.to_m, 22.5);  // 0.8 m wider than at its narrowest
+  EXPECT_LT(lane.left_range.to_m, 22.5);  // 0.7 m wider than at its narrowest
 }
 
 // Paper, Fig. 5 (d): one lane becomes two, by (b_i, b_i+1) and (b_i, b_i+2).
