@@ -5,7 +5,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/lane_boundaries.hpp"
-#include "mapping/lanes.hpp"
+#include "mapping/lane_identity.hpp"
 
 namespace laneloom {
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPathStep_m = 1.0;
 
 constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter
-constexpr double kMinTurnSine = 0.77;  // of the angle between the lanes: a turn is one of 50 to 130 degrees
+constexpr double kMinTurnSine = 0.77;   // of the angle between the lanes: a turn is one of 50 to 130 degrees
 
 using Turn = Linkage::Turn;
 

@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <map>
-#include <optional>
 #include <span>
-#include <tuple>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lane_geometry.hpp"
@@ -211,25 +207,6 @@ Lane make_lane(std::span<const CrossSection> sections, const Side& left, const S
   return lane;
 }
 
-/// How many points of `line` lie within half a lane of `other`.
-std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
-  return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
-    const Projection foot = other.project(point, max_distance_m);
-    return foot.inside && foot.distance_m < max_distance_m;
-  }));
-}
-
-/// Whether the first line runs as the second does, in the middle of the first.
-bool same_way(const Polyline& line, const MeasuredPolyline& other) {
-  const MeasuredPolyline measured(line);
-  const double middle_m = 0.5 * measured.length();
-  return measured.direction(middle_m).dot(other.direction(other.project(measured.at(middle_m)))) >= 0.0;
-}
-
-std::pair<ElementId, ElementId> boundary_pair(const Lane& lane) {
-  return std::minmax(lane.left_boundary, lane.right_boundary);
-}
-
 double common_length(const Range& a, const Range& b) {
   return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m);
 }
@@ -284,49 +261,6 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
                joined(used[pair.right][!pair.right_reversed], roads[pair.right][pair.right_reversed]));
   }
   return lanes;
-}
-
-void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<Lane>& lanes,
-                    std::vector<KnownLane>& known, ElementId& next_id) {
-  struct Match {
-    std::size_t covered;  ///< points of the lane
-    std::size_t lane, known;
-  };
-  std::vector<std::optional<MeasuredPolyline>> measured(known.size());
-  std::vector<bool> taken(known.size(), false);
-  std::map<ElementId, double> direction_log_odds;
-  // Between the same boundaries first, then wherever a lane has been.
-  for (const bool same_boundaries : {true, false}) {
-    std::vector<Match> matches;
-    for (std::size_t k = 0; k < known.size(); ++k) {
-      for (std::size_t i = 0; i < lanes.size() && !taken[k]; ++i) {
-        const bool same = boundary_pair(lanes[i]) == std::pair(known[k].boundary_a, known[k].boundary_b);
-        if (lanes[i].id != kNoElement || same != same_boundaries) continue;
-        if (!measured[k]) measured[k].emplace(known[k].centerline);
-        const std::size_t covered =
-            points_beside(lanes[i].centerline, *measured[k], 0.5 * config.min_width_m);
-        if (covered > 0) matches.push_back({covered, i, k});
-      }
-    }
-    std::ranges::stable_sort(matches, std::greater{}, &Match::covered);
-    for (const auto& [covered, i, k] : matches) {
-      if (taken[k] || lanes[i].id != kNoElement) continue;
-      taken[k] = true;
-      lanes[i].id = known[k].id;
-      const double sense = same_way(lanes[i].centerline, *measured[k]) ? 1.0 : -1.0;
-      direction_log_odds[known[k].id] = sense * known[k].direction_log_odds;
-    }
-  }
-  std::erase_if(known, [&](const KnownLane& lane) {
-    const bool expired = lane.last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < frame;
-    return expired || std::ranges::any_of(lanes, [&](const Lane& l) { return l.id == lane.id; });
-  });
-  for (Lane& lane : lanes) {
-    if (lane.id == kNoElement) lane.id = next_id++;
-    const auto [a, b] = boundary_pair(lane);
-    known.push_back({lane.id, a, b, lane.centerline, frame, direction_log_odds[lane.id]});
-  }
-  std::ranges::sort(lanes, {}, &Lane::id);
 }
 
 void find_neighbours(std::vector<Lane>& lanes) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -12,29 +11,10 @@ namespace laneloom {
 /// Lanes between pairs of boundaries (paper, Sec. III-D-3): each boundary with the two next ones on its
 /// right, where their distance lies in the configured interval and varies little over a long enough range.
 /// The nearer boundary comes first, so that lanes do not overlap; where an edge bounds the lanes of a road,
-/// what lies beyond it up to another edge is none. Without ids and neighbours, in a deterministic order.
+/// what lies beyond it up to another edge is none. A lane runs as its boundaries do; of two that are opposed,
+/// as the older one. Without ids and neighbours, in a deterministic order.
 std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<LaneBoundary>& boundaries,
                                  const std::vector<MeasuredPolyline>& measured, const LaneConfig& config);
-
-/// A lane that was published, for recognising it.
-struct KnownLane {
-  ElementId id = kNoElement;
-  ElementId boundary_a = kNoElement;  ///< the smaller of the two
-  ElementId boundary_b = kNoElement;
-  Polyline centerline;
-  std::uint64_t last_frame = 0;
-  double direction_log_odds = 0.0;  ///< evidence that traffic runs along the centerline
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(id, boundary_a, boundary_b, centerline, last_frame, direction_log_odds);
-  }
-};
-
-/// Gives every lane the id of the known lane that it covers most of, a lane of the same boundaries first;
-/// else a new one. The known lane then is as the lane now is. Lanes that were not seen for a while are
-/// forgotten.
-void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<Lane>& lanes,
-                    std::vector<KnownLane>& known, ElementId& next_id);
 
 /// Names for every lane the lanes beside it, across a shared boundary: the ones that run beside it the
 /// longest.

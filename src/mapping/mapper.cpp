@@ -13,6 +13,7 @@
 #include "mapping/joints.hpp"
 #include "mapping/lane_boundaries.hpp"
 #include "mapping/lane_geometry.hpp"
+#include "mapping/lane_identity.hpp"
 #include "mapping/lanes.hpp"
 #include "mapping/line_fusion.hpp"
 #include "mapping/line_merging.hpp"

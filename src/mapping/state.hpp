@@ -10,7 +10,7 @@
 #include "mapping/ego_track.hpp"
 #include "mapping/instances.hpp"
 #include "mapping/joints.hpp"
-#include "mapping/lanes.hpp"
+#include "mapping/lane_identity.hpp"
 #include "mapping/line_map.hpp"
 #include "mapping/line_merging.hpp"
 #include "mapping/lineage.hpp"

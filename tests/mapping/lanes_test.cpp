@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "mapping/lane_identity.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
