@@ -79,7 +79,7 @@ struct LaneConfig {
   double min_width_m = 2.3;
   double max_width_m = 4.5;
   double max_kerb_width_m = 6.5;  ///< where just one side is a roadedge: room to park
-  double max_width_variation_m = 0.7;
+  double max_width_variation_m = 0.8;
   double min_length_m = 4.0;
   double step_m = 0.5;             ///< between the samples on the right boundary
   double centerline_step_m = 1.0;  ///< between the points of a centerline

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kMaxBetween = 1;         // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
 constexpr double kMinBetween = 0.15;           // of the stretch; a shorter boundary only touches it
+constexpr double kNarrow_m = 2.5;              // narrower are lanes that are so from end to end
+constexpr double kTaper_m = 0.3;               // by which what is not so grows beyond that
 constexpr double kEdgeLine_m = 1.0;            // from an edge to the line that is painted along it
 constexpr double kMinBesideEdge = 0.5;         // of that line
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
@@ -159,6 +161,26 @@ std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin
   return end;
 }
 
+/// The next run from `begin` on, which is moved behind it. Without its narrow ends where it is wider
+/// elsewhere: there a lane opens or closes beside another.
+std::span<const CrossSection> next_run(const std::vector<CrossSection>& sections, std::size_t& begin,
+                                       const LaneConfig& config) {
+  const auto is_narrow = [](const CrossSection& section) { return section.width_m < kNarrow_m; };
+  const auto run_from = [&](std::size_t first) {
+    return std::span(sections).subspan(first, std::max(run_end(sections, first, config), first + 1) - first);
+  };
+  auto run = run_from(begin);
+  if (std::ranges::max_element(run, {}, &CrossSection::width_m)->width_m >= kNarrow_m + kTaper_m) {
+    while (is_narrow(sections[begin])) ++begin;
+    run = run_from(begin);
+    begin += run.size();
+    while (is_narrow(run.back())) run = run.first(run.size() - 1);
+    return run;
+  }
+  begin += run.size();
+  return run;
+}
+
 /// The last range grows by the stretch, if that follows it.
 void append(std::vector<Range>& ranges, const Range& stretch) {
   if (!ranges.empty() && ranges.back().to_m == stretch.from_m) {
@@ -235,15 +257,14 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
     const auto sections =
         cross_sections(left, right, kerb ? config.max_kerb_width_m : config.max_width_m, config);
     for (std::size_t begin = 0; begin < sections.size();) {
-      const std::size_t end = std::max(run_end(sections, begin, config), begin + 1);
-      const double min_length_m = sections[begin].wide ? kMinKerbLaneLength_m : config.min_length_m;
-      if (sections[end - 1].left_arc_m - sections[begin].left_arc_m >= min_length_m) {
-        lanes.push_back(make_lane(std::span(sections).subspan(begin, end - begin), left, right, config));
+      const auto run = next_run(sections, begin, config);
+      const double min_length_m = run.front().wide ? kMinKerbLaneLength_m : config.min_length_m;
+      if (run.back().left_arc_m - run.front().left_arc_m >= min_length_m) {
+        lanes.push_back(make_lane(run, left, right, config));
         lanes.back().section = pair.section;
         used[pair.left][pair.left_reversed].push_back(lanes.back().left_range);
         used[pair.right][!pair.right_reversed].push_back(lanes.back().right_range);
       }
-      begin = end;
     }
   };
   std::vector<Pair> between_edges;

@@ -223,7 +223,7 @@ TEST(Lanes, EndWhereTheRoadWidens) {
   const Lane& lane = lanes[0];
   EXPECT_NEAR(lane.right_range.from_m, 0.0, 1e-9);
   EXPECT_GT(lane.left_range.to_m, 20.0);
-  EXPECT_LT(lane.left_range.to_m, 22.5);  // 0.7 m wider than at its narrowest
+  EXPECT_LT(lane.left_range.to_m, 22.5);  // 0.8 m wider than at its narrowest
 }
 
 // Paper, Fig. 5 (d): one lane becomes two, by (b_i, b_i+1) and (b_i, b_i+2).
