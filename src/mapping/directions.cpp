@@ -51,9 +51,9 @@ OrientedGroups group(const std::vector<Lane>& lanes, const std::vector<Linkage>&
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     index.emplace(lanes[i].id, i);
     for (const bool left : {true, false}) {
-      const bool reversed = left ? lanes[i].left_reversed : lanes[i].right_reversed;
-      const First& first = beside.emplace(boundary_side(lanes[i], left), First{i, reversed}).first->second;
-      groups.join(first.lane, i, reversed != first.reversed);
+      const LaneSide side = lane_side(lanes[i], left);
+      const First& first = beside.emplace(side.of, First{i, side.reversed}).first->second;
+      groups.join(first.lane, i, side.reversed != first.reversed);
     }
   }
   for (const Linkage& linkage : linkages) groups.join(index.at(linkage.from), index.at(linkage.to), false);

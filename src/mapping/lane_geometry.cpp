@@ -62,9 +62,9 @@ Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
 
 }  // namespace
 
-BoundarySide boundary_side(const Lane& lane, bool left) {
-  return left ? BoundarySide{lane.left_boundary, lane.left_reversed}
-              : BoundarySide{lane.right_boundary, !lane.right_reversed};
+LaneSide lane_side(const Lane& lane, bool left) {
+  return left ? LaneSide{{lane.left_boundary, lane.left_reversed}, lane.left_range, lane.left_reversed}
+              : LaneSide{{lane.right_boundary, !lane.right_reversed}, lane.right_range, lane.right_reversed};
 }
 
 Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }

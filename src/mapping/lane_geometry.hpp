@@ -19,8 +19,16 @@ struct BoundarySide {
   auto operator<=>(const BoundarySide&) const = default;
 };
 
-/// On which side of its left or of its right boundary a lane lies.
-BoundarySide boundary_side(const Lane& lane, bool left);
+/// The left or the right side of a lane, along the boundary there.
+struct LaneSide {
+  BoundarySide of;  ///< where the lane lies
+  Range range;
+  bool reversed = false;  ///< the boundary runs against the lane
+
+  double begin_m() const { return reversed ? range.to_m : range.from_m; }
+  double end_m() const { return reversed ? range.from_m : range.to_m; }
+};
+LaneSide lane_side(const Lane& lane, bool left);
 
 /// Unit direction in which a lane is left at its end, or entered at its start; map frame, horizontal.
 Eigen::Vector2d leaving(const Lane& lane);

@@ -286,20 +286,21 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
 
 void find_neighbours(std::vector<Lane>& lanes) {
   for (Lane& lane : lanes) {
-    const auto across = [&](const BoundarySide& side, const Range& range) {
+    const auto across = [&](const LaneSide& side) {
       ElementId neighbour = kNoElement;
       double longest_m = 0.0;
       for (const Lane& other : lanes) {
         for (const bool left : {true, false}) {
-          if (boundary_side(other, left) != side.other()) continue;
-          const double common_m = common_length(left ? other.left_range : other.right_range, range);
+          const LaneSide beyond = lane_side(other, left);
+          if (beyond.of != side.of.other()) continue;
+          const double common_m = common_length(beyond.range, side.range);
           if (common_m > longest_m) neighbour = other.id, longest_m = common_m;
         }
       }
       return neighbour;
     };
-    lane.left_neighbour = across(boundary_side(lane, true), lane.left_range);
-    lane.right_neighbour = across(boundary_side(lane, false), lane.right_range);
+    lane.left_neighbour = across(lane_side(lane, true));
+    lane.right_neighbour = across(lane_side(lane, false));
   }
 }
 

@@ -31,22 +31,9 @@ class Boundaries {
   const std::vector<MeasuredPolyline>& measured_;
 };
 
-/// One side of a lane, along the boundary there.
-struct Side {
-  BoundarySide of;
-  Range range;
-  bool reversed;  ///< the boundary runs against the lane
-  double begin_m() const { return reversed ? range.to_m : range.from_m; }
-  double end_m() const { return reversed ? range.from_m : range.to_m; }
-};
-Side side(const Lane& lane, bool left) {
-  return left ? Side{boundary_side(lane, true), lane.left_range, lane.left_reversed}
-              : Side{boundary_side(lane, false), lane.right_range, lane.right_reversed};
-}
-
 /// From the end of one lane to the start of another along the boundary that both lie beside; empty where
 /// there is none or `to` does not follow.
-std::optional<double> shared_gap(const Side& from, const Side& to, double max_gap_m) {
+std::optional<double> shared_gap(const LaneSide& from, const LaneSide& to, double max_gap_m) {
   if (from.of != to.of || from.reversed != to.reversed) return std::nullopt;
   const double sense = from.reversed ? -1.0 : 1.0;
   const double gap_m = sense * (to.begin_m() - from.end_m());
@@ -80,12 +67,12 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
 /// The lane that comes next along one side of `from`.
 void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, const Boundaries& boundaries,
                 const LinkageConfig& config, std::vector<Linkage>& linkages) {
-  const Side begun = side(from, left);
+  const LaneSide begun = lane_side(from, left);
   const Lane* next = nullptr;
   double next_gap_m = std::numeric_limits<double>::infinity();
   for (const Lane& to : lanes) {
     if (to.id == from.id) continue;
-    const auto gap_m = shared_gap(begun, side(to, left), config.max_shared_gap_m);
+    const auto gap_m = shared_gap(begun, lane_side(to, left), config.max_shared_gap_m);
     if (!gap_m || *gap_m >= next_gap_m) continue;
     next = &to;
     next_gap_m = *gap_m;
@@ -96,7 +83,7 @@ void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, con
                       .kind = Linkage::Kind::shared_boundary,
                       .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
                       .path = path_along(boundaries.at(begun.of.boundary), begun.end_m(),
-                                         side(*next, left).begin_m(), from, *next)});
+                                         lane_side(*next, left).begin_m(), from, *next)});
 }
 
 /// Between aligned lanes; empty where they meet.

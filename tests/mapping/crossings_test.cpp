@@ -135,7 +135,7 @@ TEST(Crossings, AKerbThatLeadsRoundTheCornerLeavesTheOtherWays) {
 }
 
 TEST(Crossings, ATurnGoesStraightOnFirstWhereTheCornerIsFar) {
-  // 20 m ahead and 6 m to the right: the turn begins at most a quarter further from the corner as it ends.
+  // 20 m ahead and 6 m to the right: the turn begins at most a quarter further from the corner than it ends.
   const auto linkages = crossings({driven(1, {-20, 0, 0}, {0, 0, 0}), driven(2, {20, -6, 1}, {20, -20, 1})});
   ASSERT_EQ(linkages.size(), 1U);
   const Polyline& path = linkages[0].path;
