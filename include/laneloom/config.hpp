@@ -81,9 +81,8 @@ struct LaneConfig {
   double max_kerb_width_m = 6.5;  ///< where just one side is a roadedge: room to park
   double max_width_variation_m = 0.8;
   double min_length_m = 4.0;
-  double step_m = 0.5;             ///< between the samples on the right boundary
-  double centerline_step_m = 1.0;  ///< between the points of a centerline
-  int id_memory_frames = 50;       ///< a lane that comes back within so many frames keeps its id
+  double step_m = 1.0;        ///< between cross-sections, and so between the points of a centerline
+  int id_memory_frames = 50;  ///< a lane that comes back within so many frames keeps its id
 };
 
 /// Paper, Sec. III-D-4; the values are ours.
@@ -127,7 +126,7 @@ struct FusionConfig {
   // Which detection observes which line.
   double gate_m = 0.6;  ///< lateral
   double gate_angle_deg = 25.0;
-  double min_overlap_m = 2.5;
+  double min_overlap_m = 2.0;
   // How well an observation tells the lateral position.
   double stddev_m = 0.08;                  ///< at the vehicle
   double stddev_per_m = 0.012;             ///< more, per metre from it

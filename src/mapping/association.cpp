@@ -23,8 +23,11 @@ std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarkin
   for (const ObservedMarking& marking : markings) {
     const MeasuredPolyline line(marking.points);
     if (line.length() <= 0.0) continue;
-    SampledDetection detection{
-        line.resample(config.sample_step_m), marking.type, marking.style, marking.confidence, {}};
+    SampledDetection detection{.samples = line.resample(config.sample_step_m),
+                               .type = marking.type,
+                               .style = marking.style,
+                               .confidence = marking.confidence};
+    detection.spacing_m = line.length() / static_cast<double>(detection.samples.size() - 1);
     detection.explained.assign(detection.samples.size(), false);
     detections.push_back(std::move(detection));
   }
@@ -85,7 +88,6 @@ std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& d
   std::vector<std::vector<bool>> explained(detections.size()), observed(lines_.size());
   for (std::size_t i = 0; i < detections.size(); ++i) explained[i].resize(detections[i].samples.size());
   for (std::size_t i = 0; i < lines_.size(); ++i) observed[i].resize(lines_[i].stations.size());
-  const double step_m = static_cast<double>(stride) * config_.sample_step_m;
   std::vector<LineMatch> matches;
   matches.reserve(candidates.size());
   for (auto& [score, match] : candidates) {
@@ -95,7 +97,9 @@ std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& d
       return static_cast<std::size_t>(std::lround(std::max(0.0, s.foot.index - 1e-6)));
     };
     std::erase_if(match.samples, [&](const SampleMatch& s) { return used[s.sample] || taken[station(s)]; });
-    if (static_cast<double>(match.samples.size()) * step_m < config_.min_overlap_m) continue;
+    double overlap_m = 0.0;
+    for (const SampleMatch& s : match.samples) overlap_m += detections[match.detection].share_m(s.sample);
+    if (match.samples.size() < 2 || overlap_m * static_cast<double>(stride) < config_.min_overlap_m) continue;
     for (const SampleMatch& s : match.samples) used[s.sample] = true;
     const auto [first, last] =
         std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });

@@ -26,11 +26,17 @@ struct LineMatch {
 
 /// A detection, sampled evenly.
 struct SampledDetection {
-  Polyline samples;  ///< map frame, `sample_step_m` apart
+  Polyline samples;        ///< map frame, evenly spaced
+  double spacing_m = 0.0;  ///< of the samples along the detection, at most `sample_step_m`
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
   double confidence = 0.0;
-  std::vector<bool> explained;  ///< per sample: some line accounts for it
+  std::vector<bool> explained{};  ///< per sample: some line accounts for it
+
+  /// How much of the detection a sample stands for, in metres: half of the way to either neighbour.
+  double share_m(std::size_t sample) const {
+    return sample == 0 || sample + 1 == samples.size() ? 0.5 * spacing_m : spacing_m;
+  }
 };
 
 std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,

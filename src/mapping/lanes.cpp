@@ -197,8 +197,7 @@ void set_trust(const Marking& left, const Marking& right, Lane& lane) {
   lane.existence_probability = std::min(left.existence_probability, right.existence_probability);
 }
 
-Lane make_lane(std::span<const CrossSection> sections, const Side& left, const Side& right,
-               const LaneConfig& config) {
+Lane make_lane(std::span<const CrossSection> sections, const Side& left, const Side& right) {
   Lane lane{.left_boundary = left.marking().id,
             .right_boundary = right.marking().id,
             .left_range = left.own({sections.front().left_arc_m, sections.back().left_arc_m}),
@@ -208,12 +207,10 @@ Lane make_lane(std::span<const CrossSection> sections, const Side& left, const S
   set_trust(left.marking(), right.marking(), lane);
   // Sides and centerline all go through the cross-sections, so that the one is left of the other wherever the
   // boundaries' own vertices are.
+  for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) line->reserve(sections.size());
   double width_sum_m = 0.0, arc_m = 0.0;
-  const auto every = static_cast<std::size_t>(std::max(1.0, config.centerline_step_m / config.step_m));
-  for (std::size_t i = 0; i < sections.size(); ++i) {
-    const CrossSection& section = sections[i];
+  for (const CrossSection& section : sections) {
     width_sum_m += section.width_m;
-    if (i % every != 0 && i + 1 != sections.size()) continue;
     const Point center = 0.5 * (section.left + section.right);
     const double from_m = arc_m;
     if (!lane.centerline.empty()) arc_m += (center - lane.centerline.back()).head<2>().norm();
@@ -260,7 +257,7 @@ std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<La
       const auto run = next_run(sections, begin, config);
       const double min_length_m = run.front().wide ? kMinKerbLaneLength_m : config.min_length_m;
       if (run.back().left_arc_m - run.front().left_arc_m >= min_length_m) {
-        lanes.push_back(make_lane(run, left, right, config));
+        lanes.push_back(make_lane(run, left, right));
         lanes.back().section = pair.section;
         used[pair.left][pair.left_reversed].push_back(lanes.back().left_range);
         used[pair.right][!pair.right_reversed].push_back(lanes.back().right_range);

@@ -57,8 +57,7 @@ double hit(const SampledDetection& detection, const FusionConfig& config) {
 void fuse(const LineMatch& match, const SampledDetection& detection, const Point& origin,
           const FusionConfig& config, Line& line, std::vector<bool>& observed) {
   const auto end_distance_m = [&](std::size_t sample) {
-    return static_cast<double>(std::min(sample, detection.samples.size() - 1 - sample)) *
-           config.sample_step_m;
+    return static_cast<double>(std::min(sample, detection.samples.size() - 1 - sample)) * detection.spacing_m;
   };
   for (std::size_t i = 1; i < match.samples.size(); ++i) {
     const SampleMatch& a = match.samples[i - 1];
@@ -169,7 +168,9 @@ void create_lines(const std::vector<SampledDetection>& detections, const Point& 
       std::size_t end = begin;
       while (end < count && !detection.explained[end] && range.keeps(detection.samples[end])) ++end;
       Line line{.stations = {}, .observations = 1, .first_seen_ns = stamp_ns};
+      double length_m = 0.0;
       for (std::size_t i = begin; i < end; ++i) {
+        length_m += detection.share_m(i);
         const Point& sample = detection.samples[i];
         const bool near =
             !line.stations.empty() &&
@@ -177,7 +178,6 @@ void create_lines(const std::vector<SampledDetection>& detections, const Point& 
         if (!near)
           line.stations.push_back(new_station(sample, origin, detection, config.birth_log_odds, config));
       }
-      const double length_m = static_cast<double>(end - begin) * config.sample_step_m;
       if (line.stations.size() >= 2 && length_m >= config.min_birth_length_m) {
         line.id = next_id++;
         line.type_votes[index(detection.type)] = static_cast<double>(end - begin);

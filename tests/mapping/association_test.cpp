@@ -29,6 +29,7 @@ std::vector<std::pair<std::size_t, std::size_t>> matched(const std::vector<Line>
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Pair;
+using ::testing::SizeIs;
 
 TEST(Association, ADetectionObservesTheLineThatItLiesOn) {
   const std::vector<Line> lines{line(1, straight({0, 0, 0}, {30, 0, 0}, 31)),
@@ -43,7 +44,14 @@ TEST(Association, NotTooFarNorAcrossNorOnAnotherLevel) {
   EXPECT_THAT(matched(lines, detect({straight({0, 0.7, 0}, {30, 0.7, 0})})), IsEmpty());
   EXPECT_THAT(matched(lines, detect({straight({10, -4, 0}, {15, 4, 0})})), IsEmpty());
   EXPECT_THAT(matched(lines, detect({straight({0, 0, 6}, {30, 0, 6})})), IsEmpty());
-  EXPECT_THAT(matched(lines, detect({straight({0, 0, 0}, {0.9, 0, 0})})), IsEmpty());  // too little in common
+}
+
+TEST(Association, NotWithLittleInCommon) {
+  const std::vector<Line> lines{line(1, straight({0, 0, 0}, {30, 0, 0}, 31))};
+  EXPECT_THAT(matched(lines, detect({straight({0, 0, 0}, {1.5, 0, 0})})), IsEmpty());
+  EXPECT_THAT(matched(lines, detect({straight({0, 0, 0}, {2.2, 0, 0})})), SizeIs(1));
+  EXPECT_THAT(matched(lines, detect({straight({-20, 0, 0}, {1, 0, 0})})), IsEmpty());
+  EXPECT_THAT(matched(lines, detect({straight({-20, 0, 0}, {2, 0, 0})})), SizeIs(1));
 }
 
 TEST(Association, LanelinesAndRoadedgesMayBeTheSameLineStoplinesNot) {

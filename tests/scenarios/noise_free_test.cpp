@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kSampleStep_m = 0.5;
 constexpr double kTolerance_m = 0.4;
-constexpr double kMinLength_m = 10.0;   // of what is in view: each end is known to within a sample of 1 m
+constexpr double kMinLength_m =
+    9.0;  // of what is in view: its ends are known to within a cross-section of 1 m
 constexpr double kMaxHeight_m = 2.0;    // of a lane above or below the one that is compared
 constexpr double kBorder_m = 2.0;       // of the range, where nothing is expected yet
 constexpr std::size_t kEndSamples = 4;  // of a lane that count as its end
