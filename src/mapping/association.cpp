@@ -8,6 +8,25 @@
 namespace laneloom {
 namespace {
 
+constexpr double kMaxStations = 3.0;  // between the feet of two samples that follow one another
+
+/// Per sample what was given per vertex.
+std::vector<double> interpolated(const std::vector<double>& values, const Polyline& points,
+                                 std::size_t samples) {
+  const std::vector<double> arc_m = arc_lengths(points);
+  std::vector<double> result;
+  result.reserve(samples);
+  std::size_t after = 1;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double at_m = arc_m.back() * static_cast<double>(i) / static_cast<double>(samples - 1);
+    while (after + 1 < arc_m.size() && arc_m[after] < at_m) ++after;
+    const double segment_m = arc_m[after] - arc_m[after - 1];
+    const double share = segment_m > 0.0 ? std::min(1.0, (at_m - arc_m[after - 1]) / segment_m) : 0.0;
+    result.push_back(values[after - 1] + share * (values[after] - values[after - 1]));
+  }
+  return result;
+}
+
 Eigen::Vector2d direction_of(const Polyline& samples, std::size_t i) {
   const std::size_t before = i == 0 ? 0 : i - 1;
   const std::size_t after = std::min(i + 1, samples.size() - 1);
@@ -15,6 +34,11 @@ Eigen::Vector2d direction_of(const Polyline& samples, std::size_t i) {
 }
 
 }  // namespace
+
+bool is_led_through(const SampleMatch& from, const SampleMatch& to) {
+  return std::abs(to.foot.index - from.foot.index) <=
+         kMaxStations * static_cast<double>(to.sample - from.sample);
+}
 
 std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,
                                                 const FusionConfig& config) {
@@ -28,6 +52,8 @@ std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarkin
                                .style = marking.style,
                                .confidence = marking.confidence};
     detection.spacing_m = line.length() / static_cast<double>(detection.samples.size() - 1);
+    if (!marking.stddev_m.empty())
+      detection.stddev_m = interpolated(marking.stddev_m, marking.points, detection.samples.size());
     detection.explained.assign(detection.samples.size(), false);
     detections.push_back(std::move(detection));
   }
@@ -100,10 +126,13 @@ std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& d
     double overlap_m = 0.0;
     for (const SampleMatch& s : match.samples) overlap_m += detections[match.detection].share_m(s.sample);
     if (match.samples.size() < 2 || overlap_m * static_cast<double>(stride) < config_.min_overlap_m) continue;
-    for (const SampleMatch& s : match.samples) used[s.sample] = true;
-    const auto [first, last] =
-        std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });
-    for (std::size_t k = station(first); k <= station(last); ++k) taken[k] = true;
+    for (std::size_t i = 0; i < match.samples.size(); ++i) {
+      const SampleMatch& s = match.samples[i];
+      used[s.sample] = true;
+      const bool led = i > 0 && is_led_through(match.samples[i - 1], s);
+      const auto [low, high] = std::minmax({station(s), station(led ? match.samples[i - 1] : s)});
+      for (std::size_t k = low; k <= high; ++k) taken[k] = true;
+    }
     matches.push_back(std::move(match));
   }
   return matches;

@@ -17,6 +17,9 @@ struct SampleMatch {
   StationFoot foot;
 };
 
+/// Whether the line leads from the one foot to the other. It does not where a closed line ends and begins.
+bool is_led_through(const SampleMatch& from, const SampleMatch& to);
+
 /// What one detection says of one line.
 struct LineMatch {
   std::size_t detection = 0;
@@ -31,7 +34,8 @@ struct SampledDetection {
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
   double confidence = 0.0;
-  std::vector<bool> explained{};  ///< per sample: some line accounts for it
+  std::vector<double> stddev_m{};  ///< per sample, lateral; empty: not given
+  std::vector<bool> explained{};   ///< per sample: some line accounts for it
 
   /// How much of the detection a sample stands for, in metres: half of the way to either neighbour.
   double share_m(std::size_t sample) const {

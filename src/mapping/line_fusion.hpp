@@ -11,15 +11,16 @@
 
 namespace laneloom {
 
-/// Moves the observed stations towards what was seen, weighing each observation by its range from `origin`,
-/// and raises their evidence. Returns which stations were.
+/// Moves the observed stations towards what was seen, weighing each observation by its deviation, as given or
+/// by its range from `origin`, and raises their evidence. Returns which stations were.
 StationsObserved fuse_matches(const std::vector<LineMatch>& matches,
                               const std::vector<SampledDetection>& detections, const Point& origin,
                               const FusionConfig& config, std::vector<Line>& lines);
 
-/// Continues lines where a detection runs on beyond their ends.
-void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, const FusionConfig& config,
-                  std::vector<SampledDetection>& detections, std::vector<Line>& lines);
+/// Continues lines where a detection runs on beyond their ends, as far as the range goes.
+void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, const LocalRange& range,
+                  const FusionConfig& config, std::vector<SampledDetection>& detections,
+                  std::vector<Line>& lines);
 
 /// New lines from what no line explains.
 void create_lines(const std::vector<SampledDetection>& detections, const Point& origin, std::int64_t stamp_ns,

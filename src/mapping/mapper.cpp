@@ -92,7 +92,7 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   const auto observed = fuse_matches(matches, detections, origin, fusion, lines);
   discount_unobserved(observed, {input.T_map_body.inverse(), &input.frame}, input.range, fusion, lines);
   done(Stage::line_update);
-  extend_lines(matches, origin, fusion, detections, lines);
+  extend_lines(matches, origin, input.range, fusion, detections, lines);
   create_lines(detections, origin, input.frame.stamp_ns, input.range, fusion, lines, state.next_id);
   merge_doubles(observed, fusion, lines, state.pairs);
   prune_lines(input.range, fusion, lines, state.next_id);

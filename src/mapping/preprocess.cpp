@@ -31,8 +31,11 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
   for (const Detection& detection : frame.detections) {
     if (detection.points.size() < 2 || detection.confidence < config.min_confidence) continue;
     if (config.reject_zigzag && is_zigzag(detection.points, config)) continue;
-    ObservedMarking marking{
-        .type = detection.type, .style = detection.style, .confidence = detection.confidence, .points = {}};
+    ObservedMarking marking{.type = detection.type,
+                            .style = detection.style,
+                            .confidence = detection.confidence,
+                            .points = {},
+                            .stddev_m = detection.stddev_m};
     marking.points.reserve(detection.points.size());
     for (const Point& point_body : detection.points) marking.points.push_back(T_map_body * point_body);
     markings.push_back(std::move(marking));

@@ -12,7 +12,8 @@ struct ObservedMarking {
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
   double confidence = 0.0;
-  Polyline points;  ///< map frame
+  Polyline points;                 ///< map frame
+  std::vector<double> stddev_m{};  ///< per point, lateral; empty: not given
 };
 
 /// Rejects what is likely wrong, by confidence and zigzag, and transforms the rest (paper, Sec. III-A).
