@@ -4,15 +4,18 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/levels.hpp"
 #include "mapping/markings.hpp"
 
 namespace laneloom {
 namespace {
 
 constexpr double kMinGap_m = 1.0;  // a shorter one is no more than the distance between vertices
+constexpr double kChange_m = 0.5;  // over which the one changes to the other where they overlap
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// One end of a marking.
@@ -33,7 +36,7 @@ const Point& end_point(const Marking& marking, bool at_back) {
 /// Whether the two ends face each other, close and aligned.
 bool can_join(const Marking& a, bool a_back, const Marking& b, bool b_back, const BoundaryConfig& config) {
   const Eigen::Vector2d gap = (end_point(b, b_back) - end_point(a, a_back)).head<2>();
-  if (gap.norm() > config.max_gap_m) return false;
+  if (gap.norm() > config.max_gap_m || !same_level(end_point(a, a_back), end_point(b, b_back))) return false;
   const Eigen::Vector2d leaving = end_direction(a.points, a_back);
   const Eigen::Vector2d entering = -end_direction(b.points, b_back);
   if (leaving.dot(entering) < cos_degrees(config.max_angle_deg)) return false;
@@ -77,17 +80,21 @@ std::vector<std::array<End, 2>> choose_joins(const std::vector<Join>& joins, std
   return joined;
 }
 
-/// The part of `next` that lies ahead of the end of `line`; the two may overlap at their ends.
-Marking ahead_of(const Marking& line, const Marking& next) {
-  const Eigen::Vector2d direction = end_direction(line.points, true);
-  const auto behind = [&](const Point& p) {
-    return (p - line.points.back()).head<2>().dot(direction) <= 0.0;
-  };
-  std::size_t first = 0;
-  while (first + 2 < next.points.size() && behind(next.points[first])) ++first;
-  if (first == 0) return next;
-  const std::vector<double> arc = arc_lengths(next.points);
-  return slice(next, {arc[first], arc.back()});
+/// The part of `next` that lies ahead of the end of `line`; the two may overlap at their ends. Empty: none.
+std::optional<Marking> ahead_of(const Marking& line, const Marking& next) {
+  const MeasuredPolyline measured(next.points);
+  const double foot_m = measured.project(line.points.back()).arc_m;
+  if (foot_m <= 0.0) return next;
+  const double from_m = foot_m + kChange_m;
+  if (from_m >= measured.length()) return std::nullopt;
+  return slice(next, {from_m, measured.length()});
+}
+
+void continue_with(const Marking& ahead, LaneBoundary& boundary) {
+  const double end_m = length(boundary.marking.points);
+  const double gap_m = (ahead.points.front() - boundary.marking.points.back()).head<2>().norm();
+  if (gap_m > kMinGap_m) boundary.bridged.push_back({end_m, end_m + gap_m});
+  append(boundary.marking, ahead);
 }
 
 /// Follows the joins from one free end of a chain to the other.
@@ -101,12 +108,8 @@ LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::
     boundary.members.push_back(next.id);
     if (boundary.marking.points.empty()) {
       boundary.marking = std::move(next);
-    } else {
-      const Marking ahead = ahead_of(boundary.marking, next);
-      const double end_m = length(boundary.marking.points);
-      const double gap_m = (ahead.points.front() - boundary.marking.points.back()).head<2>().norm();
-      if (gap_m > kMinGap_m) boundary.bridged.push_back({end_m, end_m + gap_m});
-      append(boundary.marking, ahead);
+    } else if (const auto ahead = ahead_of(boundary.marking, next)) {
+      continue_with(*ahead, boundary);
     }
     entered = joined[entered.marking][!entered.at_back];
   }

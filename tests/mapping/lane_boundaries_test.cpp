@@ -10,6 +10,7 @@ namespace {
 using test::marking;
 using test::straight;
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST(LaneBoundaries, JoinsCloseAlignedEndsUnderTheOldestId) {
   const auto boundaries = lane_boundaries(
@@ -38,6 +39,7 @@ TEST(LaneBoundaries, LeavesApartWhatIsNotOneLine) {
   EXPECT_EQ(count(marking(2, straight({12, 1, 0}, {20, 1, 0}))), 2U);                         // beside
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {15, 3, 0}))), 2U);                         // turning off
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {20, 0, 0}), MarkingType::roadedge)), 2U);  // another type
+  EXPECT_EQ(count(marking(2, straight({12, 0, 6}, {20, 0, 6}))), 2U);                         // on a bridge
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {20, 0, 0}))), 1U);
 }
 
@@ -73,12 +75,16 @@ TEST(LaneBoundaries, EachEndIsJoinedOnceToTheNearest) {
 }
 
 TEST(LaneBoundaries, OverlappingEndsDoNotRunBack) {
-  const auto boundaries = lane_boundaries(
-      {marking(1, straight({0, 0, 0}, {10, 0, 0}, 6)), marking(2, straight({9, 0.1, 0}, {20, 0.1, 0}, 12))},
-      {}, {});
-  ASSERT_EQ(boundaries.size(), 1U);
-  const auto& points = boundaries[0].marking.points;
-  for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GT(points[i].x(), points[i - 1].x());
+  const Marking line = marking(1, straight({0, 0, 0}, {10, 0, 0}, 6));
+  for (const Polyline& next :
+       {straight({9, 0.1, 0}, {20, 0.1, 0}, 12), straight({9, 0.1, 0}, {20, 0.1, 0}, 2),
+        straight({9.2, 0.1, 0}, {10.4, 0.1, 0}, 2), straight({6, 0.1, 0}, {9, 0.1, 0}, 4)}) {
+    const auto boundaries = lane_boundaries({line, marking(2, next)}, {}, {});
+    ASSERT_EQ(boundaries.size(), 1U);
+    EXPECT_THAT(boundaries[0].bridged, IsEmpty());
+    const auto& points = boundaries[0].marking.points;
+    for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GT(points[i].x(), points[i - 1].x());
+  }
 }
 
 TEST(LaneBoundaries, ARingOfPiecesStaysOpen) {
