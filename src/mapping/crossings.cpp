@@ -16,8 +16,10 @@ namespace {
 
 using Turn = Linkage::Turn;
 
+constexpr double kMisfit = 1.0;
+
 struct Crossing {
-  double misfit = 0.0;  ///< 0: as it should be; 1: just acceptable
+  double misfit = 0.0;  ///< 0: as it should be; kMisfit: just acceptable
   std::size_t from = 0, to = 0;
   Turn turn = Turn::straight;
   bool confirmed = false;  ///< by the SD map
@@ -94,21 +96,18 @@ bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lan
   return known && is_outermost(from, turn, lanes) && is_outermost(to, turn, lanes);
 }
 
-/// How `to` may follow `from`, if at all.
+/// How `to` may follow `from` by what they look like, if at all. What does not fit takes an SD map's word.
 std::optional<Crossing> crossing(const Lane& from, const Lane& to, const std::vector<Lane>& lanes,
-                                 SdMap::Verdict verdict, const LinkageConfig& config) {
-  const bool confirmed = verdict == SdMap::Verdict::connected;
-  if (verdict == SdMap::Verdict::forbidden) return std::nullopt;
+                                 const LinkageConfig& config) {
   if (const auto straight = straight_misfit(from, to, config))
-    return Crossing{.misfit = *straight, .turn = Turn::straight, .confirmed = confirmed};
+    return Crossing{.misfit = *straight, .turn = Turn::straight};
   const Turn side = cross(leaving(from), entering(to)) > 0.0 ? Turn::left : Turn::right;
   if (!can_turn(from, to, side, lanes)) return std::nullopt;
-  if (const auto turn = turn_misfit(from, to, config))
-    return Crossing{.misfit = *turn, .turn = side, .confirmed = confirmed};
+  if (const auto turn = turn_misfit(from, to, config)) return Crossing{.misfit = *turn, .turn = side};
   const double gap_m = gap_between(from, to).norm();
   const bool ahead = gap_between(from, to).dot(leaving(from)) > 0.0;
-  if (!confirmed || !ahead || gap_m > config.max_turn_gap_m) return std::nullopt;
-  return Crossing{.misfit = 1.0 + gap_m, .turn = turn_between(from, to), .confirmed = true};
+  if (!ahead || gap_m > config.max_turn_gap_m) return std::nullopt;
+  return Crossing{.misfit = kMisfit + gap_m, .turn = turn_between(from, to)};
 }
 
 std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes, const SdMap& sd_map,
@@ -117,10 +116,11 @@ std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes, const S
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     for (std::size_t j = 0; j < lanes.size(); ++j) {
       if (i == j || gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
-      const auto verdict =
-          sd_map.empty() ? SdMap::Verdict::unknown : sd_map.verdict(lanes[i].centerline, lanes[j].centerline);
-      auto found = crossing(lanes[i], lanes[j], lanes, verdict, config);
+      auto found = crossing(lanes[i], lanes[j], lanes, config);
       if (!found) continue;
+      const auto verdict = sd_map.verdict(lanes[i].centerline, lanes[j].centerline);
+      found->confirmed = verdict == SdMap::Verdict::connected;
+      if (verdict == SdMap::Verdict::forbidden || (found->misfit > kMisfit && !found->confirmed)) continue;
       found->from = i;
       found->to = j;
       crossings.push_back(*found);
