@@ -6,12 +6,12 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lane_geometry.hpp"
+#include "mapping/levels.hpp"
 
 namespace laneloom {
 namespace {
 
 constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
-constexpr double kMaxHeight_m = 2.0;
 constexpr double kConfidence = 0.95;
 
 bool beside(const Lane& a, const Lane& b) {
@@ -45,7 +45,7 @@ double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
   const Point vehicle = T_map_body.translation();
   const Projection foot = line.project(vehicle);
   if (!foot.inside || foot.distance_m > 0.5 * lane.width_m) return 0.0;
-  if (std::abs(foot.foot.z() - vehicle.z()) > kMaxHeight_m) return 0.0;
+  if (!same_level(foot.foot, vehicle)) return 0.0;
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
   const double cosine = line.direction(foot.arc_m).dot(heading);
   if (std::abs(cosine) < kMinAlongLane * heading.norm()) return 0.0;

@@ -7,15 +7,16 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/levels.hpp"
 
 namespace laneloom {
 namespace {
 
-/// How many points of `line` lie within half a lane of `other`.
+/// How many points of `line` lie within half a lane of `other`, on its level.
 std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
   return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
     const Projection foot = other.project(point, max_distance_m);
-    return foot.inside && foot.distance_m < max_distance_m;
+    return foot.inside && foot.distance_m < max_distance_m && same_level(foot.foot, point);
   }));
 }
 
@@ -51,7 +52,8 @@ void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<L
         if (!measured[k]) measured[k].emplace(known[k].centerline);
         const std::size_t covered =
             points_beside(lanes[i].centerline, *measured[k], 0.5 * config.min_width_m);
-        if (covered > 0) matches.push_back({covered, i, k});
+        const std::size_t shorter = std::min(lanes[i].centerline.size(), known[k].centerline.size());
+        if (same ? covered > 0 : 2 * covered >= shorter) matches.push_back({covered, i, k});
       }
     }
     std::ranges::stable_sort(matches, std::greater{}, &Match::covered);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/levels.hpp"
 
 namespace laneloom {
 namespace {
@@ -14,8 +15,7 @@ constexpr double kMemory = 0.97;       // of the counts, per frame: about 30 fra
 constexpr double kMinFrames = 4.0;     // before a pair is judged
 constexpr double kMaxTogether = 0.25;  // share of the frames; real lines are seen together more often
 constexpr double kMinBeside = 0.6;     // share of the shorter line that lies beside the other
-constexpr double kMaxHeight_m = 1.0;
-constexpr std::size_t kStride = 3;  // between the stations that look for neighbours
+constexpr std::size_t kStride = 3;     // between the stations that look for neighbours
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
@@ -73,7 +73,7 @@ bool lies_beside(const Line& line, const MeasuredPolyline& other, double distanc
     if (static_cast<double>(beside + (count - k)) < needed) return false;
     const Point& point = line.stations[k].position;
     const Projection foot = other.project(point, distance_m);
-    if (foot.distance_m >= distance_m || std::abs(foot.foot.z() - point.z()) >= kMaxHeight_m) continue;
+    if (foot.distance_m >= distance_m || !same_level(foot.foot, point)) continue;
     if (static_cast<double>(++beside) >= needed) return true;
   }
   return false;

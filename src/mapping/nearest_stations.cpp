@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "mapping/levels.hpp"
+
 namespace laneloom {
 namespace {
 
-constexpr double kMaxHeight_m = 2.0;  // a line this far above or below is on another road
 constexpr double kRounding = 1.0 + 1e-9;
 constexpr double kMaxOutside_m = 2.0;  // of a bend, from its station
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -50,7 +51,7 @@ const std::vector<NearestStation>& NearestStations::around(const Point& point) {
   grid_.around(point, furthest_m_, [this, reach_m2, center = point](const StationGrid::Entry& entry) {
     const Point offset = entry.position - center;
     const double squared_m2 = offset.head<2>().squaredNorm();
-    if (squared_m2 > reach_m2[entry.line] || std::abs(offset.z()) > kMaxHeight_m) return;
+    if (squared_m2 > reach_m2[entry.line] || !same_level(entry.position, center)) return;
     std::uint32_t& slot = slots_[entry.line];
     if (slot == kNone) {
       slot = static_cast<std::uint32_t>(near_.size());

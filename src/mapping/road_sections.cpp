@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "mapping/levels.hpp"
 #include "mapping/markings.hpp"
 #include "mapping/oriented_groups.hpp"
 
@@ -33,14 +34,14 @@ Samples sample(const MeasuredPolyline& line) {
 
 /// How `b` lies beside `a`; empty where no point of `a` has its foot inside of `b`, near and in a similar
 /// direction.
-std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline& b,
+std::optional<SideBySide> side_by_side(const Samples& a, double a_length_m, const MeasuredPolyline& b,
                                        const SectionConfig& config) {
   const double min_cosine = cos_degrees(config.max_angle_deg);
   double lateral_sum_m = 0.0, cosine_sum = 0.0;
   int count = 0;
   for (std::size_t i = 0; i < a.points.size(); ++i) {
     const Projection foot = b.project(a.points[i], config.max_distance_m);
-    if (!foot.inside) continue;
+    if (!foot.inside || !same_level(foot.foot, a.points[i])) continue;
     const double cosine = a.directions[i].dot(b.direction(foot));
     if (std::abs(cosine) < min_cosine) continue;
     lateral_sum_m += foot.lateral_m;
@@ -50,8 +51,9 @@ std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline&
   if (count == 0) return std::nullopt;
   const bool opposed = cosine_sum < 0.0;
   const double lateral_m = lateral_sum_m / count;  // of `a`, as `b` runs
-  return SideBySide{
-      .lateral_m = opposed ? lateral_m : -lateral_m, .length_m = count * kSampleStep_m, .opposed = opposed};
+  return SideBySide{.lateral_m = opposed ? lateral_m : -lateral_m,
+                    .length_m = a_length_m * count / static_cast<double>(a.points.size()),
+                    .opposed = opposed};
 }
 
 SideBySide seen_from_other(const SideBySide& beside, std::size_t self) {
@@ -72,7 +74,7 @@ Graph side_by_side(const std::vector<MeasuredPolyline>& lines, const SectionConf
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       const bool i_is_longer = lines[i].length() >= lines[j].length();
       const std::size_t longer = i_is_longer ? i : j, shorter = i_is_longer ? j : i;
-      auto beside = side_by_side(samples[shorter], lines[longer], config);
+      auto beside = side_by_side(samples[shorter], lines[shorter].length(), lines[longer], config);
       if (!beside) continue;
       beside->other = longer;
       graph[shorter].push_back(*beside);

@@ -3,10 +3,13 @@
 #include <cmath>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/levels.hpp"
 
 namespace laneloom {
 bool crosses_end(const Marking& stopline, const Lane& lane, bool at_back, const StoplineConfig& config) {
-  const Eigen::Vector2d end = (at_back ? lane.centerline.back() : lane.centerline.front()).head<2>();
+  const Point& at = at_back ? lane.centerline.back() : lane.centerline.front();
+  if (!same_level(at, stopline.points.front())) return false;
+  const Eigen::Vector2d end = at.head<2>();
   const Eigen::Vector2d leaving = end_direction(lane.centerline, at_back);
   const Eigen::Vector2d start = stopline.points.front().head<2>();
   const Eigen::Vector2d along = stopline.points.back().head<2>() - start;

@@ -295,6 +295,26 @@ TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
   EXPECT_EQ(known.size(), 1U);
 }
 
+TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
+  const auto lane_between = [](ElementId left, ElementId right, const Polyline& centerline) {
+    return Lane{.left_boundary = left, .right_boundary = right, .centerline = centerline};
+  };
+  const Lane through = lane_between(1, 2, straight({0, 0, 0}, {20, 0, 0}, 21));
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  std::vector<Lane> first{through};
+  identify_lanes(1, {}, first, known, next_id);
+  // The one is missed in a frame in which another that merges into it is new.
+  std::vector<Lane> merging{lane_between(3, 2, straight({0, -8, 0}, {20, -0.5, 0}, 21))};
+  identify_lanes(2, {}, merging, known, next_id);
+  EXPECT_EQ(merging[0].id, 101U);
+  std::vector<Lane> both{through, merging[0]};
+  both[1].id = kNoElement;
+  identify_lanes(3, {}, both, known, next_id);
+  EXPECT_EQ(both[0].id, 100U);
+  EXPECT_EQ(both[1].id, 101U);
+}
+
 TEST(LaneIds, ComeBackAfterAShortGapOnly) {
   Lane lane;
   lane.left_boundary = 1;

@@ -72,9 +72,10 @@ TEST(Mapper, AGhostGoesAgain) {
   Drive drive;
   drive.steps(20);
   auto with_ghost = road();
-  with_ghost.push_back(test::detection(MarkingType::laneline, straight({20, 8, 0.1}, {50, 9, 0.1})));
-  for (int i = 0; i < 4; ++i) drive.step(with_ghost);
-  for (int i = 0; i < 6; ++i) drive.step();
+  with_ghost.push_back(test::detection(MarkingType::laneline, straight({45, 8, 0.1}, {55, 9, 0.1})));
+  for (int i = 0; i < 5; ++i) drive.step(with_ghost);
+  ASSERT_EQ(drive.mapper.map().boundaries.size(), 4U);
+  for (int i = 0; i < 20; ++i) drive.step();
   EXPECT_EQ(drive.mapper.map().boundaries.size(), 3U);
 }
 
@@ -158,7 +159,7 @@ TEST_P(EitherMapper, EverythingPublishedLiesInTheRange) {
 TEST(VoxelMapper, EvidenceIsGatheredBeforeTheRangeIsEntered) {
   // With the margin, a line is in the map as far as the range goes; without it, it would lag by alpha_n
   // frames.
-  Drive drive;
+  Drive drive("voxels");
   double front = 0.0;
   for (const Point& p : drive.steps(60).boundaries[0].points) front = std::max(front, p.x() - drive.x);
   EXPECT_GT(front, 28.5);
@@ -175,6 +176,11 @@ TEST_P(EitherMapper, BridgeAndRoadBelowStayApart) {
   Drive drive(GetParam());
   for (int i = 0; i < 20; ++i) drive.step(detections);
   EXPECT_EQ(drive.mapper.map().boundaries.size(), 6U);
+  ASSERT_EQ(drive.mapper.map().lanes.size(), 4U);
+  for (const Lane& lane : drive.mapper.map().lanes) {
+    const double height_m = lane.centerline.front().z();
+    EXPECT_LT(std::min(std::abs(height_m - 0.1), std::abs(height_m - 6.1)), 0.5) << "half-way up";
+  }
 }
 
 TEST_P(EitherMapper, ANetworkWithoutStoplinesIsANormalCase) {
@@ -259,6 +265,7 @@ TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
   Drive drive(GetParam());
   drive.steps(100);
   const VoxelId slots = drive.mapper.state().voxels.slots();
+  const std::size_t bytes = to_bytes(drive.mapper.state()).size();
   drive.steps(150);
   EXPECT_LE(drive.mapper.state().voxels.slots(), slots + slots / 10);
   const auto detections = road();
@@ -266,6 +273,9 @@ TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
     drive.mapper.update(frame_at(drive.x, detections, ++drive.number), test::at(drive.x));
   EXPECT_EQ(drive.mapper.map().lanes.size(), 2U);
   EXPECT_LE(drive.mapper.state().co_observation.stored_entries(), 5'000'000U);
+  if (GetParam() == "lines") {
+    EXPECT_LE(to_bytes(drive.mapper.state()).size(), bytes + bytes / 10);
+  }
 }
 
 }  // namespace

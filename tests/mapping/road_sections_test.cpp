@@ -74,6 +74,16 @@ TEST(RoadSections, TheRightOnesComeByTheirDistance) {
   EXPECT_NEAR(graph.beside[1][2].lateral_m, -7.0, 1e-9);
 }
 
+TEST(RoadSections, SideBySideIsWhatTheyHaveInCommon) {
+  std::vector<LaneBoundary> boundaries{
+      boundary(1, straight({0, 0, 0}, {30, 0, 0})), boundary(2, straight({10, 3.5, 0}, {11.5, 3.5, 0})),
+      boundary(3, straight({20, 3.5, 0}, {40, 3.5, 0})), boundary(4, straight({0, 3.5, 6}, {30, 3.5, 6}))};
+  const auto graph = sections_of(boundaries);
+  ASSERT_EQ(graph.beside[0].size(), 2U) << "nor what lies on a bridge";
+  EXPECT_NEAR(graph.beside[1][0].length_m, 1.5, 1e-9);
+  EXPECT_NEAR(graph.beside[2][0].length_m, 10.0, 1.0);
+}
+
 TEST(RoadSections, OfTwoThatLieSideBySideOneIsOnTheRight) {
   // Staggered, bent towards each other, and run through in either direction.
   for (const bool turned : {false, true}) {
