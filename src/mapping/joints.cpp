@@ -8,10 +8,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMemory = 0.97;       // of the counts, per frame: about 30 frames
-constexpr double kMinFrames = 4.0;     // before a joint is judged
-constexpr double kMaxTogether = 0.25;  // share of the frames; a network cuts a line for a short while only
-constexpr double kEndStations = 3.0;   // from an end, within which a detection saw it
+constexpr double kEndStations = 3.0;  // from an end, within which a detection saw it
 
 /// The detections that saw each end of a line: its first station and its last one.
 using Views = std::array<std::vector<std::size_t>, 2>;
@@ -43,14 +40,6 @@ std::vector<Ends> ends_of(const std::vector<Line>& lines) {
   return ends;
 }
 
-std::pair<ElementId, ElementId> key(ElementId a, ElementId b) { return std::minmax(a, b); }
-std::pair<ElementId, ElementId> key_of(const Joint& joint) { return {joint.a, joint.b}; }
-
-const Joint* find(const std::vector<Joint>& joints, ElementId a, ElementId b) {
-  const auto found = std::ranges::lower_bound(joints, key(a, b), {}, key_of);
-  return found == joints.end() || key_of(*found) != key(a, b) ? nullptr : &*found;
-}
-
 bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
   return std::ranges::find_first_of(a, b) != a.end();
 }
@@ -58,37 +47,30 @@ bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b
 }  // namespace
 
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
-                  std::vector<Joint>& joints) {
+                  PairHistories& joints) {
   const std::vector<Views> views = views_of_ends(matches, lines);
   const std::vector<Ends> ends = ends_of(lines);
-  std::vector<Joint> counted;
+  PairHistories counted;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (ends[i].of_stopline) continue;
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       if (ends[j].of_stopline) continue;
       for (const auto& [end_i, end_j] : {std::pair(0U, 0U), {0U, 1U}, {1U, 0U}, {1U, 1U}}) {
         if ((ends[i].at[end_i] - ends[j].at[end_j]).squaredNorm() > max_gap_m * max_gap_m) continue;
-        const auto [a, b] = key(lines[i].id, lines[j].id);
-        const Joint* known = find(joints, a, b);
-        Joint joint = known != nullptr ? *known : Joint{a, b};
         const bool one = shared(views[i][end_i], views[j][end_j]);
         const bool two = !one && !views[i][end_i].empty() && !views[j][end_j].empty();
-        joint.together = kMemory * joint.together + (one ? 1.0 : 0.0);
-        joint.apart = kMemory * joint.apart + (two ? 1.0 : 0.0);
-        counted.push_back(joint);
+        counted.push_back(continued(joints, lines[i].id, lines[j].id, one, two));
         break;
       }
     }
   }
-  std::ranges::sort(counted, {}, key_of);
+  sort(counted);
   joints = std::move(counted);
 }
 
-bool are_separate(const std::vector<Joint>& joints, ElementId a, ElementId b) {
-  const Joint* joint = find(joints, a, b);
-  if (joint == nullptr) return false;
-  const double frames = joint->together + joint->apart;
-  return frames >= kMinFrames && joint->together < kMaxTogether * frames;
+bool are_separate(const PairHistories& joints, ElementId a, ElementId b) {
+  const PairHistory* joint = find(joints, a, b);
+  return joint != nullptr && seen_apart(*joint);
 }
 
 }  // namespace laneloom

@@ -43,7 +43,7 @@ bool can_join(const Marking& a, bool a_back, const Marking& b, bool b_back, cons
   return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
 }
 
-std::vector<Join> possible_joins(const std::vector<Marking>& lines, const std::vector<Joint>& joints,
+std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHistories& joints,
                                  const BoundaryConfig& config) {
   std::vector<Join> joins;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -127,8 +127,8 @@ void reverse(LaneBoundary& boundary) {
   for (Range& range : boundary.bridged) range = {total_m - range.to_m, total_m - range.from_m};
 }
 
-std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings,
-                                          const std::vector<Joint>& joints, const BoundaryConfig& config) {
+std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
+                                          const BoundaryConfig& config) {
   std::vector<Marking> lines;
   std::ranges::copy_if(markings, std::back_inserter(lines),
                        [](const Marking& m) { return m.type != MarkingType::stopline; });

@@ -21,7 +21,7 @@ void reverse(LaneBoundary& boundary);
 /// Groups lanelines and roadedges, respectively, whose end points are close and aligned into continuous
 /// boundaries (paper, Sec. III-D-1), but those that are known to be separate. The nearest ends are joined
 /// first, each end once. By ascending id; stoplines are left out.
-std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings,
-                                          const std::vector<Joint>& joints, const BoundaryConfig& config);
+std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
+                                          const BoundaryConfig& config);
 
 }  // namespace laneloom

@@ -11,11 +11,8 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMemory = 0.97;       // of the counts, per frame: about 30 frames
-constexpr double kMinFrames = 4.0;     // before a pair is judged
-constexpr double kMaxTogether = 0.25;  // share of the frames; real lines are seen together more often
-constexpr double kMinBeside = 0.6;     // share of the shorter line that lies beside the other
-constexpr std::size_t kStride = 3;     // between the stations that look for neighbours
+constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
+constexpr std::size_t kStride = 3;  // between the stations that look for neighbours
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
@@ -96,43 +93,32 @@ double evidence(const Line& line, const FusionConfig& config) {
   return sum;
 }
 
-std::pair<ElementId, ElementId> key_of(const LinePair& pair) { return {pair.a, pair.b}; }
-
-LinePair counted(const std::vector<LinePair>& pairs, const Line& a, const Line& b, bool a_seen, bool b_seen) {
-  LinePair pair{std::min(a.id, b.id), std::max(a.id, b.id)};
-  const auto known = std::ranges::lower_bound(pairs, key_of(pair), {}, key_of);
-  if (known != pairs.end() && key_of(*known) == key_of(pair)) pair = *known;
-  pair.together = kMemory * pair.together + (a_seen && b_seen ? 1.0 : 0.0);
-  pair.apart = kMemory * pair.apart + (a_seen != b_seen ? 1.0 : 0.0);
-  return pair;
-}
-
-bool is_double(const LinePair& pair) {
-  const double frames = pair.together + pair.apart;
-  return frames >= kMinFrames && pair.together < kMaxTogether * frames;
-}
-
 }  // namespace
 
-void merge_doubles(const StationsObserved& observed, const FusionConfig& config, std::vector<Line>& lines,
-                   std::vector<LinePair>& pairs) {
-  std::vector<LinePair> kept;
+std::vector<Relative> merge_doubles(const StationsObserved& observed, const FusionConfig& config,
+                                    std::vector<Line>& lines, PairHistories& doubles) {
+  PairHistories kept;
+  std::vector<Relative> merged;
   std::vector<bool> gone(lines.size(), false);
   Courses courses(lines);
   for (const auto& [i, j] : neighbours(lines, config)) {
     if (gone[i] || gone[j] || !side_by_side(lines, i, j, config.merge_distance_m, courses)) continue;
-    const LinePair pair =
-        counted(pairs, lines[i], lines[j], mostly_observed(observed, i), mostly_observed(observed, j));
-    if (is_double(pair)) {
-      gone[evidence(lines[i], config) < evidence(lines[j], config) ? i : j] = true;
-    } else {
-      kept.push_back(pair);
+    const bool i_seen = mostly_observed(observed, i), j_seen = mostly_observed(observed, j);
+    const PairHistory history =
+        continued(doubles, lines[i].id, lines[j].id, i_seen && j_seen, i_seen != j_seen);
+    if (!seen_apart(history)) {
+      kept.push_back(history);
+      continue;
     }
+    const bool i_goes = evidence(lines[i], config) < evidence(lines[j], config);
+    gone[i_goes ? i : j] = true;
+    merged.push_back({lines[i_goes ? i : j].id, lines[i_goes ? j : i].id});
   }
-  std::ranges::sort(kept, {}, key_of);
-  pairs = std::move(kept);
+  sort(kept);
+  doubles = std::move(kept);
   std::size_t index = 0;
   std::erase_if(lines, [&](const Line&) { return gone[index++]; });
+  return merged;
 }
 
 }  // namespace laneloom

@@ -13,6 +13,15 @@ ElementId element_of(const Membership& membership, ElementId marking) {
   return found != membership.end() && found->first == marking ? found->second : kNoElement;
 }
 
+/// The same, or else that of the marking's relative.
+ElementId element_of(const Membership& membership, ElementId marking,
+                     const std::vector<Relative>& relatives) {
+  const ElementId element = element_of(membership, marking);
+  if (element != kNoElement) return element;
+  const auto relative = std::ranges::find(relatives, marking, &Relative::id);
+  return relative != relatives.end() ? element_of(membership, relative->other) : kNoElement;
+}
+
 std::set<ElementId> elements(const Membership& membership) {
   std::set<ElementId> ids;
   for (const auto& [marking, element] : membership) ids.insert(element);
@@ -31,19 +40,20 @@ Membership membership(const std::vector<LaneBoundary>& boundaries, const std::ve
   return result;
 }
 
-std::vector<LineageEvent> lineage(const Membership& before, const Membership& now) {
+std::vector<LineageEvent> lineage(const Membership& before, const Membership& now,
+                                  const std::vector<Relative>& relatives) {
   using Kind = LineageEvent::Kind;
   const std::set<ElementId> ids_before = elements(before), ids_now = elements(now);
   std::vector<LineageEvent> events;
   // An element is named after its oldest marking, so that its fate is that marking's.
   for (const ElementId id : ids_now) {
     if (ids_before.contains(id)) continue;
-    const ElementId former = element_of(before, id);
+    const ElementId former = element_of(before, id, relatives);
     events.push_back({former == kNoElement ? Kind::born : Kind::split_from, id, former});
   }
   for (const ElementId id : ids_before) {
     if (ids_now.contains(id)) continue;
-    const ElementId heir = element_of(now, id);
+    const ElementId heir = element_of(now, id, relatives);
     events.push_back({heir == kNoElement ? Kind::retired : Kind::merged_into, id, heir});
   }
   std::ranges::stable_sort(events, {}, &LineageEvent::id);

@@ -14,7 +14,14 @@ using Membership = std::vector<std::pair<ElementId, ElementId>>;
 /// Boundaries with their members, and stoplines, each of which is its own.
 Membership membership(const std::vector<LaneBoundary>& boundaries, const std::vector<Stopline>& stoplines);
 
-/// What happened to the published ids from one map to the next, by ascending id.
-std::vector<LineageEvent> lineage(const Membership& before, const Membership& now);
+/// A line that was cut off from another, or has merged into it.
+struct Relative {
+  ElementId id = kNoElement, other = kNoElement;
+};
+
+/// What happened to the published ids from one map to the next, by ascending id. `relatives` are of the lines
+/// that came or went in between.
+std::vector<LineageEvent> lineage(const Membership& before, const Membership& now,
+                                  const std::vector<Relative>& relatives);
 
 }  // namespace laneloom

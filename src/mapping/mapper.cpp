@@ -1,6 +1,8 @@
 #include "laneloom/mapper.hpp"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -15,6 +17,7 @@
 #include "mapping/lane_geometry.hpp"
 #include "mapping/lane_identity.hpp"
 #include "mapping/lanes.hpp"
+#include "mapping/line_evidence.hpp"
 #include "mapping/line_fusion.hpp"
 #include "mapping/line_merging.hpp"
 #include "mapping/line_publishing.hpp"
@@ -77,8 +80,8 @@ std::vector<Marking> fuse_voxels(const Input& input, const MapperConfig& config,
 
 /// Our instances: lines that are followed over time, each station with its own position and evidence.
 template <class Done>
-std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, Done done,
-                                MapperState& state) {
+std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, Done done, MapperState& state,
+                                std::vector<Relative>& relatives) {
   const FusionConfig& fusion = config.fusion;
   const Point origin = input.T_map_body.translation();
   auto& lines = state.lines;
@@ -94,8 +97,8 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   done(Stage::line_update);
   extend_lines(matches, origin, input.range, fusion, detections, lines);
   create_lines(detections, origin, input.frame.stamp_ns, input.range, fusion, lines, state.next_id);
-  merge_doubles(observed, fusion, lines, state.pairs);
-  prune_lines(input.range, fusion, lines, state.next_id);
+  relatives = merge_doubles(observed, fusion, lines, state.doubles);
+  std::ranges::copy(prune_lines(input.range, fusion, lines, state.next_id), std::back_inserter(relatives));
   done(Stage::line_set);
   auto markings = publish_lines(lines, config);
   done(Stage::polylines);
@@ -133,8 +136,9 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   done(Stage::preprocess);
   map = LocalMap{.stamp_ns = frame.stamp_ns, .T_map_body = T_map_body};
   const Input input{frame, T_map_body, markings, range};
+  std::vector<Relative> relatives;
   map.instances = config_.method == "voxels" ? fuse_voxels(input, config_, done, state)
-                                             : fuse_lines(input, config_, done, state);
+                                             : fuse_lines(input, config_, done, state, relatives);
   auto boundaries = lane_boundaries(map.instances, state.joints, config_.boundary);
   std::vector<MeasuredPolyline> measured;
   measured.reserve(boundaries.size());
@@ -156,7 +160,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   done(Stage::linkages);
 
   Membership now = membership(boundaries, map.stoplines);
-  map.lineage = lineage(state.published, now);
+  map.lineage = lineage(state.published, now, relatives);
   state.published = std::move(now);
   for (LaneBoundary& boundary : boundaries) map.boundaries.push_back(std::move(boundary.marking));
   return map;

@@ -9,11 +9,10 @@
 #include "mapping/co_observation.hpp"
 #include "mapping/ego_track.hpp"
 #include "mapping/instances.hpp"
-#include "mapping/joints.hpp"
 #include "mapping/lane_identity.hpp"
 #include "mapping/line_map.hpp"
-#include "mapping/line_merging.hpp"
 #include "mapping/lineage.hpp"
+#include "mapping/pair_history.hpp"
 #include "mapping/voxel_map.hpp"
 
 namespace laneloom {
@@ -27,8 +26,8 @@ struct MapperState {
   CoObservation co_observation;
   Instances instances;
   std::vector<Line> lines;
-  std::vector<LinePair> pairs;  ///< of lines that lie side by side
-  std::vector<Joint> joints;    ///< of lines that end at each other
+  PairHistories doubles;  ///< of lines that lie side by side
+  PairHistories joints;   ///< of lines that end at each other
   FrameError lasting_error = FrameError::Zero();
   std::vector<KnownLane> known_lanes;
   EgoTrack ego_track;
@@ -38,7 +37,7 @@ struct MapperState {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, pairs, joints, lasting_error, known_lanes,
+    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, known_lanes,
             ego_track, published, next_id, map);
   }
 };

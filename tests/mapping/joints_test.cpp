@@ -23,7 +23,7 @@ class Joints : public ::testing::Test {
   const Polyline first_ = straight({0, 0, 0}, {10, 0, 0}, 11), second_ = straight({12, 0, 0}, {22, 0, 0}, 11),
                  both_ = straight({0, 0, 0}, {22, 0, 0}, 23);
   std::vector<Line> lines_{line(1, first_), line(2, second_)};
-  std::vector<Joint> joints_;
+  PairHistories joints_;
 };
 
 TEST_F(Joints, WhatIsAlwaysSeenAsTwoIsTwo) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "mapping/line_evidence.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
@@ -29,7 +30,7 @@ class LineFusion : public ::testing::Test {
     discount_unobserved(observed, {Eigen::Isometry3d::Identity(), &frame_}, range_, config_, lines_);
     extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
     create_lines(detections, Point::Zero(), 7, range_, config_, lines_, next_id_);
-    prune_lines(range_, config_, lines_, next_id_);
+    std::ranges::copy(prune_lines(range_, config_, lines_, next_id_), std::back_inserter(cut_off_));
   }
 
   FusionConfig config_;
@@ -37,6 +38,7 @@ class LineFusion : public ::testing::Test {
   DetectionFrame frame_;
   std::vector<Line> lines_;
   ElementId next_id_ = 1;
+  std::vector<Relative> cut_off_;
 };
 
 TEST_F(LineFusion, ALineIsBornWithAStationAboutEveryMetre) {
@@ -204,6 +206,9 @@ TEST_F(LineFusion, ALineThatIsLostInBetweenIsSplit) {
   for (int i = 0; i < 80; ++i) see({straight({0, 0, 0}, {8, 0, 0}), straight({14, 0, 0}, {25, 0, 0})});
   ASSERT_EQ(lines_.size(), 2U);
   EXPECT_EQ(std::ranges::count(lines_, id, &Line::id), 1);
+  ASSERT_EQ(cut_off_.size(), 1U);
+  EXPECT_EQ(std::ranges::count(lines_, cut_off_[0].id, &Line::id), 1);
+  EXPECT_EQ(cut_off_[0].other, id);
 }
 
 TEST_F(LineFusion, TheTypeIsThatOfMostObservations) {

@@ -18,10 +18,11 @@ class LineMerging : public ::testing::Test {
   }
   void frame(bool first, bool second) {
     const StationsObserved observed{std::vector<bool>(21, first), std::vector<bool>(17, second)};
-    merge_doubles(observed, {}, lines_, pairs_);
+    merged_ = merge_doubles(observed, {}, lines_, pairs_);
   }
   std::vector<Line> lines_;
-  std::vector<LinePair> pairs_;
+  PairHistories pairs_;
+  std::vector<Relative> merged_;
 };
 
 TEST_F(LineMerging, ADoubleThatIsNeverSeenWithTheLineGoes) {
@@ -30,6 +31,9 @@ TEST_F(LineMerging, ADoubleThatIsNeverSeenWithTheLineGoes) {
   for (int i = 0; i < 3 && lines_.size() == 2; ++i) frame(i % 2 == 0, i % 2 != 0);
   ASSERT_EQ(lines_.size(), 1U);
   EXPECT_EQ(lines_[0].id, 1U);
+  ASSERT_EQ(merged_.size(), 1U);
+  EXPECT_EQ(merged_[0].id, 2U);
+  EXPECT_EQ(merged_[0].other, 1U);
 }
 
 TEST_F(LineMerging, TwoLinesThatAreSeenTogetherStay) {
