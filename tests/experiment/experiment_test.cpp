@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <stdexcept>
 
 #include "experiment/calibration.hpp"
 #include "experiment/oracle.hpp"
+#include "experiment/results_table.hpp"
 #include "simulation/scenarios.hpp"
 
 namespace laneloom {
@@ -113,6 +115,64 @@ TEST(Experiment, APeerThatFailsIsNamed) {
       EXPECT_NE(std::string(error.what()).find(program), std::string::npos);
     }
   }
+}
+
+/// The cells of the table's only row, without the subject's name.
+std::vector<std::string> cells(const Measures& measures) {
+  const std::string table = results_table({{"ours", measures, {}}});
+  std::istringstream row(table.substr(table.find("| ours |") + 8));
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(row, cell, '|') && cell != "\n";)
+    cells.push_back(cell.substr(1, cell.size() - 2));
+  return cells;
+}
+
+TEST(ResultsTable, WhatIsNotDefinedIsADash) {
+  const std::vector<std::string> all_dashes{"-", "-",   "-", "-", "-", "-", "-", "-/-/-", "-/-",
+                                            "-", "-/-", "-", "-", "-", "-", "-", "-/-"};
+  EXPECT_EQ(cells({}), all_dashes);
+}
+
+TEST(ResultsTable, WhatWasThereAndNotFoundIsZero) {
+  Measures missed;
+  missed.score.by_kind[index(LineKind::laneline)].truths = 3;
+  missed.score.by_kind[index(LineKind::lane)].truths = 2;
+  missed.topology.linkages.truths = 2;
+  missed.top_ll.vertices = 4;
+  const std::vector<std::string> row = cells(missed);
+  EXPECT_EQ(row.at(0), "-");
+  EXPECT_EQ(row.at(1), "0.0");
+  EXPECT_EQ(row.at(3), "-") << "ACD of no match";
+  EXPECT_EQ(row.at(7), "-/0/0.0");
+  EXPECT_EQ(row.at(8), "-/0");
+  EXPECT_EQ(row.at(11), "0.0");
+}
+
+TEST(ResultsTable, WrongLinkagesWhereThereAreNoneHaveNoRecall) {
+  Measures invented;
+  invented.topology.linkages.published = 2;
+  EXPECT_EQ(cells(invented).at(8), "0/-");
+}
+
+TEST(ResultsTable, LinkagesAcrossAreAllThatBridgeAGap) {
+  Measures measures;
+  const auto add = [&](Linkage::Kind kind, std::size_t published, std::size_t right) {
+    measures.topology.by_kind.at(static_cast<std::size_t>(kind)) = {.published = published, .right = right};
+  };
+  add(Linkage::Kind::shared_boundary, 100, 0);
+  add(Linkage::Kind::intersection, 2, 0);
+  add(Linkage::Kind::sd_map, 4, 2);
+  add(Linkage::Kind::ego_track, 4, 4);
+  EXPECT_EQ(cells(measures).at(9), "60");
+}
+
+TEST(Experiment, TheOracleMissesNoLanesAsItKnowsNone) {
+  ExperimentSpec experiment;
+  experiment.drives = {spec("straight", "none", 2.0)};
+  experiment.oracle = true;
+  const Measures oracle = run(experiment).back().measures;
+  EXPECT_EQ(oracle.score.of(LineKind::lane).truths, 0U);
+  EXPECT_EQ(oracle.top_ll.vertices, 0U);
 }
 
 TEST(Calibration, MovesTheProfileToItsTarget) {

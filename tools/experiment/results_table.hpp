@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+
+namespace laneloom {
+
+/// A Markdown table with a row per subject. A dash stands for what is not defined: a share of nothing, or the
+/// mean of no values.
+std::string results_table(const std::vector<SubjectResult>& results);
+
+}  // namespace laneloom
