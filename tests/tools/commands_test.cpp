@@ -115,6 +115,29 @@ TEST_F(Commands, ReplayComparesConfigurations) {
             0);
 }
 
+TEST_F(Commands, ReplayWritesNothingOverItsInputOrAnotherOutput) {
+  simulate("none", "in.frames.jsonl");
+  std::filesystem::create_symlink(file("in.frames.jsonl"), file("link.jsonl"));
+  const std::string before = content(file("in.frames.jsonl"));
+  for (const std::string out : {"in.frames.jsonl", "link.jsonl", "./in.frames.jsonl"}) {
+    for (const char* option : {"--out", "--report"}) {
+      EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), option, file(out)}), 1) << out;
+      EXPECT_THAT(output(), HasSubstr(out + ": is the input"));
+    }
+  }
+  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--truth", file("truth.json"), "--out",
+                 file("truth.json")}),
+            1);
+  EXPECT_EQ(content(file("in.frames.jsonl")), before);
+
+  const std::string config = LANELOOM_CONFIG_DIR "/laneloom.yaml";
+  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", config, "--config", config, "--out",
+                 file("a.jsonl"), "--out", file("./a.jsonl")}),
+            1);
+  EXPECT_THAT(output(), HasSubstr("twice"));
+  EXPECT_FALSE(std::filesystem::exists(file("a.jsonl")));
+}
+
 TEST_F(Commands, FusedMapsAreEvaluatedAtTheStampsThatDetectionsHaveToo) {
   simulate("none", "in.frames.jsonl");
   ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();

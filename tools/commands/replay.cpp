@@ -2,7 +2,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -121,7 +123,30 @@ void check_live(const ReplayResult& result) {
   if (!live.holds()) throw CLI::RuntimeError("", 1);
 }
 
+/// Whether two paths name one file, which need not be there yet.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(a, error);
+  return !error && whole == std::filesystem::weakly_canonical(b, error);
+}
+
+/// What is written must not be what is read, nor be written over.
+void check_files(const Options& options) {
+  std::vector<std::string> written = options.out;
+  if (!options.report.empty()) written.push_back(options.report);
+  for (auto path = written.begin(); path != written.end(); ++path) {
+    const auto is_same = [&](const std::string& other) { return same_file(*path, other); };
+    if (is_same(options.in)) throw std::runtime_error(*path + ": is the input, and would be written over");
+    if (!options.truth.empty() && is_same(options.truth))
+      throw std::runtime_error(*path + ": is the truth, and would be written over");
+    if (std::any_of(written.begin(), path, is_same))
+      throw std::runtime_error(*path + ": is given as an output twice");
+  }
+}
+
 void replay(Options& options) {
+  check_files(options);
   if (!options.out.empty() && options.out.size() != std::max<std::size_t>(1, options.config_files.size()))
     throw std::runtime_error("replay: --out is needed once per --config, or not at all");
   if (options.config_files.empty()) options.config_files.emplace_back();
