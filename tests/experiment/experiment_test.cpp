@@ -75,6 +75,13 @@ TEST(Oracle, GivesTheMeanOfWhatItSaw) {
   for (const Point& point : map.boundaries[0].points) EXPECT_NEAR(point.y(), 0.3, 1e-9);
 }
 
+TEST(Oracle, PassesOverMarkingsWithoutHorizontalLength) {
+  Road road;
+  road.markings.push_back({.id = 5, .points = {{1, 2, 0}, {1, 2, 3}}});
+  road.markings.push_back({.id = 6, .points = {{0, 0, 0}, {0, 5e-324, 0}}});
+  EXPECT_TRUE(Oracle(road).update({}).boundaries.empty());
+}
+
 TEST(Experiment, DrivesAddUpWhateverRunsFirst) {
   ExperimentSpec one, both;
   one.drives = {spec("straight", "inhouse", 10.0)};

@@ -149,6 +149,10 @@ TEST_F(MadeUpLog, BadFilesAreNamedWithKeyOrLine) {
   write("log_map_archive_x.json", broken);
   EXPECT_NE(error().find("lane_segments.10.left_lane_boundary[0].z: must be a number"), std::string::npos)
       << error();
+  std::string point = map("NONE");
+  point.replace(point.find("\"x\":20"), 6, "\"x\":0");
+  write("log_map_archive_x.json", point);
+  EXPECT_NE(error().find("lane_segments.10.left_lane_boundary: has no length"), std::string::npos) << error();
   write("log_map_archive_x.json", map("NONE"));
   write("city_SE3_egovehicle.csv", "header\n1,1,0,0,0,0,0,0\n2,1,0,0,zero,0,0,0\n");
   EXPECT_NE(error().find("city_SE3_egovehicle.csv:3"), std::string::npos) << error();

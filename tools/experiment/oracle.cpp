@@ -6,14 +6,16 @@ namespace laneloom {
 namespace {
 
 constexpr double kSpacing_m = 1.0;
-constexpr double kGate_m = 3.0;  // of a station from its detection; a ring comes past it twice
+constexpr double kMinLength_m = 0.001;  // a marking that has no length has no side either
+constexpr double kGate_m = 3.0;         // of a station from its detection; a ring comes past it twice
 
 }  // namespace
 
 Oracle::Oracle(const Road& truth) {
   for (const RoadMarking& marking : truth.markings) {
-    Line& line = lines_.emplace_back(Line{marking.id, marking.type, marking.style, {}});
     const MeasuredPolyline measured(marking.points);
+    if (measured.length() < kMinLength_m) continue;
+    Line& line = lines_.emplace_back(Line{marking.id, marking.type, marking.style, {}});
     const double spacing_m = std::min(kSpacing_m, 0.5 * measured.length());
     for (double arc_m = 0.0; arc_m <= measured.length(); arc_m += spacing_m) {
       const Eigen::Vector2d direction = measured.direction(arc_m);

@@ -102,6 +102,7 @@ class LaneReader {
   std::pair<Polyline, ElementId> border(const json& segment, const char* points_key, const char* mark_key,
                                         bool left) {
     Polyline points = required(segment, points_key, xyz_line);
+    if (!(length(points) > 0.0)) throw JsonError(points_key, "has no length");
     if (!limit_.add(points)) throw JsonError(points_key, LengthLimit::kComplaint);
     const std::optional<MarkingStyle> style = painted_style(required(segment, mark_key, text), left);
     if (!style) return {std::move(points), kNoElement};
