@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "simulation/scenarios.hpp"
 
@@ -59,6 +60,24 @@ TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
   };
   EXPECT_EQ(drive(1), drive(1));
   EXPECT_NE(drive(1), drive(2));
+}
+
+// Else a drive of so many kilometres would never end.
+TEST(ClosedLoop, ARoadTooShortToDriveOnIsAnError) {
+  Road road{.name = "stub"};
+  road.lanes.push_back({.id = 1,
+                        .left = {{0, 2, 0}, {1.2, 2, 0}},
+                        .right = {{0, -2, 0}, {1.2, -2, 0}},
+                        .centerline = {{0, 0, 0}, {1.2, 0, 0}}});
+  road.drive = Drive::recorded({{.stamp_ns = 0}, {.stamp_ns = 1'000'000'000, .position = {1.2, 0, 0}}});
+  LocalMapService service{Config{}};
+  ClosedLoop loop(road, {.noise = noise_profile("none")}, service);
+  try {
+    run(loop, 100.0);
+    FAIL() << loop.score().road_ends << " ends of the road in " << loop.driven_m() << " m";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "stub: on this road the vehicle cannot drive a metre from any start");
+  }
 }
 
 /// A map that slips to the left, by up to 2 m.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "drive/steering.hpp"
@@ -18,6 +19,7 @@ constexpr double kLooking_mps = 5.0;  // for the way that turns off
 constexpr double kPutBack_m = 20.0;   // beyond where it left its lane
 constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
+constexpr int kMaxVainRestarts = 100;  // some may be: a drive goes on behind a lane that leads nowhere
 
 }  // namespace
 
@@ -35,6 +37,10 @@ ClosedLoop::ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& servic
 std::int64_t ClosedLoop::now_ns() const { return spec_.start_ns + steps_ * kPeriod_ns; }
 
 void ClosedLoop::restart(const Navigator::Start& start) {
+  const bool in_vain = score_.driven_m - std::exchange(restarted_at_m_, score_.driven_m) < 1.0;
+  vain_restarts_ = in_vain ? vain_restarts_ + 1 : 0;
+  if (vain_restarts_ > kMaxVainRestarts)
+    throw std::runtime_error(road_.name + ": on this road the vehicle cannot drive a metre from any start");
   ++spec_.session_id;
   lanes_.place(start.lane);
   vehicle_ = start.vehicle;

@@ -39,7 +39,9 @@ class ClosedLoop {
   /// All must outlive this. Throws std::runtime_error where the road's drive is on none of its lanes.
   ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& service);
 
-  /// One period: sensing, the planner's turn ten times a second, control, motion.
+  /// One period: sensing, the planner's turn ten times a second, control, motion. Throws std::runtime_error
+  /// where the vehicle, wherever it is put, is off its lane or at the road's end before it has driven a
+  /// metre.
   void step();
   /// So far; what has not ended yet included.
   DriveScore score() const;
@@ -89,6 +91,8 @@ class ClosedLoop {
   Guess::Cause cause_ = Guess::Cause::no_lane;
   bool over_border_ = false;
   double last_curvature_ = 0.0, last_lateral_mps2_ = 0.0, last_driven_m_ = 0.0;
+  double restarted_at_m_ = 0.0;  ///< of all that was driven
+  int vain_restarts_ = 0;        ///< in a row, without a metre between them
 };
 
 }  // namespace laneloom
