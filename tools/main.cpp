@@ -33,13 +33,23 @@ int run(int argc, char** argv) {
   }
 }
 
-}  // namespace
+/// Whether all that was printed has been taken; a full disk shows when it is flushed at the latest.
+bool printed() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
-int main(int argc, char** argv) {
+int run_and_tell(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "laneloom: %s\n", error.what());
     return 1;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int code = run_and_tell(argc, argv);
+  if (printed()) return code;
+  std::fprintf(stderr, "laneloom: standard output cannot be written\n");
+  return code == 0 ? 1 : code;
 }

@@ -196,6 +196,18 @@ TEST_F(Commands, ReplayOfADriveThatBeginsAgainClearsTheMap) {
   EXPECT_EQ(frames_seen, 160U);
 }
 
+TEST_F(Commands, OutputThatCannotBeWrittenIsAFailure) {
+  simulate("none", "in.frames.jsonl");
+  const std::string command = LANELOOM_COMMAND;
+  for (const std::string& words :
+       {std::string("publish --list"), std::string("--version"), std::string("drive --help"),
+        "evaluate --truth " + file("truth.json") + " --frames " + file("in.frames.jsonl")}) {
+    const std::string line = command + " " + words + " >/dev/full 2>" + file("errors");
+    EXPECT_EQ(Process({"/bin/sh", "-c", line}, file("output")).wait(), 1) << words;
+    EXPECT_THAT(content(file("errors")), HasSubstr("standard output cannot be written")) << words;
+  }
+}
+
 TEST_F(Commands, PublishListsItsRoads) {
   EXPECT_EQ(run({"publish", "--list"}), 0);
   EXPECT_THAT(output(), HasSubstr("town"));
