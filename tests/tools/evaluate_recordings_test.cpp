@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "io/json_lines.hpp"
 #include "laneloom/recording.hpp"
 #include "process.hpp"
 #include "recording/temporary_folder.hpp"
@@ -104,6 +106,68 @@ TEST_F(EvaluateRecordings, OfMapsOfOneStampTheLastCountsAndOfNoStampNone) {
   EXPECT_EQ(fused.at("frames"), 3);
   EXPECT_EQ(fused.at("laneline").at("precision"), 1.0);
   EXPECT_EQ(fused.at("laneline").at("matched"), 3);
+}
+
+TEST_F(EvaluateRecordings, JsonLinesAreReadAsRecordingsAre) {
+  JsonLinesWriter maps(file("maps.jsonl")), frames(file("frames.jsonl"));
+  const auto write = [&](std::int64_t stamp, double off_m) {
+    maps.write(map(stamp, off_m).map);
+    FrameRecord record{frame(stamp), pose(stamp)};
+    for (Point& point : record.frame.detections[0].points) point.y() += off_m;
+    frames.write(record);
+  };
+  maps.write(map(0, 3.0).map);  // before the first fused frame
+  write(stamp_ns(0), 0.0);
+  write(stamp_ns(1), 0.0);
+  maps.write(map(stamp_ns(2), 3.0).map);
+  write(stamp_ns(2), 0.0);
+  write(stamp_ns(1), 3.0);  // of before
+  maps.close();
+  frames.close();
+  ASSERT_EQ(evaluate({"--map", file("maps.jsonl"), "--frames", file("frames.jsonl")}), 0) << output();
+  for (const char* who : {"raw", "fused"}) {
+    EXPECT_EQ(score(who).at("frames"), 3) << who;
+    EXPECT_EQ(score(who).at("laneline").at("matched"), 3) << who;
+  }
+  EXPECT_THAT(output(), HasSubstr("3 of 4 frames, and 3 of 6 maps compared"));
+}
+
+TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
+  {
+    RecordingWriter out(file("drive.mcap"), {.chunk_bytes = 1});
+    VehiclePose defective = pose(stamp_ns(0));
+    defective.position.x() = NAN;
+    out.write(defective, stamp_ns(0));
+    for (int i = 0; i < 10; ++i) {
+      if (i < 5) out.write(pose(stamp_ns(i)), stamp_ns(i));
+      out.write(frame(stamp_ns(i)), stamp_ns(i));
+    }
+    out.close();
+  }
+  ASSERT_EQ(evaluate({"--frames", file("drive.mcap")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("5 of 10 frames compared"));
+  EXPECT_THAT(output(),
+              HasSubstr("drive.mcap: 1 messages passed over: laneloom/v1/vehicle_pose: not_finite"));
+
+  auto bytes = bytes_of(file("drive.mcap"));
+  bytes.resize(bytes.size() / 2);
+  write_bytes(file("cut.mcap"), bytes);
+  evaluate({"--frames", file("cut.mcap")});
+  EXPECT_THAT(output(), HasSubstr("cut.mcap: the recording is cut off"));
+}
+
+TEST_F(EvaluateRecordings, NothingToCompareIsAFailure) {
+  {
+    RecordingWriter out(file("drive.mcap"));
+    for (int i = 0; i < 3; ++i) out.write(frame(stamp_ns(i)), stamp_ns(i));  // without poses
+    out.close();
+  }
+  std::ofstream(file("empty.jsonl")) << "\n";
+  EXPECT_EQ(evaluate({"--frames", file("drive.mcap")}), 1);
+  EXPECT_THAT(output(), HasSubstr("drive.mcap: of 3 frames"));
+  EXPECT_EQ(evaluate({"--map", file("drive.mcap")}), 1);
+  EXPECT_EQ(evaluate({"--map", file("empty.jsonl")}), 1);
+  EXPECT_THAT(output(), HasSubstr("none can be compared"));
 }
 
 TEST_F(EvaluateRecordings, FiguresOverRangeAndPicturesOfThem) {

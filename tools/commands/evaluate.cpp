@@ -28,29 +28,58 @@ struct Options {
 
 using Stamps = std::set<std::int64_t>;
 
-Stamps frame_stamps(const std::string& path) {
+/// A file's moments, of so many frames or maps that it has.
+struct Moments {
   Stamps stamps;
-  for_each_frame(
-      path, [&](const DetectionFrame& frame, const Eigen::Isometry3d&) { stamps.insert(frame.stamp_ns); });
-  return stamps;
+  std::size_t count = 0;
+};
+
+Moments moments(const std::string& path, Stamps stamps, const InputAccount& account) {
+  warn_of(path, account.refused, account.cut_off);
+  if (stamps.empty())
+    throw std::runtime_error(
+        fmt::format("{}: of {} frames or maps, none can be compared", path, account.count));
+  return {std::move(stamps), account.count};
 }
 
-Stamps map_stamps(const std::string& path) {
+Moments frame_moments(const std::string& path) {
   Stamps stamps;
-  for_each_map(path, [&](const LocalMap& map) { stamps.insert(map.stamp_ns); });
-  return stamps;
+  const auto add = [&](const DetectionFrame& frame, const Eigen::Isometry3d& /*T_map_body*/) {
+    stamps.insert(frame.stamp_ns);
+  };
+  const InputAccount account = for_each_frame(path, add);
+  return moments(path, std::move(stamps), account);
 }
 
-/// The moments to compare at: those that every given file has.
-Stamps common_stamps(const Options& options) {
-  if (options.map.empty()) return frame_stamps(options.frames);
-  if (options.frames.empty()) return map_stamps(options.map);
-  const Stamps frames = frame_stamps(options.frames), maps = map_stamps(options.map);
+Moments map_moments(const std::string& path) {
+  Stamps stamps;
+  const InputAccount account = for_each_map(path, [&](const LocalMap& map) { stamps.insert(map.stamp_ns); });
+  return moments(path, std::move(stamps), account);
+}
+
+/// What is compared: at the stamps that every given file has.
+struct Comparison {
+  Stamps stamps;
+  std::string account;  ///< of how much, in words
+};
+
+Comparison comparison(const Options& options) {
+  if (options.map.empty()) {
+    Moments frames = frame_moments(options.frames);
+    return {frames.stamps, fmt::format("{} of {} frames", frames.stamps.size(), frames.count)};
+  }
+  if (options.frames.empty()) {
+    Moments maps = map_moments(options.map);
+    return {maps.stamps, fmt::format("{} of {} maps", maps.stamps.size(), maps.count)};
+  }
+  const Moments frames = frame_moments(options.frames), maps = map_moments(options.map);
   Stamps common;
-  std::set_intersection(frames.begin(), frames.end(), maps.begin(), maps.end(),
+  std::set_intersection(frames.stamps.begin(), frames.stamps.end(), maps.stamps.begin(), maps.stamps.end(),
                         std::inserter(common, common.end()));
   if (common.empty()) throw std::runtime_error("detections and maps have no stamp in common");
-  return common;
+  const std::string account =
+      fmt::format("{0} of {1} frames, and {0} of {2} maps", common.size(), frames.count, maps.count);
+  return {std::move(common), account};
 }
 
 MapEvaluation evaluate_detections(const Options& options, const Road& truth, const Stamps& stamps) {
@@ -71,14 +100,14 @@ MapEvaluation evaluate_maps(const Options& options, const Road& truth, const Sta
 
 void evaluate(const Options& options) {
   const Road truth = load_truth(options.truth);
-  const Stamps stamps = common_stamps(options);
+  const auto [stamps, account] = comparison(options);
   std::vector<NamedScore> scores;
   std::vector<NamedEvaluation> evaluations;
   if (!options.frames.empty()) evaluations.emplace_back("raw", evaluate_detections(options, truth, stamps));
   if (!options.map.empty()) evaluations.emplace_back("fused", evaluate_maps(options, truth, stamps));
   scores.reserve(evaluations.size());
   for (const auto& [who, evaluation] : evaluations) scores.emplace_back(who, evaluation.score());
-  fmt::print("{}{} frames, range {:g}..{:g} m, +-{:g} m\n", score_table(scores), stamps.size(),
+  fmt::print("{}{} compared, range {:g}..{:g} m, +-{:g} m\n", score_table(scores), account,
              options.range.forward_min_m, options.range.forward_max_m, options.range.side_max_m);
   fmt::print("{}{}", evaluation_tables(evaluations), profile_table(evaluations));
   if (!options.plots.empty()) draw_evaluation(evaluations, options.plots);

@@ -1,5 +1,9 @@
 #include "commands/evaluation_inputs.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -14,6 +18,21 @@ namespace {
 
 using VisitFrame = std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>;
 using VisitMap = std::function<void(const LocalMap&)>;
+
+/// Passes on what is later than all before it.
+class Ascending {
+ public:
+  explicit Ascending(const VisitFrame& visit) : visit_(visit) {}
+  void operator()(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+    if (frame.stamp_ns <= last_stamp_ns_) return;
+    last_stamp_ns_ = frame.stamp_ns;
+    visit_(frame, T_map_body);
+  }
+
+ private:
+  const VisitFrame& visit_;
+  std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
+};
 
 /// Gives each frame of a recording its pose.
 class RecordedFrames {
@@ -38,19 +57,14 @@ class RecordedFrames {
  private:
   void visit_ready() {
     std::size_t without_pose = 0;
-    while (const auto ready = synchroniser_.next(without_pose)) {
-      const DetectionFrame& frame = ready->pending.frame;
-      if (last_stamp_ns_ && frame.stamp_ns <= *last_stamp_ns_) continue;
-      last_stamp_ns_ = frame.stamp_ns;
-      visit_(frame, ready->T_map_body);
-    }
+    while (const auto ready = synchroniser_.next(without_pose))
+      visit_(ready->pending.frame, ready->T_map_body);
   }
 
-  const VisitFrame& visit_;
+  Ascending visit_;
   GateConfig gate_config_;
   Gate pose_gate_{gate_config_};
   Synchroniser synchroniser_{SyncConfig{}};
-  std::optional<std::int64_t> last_stamp_ns_;
 };
 
 /// A map on the wire may have lines of less than two points, with which nothing can be compared.
@@ -63,43 +77,75 @@ void drop_degenerate_lines(LocalMap& map) {
   });
 }
 
-void for_each_recorded_map(const std::filesystem::path& path, const VisitMap& visit) {
-  RecordingReader reader(path.string());
-  std::optional<LocalMap> newest;  // another of its stamp may follow
-  while (auto recorded = reader.next()) {
-    auto* published = std::get_if<PublishedMap>(&recorded->message);
-    if (published == nullptr || published->map.stamp_ns == 0) continue;
-    if (newest && published->map.stamp_ns < newest->stamp_ns) continue;
-    if (newest && published->map.stamp_ns > newest->stamp_ns) visit(*newest);
-    newest = std::move(published->map);
-    drop_degenerate_lines(*newest);
+/// Passes on the last map of each stamp.
+class NewestMaps {
+ public:
+  explicit NewestMaps(const VisitMap& visit) : visit_(visit) {}
+  void add(LocalMap&& map) {
+    if (map.stamp_ns == 0 || (newest_ && map.stamp_ns < newest_->stamp_ns)) return;
+    if (newest_ && map.stamp_ns > newest_->stamp_ns) visit_(*newest_);
+    newest_ = std::move(map);
+    drop_degenerate_lines(*newest_);
   }
-  if (newest) visit(*newest);
-}
+  void finish() {
+    if (newest_) visit_(*newest_);
+  }
+
+ private:
+  const VisitMap& visit_;
+  std::optional<LocalMap> newest_;  // another of its stamp may follow
+};
 
 }  // namespace
 
-void for_each_frame(const std::filesystem::path& path, const VisitFrame& visit) {
+InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame& visit) {
+  InputAccount account;
   if (is_recording(path)) {
     RecordingReader reader(path.string());
     RecordedFrames frames(visit);
     while (auto recorded = reader.next()) {
       if (const auto* pose = std::get_if<VehiclePose>(&recorded->message)) frames.add(*pose);
-      if (auto* frame = std::get_if<DetectionFrame>(&recorded->message)) frames.add(std::move(*frame));
+      auto* frame = std::get_if<DetectionFrame>(&recorded->message);
+      if (frame == nullptr) continue;
+      ++account.count;
+      frames.add(std::move(*frame));
     }
-    return;
+    account.refused = reader.refused();
+    account.cut_off = reader.cut_off();
+    return account;
   }
   JsonLinesReader in(path);
-  while (const auto record = in.next_frame()) visit(record->frame, transform(record->pose));
+  Ascending ascending(visit);
+  for (; const auto record = in.next_frame(); ++account.count)
+    ascending(record->frame, transform(record->pose));
+  return account;
 }
 
-void for_each_map(const std::filesystem::path& path, const VisitMap& visit) {
+InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& visit) {
+  InputAccount account;
+  NewestMaps maps(visit);
   if (is_recording(path)) {
-    for_each_recorded_map(path, visit);
-    return;
+    RecordingReader reader(path.string());
+    while (auto recorded = reader.next()) {
+      auto* published = std::get_if<PublishedMap>(&recorded->message);
+      if (published == nullptr) continue;
+      ++account.count;
+      maps.add(std::move(published->map));
+    }
+    account.refused = reader.refused();
+    account.cut_off = reader.cut_off();
+  } else {
+    JsonLinesReader in(path);
+    for (; auto map = in.next_map(); ++account.count) maps.add(std::move(*map));
   }
-  JsonLinesReader in(path);
-  while (const auto map = in.next_map()) visit(*map);
+  maps.finish();
+  return account;
+}
+
+void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off) {
+  for (const auto& [what, count] : refused.values())
+    fmt::print(stderr, "laneloom: {}: {} messages passed over: {}\n", path.string(), count, what);
+  if (cut_off) fmt::print(stderr, "laneloom: {}: the recording is cut off\n", path.string());
 }
 
 }  // namespace laneloom

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "laneloom/counters.hpp"
 #include "laneloom/types.hpp"
 
 /// What is evaluated, from files of either kind: JSON lines (io/json_lines.hpp) or a recording
@@ -10,14 +11,26 @@
 /// and the place in it where it cannot be read or is malformed.
 namespace laneloom {
 
-/// Calls visit() for every frame with T_map_body at its stamp. Of a recording, these are the frames and poses
-/// that a service would believe, in the order of their stamps; those without poses around them are left out.
-void for_each_frame(const std::filesystem::path& path,
-                    const std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>& visit);
+/// What was there to visit, and what a recording has that cannot be read.
+struct InputAccount {
+  std::size_t count = 0;  ///< of frames or maps in the file, visited or not
+  Counters refused;       ///< messages that were passed over, as "<topic>: <reason>"
+  bool cut_off = false;   ///< the file ends before its end
+};
 
-/// Calls visit() for every map. Of a recording, these are the published lane maps, but for those before the
-/// first fused frame (stamp 0), and those older than one before them; of several with one stamp it is the
-/// last.
-void for_each_map(const std::filesystem::path& path, const std::function<void(const LocalMap&)>& visit);
+/// Calls visit() for every frame with T_map_body at its stamp, in the order of the stamps; what is not later
+/// than a frame before it is left out. Of a recording, these are the frames and poses that a service would
+/// believe; those without poses around them are left out.
+InputAccount for_each_frame(
+    const std::filesystem::path& path,
+    const std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>& visit);
+
+/// Calls visit() for every map, but for those before the first fused frame (stamp 0), and those older than
+/// one before them; of several with one stamp it is the last.
+InputAccount for_each_map(const std::filesystem::path& path,
+                          const std::function<void(const LocalMap&)>& visit);
+
+/// On standard error, where the account is of a part of the file only.
+void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off);
 
 }  // namespace laneloom

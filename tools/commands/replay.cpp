@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "commands/commands.hpp"
+#include "commands/evaluation_inputs.hpp"
 #include "commands/options.hpp"
 #include "commands/replay_report.hpp"
 #include "commands/score_table.hpp"
@@ -70,13 +71,6 @@ Config read_config(const Options& options, const std::string& file) {
   return config;
 }
 
-void warn_of(const MessageSource& source, const std::string& path) {
-  const Counters refused = source.refused();
-  for (const auto& [what, count] : refused.values())
-    fmt::print(stderr, "laneloom: {}: {} messages passed over: {}\n", path, count, what);
-  if (source.cut_off()) fmt::print(stderr, "laneloom: {}: the recording is cut off\n", path);
-}
-
 /// One configuration's replay of the whole input.
 ReplayResult run(const Options& options, const std::string& config_file, const std::string& out,
                  const Road* truth) {
@@ -111,7 +105,7 @@ ReplayResult run(const Options& options, const std::string& config_file, const s
   result.counters = replay.counters();
   result.pending = replay.pending();
   if (evaluation) result.score = evaluation->score();
-  warn_of(*source, options.in);
+  warn_of(options.in, source->refused(), source->cut_off());
   return result;
 }
 
@@ -185,7 +179,7 @@ void play(const Options& options) {
     bar.show(source->progress());
   }
   bar.clear();
-  warn_of(*source, options.in);
+  warn_of(options.in, source->refused(), source->cut_off());
   fmt::print("{} detections and {} poses published", player.detections(), player.poses());
   if (player.not_taken() > 0) fmt::print(", {} messages not taken by DDS", player.not_taken());
   fmt::print("\n");
