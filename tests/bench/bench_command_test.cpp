@@ -139,6 +139,19 @@ TEST_F(BenchCommand, WrongInputIsNamed) {
   EXPECT_NE(run({"scale", "--minutes", "0"}), 0);
 }
 
+TEST_F(BenchCommand, OptionsBeforeASubcommandAreRefused) {
+  for (const char* what : {"latency", "scale"}) {
+    for (const std::vector<std::string>& option :
+         {std::vector<std::string>{"--json"}, {"--seed", "3"}, {"--duration", "1"}}) {
+      std::vector<std::string> words = option;
+      words.emplace_back(what);
+      words.insert(words.end(), {"--scenario", "straight", "--duration", "0.1"});
+      EXPECT_GT(run(words), 1) << what << " " << option.front();
+      EXPECT_THAT(output(), HasSubstr(option.front()));
+    }
+  }
+}
+
 TEST_F(BenchCommand, MicroBenchmarksHaveEveryStage) {
   ASSERT_EQ(Process({LANELOOM_MICROBENCH, "--benchmark_list_tests"}, file_).wait(), 0);
   for (const char* one : {"lines/association", "lines/linkages", "voxels/clustering", "map_to_cdr"})

@@ -61,6 +61,8 @@ TEST_F(DriveCommand, WrongInputIsNamed) {
   EXPECT_NE(run({"--scenario", "hill", "--km", "-1"}), 0);
   EXPECT_NE(run({"--scenario", "hill", "--km", "1", "--duration", "5"}), 0);
   EXPECT_NE(run({"--scenario", "hill", "--dds", "--preset", "av2"}), 0);
+  EXPECT_NE(run({"--scenario", "hill", "--duration", "1", "--vehicle-id", "mine"}), 0) << "without --dds";
+  EXPECT_THAT(output(), HasSubstr("--dds"));
   EXPECT_EQ(run({"--lanelet2", LANELOOM_COMMAND}), 1);
   EXPECT_THAT(output(), HasSubstr(LANELOOM_COMMAND));
   EXPECT_EQ(run({"--scenario", "hill", "--scenario", "curve", "--dds"}), 1);

@@ -138,6 +138,27 @@ TEST_F(Commands, ReplayWritesNothingOverItsInputOrAnotherOutput) {
   EXPECT_FALSE(std::filesystem::exists(file("a.jsonl")));
 }
 
+TEST_F(Commands, ReplayRefusesOptionsThatWouldBeOfNoAccount) {
+  simulate("none", "in.frames.jsonl");
+  const auto replay = [&](std::vector<std::string> words) {
+    words.insert(words.begin(),
+                 {"replay", "--in", file("in.frames.jsonl"), "--publish", "--speed-up", "100"});
+    return run(words);
+  };
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--verify"},
+                                                {"--out", file("a")},
+                                                {"--config", LANELOOM_CONFIG_DIR "/laneloom.yaml"},
+                                                {"--truth", file("truth.json")},
+                                                {"--report", file("r.json")},
+                                                {"--range", "-5,30,-15,15"},
+                                                {"--preset", "av2"}}) {
+    EXPECT_GT(replay(words), 1) << words.front();
+    EXPECT_THAT(output(), HasSubstr(words.front()));
+  }
+  EXPECT_GT(run({"replay", "--in", file("in.frames.jsonl"), "--domain", "7"}), 1);
+  EXPECT_GT(run({"replay", "--in", file("in.frames.jsonl"), "--compression", "lz4"}), 1);
+}
+
 TEST_F(Commands, FusedMapsAreEvaluatedAtTheStampsThatDetectionsHaveToo) {
   simulate("none", "in.frames.jsonl");
   ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();

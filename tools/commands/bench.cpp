@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "bench/mapper_cost.hpp"
 #include "bench/process_usage.hpp"
@@ -100,8 +101,13 @@ void add_bench(CLI::App& app) {
   command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines")
       ->check(CLI::ExistingFile);
   command->add_flag("--json", options->json, "One JSON object");
+  const std::vector<CLI::Option*> own = command->get_options();
   add_bench_latency(*command);
   add_bench_scale(*command);
+  // Each has its own, behind its name; those before it would be of no account.
+  for (CLI::App* measurement : command->get_subcommands({})) {
+    for (CLI::Option* option : own) measurement->excludes(option);
+  }
   command->callback([command, options] {
     if (command->get_subcommands().empty()) bench(*options);
   });

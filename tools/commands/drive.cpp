@@ -132,10 +132,10 @@ void add_drive(CLI::App& app) {
       command->add_option("--config", options->config, "Configuration file")->check(CLI::ExistingFile);
   auto* preset = command->add_option("--preset", options->preset, "Range, and alpha_n of the voxel method")
                      ->check(CLI::IsMember({"inhouse", "av2"}));
-  command->add_flag("--dds", options->over_dds, "In real time, by the map of a running laneloomd")
-      ->excludes(config)
-      ->excludes(preset);
-  add_dds(*command, options->dds);
+  auto* dds = command->add_flag("--dds", options->over_dds, "In real time, by the map of a running laneloomd")
+                  ->excludes(config)
+                  ->excludes(preset);
+  for (CLI::Option* option : add_dds(*command, options->dds)) option->needs(dds);
   command->add_flag("--require-lane", options->require_lane, "Fail if the vehicle leaves its lane");
   command->add_flag("--json", options->json, "One JSON object");
   command->callback([options] { drive(*options); });

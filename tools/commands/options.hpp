@@ -30,27 +30,31 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
 /// A reader that a writer knows of may need so much longer to know the writer; what is sent before is lost.
 inline constexpr std::chrono::seconds kDiscovery{1};
 
-/// Which service is meant, and how it is reached.
-inline void add_dds(CLI::App& command, DdsConfig& dds) {
-  command.add_option("--domain", dds.domain, "DDS domain")->check(CLI::Range(0, 232))->capture_default_str();
-  command.add_option("--vehicle-id", dds.vehicle_id, "Names the vehicle's DDS partition")
-      ->capture_default_str();
-  command.add_option("--transport", dds.transport, "udp+shm: among processes of one user")
-      ->check(CLI::IsMember({"udp", "udp+shm"}))
-      ->capture_default_str();
+/// Which service is meant, and how it is reached. Returns the options.
+inline std::vector<CLI::Option*> add_dds(CLI::App& command, DdsConfig& dds) {
+  auto* domain = command.add_option("--domain", dds.domain, "DDS domain")
+                     ->check(CLI::Range(0, 232))
+                     ->capture_default_str();
+  auto* vehicle = command.add_option("--vehicle-id", dds.vehicle_id, "Names the vehicle's DDS partition")
+                      ->capture_default_str();
+  auto* transport = command.add_option("--transport", dds.transport, "udp+shm: among processes of one user")
+                        ->check(CLI::IsMember({"udp", "udp+shm"}))
+                        ->capture_default_str();
   auto* file = command.add_option("--profile-file", dds.profile_file,
                                   "Fast DDS XML profiles, for other networks; as dds.profile_file");
-  command.add_option("--profile-name", dds.profile_name, "Of the participant in that file")->needs(file);
-  command.add_option("--security", dds.security_directory,
-                     "Folder with the identity for DDS-Security; as dds.security_directory");
+  auto* name =
+      command.add_option("--profile-name", dds.profile_name, "Of the participant in that file")->needs(file);
+  auto* security = command.add_option("--security", dds.security_directory,
+                                      "Folder with the identity for DDS-Security; as dds.security_directory");
+  return {domain, vehicle, transport, file, name, security};
 }
 
 inline const std::map<std::string, Compression> kCompressions{
     {"zstd", Compression::zstd}, {"lz4", Compression::lz4}, {"none", Compression::none}};
 
 /// --compression: of a recording that is written; a key of kCompressions.
-inline void add_compression(CLI::App& command, std::string& compression) {
-  command.add_option("--compression", compression, "Of a recording: zstd, lz4 or none")
+inline CLI::Option* add_compression(CLI::App& command, std::string& compression) {
+  return command.add_option("--compression", compression, "Of a recording: zstd, lz4 or none")
       ->check(CLI::IsMember(kCompressions))
       ->capture_default_str();
 }

@@ -193,18 +193,23 @@ void add_replay(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   command->add_option("--in", options->in, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
-  command->add_option("--out", options->out, "Maps to write, one a frame: .mcap, else JSON lines");
-  add_compression(*command, options->compression);
-  command->add_option("--report", options->report, "Timing report to write (.json)");
-  command->add_option("--config", options->config_files, "Configuration (.yaml); several are compared");
-  command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
-      ->check(CLI::IsMember({"inhouse", "av2"}));
-  command->add_option("--truth", options->truth, "Truth of the road (.json), to rate the maps by");
-  command->add_flag("--verify", options->verify,
-                    "Fail unless the maps equal those that a live service published");
-  const CLI::Option* range = add_range(*command, options->range);
+  auto* out =
+      command->add_option("--out", options->out, "Maps to write, one a frame: .mcap, else JSON lines");
+  add_compression(*command, options->compression)->needs(out);
+  auto* report = command->add_option("--report", options->report, "Timing report to write (.json)");
+  auto* config =
+      command->add_option("--config", options->config_files, "Configuration (.yaml); several are compared");
+  auto* preset =
+      command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
+          ->check(CLI::IsMember({"inhouse", "av2"}));
+  auto* truth =
+      command->add_option("--truth", options->truth, "Truth of the road (.json), to rate the maps by");
+  auto* verify = command->add_flag("--verify", options->verify,
+                                   "Fail unless the maps equal those that a live service published");
+  CLI::Option* range = add_range(*command, options->range);
   CLI::Option* publish = command->add_flag("--publish", options->publish,
                                            "Publish the detections and poses on DDS, as they came");
+  for (CLI::Option* of_maps : {out, report, config, preset, truth, verify, range}) publish->excludes(of_maps);
   command->add_option("--speed-up", options->speed_up, "With --publish: recorded seconds per second")
       ->check(CLI::Range(0.01, 100.0))
       ->needs(publish)
@@ -212,7 +217,7 @@ void add_replay(CLI::App& app) {
   command->add_option("--wait-for-readers", options->readers, "With --publish: start when so many read")
       ->check(CLI::NonNegativeNumber)
       ->needs(publish);
-  add_dds(*command, options->dds);
+  for (CLI::Option* option : add_dds(*command, options->dds)) option->needs(publish);
   command->callback([options, range] {
     options->range_given = range->count() > 0;
     options->publish ? play(*options) : replay(*options);
