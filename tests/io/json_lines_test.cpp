@@ -22,7 +22,7 @@ FrameRecord full_frame() {
   record.frame.detections = {{.type = MarkingType::roadedge,
                               .style = MarkingStyle::dashed,
                               .confidence = 0.1,
-                              .points = {{1.0, 0.1, -0.3}, {2.0, 1e-17, 1e9}},
+                              .points = {{1.0, 0.1, -0.3}, {2.0, 1e-17, -1e7}},
                               .stddev_m = {0.1, 0.2}}};
   record.pose.stamp_ns = record.frame.stamp_ns;
   record.pose.position = {1.5, -2.5, 3.0};
@@ -87,6 +87,9 @@ TEST(FrameJson, WhatIsWrongIsNamed) {
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,2]")), "pose: must have a quaternion of unit length");
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0]")), "pose: must be [x, y, z, qx, qy, qz, qw]");
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,1]", "1e300")), "t: is too large");
+  EXPECT_EQ(complaint(frame_with("[]", "[0,-1.1e7,0,0,0,0,1]")), "pose: is too far away");
+  EXPECT_EQ(complaint(frame_with(R"([{"type":"laneline","score":0.5,"points":[[0,0,0],[1e308,0,0]]}])")),
+            "detections[0].points[1]: is too far away");
   EXPECT_EQ(complaint(R"({"t":1,"detections":[]})"), "pose: is missing");
   EXPECT_EQ(complaint("[]"), "must be an object");
 }
@@ -178,15 +181,28 @@ TEST(MapJson, TakesMapsOfOthersWithSuccessorsOnly) {
   EXPECT_EQ(map.linkages[1].to, 5u);
 }
 
-TEST(MapJson, WhatIsWrongIsNamed) {
+/// For a map with `from` replaced by `to`.
+std::string map_complaint(const std::string& from, const std::string& to) {
   std::string line = to_json_line(full_map());
-  line.replace(line.find("\"turn\":\"left\""), 13, "\"turn\":\"back\"");
+  line.replace(line.find(from), from.size(), to);
   try {
     map_from_json(line);
-    FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "linkages[0].turn: 'back' is not known");
+    return error.what();
   }
+  return "";
+}
+
+TEST(MapJson, WhatIsWrongIsNamed) {
+  EXPECT_EQ(map_complaint(R"("turn":"left")", R"("turn":"back")"), "linkages[0].turn: 'back' is not known");
+  EXPECT_EQ(map_complaint(R"("confidence":0.25)", R"("confidence":1.5)"),
+            "linkages[0].confidence: must be from 0 to 1");
+  EXPECT_EQ(map_complaint(R"("existence":0.75)", R"("existence":1e300)"),
+            "instances[0].existence: must be from 0 to 1, or -1");
+  EXPECT_EQ(map_complaint(R"("existence":0.5)", R"("existence":-0.5)"),
+            "lanes[0].existence: must be from 0 to 1, or -1");
+  EXPECT_EQ(map_complaint(R"("existence":0.5)", R"("existence":-1)"), "");
+  EXPECT_EQ(map_complaint("[3.0,4.0,5.0]", "[3.0,1e308,5.0]"), "instances[0].points[1]: is too far away");
 }
 
 TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {

@@ -82,6 +82,30 @@ TEST_F(TruthFile, ErrorsNameFileAndKey) {
   EXPECT_NE(error("{", "").find("is not JSON"), std::string::npos);
 }
 
+TEST_F(TruthFile, WhatWouldTakeAllMemoryIsRefused) {
+  Road road = make_scenario("curve");
+  const auto complaint = [&] {
+    save_truth(path, road);
+    try {
+      load_truth(path);
+    } catch (const std::runtime_error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  road.markings[1].points = {{0, 0, 0}, {1e9, 0, 0}};
+  EXPECT_NE(complaint().find("truth.json: markings[1].points[1]: is too far away"), std::string::npos);
+  road.markings[1].points = {{0, 0, 0}, {300'001, 0, 0}};
+  EXPECT_NE(complaint().find("truth.json: markings[1].points: is beyond 300 km"), std::string::npos);
+  road.markings[1].points = {{0, 0, 0}, {290e3, 0, 0}};
+  EXPECT_EQ(complaint(), "");
+  road.lanes[0].centerline = {{0, 0, 0}, {300'001, 0, 0}};
+  EXPECT_NE(complaint().find("truth.json: lanes[0].centerline: is beyond 300 km"), std::string::npos);
+  road.lanes[0].left = {{0, 0, 0}, {200e3, 0, 0}};
+  road.lanes[0].right = {{0, 0, 0}, {200e3, 0, 0}};
+  EXPECT_NE(complaint().find("truth.json: lanes[0].right: is beyond 300 km"), std::string::npos);
+}
+
 TEST_F(TruthFile, AbsentFilesAreErrors) {
   EXPECT_THROW(load_truth(path.parent_path() / "absent.json"), std::runtime_error);
   EXPECT_THROW(save_truth(path.parent_path() / "absent" / "truth.json", {}), std::runtime_error);

@@ -39,6 +39,15 @@ TEST(Trust, CalibrationComparesConfidenceWithPrecision) {
   EXPECT_NEAR(trust.expected_calibration_error(), (0.05 + 2 * 0.25) / 3.0, 1e-12);
 }
 
+TEST(Trust, WhatIsNoProbabilityIsNotCalibrated) {
+  const std::vector<KindLine> truth{straight(0, 0, 20)};
+  const std::vector<KindLine> lines{straight(0, 0, 20, 1e300), straight(4, 0, 20, 1.0)};
+  TrustMeter meter(truth, kRange);
+  meter.add(compare(truth, lines, at_x(0), kRange), lines);
+  EXPECT_EQ(meter.markings().calibration[9].count, 1u);
+  EXPECT_EQ(meter.markings().expected_calibration_error(), 1.0);
+}
+
 TEST(Trust, APerfectMapIsCertainAndRight) {
   std::vector<KindLine> truth{straight(0, 0, 20, 1.0)};
   truth[0].lateral_stddev_m = {0.0, 0.0};

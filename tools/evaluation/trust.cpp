@@ -12,7 +12,7 @@ void add_confidences(const KindComparison& comparison, const std::vector<KindLin
   for (const TruePositive& match : comparison.matches) right[match.prediction] = true;
   for (std::size_t i = 0; i < right.size(); ++i) {
     const double confidence = predictions[comparison.predictions[i].line].confidence;
-    if (confidence < 0.0) continue;
+    if (!(confidence >= 0.0 && confidence <= 1.0)) continue;
     const auto place = static_cast<std::size_t>(confidence * kCalibrationBins);
     CalibrationBin& bin = trust.calibration[std::min(place, kCalibrationBins - 1)];
     ++bin.count;

@@ -20,12 +20,6 @@ json to_json(const Detection& detection) {
   return out;
 }
 
-double share(const json& value) {
-  const double result = number(value);
-  if (result < 0.0 || result > 1.0) throw JsonError("must be from 0 to 1");
-  return result;
-}
-
 Detection detection(const json& value) {
   Detection out{.type = required(value, "type", marking_type),
                 .style = optional(value, "style", marking_style).value_or(MarkingStyle::unknown),
@@ -57,7 +51,7 @@ VehiclePose read_pose(const json& object) {
   return required(object, "pose", [](const json& value) {
     if (!value.is_array() || value.size() != 7) throw JsonError("must be [x, y, z, qx, qy, qz, qw]");
     VehiclePose pose;
-    pose.position = {number(value[0]), number(value[1]), number(value[2])};
+    pose.position = {coordinate(value[0]), coordinate(value[1]), coordinate(value[2])};
     pose.orientation = quaternion(value, 3);
     return pose;
   });

@@ -11,6 +11,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kMaxDepth = 16;
+constexpr double kMaxCoordinate_m = 1e7;
 constexpr std::array kTypeNames{"laneline", "roadedge", "stopline"};
 constexpr std::array kStyleNames{"unknown", "solid", "dashed"};
 
@@ -64,6 +65,18 @@ double number(const json& value) {
   return result;
 }
 
+double coordinate(const json& value) {
+  const double result_m = number(value);
+  if (!(std::abs(result_m) <= kMaxCoordinate_m)) throw JsonError("is too far away");
+  return result_m;
+}
+
+double share(const json& value) {
+  const double result = number(value);
+  if (result < 0.0 || result > 1.0) throw JsonError("must be from 0 to 1");
+  return result;
+}
+
 std::int64_t integer(const json& value) {
   if (!value.is_number_integer()) throw JsonError("must be an integer");
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) throw JsonError("is too large");
@@ -87,7 +100,7 @@ std::string text(const json& value) {
 
 Point point(const json& value) {
   if (!value.is_array() || value.size() != 3) throw JsonError("must be [x, y, z]");
-  return {number(value[0]), number(value[1]), number(value[2])};
+  return {coordinate(value[0]), coordinate(value[1]), coordinate(value[2])};
 }
 
 Polyline polyline(const json& value) { return list(value, point); }

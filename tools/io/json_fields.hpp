@@ -35,7 +35,9 @@ nlohmann::json parse_json(std::string_view text);
 /// Throws std::runtime_error naming the file where it cannot be read, else as parse_json().
 nlohmann::json load_json(const std::filesystem::path& path);
 
-double number(const nlohmann::json& value);  ///< finite
+double number(const nlohmann::json& value);      ///< finite
+double coordinate(const nlohmann::json& value);  ///< within 10 000 km, as what is sampled must fit in memory
+double share(const nlohmann::json& value);       ///< 0..1
 std::int64_t integer(const nlohmann::json& value);
 std::uint64_t count(const nlohmann::json& value);  ///< an integer, not negative
 bool boolean(const nlohmann::json& value);

@@ -83,6 +83,14 @@ json to_json(const Linkage& linkage) {
           {"path", polyline_json(linkage.path)}};
 }
 
+/// -1 where it is not given.
+double existence(const json& value) {
+  const double probability = number(value);
+  if (probability != -1.0 && (probability < 0.0 || probability > 1.0))
+    throw JsonError("must be from 0 to 1, or -1");
+  return probability;
+}
+
 Range range(const json& value) {
   if (!value.is_array() || value.size() != 2) throw JsonError("must be [from, to]");
   return {number(value[0]), number(value[1])};
@@ -103,7 +111,7 @@ Marking marking(const json& value) {
   const auto styles = [](const json& items) { return list(items, style_range); };
   out.styles = optional(value, "styles", styles).value_or(out.styles);
   out.status = optional(value, "status", one_of<ElementStatus>(kStatusNames)).value_or(out.status);
-  out.existence_probability = optional(value, "existence", number).value_or(out.existence_probability);
+  out.existence_probability = optional(value, "existence", existence).value_or(out.existence_probability);
   out.observations = optional(value, "observations", count).value_or(out.observations);
   out.first_seen_ns = optional(value, "first_seen_ns", integer).value_or(out.first_seen_ns);
   out.lateral_stddev_m = optional(value, "lateral_stddev", numbers).value_or(out.lateral_stddev_m);
@@ -134,7 +142,7 @@ Lane lane(const json& value) {
   out.direction =
       optional(value, "direction", one_of<Lane::Direction>(kDirectionNames)).value_or(out.direction);
   out.status = optional(value, "status", one_of<ElementStatus>(kStatusNames)).value_or(out.status);
-  out.existence_probability = optional(value, "existence", number).value_or(out.existence_probability);
+  out.existence_probability = optional(value, "existence", existence).value_or(out.existence_probability);
   out.inferred_ranges = optional(value, "inferred_ranges", ranges).value_or(out.inferred_ranges);
   return out;
 }
@@ -145,7 +153,7 @@ Linkage linkage(const json& value) {
   out.to = required(value, "to", count);
   out.kind = optional(value, "kind", one_of<Linkage::Kind>(kLinkageNames)).value_or(out.kind);
   out.turn = optional(value, "turn", one_of<Linkage::Turn>(kTurnNames)).value_or(out.turn);
-  out.confidence = optional(value, "confidence", number).value_or(out.confidence);
+  out.confidence = optional(value, "confidence", share).value_or(out.confidence);
   out.path = optional(value, "path", polyline).value_or(out.path);
   return out;
 }

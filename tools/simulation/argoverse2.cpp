@@ -23,13 +23,6 @@ constexpr double kJoinEdges_m = 1.5;  // outlines end a little before the area t
 constexpr double kAlongEdge_m = 0.5;
 constexpr std::int64_t kPosePeriod_ns = 10'000'000;
 constexpr std::int64_t kMaxDrive_ns = 3'600'000'000'000;
-constexpr double kMaxCoordinate_m = 1e7;
-
-double coordinate(const json& value) {
-  const double result_m = number(value);
-  if (!(std::abs(result_m) < kMaxCoordinate_m)) throw JsonError("is too far away");
-  return result_m;
-}
 
 Point xyz(const json& value) {
   return {required(value, "x", coordinate), required(value, "y", coordinate),

@@ -52,7 +52,8 @@ struct Road {
 void save_truth(const std::filesystem::path& path, const Road& road);
 
 /// Reads what save_truth() wrote. Throws std::runtime_error naming file and key, where it cannot be read, a
-/// key is missing or of another type, a number is not finite, or an id is unknown or given twice.
+/// key is missing or of another type, a number is not finite, a coordinate too far away, the lines are too
+/// long in sum, or an id is unknown or given twice.
 Road load_truth(const std::filesystem::path& path);
 
 }  // namespace laneloom

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "io/json_fields.hpp"
+#include "simulation/borders.hpp"
 #include "simulation/road.hpp"
 
 namespace laneloom {
@@ -51,22 +52,36 @@ VehiclePose pose(const json& value) {
   const double t_s = number(value[0]);
   if (!(t_s >= 0.0 && t_s < 1e9)) throw JsonError("must have a time of 0 or more");
   return {.stamp_ns = static_cast<std::int64_t>(std::llround(t_s * 1e9)),
-          .position = {number(value[1]), number(value[2]), number(value[3])},
+          .position = {coordinate(value[1]), coordinate(value[2]), coordinate(value[3])},
           .orientation = quaternion(value, 4)};
 }
 
-RoadMarking marking(const json& value) {
+/// Reads lines as long as they are not too long in sum.
+auto lines_within(LengthLimit& limit) {
+  return [&limit](const json& value) {
+    Polyline points = line(value);
+    if (!limit.add(points)) throw JsonError(LengthLimit::kComplaint);
+    return points;
+  };
+}
+
+RoadMarking marking(const json& value, LengthLimit& limit) {
   return {.id = required(value, "id", count),
           .type = required(value, "type", marking_type),
           .style = required(value, "style", marking_style),
-          .points = required(value, "points", line)};
+          .points = required(value, "points", lines_within(limit))};
 }
 
-RoadLane lane(const json& value) {
+/// A road that an importer took has no more of each.
+struct LaneLimits {
+  LengthLimit borders, centerlines;
+};
+
+RoadLane lane(const json& value, LaneLimits& limits) {
   return {.id = required(value, "id", count),
-          .left = required(value, "left", line),
-          .right = required(value, "right", line),
-          .centerline = required(value, "centerline", line),
+          .left = required(value, "left", lines_within(limits.borders)),
+          .right = required(value, "right", lines_within(limits.borders)),
+          .centerline = required(value, "centerline", lines_within(limits.centerlines)),
           .left_marking = required(value, "left_marking", count),
           .right_marking = required(value, "right_marking", count),
           .in_intersection = required(value, "in_intersection", boolean),
@@ -119,8 +134,12 @@ Road road(const json& value) {
   Road road;
   road.name = required(value, "name", text);
   road.right_hand_traffic = required(value, "driving_side", right_hand);
-  road.markings = required(value, "markings", [](const json& items) { return list(items, marking); });
-  road.lanes = required(value, "lanes", [](const json& items) { return list(items, lane); });
+  LengthLimit of_markings;
+  LaneLimits of_lanes;
+  const auto read_marking = [&](const json& item) { return marking(item, of_markings); };
+  const auto read_lane = [&](const json& item) { return lane(item, of_lanes); };
+  road.markings = required(value, "markings", [&](const json& items) { return list(items, read_marking); });
+  road.lanes = required(value, "lanes", [&](const json& items) { return list(items, read_lane); });
   road.drive = required(value, "drive", drive);
   check_references(road);
   return road;
