@@ -18,11 +18,11 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// After one fault, with this shell command as the planner.
-SoakResult soak_with_planner(const std::string& planner) {
+/// With this shell script as the command `laneloom`.
+SoakResult soak_with_command(const std::string& script, int faults) {
   const WorkFolder folder;
   const std::string command = folder.file("laneloom");
-  std::ofstream(command) << "#!/bin/sh\n[ $1 = pnc ] && exec " << planner << "\nexec " LANELOOM " \"$@\"\n";
+  std::ofstream(command) << "#!/bin/sh\n" << script << "\nexec " LANELOOM " \"$@\"\n";
   std::filesystem::permissions(command, std::filesystem::perms{0700});
 
   SoakSpec spec;
@@ -31,8 +31,13 @@ SoakResult soak_with_planner(const std::string& planner) {
   spec.fleet.dds.domain = 91;
   spec.fleet.dds.vehicle_id = "soak_test_" + std::to_string(getpid());
   spec.patience = std::chrono::seconds(10);
-  int faults = 0;
-  return soak(spec, [&] { return faults++ < 1; });
+  int made = 0;
+  return soak(spec, [&] { return made++ < faults; });
+}
+
+/// After one fault, with this shell command as the planner.
+SoakResult soak_with_planner(const std::string& planner) {
+  return soak_with_command("[ $1 = pnc ] && exec " + planner, 1);
 }
 
 TEST(Soak, FailsWhereThePlannerGetsNoMap) {
@@ -44,6 +49,19 @@ TEST(Soak, FailsWhereThePlannerGetsNoMap) {
 TEST(Soak, FailsWhereAProcessEndsByItself) {
   const auto result = soak_with_planner("true");
   EXPECT_THAT(result.failures, Contains(HasSubstr("the planner ended after: ")));
+  EXPECT_FALSE(result.passed());
+}
+
+TEST(Soak, FailsWhereAProcessThatIsToldToEndCrashes) {
+  const auto result = soak_with_command(
+      "if [ $1 = publish ]; then\n"
+      "  " LANELOOM
+      " \"$@\" & child=$!\n"
+      "  trap 'kill -TERM $child; wait $child; kill -SEGV $$' TERM\n"
+      "  while :; do sleep 0.1; done\n"
+      "fi",
+      0);
+  EXPECT_THAT(result.failures, Contains("the publisher, told to end, ended by signal 11"));
   EXPECT_FALSE(result.passed());
 }
 

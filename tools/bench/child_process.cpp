@@ -1,14 +1,33 @@
 #include "bench/child_process.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
 
 namespace laneloom {
+namespace {
+
+/// The child's end of the pipe is closed when its program begins; before, it tells why there is none.
+void become(char* const* arguments, int output, int complaints) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // else it would outlive an interrupted benchmark
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  execv(arguments[0], arguments);
+  const int error = errno;
+  [[maybe_unused]] const auto told = write(complaints, &error, sizeof error);
+  _exit(127);
+}
+
+}  // namespace
 
 ChildProcess::ChildProcess(std::vector<std::string> command, const std::string& output) {
   std::vector<char*> arguments;
@@ -17,16 +36,21 @@ ChildProcess::ChildProcess(std::vector<std::string> command, const std::string& 
   arguments.push_back(nullptr);
   const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (file < 0) throw std::runtime_error(output + ": cannot be written");
-  id_ = fork();
-  if (id_ == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // else it would outlive an interrupted benchmark
-    dup2(file, STDOUT_FILENO);
-    dup2(file, STDERR_FILENO);
-    execv(arguments[0], arguments.data());
-    _exit(127);
+  std::array<int, 2> complaints{};
+  if (pipe2(complaints.data(), O_CLOEXEC) != 0) {
+    close(file);
+    throw std::system_error(errno, std::generic_category(), "pipe");
   }
+  id_ = fork();
+  if (id_ == 0) become(arguments.data(), file, complaints[1]);
+  int error = errno;
   close(file);
-  if (id_ < 0) throw std::runtime_error(command[0] + ": cannot be started");
+  close(complaints[1]);
+  const bool failed = id_ < 0 || read(complaints[0], &error, sizeof error) > 0;
+  close(complaints[0]);
+  if (!failed) return;
+  if (id_ > 0) waitpid(id_, nullptr, 0);
+  throw std::runtime_error(command[0] + ": cannot be started: " + std::generic_category().message(error));
 }
 
 ChildProcess::~ChildProcess() {
@@ -36,15 +60,26 @@ ChildProcess::~ChildProcess() {
 }
 
 bool ChildProcess::running() {
-  if (id_ > 0 && waitpid(id_, nullptr, WNOHANG) == id_) id_ = -1;
+  if (id_ > 0 && waitpid(id_, &status_, WNOHANG) == id_) id_ = -1;
   return id_ > 0;
 }
 
-void ChildProcess::stop() {
-  if (!running()) return;
+std::string ChildProcess::failure() const {
+  if (WIFSIGNALED(status_)) return fmt::format("ended by signal {}", WTERMSIG(status_));
+  return WEXITSTATUS(status_) == 0 ? "" : fmt::format("ended with exit code {}", WEXITSTATUS(status_));
+}
+
+std::string ChildProcess::stop(std::chrono::milliseconds patience) {
+  if (!running()) return failure().empty() ? "had ended before" : failure();
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   kill(id_, SIGTERM);
-  waitpid(id_, nullptr, 0);
+  while (running() && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  if (!running()) return failure();
+  kill(id_, SIGKILL);
+  waitpid(id_, &status_, 0);
   id_ = -1;
+  return fmt::format("did not end within {} ms, and was killed", patience.count());
 }
 
 }  // namespace laneloom

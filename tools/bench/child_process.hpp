@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,15 @@ class ChildProcess {
 
   pid_t id() const { return id_; }
   bool running();
-  /// Asks it to end (SIGTERM), and waits until it has.
-  void stop();
+  /// Asks it to end (SIGTERM), and kills it when it has not after `patience`. Returns what was wrong with its
+  /// end; empty where it ended then, with exit code 0.
+  std::string stop(std::chrono::milliseconds patience = std::chrono::seconds(10));
+  /// How it ended, once it is not running; empty: with exit code 0.
+  std::string failure() const;
 
  private:
-  pid_t id_ = -1;
+  pid_t id_ = -1;  ///< -1: it has ended
+  int status_ = 0;
 };
 
 }  // namespace laneloom

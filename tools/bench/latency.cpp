@@ -86,14 +86,21 @@ class Party {
       : name_(command.front()), log_(std::move(log)), process_(std::move(command), log_) {}
 
   void check() {
-    if (process_.running()) return;
-    std::ostringstream words;
-    words << std::ifstream(log_).rdbuf();
-    throw std::runtime_error(name_ + ": ended by itself: " + words.str());
+    if (!process_.running()) fail("ended by itself");
   }
-  ChildProcess& process() { return process_; }
+  void stop() {
+    const std::string failure = process_.stop();
+    if (!failure.empty()) fail(failure);
+  }
+  pid_t id() const { return process_.id(); }
 
  private:
+  [[noreturn]] void fail(const std::string& what) const {
+    std::ostringstream words;
+    words << std::ifstream(log_).rdbuf();
+    throw std::runtime_error(name_ + ": " + what + ": " + words.str());
+  }
+
   std::string name_, log_;
   ChildProcess process_;
 };
@@ -197,7 +204,7 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   Party publisher(publish_command(spec, times), folder.file("publish.log"));
   wait_for_maps(listener, service, publisher);
 
-  const pid_t id = service.process().id();
+  const pid_t id = service.id();
   const double cpu_before_s = cpu_s(id);
   const std::int64_t from_ns = system_now_ns();
   {
@@ -210,8 +217,8 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   const double cpu_used_s = cpu_s(id) - cpu_before_s;
   const double peak_mb = peak_rss_mb(id);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the last map is on its way
-  publisher.process().stop();
-  service.process().stop();
+  publisher.stop();
+  service.stop();
 
   LatencyResult result = latencies(ticks_between(read_tick_log(log), from_ns, to_ns), listener.maps(),
                                    read_publication_log(times).times_ns);

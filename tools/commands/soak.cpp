@@ -63,7 +63,7 @@ void add_soak(CLI::App& app) {
       ->capture_default_str();
   command->footer(
       "Exit code 1: a frame is not accounted for, a map broke the contract, no good one came after a fault "
-      "(to the planner too), or a process ended by itself.");
+      "(to the planner too), a process ended by itself, or one that was told to end crashed or hung.");
   command->callback([options] { run(*options); });
 }
 

@@ -64,9 +64,10 @@ void Fleet::kill_and_restart(Member member) {
   start(member);
 }
 
-void Fleet::stop(Member member) {
-  processes_.at(member)->stop();
+std::string Fleet::stop(Member member) {
+  const std::string failure = processes_.at(member)->stop();
   processes_.erase(member);
+  return failure.empty() ? "" : fmt::format("the {}, told to end, {}", name(member), failure);
 }
 
 std::vector<Fleet::Member> Fleet::restart_ended() {
@@ -82,9 +83,10 @@ bool Fleet::planner_gets_maps(const MapNumber& newest, std::chrono::seconds pati
   return wait_for_planner(output_of(Member::planner), newest, patience);
 }
 
-void Fleet::restart(Member member) {
-  stop(member);
+std::string Fleet::restart(Member member) {
+  std::string failure = stop(member);
   start(member);
+  return failure;
 }
 
 std::vector<PublicationLog> Fleet::publications() const {

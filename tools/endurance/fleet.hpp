@@ -34,10 +34,10 @@ class Fleet {
   void signal(Member member, int number);
   /// Ends it at once, as a crash does, and starts it again.
   void kill_and_restart(Member member);
-  /// Ends it as an operator does, and starts it again.
-  void restart(Member member);
-  /// Ends it as an operator does.
-  void stop(Member member);
+  /// Ends it as an operator does, and starts it again. Returns what was wrong with its end, in words.
+  std::string restart(Member member);
+  /// Ends it as an operator does. Returns likewise.
+  std::string stop(Member member);
   /// Those that have ended without being told to; they are started again.
   std::vector<Member> restart_ended();
 

@@ -17,25 +17,38 @@ using Member = Fleet::Member;
 
 struct Fault {
   std::string name;
-  std::function<void(Fleet& fleet, Random& random)> make;
+  /// Returns what went wrong, in words.
+  std::function<std::string(Fleet& fleet, Random& random)> make;
 };
 
-void hang(Fleet& fleet, Member member, Random& random) {
+std::string hang(Fleet& fleet, Member member, Random& random) {
   fleet.signal(member, SIGSTOP);
   std::this_thread::sleep_for(Seconds(random.uniform(0.2, 3.0)));
   fleet.signal(member, SIGCONT);
+  return {};
+}
+
+std::string reload(Fleet& fleet) {
+  fleet.signal(Member::service, SIGHUP);
+  return {};
+}
+
+std::string crash(Fleet& fleet, Member member) {
+  fleet.kill_and_restart(member);
+  return {};
 }
 
 std::vector<Fault> all_faults() {
   std::vector<Fault> faults{
-      {"reload service", [](Fleet& fleet, Random& /*random*/) { fleet.signal(Member::service, SIGHUP); }}};
+      {"reload service", [](Fleet& fleet, Random& /*random*/) { return reload(fleet); }}};
   for (const Member member : {Member::publisher, Member::service, Member::planner}) {
     const std::string name = Fleet::name(member);
     faults.push_back(
-        {"kill " + name, [member](Fleet& fleet, Random& /*random*/) { fleet.kill_and_restart(member); }});
-    faults.push_back({"end " + name, [member](Fleet& fleet, Random& /*random*/) { fleet.restart(member); }});
+        {"kill " + name, [member](Fleet& fleet, Random& /*random*/) { return crash(fleet, member); }});
     faults.push_back(
-        {"hang " + name, [member](Fleet& fleet, Random& random) { hang(fleet, member, random); }});
+        {"end " + name, [member](Fleet& fleet, Random& /*random*/) { return fleet.restart(member); }});
+    faults.push_back(
+        {"hang " + name, [member](Fleet& fleet, Random& random) { return hang(fleet, member, random); }});
   }
   return faults;
 }
@@ -66,7 +79,8 @@ SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
   const auto end = std::chrono::steady_clock::now() + spec.duration;
   while (std::chrono::steady_clock::now() < end && go_on()) {
     const Fault& fault = faults[random.below(faults.size())];
-    fault.make(fleet, random);
+    const std::string wrong_end = fault.make(fleet, random);
+    if (!wrong_end.empty()) result.failures.push_back(wrong_end);
     ++result.faults[fault.name];
     const std::string failure = without_map(watch, fleet, spec.patience);
     if (!failure.empty()) result.failures.push_back(fmt::format("{} after: {}", failure, fault.name));
@@ -75,7 +89,8 @@ SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
       result.failures.push_back(fmt::format("the {} ended after: {}", Fleet::name(member), fault.name));
     }
   }
-  fleet.stop(Member::publisher);
+  if (const std::string wrong_end = fleet.stop(Member::publisher); !wrong_end.empty())
+    result.failures.push_back(wrong_end);
   if (!watch.wait_for_settled_status(spec.patience))
     result.failures.emplace_back("no settled status came after the publisher's end");
 

@@ -24,14 +24,15 @@ struct SoakResult {
   std::map<std::uint64_t, Account> accounts;  ///< by session of the service
   Watch::Maps maps;
   std::map<std::string, int> faults;  ///< how often each was made
-  std::vector<std::string> failures;  ///< what did not recover from a fault, or ended by itself
+  std::vector<std::string> failures;  ///< what did not recover from a fault, or ended by itself or badly
 
   bool passed() const;
 };
 
 /// Runs a fleet for so long, with one random fault after another; every fault ends, a good map must
-/// follow, also at the planner, and no process may end by itself. `go_on` is asked between faults. Throws
-/// std::runtime_error where the fleet cannot be started or no map comes.
+/// follow, also at the planner, no process may end by itself, and one that is told to end must, in good
+/// order. `go_on` is asked between faults. Throws std::runtime_error where the fleet cannot be started or no
+/// map comes.
 SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on);
 
 }  // namespace laneloom
