@@ -65,6 +65,20 @@ TEST_F(DriveLogs, PlainTablesGiveStampsAndAxes) {
   EXPECT_THAT(error(load), HasSubstr("samples.csv:2: a number is expected"));
 }
 
+TEST_F(DriveLogs, TablesOfOtherColumnsAreRefused) {
+  const auto load = [&] { plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left); };
+  const std::string rows = "2000,1,0,0,0,5,6,7\n1000002000,1,0,0,0,15,6,7\n";
+  write("samples.csv", "token,timestamp_ns\na,17\n");
+  write("poses.csv", "timestamp_ns,tx_m,ty_m,tz_m,qx,qy,qz,qw\n" + rows);  // as ROS orders them
+  EXPECT_THAT(error(load), HasSubstr("poses.csv:1: the columns must be timestamp_ns,qw,qx,qy,qz,tx_m"));
+  write("poses.csv", rows);
+  EXPECT_THAT(error(load), HasSubstr("poses.csv:1: the columns must be"));
+  write("poses.csv", "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m,speed\r\n" + rows);
+  EXPECT_EQ(error(load), "");
+  write("samples.csv", "timestamp_ns,token\na,17\n");
+  EXPECT_THAT(error(load), HasSubstr("samples.csv:1: the columns must be token,timestamp_ns"));
+}
+
 /// Two scenes, each of one sample with LiDAR and camera; a LiDAR sweep between samples as well.
 class NuScenes : public DriveLogs {
  protected:

@@ -127,6 +127,7 @@ class MadeUpLog : public testing::Test {
     return "";
   }
 
+  const std::string kColumns = "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
   fs::path directory = fs::path(testing::TempDir()) / "made_up_log";
 };
 
@@ -154,7 +155,7 @@ TEST_F(MadeUpLog, BadFilesAreNamedWithKeyOrLine) {
   write("log_map_archive_x.json", point);
   EXPECT_NE(error().find("lane_segments.10.left_lane_boundary: has no length"), std::string::npos) << error();
   write("log_map_archive_x.json", map("NONE"));
-  write("city_SE3_egovehicle.csv", "header\n1,1,0,0,0,0,0,0\n2,1,0,0,zero,0,0,0\n");
+  write("city_SE3_egovehicle.csv", kColumns + "1,1,0,0,0,0,0,0\n2,1,0,0,zero,0,0,0\n");
   EXPECT_NE(error().find("city_SE3_egovehicle.csv:3"), std::string::npos) << error();
   fs::remove(directory / "log_map_archive_x.json");
   EXPECT_NE(error().find("log_map_archive"), std::string::npos) << error();
@@ -176,7 +177,7 @@ TEST_F(MadeUpLog, WhatWouldTakeAllMemoryIsRefused) {
   write("log_map_archive_x.json", wide_area);
   EXPECT_NE(error().find("drivable_areas.1.area_boundary: is beyond 300 km"), std::string::npos) << error();
   write("log_map_archive_x.json", map("NONE"));
-  write("city_SE3_egovehicle.csv", "header\n0,1,0,0,0,0,0,0\n3600000000001,1,0,0,0,0,0,0\n");
+  write("city_SE3_egovehicle.csv", kColumns + "0,1,0,0,0,0,0,0\n3600000000001,1,0,0,0,0,0,0\n");
   EXPECT_NE(error().find("city_SE3_egovehicle.csv: lasts longer than an hour"), std::string::npos) << error();
 }
 

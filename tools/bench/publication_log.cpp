@@ -5,10 +5,15 @@
 #include "io/csv.hpp"
 
 namespace laneloom {
+namespace {
+
+constexpr const char* kColumns = "session_id,sequence,published_ns";
+
+}  // namespace
 
 PublicationLogWriter::PublicationLogWriter(const std::filesystem::path& path, std::uint64_t session_id)
     : path_(path), session_id_(session_id), out_(path) {
-  out_ << "session_id,sequence,published_ns" << std::endl;
+  out_ << kColumns << std::endl;
   if (!out_) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
@@ -23,7 +28,7 @@ void PublicationLogWriter::close() {
 
 PublicationLog read_publication_log(const std::filesystem::path& path) {
   PublicationLog log;
-  for_each_csv_row(path, [&](std::string_view row) {
+  for_each_csv_row(path, kColumns, [&](std::string_view row) {
     log.session_id = take_number<std::uint64_t>(row);
     const auto sequence = take_number<std::uint64_t>(row);
     log.times_ns[sequence] = take_number<std::int64_t>(row);

@@ -45,7 +45,7 @@ DriveLog argoverse2_drive(const std::filesystem::path& log_directory) {
 DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
                      PointAxes axes) {
   std::map<std::string, std::int64_t> stamps;
-  for_each_csv_row(samples, [&](std::string_view row) {
+  for_each_csv_row(samples, "token,timestamp_ns", [&](std::string_view row) {
     const std::string token(take_field(row));
     if (!stamps.emplace(token, take_number<std::int64_t>(row)).second)
       throw std::runtime_error("the sample " + token + " is given twice");

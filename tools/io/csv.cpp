@@ -4,13 +4,24 @@
 #include <string>
 
 namespace laneloom {
+namespace {
 
-void for_each_csv_row(const std::filesystem::path& path, const std::function<void(std::string_view)>& visit) {
+bool next_line(std::istream& in, std::string& line) {
+  if (!std::getline(in, line)) return false;
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return true;
+}
+
+}  // namespace
+
+void for_each_csv_row(const std::filesystem::path& path, std::string_view columns,
+                      const std::function<void(std::string_view)>& visit) {
   std::ifstream in(path);
   std::string line;
-  if (!std::getline(in, line)) throw std::runtime_error(path.string() + ": cannot be read");
-  for (int number = 2; std::getline(in, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
+  if (!next_line(in, line)) throw std::runtime_error(path.string() + ": cannot be read");
+  if (line != columns && !line.starts_with(std::string(columns) + ","))
+    throw std::runtime_error(path.string() + ":1: the columns must be " + std::string(columns));
+  for (int number = 2; next_line(in, line); ++number) {
     try {
       visit(line);
     } catch (const std::runtime_error& error) {

@@ -12,9 +12,11 @@
 /// Checked reading of comma-separated values without quotes.
 namespace laneloom {
 
-/// Calls visit(row) for every line but the first, which names the columns. Throws std::runtime_error naming
-/// the file where it cannot be read, and file and line of what visit() throws as std::runtime_error.
-void for_each_csv_row(const std::filesystem::path& path, const std::function<void(std::string_view)>& visit);
+/// Calls visit(row) for every line but the first, which must name `columns`, and may name others behind them.
+/// Throws std::runtime_error naming the file where it cannot be read or has other columns, and file and line
+/// of what visit() throws as std::runtime_error.
+void for_each_csv_row(const std::filesystem::path& path, std::string_view columns,
+                      const std::function<void(std::string_view)>& visit);
 
 /// Takes the first field off a row.
 inline std::string_view take_field(std::string_view& row) {

@@ -30,7 +30,8 @@ VehiclePose read_pose(std::string_view row) {
 
 std::vector<VehiclePose> read_pose_csv(const std::filesystem::path& path) {
   std::vector<VehiclePose> poses;
-  for_each_csv_row(path, [&](std::string_view row) { poses.push_back(read_pose(row)); });
+  for_each_csv_row(path, "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m",
+                   [&](std::string_view row) { poses.push_back(read_pose(row)); });
   poses = cleaned_poses(std::move(poses));
   if (poses.size() < 2) throw std::runtime_error(path.string() + ": has fewer than two poses");
   return poses;
