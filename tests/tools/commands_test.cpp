@@ -217,6 +217,27 @@ TEST_F(Commands, ReplayOfADriveThatBeginsAgainClearsTheMap) {
   EXPECT_EQ(frames_seen, 160U);
 }
 
+TEST_F(Commands, NumbersThatAreNoneOrFarTooLargeAreRefused) {
+  simulate("none", "in.frames.jsonl");
+  const auto refused = [&](const std::vector<std::string>& words) {
+    EXPECT_GT(run(words), 0) << testing::PrintToString(words);
+    EXPECT_THAT(output(), HasSubstr(words.end()[-2])) << testing::PrintToString(words);
+  };
+  for (const char* number : {"nan", "1e18"}) {
+    const std::string frames = file("x.jsonl");
+    refused({"simulate", "--scenario", "hill", "--frames", frames, "--duration", number});
+    EXPECT_FALSE(std::filesystem::exists(frames));
+    refused({"publish", "--scenario", "hill", "--loop", "--duration", number});
+    refused({"publish", "--scenario", "hill", "--speed-up", number});
+    refused({"record", "--duration", "0.1", "--out", file("x.mcap"), "--max-size", number});
+    refused({"drive", "--scenario", "hill", "--km", number});
+    refused({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"),
+             "--min-confidence", number});
+    refused({"render", "--truth", file("truth.json"), "--out", file("x.svg"), "--at", number});
+  }
+  EXPECT_EQ(run({"render", "--truth", file("truth.json"), "--out", file("x.svg"), "--at", "-1"}), 1);
+}
+
 TEST_F(Commands, OutputThatCannotBeWrittenIsAFailure) {
   simulate("none", "in.frames.jsonl");
   const std::string command = LANELOOM_COMMAND;

@@ -1,5 +1,6 @@
 #include "commands/bench_drive.hpp"
 
+#include "commands/options.hpp"
 #include "laneloom/config_file.hpp"
 #include "simulation/scenarios.hpp"
 
@@ -27,10 +28,10 @@ void add_bench_road(CLI::App& command, BenchDrive& drive) {
       ->check(CLI::IsMember(noise_profile_names()))
       ->capture_default_str();
   command.add_option("--speed", drive.speed_mps, "Of the vehicle, in m/s")
-      ->check(CLI::Range(0.1, 60.0))
+      ->check(within(0.1, 60.0))
       ->capture_default_str();
   command.add_option("--duration", drive.duration_s, "Seconds that are measured")
-      ->check(CLI::Range(0.1, 86'400.0))
+      ->check(within(0.1, 86'400.0))
       ->capture_default_str();
 }
 

@@ -88,7 +88,7 @@ void add_doctor(CLI::App& app) {
       ->trigger_on_parse();
   add_dds(*command, options->dds);
   command->add_option("--duration", options->duration_s, "Seconds to watch")
-      ->check(CLI::Range(1.0, 3600.0))
+      ->check(within(1.0, 3600.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "One JSON object");
   command->callback([options] { doctor(*options); });

@@ -117,16 +117,16 @@ void add_drive(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   add_roads(*command, options->roads);
   command->add_option("--speed", options->roads.speed_mps, "Of the vehicle at most, in m/s")
-      ->check(CLI::Range(1.0, 40.0))
+      ->check(within(1.0, 40.0))
       ->capture_default_str();
   command->add_option("--noise", options->noise, "How the detections differ from the truth")
       ->check(CLI::IsMember(noise_profile_names()))
       ->capture_default_str();
   auto* duration = command->add_option("--duration", options->duration_s, "Simulated seconds per drive")
-                       ->check(CLI::PositiveNumber)
+                       ->check(positive_seconds())
                        ->capture_default_str();
   command->add_option("--km", options->km, "Kilometres per drive, instead")
-      ->check(CLI::PositiveNumber)
+      ->check(within(1e-3, 1e6))
       ->excludes(duration);
   auto* config =
       command->add_option("--config", options->config, "Configuration file")->check(CLI::ExistingFile);

@@ -134,7 +134,7 @@ void add_evaluate(CLI::App& app) {
   inputs->require_option(1, 2);
   add_range(*command, options->range);
   command->add_option("--min-confidence", options->min_confidence, "Of the single detections that count")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(within(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--json", options->json, "Figures to write (.json)");
   command->add_option("--plots", options->plots, "Folder to draw curves over time and range into")

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <map>
@@ -11,6 +13,19 @@
 
 /// Options that several commands share.
 namespace laneloom {
+
+/// A number from `min` to `max`. As CLI::Range, which lets NaN pass.
+inline CLI::Validator within(double min, double max) {
+  const auto complaint = [min, max](const std::string& input) {
+    double value = 0.0;
+    const bool good = CLI::detail::lexical_cast(input, value) && value >= min && value <= max;
+    return good ? std::string() : fmt::format("{} is not in the range {:g} to {:g}", input, min, max);
+  };
+  return {complaint, fmt::format("FLOAT in [{:g} - {:g}]", min, max)};
+}
+
+/// More than nothing, and no more than fits into nanoseconds.
+inline CLI::Validator positive_seconds() { return within(1e-6, 1e9); }
 
 /// --range x0,x1,y0,y1: the map's range box. The box is symmetric: y0 = -y1.
 inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {

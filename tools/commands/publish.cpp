@@ -177,12 +177,12 @@ void add_publish(CLI::App& app) {
   add_road_source(*command, options->source);
   add_dds(*command, options->dds);
   command->add_option("--speed-up", options->speed_up, "Simulated seconds per second")
-      ->check(CLI::Range(0.01, 100.0))
+      ->check(within(0.01, 100.0))
       ->capture_default_str();
   command->add_flag("--loop", options->loop,
                     "Drive on for ever; where the drive does not end as it began, the pose jumps");
   command->add_option("--duration", options->duration_s, "Simulated seconds; default: the drive once")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_seconds());
   command
       ->add_option("--wait-for-readers", options->readers,
                    "Start when so many read the detections, and so many the poses")

@@ -189,11 +189,11 @@ void add_record(CLI::App& app) {
                       "File (.mcap), or a folder; default: laneloom_<UTC time>.mcap here");
   add_compression(*command, options->compression);
   command->add_option("--max-size", options->max_size_mb, "MB, after which a new file is begun")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-3, 1e9));
   command->add_option("--max-duration", options->recording.max_file_s, "Seconds, likewise")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_seconds());
   command->add_option("--duration", options->duration_s, "Seconds; default: until it is stopped")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_seconds());
   command->callback([options] { record(*options); });
 }
 

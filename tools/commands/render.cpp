@@ -65,11 +65,12 @@ std::pair<std::int64_t, std::int64_t> time_span(const Inputs& inputs) {
 std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) {
   const auto [first_ns, last_ns] = time_span(inputs);
   std::vector<std::int64_t> stamps_ns;
+  const auto span_ns = static_cast<double>(last_ns - first_ns);
   for (const double at_s : options.at_s) {
+    if (!(at_s >= 0.0 && at_s * 1e9 < span_ns + 0.5))  // before it is rounded, as it may be anything
+      throw std::runtime_error(
+          fmt::format("--at {:g} s is beyond the {:.1f} s that there are", at_s, 1e-9 * span_ns));
     stamps_ns.push_back(first_ns + std::llround(at_s * 1e9));
-    if (at_s < 0.0 || stamps_ns.back() > last_ns)
-      throw std::runtime_error(fmt::format("--at {:g} s is beyond the {:.1f} s that there are", at_s,
-                                           static_cast<double>(last_ns - first_ns) * 1e-9));
   }
   const auto count = static_cast<std::int64_t>(options.sequence);
   for (std::int64_t i = 1; i <= count; ++i)

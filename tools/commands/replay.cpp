@@ -211,7 +211,7 @@ void add_replay(CLI::App& app) {
                                            "Publish the detections and poses on DDS, as they came");
   for (CLI::Option* of_maps : {out, report, config, preset, truth, verify, range}) publish->excludes(of_maps);
   command->add_option("--speed-up", options->speed_up, "With --publish: recorded seconds per second")
-      ->check(CLI::Range(0.01, 100.0))
+      ->check(within(0.01, 100.0))
       ->needs(publish)
       ->capture_default_str();
   command->add_option("--wait-for-readers", options->readers, "With --publish: start when so many read")

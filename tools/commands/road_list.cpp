@@ -1,5 +1,6 @@
 #include "commands/road_list.hpp"
 
+#include "commands/options.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/lanelet2.hpp"
 #include "simulation/scenarios.hpp"
@@ -32,16 +33,16 @@ void add_roads(CLI::App& command, RoadList& roads) {
       ->delimiter(',')
       ->capture_default_str();
   command.add_option("--drift", roads.drift, "Of the odometry, as a share of the distance driven")
-      ->check(CLI::Range(0.0, 0.2));
+      ->check(within(0.0, 0.2));
 }
 
 void add_road_list(CLI::App& command, RoadList& roads) {
   add_roads(command, roads);
   command.add_option("--speed", roads.speed_mps, "In m/s; recorded drives keep theirs")
-      ->check(CLI::Range(0.1, 60.0))
+      ->check(within(0.1, 60.0))
       ->capture_default_str();
   command.add_option("--duration", roads.duration_s, "Seconds per drive; one that is not closed ends sooner")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_seconds())
       ->capture_default_str();
 }
 

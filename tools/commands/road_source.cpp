@@ -1,5 +1,6 @@
 #include "commands/road_source.hpp"
 
+#include "commands/options.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/lanelet2.hpp"
 #include "simulation/scenarios.hpp"
@@ -25,7 +26,7 @@ void add_road_source(CLI::App& command, RoadSource& source) {
       ->check(CLI::ExistingFile);
   road->require_option(1);
   command.add_option("--speed", source.speed_mps, "Of the vehicle, in m/s; recorded drives keep theirs")
-      ->check(CLI::Range(0.1, 60.0))
+      ->check(within(0.1, 60.0))
       ->capture_default_str();
   command.add_option("--noise", source.noise, "How the detections differ from the truth")
       ->check(CLI::IsMember(noise_profile_names()))

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/options.hpp"
 #include "commands/road_source.hpp"
 #include "io/json_lines.hpp"
 
@@ -40,7 +41,7 @@ void add_simulate(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   add_road_source(*command, options->source);
   command->add_option("--duration", options->duration_s, "Seconds; default: the drive once")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_seconds());
   command->add_option("--frames", options->frames, "Detections and poses to write (.frames.jsonl)")
       ->required();
   command->add_option("--truth", options->truth, "Truth of the road to write (.json)");

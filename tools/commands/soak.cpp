@@ -55,7 +55,7 @@ void add_soak(CLI::App& app) {
       "soak", "Runs publisher, service and planner under random faults, and accounts for every frame");
   const auto options = std::make_shared<Options>();
   command->add_option("--minutes", options->minutes, "For so long")
-      ->check(CLI::PositiveNumber)
+      ->check(within(1e-3, 1e6))
       ->capture_default_str();
   command->add_option("--seed", options->spec.seed, "Of the faults")->capture_default_str();
   command->add_option("--domain", options->spec.fleet.dds.domain, "DDS domain")

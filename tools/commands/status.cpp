@@ -139,7 +139,7 @@ void add_status(CLI::App& app) {
       fmt::format("End with the first status; without --duration, wait {} s for it", kPatience_s));
   command->add_flag("--json", options->json, "One JSON object per status");
   command->add_option("--duration", options->duration_s, "Seconds; default: until it is ended")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_seconds());
   command->callback([options] { status(*options); });
 }
 
