@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "experiment/calibration.hpp"
 #include "experiment/oracle.hpp"
 #include "experiment/results_table.hpp"
+#include "io/work_folder.hpp"
 #include "simulation/scenarios.hpp"
 
 namespace laneloom {
@@ -122,6 +125,18 @@ TEST(Experiment, APeerThatFailsIsNamed) {
       EXPECT_NE(std::string(error.what()).find(program), std::string::npos);
     }
   }
+}
+
+TEST(Peer, WhatItPrintsIsNotOurOutput) {
+  const WorkFolder folder;
+  const std::string program = folder.file("peer");
+  std::ofstream(program) << "#!/bin/sh\necho progress\nexit 1\n";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_THROW(run_peer({program, "inhouse"}, {}), std::runtime_error);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "progress\n");
 }
 
 /// The cells of the table's only row, without the subject's name.

@@ -14,14 +14,19 @@
 namespace laneloom {
 namespace {
 
+/// What it prints goes to standard error, as ours on standard output may be for a machine.
 void run(std::vector<std::string> command) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  posix_spawn_file_actions_t redirection;
+  posix_spawn_file_actions_init(&redirection);
+  posix_spawn_file_actions_adddup2(&redirection, STDERR_FILENO, STDOUT_FILENO);
   pid_t id = 0;
-  if (posix_spawn(&id, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0)
-    throw std::runtime_error(command[0] + ": cannot be run");
+  const int error = posix_spawn(&id, arguments[0], &redirection, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&redirection);
+  if (error != 0) throw std::runtime_error(command[0] + ": cannot be run");
   int status = 0;
   if (waitpid(id, &status, 0) != id || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw std::runtime_error(command[0] + ": failed");
