@@ -33,6 +33,8 @@ TEST(Trust, CalibrationComparesConfidenceWithPrecision) {
   TrustMeter meter(truth, kRange);
   meter.add(compare(truth, lines, at_x(0), kRange), lines);
   const Trust trust = meter.markings();
+  EXPECT_TRUE(trust.has_confidences());
+  EXPECT_FALSE(Trust().has_confidences());
   EXPECT_EQ(trust.calibration[7].count, 2u);
   EXPECT_DOUBLE_EQ(trust.calibration[7].precision(), 0.5);
   EXPECT_EQ(trust.calibration[9].count, 1u);

@@ -138,19 +138,13 @@ nlohmann::json ap_json(const AveragePrecisionMeter& meter) {
   return json;
 }
 
-bool has_confidences(const Trust& trust) {
-  for (const CalibrationBin& bin : trust.calibration)
-    if (bin.count > 0) return true;
-  return false;
-}
-
 std::string trust_row(const std::string& what, const std::string& who, const Trust& trust) {
   const Distribution& after_s = trust.first_appearance_s;
   const Distribution& after_m = trust.first_appearance_m;
   if (after_s.count() + trust.never_appeared == 0) return {};
   return fmt::format("{:<10} {:<6} {} {} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>7}\n", what, who,
                      cell(when(trust.vertices > 0, 100 * trust.within_2_sigma()), 1, 9),
-                     cell(when(has_confidences(trust), trust.expected_calibration_error()), 3, 7),
+                     cell(when(trust.has_confidences(), trust.expected_calibration_error()), 3, 7),
                      after_s.quantile(0.5), after_s.quantile(0.95), after_m.quantile(0.5),
                      after_m.quantile(0.95), trust.never_appeared);
 }
@@ -173,7 +167,7 @@ nlohmann::json trust_json(const Trust& trust) {
           {"vertices", trust.vertices},
           {"calibration", std::move(bins)},
           {"expected_calibration_error",
-           null_or(when(has_confidences(trust), trust.expected_calibration_error()))},
+           null_or(when(trust.has_confidences(), trust.expected_calibration_error()))},
           {"first_appearance_p50_s", trust.first_appearance_s.quantile(0.5)},
           {"first_appearance_p95_s", trust.first_appearance_s.quantile(0.95)},
           {"first_appearance_p50_m", trust.first_appearance_m.quantile(0.5)},

@@ -50,7 +50,6 @@ class ClosedLoop {
 
   /// As it truly is.
   const Bicycle& vehicle() const { return vehicle_; }
-  const Plan& present_plan() const { return plan_; }
 
  private:
   struct Pending {

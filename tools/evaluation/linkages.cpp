@@ -54,11 +54,6 @@ struct LanePlace {
   bool reversed() const { return to_m < from_m; }
 };
 
-bool may_run(Lane::Direction direction, bool reversed) {
-  return direction == Lane::Direction::unknown ||
-         (direction == Lane::Direction::against_centerline) == reversed;
-}
-
 class LaneFinder {
  public:
   explicit LaneFinder(const std::vector<LinePiece>& truths)
@@ -232,6 +227,11 @@ const char* name(Linkage::Kind kind) {
   constexpr std::array<const char*, kLinkageKindCount> kNames{"shared_boundary", "geometric_alignment",
                                                               "intersection", "sd_map", "ego_track"};
   return kNames.at(static_cast<std::size_t>(kind));
+}
+
+bool may_run(Lane::Direction direction, bool reversed) {
+  return direction == Lane::Direction::unknown ||
+         (direction == Lane::Direction::against_centerline) == reversed;
 }
 
 double PairScore::precision() const { return ratio(right, published); }

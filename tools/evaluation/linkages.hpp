@@ -57,6 +57,9 @@ struct TopologyScore {
   PairScore stopline_lanes;
 };
 
+/// Whether the traffic of a lane may run along its points, or `reversed`, from the last to the first.
+bool may_run(Lane::Direction direction, bool reversed);
+
 /// Adds the frame of `map`, whose kind_lines() were compared with those of the truth.
 void add_topology(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
                   TopologyScore& score);

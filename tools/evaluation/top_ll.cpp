@@ -115,11 +115,6 @@ class PublishedGraph {
   Edges edges_;
 };
 
-bool may_run(Lane::Direction direction, bool turned) {
-  return direction == Lane::Direction::unknown ||
-         (direction == Lane::Direction::against_centerline) == turned;
-}
-
 struct Taken {
   std::size_t vertex = 0;  ///< published
   bool turned = false;

@@ -23,6 +23,10 @@ void add_confidences(const KindComparison& comparison, const std::vector<KindLin
 
 }  // namespace
 
+bool Trust::has_confidences() const {
+  return std::ranges::any_of(calibration, [](const CalibrationBin& bin) { return bin.count > 0; });
+}
+
 double Trust::within_2_sigma() const {
   return vertices == 0 ? 0.0 : static_cast<double>(vertices_within_2_sigma) / static_cast<double>(vertices);
 }

@@ -41,6 +41,7 @@ struct Trust {
   Distribution first_appearance_s, first_appearance_m;
   std::size_t never_appeared = 0;  ///< truth lines that were in range and never right
 
+  bool has_confidences() const;
   double within_2_sigma() const;              ///< 0..1
   double expected_calibration_error() const;  ///< 0..1
 };

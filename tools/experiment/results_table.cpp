@@ -9,12 +9,6 @@ std::string number(bool known, double value, int decimals) {
   return known ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
-bool has_confidences(const Trust& trust) {
-  std::size_t count = 0;
-  for (const CalibrationBin& bin : trust.calibration) count += bin.count;
-  return count > 0;
-}
-
 std::string precision(const Score& score, int decimals) {
   return number(score.predictions > 0, 100 * score.precision(), decimals);
 }
@@ -60,7 +54,7 @@ std::string row(const SubjectResult& result) {
       precision(directions, 1), recall(directions), number(m.top_ll.vertices > 0, 100 * m.top_ll.value(), 1),
       number(markings.truths > 0, 100 * m.average_precision.map(), 1),
       number(m.markings.vertices > 0, 100 * m.markings.within_2_sigma(), 1),
-      number(has_confidences(m.markings), m.markings.expected_calibration_error(), 3),
+      number(m.markings.has_confidences(), m.markings.expected_calibration_error(), 3),
       number(first_s.count() > 0, first_s.quantile(0.5), 1), number(times, result.update_ms.quantile(0.5), 2),
       number(times, result.update_ms.quantile(0.99), 2));
 }
