@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "render/figure.hpp"
+#include "render/panel.hpp"
 
 namespace laneloom {
 namespace {
@@ -128,6 +129,17 @@ TEST_F(Render, DrawsDegenerateElementsWithoutFailing) {
   map.lanes.emplace_back();
   map.linkages.emplace_back();
   EXPECT_NO_THROW(draw_figure(figure, file("odd.png")));
+}
+
+TEST(LinkagePath, LeadsFromEndToBeginWhateverWayTrafficRuns) {
+  Lane from, to;
+  from.centerline = {{0, 0, 0}, {10, 0, 0}};
+  to.centerline = {{12, 0, 0}, {20, 0, 0}};
+  const Polyline expected{{6.5, 0, 0}, {10, 0, 0}, {11, 1, 0}, {12, 0, 0}, {15.5, 0, 0}};
+  for (const auto direction : {Lane::Direction::along_centerline, Lane::Direction::against_centerline}) {
+    from.direction = to.direction = direction;
+    EXPECT_EQ(linkage_path({.path = {{11, 1, 0}}}, from, to), expected);
+  }
 }
 
 TEST(MapOf, TakesDetectionsToTheMapFrame) {

@@ -61,21 +61,6 @@ void draw_lane(Canvas& canvas, const PanelView& view, const Lane& lane, const Co
   }
 }
 
-/// The way that a linkage takes: out of one lane and into the other.
-Polyline linkage_path(const Linkage& linkage, const Lane& from, const Lane& to) {
-  const auto travelled = [](const Lane& lane) {
-    Polyline line = lane.centerline;
-    if (lane.direction == Lane::Direction::against_centerline) std::reverse(line.begin(), line.end());
-    return MeasuredPolyline(line);
-  };
-  const MeasuredPolyline out = travelled(from), in = travelled(to);
-  Polyline path = out.slice({std::max(0.0, out.length() - kLinkageReach_m), out.length()});
-  path.insert(path.end(), linkage.path.begin(), linkage.path.end());
-  const Polyline into = in.slice({0.0, std::min(kLinkageReach_m, in.length())});
-  path.insert(path.end(), into.begin(), into.end());
-  return path;
-}
-
 void draw_linkages(Canvas& canvas, const PanelView& view, const LocalMap& map) {
   std::map<ElementId, const Lane*> lanes;
   for (const Lane& lane : map.lanes)
@@ -111,6 +96,15 @@ void draw_box(Canvas& canvas, const PanelView& view, const RangeConfig& range) {
 }
 
 }  // namespace
+
+Polyline linkage_path(const Linkage& linkage, const Lane& from, const Lane& to) {
+  const MeasuredPolyline out(from.centerline), in(to.centerline);
+  Polyline path = out.slice({std::max(0.0, out.length() - kLinkageReach_m), out.length()});
+  path.insert(path.end(), linkage.path.begin(), linkage.path.end());
+  const Polyline into = in.slice({0.0, std::min(kLinkageReach_m, in.length())});
+  path.insert(path.end(), into.begin(), into.end());
+  return path;
+}
 
 PanelView::PanelView(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, const Pixel& top_left)
     : origin_(top_left +

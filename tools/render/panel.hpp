@@ -23,6 +23,10 @@ class PanelView {
   Eigen::Isometry3d T_body_map_;
 };
 
+/// The way that a linkage takes: out of the end of one lane's centerline and into the begin of the other's,
+/// also where traffic runs against them, as linkages are in the order of the points.
+Polyline linkage_path(const Linkage& linkage, const Lane& from, const Lane& to);
+
 void draw_panel(Canvas& canvas, const PanelView& view, const RangeConfig& range, const Panel& panel);
 
 /// The key to the colours, in as many lines as fit into `width`.
