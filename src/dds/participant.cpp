@@ -11,6 +11,8 @@ namespace laneloom::dds {
 
 using namespace eprosima::fastdds::dds;
 
+void check_files(const DdsConfig& config) { participant_qos(config, ""); }
+
 Participant::Participant(const DdsConfig& config, const std::string& name)
     : impl_(std::make_shared<Impl>(config, name)) {}
 

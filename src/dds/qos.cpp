@@ -10,8 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <set>
-#include <stdexcept>
 #include <string>
+
+#include "laneloom/config_file.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -47,16 +48,16 @@ bool load_once(const std::string& file) {
 void load_profile(const DdsConfig& config, DomainParticipantQos& qos) {
   // Fast DDS itself would only log a missing file, and go on with its defaults.
   if (!std::filesystem::is_regular_file(config.profile_file)) {
-    throw std::runtime_error("dds.profile_file: there is no file " + config.profile_file);
+    throw ConfigError("dds.profile_file: there is no file " + config.profile_file);
   }
   if (!load_once(config.profile_file)) {
-    throw std::runtime_error("dds.profile_file: not valid for Fast DDS: " + config.profile_file);
+    throw ConfigError("dds.profile_file: not valid for Fast DDS: " + config.profile_file);
   }
   const auto found =
       DomainParticipantFactory::get_instance()->get_participant_qos_from_profile(config.profile_name, qos);
   if (found != ReturnCode_t::RETCODE_OK) {
-    throw std::runtime_error("dds.profile_name: no participant \"" + config.profile_name + "\" in " +
-                             config.profile_file);
+    throw ConfigError("dds.profile_name: no participant \"" + config.profile_name + "\" in " +
+                      config.profile_file);
   }
 }
 
@@ -80,14 +81,14 @@ void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
 std::string readable(const std::filesystem::path& directory, const char* name) {
   const auto file = std::filesystem::absolute(directory / name);
   if (!std::filesystem::is_regular_file(file) || !std::ifstream(file)) {
-    throw std::runtime_error("dds.security_directory: cannot read " + file.string());
+    throw ConfigError("dds.security_directory: cannot read " + file.string());
   }
   return "file://" + file.string();
 }
 
 void set_security(const std::string& directory, DomainParticipantQos& qos) {
   // A Fast DDS that was built without it ignores the properties.
-  if (HAVE_SECURITY == 0) throw std::runtime_error("dds.security_directory: this Fast DDS has no security");
+  if (HAVE_SECURITY == 0) throw ConfigError("dds.security_directory: this Fast DDS has no security");
   const std::string authentication = "dds.sec.auth.builtin.PKI-DH.";
   const std::string access = "dds.sec.access.builtin.Access-Permissions.";
   auto& properties = qos.properties().properties();

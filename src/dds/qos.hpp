@@ -16,7 +16,7 @@ enum class TopicKind {
   status       ///< from the service, now and then; a late joiner gets the newest
 };
 
-/// Throws std::runtime_error when the configured profile or a file of security is missing or invalid.
+/// Throws ConfigError when the configured profile is missing or invalid, or a file of security is unreadable.
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsConfig& config,
                                                              const std::string& name);
 eprosima::fastdds::dds::DataWriterQos writer_qos(TopicKind kind);

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "laneloom/config_file.hpp"
 #include "laneloom/sd_map.hpp"
 
 namespace laneloom {
@@ -140,7 +141,7 @@ SdMap load_sd_map(const SdMapConfig& config) {
   try {
     return read(config.file, config);
   } catch (const std::exception& error) {
-    throw std::runtime_error(config.file + ": " + error.what());
+    throw ConfigError(config.file + ": " + error.what());
   }
 }
 

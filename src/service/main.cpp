@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "laneloom/config_file.hpp"
+#include "laneloom/dds/participant.hpp"
 #include "laneloom/sd_map.hpp"
 #include "service/executor.hpp"
 #include "service/log.hpp"
@@ -115,15 +116,10 @@ void run(const Config& config, const Options& options) {
 }
 
 int start(const Options& options) {
-  Config config;
-  try {
-    config = configure(options);
-  } catch (const ConfigError& error) {
-    print_error(error.what());
-    return EX_CONFIG;
-  }
+  const Config config = configure(options);
   if (options.check_only) {
     load_sd_map(config.sd_map);
+    dds::check_files(config.dds);
     std::printf("configuration %s is valid\n", config_hash(config).c_str());
     return EX_OK;
   }
@@ -154,9 +150,12 @@ int main(int argc, char** argv) try {
     std::ostringstream complaint;
     const int code = app.exit(end, std::cout, complaint);
     laneloom::print_error(complaint.str());
-    return code;
+    return code == EX_OK ? EX_OK : EX_CONFIG;
   }
   return laneloom::start(options);
+} catch (const laneloom::ConfigError& error) {
+  laneloom::print_error(error.what());
+  return EX_CONFIG;  // systemd does not try again: it would be refused again
 } catch (const std::exception& error) {
   laneloom::print_error(error.what());
   return EXIT_FAILURE;

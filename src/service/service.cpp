@@ -67,11 +67,11 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
       delay_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       next_status_ns_(started_ns_),
       next_snapshot_ns_(started_ns_) {
+  reopen();  // first, as a snapshot that is resumed is gone
   if (!config.service.snapshot_file.empty()) {
     resume();
     snapshots_ = std::make_unique<SnapshotWriter>(config.service.snapshot_file);
   }
-  reopen();
 }
 
 SnapshotStamp Service::snapshot_stamp() const {

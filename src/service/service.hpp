@@ -24,8 +24,8 @@ const char* version();
 /// One thread calls it; the threads of DDS only reach its queue.
 class Service {
  public:
-  /// `now_ns` is a steady clock, callable from any thread. Throws std::runtime_error when DDS can't be set
-  /// up.
+  /// `now_ns` is a steady clock, callable from any thread. Throws ConfigError when a file that the
+  /// configuration names is missing or invalid, and std::runtime_error when DDS can't be set up.
   Service(const Config& config, std::function<std::int64_t()> now_ns);
 
   void tick(const Tick& tick);

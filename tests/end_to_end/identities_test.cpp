@@ -17,15 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kUnreadable = 78;  ///< for good
+constexpr int kNotBelieved = 1;  ///< as long as the clock may be what is wrong
+
 /// A copy of the service's folder, damaged, must stop the start, and be named.
-void expect_refused(const Identities& identities, const std::string& what,
+void expect_refused(const Identities& identities, int code, const std::string& what,
                     const std::function<void(const fs::path&)>& damage) {
   const fs::path folder = identities.folder() / "damaged";
   fs::remove_all(folder);
   fs::copy(identities.folder() / "service", folder);
   damage(folder);
   Service service(identities.as("damaged", private_config()));
-  EXPECT_EQ(service.wait(), 1) << what;
+  EXPECT_EQ(service.wait(), code) << what;
   EXPECT_NE(service.errors().find("dds.security_directory: "), std::string::npos) << what << service.errors();
   EXPECT_NE(service.errors().find(folder), std::string::npos) << what << service.errors();
   EXPECT_EQ(service.errors().find("event=started"), std::string::npos) << what;
@@ -36,31 +39,33 @@ TEST(Identities, AFolderThatIsNotInOrderStopsTheStart) {
   const Identities others;
   for (const std::string name : {"identity_ca.cert.pem", "permissions_ca.cert.pem", "cert.pem", "key.pem",
                                  "governance.p7s", "permissions.p7s"}) {
-    expect_refused(identities, "no " + name, [&](const fs::path& folder) { fs::remove(folder / name); });
-    expect_refused(identities, name + " is a folder", [&](const fs::path& folder) {
+    expect_refused(identities, kUnreadable, "no " + name,
+                   [&](const fs::path& folder) { fs::remove(folder / name); });
+    expect_refused(identities, kUnreadable, name + " is a folder", [&](const fs::path& folder) {
       fs::remove(folder / name);
       fs::create_directory(folder / name);
     });
-    expect_refused(identities, name + " cut off",
+    expect_refused(identities, kNotBelieved, name + " cut off",
                    [&](const fs::path& folder) { fs::resize_file(folder / name, 100); });
-    expect_refused(identities, name + " empty",
+    expect_refused(identities, kNotBelieved, name + " empty",
                    [&](const fs::path& folder) { fs::resize_file(folder / name, 0); });
-    expect_refused(identities, name + " of others", [&](const fs::path& folder) {
+    expect_refused(identities, kNotBelieved, name + " of others", [&](const fs::path& folder) {
       fs::copy(others.folder() / "service" / name, folder / name, fs::copy_options::overwrite_existing);
     });
   }
-  expect_refused(identities, "unsigned governance", [&](const fs::path& folder) {
+  expect_refused(identities, kNotBelieved, "unsigned governance", [&](const fs::path& folder) {
     fs::copy(fs::path(LANELOOM_SOURCE_DIR) / "config/security/governance.xml", folder / "governance.p7s",
              fs::copy_options::overwrite_existing);
   });
-  expect_refused(identities, "altered governance", [](const fs::path& folder) {
+  expect_refused(identities, kNotBelieved, "altered governance", [](const fs::path& folder) {
     replace_in(folder / "governance.p7s", "access_control>true", "access_control>false");
   });
-  expect_refused(identities, "permissions of another identity", [&](const fs::path& folder) {
+  expect_refused(identities, kNotBelieved, "permissions of another identity", [&](const fs::path& folder) {
     fs::copy(identities.folder() / "pnc/permissions.p7s", folder / "permissions.p7s",
              fs::copy_options::overwrite_existing);
   });
-  expect_refused(identities, "no folder", [](const fs::path& folder) { fs::remove_all(folder); });
+  expect_refused(identities, kUnreadable, "no folder",
+                 [](const fs::path& folder) { fs::remove_all(folder); });
 }
 
 TEST(Identities, OtherDomainsAreClosed) {
@@ -78,7 +83,7 @@ TEST(Identities, AreReadAgainAtAReload) {
   const fs::path key = identities.folder() / "service/key.pem";
   fs::remove(key);
   service.signal(SIGHUP);
-  EXPECT_EQ(service.wait(), 1);
+  EXPECT_EQ(service.wait(), 78);
   EXPECT_NE(service.errors().find("dds.security_directory: cannot read " + key.string()), std::string::npos)
       << service.errors();
 }

@@ -206,14 +206,22 @@ TEST(Laneloomd, ABadConfigurationStopsTheStart) {
   Process bad_preset({LANELOOMD, "--preset", "mine"});
   EXPECT_EQ(bad_preset.wait(), 78);
   Process unknown_option({LANELOOMD, "--nonsense"});
-  EXPECT_NE(unknown_option.wait(), 0);
+  EXPECT_EQ(unknown_option.wait(), 78);
 }
 
-TEST(Laneloomd, AMissingProfileStopsTheStart) {
-  const TemporaryFile file("profile.yaml", "dds:\n  profile_file: /nonexistent.xml\n  profile_name: mine\n");
-  Process service(command(private_config(), {"--config", file.path}));
-  EXPECT_EQ(service.wait(), 1);
-  EXPECT_NE(service.errors().find("/nonexistent.xml"), std::string::npos) << service.errors();
+TEST(Laneloomd, AFileThatTheConfigurationNamesAndThatIsMissingStopsTheStart) {
+  for (const std::string section :
+       {"dds:\n  profile_file: /nonexistent\n  profile_name: mine\n",
+        "dds:\n  security_directory: /nonexistent\n", "sd_map:\n  file: /nonexistent\n"}) {
+    const TemporaryFile file("missing.yaml", section);
+    for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--check-config"}}) {
+      auto words = command(private_config(), {"--config", file.path});
+      words.insert(words.end(), more.begin(), more.end());
+      Process service(words);
+      EXPECT_EQ(service.wait(), 78) << section;
+      EXPECT_NE(service.errors().find("/nonexistent"), std::string::npos) << service.errors();
+    }
+  }
 }
 
 TEST(Laneloomd, ChecksAConfigurationAndSaysItsVersion) {

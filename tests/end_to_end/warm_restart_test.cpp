@@ -76,5 +76,17 @@ TEST_F(WarmRestart, ForgetsAMapOfAnotherPoseFrame) {
   EXPECT_TRUE(is_good_again());
 }
 
+TEST_F(WarmRestart, AServiceThatCannotStartLeavesTheSnapshotToTheNext) {
+  start(100, {"--config", file_.path});
+  ASSERT_TRUE(rises("snapshots_written", counters())) << service_->errors();
+  service_->signal(SIGKILL);
+  ASSERT_EQ(service_->wait(), -SIGKILL);
+  file_.write("service:\n  snapshot_file: " + snapshot_.path +
+              "\ndds:\n  profile_file: /nonexistent\n  profile_name: mine\n");
+  Process refused(command(config_, {"--config", file_.path}));
+  EXPECT_EQ(refused.wait(), 78) << refused.errors();
+  EXPECT_EQ(access(snapshot_.path.c_str(), F_OK), 0) << refused.errors();
+}
+
 }  // namespace
 }  // namespace laneloom

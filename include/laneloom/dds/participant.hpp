@@ -7,12 +7,16 @@
 
 namespace laneloom::dds {
 
+/// Opens the files that the configuration names, as a participant would. Throws ConfigError (config_file.hpp)
+/// when the profile is missing or invalid, or a file of security is unreadable; whether DDS believes what is
+/// in the latter only shows when there is a participant. Thread-safe.
+void check_files(const DdsConfig& config);
+
 /// One participant in the domain, in the partition of one vehicle. Readers and writers keep it alive.
 /// Not thread-safe; not to be used within a reader's callback.
 class Participant {
  public:
-  /// `name` is shown to others. Throws std::runtime_error when the profile is missing or invalid, or DDS
-  /// refuses.
+  /// `name` is shown to others. Throws ConfigError as check_files(), and std::runtime_error when DDS refuses.
   Participant(const DdsConfig& config, const std::string& name);
 
   class Impl;
