@@ -80,13 +80,19 @@ void reconfigure(Running& running, const Options& options) try {
   spdlog::error("event=configuration_refused reason=\"{}\"", error.what());
 }
 
+/// After a change of the network, interfaces that were down are only seen by new endpoints.
+void reopen(Service& service) try {
+  service.reopen();
+  spdlog::info("event=reopened");
+} catch (const ConfigError& error) {
+  spdlog::error("event=reopening_refused reason=\"{}\"", error.what());
+}
+
 void reload(Service& service, Running& running, const Options& options) {
   sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(steady_now_ns() / 1000));
   reconfigure(running, options);
-  // After a change of the network, interfaces that were down are only seen by new endpoints.
-  service.reopen();
+  reopen(service);
   sd_notify(0, "READY=1");
-  spdlog::info("event=reopened");
 }
 
 void run(const Config& config, const Options& options) {

@@ -105,7 +105,8 @@ void Service::keep_snapshot(std::int64_t now_ns) {
 }
 
 void Service::reopen() {
-  endpoints_.reset();  // first, as two services on one vehicle id would be seen otherwise
+  dds::check_files(config_.dds);  // while there still are endpoints to go on with
+  endpoints_.reset();             // before the new ones, or two services on one vehicle id would be seen
   endpoints_ = std::make_unique<Endpoints>(config_.dds, session_id_, queue_, now_ns_);
 }
 
@@ -182,7 +183,6 @@ void Service::publish_map(std::int64_t now_ns, MappingSession::Progress&& progre
   map.fused_frames = std::move(progress.fused);
   map.map = session_.map();
   map.map.lineage = std::move(progress.lineage);
-  if (!endpoints_) return;
   write(endpoints_->map, map);
   write(endpoints_->road_markings, RoadMarkings{map.map.stamp_ns, map.sequence, map.session_id, map.frame_id,
                                                 std::move(map.map.instances)});
@@ -191,7 +191,7 @@ void Service::publish_map(std::int64_t now_ns, MappingSession::Progress&& progre
 void Service::publish_status(std::int64_t now_ns) {
   auto message = status(now_ns);
   message.sequence = status_sequence_++;
-  if (endpoints_) write(endpoints_->status, message);
+  write(endpoints_->status, message);
   if (now_ns >= next_status_ns_) {
     next_status_ns_ = now_ns + static_cast<std::int64_t>(config_.service.status_period_s * 1e9);
     log_incidents(all_counters(queue_.snapshot()));

@@ -29,8 +29,9 @@ class Service {
   Service(const Config& config, std::function<std::int64_t()> now_ns);
 
   void tick(const Tick& tick);
-  /// Makes all DDS endpoints anew; the map and what is queued stay. Throws as the constructor; tick() then
-  /// goes on without endpoints.
+  /// Makes all DDS endpoints anew; the map and what is queued stay. Throws ConfigError, and keeps the
+  /// endpoints that there are, when a file of the profile or of security is missing or invalid. After the
+  /// std::runtime_error of a DDS that refuses, nothing else may be called.
   void reopen();
 
   /// State and numbers in one line, for people.

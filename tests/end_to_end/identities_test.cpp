@@ -80,12 +80,20 @@ TEST(Identities, AreReadAgainAtAReload) {
   Service service(identities.as("service", config));
   Listener<PublishedMap> maps(identities.as("pnc", config));
   ASSERT_TRUE(maps.wait_for([](const PublishedMap&) { return true; })) << service.errors();
-  const fs::path key = identities.folder() / "service/key.pem";
-  fs::remove(key);
+  const fs::path folder = identities.folder() / "service";
+  fs::remove(folder / "governance.p7s");
   service.signal(SIGHUP);
-  EXPECT_EQ(service.wait(), 78);
-  EXPECT_NE(service.errors().find("dds.security_directory: cannot read " + key.string()), std::string::npos)
+  EXPECT_TRUE(
+      service.wait_for_error("error event=reopening_refused reason=\"dds.security_directory: cannot read " +
+                             (folder / "governance.p7s").string()))
       << service.errors();
+  maps.forget();
+  EXPECT_TRUE(maps.wait_for([](const PublishedMap&) { return true; })) << "it did not go on";
+
+  // What only DDS can judge shows when the endpoints are gone.
+  fs::copy(fs::path(LANELOOM_SOURCE_DIR) / "config/security/governance.xml", folder / "governance.p7s");
+  service.signal(SIGHUP);
+  EXPECT_EQ(service.wait(), kNotBelieved) << service.errors();
 }
 
 TEST(Identities, ServeTheTools) {

@@ -84,6 +84,27 @@ TEST(Reload, SaysThatAProfileThatChangedNeedsARestart) {
       << service.errors();
 }
 
+TEST(Reload, AProfileThatIsGoneIsRefusedAndTheEndpointsStay) {
+  const TemporaryFile profiles("gone.xml",
+                               "<dds xmlns='http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles'><profiles>"
+                               "<participant profile_name='mine'><rtps/></participant></profiles></dds>\n");
+  const TemporaryFile file("gone.yaml",
+                           "dds:\n  profile_file: " + profiles.path + "\n  profile_name: mine\n");
+  const auto config = private_config();
+  const Process service(command(config, {"--config", file.path}));
+  Listener<PublishedMap> maps(config);
+  ASSERT_TRUE(maps.wait_for(is_published)) << service.errors();
+  unlink(profiles.path.c_str());
+  service.signal(SIGHUP);
+  ASSERT_TRUE(service.wait_for_error(
+      "error event=reopening_refused reason=\"dds.profile_file: there is no file " + profiles.path + "\"\n"))
+      << service.errors();
+  const auto newest = maps.samples().back().sequence;
+  EXPECT_TRUE(maps.wait_for([&](const PublishedMap& map) { return map.sequence > newest + 3; }));
+  for (std::uint64_t i = 0; i < maps.samples().size(); ++i)
+    EXPECT_EQ(maps.samples()[i].sequence, maps.samples()[0].sequence + i) << "the endpoints were made anew";
+}
+
 TEST(Log, GoesToStandardErrorWhereThatIsNotTheJournal) {
   setenv("JOURNAL_STREAM", "8:1", 1);  // inherited from a service, but redirected
   const Process service(command(private_config()));
