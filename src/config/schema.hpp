@@ -203,7 +203,8 @@ void visit(auto& v, Is<GateConfig> auto& c) {
 void visit(auto& v, Is<ServiceConfig> auto& c) {
   auto& [tick_rate_hz, stale_after_s, degraded_after_s, status_period_s, log_level, snapshot_file,
          snapshot_period_s, snapshot_max_age_s] = c;
-  v.number("tick_rate_hz", tick_rate_hz, "Hz", 1, 100);
+  // Two maps are at most as far apart as their deadline (250 ms, src/dds/qos.cpp) allows.
+  v.number("tick_rate_hz", tick_rate_hz, "Hz", 5, 100);
   v.number("stale_after_s", stale_after_s, "s", 0.05, 60);
   v.number("degraded_after_s", degraded_after_s, "s", 0.05, 60);
   v.number("status_period_s", status_period_s, "s", 0.1, 60);
