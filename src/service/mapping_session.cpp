@@ -1,5 +1,6 @@
 #include "laneloom/mapping_session.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,7 +12,7 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kMaxSources = 8;  // a source is remembered for ever
+constexpr std::size_t kMaxSources = 8;  // at a time; a stack may take a new name with every run
 
 using Checkpoint = MappingSession::Checkpoint;
 
@@ -40,6 +41,36 @@ std::string_view reason(Gate::Verdict verdict) {
   return {};
 }
 
+/// A gate for each source of frames. Of too many, the one that accepted nothing for longest is forgotten.
+class FrameGates {
+ public:
+  explicit FrameGates(const GateConfig& config) : config_(config) {}
+
+  Gate::Verdict check(const DetectionFrame& frame) {
+    auto& source = sources_.try_emplace(frame.source, Source{Gate(config_)}).first->second;
+    const auto verdict = source.gate.check({frame.stamp_ns, frame.session_id});
+    if (reason(verdict).empty()) source.accepted = ++accepted_;
+    // A source that is new accepts its first frame, and so is not the one.
+    if (sources_.size() > kMaxSources) sources_.erase(idle());
+    return verdict;
+  }
+
+ private:
+  struct Source {
+    Gate gate;
+    std::uint64_t accepted = 0;  ///< number of its newest accepted frame, among those of all sources
+  };
+  using Sources = std::map<std::string, Source>;
+
+  Sources::iterator idle() {
+    return std::ranges::min_element(sources_, {}, [](const auto& entry) { return entry.second.accepted; });
+  }
+
+  GateConfig config_;
+  Sources sources_;
+  std::uint64_t accepted_ = 0;
+};
+
 }  // namespace
 
 struct MappingSession::State {
@@ -47,6 +78,7 @@ struct MappingSession::State {
       : gate_config(c.gate),
         max_pause_s(c.service.snapshot_max_age_s),
         pose_gate(c.gate),
+        frame_gates(c.gate),
         synchroniser(c.sync),
         mapper(c.mapper, load_sd_map(c.sd_map)) {}
 
@@ -64,7 +96,7 @@ struct MappingSession::State {
   GateConfig gate_config;
   double max_pause_s;
   Gate pose_gate;
-  std::map<std::string, Gate> frame_gates;  ///< by source
+  FrameGates frame_gates;
   Synchroniser synchroniser;
   Mapper mapper;
   std::optional<std::int64_t> newest_stamp_ns;
@@ -109,12 +141,7 @@ std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t
 }
 
 std::string_view MappingSession::State::check_source(const DetectionFrame& frame) {
-  auto gate = frame_gates.find(frame.source);
-  if (gate == frame_gates.end()) {
-    if (frame_gates.size() >= kMaxSources) return "too_many_sources";
-    gate = frame_gates.emplace(frame.source, gate_config).first;
-  }
-  const auto verdict = gate->second.check({frame.stamp_ns, frame.session_id});
+  const auto verdict = frame_gates.check(frame);
   if (verdict == Gate::Verdict::begins_anew) reset();
   return reason(verdict);
 }

@@ -41,10 +41,9 @@ TEST(HealthFindings, CountersThatRise) {
 
 TEST(HealthFindings, EveryReasonOfTheServiceIsExplained) {
   const std::string unknown(explain_refusal("no such reason").cause);
-  for (const char* reason :
-       {"malformed", "unknown_enum", "not_finite", "not_a_rotation", "wrong_frame", "wrong_size", "stamp",
-        "coordinate", "too_few_points", "confidence", "stddev", "too_long", "repeated", "late", "outlier",
-        "too_many_sources", "unsynchronised", "reset"})
+  for (const char* reason : {"malformed", "unknown_enum", "not_finite", "not_a_rotation", "wrong_frame",
+                             "wrong_size", "stamp", "coordinate", "too_few_points", "confidence", "stddev",
+                             "too_long", "repeated", "late", "outlier", "unsynchronised", "reset"})
     EXPECT_NE(explain_refusal(reason).cause, unknown) << reason;
 }
 

@@ -37,8 +37,6 @@ constexpr std::array kRefusals{
             "their stamp or position jumped (gate.max_stamp_step_s, max_speed_mps, max_pose_jump_m)",
             "See whether two writers take turns, or a clock or localisation jumps. Three in a row that agree "
             "are believed, and begin a new map."},
-    Refusal{"too_many_sources", "more sources of detections were seen than are followed",
-            "Keep the field `source` the same from frame to frame."},
     Refusal{"unsynchronised", "no poses around their stamp came in time",
             "See whether both use one clock, poses come at 20 Hz or more (sync.max_pose_gap_s), and no later "
             "than sync.max_wait_s after the frame."},
