@@ -66,7 +66,7 @@ class SdMap {
 /// Reads an OpenStreetMap extract (XML): its highways for motor vehicles, one-way streets and turn
 /// restrictions, with the map frame's origin as configured: x east, y north. An empty file name gives an
 /// empty map. Throws ConfigError (config_file.hpp) naming the file and, where it can, the element, if it
-/// cannot be read or holds no street, or more than 20000 km of them.
+/// cannot be read, is larger than 512 MB, or holds no street, or more than 20000 km of them.
 SdMap load_sd_map(const SdMapConfig& config);
 
 }  // namespace laneloom

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "laneloom/config_file.hpp"
 #include "laneloom/sd_map.hpp"
@@ -24,7 +26,8 @@ const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",
                                           "tertiary", "unclassified", "residential", "living_street",
                                           "service",  "road"};
 constexpr double kMaxDistance_m = 1e6;  // from the origin; beyond, the projection means nothing
-constexpr double kMaxStreets_m = 2e7;   // in all: a few bytes can name streets that would take all memory
+constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;  // in memory it takes a few times as much
+constexpr double kMaxStreets_m = 2e7;  // in all: a few bytes can name streets that would take all memory
 
 std::string_view tag(const pugi::xml_node& element, const char* key) {
   return element.find_child_by_attribute("tag", "k", key).attribute("v").as_string();
@@ -116,7 +119,16 @@ std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
   return SdRestriction{*from, *via, *to, kind.starts_with("only_")};
 }
 
+/// Opening a pipe would wait for who writes it.
+void check_file(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error("is not a readable file");
+  if (std::filesystem::file_size(file, error) > kMaxFileBytes)
+    throw std::runtime_error("is larger than 512 MB");
+}
+
 SdMap read(const std::string& file, const SdMapConfig& config) {
+  check_file(file);
   pugi::xml_document document;
   if (const auto result = document.load_file(file.c_str()); !result)
     throw std::runtime_error(std::string(result.description()) + " at byte " + std::to_string(result.offset));

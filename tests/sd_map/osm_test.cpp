@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "laneloom/config_file.hpp"
 #include "laneloom/sd_map.hpp"
 #include "mapping/shapes.hpp"
 #include "recording/allocations.hpp"
@@ -107,6 +109,17 @@ TEST_F(OsmFile, RefusesMoreStreetsThanMemoryHolds) {
   std::string way = R"(<way id="10"><tag k="highway" v="trunk"/>)";
   for (int i = 0; i < 12; ++i) way += R"(<nd ref="1"/><nd ref="2"/>)";
   EXPECT_THAT(complaint(ends + way + "</way>"), HasSubstr("more than 20000 km"));
+}
+
+TEST_F(OsmFile, RefusesWhatIsNoFileAndWhatIsTooLarge) {
+  ASSERT_EQ(mkfifo(config_.file.c_str(), 0600), 0);
+  EXPECT_THROW(load_sd_map(config_), ConfigError) << "or waits for ever";
+  std::filesystem::remove(config_.file);
+  std::ofstream(config_.file).close();
+  std::filesystem::resize_file(config_.file, std::uintmax_t{1} << 40U);  // takes no space
+  watch_allocations();
+  EXPECT_THROW(load_sd_map(config_), ConfigError);
+  EXPECT_LT(peak_bytes(), 5'000'000U);
 }
 
 TEST_F(OsmFile, WithoutAFileThereIsNone) {
