@@ -114,7 +114,7 @@ void Service::tick(const Tick& tick) {
   ingest(tick.start_ns);
   auto progress = session_.take_progress();
   const bool changed = judge(tick, progress.resets);
-  publish_map(tick.start_ns, std::move(progress));
+  publish_map(std::move(progress));
   keep_snapshot(tick.start_ns);
   work_.add(milliseconds(now_ns_() - tick.start_ns));
   delay_.add(milliseconds(tick.start_ns - tick.deadline_ns));
@@ -159,8 +159,9 @@ bool Service::judge(const Tick& tick, std::uint64_t resets) {
   // A map of before is none to drive on until a frame has confirmed it.
   const auto checkpoint = session_.checkpoint();
   const auto fused_ns = checkpoint ? std::optional(checkpoint->frame_arrival_ns) : std::nullopt;
+  // Ages are taken now: what arrived since the tick's start has none that is negative.
   const auto verdict = health_.assess(
-      tick.start_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns, fused_ns, arrived.other_service_ns});
+      now_ns_(), {arrived.newest_frame_ns, arrived.newest_pose_ns, fused_ns, arrived.other_service_ns});
   return std::exchange(verdict_, verdict) != verdict;
 }
 
@@ -171,13 +172,13 @@ void Service::write(dds::Writer<T>& writer, const T& message) {
   counters_.add("elements_left_out", writer.left_out() - before);
 }
 
-void Service::publish_map(std::int64_t now_ns, MappingSession::Progress&& progress) {
+void Service::publish_map(MappingSession::Progress&& progress) {
   PublishedMap map;
   map.sequence = map_sequence_++;
   map.session_id = session_id_;
   map.frame_id = config_.dds.map_frame_id;
   map.published_ns = system_now_ns();
-  map.age_s = age_s(now_ns, session_.newest_arrival_ns());
+  map.age_s = age_s(now_ns_(), session_.newest_arrival_ns());
   map.state = verdict_.state;
   map.reasons = verdict_.reasons;
   map.fused_frames = std::move(progress.fused);
@@ -189,7 +190,7 @@ void Service::publish_map(std::int64_t now_ns, MappingSession::Progress&& progre
 }
 
 void Service::publish_status(std::int64_t now_ns) {
-  auto message = status(now_ns);
+  auto message = status();
   message.sequence = status_sequence_++;
   write(endpoints_->status, message);
   if (now_ns >= next_status_ns_) {
@@ -198,8 +199,9 @@ void Service::publish_status(std::int64_t now_ns) {
   }
 }
 
-ServiceStatus Service::status(std::int64_t now_ns) const {
+ServiceStatus Service::status() const {
   const auto arrived = queue_.snapshot();
+  const auto now_ns = now_ns_();  // after the arrivals
   ServiceStatus status;
   status.session_id = session_id_;
   status.published_ns = system_now_ns();

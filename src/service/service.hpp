@@ -46,9 +46,9 @@ class Service {
   /// Sets the verdict; true when it changed.
   bool judge(const Tick& tick, std::uint64_t resets);
   void log_tick(const Tick& tick) const;
-  void publish_map(std::int64_t now_ns, MappingSession::Progress&& progress);
+  void publish_map(MappingSession::Progress&& progress);
   void publish_status(std::int64_t now_ns);
-  ServiceStatus status(std::int64_t now_ns) const;
+  ServiceStatus status() const;
   Counters all_counters(const IngestionQueue::Snapshot& arrived) const;
   void log_incidents(const Counters& counters);
   template <class T>
