@@ -37,7 +37,13 @@ void McapReader::sort_by_time() {
   std::ranges::stable_sort(by_time_, {}, [&](std::size_t number) { return sections[number].start_ns; });
   if (contents_.has_summary || std::ranges::is_sorted(by_time_)) return;
   // A channel may be described in a chunk that is read later than the channel's messages.
-  for (const auto& section : sections) load(file_, section, limits_, 0, catalogue_);
+  for (const auto& section : sections) learn_channels(section);
+}
+
+void McapReader::learn_channels(const McapSection& section) try {
+  load(file_, section, limits_, 0, catalogue_);
+} catch (const std::runtime_error&) {
+  // What is damaged is told when it is opened; the others are read all the same.
 }
 
 bool McapReader::OpenSection::operator<(const OpenSection& other) const {

@@ -44,6 +44,7 @@ class McapReader {
   };
 
   void sort_by_time();
+  void learn_channels(const McapSection& section);
   void open(std::size_t number);
   void advance_first();
   void check_count();

@@ -79,6 +79,20 @@ class McapTest : public ::testing::Test {
     return messages;
   }
 
+  /// How many messages come, and how often damage is told.
+  std::pair<std::size_t, std::size_t> read_past_damage() {
+    McapReader reader(path_);
+    std::size_t count = 0, failures = 0;
+    for (;;) {
+      try {
+        if (!reader.next()) return {count, failures};
+        ++count;
+      } catch (const std::runtime_error&) {
+        ++failures;
+      }
+    }
+  }
+
   /// What went to disk with each chunk: the file's size after it, and how many messages it has until then.
   struct ChunkEnd {
     std::uint64_t size;
@@ -229,18 +243,22 @@ TEST_F(McapTest, ADamagedMessageIsNoticedByItsChunksCrc) {
       << error;
   EXPECT_NE(error.find("CRC"), std::string::npos) << error;
 
-  McapReader reader(path_);
-  std::size_t count = 0, failures = 0;
-  for (;;) {
-    try {
-      if (!reader.next()) break;
-      ++count;
-    } catch (const std::runtime_error&) {
-      ++failures;
-    }
-  }
+  const auto [count, failures] = read_past_damage();
   EXPECT_EQ(failures, 2U);                // the chunk, and at the end that messages are missing
   EXPECT_EQ(count, messages.size() - 7);  // what is behind the damage comes
+}
+
+// Then all chunks are read at once, for the channels that they describe.
+TEST_F(McapTest, ADamagedChunkLeavesTheOthersReadableWithoutASummaryAndOrder) {
+  const auto messages = random_messages(70, 5);
+  const auto ends = write_in_chunks(messages, Compression::none);
+  Bytes bytes = bytes_of(path_);
+  bytes[ends[2].size + 200] ^= 1U;
+  bytes.resize(ends.back().size);
+  write_bytes(path_, bytes);
+  const auto [count, failures] = read_past_damage();
+  EXPECT_EQ(failures, 1U);
+  EXPECT_EQ(count, messages.size() - 7);
 }
 
 TEST_F(McapTest, ForeignFilesAreRefused) {
