@@ -14,15 +14,18 @@ namespace laneloom {
 namespace {
 
 constexpr std::string_view kForeignTopic = "not a topic of laneloom";
+constexpr std::uint64_t kMaxLogTime_ns = std::uint64_t{1} << 62U;  // differences do not overflow
 
 template <class T>
 constexpr bool kIsInput = std::is_same_v<T, DetectionFrame> || std::is_same_v<T, VehiclePose>;
 
 /// A channel that has the topic's name, but another type or encoding, would be taken for what it is not.
 template <class T>
-std::string_view refusal(const McapChannel& channel) {
+std::string_view refusal(const McapMessage& message) {
+  const McapChannel& channel = *message.channel;
   if (channel.message_encoding != kCdr) return "unknown encoding";
   if (!channel.schema || channel.schema->name != topic_of<T>().type) return "another type";
+  if (message.log_time_ns > kMaxLogTime_ns) return "log time";
   return "";
 }
 
@@ -87,7 +90,7 @@ class RecordingReader::Impl {
   template <class Take, class T, class... Others>
   static std::string_view take_if_of(const McapMessage& message, const Take& take) {
     if (message.channel->topic == topic_of<T>().name) {
-      const auto reason = refusal<T>(*message.channel);
+      const auto reason = refusal<T>(message);
       return reason.empty() ? take(std::in_place_type<T>) : reason;
     }
     if constexpr (sizeof...(Others) > 0) return take_if_of<Take, Others...>(message, take);

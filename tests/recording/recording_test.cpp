@@ -294,5 +294,30 @@ TEST(Recording, OthersTopicsAndTypesArePassedOver) {
   EXPECT_EQ(reader.refused()["laneloom/v1/vehicle_pose: unknown encoding"], 1U);
 }
 
+TEST(Recording, LogTimesWhoseDifferencesOverflowAreRefused) {
+  const TemporaryFolder folder;
+  Bytes pose;
+  dds::to_cdr(pose_at(1), kMapFrame, pose);
+  {
+    McapWriter writer(folder.file("r.mcap"), Compression::none, 1000);
+    const auto poses = writer.add_channel(
+        {dds::kVehiclePoseTopic, "cdr",
+         std::make_shared<McapSchema>(McapSchema{"laneloom::msg::VehiclePose", "omgidl", ""})});
+    for (const std::uint64_t log_time_ns :
+         {std::uint64_t{1} << 62U, (std::uint64_t{1} << 62U) + 1, ~std::uint64_t{0}})
+      writer.write(poses, log_time_ns, 1, 1, pose);
+    writer.close();
+  }
+  RecordingReader reader(folder.file("r.mcap"));
+  const auto message = reader.next();
+  ASSERT_TRUE(message);
+  EXPECT_EQ(message->log_time_ns, std::int64_t{1} << 62U);
+  EXPECT_FALSE(reader.next());
+  EXPECT_EQ(reader.refused()["laneloom/v1/vehicle_pose: log time"], 2U);
+  RecordingReader raw(folder.file("r.mcap"));
+  EXPECT_TRUE(raw.next_raw());
+  EXPECT_FALSE(raw.next_raw());
+}
+
 }  // namespace
 }  // namespace laneloom
