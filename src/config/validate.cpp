@@ -53,6 +53,27 @@ class RangeCheck {
   std::string prefix_;
 };
 
+/// What may be published is this long: the longer side of the range and its margins, and more for curves.
+double longest_line_m(const RangeConfig& range) {
+  constexpr double kCurves = 1.5;
+  const double forward_m = range.forward_max_m - range.forward_min_m + 2.0 * range.margin_forward_m;
+  const double side_m = 2.0 * (range.side_max_m + range.margin_side_m);
+  return kCurves * std::max(forward_m, side_m);
+}
+
+/// A line that has more points than a message holds would always be left out.
+std::optional<Problem> find_too_many_points(const MapperConfig& mapper) {
+  constexpr double kMaxPoints = 1024;  // MAX_POINTS of idl/Common.idl
+  const double least_m = longest_line_m(mapper.range) / kMaxPoints;
+  const std::string what =
+      "must exceed " + to_text(least_m) + " m at this range, or messages cannot hold the lines";
+  if (mapper.lane.step_m <= least_m) return Problem{"mapper.lane.step_m", what};
+  if (mapper.method == "lines" && mapper.fusion.station_spacing_m <= least_m) {
+    return Problem{"mapper.fusion.station_spacing_m", what};
+  }
+  return std::nullopt;
+}
+
 std::optional<Problem> find_contradiction(const Config& c) {
   const auto& mapper = c.mapper;
   if (mapper.range.forward_min_m >= mapper.range.forward_max_m) {
@@ -68,6 +89,7 @@ std::optional<Problem> find_contradiction(const Config& c) {
   if (mapper.lane.min_width_m >= mapper.lane.max_width_m) {
     return Problem{"mapper.lane.min_width_m", "must be less than max_width_m"};
   }
+  if (auto problem = find_too_many_points(mapper)) return problem;
   if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {
     return Problem{"sync.pose_history_s", "must exceed max_pose_gap_s"};
   }

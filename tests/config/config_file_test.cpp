@@ -120,6 +120,22 @@ TEST_F(ConfigFile, AContradictionIsNamedWithItsLine) {
             ": service.degraded_after_s: must not exceed stale_after_s");
 }
 
+TEST_F(ConfigFile, LinesOfMorePointsThanAMessageHoldsAreAContradiction) {
+  EXPECT_THAT(error_of("mapper:\n  lane:\n    step_m: 0.1\n"),
+              StartsWith(":3: mapper.lane.step_m: must exceed 0.12"));
+  EXPECT_EQ(error_of("mapper:\n  lane:\n    step_m: 0.2\n"), "no error");
+  const std::string far =
+      "mapper:\n  range:\n    forward_max_m: 100\n  fusion:\n    station_spacing_m: 0.2\n";
+  EXPECT_THAT(error_of(far), StartsWith(":5: mapper.fusion.station_spacing_m: must exceed 0.22"));
+  EXPECT_EQ(error_of(far + "  method: voxels\n"), "no error");
+  EXPECT_THAT(error_of("mapper:\n  range:\n    side_max_m: 200\n  lane:\n    step_m: 0.5\n"),
+              StartsWith(":5: mapper.lane.step_m: must exceed 0.6"));
+
+  std::ostringstream idl;
+  idl << std::ifstream(kConfigDir / "../idl/Common.idl").rdbuf();
+  EXPECT_THAT(idl.str(), HasSubstr("MAX_POINTS = 1024;"));
+}
+
 TEST_F(ConfigFile, BadYamlIsNamedWithItsLine) {
   EXPECT_THAT(error_of("sync:\n  max_wait_s: [1\n"), ::testing::MatchesRegex(":[0-9]+: bad YAML: .*"));
   EXPECT_THAT(error_of("sync:\n\tmax_wait_s: 1\n"), HasSubstr("bad YAML"));
