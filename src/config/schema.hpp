@@ -133,7 +133,7 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
   v.number("max_width_m", max_width_m, "m", 0.5, 20);
   v.number("max_kerb_width_m", max_kerb_width_m, "m", 0.5, 20);
   v.number("max_width_variation_m", max_width_variation_m, "m", 0, 10);
-  v.number("min_length_m", min_length_m, "m", 0, 100);
+  v.number("min_length_m", min_length_m, "m", 0.5, 100);
   v.number("step_m", step_m, "m", 0.1, 10);
   v.number("id_memory_frames", id_memory_frames, "frames", 0, 10000);
 }
@@ -141,10 +141,10 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
 void visit(auto& v, Is<LinkageConfig> auto& c) {
   auto& [max_shared_gap_m, max_gap_m, max_lateral_m, max_angle_deg, max_crossing_gap_m,
          max_crossing_lateral_m, max_turn_gap_m, min_turn_radius_m] = c;
-  v.number("max_shared_gap_m", max_shared_gap_m, "m", 0, 200);
-  v.number("max_gap_m", max_gap_m, "m", 0, 200);
-  v.number("max_lateral_m", max_lateral_m, "m", 0, 10);
-  v.number("max_angle_deg", max_angle_deg, "deg", 0, 90);
+  v.number("max_shared_gap_m", max_shared_gap_m, "m", 1, 200);
+  v.number("max_gap_m", max_gap_m, "m", 2, 200);
+  v.number("max_lateral_m", max_lateral_m, "m", 0.1, 10);
+  v.number("max_angle_deg", max_angle_deg, "deg", 1, 90);
   v.number("max_crossing_gap_m", max_crossing_gap_m, "m", 0, 200);
   v.number("max_crossing_lateral_m", max_crossing_lateral_m, "m", 0.1, 10);
   v.number("max_turn_gap_m", max_turn_gap_m, "m", 0, 200);

@@ -177,6 +177,15 @@ TEST(SetValue, RefusesWhatAFileMayNotSayAndChangesNothing) {
   }
 }
 
+// What the mapper divides by.
+TEST(SetValue, RefusesLimitsThatLeaveNothing) {
+  Config config;
+  for (const char* assignment : {"mapper.lane.min_length_m=0.4", "mapper.linkage.max_angle_deg=0",
+                                 "mapper.linkage.max_shared_gap_m=0.9", "mapper.linkage.max_gap_m=1.9",
+                                 "mapper.linkage.max_lateral_m=0"})
+    EXPECT_THROW(set_value(config, assignment), ConfigError) << assignment;
+}
+
 TEST(Presets, SetRangeAndAlpha) {
   Config config;
   config.mapper.lane.min_width_m = 2.0;
