@@ -9,25 +9,20 @@
 namespace laneloom::dds {
 namespace {
 
-constexpr std::size_t kMaxStyles = 64;
-constexpr std::size_t kMaxInferredRanges = 32;
-constexpr std::size_t kMaxStoplineLanes = 32;
-constexpr std::size_t kMaxReasons = 8;
-
 bool fits(const Polyline& line) { return line.size() <= msg::MAX_POINTS; }
 
 bool fits(const Marking& marking) {
-  return fits(marking.points) && marking.styles.size() <= kMaxStyles &&
+  return fits(marking.points) && marking.styles.size() <= msg::MAX_STYLES &&
          marking.lateral_stddev_m.size() <= msg::MAX_POINTS;
 }
 
 bool fits(const Lane& lane) {
   return fits(lane.left) && fits(lane.right) && fits(lane.centerline) &&
-         lane.inferred_ranges.size() <= kMaxInferredRanges;
+         lane.inferred_ranges.size() <= msg::MAX_RANGES;
 }
 
 bool fits(const Stopline& stopline) {
-  return fits(stopline.marking) && stopline.lanes.size() <= kMaxStoplineLanes;
+  return fits(stopline.marking) && stopline.lanes.size() <= msg::MAX_STOPLINE_LANES;
 }
 
 bool fits(const Linkage& linkage) { return fits(linkage.path); }
@@ -65,7 +60,7 @@ std::set<ElementId> ids_of(const std::vector<T>& elements) {
 
 bool within_bounds(const PublishedMap& map) {
   const auto& m = map.map;
-  return within(map.reasons, kMaxReasons) && within(map.fused_frames, msg::MAX_FRAMES) &&
+  return within(map.reasons, msg::MAX_REASONS) && within(map.fused_frames, msg::MAX_FRAMES) &&
          within(m.boundaries, msg::MAX_MARKINGS) && within(m.lanes, msg::MAX_LANES) &&
          within(m.stoplines, msg::MAX_MARKINGS) && within(m.linkages, msg::MAX_LINKAGES) &&
          within(m.lineage, msg::MAX_LINKAGES);
@@ -79,7 +74,7 @@ std::size_t keep_within_bounds(RoadMarkings& markings) {
 
 std::size_t keep_within_bounds(PublishedMap& map) {
   auto& m = map.map;
-  std::size_t gone = prune(map.reasons, kMaxReasons) + prune(map.fused_frames, msg::MAX_FRAMES) +
+  std::size_t gone = prune(map.reasons, msg::MAX_REASONS) + prune(map.fused_frames, msg::MAX_FRAMES) +
                      prune(m.lineage, msg::MAX_LINKAGES) + prune(m.boundaries, msg::MAX_MARKINGS);
 
   const auto boundaries = ids_of(m.boundaries);

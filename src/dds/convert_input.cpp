@@ -47,7 +47,7 @@ std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id
   to.source(from.source.c_str());
   to.detected_types(convert_all<msg::MarkingType>(
       from.detected_types, [](MarkingType type) { return enum_to_msg<msg::MarkingType>(type); }));
-  if (to.detected_types().size() > 8) to.detected_types().clear();
+  if (to.detected_types().size() > msg::MAX_TYPES) to.detected_types().clear();
   to.field_of_view(fits(from.field_of_view) ? to_msg(from.field_of_view) : std::vector<msg::Point>{});
   left_out += fits(from.field_of_view) ? 0U : 1U;
 

@@ -1,5 +1,7 @@
 #include "dds/layout.hpp"
 
+#include <type_traits>
+
 namespace laneloom::dds {
 namespace {
 
@@ -7,7 +9,7 @@ constexpr std::size_t kEnum = 4;
 constexpr std::size_t kLong = 4;
 constexpr std::size_t kLongLong = 8;
 constexpr std::size_t kDouble = 8;
-constexpr std::size_t kTextBound = 64;
+constexpr std::size_t kTextBound = std::remove_cvref_t<decltype(msg::Header().frame_id())>::max_size;
 
 void header(CdrScanner& cdr) {
   cdr.numbers(kLongLong, 3);
@@ -29,7 +31,7 @@ void marking(CdrScanner& cdr) {
   cdr.numbers(kLongLong);
   cdr.numbers(kEnum, 2);
   polyline(cdr);
-  cdr.sequence(64, [](CdrScanner& style_range) {
+  cdr.sequence(msg::MAX_STYLES, [](CdrScanner& style_range) {
     style_range.numbers(kDouble, 2);
     style_range.numbers(kEnum);
   });
@@ -49,12 +51,12 @@ void lane(CdrScanner& cdr) {
   cdr.numbers(kLong);
   cdr.numbers(kEnum);
   cdr.numbers(kDouble);
-  cdr.double_sequence(2, 32);
+  cdr.double_sequence(2, msg::MAX_RANGES);
 }
 
 void stopline(CdrScanner& cdr) {
   marking(cdr);
-  cdr.number_sequence(kLongLong, 32);
+  cdr.number_sequence(kLongLong, msg::MAX_STOPLINE_LANES);
   cdr.numbers(kDouble, 3);
 }
 
@@ -85,7 +87,7 @@ void source(CdrScanner& cdr) {
 void scan(CdrScanner& cdr, const msg::Detections* /*type*/) {
   header(cdr);
   cdr.text(kTextBound);
-  cdr.number_sequence(kEnum, 8);
+  cdr.number_sequence(kEnum, msg::MAX_TYPES);
   polyline(cdr);
   cdr.sequence(msg::MAX_AREAS, polyline);
   cdr.sequence(msg::MAX_MARKINGS, detection);
@@ -102,7 +104,7 @@ void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
   cdr.numbers(kLongLong);
   cdr.numbers(kDouble);
   cdr.numbers(kEnum);
-  cdr.number_sequence(kEnum, 8);
+  cdr.number_sequence(kEnum, msg::MAX_REASONS);
   pose(cdr);
   cdr.sequence(msg::MAX_FRAMES, [](CdrScanner& frame) { frame.numbers(kLongLong, 3); });
   cdr.sequence(msg::MAX_MARKINGS, marking);
@@ -120,7 +122,7 @@ void scan(CdrScanner& cdr, const msg::RoadMarkings* /*type*/) {
 void scan(CdrScanner& cdr, const msg::ServiceStatus* /*type*/) {
   header(cdr);
   cdr.numbers(kEnum);
-  cdr.number_sequence(kEnum, 8);
+  cdr.number_sequence(kEnum, msg::MAX_REASONS);
   cdr.numbers(kDouble, 11);
   cdr.numbers(kLong);
   cdr.sequence(msg::MAX_COUNTERS, counter);
