@@ -11,7 +11,7 @@
 namespace laneloom::dds {
 
 /// Each returns how many elements were left out, because they exceed the bounds of the IDL or refer to what
-/// does.
+/// does; a name that is cut counts as one.
 std::size_t to_msg(const DetectionFrame& from, const std::string& map_frame_id, msg::Detections& to);
 std::size_t to_msg(const VehiclePose& from, const std::string& map_frame_id, msg::VehiclePose& to);
 std::size_t to_msg(const PublishedMap& from, const std::string& map_frame_id, msg::LaneMap& to);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <type_traits>
 
 #include "dds/convert.hpp"
 #include "dds/convert_parts.hpp"
@@ -9,6 +10,17 @@ namespace {
 using dds::to_msg;  // beside the overload here
 
 constexpr const char* kBodyFrame = "body";
+
+constexpr std::size_t kMaxName = std::remove_cvref_t<decltype(msg::Detections().source())>::max_size;
+
+/// An empty list would mean every type; of a long one, all but one of each kind say nothing more.
+std::vector<MarkingType> fitting(std::vector<MarkingType> types) {
+  static_assert(kMarkingTypeCount <= msg::MAX_TYPES);
+  if (types.size() <= msg::MAX_TYPES) return types;
+  std::ranges::sort(types);
+  types.erase(std::ranges::unique(types).begin(), types.end());
+  return types;
+}
 
 bool fits(const Polyline& line) { return line.size() <= msg::MAX_POINTS; }
 
@@ -44,10 +56,10 @@ Detection from_msg(const msg::Detection& from, Intake& intake) {
 std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id*/, msg::Detections& to) {
   std::size_t left_out = 0;
   to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, kBodyFrame));
-  to.source(from.source.c_str());
+  to.source(from.source.c_str());  // is cut; readers may then take two sources for one
+  left_out += from.source.size() <= kMaxName ? 0U : 1U;
   to.detected_types(convert_all<msg::MarkingType>(
-      from.detected_types, [](MarkingType type) { return enum_to_msg<msg::MarkingType>(type); }));
-  if (to.detected_types().size() > msg::MAX_TYPES) to.detected_types().clear();
+      fitting(from.detected_types), [](MarkingType type) { return enum_to_msg<msg::MarkingType>(type); }));
   to.field_of_view(fits(from.field_of_view) ? to_msg(from.field_of_view) : std::vector<msg::Point>{});
   left_out += fits(from.field_of_view) ? 0U : 1U;
 
@@ -67,8 +79,10 @@ std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id
   return left_out;
 }
 
-Refusal from_msg(const msg::Detections& from, const std::string& /*map_frame_id*/, DetectionFrame& to) {
+Refusal from_msg(const msg::Detections& from, const std::string& map_frame_id, DetectionFrame& to) {
   Intake intake;
+  // The body frame may have any name, but coordinates of the map would be taken to be about the vehicle.
+  if (from.header().frame_id().to_string() == map_frame_id) intake.refuse("wrong_frame");
   to.stamp_ns = from.header().stamp_ns();
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();

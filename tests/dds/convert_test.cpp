@@ -149,6 +149,33 @@ TEST(Refuse, DeviationsThatMatchNoPoints) {
   EXPECT_EQ(from_msg(message, "map", frame), "");
 }
 
+TEST(Refuse, DetectionsInTheMapFrame) {
+  DetectionFrame frame;
+  auto message = RandomMessages(4).detections();
+  message.header().frame_id("map");
+  EXPECT_EQ(from_msg(message, "map", frame), "wrong_frame");
+  EXPECT_EQ(from_msg(message, "utm", frame), "");
+}
+
+TEST(Convert, ManyDetectedTypesStaySome) {
+  DetectionFrame frame;
+  frame.detected_types.assign(msg::MAX_TYPES + 1, MarkingType::roadedge);
+  frame.detected_types.push_back(MarkingType::laneline);
+  msg::Detections message;
+  EXPECT_EQ(to_msg(frame, "map", message), 0U);
+  const std::vector expected{msg::MarkingType::LANELINE, msg::MarkingType::ROADEDGE};
+  EXPECT_EQ(message.detected_types(), expected);
+}
+
+TEST(Convert, ASourceWhoseNameIsCutIsCounted) {
+  DetectionFrame frame;
+  msg::Detections message;
+  frame.source = std::string(64, 's');
+  EXPECT_EQ(to_msg(frame, "map", message), 0U);
+  frame.source += "1";
+  EXPECT_EQ(to_msg(frame, "map", message), 1U);
+}
+
 TEST(Refuse, PosesThatAreNone) {
   VehiclePose pose;
   const auto good = [] {

@@ -21,7 +21,7 @@ class Writer {
   /// and whatever refers to it. Never waits for a reader for longer than 50 ms.
   bool write(const T& message);
 
-  /// Elements that were left out so far.
+  /// Elements that were left out so far, and sources whose names were cut.
   std::uint64_t left_out() const;
   /// Readers that are matched now. May be called from any thread.
   int matched() const;
