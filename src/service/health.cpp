@@ -29,7 +29,7 @@ Verdict Health::assess(std::int64_t now_ns, const Arrivals& arrivals) const {
   add_if(!older(arrivals.other_service_ns, 2.5 * config_.status_period_s), StateReason::another_service);
 
   const bool stale = older(arrivals.fused_ns, config_.stale_after_s);
-  // Both inputs come, yet nothing is fused: no pose matches.
+  // Both inputs come, yet nothing is fused: no pose matches, or frames are refused for what they are.
   add_if(stale && verdict.reasons.empty(), StateReason::unsynchronised);
   verdict.state = stale ? MapState::stale : verdict.reasons.empty() ? MapState::ok : MapState::degraded;
   return verdict;

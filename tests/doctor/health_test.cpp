@@ -18,6 +18,18 @@ TEST(HealthFindings, TheStatesReasons) {
   EXPECT_EQ(found[0].found, "The service says STALE: no_poses.");
 }
 
+// A service says it as well when it refuses every frame for what is in it.
+TEST(HealthFindings, FramesThatAreNotFusedAreNotBlamedOnPosesAlone) {
+  Observed seen = healthy();
+  seen.services[0].last.state = MapState::stale;
+  seen.services[0].last.reasons = {StateReason::unsynchronised};
+  seen.services[0].last.counters = {{"detections_refused_stddev", 20}};
+  const Findings found = health_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("state_unsynchronised", "detections_refused_stddev"));
+  EXPECT_THAT(found[0].why, HasSubstr("or for another reason"));
+  EXPECT_THAT(found[0].remedy, HasSubstr("detections_refused_<reason>"));
+}
+
 TEST(HealthFindings, WhatTwoServicesSayAlikeIsToldOnce) {
   Observed seen = healthy();
   seen.services[0].last.reasons = {StateReason::another_service};

@@ -51,8 +51,10 @@ Explanation explain(StateReason reason) {
       return {"No poses arrived for longer than service.degraded_after_s.",
               "See that odometry runs, and what else is found of poses."};
     case StateReason::unsynchronised:
-      return {"Detections arrive, but no poses around their stamps.",
-              explain_refusal("unsynchronised").remedy};
+      return {
+          "Detections arrive that are not mapped, for want of poses around their stamps or for another "
+          "reason.",
+          "The counters detections_refused_<reason> say why (laneloom status)."};
     case StateReason::starting:
       return {"Nothing was mapped yet.", "See what keeps detections or poses from being mapped."};
     case StateReason::reset:
