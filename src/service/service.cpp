@@ -30,12 +30,6 @@ std::int64_t system_now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-std::string text(const Verdict& verdict) {
-  std::string result = name(verdict.state);
-  for (const auto reason : verdict.reasons) result += std::string(" ") + name(reason);
-  return result;
-}
-
 /// Of counters that should not rise in normal operation.
 bool is_incident(std::string_view counter) {
   return counter.find("_refused_") != std::string_view::npos ||
@@ -119,7 +113,7 @@ void Service::tick(const Tick& tick) {
   work_.add(milliseconds(now_ns_() - tick.start_ns));
   delay_.add(milliseconds(tick.start_ns - tick.deadline_ns));
   log_tick(tick);
-  if (changed) spdlog::info("state={} session={}", text(verdict_), session_id_);
+  if (changed) spdlog::info("state={} session={}", state_text(verdict_.state, verdict_.reasons), session_id_);
   if (changed || tick.start_ns >= next_status_ns_) publish_status(tick.start_ns);
 }
 
@@ -243,7 +237,8 @@ void Service::log_incidents(const Counters& counters) {
 }
 
 std::string Service::summary() const {
-  return text(verdict_) + ", " + std::to_string(session_.counters()["frames_fused"]) + " frames fused, " +
+  return state_text(verdict_.state, verdict_.reasons) + ", " +
+         std::to_string(session_.counters()["frames_fused"]) + " frames fused, " +
          std::to_string(session_.map().lanes.size()) + " lanes";
 }
 
