@@ -25,53 +25,65 @@ void serialize(Archive& archive, Isometry3d& transform) {
 
 namespace laneloom {
 
+// The structured bindings make a member that is forgotten here an error of the compiler.
+
 template <class Archive>
 void serialize(Archive& archive, Range& range) {
-  archive(range.from_m, range.to_m);
+  auto& [from_m, to_m] = range;
+  archive(from_m, to_m);
 }
 
 template <class Archive>
-void serialize(Archive& archive, StyleRange& style) {
-  archive(style.range, style.style);
+void serialize(Archive& archive, StyleRange& style_range) {
+  auto& [range, style] = style_range;
+  archive(range, style);
 }
 
 template <class Archive>
 void serialize(Archive& archive, LineageEvent& event) {
-  archive(event.kind, event.id, event.other);
+  auto& [kind, id, other] = event;
+  archive(kind, id, other);
 }
 
 template <class Archive>
-void serialize(Archive& archive, Marking& m) {
-  archive(m.id, m.type, m.status, m.points, m.styles, m.lateral_stddev_m, m.existence_probability,
-          m.observations, m.first_seen_ns);
+void serialize(Archive& archive, Marking& marking) {
+  auto& [id, type, status, points, styles, lateral_stddev_m, existence_probability, observations,
+         first_seen_ns] = marking;
+  archive(id, type, status, points, styles, lateral_stddev_m, existence_probability, observations,
+          first_seen_ns);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Lane& lane) {
-  archive(lane.id, lane.left_boundary, lane.right_boundary, lane.left_range, lane.right_range, lane.left,
-          lane.right, lane.centerline, lane.width_m, lane.left_neighbour, lane.right_neighbour,
-          lane.direction, lane.section, lane.status, lane.existence_probability, lane.inferred_ranges);
+  auto& [id, left_boundary, right_boundary, left_range, right_range, left_reversed, right_reversed, left,
+         right, centerline, width_m, left_neighbour, right_neighbour, direction, section, status,
+         existence_probability, inferred_ranges] = lane;
+  archive(id, left_boundary, right_boundary, left_range, right_range, left_reversed, right_reversed, left,
+          right, centerline, width_m, left_neighbour, right_neighbour, direction, section, status,
+          existence_probability, inferred_ranges);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Stopline& stopline) {
-  archive(stopline.marking, stopline.lanes, stopline.heading);
+  auto& [marking, lanes, heading] = stopline;
+  archive(marking, lanes, heading);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Linkage& linkage) {
-  archive(linkage.from, linkage.to, linkage.kind, linkage.turn, linkage.confidence, linkage.path);
+  auto& [from, to, kind, turn, confidence, path] = linkage;
+  archive(from, to, kind, turn, confidence, path);
 }
 
 template <class Archive>
 void serialize(Archive& archive, LocalMap& map) {
-  archive(map.stamp_ns, map.T_map_body, map.instances, map.boundaries, map.stoplines, map.lanes, map.linkages,
-          map.lineage);
+  auto& [stamp_ns, T_map_body, instances, boundaries, stoplines, lanes, linkages, lineage] = map;
+  archive(stamp_ns, T_map_body, instances, boundaries, stoplines, lanes, linkages, lineage);
 }
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x32'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 

@@ -31,6 +31,8 @@ class SnapshotFileTest : public ::testing::Test {
         {"1.0 abc", 100 * kSecond, 500 * kSecond}, {1, 2, 3, 4, {5, 6, 7}}, MapperState(VoxelMapConfig{})};
     result.state.next_id = 42;
     result.state.map.boundaries.push_back(Marking{.id = 7, .points = {{1, 2, 3}, {4, 5, 6}}});
+    result.state.map.lanes.push_back(Lane{.id = 8, .left_reversed = true});
+    result.state.map.lanes.push_back(Lane{.id = 9, .right_reversed = true});
     return result;
   }
   Snapshot read(const SnapshotStamp& now) const { return read_snapshot(file_, now, 5.0, VoxelMapConfig{}); }
@@ -58,6 +60,9 @@ TEST_F(SnapshotFileTest, ComesBackAsItWas) {
   write_snapshot(file_, snapshot());
   const auto back = read(soon_);
   EXPECT_EQ(to_bytes(back.state), to_bytes(snapshot().state));
+  ASSERT_EQ(back.state.map.lanes.size(), 2U);
+  EXPECT_TRUE(back.state.map.lanes[0].left_reversed);
+  EXPECT_TRUE(back.state.map.lanes[1].right_reversed);
   EXPECT_EQ(back.checkpoint.frame_stamp_ns, 1);
   EXPECT_EQ(back.checkpoint.frame_arrival_ns, 2);
   EXPECT_EQ(back.checkpoint.pose_stamp_ns, 3);
