@@ -18,7 +18,7 @@ std::vector<MarkingType> fitting(std::vector<MarkingType> types) {
   static_assert(kMarkingTypeCount <= msg::MAX_TYPES);
   if (types.size() <= msg::MAX_TYPES) return types;
   std::ranges::sort(types);
-  types.erase(std::ranges::unique(types).begin(), types.end());
+  types.erase(std::unique(types.begin(), types.end()), types.end());
   return types;
 }
 
