@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dds/message_of.hpp"
@@ -166,34 +167,42 @@ TEST_F(Cyclone, DrivesTheServiceAndReadsItsMap) {
   expect_equal("status", statuses.messages(), 2);
 }
 
-/// Ten messages with every field set, by a writer of ours; what is in them, by sequence number.
+/// Writes ten messages with every field set, by a writer of ours, and what is in them to `written`, by
+/// sequence number. The next one waits until `arrived` says that the last is there: the writer keeps no
+/// other.
 template <class T>
-Messages write_random(const DdsConfig& config) {
+void write_random(const DdsConfig& config,
+                  const std::function<testing::AssertionResult(const std::string&)>& arrived,
+                  Messages& written) {
   const dds::Participant participant(config, "random messages");
   dds::RawWriter<T> writer(participant);
   for (int i = 0; i < 3000 && writer.matched() == 0; ++i) usleep(10'000);
   usleep(500'000);  // until the reader knows the writer, too
-  Messages written;
   dds::RandomMessages random(1);
   for (int i = 0; i < 10; ++i) {
     dds::MessageOf<T> message;
     random.fill(message);
     std::vector<std::uint8_t> bytes;
     dds::serialise(message, bytes);
-    EXPECT_TRUE(writer.write(bytes));
-    written.insert(by_sequence(json_of(message)));
-    usleep(100'000);  // the writer keeps but the last
+    ASSERT_TRUE(writer.write(bytes));
+    const auto entry = by_sequence(json_of(message));
+    written.insert(entry);
+    ASSERT_TRUE(arrived(entry.first));
   }
-  return written;
 }
 
 TEST_F(Cyclone, ReadsEveryFieldOfEveryTopicOfTheService) {
-  const auto maps = write_random<PublishedMap>(config_);
-  const auto markings = write_random<RoadMarkings>(config_);
-  const auto statuses = write_random<ServiceStatus>(config_);
-  expect_equal("lane_map", maps, 9);
-  expect_equal("road_markings", markings, 9);
-  expect_equal("status", statuses, 9);
+  const auto compare = [this]<class T>(std::string_view topic, std::in_place_type_t<T>) {
+    const auto arrived = [&](const std::string& sequence) {
+      return wait_for(topic, 1, [&](const json& m) { return m["header"]["sequence_number"] == sequence; });
+    };
+    Messages written;
+    write_random<T>(config_, arrived, written);
+    expect_equal(topic, written, 10);
+  };
+  compare("lane_map", std::in_place_type<PublishedMap>);
+  compare("road_markings", std::in_place_type<RoadMarkings>);
+  compare("status", std::in_place_type<ServiceStatus>);
 }
 
 }  // namespace
