@@ -8,8 +8,8 @@
 
 namespace laneloom {
 
-/// What no causal fusion of the same detections can surpass: it is told which marking every detection is of,
-/// and what type that has, and gives the mean of all that was seen of it so far, metre by metre. It knows no
+/// A causal fusion without any error of association: it is told which marking every detection is of, and what
+/// type that has, and gives the plain mean of all that was seen of it so far, metre by metre. It knows no
 /// lanes. Not thread-safe.
 class Oracle {
  public:
