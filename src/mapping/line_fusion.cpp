@@ -62,52 +62,75 @@ bool is_seen_through(const SampleMatch& from, const SampleMatch& to) {
   return to.sample <= from.sample + 2 && is_led_through(from, to);
 }
 
-void fuse(const LineMatch& match, const SampledDetection& detection, const Point& origin,
-          const FusionConfig& config, Line& line, std::vector<bool>& observed) {
-  const std::vector<SampleMatch>& samples = match.samples;
-  const auto end_distance_m = [&](std::size_t sample) {
-    return static_cast<double>(std::min(sample, detection.samples.size() - 1 - sample)) * detection.spacing_m;
-  };
-  // First gathered, then applied: a station that has moved would turn its neighbours' normals.
-  std::vector<Observation> seen;
-  const auto observe_from_to = [&](const SampleMatch& a, const SampleMatch& b, double low, double high) {
-    const double run = b.foot.index - a.foot.index;
-    for (auto k = static_cast<std::size_t>(std::max(0.0, std::ceil(low)));
-         k < line.stations.size() && static_cast<double>(k) <= high; ++k) {
-      if (observed[k]) continue;
-      observed[k] = true;
-      const double share =
-          run != 0.0 ? std::clamp((static_cast<double>(k) - a.foot.index) / run, 0.0, 1.0) : 0.0;
-      const auto mix = [share](double from, double to) { return from + share * (to - from); };
-      const double range_m = distance(line.stations[k].position, origin);
-      seen.push_back({.station = k,
-                      .direction = direction_at(line, k),
-                      .lateral_m = mix(a.foot.lateral_m, b.foot.lateral_m),
-                      .height_m = mix(a.foot.height_m, b.foot.height_m),
-                      .stddev_m = mix(stddev_m(detection, a.sample, range_m, config),
-                                      stddev_m(detection, b.sample, range_m, config)),
-                      .end_distance_m = mix(end_distance_m(a.sample), end_distance_m(b.sample))});
-    }
-  };
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const SampleMatch &a = samples[i - 1], &b = samples[i];
-    if (!is_seen_through(a, b)) continue;
-    // Where it begins and ends, the nearest station is seen, too.
-    const double before = i > 1 && is_seen_through(samples[i - 2], a) ? 0.0 : 0.5;
-    const double after = i + 1 < samples.size() && is_seen_through(b, samples[i + 1]) ? 0.0 : 0.5;
-    if (a.foot.index <= b.foot.index) {
-      observe_from_to(a, b, a.foot.index - before, b.foot.index + after);
-    } else {
-      observe_from_to(a, b, b.foot.index - after, a.foot.index + before);
+/// What a detection says of a line. All of it is gathered before any is applied: a station that has moved
+/// would turn its neighbours' normals.
+class Observations {
+ public:
+  Observations(const SampledDetection& detection, const Line& line, const Point& origin,
+               const FusionConfig& config)
+      : detection_(detection), line_(line), origin_(origin), config_(config) {}
+
+  /// Leaves out what is `observed` already, and marks the rest.
+  void gather(const std::vector<SampleMatch>& samples, std::vector<bool>& observed) {
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      const SampleMatch &a = samples[i - 1], &b = samples[i];
+      if (!is_seen_through(a, b)) continue;
+      // Where it begins and ends, the nearest station is seen, too.
+      const double before = i > 1 && is_seen_through(samples[i - 2], a) ? 0.0 : 0.5;
+      const double after = i + 1 < samples.size() && is_seen_through(b, samples[i + 1]) ? 0.0 : 0.5;
+      const bool forwards = a.foot.index <= b.foot.index;
+      const double low = forwards ? a.foot.index - before : b.foot.index - after;
+      const double high = forwards ? b.foot.index + after : a.foot.index + before;
+      for (auto k = static_cast<std::size_t>(std::max(0.0, std::ceil(low)));
+           k < line_.stations.size() && static_cast<double>(k) <= high; ++k) {
+        if (observed[k]) continue;
+        observed[k] = true;
+        all_.push_back(between(a, b, k));
+      }
     }
   }
-  for (const Observation& observation : seen) {
+  const std::vector<Observation>& all() const { return all_; }
+
+ private:
+  double end_distance_m(std::size_t sample) const {
+    const std::size_t last = detection_.samples.size() - 1;
+    return static_cast<double>(std::min(sample, last - sample)) * detection_.spacing_m;
+  }
+
+  /// What two samples that follow one another say at a station.
+  Observation between(const SampleMatch& a, const SampleMatch& b, std::size_t station) const {
+    const double run = b.foot.index - a.foot.index;
+    const double share =
+        run != 0.0 ? std::clamp((static_cast<double>(station) - a.foot.index) / run, 0.0, 1.0) : 0.0;
+    const auto mix = [share](double from, double to) { return from + share * (to - from); };
+    const double range_m = distance(line_.stations[station].position, origin_);
+    return {.station = station,
+            .direction = direction_at(line_, station),
+            .lateral_m = mix(a.foot.lateral_m, b.foot.lateral_m),
+            .height_m = mix(a.foot.height_m, b.foot.height_m),
+            .stddev_m = mix(stddev_m(detection_, a.sample, range_m, config_),
+                            stddev_m(detection_, b.sample, range_m, config_)),
+            .end_distance_m = mix(end_distance_m(a.sample), end_distance_m(b.sample))};
+  }
+
+  const SampledDetection& detection_;
+  const Line& line_;
+  const Point& origin_;
+  const FusionConfig& config_;
+  std::vector<Observation> all_;
+};
+
+void fuse(const LineMatch& match, const SampledDetection& detection, const Point& origin,
+          const FusionConfig& config, Line& line, std::vector<bool>& observed) {
+  Observations seen(detection, line, origin, config);
+  seen.gather(match.samples, observed);
+  for (const Observation& observation : seen.all()) {
     Station& station = line.stations[observation.station];
     observe(station, observation, origin, config);
     station.log_odds = std::min(station.log_odds + hit(detection, config), config.max_log_odds);
     station.style_votes[index(detection.style)] += 1.0;
   }
-  line.type_votes[index(detection.type)] += static_cast<double>(samples.size());
+  line.type_votes[index(detection.type)] += static_cast<double>(match.samples.size());
   ++line.observations;
 }
 
@@ -188,6 +211,7 @@ void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, co
   // The matches know the stations by number: the front ends come last, and each end is extended once.
   for (const bool at_back : {true, false}) {
     std::vector<std::size_t> before;
+    before.reserve(lines.size());
     for (const Line& line : lines) before.push_back(line.stations.size());
     for (const LineMatch& match : matches) {
       Line& line = lines[match.line];
