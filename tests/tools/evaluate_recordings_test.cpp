@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "io/json_lines.hpp"
@@ -136,7 +137,7 @@ TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
   {
     RecordingWriter out(file("drive.mcap"), {.chunk_bytes = 1});
     VehiclePose defective = pose(stamp_ns(0));
-    defective.position.x() = NAN;
+    defective.position.x() = std::numeric_limits<double>::quiet_NaN();
     out.write(defective, stamp_ns(0));
     for (int i = 0; i < 10; ++i) {
       if (i < 5) out.write(pose(stamp_ns(i)), stamp_ns(i));
