@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/markings.hpp"
 
 namespace laneloom {
 namespace {
@@ -11,19 +12,12 @@ namespace {
 constexpr double kMaxStations = 3.0;  // between the feet of two samples that follow one another
 
 /// Per sample what was given per vertex.
-std::vector<double> interpolated(const std::vector<double>& values, const Polyline& points,
-                                 std::size_t samples) {
-  const std::vector<double> arc_m = arc_lengths(points);
+std::vector<double> deviations(const ObservedMarking& marking, const SampledDetection& detection) {
+  const std::vector<double> arc_m = arc_lengths(marking.points);
   std::vector<double> result;
-  result.reserve(samples);
-  std::size_t after = 1;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double at_m = arc_m.back() * static_cast<double>(i) / static_cast<double>(samples - 1);
-    while (after + 1 < arc_m.size() && arc_m[after] < at_m) ++after;
-    const double segment_m = arc_m[after] - arc_m[after - 1];
-    const double share = segment_m > 0.0 ? std::min(1.0, (at_m - arc_m[after - 1]) / segment_m) : 0.0;
-    result.push_back(values[after - 1] + share * (values[after] - values[after - 1]));
-  }
+  result.reserve(detection.samples.size());
+  for (std::size_t i = 0; i < detection.samples.size(); ++i)
+    result.push_back(deviation_at(arc_m, marking.stddev_m, static_cast<double>(i) * detection.spacing_m));
   return result;
 }
 
@@ -52,8 +46,7 @@ std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarkin
                                .style = marking.style,
                                .confidence = marking.confidence};
     detection.spacing_m = line.length() / static_cast<double>(detection.samples.size() - 1);
-    if (!marking.stddev_m.empty())
-      detection.stddev_m = interpolated(marking.stddev_m, marking.points, detection.samples.size());
+    if (!marking.stddev_m.empty()) detection.stddev_m = deviations(marking, detection);
     detection.explained.assign(detection.samples.size(), false);
     detections.push_back(std::move(detection));
   }

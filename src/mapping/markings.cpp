@@ -16,15 +16,6 @@ void append_style(std::vector<StyleRange>& styles, const StyleRange& next) {
   }
 }
 
-/// The deviation at an arc length, between those of the vertices around it.
-double deviation_at(const std::vector<double>& arc_m, const std::vector<double>& deviations_m, double at_m) {
-  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(arc_m, at_m) - arc_m.begin());
-  if (after == 0) return deviations_m.front();
-  if (after == arc_m.size()) return deviations_m.back();
-  const double share = (at_m - arc_m[after - 1]) / (arc_m[after] - arc_m[after - 1]);
-  return deviations_m[after - 1] + share * (deviations_m[after] - deviations_m[after - 1]);
-}
-
 /// The mean of both, by their lengths; not estimated where one of them is not.
 double joint_existence(const Marking& a, double a_m, const Marking& b, double b_m) {
   if (a.existence_probability < 0.0 || b.existence_probability < 0.0 || a_m + b_m <= 0.0) return -1.0;
@@ -32,6 +23,14 @@ double joint_existence(const Marking& a, double a_m, const Marking& b, double b_
 }
 
 }  // namespace
+
+double deviation_at(const std::vector<double>& arc_m, const std::vector<double>& deviations_m, double at_m) {
+  const auto after = static_cast<std::size_t>(std::ranges::upper_bound(arc_m, at_m) - arc_m.begin());
+  if (after == 0) return deviations_m.front();
+  if (after == arc_m.size()) return deviations_m.back();
+  const double share = (at_m - arc_m[after - 1]) / (arc_m[after] - arc_m[after - 1]);
+  return deviations_m[after - 1] + share * (deviations_m[after] - deviations_m[after - 1]);
+}
 
 Marking slice(const Marking& marking, const Range& stretch) {
   Marking part = marking;

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "laneloom/types.hpp"
 
 namespace laneloom {
+
+/// The deviation at an arc length, between those of the vertices around it, whose arc lengths are `arc_m`.
+double deviation_at(const std::vector<double>& arc_m, const std::vector<double>& deviations_m, double at_m);
 
 /// The stretch of a marking between two arc lengths, with its styles and deviations.
 Marking slice(const Marking& marking, const Range& stretch);

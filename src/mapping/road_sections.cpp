@@ -20,10 +20,11 @@ constexpr double kAlignedCosine =
 struct Samples {
   Polyline points;
   std::vector<Eigen::Vector2d> directions;
+  double length_m;
 };
 
 Samples sample(const MeasuredPolyline& line) {
-  Samples samples{line.resample(kSampleStep_m), {}};
+  Samples samples{line.resample(kSampleStep_m), {}, line.length()};
   samples.directions.reserve(samples.points.size());
   for (std::size_t i = 0; i < samples.points.size(); ++i) {
     const std::size_t k = std::min(i, samples.points.size() - 2);
@@ -34,7 +35,7 @@ Samples sample(const MeasuredPolyline& line) {
 
 /// How `b` lies beside `a`; empty where no point of `a` has its foot inside of `b`, near and in a similar
 /// direction.
-std::optional<SideBySide> side_by_side(const Samples& a, double a_length_m, const MeasuredPolyline& b,
+std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline& b,
                                        const SectionConfig& config) {
   const double min_cosine = cos_degrees(config.max_angle_deg);
   double lateral_sum_m = 0.0, cosine_sum = 0.0;
@@ -52,7 +53,7 @@ std::optional<SideBySide> side_by_side(const Samples& a, double a_length_m, cons
   const bool opposed = cosine_sum < 0.0;
   const double lateral_m = lateral_sum_m / count;  // of `a`, as `b` runs
   return SideBySide{.lateral_m = opposed ? lateral_m : -lateral_m,
-                    .length_m = a_length_m * count / static_cast<double>(a.points.size()),
+                    .length_m = a.length_m * count / static_cast<double>(a.points.size()),
                     .opposed = opposed};
 }
 
@@ -74,7 +75,7 @@ Graph side_by_side(const std::vector<MeasuredPolyline>& lines, const SectionConf
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       const bool i_is_longer = lines[i].length() >= lines[j].length();
       const std::size_t longer = i_is_longer ? i : j, shorter = i_is_longer ? j : i;
-      auto beside = side_by_side(samples[shorter], lines[shorter].length(), lines[longer], config);
+      auto beside = side_by_side(samples[shorter], lines[longer], config);
       if (!beside) continue;
       beside->other = longer;
       graph[shorter].push_back(*beside);
