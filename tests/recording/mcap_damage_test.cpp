@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <random>
+
+#include "allocations.hpp"
+#include "file_size_limit.hpp"
+#include "mcap_fixture.hpp"
+
+namespace laneloom {
+namespace {
+
+TEST_F(McapTest, WholeChunksOutliveAnyCut) {
+  auto messages = by_time(random_messages(300, 3));
+  for (const auto compression : kCompressions) {
+    const auto ends = write_in_chunks(messages, compression);
+    const Bytes whole = bytes_of(path_);
+    std::mt19937 engine(4);
+    for (int round = 0; round < 700; ++round) {
+      // Many cuts near the ends of chunks, where it is decided whether they count.
+      const std::uint64_t near = ends[engine() % ends.size()].size + engine() % 61;
+      const std::uint64_t cut =
+          round % 2 == 0 ? 8 + engine() % (whole.size() - 8) : std::min(near - 30, whole.size() - 1);
+      write_bytes(path_, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut)));
+      const auto read_back = read();
+      EXPECT_TRUE(cut_off_);
+      std::size_t safe = 0;
+      for (const auto& end : ends) safe = end.size <= cut ? end.messages : safe;
+      // A chunk is whole before its message indexes are.
+      EXPECT_GE(read_back.size(), safe) << cut;
+      EXPECT_LE(read_back.size(), safe + 7) << cut;
+      EXPECT_TRUE(std::equal(read_back.begin(), read_back.end(), messages.begin())) << cut;
+    }
+  }
+}
+
+TEST_F(McapTest, ZerosInPlaceOfTheEndAreACut) {
+  const auto messages = by_time(random_messages(70, 3));
+  const auto ends = write_in_chunks(messages, Compression::lz4);
+  Bytes bytes = bytes_of(path_);
+  std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(ends[5].size), bytes.end(), std::uint8_t{0});
+  write_bytes(path_, bytes);
+  EXPECT_EQ(read().size(), ends[5].messages);
+  EXPECT_TRUE(cut_off_);
+}
+
+TEST_F(McapTest, DamageIsNoticedOrHarmlessAndTakesNoMemory) {
+  const auto messages = random_messages(200, 5);
+  const RecordingLimits limits{.max_chunk_bytes = 1U << 20U, .max_open_bytes = 4U << 20U};
+  std::mt19937 engine(6);
+  int noticed = 0;
+  constexpr int kRounds = 1500;
+  for (const auto compression : kCompressions) {
+    write(messages, compression);
+    const Bytes whole = bytes_of(path_);
+    for (int round = 0; round < kRounds; ++round) {
+      Bytes damaged = whole;
+      for (unsigned i = 0; i <= engine() % 3; ++i)
+        damaged[engine() % damaged.size()] ^= static_cast<std::uint8_t>(1U << engine() % 8);
+      if (round % 3 == 0) {  // lengths are eight bytes with mostly zeros
+        const std::size_t at = engine() % (damaged.size() - 8);
+        std::memset(&damaged[at], static_cast<int>(engine() % 256), 8);
+      }
+      write_bytes(path_, damaged);
+      std::string error;
+      watch_allocations();
+      const auto read_back = read(&error, limits);
+      EXPECT_LT(peak_bytes(), 8U << 20U);
+      const bool seen = !error.empty() || cut_off_;
+      EXPECT_TRUE(seen || read_back == by_time(messages));
+      noticed += seen ? 1 : 0;
+    }
+  }
+  // The rest hit indexes, which are not used, or the name of the writer.
+  // none.
+  EXPECT_GT(noticed, kRounds);
+}
+
+TEST_F(McapTest, ADamagedMessageIsNoticedByItsChunksCrc) {
+  const auto messages = by_time(random_messages(70, 5));
+  const auto ends = write_in_chunks(messages, Compression::none);
+  Bytes bytes = bytes_of(path_);
+  // In the third chunk, which the CRC of its content guards.
+  bytes[ends[2].size + 200] ^= 1U;
+  write_bytes(path_, bytes);
+  std::string error;
+  EXPECT_EQ(read(&error).size(), ends[2].messages);
+  EXPECT_NE(error.find("at byte " + std::to_string(ends[2].size + kMcapRecordHeaderBytes)), std::string::npos)
+      << error;
+  EXPECT_NE(error.find("CRC"), std::string::npos) << error;
+
+  const auto [count, failures] = read_past_damage();
+  EXPECT_EQ(failures, 2U);                // the chunk, and at the end that messages are missing
+  EXPECT_EQ(count, messages.size() - 7);  // what is behind the damage comes
+}
+
+// Then all chunks are read at once, for the channels that they describe.
+TEST_F(McapTest, ADamagedChunkLeavesTheOthersReadableWithoutASummaryAndOrder) {
+  const auto messages = random_messages(70, 5);
+  const auto ends = write_in_chunks(messages, Compression::none);
+  Bytes bytes = bytes_of(path_);
+  bytes[ends[2].size + 200] ^= 1U;
+  bytes.resize(ends.back().size);
+  write_bytes(path_, bytes);
+  const auto [count, failures] = read_past_damage();
+  EXPECT_EQ(failures, 1U);
+  EXPECT_EQ(count, messages.size() - 7);
+}
+
+TEST_F(McapTest, AFullDiskKeepsWhatIsWritten) {
+  const auto messages = by_time(random_messages(300, 5));
+  std::size_t written = 0;
+  {
+    const FileSizeLimit limit(20'000);
+    McapWriter writer(path_, Compression::none, 2000);
+    const auto a = writer.add_channel(channel_of("a"));
+    writer.add_channel(channel_of("b"));
+    std::string error;
+    for (const auto& m : messages) {
+      try {
+        writer.write(a, m.log_time_ns, m.publish_time_ns, m.sequence, m.data);
+        ++written;
+      } catch (const std::runtime_error& caught) {
+        error = caught.what();
+        break;
+      }
+    }
+    EXPECT_EQ(error, path_ + ": File too large");
+    EXPECT_THROW(writer.close(), std::runtime_error);
+  }
+  const auto read_back = read();
+  EXPECT_TRUE(cut_off_);
+  EXPECT_LT(written, messages.size());
+  EXPECT_GT(read_back.size() + 40, written);  // all but what waited for its chunk
+  for (std::size_t i = 0; i < read_back.size(); ++i) EXPECT_EQ(read_back[i].data, messages[i].data);
+}
+
+TEST_F(McapTest, ARecordingCanBeFinishedWhenThereIsRoomAgain) {
+  const auto messages = by_time(random_messages(100, 5));
+  McapWriter writer(path_, Compression::none, 2000);
+  const auto a = writer.add_channel(channel_of("a"));
+  {
+    const FileSizeLimit limit(10'000);
+    int failures = 0;
+    for (const auto& m : messages) {
+      try {
+        writer.write(a, m.log_time_ns, m.publish_time_ns, m.sequence, m.data);
+      } catch (const std::runtime_error&) {
+        ++failures;
+      }
+    }
+    EXPECT_GT(failures, 0);
+  }
+  writer.close();
+  EXPECT_EQ(read().size(), messages.size());
+  EXPECT_FALSE(cut_off_);
+}
+
+}  // namespace
+}  // namespace laneloom
