@@ -35,10 +35,19 @@ TEST(TruthLines, KeepLanesApartWhereTheySplitAndMerge) {
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(2u, 2u, 2u, 2u));
 }
 
-TEST(TruthLines, LeaveOutLanesWithoutMarkingsAndCutThere) {
+TEST(TruthLines, HoldLanesWithAMarkingOnOneSide) {
   Road truth;
   truth.lanes = {lane(1, 0, {2}), lane(2, 10, {3}, kNoElement), lane(3, 20, {})};
-  EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(2u, 2u));
+  EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(6u));
+}
+
+TEST(TruthLines, LeaveOutLanesThatNobodySeesAndCutThere) {
+  Road truth;
+  truth.lanes = {lane(1, 0, {2}), lane(2, 10, {3}, kNoElement), lane(3, 20, {4}), lane(4, 30, {5}),
+                 lane(5, 40, {})};
+  truth.lanes[1].left_marking = kNoElement;
+  truth.lanes[3].in_intersection = true;
+  EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(2u, 2u, 2u));
 }
 
 TEST(TruthLines, TakeARingOnce) {
@@ -77,8 +86,62 @@ TEST(MapLines, AreBoundariesStoplinesAndLanes) {
   map.instances.resize(5);
   std::vector<LineKind> kinds;
   for (const KindLine& line : kind_lines(map)) kinds.push_back(line.kind);
-  EXPECT_THAT(kinds, testing::ElementsAre(LineKind::laneline, LineKind::roadedge, LineKind::stopline,
+  EXPECT_THAT(kinds, testing::ElementsAre(LineKind::stopline, LineKind::laneline, LineKind::roadedge,
                                           LineKind::lane));
+}
+
+TEST(MapLines, LeaveOutBoundariesThatAreInferred) {
+  LocalMap map;
+  map.boundaries.resize(1);
+  EXPECT_EQ(kind_lines(map).size(), 1u);
+  map.boundaries[0].status = ElementStatus::inferred;
+  EXPECT_TRUE(kind_lines(map).empty());
+}
+
+Lane published(ElementId id, double from_x) {
+  Lane lane;
+  lane.id = id;
+  lane.centerline = {{from_x, 0, 0}, {from_x + 10, 0, 0}};
+  return lane;
+}
+
+Linkage link(ElementId from, ElementId to, Linkage::Kind kind = Linkage::Kind::shared_boundary) {
+  Linkage linkage;
+  linkage.from = from;
+  linkage.to = to;
+  linkage.kind = kind;
+  return linkage;
+}
+
+TEST(MapLines, NameAChainAfterItsLongestLane) {
+  LocalMap map;
+  map.lanes = {published(1, 0), published(2, 10), published(3, 30)};
+  map.lanes[1].centerline.back().x() = 30;
+  map.lanes[0].existence_probability = 0.9;
+  map.lanes[1].existence_probability = 0.6;
+  map.linkages = {link(1, 2), link(2, 3)};
+  const std::vector<KindLine> lines = kind_lines(map);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].id, 2u);
+  EXPECT_DOUBLE_EQ(lines[0].confidence, 0.7) << "of the 30 m that tell theirs";
+}
+
+TEST(MapLines, JoinLanesThatOnlyContinue) {
+  LocalMap map;
+  map.lanes = {published(1, 0), published(2, 15), published(3, 25), published(4, 25)};
+  map.linkages = {link(1, 2, Linkage::Kind::geometric_alignment)};
+  map.linkages[0].path = {{10, 0, 0}, {12, 0, 0}, {15, 0, 0}};
+  const auto lanes = [&] {
+    std::vector<std::pair<ElementId, std::size_t>> points;
+    for (const KindLine& line : kind_lines(map)) points.emplace_back(line.id, line.points.size());
+    return points;
+  };
+  using testing::Pair;
+  EXPECT_THAT(lanes(), testing::ElementsAre(Pair(1u, 7u), Pair(3u, 2u), Pair(4u, 2u)));
+  map.linkages[0].kind = Linkage::Kind::intersection;
+  EXPECT_EQ(lanes().size(), 4u) << "across an intersection they are two";
+  map.linkages = {link(2, 3), link(2, 4)};
+  EXPECT_EQ(lanes().size(), 4u) << "where they split, too";
 }
 
 }  // namespace

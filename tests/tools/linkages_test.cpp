@@ -53,6 +53,7 @@ LocalMap perfect() {
     if (truth.left_marking != kNoElement) map.lanes.push_back(lane(10 + truth.id, truth.centerline));
   map.linkages = {link(11, 12), link(11, 13), link(12, 14)};
   map.linkages[2].path = {{15, 0, 0}, {20, 0, 0}};
+  map.linkages[2].kind = Linkage::Kind::intersection;
   Stopline stopline;
   stopline.marking.type = MarkingType::stopline;
   stopline.marking.points = fork().markings[0].points;
@@ -174,7 +175,7 @@ TEST(TopLl, JoinsLanesThatOnlyContinue) {
   map.lanes[0].centerline = {{-5, 0, 0}, {0, 0, 0}};
   map.lanes.push_back(lane(20, {{0, 0, 0}, {5, 0, 0}}));
   map.linkages = {link(11, 20), link(20, 12), link(20, 13), link(12, 14)};
-  map.linkages[3].path = {{15, 0, 0}, {20, 0, 0}};
+  map.linkages[3].kind = Linkage::Kind::intersection;
   EXPECT_DOUBLE_EQ(top_ll(map), 1.0);
 }
 
@@ -193,7 +194,7 @@ TEST(TopLl, LanesOfUnknownDirectionMayTurn) {
 TEST(TopLl, AMissingEdgeCostsBothItsLanes) {
   LocalMap map = perfect();
   map.linkages = {link(11, 12), link(12, 14)};
-  for (Linkage& linkage : map.linkages) linkage.path = {{0, 0, 0}, {1, 0, 0}};
+  for (Linkage& linkage : map.linkages) linkage.kind = Linkage::Kind::intersection;
   // Out of 1: one of two, 1/2. Into 3: none of one, 0. The six others are 1.
   EXPECT_DOUBLE_EQ(top_ll(map), 6.5 / 8.0);
 }
@@ -213,7 +214,7 @@ TEST(TopLl, AMissingLaneTakesItsNeighboursAlong) {
   LocalMap map = perfect();
   std::erase_if(map.lanes, [](const Lane& l) { return l.id == 13; });
   map.linkages = {link(11, 12), link(12, 14)};
-  for (Linkage& linkage : map.linkages) linkage.path = {{0, 0, 0}, {1, 0, 0}};
+  for (Linkage& linkage : map.linkages) linkage.kind = Linkage::Kind::intersection;
   // Lane 3's edges are told the wrong way round. Out of: 1 one of two, 1/2; 2 right, then wrong, 1;
   // 3 none exist and three are told, 0; 4 likewise, 0. Into: 1, likewise, 0; 2 and 4 right, then wrong, 1;
   // 3 one exists, others are told, 0. In 3's own row, 3 itself is told, too.

@@ -28,13 +28,7 @@ std::vector<LinePiece> pieces(const std::vector<KindLine>& lines, LineKind kind,
   std::vector<LinePiece> pieces;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].kind != kind) continue;
-    Polyline body(lines[i].points.size());
-    std::transform(lines[i].points.begin(), lines[i].points.end(), body.begin(),
-                   [&](const Point& point) { return T_body_map * point; });
-    for (Polyline& piece : clip(body, range)) {
-      Polyline samples = MeasuredPolyline(piece).resample(kSampleStep_m);
-      pieces.push_back({i, std::move(piece), std::move(samples)});
-    }
+    std::ranges::move(pieces_in_range(lines[i].points, i, T_body_map, range), std::back_inserter(pieces));
   }
   return pieces;
 }
@@ -90,6 +84,18 @@ std::vector<TruePositive> match(const std::vector<LinePiece>& truths,
 double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
 }  // namespace
+
+std::vector<LinePiece> pieces_in_range(const Polyline& points, std::size_t line,
+                                       const Eigen::Isometry3d& T_body_map, const RangeConfig& range) {
+  Polyline body(points.size());
+  std::ranges::transform(points, body.begin(), [&](const Point& point) { return T_body_map * point; });
+  std::vector<LinePiece> pieces;
+  for (Polyline& piece : clip(body, range)) {
+    Polyline samples = MeasuredPolyline(piece).resample(kSampleStep_m);
+    pieces.push_back({line, std::move(piece), std::move(samples)});
+  }
+  return pieces;
+}
 
 const char* name(LineKind kind) {
   switch (kind) {

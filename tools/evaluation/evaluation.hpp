@@ -51,6 +51,10 @@ struct LinePiece {
   Polyline samples;      ///< the same every 0.1 m
 };
 
+/// What is left of `points`, in the map frame, within the range; none shorter than what counts.
+std::vector<LinePiece> pieces_in_range(const Polyline& points, std::size_t line,
+                                       const Eigen::Isometry3d& T_body_map, const RangeConfig& range);
+
 /// A prediction and the truth that it matches.
 struct TruePositive {
   std::size_t truth = 0;       ///< index of its piece

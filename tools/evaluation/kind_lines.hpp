@@ -8,18 +8,11 @@
 /// What is compared: truth, single detections and fused maps as lines of a kind, in the map frame.
 namespace laneloom {
 
-/// Lanes of the truth, each of which only continues the one before.
-using LaneChain = std::vector<const RoadLane*>;
-
-/// The lanes that markings bound on both sides (nobody could see others). Those that only continue one
-/// another are one chain, since a map need not cut them where the truth does. Points into `truth`.
-std::vector<LaneChain> lane_chains(const Road& truth);
-Polyline centerline(const LaneChain& chain);
-
-/// The centerlines of the lane chains, then the markings, both in their order.
+/// The centerlines of the lane_chains(), then the markings, both in their order.
 std::vector<KindLine> kind_lines(const Road& truth);
 
-/// The boundaries, stoplines and lanes.
+/// The stoplines, the boundaries but those that are inferred (nothing is painted there), and the
+/// lane_chains().
 std::vector<KindLine> kind_lines(const LocalMap& map);
 
 /// The detections with at least `min_confidence`; they know no lanes.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <tuple>
 
-#include "evaluation/kind_lines.hpp"
+#include "evaluation/lane_chains.hpp"
 #include "evaluation/sample_grid.hpp"
 #include "laneloom/polyline.hpp"
 
@@ -112,16 +112,19 @@ class LaneFinder {
 };
 
 /// The published lanes in range, each with its longest piece there.
-using LanePieces = std::map<const Lane*, const LinePiece*>;
+using LanePieces = std::vector<std::pair<const Lane*, LinePiece>>;
 
-LanePieces lane_pieces(const FrameComparison& frame, const LocalMap& map) {
-  const std::size_t first = map.boundaries.size() + map.stoplines.size();  // as kind_lines() has them
-  LanePieces pieces;
-  for (const LinePiece& piece : frame.of(LineKind::lane).predictions) {
-    const LinePiece*& longest = pieces[&map.lanes[piece.line - first]];
-    if (longest == nullptr || longest->samples.size() < piece.samples.size()) longest = &piece;
+LanePieces lane_pieces(const LocalMap& map, const RangeConfig& range) {
+  const Eigen::Isometry3d T_body_map = map.T_map_body.inverse();
+  LanePieces lanes;
+  for (std::size_t i = 0; i < map.lanes.size(); ++i) {
+    std::vector<LinePiece> pieces = pieces_in_range(map.lanes[i].centerline, i, T_body_map, range);
+    if (pieces.empty()) continue;
+    const auto longest =
+        std::ranges::max_element(pieces, {}, [](const LinePiece& piece) { return piece.samples.size(); });
+    lanes.emplace_back(&map.lanes[i], std::move(*longest));
   }
-  return pieces;
+  return lanes;
 }
 
 /// Where a published lane in range lies: as a whole, and its first and last few metres, which may be on other
@@ -140,21 +143,21 @@ LinePiece stretch(const LinePiece& piece, std::size_t from, std::size_t to) {
 Places places(const LanePieces& pieces, const LaneFinder& finder) {
   Places places;
   for (const auto& [lane, piece] : pieces) {
-    const std::size_t count = piece->samples.size(), end = std::min(count, kEndSamples);
-    places[lane->id] = {finder.place(*piece, lane->direction),
-                        finder.place(stretch(*piece, 0, end), lane->direction),
-                        finder.place(stretch(*piece, count - end, count), lane->direction)};
+    const std::size_t count = piece.samples.size(), end = std::min(count, kEndSamples);
+    places[lane->id] = {finder.place(piece, lane->direction),
+                        finder.place(stretch(piece, 0, end), lane->direction),
+                        finder.place(stretch(piece, count - end, count), lane->direction)};
   }
   return places;
 }
 
 void add_directions(const LanePieces& pieces, const LaneFinder& finder, PairScore& score) {
   for (const auto& [lane, piece] : pieces) {
-    if (!finder.place(*piece, Lane::Direction::unknown)) continue;
+    if (!finder.place(piece, Lane::Direction::unknown)) continue;
     ++score.truths;
     if (lane->direction == Lane::Direction::unknown) continue;
     ++score.published;
-    if (!finder.place(*piece, lane->direction)) continue;
+    if (!finder.place(piece, lane->direction)) continue;
     ++score.right;
     ++score.found;
   }
@@ -203,11 +206,11 @@ void add_stoplines(const TruthTopology& truth, const FrameComparison& frame, con
   for (const TruePositive& match : stoplines.matches) {
     const std::set<std::size_t>& expected = truth.lanes_of_stopline.at(stoplines.truths[match.truth].line);
     const std::size_t line = stoplines.predictions[match.prediction].line;
-    if (line < map.boundaries.size()) continue;  // a boundary of this type ends no lanes
+    if (line >= map.stoplines.size()) continue;  // a boundary of this type ends no lanes
     std::set<std::size_t> seen, named;
     for (const auto& [id, place] : places)
       if (place.whole && expected.contains(place.whole->truth)) seen.insert(place.whole->truth);
-    for (const ElementId id : map.stoplines[line - map.boundaries.size()].lanes) {
+    for (const ElementId id : map.stoplines[line].lanes) {
       const auto place = places.find(id);
       if (place == places.end()) continue;
       ++score.published;
@@ -263,9 +266,9 @@ TruthTopology truth_topology(const Road& truth) {
 }
 
 void add_topology(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
-                  TopologyScore& score) {
+                  const RangeConfig& range, TopologyScore& score) {
   const LaneFinder finder(frame.of(LineKind::lane).truths);
-  const LanePieces pieces = lane_pieces(frame, map);
+  const LanePieces pieces = lane_pieces(map, range);
   const Places found = places(pieces, finder);
   add_directions(pieces, finder, score.directions);
   add_linkages(truth, found, map, score);

@@ -11,8 +11,8 @@
 
 /// Whether lanes lead where they should: the project's definitions.
 ///
-/// A truth lane is a chain of lanes that only continue one another (kind_lines.hpp). Its successors are those
-/// that follow it, at once or across lanes that no markings bound (an intersection).
+/// A truth lane is a chain of lanes that only continue one another (lane_chains.hpp). Its successors are
+/// those that follow it, at once or across others (an intersection, or lanes that no markings bound).
 /// - A published lane lies on the truth lane that most of its samples are less than 0.5 m from, if these are
 ///   at least 75 % of its samples in range; of equals, the nearer one. Where it states its direction, it must
 ///   run with the traffic; otherwise both senses will do.
@@ -62,6 +62,6 @@ bool may_run(Lane::Direction direction, bool reversed);
 
 /// Adds the frame of `map`, whose kind_lines() were compared with those of the truth.
 void add_topology(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
-                  TopologyScore& score);
+                  const RangeConfig& range, TopologyScore& score);
 
 }  // namespace laneloom

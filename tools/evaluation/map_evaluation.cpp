@@ -35,7 +35,7 @@ FrameComparison MapEvaluation::add_lines(std::int64_t stamp_ns, const Eigen::Iso
 
 void MapEvaluation::add(const LocalMap& map) {
   const FrameComparison frame = add_lines(map.stamp_ns, map.T_map_body, kind_lines(map));
-  add_topology(truth_topology_, frame, map, topology_);
+  add_topology(truth_topology_, frame, map, range_, topology_);
   add_top_ll(truth_topology_, frame, map, range_, top_ll_);
 }
 

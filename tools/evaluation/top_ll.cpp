@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
+#include "evaluation/lane_chains.hpp"
 #include "laneloom/polyline.hpp"
 
 namespace laneloom {
@@ -43,33 +43,18 @@ std::map<std::size_t, Polyline> truth_vertices(const KindComparison& lanes) {
   return vertices;
 }
 
-/// The published lanes, joined where they meet and only continue one another.
+/// The published lanes, as chains.
 class PublishedGraph {
  public:
   using Edges = std::map<std::pair<std::size_t, std::size_t>, double>;  ///< with confidence
 
   PublishedGraph(const LocalMap& map, const RangeConfig& range) {
-    std::map<ElementId, const Lane*> lanes;
-    for (const Lane& lane : map.lanes) lanes.emplace(lane.id, &lane);
-    const std::map<ElementId, ElementId> next = continuations(map);
-    std::set<ElementId> continuing;
-    for (const auto& [from, to] : next) continuing.insert(to);
-    std::map<ElementId, std::size_t> vertex_of;
     const Eigen::Isometry3d T_body_map = map.T_map_body.inverse();
-    const auto add_from = [&](ElementId first) {
-      Polyline points;
-      const Lane& lane = *lanes.at(first);
-      for (ElementId id = first; lanes.contains(id) && vertex_of.emplace(id, vertices_.size()).second;) {
-        for (const Point& point : lanes.at(id)->centerline) points.push_back(T_body_map * point);
-        const auto after = next.find(id);
-        id = after == next.end() ? kNoElement : after->second;
-      }
-      add_vertex(points, lane, range);
-    };
-    for (const auto& [id, lane] : lanes)
-      if (!continuing.contains(id)) add_from(id);
-    for (const auto& [id, lane] : lanes)  // rings
-      if (!vertex_of.contains(id)) add_from(id);
+    std::map<ElementId, std::size_t> vertex_of;
+    for (const PublishedChain& chain : lane_chains(map)) {
+      for (const Lane* lane : chain.lanes) vertex_of.emplace(lane->id, vertices_.size());
+      add_vertex(chain, T_body_map, range);
+    }
     for (const Linkage& linkage : map.linkages) {
       const auto from = vertex_of.find(linkage.from), to = vertex_of.find(linkage.to);
       if (from == vertex_of.end() || to == vertex_of.end() || from->second == to->second) continue;
@@ -86,28 +71,14 @@ class PublishedGraph {
   }
 
  private:
-  static std::map<ElementId, ElementId> continuations(const LocalMap& map) {
-    std::map<ElementId, std::size_t> leaving, entering;
-    for (const Linkage& linkage : map.linkages) {
-      ++leaving[linkage.from];
-      ++entering[linkage.to];
-    }
-    std::map<ElementId, ElementId> next;
-    for (const Linkage& linkage : map.linkages)
-      if (linkage.path.empty() && linkage.kind == Linkage::Kind::shared_boundary &&
-          leaving[linkage.from] == 1 && entering[linkage.to] == 1)
-        next.emplace(linkage.from, linkage.to);
-    return next;
-  }
-
-  void add_vertex(const Polyline& points, const Lane& lane, const RangeConfig& range) {
-    Vertex vertex;
-    if (lane.existence_probability >= 0.0) vertex.confidence = lane.existence_probability;
-    vertex.direction = lane.direction;
-    Polyline longest;
-    for (Polyline& piece : clip(points, range))
-      if (longest.empty() || length(piece) > length(longest)) longest = std::move(piece);
-    if (!longest.empty()) vertex.points = resampled(longest);
+  void add_vertex(const PublishedChain& chain, const Eigen::Isometry3d& T_body_map,
+                  const RangeConfig& range) {
+    Vertex vertex{.direction = chain.lanes.front()->direction};
+    if (chain.existence_probability >= 0.0) vertex.confidence = chain.existence_probability;
+    const std::vector<LinePiece> pieces = pieces_in_range(chain.centerline, 0, T_body_map, range);
+    const auto longest =
+        std::ranges::max_element(pieces, {}, [](const LinePiece& piece) { return piece.samples.size(); });
+    if (longest != pieces.end()) vertex.points = resampled(longest->points);
     vertices_.push_back(std::move(vertex));
   }
 
