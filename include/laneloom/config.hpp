@@ -128,13 +128,13 @@ struct FusionConfig {
   double gate_angle_deg = 25.0;
   double min_overlap_m = 2.0;
   // How well an observation tells the lateral position.
-  double stddev_m = 0.08;                  ///< at the vehicle
-  double stddev_per_m = 0.012;             ///< more, per metre from it
+  double stddev_m = 0.15;                  ///< at the vehicle
+  double stddev_per_m = 0.008;             ///< more, per metre from it
   double end_reach_m = 4.0;                ///< near its ends a detection swings: it counts less there
   double fade_m = 5.0;                     ///< over which an extension is faded to the line
   double max_information_per_m2 = 4000.0;  ///< of a station: keeps it able to move
   // What averaging does not remove: how far a line is seen beside its place for as long as it is seen.
-  double bias_stddev_m = 0.1;
+  double bias_stddev_m = 0.115;
   double bias_stddev_per_m = 0.004;  ///< more, per metre of the closest view of it
   // Evidence that a line exists at a station, as log odds.
   double birth_log_odds = -4.0;
@@ -146,10 +146,10 @@ struct FusionConfig {
   double min_log_odds = -4.0;  ///< below, a station is taken away
   double publish_log_odds = 0.0;
   double confirm_log_odds = 2.0;
-  double existence_at_publish = 0.55;  ///< probability that a line exists whose evidence is publish_log_odds
-  double existence_at_max = 0.97;      ///< and one whose evidence is max_log_odds
+  double existence_at_publish = 0.45;  ///< probability that a line exists whose evidence is publish_log_odds
+  double existence_at_max = 0.99;      ///< and one whose evidence is max_log_odds
   double min_birth_length_m = 2.0;
-  double min_length_m = 1.0;      ///< of what is published
+  double min_length_m = 2.0;      ///< of what is published
   double merge_distance_m = 0.9;  ///< lines closer than this that are not seen together are one
 };
 

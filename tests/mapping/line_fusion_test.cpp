@@ -72,7 +72,7 @@ TEST_F(LineFusion, NearObservationsCountMore) {
   see({straight({0, 0.4, 0}, {25, 0.4, 0})});
   const auto& stations = lines_[0].stations;
   EXPECT_GT(stations[10].position.y(), 0.04);
-  EXPECT_GT(stations[5].information_per_m2, 3.0 * stations[20].information_per_m2);
+  EXPECT_GT(stations[5].information_per_m2, 2.0 * stations[20].information_per_m2);
 }
 
 TEST_F(LineFusion, DeviationsThatAreGivenCount) {
