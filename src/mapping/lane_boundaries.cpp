@@ -14,8 +14,10 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMinGap_m = 1.0;  // a shorter one is no more than the distance between vertices
-constexpr double kChange_m = 0.5;  // over which the one changes to the other where they overlap
+constexpr double kMinGap_m = 1.0;      // a shorter one is no more than the distance between vertices
+constexpr double kMeeting_m = 1.5;     // ends that are nearer meet,
+constexpr double kMaxBend_deg = 40.0;  // and there a line may bend as it does round a corner of 8 m
+constexpr double kChange_m = 0.5;      // over which the one changes to the other where they overlap
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 /// One end of a marking.
@@ -39,7 +41,8 @@ bool can_join(const Marking& a, bool a_back, const Marking& b, bool b_back, cons
   if (gap.norm() > config.max_gap_m || !same_level(end_point(a, a_back), end_point(b, b_back))) return false;
   const Eigen::Vector2d leaving = end_direction(a.points, a_back);
   const Eigen::Vector2d entering = -end_direction(b.points, b_back);
-  if (leaving.dot(entering) < cos_degrees(config.max_angle_deg)) return false;
+  const double max_angle_deg = gap.norm() < kMeeting_m ? kMaxBend_deg : config.max_angle_deg;
+  if (leaving.dot(entering) < cos_degrees(max_angle_deg)) return false;
   return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
 }
 

@@ -43,6 +43,21 @@ TEST(LaneBoundaries, LeavesApartWhatIsNotOneLine) {
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {20, 0, 0}))), 1U);
 }
 
+TEST(LaneBoundaries, FollowACornerWhereTheEndsMeet) {
+  const Point centre(10, 8, 0);
+  const auto pieces = [&](double gap_deg) {
+    return lane_boundaries({marking(1, test::arc(centre, 8, -90, -45)),
+                            marking(2, test::arc(centre, 8, -45 + gap_deg, 0))},
+                           {}, {})
+        .size();
+  };
+  EXPECT_EQ(pieces(4), 1U);
+  EXPECT_EQ(pieces(20), 2U) << "too much of it is not seen";
+  const Marking line = marking(1, straight({0, 0, 0}, {10, 0, 0}));
+  EXPECT_EQ(lane_boundaries({line, marking(2, straight({10, 0, 0}, {15, 5, 0}))}, {}, {}).size(), 2U)
+      << "a branch";
+}
+
 TEST(LaneBoundaries, WhatIsKnownToBeSeparateStaysApart) {
   const std::vector<Marking> pieces{marking(4, straight({12, 0, 0}, {20, 0, 0})),
                                     marking(7, straight({0, 0, 0}, {10, 0, 0}))};
