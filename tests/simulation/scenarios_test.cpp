@@ -42,8 +42,8 @@ TEST_P(EveryScenario, LanesHaveTheirWidthAndSides) {
       EXPECT_GT((lane.left[i] - lane.right.at(i)).norm(), 2.5 - 1e-6) << "lane " << lane.id;
       EXPECT_LT((lane.left[i] - lane.right.at(i)).norm(), 3.5 + 1e-6) << "lane " << lane.id;
     }
-    EXPECT_EQ(lane.in_intersection, lane.left_marking == kNoElement) << "lane " << lane.id;
-    EXPECT_EQ(lane.in_intersection, lane.right_marking == kNoElement) << "lane " << lane.id;
+    const bool unseen = lane.left_marking == kNoElement && lane.right_marking == kNoElement;
+    EXPECT_EQ(lane.in_intersection, unseen) << "lane " << lane.id;
   }
   expect_borders_on_markings(road, 1e-6);
 }
@@ -101,6 +101,15 @@ TEST(Curve, BendsBy90DegreesOn12Metres) {
   }
   EXPECT_GE(on_bend, 10u);
   EXPECT_NEAR(centre->points.back().x(), 92.0, 1e-9);
+}
+
+TEST(Street, HasNoLineBetweenItsDirectionsFurtherOn) {
+  const Road road = make_scenario("street");
+  EXPECT_EQ(lane_at(road, {30.0, -1.75, 0.0}).left_marking, lane_at(road, {30.0, 1.75, 0.0}).left_marking);
+  EXPECT_NE(lane_at(road, {30.0, -1.75, 0.0}).left_marking, kNoElement);
+  EXPECT_EQ(lane_at(road, {90.0, -1.75, 0.0}).left_marking, kNoElement);
+  EXPECT_NE(lane_at(road, {90.0, -1.75, 0.0}).right_marking, kNoElement);
+  EXPECT_EQ(count(road, MarkingType::laneline, MarkingStyle::dashed), 1u);
 }
 
 TEST(Split, TheLaneOpensAtTwoAndAHalfMetresAndItsDashesBeginWithTheTaper) {

@@ -96,7 +96,8 @@ std::vector<Border> middle_borders(const Section& section, double length_m) {
   if (section.centre == CentreLine::double_solid)
     return {{laneline, solid, 0.5 * kDoubleLine_m, 0.0, length_m},
             {laneline, solid, -0.5 * kDoubleLine_m, 0.0, length_m}};
-  return {{laneline, section.centre == CentreLine::dashed ? dashed : solid, 0.0, 0.0, length_m}};
+  const bool painted = section.centre != CentreLine::none;
+  return {{laneline, section.centre == CentreLine::dashed ? dashed : solid, 0.0, 0.0, length_m, painted}};
 }
 
 // The lanes of both directions between two stations.

@@ -112,16 +112,18 @@ ElementId RoadBuilder::add_marking(MarkingType type, MarkingStyle style, Polylin
 
 void RoadBuilder::add_street(const Alignment& alignment, const Section& section) {
   const std::vector<Border> lines = borders(section, alignment.length());
-  const ElementId first_id = road_.markings.size() + 1;
-  for (const Border& line : lines)
-    add_marking(line.type, line.style, along(alignment, line, stations(lines, line.from_m, line.to_m)));
+  std::vector<ElementId> ids;
+  for (const Border& line : lines) {
+    Polyline points = along(alignment, line, stations(lines, line.from_m, line.to_m));
+    ids.push_back(line.painted ? add_marking(line.type, line.style, std::move(points)) : kNoElement);
+  }
 
   for (const LaneStretch& stretch : lane_stretches(lines, alignment.length())) {
     RoadLane lane{.id = road_.lanes.size() + 1,
                   .left = along(alignment, lines[stretch.left_border], stretch.stations_m),
                   .right = along(alignment, lines[stretch.right_border], stretch.stations_m),
-                  .left_marking = first_id + stretch.left_border,
-                  .right_marking = first_id + stretch.right_border};
+                  .left_marking = ids[stretch.left_border],
+                  .right_marking = ids[stretch.right_border]};
     if (!stretch.forward) {
       std::reverse(lane.left.begin(), lane.left.end());
       std::reverse(lane.right.begin(), lane.right.end());

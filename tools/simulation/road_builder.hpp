@@ -27,7 +27,7 @@ struct Side {
   std::vector<LaneChange> changes{};
 };
 
-enum class CentreLine { dashed, solid, double_solid };
+enum class CentreLine { none, dashed, solid, double_solid };
 
 /// Cross-section of a street: its reference line is between the directions. Edges are roadedges, and borders
 /// between lanes of one direction are dashed.

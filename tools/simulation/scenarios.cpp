@@ -27,6 +27,17 @@ Road curve(double speed_mps) {
   return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m)}, speed_mps);
 }
 
+// A residential street, whose line between the directions ends.
+Road street(double speed_mps) {
+  const Alignment marked({}, {straight(60.0)});
+  const Alignment unmarked(marked.end(), {straight(60.0), bend(30.0, 60.0), straight(120.0)});
+  RoadBuilder builder("street");
+  builder.add_street(marked, two_way(1, 1, CentreLine::dashed));
+  builder.add_street(unmarked, two_way(1, 1, CentreLine::none));
+  return std::move(builder).build(
+      {marked.point(10.0, -0.5 * kWidth_m), unmarked.point(200.0, -0.5 * kWidth_m)}, speed_mps);
+}
+
 // A lane is added on the right, and further on it leaves as an exit.
 Road split(double speed_mps) {
   const double exit_at_m = 200.0;
@@ -110,15 +121,16 @@ Road overpass(double speed_mps) {
 }
 
 using Maker = Road (*)(double speed_mps);
-constexpr std::array<std::pair<const char*, Maker>, 9> kScenarios{{{"straight", straight_road},
-                                                                   {"curve", curve},
-                                                                   {"split", split},
-                                                                   {"merge", merge},
-                                                                   {"t_intersection", t_intersection},
-                                                                   {"intersection", intersection},
-                                                                   {"hill", hill},
-                                                                   {"overpass", overpass},
-                                                                   {"town", town}}};
+constexpr std::array<std::pair<const char*, Maker>, 10> kScenarios{{{"straight", straight_road},
+                                                                    {"curve", curve},
+                                                                    {"street", street},
+                                                                    {"split", split},
+                                                                    {"merge", merge},
+                                                                    {"t_intersection", t_intersection},
+                                                                    {"intersection", intersection},
+                                                                    {"hill", hill},
+                                                                    {"overpass", overpass},
+                                                                    {"town", town}}};
 
 }  // namespace
 
