@@ -112,7 +112,7 @@ TEST(Identities, ServeTheTools) {
   const Process publisher(
       tool({"publish", "--scenario", "straight", "--loop", "--security", folder("simulator")}));
   Process stranger(tool({"pnc", "--duration", "10"}));
-  Process planner(tool({"pnc", "--duration", "10", "--require-lanes", "--security", folder("pnc")}));
+  Process planner(tool({"pnc", "--duration", "20", "--require-lanes", "--security", folder("pnc")}));
   Process recorder(tool({"record", "--duration", "5", "--out", identities.folder() / "drive.mcap",
                          "--security", folder("observer")}));
   EXPECT_EQ(planner.wait(), 0) << planner.errors() << publisher.errors();
