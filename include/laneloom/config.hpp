@@ -71,14 +71,15 @@ struct BoundaryConfig {
 /// Paper, Sec. III-D-2; the values are ours.
 struct SectionConfig {
   double max_angle_deg = 25.0;   ///< "similar direction"
-  double max_distance_m = 12.0;  ///< a projection from further away is no overlap
+  double max_distance_m = 13.0;  ///< a projection from further away is no overlap
 };
 
 /// Paper, Sec. III-D-3; the values are ours.
 struct LaneConfig {
   double min_width_m = 2.3;
   double max_width_m = 4.5;
-  double max_kerb_width_m = 6.5;  ///< where just one side is a roadedge: room to park
+  double max_kerb_width_m = 6.5;     ///< where just one side is a roadedge: room to park
+  double min_divided_width_m = 6.5;  ///< from which a road without lines is two lanes; 0: never
   double max_width_variation_m = 0.8;
   double min_length_m = 4.0;
   double step_m = 1.0;        ///< between cross-sections, and so between the points of a centerline

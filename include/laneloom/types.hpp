@@ -124,7 +124,7 @@ struct Lane {
   std::uint32_t section = 0;  ///< lanes of one road section share it, within one map
   ElementStatus status = ElementStatus::confirmed;
   double existence_probability = -1.0;  ///< 0..1; -1: not estimated
-  std::vector<Range> inferred_ranges;   ///< stretches of the centerline that were bridged
+  std::vector<Range> inferred_ranges;   ///< stretches of the centerline beside what was not seen
 };
 
 struct Stopline {
@@ -150,7 +150,7 @@ struct LocalMap {
   std::int64_t stamp_ns = 0;                                     ///< of the newest fused frame; 0: none yet
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< at the stamp
   std::vector<Marking> instances;                                ///< the vectorised instances, of all types
-  std::vector<Marking> boundaries;                               ///< lane boundaries, lanelines and roadedges
+  std::vector<Marking> boundaries;  ///< of lanes: lanelines, roadedges, and inferred ones
   std::vector<Stopline> stoplines;
   std::vector<Lane> lanes;
   std::vector<Linkage> linkages;

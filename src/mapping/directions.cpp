@@ -84,8 +84,11 @@ struct Model {
   std::vector<SideBySideGroups> pairs;
 };
 
-/// What the line between two lanes says of opposite directions.
-double divider_evidence(const Marking& boundary, const Range& range) {
+/// What the boundary between two lanes says of opposite directions.
+double divider_evidence(const LaneBoundary& divider, const Range& range) {
+  const Marking& boundary = divider.marking;
+  if (boundary.status == ElementStatus::inferred)
+    return divider.two_way ? kDividerEvidence : -kDividerEvidence;
   if (boundary.type == MarkingType::roadedge) return kEdgeBetweenEvidence;
   double solid_m = 0.0, dashed_m = 0.0;
   for (const StyleRange& style : boundary.styles) {
@@ -120,10 +123,10 @@ double driving_side(const DirectionConfig& config) {
 Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
                   const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
                   double side) {
-  const auto boundary = [&](ElementId id) -> const Marking& {
-    return std::ranges::find(boundaries, id, [](const LaneBoundary& b) { return b.marking.id; })->marking;
+  const auto boundary = [&](ElementId id) -> const LaneBoundary& {
+    return *std::ranges::find(boundaries, id, [](const LaneBoundary& b) { return b.marking.id; });
   };
-  const auto is_edge = [&](ElementId id) { return boundary(id).type == MarkingType::roadedge; };
+  const auto is_edge = [&](ElementId id) { return boundary(id).marking.type == MarkingType::roadedge; };
   Model model{.evidence = std::vector<double>(lanes.size(), 0.0), .pairs = {}};
   std::vector<Mean> edges(lanes.size());
   std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;

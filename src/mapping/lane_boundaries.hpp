@@ -13,6 +13,7 @@ struct LaneBoundary {
   Marking marking;                 ///< has the id of its oldest member
   std::vector<ElementId> members;  ///< ids of the markings that it is made of, ascending
   std::vector<Range> bridged{};    ///< the gaps between them, along the marking
+  bool two_way = false;            ///< inferred, on a road from kerb to kerb: there traffic is taken to meet
 };
 
 /// The same boundary, run through in the other direction.

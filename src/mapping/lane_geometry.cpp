@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "laneloom/polyline.hpp"
+#include "mapping/levels.hpp"
 
 namespace laneloom {
 namespace {
@@ -61,6 +61,13 @@ Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
 }
 
 }  // namespace
+
+std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
+  return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
+    const Projection foot = other.project(point, max_distance_m);
+    return foot.inside && foot.distance_m < max_distance_m && same_level(foot.foot, point);
+  }));
+}
 
 LaneSide lane_side(const Lane& lane, bool left) {
   return left ? LaneSide{{lane.left_boundary, lane.left_reversed}, lane.left_range, lane.left_reversed}

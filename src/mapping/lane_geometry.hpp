@@ -2,13 +2,18 @@
 
 #include <Eigen/Core>
 #include <compare>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
 
 /// How a lane lies to its boundaries, and to another that it leads into.
 namespace laneloom {
+
+/// How many points of `line` lie nearer than `max_distance_m` beside `other`, on its level.
+std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m);
 
 /// One side of a boundary.
 struct BoundarySide {

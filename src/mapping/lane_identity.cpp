@@ -7,18 +7,10 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
-#include "mapping/levels.hpp"
+#include "mapping/lane_geometry.hpp"
 
 namespace laneloom {
 namespace {
-
-/// How many points of `line` lie within half a lane of `other`, on its level.
-std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
-  return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
-    const Projection foot = other.project(point, max_distance_m);
-    return foot.inside && foot.distance_m < max_distance_m && same_level(foot.foot, point);
-  }));
-}
 
 /// Whether the first line runs as the second does, in the middle of the first.
 bool same_way(const Polyline& line, const MeasuredPolyline& other) {

@@ -4,7 +4,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/road_sections.hpp"
+#include "mapping/boundary_pairs.hpp"
 
 namespace laneloom {
 
@@ -13,7 +13,8 @@ namespace laneloom {
 /// The nearer boundary comes first, so that lanes do not overlap; where an edge bounds the lanes of a road,
 /// what lies beyond it up to another edge is none. A lane runs as its boundaries do; of two that are opposed,
 /// as the older one. Without ids and neighbours, in a deterministic order.
-std::vector<Lane> generate_lanes(const SectionGraph& graph, const std::vector<LaneBoundary>& boundaries,
+std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
+                                 const std::vector<LaneBoundary>& boundaries,
                                  const std::vector<MeasuredPolyline>& measured, const LaneConfig& config);
 
 /// Names for every lane the lanes beside it, across a shared boundary: the ones that run beside it the

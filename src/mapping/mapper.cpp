@@ -11,6 +11,7 @@
 #include "mapping/clustering.hpp"
 #include "mapping/crossings.hpp"
 #include "mapping/directions.hpp"
+#include "mapping/dividers.hpp"
 #include "mapping/ego_track.hpp"
 #include "mapping/joints.hpp"
 #include "mapping/lane_boundaries.hpp"
@@ -146,7 +147,12 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   done(Stage::lane_boundaries);
   const SectionGraph sections = road_sections(config_.section, T_map_body, boundaries, measured);
   done(Stage::road_sections);
-  map.lanes = generate_lanes(sections, boundaries, measured, config_.lane);
+  const auto pairs = boundary_pairs(sections, boundaries, measured);
+  map.lanes = generate_lanes(pairs, boundaries, measured, config_.lane);
+  auto divisions = divide_unmarked(pairs, map.lanes, boundaries, measured, config_.lane);
+  identify_dividers(state.frame, frame.stamp_ns, config_.lane, divisions, state.known_dividers,
+                    state.next_id);
+  add_divisions(divisions, boundaries, measured, map.lanes);
   identify_lanes(state.frame, config_.lane, map.lanes, state.known_lanes, state.next_id);
   find_neighbours(map.lanes);
   done(Stage::lanes);

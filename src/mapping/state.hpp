@@ -7,6 +7,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/alignment.hpp"
 #include "mapping/co_observation.hpp"
+#include "mapping/dividers.hpp"
 #include "mapping/ego_track.hpp"
 #include "mapping/instances.hpp"
 #include "mapping/lane_identity.hpp"
@@ -29,6 +30,7 @@ struct MapperState {
   PairHistories doubles;  ///< of lines that lie side by side
   PairHistories joints;   ///< of lines that end at each other
   FrameError lasting_error = FrameError::Zero();
+  std::vector<KnownDivider> known_dividers;
   std::vector<KnownLane> known_lanes;
   EgoTrack ego_track;
   Membership published;   ///< of the last map
@@ -37,8 +39,8 @@ struct MapperState {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, known_lanes,
-            ego_track, published, next_id, map);
+    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, known_dividers,
+            known_lanes, ego_track, published, next_id, map);
   }
 };
 

@@ -107,6 +107,28 @@ TEST_F(Directions, ADashedLineDoesNotTell) {
   EXPECT_TRUE(runs_forward(11) && runs_forward(12));
 }
 
+TEST_F(Directions, WithoutALineTrafficMeetsOnARoadOfTwoWays) {
+  boundaries_[1].marking.status = ElementStatus::inferred;
+  boundaries_[1].two_way = true;
+  find();
+  EXPECT_TRUE(known(11));
+  EXPECT_TRUE(known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, WithoutALineTrafficBesideALineRunsAlike) {
+  boundaries_[0].marking.type = MarkingType::laneline;
+  boundaries_[1].marking.status = ElementStatus::inferred;
+  observe(test::at(20, 5.25));
+  observe(test::at(20, 5.25));
+  observe(test::at(20, 5.25));
+  find();
+  EXPECT_TRUE(known(11));
+  EXPECT_TRUE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
 TEST_F(Directions, WithoutADrivingSideOnlyObservationsTell) {
   divider(MarkingStyle::solid);
   find("unknown");

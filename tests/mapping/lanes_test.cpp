@@ -15,7 +15,7 @@ using test::straight;
 std::vector<Lane> lanes_of(std::vector<LaneBoundary> boundaries) {
   auto measured = test::measure(boundaries);
   const auto graph = road_sections({}, test::at(0), boundaries, measured);
-  auto lanes = generate_lanes(graph, boundaries, measured, {});
+  auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
   std::vector<KnownLane> known;
   ElementId next_id = 100;
   identify_lanes(1, {}, lanes, known, next_id);
@@ -107,7 +107,8 @@ TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
                                        boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))};
   const SectionGraph graph{.sections = {{{0, 1}}},
                            .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
-  const auto lanes = generate_lanes(graph, boundaries, test::measure(boundaries), {});
+  const auto measured = test::measure(boundaries);
+  const auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
   ASSERT_EQ(lanes.size(), 1U);
   EXPECT_EQ(lanes[0].right_boundary, 1U);
   EXPECT_EQ(lanes[0].left_boundary, 2U);
@@ -126,6 +127,20 @@ TEST(Lanes, ALineThatIsPaintedAlongAnEdgeLeavesRoomToPark) {
          boundary(3, straight({0, -from_edge_m, 0}, {30, -from_edge_m, 0}), MarkingType::roadedge)});
     EXPECT_EQ(between(lanes, 1, 2) != nullptr, from_edge_m < 1.0);
   }
+}
+
+TEST(Lanes, AWideOneEndsWhereALineLiesInIt) {
+  const auto lane_beside = [](double line_to_x) {
+    auto lanes = lanes_of({boundary(1, straight({0, 6, 0}, {60, 6, 0})),
+                           boundary(2, straight({0, 0, 0}, {60, 0, 0}), MarkingType::roadedge),
+                           boundary(3, straight({-20, 3, 0}, {line_to_x, 3, 0}))});
+    const Lane* lane = between(lanes, 1, 2);
+    return lane == nullptr ? Range{} : lane->right_range;
+  };
+  // What only touches it at the end does not take it away.
+  EXPECT_NEAR(lane_beside(4.0).from_m, 4.5, 1.0);
+  EXPECT_NEAR(lane_beside(4.0).to_m, 60.0, 1e-6);
+  EXPECT_EQ(lane_beside(30.0).length(), 0.0);
 }
 
 TEST(Lanes, BetweenTwoEdgesThereIsOneWithoutMarkings) {
@@ -283,7 +298,7 @@ TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
                                          boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
     auto measured = test::measure(boundaries);
     const auto graph = road_sections({}, test::at(from_m), boundaries, measured);
-    auto lanes = generate_lanes(graph, boundaries, measured, {});
+    auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
     identify_lanes(frame, {}, lanes, known, next_id);
     return lanes;
   };

@@ -46,7 +46,7 @@ std::vector<CrossSection> cross_sections(const RoadLane& lane) {
 }
 
 bool painted(const RoadLane& lane) {
-  return !lane.in_intersection && lane.left_marking != kNoElement && lane.right_marking != kNoElement;
+  return !lane.in_intersection && (lane.left_marking != kNoElement || lane.right_marking != kNoElement);
 }
 
 using ScenarioAndMethod = std::tuple<std::string, std::string>;
