@@ -50,6 +50,19 @@ TEST(ClosedLoop, WithoutNoiseTheTownsLanesAreLeftInTurnsAtMost) {
   for (const Departure& departure : score.departures) EXPECT_TRUE(departure.in_intersection);
 }
 
+TEST(ClosedLoop, SaysHowFarItDroveByLanesThatAreInferred) {
+  const auto inferred_share = [](const char* name) {
+    const Road road = make_scenario(name);
+    LocalMapService service{Config{}};
+    ClosedLoop loop(road, {}, service);
+    run(loop, 60.0);
+    const DriveScore score = loop.score();
+    return score.inferred_m / score.driven_m;
+  };
+  EXPECT_EQ(inferred_share("straight"), 0.0);
+  EXPECT_GT(inferred_share("street"), 0.6);  // of 250 m to drive, 200 have no line
+}
+
 TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
   const Road road = make_scenario("split");
   const auto drive = [&](std::uint64_t seed) {

@@ -19,14 +19,15 @@ DriveScore sum_of(const std::vector<DriveResult>& results) {
 std::string row(const std::string& name, const DriveScore& score) {
   const double share = score.driven_m > 0.0 ? 100.0 / score.driven_m : 0.0;
   return fmt::format(
-      "| {} | {:.2f} | {} | {} | {:.2f}/{:.2f}/{:.2f}/{:.2f} | {} | {:.0f} m, {:.1f} % | {:.1f} | {} | "
+      "| {} | {:.2f} | {} | {} | {:.2f}/{:.2f}/{:.2f}/{:.2f} | {} | {:.0f} m, {:.1f} % | {:.1f} | {:.1f} | "
+      "{} | "
       "{:.2f}/{:.2f} | {:.2f}/{:.2f} | {:.3f}/{:.3f} |\n",
       name, 1e-3 * score.driven_m, score.departures.size(), score.road_ends, score.lateral_m.mean(),
       score.lateral_m.quantile(0.5), score.lateral_m.quantile(0.99), score.lateral_m.quantile(1.0),
       score.guesses.size(), score.guessed_m(), share * score.guessed_m(), share * score.remembered_m,
-      score.missed_turns, score.lateral_mps2.quantile(0.99), score.lateral_mps2.quantile(1.0),
-      score.jerk_mps3.quantile(0.99), score.jerk_mps3.quantile(1.0), score.curvature_rate.quantile(0.99),
-      score.curvature_rate.quantile(1.0));
+      share * score.inferred_m, score.missed_turns, score.lateral_mps2.quantile(0.99),
+      score.lateral_mps2.quantile(1.0), score.jerk_mps3.quantile(0.99), score.jerk_mps3.quantile(1.0),
+      score.curvature_rate.quantile(0.99), score.curvature_rate.quantile(1.0));
 }
 
 std::string guess_table(const DriveScore& score) {
@@ -71,6 +72,7 @@ json score_json(const DriveScore& score) {
           {"standing_s", score.standing_s},
           {"guessed_m", score.guessed_m()},
           {"remembered_m", score.remembered_m},
+          {"inferred_m", score.inferred_m},
           {"lateral_error_m", distribution_json(score.lateral_m)},
           {"lateral_acceleration_mps2", distribution_json(score.lateral_mps2)},
           {"lateral_jerk_mps3", distribution_json(score.jerk_mps3)},
@@ -88,9 +90,8 @@ json score_json(const DriveScore& score) {
 std::string drive_table(const std::vector<DriveResult>& results) {
   std::string text =
       "| | km | left lane | road ends | lateral error mean/p50/p99/max m | guesses | guessed | remembered % "
-      "| "
-      "missed turns | lateral m/s² p99/max | jerk m/s³ | curvature rate 1/(m s) |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "| inferred % | missed turns | lateral m/s² p99/max | jerk m/s³ | curvature rate 1/(m s) |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const DriveResult& result : results)
     text += row(fmt::format("{}, seed {}", result.road, result.seed), result.score);
   const DriveScore sum = sum_of(results);

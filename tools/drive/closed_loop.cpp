@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +21,19 @@ constexpr double kPutBack_m = 20.0;   // beyond where it left its lane
 constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
 constexpr int kMaxVainRestarts = 100;  // some may be: a drive goes on behind a lane that leads nowhere
+
+/// Whether the lane at a place, if there is one, is not between lines that were seen.
+bool is_inferred(const std::vector<Lane>& lanes, const Point& place) {
+  const Lane* nearest = nullptr;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Lane& lane : lanes) {
+    const Projection foot = MeasuredPolyline(lane.centerline).project(place);
+    if (!foot.inside || foot.distance_m >= std::min(nearest_m, 0.5 * lane.width_m)) continue;
+    nearest = &lane;
+    nearest_m = foot.distance_m;
+  }
+  return nearest != nullptr && nearest->status == ElementStatus::inferred;
+}
 
 }  // namespace
 
@@ -103,6 +117,7 @@ void ClosedLoop::plan() {
   const LocalMap& map = newest.stamp_ns >= begun_ns_ ? newest : none;
   Plan next = next_plan(map, told_, plan_, navigator_.wanted_turn());
   cause_ = cause_of_guess(map);
+  in_inferred_lane_ = is_inferred(map.lanes, on_ground(told_.rear_axle));
   if (!started_) {
     const bool has_lane = next.support_at(on_ground(told_.rear_axle)) == Support::mapped;
     const bool impatient = static_cast<double>(now_ns() - begun_ns_) * 1e-9 > kPatience_s;
@@ -153,6 +168,7 @@ void ClosedLoop::count_support(Support support) {
   const double moved_m = score_.driven_m - std::exchange(last_driven_m_, score_.driven_m);
   if (moved_m == 0.0) return;
   if (support == Support::remembered) score_.remembered_m += moved_m;
+  if (support == Support::mapped && in_inferred_lane_) score_.inferred_m += moved_m;
   if (support != Support::guessed) {
     if (guess_) score_.guesses.push_back(*std::exchange(guess_, std::nullopt));
     return;

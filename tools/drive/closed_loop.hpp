@@ -88,6 +88,7 @@ class ClosedLoop {
   DriveScore score_;
   std::optional<Guess> guess_;
   Guess::Cause cause_ = Guess::Cause::no_lane;
+  bool in_inferred_lane_ = false;
   bool over_border_ = false;
   double last_curvature_ = 0.0, last_lateral_mps2_ = 0.0, last_driven_m_ = 0.0;
   double restarted_at_m_ = 0.0;  ///< of all that was driven

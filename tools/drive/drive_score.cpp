@@ -41,6 +41,7 @@ DriveScore& DriveScore::operator+=(const DriveScore& other) {
   standing_s += other.standing_s;
   driven_m += other.driven_m;
   remembered_m += other.remembered_m;
+  inferred_m += other.inferred_m;
   lateral_m.add(other.lateral_m);
   lateral_mps2.add(other.lateral_mps2);
   jerk_mps3.add(other.jerk_mps3);

@@ -42,6 +42,7 @@ struct DriveScore {
   double standing_s = 0.0;
   double driven_m = 0.0;
   double remembered_m = 0.0;           ///< of these, on the way that an earlier map gave
+  double inferred_m = 0.0;             ///< of these, by lanes that are inferred
   Distribution lateral_m;              ///< of the centre from the true centerline, absolute
   Distribution lateral_mps2;           ///< acceleration, absolute
   Distribution jerk_mps3;              ///< lateral, absolute
