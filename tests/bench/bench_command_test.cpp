@@ -5,6 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "own_domain.hpp"
+#include "temporary_folder.hpp"
 #include "tools/process.hpp"
 
 namespace laneloom {
@@ -16,11 +18,6 @@ using testing::HasSubstr;
 /// Runs the real `laneloom bench`.
 class BenchCommand : public testing::Test {
  protected:
-  ~BenchCommand() override {
-    unlink(file_.c_str());
-    unlink(peer_.c_str());
-  }
-
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "bench"});
     return Process(arguments, file_).wait();
@@ -34,8 +31,8 @@ class BenchCommand : public testing::Test {
     std::filesystem::permissions(peer_, std::filesystem::perms::owner_all);
   }
 
-  const std::string file_ = testing::TempDir() + "laneloom_bench_" + std::to_string(getpid());
-  const std::string peer_ = file_ + "_peer";
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.file("output"), peer_ = folder_.file("peer");
   const std::vector<std::string> short_drive_{"--scenario", "straight", "--duration", "1", "--json"};
 };
 
@@ -104,7 +101,7 @@ TEST_F(BenchCommand, ScalesByDetectionsRangeTimeAndVehicles) {
 }
 
 TEST_F(BenchCommand, TimesTheMapsOfARealService) {
-  const std::string domain = std::to_string(20 + getpid() % 180);
+  const std::string domain = std::to_string(own_domain());
   for (const char* transport : {"udp", "udp+shm"}) {
     ASSERT_EQ(run({"latency", "--scenario", "straight", "--duration", "1", "--domain", domain, "--transport",
                    transport, "--load", "--json"}),

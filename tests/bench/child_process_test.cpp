@@ -2,11 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <stdexcept>
 #include <thread>
+
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -17,8 +18,6 @@ using testing::ThrowsMessage;
 
 class Child : public testing::Test {
  protected:
-  ~Child() override { unlink(output_.c_str()); }
-
   /// What stop() says of a shell that runs this; it is told to end once it has printed something.
   std::string stop(const std::string& script, milliseconds patience = std::chrono::seconds(10)) {
     ChildProcess child({"/bin/sh", "-c", script}, output_);
@@ -26,7 +25,8 @@ class Child : public testing::Test {
     return child.stop(patience);
   }
 
-  const std::string output_ = testing::TempDir() + "laneloom_child_" + std::to_string(getpid());
+  const TemporaryFolder folder_;
+  const std::string output_ = folder_.file("output");
 };
 
 TEST_F(Child, AnOrderlyEndIsNoFailure) {

@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "bench/publication_log.hpp"
+#include "own_domain.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -19,10 +21,10 @@ constexpr std::int64_t kMillisecond = 1'000'000;
 
 class LogFile : public testing::Test {
  protected:
-  ~LogFile() override { unlink(file_.c_str()); }
   void write(const std::string& text) const { std::ofstream(file_) << text; }
 
-  const std::string file_ = testing::TempDir() + "laneloom_log_" + std::to_string(getpid());
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.file("log");
 };
 
 TEST(Latencies, AreFromTickAndPublicationToTheCallback) {
@@ -93,7 +95,7 @@ TEST_F(LogFile, PublicationsAreReadAsTheyWereWritten) {
 TEST(MeasureLatency, NamesAServiceThatEndsByItself) {
   LatencySpec spec{
       .service = "/bin/false", .publisher = "/bin/false", .dds = {}, .scenario = "straight", .noise = "none"};
-  spec.dds.domain = 20 + getpid() % 180;
+  spec.dds.domain = own_domain();
   EXPECT_THAT([&] { measure_latency(spec); }, ThrowsMessage<std::runtime_error>(HasSubstr("/bin/false")));
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <sstream>
 
+#include "temporary_folder.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -18,10 +20,9 @@ const std::filesystem::path kConfigDir = LANELOOM_CONFIG_DIR;
 class ConfigFile : public ::testing::Test {
  protected:
   std::string write(const std::string& text) {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(::testing::TempDir()) / (std::string("laneloom_") + test->name() + ".yaml");
-    std::ofstream(path_) << text;
-    return path_.string();
+    const auto path = folder_.file("laneloom.yaml");
+    std::ofstream(path) << text;
+    return path;
   }
   /// What is said about a file with this text, without the file's name.
   std::string error_of(const std::string& text) {
@@ -34,10 +35,9 @@ class ConfigFile : public ::testing::Test {
     }
     return "no error";
   }
-  void TearDown() override { std::filesystem::remove(path_); }
 
  private:
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ConfigFile, MissingKeysKeepTheirDefaults) {
@@ -144,7 +144,7 @@ TEST_F(ConfigFile, BadYamlIsNamedWithItsLine) {
 
 TEST_F(ConfigFile, AnUnreadableFileIsNamed) {
   EXPECT_THROW(load_config("/nonexistent/laneloom.yaml"), ConfigError);
-  EXPECT_THROW(load_config(::testing::TempDir()), ConfigError);
+  EXPECT_THROW(load_config("/"), ConfigError);
   EXPECT_THAT(error_of(std::string(2 << 20, ' ')), HasSubstr("is too large"));
 }
 

@@ -11,13 +11,14 @@
 #include "dds/topic_traits.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
+#include "own_domain.hpp"
 
 namespace laneloom::dds {
 namespace {
 
 DdsConfig private_config() {
   DdsConfig config;
-  config.domain = 1 + getpid() % 90;
+  config.domain = own_domain();
   config.vehicle_id = "seen" + std::to_string(getpid());
   return config;
 }

@@ -14,6 +14,8 @@
 #include "dds/topic_traits.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
+#include "own_domain.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -87,7 +89,7 @@ class Received {
 
 DdsConfig config_of(const std::string& vehicle) {
   DdsConfig config;
-  config.domain = 100 + getpid() % 100;
+  config.domain = own_domain();
   config.vehicle_id = vehicle + std::to_string(getpid());
   return config;
 }
@@ -281,7 +283,8 @@ TEST(Participants, ABadProfileStopsTheStart) {
   config.profile_file = "/nonexistent/profiles.xml";
   EXPECT_THROW(Participant(config, "p"), std::runtime_error);
 
-  const auto path = ::testing::TempDir() + "laneloom_profiles_" + std::to_string(getpid()) + ".xml";
+  const TemporaryFolder folder;
+  const auto path = folder.file("profiles.xml");
   config.profile_file = path;
   std::ofstream(path) << "<profiles><participant";
   EXPECT_THROW(Participant(config, "p"), std::runtime_error);
@@ -293,7 +296,6 @@ TEST(Participants, ABadProfileStopsTheStart) {
   config.profile_name = "other";
   EXPECT_NO_THROW(Participant(config, "p"));
   EXPECT_NO_THROW(Participant(config, "once more"));
-  unlink(path.c_str());
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/dds/writer.hpp"
 #include "laneloom/messages.hpp"
+#include "own_domain.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -28,7 +29,7 @@ TEST(RawReader, MessagesComeAsTheyWentOverTheWire) {
   std::condition_variable arrived;
   std::vector<Bytes> messages;
   DdsConfig config;
-  config.domain = 1 + getpid() % 90;
+  config.domain = own_domain();
   config.vehicle_id = "raw" + std::to_string(getpid());
   const Participant there(config, "there"), here(config, "here");
   const RawReader<DetectionFrame> reader(there, [&](Bytes&& message) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "dds/qos.hpp"
+#include "temporary_folder.hpp"
 
 // What becomes of dds.security_directory; tests/end_to_end has what Fast DDS does with it.
 namespace laneloom::dds {
@@ -21,14 +22,12 @@ const auto kFiles = {"identity_ca.cert.pem", "permissions_ca.cert.pem", "cert.pe
 class SecurityFolder : public ::testing::Test {
  protected:
   SecurityFolder() {
-    std::string name = fs::temp_directory_path() / "laneloom_security_XXXXXX";
-    folder_ = mkdtemp(name.data());
     for (const auto* file : kFiles) std::ofstream(folder_ / file) << "not looked into here";
     config_.security_directory = folder_;
   }
-  ~SecurityFolder() override { fs::remove_all(folder_); }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   DdsConfig config_;
 };
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

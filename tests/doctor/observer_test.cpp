@@ -9,6 +9,7 @@
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
 #include "laneloom/dds/writer.hpp"
+#include "own_domain.hpp"
 #include "scenes.hpp"
 
 namespace laneloom {
@@ -18,7 +19,7 @@ using testing::HasSubstr;
 
 DdsConfig private_config() {
   DdsConfig config;
-  config.domain = 1 + getpid() % 90;
+  config.domain = own_domain();
   config.vehicle_id = "observed" + std::to_string(getpid());
   return config;
 }

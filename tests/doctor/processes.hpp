@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 #include "tools/process.hpp"
 
 namespace laneloom {

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "own_domain.hpp"
+#include "temporary_folder.hpp"
 #include "tools/process.hpp"
 
 namespace laneloom {
@@ -15,15 +17,14 @@ using testing::HasSubstr;
 /// Runs the real `laneloom drive`.
 class DriveCommand : public testing::Test {
  protected:
-  ~DriveCommand() override { unlink(file_.c_str()); }
-
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "drive"});
     return Process(arguments, file_).wait();
   }
   std::string output() const { return content(file_); }
 
-  const std::string file_ = testing::TempDir() + "laneloom_drive_" + std::to_string(getpid());
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.file("output");
 };
 
 TEST_F(DriveCommand, DrivesSeveralRoadsAndSeeds) {
@@ -42,7 +43,7 @@ TEST_F(DriveCommand, DrivesSeveralRoadsAndSeeds) {
 
 TEST_F(DriveCommand, FailsOnRequestWhenTheLaneIsLeft) {
   // Lanes of this width are none for the map, and straight on leads out of the bend.
-  const std::string config = file_ + ".yaml";
+  const std::string config = folder_.file("laneloom.yaml");
   std::ofstream(config) << "mapper:\n  lane:\n    min_width_m: 1.0\n    max_width_m: 1.5\n    "
                            "max_kerb_width_m: 1.5\n";
   const std::vector<std::string> words{"--scenario", "overpass", "--duration", "200", "--config", config};
@@ -51,7 +52,6 @@ TEST_F(DriveCommand, FailsOnRequestWhenTheLaneIsLeft) {
   std::vector<std::string> strict = words;
   strict.emplace_back("--require-lane");
   EXPECT_EQ(run(strict), 1);
-  unlink(config.c_str());
 }
 
 TEST_F(DriveCommand, WrongInputIsNamed) {
@@ -70,20 +70,20 @@ TEST_F(DriveCommand, WrongInputIsNamed) {
 }
 
 TEST_F(DriveCommand, DrivesOnTheMapOfARunningService) {
-  const std::string domain = std::to_string(20 + getpid() % 180);
-  const Process service({LANELOOM_SERVICE, "--domain", domain, "--vehicle-id", "test"}, file_ + ".log");
+  const std::string domain = std::to_string(own_domain());
+  const std::string log = folder_.file("log");
+  const Process service({LANELOOM_SERVICE, "--domain", domain, "--vehicle-id", "test"}, log);
   ASSERT_EQ(run({"--scenario", "straight", "--noise", "none", "--duration", "10", "--dds", "--domain", domain,
                  "--vehicle-id", "test", "--json", "--require-lane"}),
             0)
-      << output() << content(file_ + ".log");
+      << output() << content(log);
   const json all = json::parse(output()).at("all");
   EXPECT_GT(all.at("driven_m"), 10.0);
   EXPECT_LT(all.at("standing_s"), 6.0);
-  unlink((file_ + ".log").c_str());
 }
 
 TEST_F(DriveCommand, SaysThatNoServiceIsThere) {
-  const std::string domain = std::to_string(20 + getpid() % 180);
+  const std::string domain = std::to_string(own_domain());
   EXPECT_EQ(run({"--scenario", "straight", "--dds", "--domain", domain, "--vehicle-id", "nobody"}), 1);
   EXPECT_THAT(output(), HasSubstr("no service"));
 }

@@ -1,6 +1,5 @@
 #include "identities.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -13,26 +12,17 @@ namespace laneloom {
 namespace fs = std::filesystem;
 
 Identities::Identities(const Edit& edit, const std::vector<std::string>& options) {
-  std::string name = fs::temp_directory_path() / "laneloom_identities_XXXXXX";
-  if (!mkdtemp(name.data())) throw std::runtime_error("can not make " + name);
-  base_ = name;
-  folder_ = base_ / "security";
-  const fs::path source = LANELOOM_SOURCE_DIR;
-  fs::create_directories(base_ / "config");
-  fs::create_directories(base_ / "tools");
-  fs::copy(source / "config/security", base_ / "config/security", fs::copy_options::recursive);
-  fs::copy(source / "tools/make-certificates", base_ / "tools");
-  if (edit) edit(base_);
+  const fs::path base = base_.path(), source = LANELOOM_SOURCE_DIR;
+  fs::create_directories(base / "config");
+  fs::create_directories(base / "tools");
+  fs::copy(source / "config/security", base / "config/security", fs::copy_options::recursive);
+  fs::copy(source / "tools/make-certificates", base / "tools");
+  if (edit) edit(base);
 
-  std::vector<std::string> command{base_ / "tools/make-certificates", "--out", folder_};
+  std::vector<std::string> command{base / "tools/make-certificates", "--out", folder_};
   command.insert(command.end(), options.begin(), options.end());
   Process process(command);
   if (process.wait() != 0) throw std::runtime_error(process.errors());
-}
-
-Identities::~Identities() {
-  std::error_code ignored;
-  fs::remove_all(base_, ignored);
 }
 
 DdsConfig Identities::as(const std::string& identity, DdsConfig config) const {

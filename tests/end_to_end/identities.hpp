@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 
@@ -17,9 +18,6 @@ class Identities {
   /// `edit` may change a copy of the tool and of config/security before. Throws std::runtime_error when they
   /// can't be made.
   explicit Identities(const Edit& edit = {}, const std::vector<std::string>& options = {});
-  ~Identities();
-  Identities(const Identities&) = delete;
-  Identities& operator=(const Identities&) = delete;
 
   /// Where its folders are; there is room for more.
   const std::filesystem::path& folder() const { return folder_; }
@@ -27,8 +25,8 @@ class Identities {
   DdsConfig as(const std::string& identity, DdsConfig config) const;
 
  private:
-  std::filesystem::path base_;
-  std::filesystem::path folder_;
+  const TemporaryFolder base_;
+  const std::filesystem::path folder_ = base_.file("security");
 };
 
 std::string text_of(const std::filesystem::path& file);

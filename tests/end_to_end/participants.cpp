@@ -5,6 +5,8 @@
 #include <chrono>
 #include <string>
 
+#include "own_domain.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr double kSpeed_mps = 5.0;
 
 DdsConfig private_config(const std::string& name) {
   DdsConfig config;
-  config.domain = 1 + getpid() % 90;  // the ports of higher domains are used by others
+  config.domain = own_domain();
   config.vehicle_id = name + std::to_string(getpid());
   return config;
 }

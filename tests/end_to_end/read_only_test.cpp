@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "faults.hpp"
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 // A service whose files lie where it may not write; README, "When things go wrong".
 namespace laneloom {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/messages.hpp"
 #include "process.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 
@@ -27,20 +27,13 @@ inline bool is_good(const PublishedMap& map) { return has_lanes(map) && map.stat
 
 /// A file that is removed in the end.
 class TemporaryFile {
+  const TemporaryFolder folder_;
+
  public:
-  TemporaryFile(const std::string& name, const std::string& text) : path(unique() + name) { write(text); }
-  ~TemporaryFile() { unlink(path.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
+  TemporaryFile(const std::string& name, const std::string& text) : path(folder_.file(name)) { write(text); }
   void write(const std::string& text) const { std::ofstream(path) << text; }
-  const std::string path;
 
- private:
-  static std::string unique() {
-    static std::atomic<int> count = 0;
-    return ::testing::TempDir() + std::to_string(getpid()) + "_" + std::to_string(++count) + "_";
-  }
+  const std::string path;
 };
 
 /// laneloomd, reached over DDS as `dds` says.

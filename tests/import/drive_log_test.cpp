@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "laneloom/mapping_session.hpp"
 #include "laneloom/recording.hpp"
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "laneloom/recording.hpp"
-#include "recording/temporary_folder.hpp"
 #include "simulation/road.hpp"
+#include "temporary_folder.hpp"
 #include "tools/process.hpp"
 
 namespace laneloom {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "temporary_folder.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -206,7 +208,8 @@ TEST(MapJson, WhatIsWrongIsNamed) {
 }
 
 TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {
-  const fs::path path = fs::path(testing::TempDir()) / "frames.jsonl";
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("frames.jsonl");
   {
     JsonLinesWriter writer(path);
     writer.write(full_frame());
@@ -223,13 +226,13 @@ TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {
   }
   EXPECT_TRUE(reader.next_frame()) << "a last line without an end";
   EXPECT_FALSE(reader.next_frame());
-  fs::remove(path);
 }
 
 TEST(JsonLines, FilesThatCannotBeOpenedAreErrors) {
-  EXPECT_THROW(JsonLinesReader(fs::path(testing::TempDir()) / "absent.jsonl"), std::runtime_error);
-  EXPECT_THROW(JsonLinesReader{fs::path(testing::TempDir())}, std::runtime_error);
-  EXPECT_THROW(JsonLinesWriter(fs::path(testing::TempDir()) / "absent" / "x.jsonl"), std::runtime_error);
+  const TemporaryFolder folder;
+  EXPECT_THROW(JsonLinesReader(folder.file("absent.jsonl")), std::runtime_error);
+  EXPECT_THROW(JsonLinesReader{folder.path()}, std::runtime_error);
+  EXPECT_THROW(JsonLinesWriter(folder.file("absent/x.jsonl")), std::runtime_error);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "file_size_limit.hpp"
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/recording.hpp"
+#include "own_domain.hpp"
 #include "temporary_folder.hpp"
 #include "tools/process.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 std::vector<std::string> with_dds(std::vector<std::string> words) {
-  const std::string domain = std::to_string(1 + getpid() % 90);
+  const std::string domain = std::to_string(own_domain());
   words.insert(words.end(), {"--domain", domain, "--vehicle-id", "record" + std::to_string(getpid())});
   return words;
 }

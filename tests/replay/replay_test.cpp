@@ -6,8 +6,8 @@
 
 #include "io/json_lines.hpp"
 #include "laneloom/dds/cdr.hpp"
-#include "recording/temporary_folder.hpp"
 #include "replay/message_source.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

@@ -8,6 +8,7 @@
 #include "laneloom/sd_map.hpp"
 #include "mapping/shapes.hpp"
 #include "recording/allocations.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -31,8 +32,6 @@ std::string side(const std::string& highway, const std::string& oneway = "no") {
 
 class OsmFile : public ::testing::Test {
  protected:
-  ~OsmFile() override { std::filesystem::remove(config_.file); }
-
   SdMap read(const std::string& elements) {
     std::ofstream(config_.file) << "<osm version=\"0.6\">" << elements << "</osm>";
     return load_sd_map(config_);
@@ -46,12 +45,9 @@ class OsmFile : public ::testing::Test {
     return "";
   }
 
-  SdMapConfig config_{.file = (std::filesystem::temp_directory_path() /
-                               (std::string("laneloom_") +
-                                ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".osm"))
-                                  .string(),
-                      .origin_latitude_deg = 48.0,
-                      .origin_longitude_deg = 9.0};
+  const TemporaryFolder folder_;
+  SdMapConfig config_{
+      .file = folder_.file("map.osm"), .origin_latitude_deg = 48.0, .origin_longitude_deg = 9.0};
   const Polyline from_west_ = straight({-30, -2, 0}, {-10, -2, 0}),
                  to_north_ = straight({2, 10, 0}, {2, 30, 0}),
                  from_north_ = straight({-2, 30, 0}, {-2, 10, 0}),

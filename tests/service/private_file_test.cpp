@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "recording/file_size_limit.hpp"
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -14,6 +13,7 @@
 
 #include "service/snapshot_writer.hpp"
 #include "snapshot/snapshot.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -23,9 +23,6 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 class SnapshotFileTest : public ::testing::Test {
  protected:
-  SnapshotFileTest() { std::filesystem::create_directory(folder_); }
-  ~SnapshotFileTest() override { std::filesystem::remove_all(folder_); }
-
   static Snapshot snapshot() {
     Snapshot result{
         {"1.0 abc", 100 * kSecond, 500 * kSecond}, {1, 2, 3, 4, {5, 6, 7}}, MapperState(VoxelMapConfig{})};
@@ -52,8 +49,8 @@ class SnapshotFileTest : public ::testing::Test {
   }
 
   const SnapshotStamp soon_{"1.0 abc", 103 * kSecond, 503 * kSecond};
-  const std::string folder_ = ::testing::TempDir() + "laneloom_snapshot_" + std::to_string(getpid());
-  const std::string file_ = folder_ + "/map";
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.file("map");
 };
 
 TEST_F(SnapshotFileTest, ComesBackAsItWas) {
@@ -101,8 +98,8 @@ TEST_F(SnapshotFileTest, IsRefusedWhereverItIsDamaged) {
 }
 
 TEST_F(SnapshotFileTest, IsRefusedWhereItMayBeAnothers) {
-  write_snapshot(folder_ + "/elsewhere", snapshot());
-  std::filesystem::create_symlink(folder_ + "/elsewhere", file_);
+  write_snapshot(folder_.file("elsewhere"), snapshot());
+  std::filesystem::create_symlink(folder_.file("elsewhere"), file_);
   EXPECT_EQ(refusal(soon_), "is a link");
 }
 
@@ -125,7 +122,7 @@ TEST_F(SnapshotFileTest, TheWriterCountsWhatItDid) {
   EXPECT_EQ(writer.totals().written, 1U);
   EXPECT_EQ(refusal(soon_), "");
 
-  SnapshotWriter nowhere(folder_ + "/none/map");
+  SnapshotWriter nowhere(folder_.file("none/map"));
   nowhere.write(snapshot());
   wait_for(nowhere, &SnapshotWriter::Totals::failed);
   EXPECT_EQ(nowhere.totals().failed, 1U);

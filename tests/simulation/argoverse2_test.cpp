@@ -10,6 +10,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "road_checks.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -87,13 +88,11 @@ TEST_F(RealLogs, TheVehicleDrivesInsideTheEdgesWithoutJumps) {
 class MadeUpLog : public testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directories(directory);
     write("city_SE3_egovehicle.csv",
           "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n1000000000,1,0,0,0,0,0,0\n1000000001,1,0,0,0,0,0,0\n"
           "2000000001,1,0,0,0,10,0,0\n");
     write("log_map_archive_x.json", map("SOLID_DASHED_YELLOW"));
   }
-  void TearDown() override { fs::remove_all(directory); }
 
   void write(const std::string& name, const std::string& content) {
     std::ofstream(directory / name) << content;
@@ -128,7 +127,8 @@ class MadeUpLog : public testing::Test {
   }
 
   const std::string kColumns = "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";
-  fs::path directory = fs::path(testing::TempDir()) / "made_up_log";
+  const TemporaryFolder folder;
+  const fs::path directory = folder.path();
 };
 
 TEST_F(MadeUpLog, SharedBordersComeOnceAndBicycleLanesAreNoLanes) {

@@ -8,6 +8,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "road_checks.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -66,8 +67,6 @@ TEST(RealMap, Kashiwanoha) {
 
 class MadeUpMap : public testing::Test {
  protected:
-  void TearDown() override { fs::remove(path); }
-
   Road load(const std::string& content) {
     std::ofstream(path) << content;
     return load_lanelet2(path, 10.0);
@@ -107,7 +106,8 @@ class MadeUpMap : public testing::Test {
            way(14, {5, 6}, tag("type", "virtual")) + way(15, {3, 6}, tag("type", "stop_line")) +
            lanelet(21, 11, 13) + lanelet(22, 12, 14) + lanelet(23, 12, 14, "walkway");
   }
-  fs::path path = fs::path(testing::TempDir()) / "made_up.osm";
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("made_up.osm");
 };
 
 TEST_F(MadeUpMap, BordersAreOrientedAndLanesConnected) {

@@ -7,6 +7,7 @@
 
 #include "simulation/road.hpp"
 #include "simulation/scenarios.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -15,8 +16,6 @@ namespace fs = std::filesystem;
 
 class TruthFile : public testing::Test {
  protected:
-  void TearDown() override { fs::remove(path); }
-
   std::string saved() {
     save_truth(path, make_scenario("curve"));
     std::ifstream in(path);
@@ -38,7 +37,8 @@ class TruthFile : public testing::Test {
     return "no error";
   }
 
-  fs::path path = fs::path(testing::TempDir()) / "truth.json";
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("truth.json");
 };
 
 TEST_F(TruthFile, IsReadAsItWasWritten) {

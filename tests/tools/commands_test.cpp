@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "laneloom/recording.hpp"
+#include "own_domain.hpp"
 #include "process.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -20,15 +22,7 @@ using testing::HasSubstr;
 /// Runs the real `laneloom` in a folder of its own.
 class Commands : public testing::Test {
  protected:
-  Commands()
-      : folder_(testing::TempDir() + "laneloom_" +
-                testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-                std::to_string(getpid())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Commands() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& name) const { return folder_ + "/" + name; }
+  std::string file(const std::string& name) const { return folder_.file(name); }
 
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), LANELOOM_COMMAND);
@@ -44,7 +38,7 @@ class Commands : public testing::Test {
   }
 
  private:
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Commands, DetectionsWithoutNoiseScorePerfectly) {
@@ -259,7 +253,7 @@ TEST_F(Commands, PublishListsItsRoads) {
 class Loopback : public Commands {
  protected:
   std::vector<std::string> command(std::vector<std::string> words) const {
-    const std::string domain = std::to_string(20 + getpid() % 180);
+    const std::string domain = std::to_string(own_domain());
     words.insert(words.end(), {"--domain", domain, "--vehicle-id", "test"});
     return words;
   }

@@ -9,8 +9,8 @@
 #include "io/json_lines.hpp"
 #include "laneloom/recording.hpp"
 #include "process.hpp"
-#include "recording/temporary_folder.hpp"
 #include "simulation/road.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "process.hpp"
-#include "recording/temporary_folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "render/figure.hpp"
 #include "render/panel.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -44,16 +45,10 @@ Figure small_figure() {
 
 class Render : public testing::Test {
  protected:
-  Render()
-      : folder_(testing::TempDir() + "laneloom_" +
-                testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Render() override { std::filesystem::remove_all(folder_); }
-  std::string file(const std::string& name) const { return folder_ + "/" + name; }
+  std::string file(const std::string& name) const { return folder_.file(name); }
 
  private:
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 /// A picture read back.

@@ -16,10 +16,9 @@
 /// - A published lane lies on the truth lane that most of its samples are less than 0.5 m from, if these are
 ///   at least 75 % of its samples in range; of equals, the nearer one. Where it states its direction, it must
 ///   run with the traffic; otherwise both senses will do.
-/// - A linkage counts if both its lanes are in range. It is right if the last 5 m of the one and the first 5
-/// m
-///   of the other lie on truth lanes A and B, B a successor of A (of lanes that run against the traffic: A of
-///   B), or on the same one, in order.
+/// - A linkage counts if both its lanes are in range. It is right if the last 5 m of the one and the first
+///   5 m of the other lie on truth lanes A and B, B a successor of A (of lanes that run against the traffic:
+///   A of B), or on the same one, in order.
 /// - Recall: of the pairs A, B that both have a published lane on them, the share with a right linkage.
 /// - Directions: of the published lanes in range that lie on a truth lane in either sense, those that state
 ///   theirs, and the share of these that run with the traffic; recall is the share of all.

@@ -12,13 +12,16 @@
 
 namespace laneloom {
 
-/// A folder that is gone when this ends.
+/// A folder of its own for a test, which runs beside others; gone when this ends.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / "laneloom_recording_XXXXXX") {
+  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / "laneloom_test_XXXXXX") {
     if (!mkdtemp(path_.data())) throw std::runtime_error("no temporary folder");
   }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
