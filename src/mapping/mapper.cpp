@@ -13,6 +13,7 @@
 #include "mapping/directions.hpp"
 #include "mapping/dividers.hpp"
 #include "mapping/ego_track.hpp"
+#include "mapping/inferred_boundaries.hpp"
 #include "mapping/joints.hpp"
 #include "mapping/lane_boundaries.hpp"
 #include "mapping/lane_geometry.hpp"
@@ -149,10 +150,10 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   done(Stage::road_sections);
   const auto pairs = boundary_pairs(sections, boundaries, measured);
   map.lanes = generate_lanes(pairs, boundaries, measured, config_.lane);
-  auto divisions = divide_unmarked(pairs, map.lanes, boundaries, measured, config_.lane);
-  identify_dividers(state.frame, frame.stamp_ns, config_.lane, divisions, state.known_dividers,
-                    state.next_id);
-  add_divisions(divisions, boundaries, measured, map.lanes);
+  TakenSpace taken(map.lanes);
+  auto inferred = divide_unmarked(pairs, boundaries, measured, config_.lane, taken);
+  identify_inferred(state.frame, frame.stamp_ns, config_.lane, inferred, state.known_inferred, state.next_id);
+  add_inferred(std::move(inferred), boundaries, measured, map.lanes);
   identify_lanes(state.frame, config_.lane, map.lanes, state.known_lanes, state.next_id);
   find_neighbours(map.lanes);
   done(Stage::lanes);

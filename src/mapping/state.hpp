@@ -7,8 +7,8 @@
 #include "laneloom/types.hpp"
 #include "mapping/alignment.hpp"
 #include "mapping/co_observation.hpp"
-#include "mapping/dividers.hpp"
 #include "mapping/ego_track.hpp"
+#include "mapping/inferred_boundaries.hpp"
 #include "mapping/instances.hpp"
 #include "mapping/lane_identity.hpp"
 #include "mapping/line_map.hpp"
@@ -30,7 +30,7 @@ struct MapperState {
   PairHistories doubles;  ///< of lines that lie side by side
   PairHistories joints;   ///< of lines that end at each other
   FrameError lasting_error = FrameError::Zero();
-  std::vector<KnownDivider> known_dividers;
+  std::vector<KnownInferred> known_inferred;
   std::vector<KnownLane> known_lanes;
   EgoTrack ego_track;
   Membership published;   ///< of the last map
@@ -39,7 +39,7 @@ struct MapperState {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, known_dividers,
+    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, known_inferred,
             known_lanes, ego_track, published, next_id, map);
   }
 };

@@ -30,9 +30,13 @@ class Dividers : public ::testing::Test {
     const auto graph = road_sections({}, test::at(0), boundaries_, measured_);
     const auto pairs = boundary_pairs(graph, boundaries_, measured_);
     lanes_ = generate_lanes(pairs, boundaries_, measured_, config_);
-    auto divisions = divide_unmarked(pairs, lanes_, boundaries_, measured_, config_);
-    identify_dividers(frame_, 7, config_, divisions, known_, next_id_);
-    add_divisions(divisions, boundaries_, measured_, lanes_);
+    TakenSpace taken(lanes_);
+    add(divide_unmarked(pairs, boundaries_, measured_, config_, taken));
+  }
+
+  void add(std::vector<InferredBoundary> inferred) {
+    identify_inferred(frame_, 7, config_, inferred, known_, next_id_);
+    add_inferred(std::move(inferred), boundaries_, measured_, lanes_);
   }
 
   std::vector<Lane> inferred() const {
@@ -53,7 +57,7 @@ class Dividers : public ::testing::Test {
   LaneConfig config_;
   std::uint64_t frame_ = 0;
   ElementId next_id_ = 100;
-  std::vector<KnownDivider> known_;
+  std::vector<KnownInferred> known_;
   std::vector<LaneBoundary> boundaries_;
   std::vector<MeasuredPolyline> measured_;
   std::vector<Lane> lanes_;
@@ -165,10 +169,11 @@ TEST_F(Dividers, LieBetweenBoundariesThatRunAgainstEachOther) {
   const SectionGraph graph{.sections = {{{0, 1}}},
                            .beside = {{{1, 9.0, 60.0, true}}, {{0, 9.0, 60.0, true}}}};
   const auto pairs = boundary_pairs(graph, boundaries, measured_);
-  auto divisions = divide_unmarked(pairs, {}, boundaries, measured_, config_);
-  ASSERT_EQ(divisions.size(), 1U);
-  identify_dividers(1, 7, config_, divisions, known_, next_id_);
-  add_divisions(divisions, boundaries, measured_, lanes_);
+  boundaries_ = boundaries;
+  TakenSpace taken(lanes_);
+  auto dividers = divide_unmarked(pairs, boundaries_, measured_, config_, taken);
+  ASSERT_EQ(dividers.size(), 1U);
+  add(std::move(dividers));
   ASSERT_EQ(lanes_.size(), 2U);
   for (const Lane& lane : lanes_) {
     EXPECT_NEAR(lane.width_m, 4.5, 1e-9);

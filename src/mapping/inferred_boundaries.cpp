@@ -1,0 +1,111 @@
+#include "mapping/inferred_boundaries.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "mapping/levels.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kSame_m = 1.5;  // from where it was
+
+ElementId id_of(const LaneBoundary& boundary) { return boundary.marking.id; }
+
+}  // namespace
+
+Marking inferred_marking(const Polyline& points) {
+  return {.status = ElementStatus::inferred,
+          .points = points,
+          .styles = {{{0.0, length(points)}, MarkingStyle::unknown}}};
+}
+
+TakenSpace::TakenSpace(const std::vector<Lane>& lanes) {
+  for (const Lane& lane : lanes) {
+    add(lane.centerline, 0.5 * lane.width_m);
+    for (const bool left : {true, false}) {
+      const LaneSide side = lane_side(lane, left);
+      beside(side.of).push_back(side.range);
+    }
+  }
+}
+
+void TakenSpace::add(const Polyline& line, double half_width_m) {
+  strips_.push_back({MeasuredPolyline(line), half_width_m});
+}
+
+bool TakenSpace::contains(const Point& point) const {
+  return std::ranges::any_of(strips_, [&](const Strip& strip) {
+    const Projection foot = strip.line.project(point, strip.half_width_m);
+    return foot.inside && foot.distance_m < strip.half_width_m && same_level(foot.foot, point);
+  });
+}
+
+void identify_inferred(std::uint64_t frame, std::int64_t stamp_ns, const LaneConfig& config,
+                       std::vector<InferredBoundary>& inferred, std::vector<KnownInferred>& known,
+                       ElementId& next_id) {
+  struct Match {
+    std::size_t covered, inferred, known;
+  };
+  std::vector<Match> matches;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const MeasuredPolyline line(known[k].points);
+    for (std::size_t i = 0; i < inferred.size(); ++i) {
+      const Polyline& points = inferred[i].marking.points;
+      const std::size_t covered = points_beside(points, line, kSame_m);
+      if (2 * covered >= std::min(points.size(), known[k].points.size())) matches.push_back({covered, i, k});
+    }
+  }
+  std::ranges::stable_sort(matches, std::greater{}, &Match::covered);
+  const auto recognise = [&](Marking& marking, KnownInferred& same) {
+    marking.id = same.id;
+    marking.first_seen_ns = same.first_seen_ns;
+    same.points = marking.points;
+    same.last_frame = frame;
+  };
+  for (const auto& [covered, i, k] : matches)
+    if (inferred[i].marking.id == kNoElement && known[k].last_frame != frame)
+      recognise(inferred[i].marking, known[k]);
+  for (auto& [marking, on_left, on_right, two_way, section] : inferred) {
+    if (marking.id != kNoElement) continue;
+    known.push_back({.id = next_id++, .first_seen_ns = stamp_ns});
+    recognise(marking, known.back());
+  }
+  std::erase_if(known, [&](const KnownInferred& one) {
+    return one.last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < frame;
+  });
+}
+
+void add_inferred(std::vector<InferredBoundary> inferred, std::vector<LaneBoundary>& boundaries,
+                  std::vector<MeasuredPolyline>& measured, std::vector<Lane>& lanes) {
+  const Occupied nothing;
+  std::vector<LaneBoundary> added;
+  for (auto& [marking, on_left, on_right, two_way, section] : inferred) {
+    const LaneBoundary& boundary =
+        added.emplace_back(LaneBoundary{.marking = marking, .members = {marking.id}, .two_way = two_way});
+    const MeasuredPolyline line(marking.points);
+    const LaneBorder border(boundary, line, false, nothing);
+    const std::vector<double> arcs_m = arc_lengths(marking.points);
+    const auto add_lane = [&](InferredBoundary::Beside& beside, bool on_left_side) {
+      for (std::size_t i = 0; i < arcs_m.size(); ++i)
+        (on_left_side ? beside.sections[i].right_arc_m : beside.sections[i].left_arc_m) = arcs_m[i];
+      const LaneBorder other(boundaries[beside.boundary], measured[beside.boundary], beside.reversed,
+                             nothing);
+      Lane lane = on_left_side ? make_lane(beside.sections, other, border)
+                               : make_lane(beside.sections, border, other);
+      lane.section = section;
+      lane.inferred_ranges = {{0.0, length(lane.centerline)}};
+      lanes.push_back(std::move(lane));
+    };
+    if (on_left) add_lane(*on_left, true);
+    if (on_right) add_lane(*on_right, false);
+  }
+  for (LaneBoundary& boundary : added) {
+    const auto at = std::ranges::lower_bound(boundaries, boundary.marking.id, {}, id_of);
+    measured.emplace(measured.begin() + (at - boundaries.begin()), boundary.marking.points);
+    boundaries.insert(at, std::move(boundary));
+  }
+}
+
+}  // namespace laneloom
