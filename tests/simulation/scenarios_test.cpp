@@ -103,6 +103,17 @@ TEST(Curve, BendsBy90DegreesOn12Metres) {
   EXPECT_NEAR(centre->points.back().x(), 92.0, 1e-9);
 }
 
+TEST(CountryRoad, HasNothingButALineBetweenItsDirectionsFurtherOn) {
+  const Road road = make_scenario("country_road");
+  EXPECT_EQ(count(road, MarkingType::laneline, MarkingStyle::dashed), 1U);
+  EXPECT_EQ(count(road, MarkingType::roadedge, MarkingStyle::solid), 2U);
+  for (const RoadMarking& marking : road.markings)
+    EXPECT_NEAR(length(marking.points), marking.type == MarkingType::roadedge ? 60.0 : 287.1, 0.1);
+  const RoadLane& ahead = lane_at(road, {100.0, -1.75, 0.0});
+  EXPECT_NE(ahead.left_marking, kNoElement);
+  EXPECT_EQ(ahead.right_marking, kNoElement);
+}
+
 TEST(Street, HasNoLineBetweenItsDirectionsFurtherOn) {
   const Road road = make_scenario("street");
   EXPECT_EQ(lane_at(road, {30.0, -1.75, 0.0}).left_marking, lane_at(road, {30.0, 1.75, 0.0}).left_marking);

@@ -34,6 +34,9 @@ class SideBorders {
     }
     close_lines(lanes, 0, length_m_);
     add(MarkingType::roadedge, MarkingStyle::solid, Profile(knots_), edge_from_m_, length_m_);
+    for (Border& border : borders_) {
+      if (border.type == MarkingType::roadedge) border.painted = section_.visible_edges;
+    }
     return std::move(borders_);
   }
 

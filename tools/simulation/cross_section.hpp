@@ -17,7 +17,7 @@ struct Border {
   Profile left_m;  ///< beside the reference line
   double from_m = 0.0;
   double to_m = 0.0;
-  bool painted = true;
+  bool painted = true;  ///< there is something to be seen
 };
 
 /// All lines of a street of that length.

@@ -38,6 +38,19 @@ Road street(double speed_mps) {
       {marked.point(10.0, -0.5 * kWidth_m), unmarked.point(200.0, -0.5 * kWidth_m)}, speed_mps);
 }
 
+// Over land, where nothing but the line between the directions is to be seen.
+Road country_road(double speed_mps) {
+  const Alignment edged({}, {straight(60.0)});
+  const Alignment open(edged.end(), {straight(60.0), bend(60.0, -45.0), straight(120.0)});
+  Section section = two_way(1, 1, CentreLine::dashed);
+  RoadBuilder builder("country_road");
+  builder.add_street(edged, section);
+  section.visible_edges = false;
+  builder.add_street(open, section);
+  return std::move(builder).build({edged.point(10.0, -0.5 * kWidth_m), open.point(210.0, -0.5 * kWidth_m)},
+                                  speed_mps);
+}
+
 // A lane is added on the right, and further on it leaves as an exit.
 Road split(double speed_mps) {
   const double exit_at_m = 200.0;
@@ -121,9 +134,10 @@ Road overpass(double speed_mps) {
 }
 
 using Maker = Road (*)(double speed_mps);
-constexpr std::array<std::pair<const char*, Maker>, 10> kScenarios{{{"straight", straight_road},
+constexpr std::array<std::pair<const char*, Maker>, 11> kScenarios{{{"straight", straight_road},
                                                                     {"curve", curve},
                                                                     {"street", street},
+                                                                    {"country_road", country_road},
                                                                     {"split", split},
                                                                     {"merge", merge},
                                                                     {"t_intersection", t_intersection},
