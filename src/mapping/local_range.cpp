@@ -30,7 +30,8 @@ std::optional<Range> clip(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
 }  // namespace
 
 LocalRange::LocalRange(const RangeConfig& config, const Eigen::Isometry3d& T_map_body)
-    : T_body_map_(T_map_body.inverse()),
+    : T_map_body_(T_map_body),
+      T_body_map_(T_map_body.inverse()),
       box_(Eigen::Vector2d(config.forward_min_m, -config.side_max_m),
            Eigen::Vector2d(config.forward_max_m, config.side_max_m)) {
   const Eigen::Vector2d margin(config.margin_forward_m, config.margin_side_m);

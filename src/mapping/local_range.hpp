@@ -18,12 +18,14 @@ class LocalRange {
   /// Within the box itself.
   bool shows(const Point& point_map) const;
 
+  const Eigen::Isometry3d& T_map_body() const { return T_map_body_; }
+
   /// The stretches of a polyline that lie in the box, by arc length, in order. The line has at least two
   /// points.
   std::vector<Range> inside(const Polyline& line_map) const;
 
  private:
-  Eigen::Isometry3d T_body_map_;
+  Eigen::Isometry3d T_map_body_, T_body_map_;
   Eigen::AlignedBox2d box_;   ///< body frame
   Eigen::AlignedBox2d kept_;  ///< body frame, with the margin
 };

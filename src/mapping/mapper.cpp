@@ -26,6 +26,7 @@
 #include "mapping/lineage.hpp"
 #include "mapping/linkages.hpp"
 #include "mapping/local_range.hpp"
+#include "mapping/one_sided_lanes.hpp"
 #include "mapping/preprocess.hpp"
 #include "mapping/road_sections.hpp"
 #include "mapping/semantic_voxels.hpp"
@@ -152,6 +153,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   map.lanes = generate_lanes(pairs, boundaries, measured, config_.lane);
   TakenSpace taken(map.lanes);
   auto inferred = divide_unmarked(pairs, boundaries, measured, config_.lane, taken);
+  std::ranges::move(one_sided_lanes(sections.sections, boundaries, measured, range, config_.lane, taken),
+                    std::back_inserter(inferred));
   identify_inferred(state.frame, frame.stamp_ns, config_.lane, inferred, state.known_inferred, state.next_id);
   add_inferred(std::move(inferred), boundaries, measured, map.lanes);
   identify_lanes(state.frame, config_.lane, map.lanes, state.known_lanes, state.next_id);
