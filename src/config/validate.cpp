@@ -89,6 +89,11 @@ std::optional<Problem> find_contradiction(const Config& c) {
   if (mapper.lane.min_width_m >= mapper.lane.max_width_m) {
     return Problem{"mapper.lane.min_width_m", "must be less than max_width_m"};
   }
+  if (const LaneConfig& lane = mapper.lane;
+      lane.assumed_width_m != 0.0 &&
+      (lane.assumed_width_m < lane.min_width_m || lane.assumed_width_m > lane.max_kerb_width_m)) {
+    return Problem{"mapper.lane.assumed_width_m", "must be 0, or from min_width_m to max_kerb_width_m"};
+  }
   if (auto problem = find_too_many_points(mapper)) return problem;
   if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {
     return Problem{"sync.pose_history_s", "must exceed max_pose_gap_s"};

@@ -9,6 +9,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/ego_track.hpp"
 #include "mapping/lane_geometry.hpp"
+#include "mapping/markings.hpp"
 #include "mapping/oriented_groups.hpp"
 #include "mapping/stoplines.hpp"
 
@@ -90,16 +91,9 @@ double divider_evidence(const LaneBoundary& divider, const Range& range) {
   if (boundary.status == ElementStatus::inferred)
     return divider.two_way ? kDividerEvidence : -kDividerEvidence;
   if (boundary.type == MarkingType::roadedge) return kEdgeBetweenEvidence;
-  double solid_m = 0.0, dashed_m = 0.0;
-  for (const StyleRange& style : boundary.styles) {
-    const double common_m =
-        std::min(style.range.to_m, range.to_m) - std::max(style.range.from_m, range.from_m);
-    if (common_m <= 0.0) continue;
-    if (style.style == MarkingStyle::solid) solid_m += common_m;
-    if (style.style == MarkingStyle::dashed) dashed_m += common_m;
-  }
-  if (solid_m == dashed_m) return 0.0;
-  return solid_m > dashed_m ? kDividerEvidence : -kDividerEvidence;
+  const double dashed_m = dashed_excess_m(boundary, range);
+  if (dashed_m == 0.0) return 0.0;
+  return dashed_m < 0.0 ? kDividerEvidence : -kDividerEvidence;
 }
 
 /// Whether the lanes are neighbours that run alike, be it across a double line.

@@ -65,7 +65,7 @@ class Divisions {
  public:
   Divisions(const std::vector<LaneBoundary>& boundaries, const std::vector<MeasuredPolyline>& measured,
             const LaneConfig& config, TakenSpace& taken)
-      : boundaries_(boundaries), measured_(measured), config_(config), taken_(taken) {}
+      : boundaries_(boundaries), measured_(measured), config_(config), lanes_(taken), taken_(taken) {}
 
   void add(const BoundaryPair& pair) {
     if ((!pair.left_kerb && !pair.right_kerb) || pair.crosses_kerb) return;
@@ -114,7 +114,7 @@ class Divisions {
   /// Beyond the edge of a road with lanes is a verge, a pavement or a cycle track.
   bool is_beside_lanes(const CrossSection& section) const {
     const Point out = kBeyondEdge_m * (section.right - section.left).normalized();
-    return taken_.contains(section.left - out) || taken_.contains(section.right + out);
+    return lanes_.contains(section.left - out) || lanes_.contains(section.right + out);
   }
 
   /// At the lines that it continues, or in the middle.
@@ -130,6 +130,7 @@ class Divisions {
   const std::vector<LaneBoundary>& boundaries_;
   const std::vector<MeasuredPolyline>& measured_;
   const LaneConfig& config_;
+  const TakenSpace lanes_;  ///< that were seen
   TakenSpace& taken_;
   std::vector<InferredBoundary> found_;
 };

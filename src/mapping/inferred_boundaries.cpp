@@ -21,6 +21,13 @@ Marking inferred_marking(const Polyline& points) {
           .styles = {{{0.0, length(points)}, MarkingStyle::unknown}}};
 }
 
+Box box_around(const Polyline& line, double margin_m) {
+  const Point margin(margin_m, margin_m, kLevel_m);
+  Box box;
+  for (const Point& point : line) box.extend(point);
+  return {box.min() - margin, box.max() + margin};
+}
+
 TakenSpace::TakenSpace(const std::vector<Lane>& lanes) {
   for (const Lane& lane : lanes) {
     add(lane.centerline, 0.5 * lane.width_m);
@@ -32,11 +39,12 @@ TakenSpace::TakenSpace(const std::vector<Lane>& lanes) {
 }
 
 void TakenSpace::add(const Polyline& line, double half_width_m) {
-  strips_.push_back({MeasuredPolyline(line), half_width_m});
+  strips_.push_back({MeasuredPolyline(line), half_width_m, box_around(line, half_width_m)});
 }
 
 bool TakenSpace::contains(const Point& point) const {
   return std::ranges::any_of(strips_, [&](const Strip& strip) {
+    if (!strip.box.contains(point)) return false;
     const Projection foot = strip.line.project(point, strip.half_width_m);
     return foot.inside && foot.distance_m < strip.half_width_m && same_level(foot.foot, point);
   });
@@ -49,9 +57,13 @@ void identify_inferred(std::uint64_t frame, std::int64_t stamp_ns, const LaneCon
     std::size_t covered, inferred, known;
   };
   std::vector<Match> matches;
+  std::vector<Box> boxes;
+  for (const InferredBoundary& one : inferred) boxes.push_back(box_around(one.marking.points));
   for (std::size_t k = 0; k < known.size(); ++k) {
     const MeasuredPolyline line(known[k].points);
+    const Box near = box_around(known[k].points, kSame_m);
     for (std::size_t i = 0; i < inferred.size(); ++i) {
+      if (!near.intersects(boxes[i])) continue;
       const Polyline& points = inferred[i].marking.points;
       const std::size_t covered = points_beside(points, line, kSame_m);
       if (2 * covered >= std::min(points.size(), known[k].points.size())) matches.push_back({covered, i, k});

@@ -35,6 +35,10 @@ struct InferredBoundary {
 /// A marking without an id.
 Marking inferred_marking(const Polyline& points);
 
+/// Around all that is so near to a line, on its level: for seeing quickly that something is not.
+using Box = Eigen::AlignedBox3d;
+Box box_around(const Polyline& line, double margin_m = 0.0);
+
 /// What lanes take of the boundaries' sides, and of the road.
 class TakenSpace {
  public:
@@ -48,6 +52,7 @@ class TakenSpace {
   struct Strip {
     MeasuredPolyline line;
     double half_width_m = 0.0;
+    Box box;
   };
   std::map<BoundarySide, Occupied> sides_;
   std::vector<Strip> strips_;

@@ -6,10 +6,9 @@
 
 namespace laneloom {
 
+inline constexpr double kLevel_m = 2.0;
+
 /// Whether two places that coincide from above may be on one road, and not on a bridge and below it.
-inline bool same_level(const Point& a, const Point& b) {
-  constexpr double kMaxHeight_m = 2.0;
-  return std::abs(a.z() - b.z()) <= kMaxHeight_m;
-}
+inline bool same_level(const Point& a, const Point& b) { return std::abs(a.z() - b.z()) <= kLevel_m; }
 
 }  // namespace laneloom

@@ -32,6 +32,18 @@ double deviation_at(const std::vector<double>& arc_m, const std::vector<double>&
   return deviations_m[after - 1] + share * (deviations_m[after] - deviations_m[after - 1]);
 }
 
+double dashed_excess_m(const Marking& marking, const Range& range) {
+  double excess_m = 0.0;
+  for (const StyleRange& style : marking.styles) {
+    const double common_m =
+        std::min(style.range.to_m, range.to_m) - std::max(style.range.from_m, range.from_m);
+    if (common_m <= 0.0) continue;
+    if (style.style == MarkingStyle::dashed) excess_m += common_m;
+    if (style.style == MarkingStyle::solid) excess_m -= common_m;
+  }
+  return excess_m;
+}
+
 Marking slice(const Marking& marking, const Range& stretch) {
   Marking part = marking;
   part.points = MeasuredPolyline(marking.points).slice(stretch);

@@ -9,6 +9,9 @@ namespace laneloom {
 /// The deviation at an arc length, between those of the vertices around it, whose arc lengths are `arc_m`.
 double deviation_at(const std::vector<double>& arc_m, const std::vector<double>& deviations_m, double at_m);
 
+/// How much longer the dashed stretches of a marking are than the solid ones, within a range.
+double dashed_excess_m(const Marking& marking, const Range& range);
+
 /// The stretch of a marking between two arc lengths, with its styles and deviations.
 Marking slice(const Marking& marking, const Range& stretch);
 

@@ -9,9 +9,11 @@
 
 namespace laneloom {
 
-/// Lanes beside one line, ours: where there is nothing else within the width of a lane with room to park, on
-/// that side of a confirmed line, and that line is dashed or the vehicle drives along it there. The lane's
-/// other boundary is inferred, at the assumed width. The space is `taken` then. Without ids.
+/// Lanes beside one line, ours: on a side of a confirmed laneline where nothing else was seen, as far as a
+/// lane with room to park would reach, and where the line is dashed, or the vehicle drives beside it as in a
+/// lane. The lane's other boundary is inferred, at the assumed width and within the range. A lane is 8 m long
+/// at least; between two stretches where there is something, 20 m: what is shorter is a gap in that. The
+/// space is `taken` then. Without ids.
 std::vector<InferredBoundary> one_sided_lanes(const std::vector<RoadSection>& sections,
                                               const std::vector<LaneBoundary>& boundaries,
                                               const std::vector<MeasuredPolyline>& measured,

@@ -111,6 +111,8 @@ TEST_F(ConfigFile, AContradictionIsNamedWithItsLine) {
             ":3: mapper.range.forward_min_m: must be less than forward_max_m");
   EXPECT_EQ(error_of("mapper:\n  lane:\n    min_width_m: 4.5\n"),
             ":3: mapper.lane.min_width_m: must be less than max_width_m");
+  EXPECT_EQ(error_of("mapper:\n  lane:\n    assumed_width_m: 2\n"),
+            ":3: mapper.lane.assumed_width_m: must be 0, or from min_width_m to max_kerb_width_m");
   EXPECT_EQ(error_of("service:\n  degraded_after_s: 0.5\n"),
             ":2: service.degraded_after_s: must not exceed stale_after_s");
   EXPECT_EQ(error_of("dds:\n  profile_file: x.xml\n"),

@@ -35,7 +35,7 @@ class Dividers : public ::testing::Test {
   }
 
   void add(std::vector<InferredBoundary> inferred) {
-    identify_inferred(frame_, 7, config_, inferred, known_, next_id_);
+    identify_inferred(frame_, static_cast<std::int64_t>(frame_), config_, inferred, known_, next_id_);
     add_inferred(std::move(inferred), boundaries_, measured_, lanes_);
   }
 
@@ -84,7 +84,7 @@ TEST_F(Dividers, TwoLanesFillARoadWithoutALine) {
 TEST_F(Dividers, SayThatNothingIsPaintedThere) {
   map({edge(1, 9), edge(2, 0)});
   EXPECT_EQ(divider().type, MarkingType::laneline);
-  EXPECT_EQ(divider().first_seen_ns, 7);
+  EXPECT_EQ(divider().first_seen_ns, 1);
   EXPECT_EQ(divider().observations, 0U);
   ASSERT_EQ(divider().styles.size(), 1U);
   EXPECT_EQ(divider().styles[0].style, MarkingStyle::unknown);
@@ -219,6 +219,11 @@ TEST_F(Dividers, BeyondTheEdgeOfARoadWithLanesAreNone) {
   EXPECT_TRUE(inferred().empty());
 }
 
+TEST_F(Dividers, OfTwoRoadsWithACommonEdgeAreTwo) {
+  map({edge(1, 16), edge(2, 8), edge(3, 0)});
+  EXPECT_EQ(inferred().size(), 4U);
+}
+
 TEST_F(Dividers, DoNotTakeAnIdForAPointInCommon) {
   map({edge(1, 9), edge(2, 0)});
   const ElementId id = divider().id;
@@ -244,7 +249,7 @@ TEST_F(Dividers, KeepTheirIdAsTheWindowMoves) {
   const ElementId id = divider().id;
   map({edge(1, 9.2, 10, 70), edge(2, 0.2, 10, 70)});
   EXPECT_EQ(divider().id, id);
-  EXPECT_EQ(divider().first_seen_ns, 7);
+  EXPECT_EQ(divider().first_seen_ns, 1);
   map({edge(1, 9, 200, 260), edge(2, 0, 200, 260)});
   EXPECT_NE(divider().id, id);
 }

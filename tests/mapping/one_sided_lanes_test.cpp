@@ -38,7 +38,8 @@ class OneSidedLanes : public ::testing::Test {
     TakenSpace taken(lanes_);
     auto inferred =
         one_sided_lanes({all}, boundaries_, measured_, LocalRange(range_, vehicle), config_, taken);
-    identify_inferred(++frame_, 7, config_, inferred, known_, next_id_);
+    ++frame_;
+    identify_inferred(frame_, static_cast<std::int64_t>(frame_), config_, inferred, known_, next_id_);
     add_inferred(std::move(inferred), boundaries_, measured_, lanes_);
     lanes_.erase(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(known_lanes_.size()));
   }
@@ -91,7 +92,8 @@ TEST_F(OneSidedLanes, LieBesideASolidLineWhereTheVehicleDrives) {
   EXPECT_EQ(lanes_[0].right_boundary, 1U);
   ASSERT_EQ(lanes_from(test::at(10, -1.5)), 1U);
   EXPECT_EQ(lanes_[0].left_boundary, 1U);
-  EXPECT_EQ(lanes_from(test::at(10, 3.4)), 0U) << "in another lane";
+  EXPECT_EQ(lanes_from(test::at(10, 0.7)), 0U) << "changing lanes";
+  EXPECT_EQ(lanes_from(test::at(10, 2.6)), 0U) << "in another lane";
   EXPECT_EQ(lanes_from(test::at(-9, 1.5)), 1U) << "the line begins ahead";
   EXPECT_EQ(lanes_from(test::at(-11, 1.5)), 0U);
   EXPECT_EQ(lanes_from(test::at(10, 1.5, 1.0)), 0U) << "across the line";
@@ -104,6 +106,43 @@ TEST_F(OneSidedLanes, EndWithTheDashes) {
   map({line});
   ASSERT_EQ(lanes_.size(), 2U);
   for (const Lane& lane : lanes_) EXPECT_NEAR(length(lane.centerline), 20.0, 1.0);
+}
+
+TEST_F(OneSidedLanes, DoNotMindShortPatchesOfAnotherStyle) {
+  LaneBoundary line = dashed(1, 0);
+  line.marking.styles = {{{0, 12}, MarkingStyle::dashed},
+                         {{12, 20}, MarkingStyle::unknown},
+                         {{20, 26}, MarkingStyle::dashed},
+                         {{26, 29}, MarkingStyle::solid},
+                         {{29, 40}, MarkingStyle::dashed}};
+  map({line});
+  ASSERT_EQ(lanes_.size(), 2U);
+  for (const Lane& lane : lanes_) EXPECT_NEAR(length(lane.centerline), 40.0, 0.1);
+}
+
+TEST_F(OneSidedLanes, AreNotInAGapOfAnEdge) {
+  const auto lanes_beside = [this](double gap_m) {
+    return lanes_with(
+        {dashed(1, 0, 0, 60), edge(2, 1.5, 0, 20), edge(3, 1.5, 20 + gap_m, 60), edge(4, -1.5, 0, 60)});
+  };
+  EXPECT_EQ(lanes_beside(15), 0U);
+  EXPECT_EQ(lanes_beside(25), 1U);
+}
+
+TEST_F(OneSidedLanes, AreNotWhereTheirLineComesBack) {
+  Polyline hairpin = straight({0, 0, 0}, {20, 0, 0}, 21);
+  const Polyline turn = test::arc({20, 2.5, 0}, 2.5, -90, 90), back = straight({20, 5, 0}, {0, 5, 0}, 21);
+  hairpin.insert(hairpin.end(), turn.begin() + 1, turn.end());
+  hairpin.insert(hairpin.end(), back.begin() + 1, back.end());
+  map({styled(1, hairpin, MarkingStyle::dashed)});
+  for (const Lane& lane : lanes_) EXPECT_EQ(lane.left_boundary, 1U) << "outside";
+  EXPECT_FALSE(lanes_.empty());
+}
+
+TEST_F(OneSidedLanes, AreAsWideOnASlope) {
+  map({styled(1, straight({0, 0, 0}, {40, 0, 20}), MarkingStyle::dashed)});
+  ASSERT_EQ(lanes_.size(), 2U);
+  for (const Point& point : lanes_[0].right) EXPECT_NEAR(point.y(), -3.3, 1e-9);
 }
 
 TEST_F(OneSidedLanes, NeedRoomThatNothingElseTakes) {
@@ -142,7 +181,7 @@ TEST_F(OneSidedLanes, AreNotWhereALaneIs) {
 TEST_F(OneSidedLanes, OfTwoLinesDoNotOverlap) {
   map({dashed(1, 0), dashed(2, 6.6)});
   EXPECT_EQ(lanes_.size(), 4U);
-  config_.assumed_width_m = 4.5;
+  config_.assumed_width_m = 4.0;
   map({dashed(1, 0), dashed(2, 6.6)});
   EXPECT_EQ(lanes_.size(), 3U) << "between them there is room for one of these";
 }
@@ -183,7 +222,7 @@ TEST_F(OneSidedLanes, KeepTheirBoundariesIdsAsTheWindowMoves) {
   map({dashed(1, 0.2, 10, 50)});
   EXPECT_EQ(lanes_[0].right_boundary, right);
   EXPECT_EQ(lanes_[1].left_boundary, left);
-  EXPECT_EQ(boundaries_.back().marking.first_seen_ns, 7);
+  EXPECT_EQ(boundaries_.back().marking.first_seen_ns, 1);
 }
 
 TEST_F(OneSidedLanes, CanBeTurnedOff) {

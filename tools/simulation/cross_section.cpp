@@ -34,9 +34,6 @@ class SideBorders {
     }
     close_lines(lanes, 0, length_m_);
     add(MarkingType::roadedge, MarkingStyle::solid, Profile(knots_), edge_from_m_, length_m_);
-    for (Border& border : borders_) {
-      if (border.type == MarkingType::roadedge) border.painted = section_.visible_edges;
-    }
     return std::move(borders_);
   }
 
@@ -143,6 +140,8 @@ std::vector<Border> borders(const Section& section, double length_m) {
   };
   append(true, section.forward);
   append(false, section.backward);
+  for (Border& border : all)
+    if (border.type == MarkingType::roadedge) border.painted = section.visible_edges;
   return all;
 }
 
