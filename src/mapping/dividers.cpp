@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kReach_m = 6.0;  // beyond a stretch, in which a line is looked for that it continues
 constexpr double kReachStep_m = 2.0;
+constexpr double kFlare_m = 0.3;  // by which a road is wider than usual, as it opens into an intersection
 constexpr double kBeyondEdge_m = kAlongEdge_m + 1.2;  // where half a lane is, beside a line along the edge
 
 /// The share of the width at which a line begins or ends beyond the last cross-section of a run.
@@ -27,6 +28,18 @@ std::optional<double> line_beyond(const CrossSection& last, const CrossSection& 
     if (between) return between->is_edge ? std::nullopt : std::optional(between->share);
   }
   return std::nullopt;
+}
+
+/// A run without its flared ends, where edges turn off round the corners of an intersection.
+std::span<const CrossSection> without_flares(std::span<const CrossSection> run) {
+  std::vector<double> widths_m;
+  for (const CrossSection& section : run) widths_m.push_back(section.width_m);
+  const auto middle = widths_m.begin() + static_cast<std::ptrdiff_t>(widths_m.size() / 2);
+  std::ranges::nth_element(widths_m, middle);
+  const double usual_m = *middle;
+  while (run.front().width_m > usual_m + kFlare_m) run = run.subspan(1);
+  while (run.back().width_m > usual_m + kFlare_m) run = run.first(run.size() - 1);
+  return run;
 }
 
 /// How wide the lane on the left and the one on the right of a divider may be.
@@ -78,7 +91,7 @@ class Divisions {
     LaneConfig both_lanes = config_;
     both_lanes.max_width_variation_m *= 2.0;
     for (std::size_t begin = 0; begin < sections.size();) {
-      const auto run = next_run(sections, begin, both_lanes);
+      const auto run = without_flares(next_run(sections, begin, both_lanes));
       if (run.back().left_arc_m - run.front().left_arc_m < kMinInferredLength_m) continue;
       auto halves = divide(run, pair);
       if (!halves) continue;

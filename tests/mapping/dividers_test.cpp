@@ -191,6 +191,19 @@ TEST_F(Dividers, FollowABend) {
   for (const Point& point : divider().points) EXPECT_NEAR((point - centre).norm(), 35.5, 0.05);
 }
 
+TEST_F(Dividers, EndWhereTheRoadOpensIntoAnIntersection) {
+  const auto turning_off = [](ElementId id, double y, const Polyline& corner) {
+    LaneBoundary edge = boundary(id, straight({0, y, 0}, {40, y, 0}, 41), MarkingType::roadedge);
+    edge.marking.points.insert(edge.marking.points.end(), corner.begin() + 1, corner.end());
+    return edge;
+  };
+  map({turning_off(1, 9, test::arc({40, 17, 0}, 8, -90, -10)),
+       turning_off(2, 0, test::arc({40, -8, 0}, 8, 90, 10))});
+  ASSERT_EQ(inferred().size(), 2U);
+  EXPECT_NEAR(divider().points.front().x(), 0.0, 1e-6);
+  EXPECT_NEAR(divider().points.back().x(), 41.0, 1.0);
+}
+
 TEST_F(Dividers, ContinueALineThatEnds) {
   map({edge(1, 9), edge(2, 0), line(3, 5.5, 0, 20)});
   EXPECT_EQ(lanes_.size(), 4U);
