@@ -58,6 +58,7 @@ void identify_inferred(std::uint64_t frame, std::int64_t stamp_ns, const LaneCon
   };
   std::vector<Match> matches;
   std::vector<Box> boxes;
+  boxes.reserve(inferred.size());
   for (const InferredBoundary& one : inferred) boxes.push_back(box_around(one.marking.points));
   for (std::size_t k = 0; k < known.size(); ++k) {
     const MeasuredPolyline line(known[k].points);
@@ -79,10 +80,10 @@ void identify_inferred(std::uint64_t frame, std::int64_t stamp_ns, const LaneCon
   for (const auto& [covered, i, k] : matches)
     if (inferred[i].marking.id == kNoElement && known[k].last_frame != frame)
       recognise(inferred[i].marking, known[k]);
-  for (auto& [marking, on_left, on_right, two_way, section] : inferred) {
-    if (marking.id != kNoElement) continue;
+  for (InferredBoundary& one : inferred) {
+    if (one.marking.id != kNoElement) continue;
     known.push_back({.id = next_id++, .first_seen_ns = stamp_ns});
-    recognise(marking, known.back());
+    recognise(one.marking, known.back());
   }
   std::erase_if(known, [&](const KnownInferred& one) {
     return one.last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < frame;
@@ -93,25 +94,25 @@ void add_inferred(std::vector<InferredBoundary> inferred, std::vector<LaneBounda
                   std::vector<MeasuredPolyline>& measured, std::vector<Lane>& lanes) {
   const Occupied nothing;
   std::vector<LaneBoundary> added;
-  for (auto& [marking, on_left, on_right, two_way, section] : inferred) {
-    const LaneBoundary& boundary =
-        added.emplace_back(LaneBoundary{.marking = marking, .members = {marking.id}, .two_way = two_way});
-    const MeasuredPolyline line(marking.points);
-    const LaneBorder border(boundary, line, false, nothing);
-    const std::vector<double> arcs_m = arc_lengths(marking.points);
-    const auto add_lane = [&](InferredBoundary::Beside& beside, bool on_left_side) {
-      for (std::size_t i = 0; i < arcs_m.size(); ++i)
-        (on_left_side ? beside.sections[i].right_arc_m : beside.sections[i].left_arc_m) = arcs_m[i];
-      const LaneBorder other(boundaries[beside.boundary], measured[beside.boundary], beside.reversed,
-                             nothing);
-      Lane lane = on_left_side ? make_lane(beside.sections, other, border)
-                               : make_lane(beside.sections, border, other);
-      lane.section = section;
+  for (InferredBoundary& one : inferred) {
+    added.push_back({.marking = one.marking, .members = {one.marking.id}, .two_way = one.two_way});
+    const MeasuredPolyline line(one.marking.points);
+    const LaneBorder border(added.back(), line, false, nothing);
+    const auto other = [&](const InferredBoundary::Beside& lane) {
+      return LaneBorder(boundaries[lane.boundary], measured[lane.boundary], lane.reversed, nothing);
+    };
+    const auto add_lane = [&](Lane lane) {
+      lane.section = one.section;
       lane.inferred_ranges = {{0.0, length(lane.centerline)}};
       lanes.push_back(std::move(lane));
     };
-    if (on_left) add_lane(*on_left, true);
-    if (on_right) add_lane(*on_right, false);
+    const std::vector<double> arcs_m = arc_lengths(one.marking.points);
+    for (std::size_t i = 0; i < arcs_m.size(); ++i) {
+      if (one.on_left) one.on_left->sections[i].right_arc_m = arcs_m[i];
+      if (one.on_right) one.on_right->sections[i].left_arc_m = arcs_m[i];
+    }
+    if (one.on_left) add_lane(make_lane(one.on_left->sections, other(*one.on_left), border));
+    if (one.on_right) add_lane(make_lane(one.on_right->sections, border, other(*one.on_right)));
   }
   for (LaneBoundary& boundary : added) {
     const auto at = std::ranges::lower_bound(boundaries, boundary.marking.id, {}, id_of);

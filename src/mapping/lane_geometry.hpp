@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <compare>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "laneloom/polyline.hpp"
@@ -21,7 +21,10 @@ struct BoundarySide {
   bool on_left = false;  ///< as the boundary runs
 
   BoundarySide other() const { return {boundary, !on_left}; }
-  auto operator<=>(const BoundarySide&) const = default;
+  bool operator==(const BoundarySide&) const = default;
+  bool operator<(const BoundarySide& side) const {
+    return std::pair(boundary, on_left) < std::pair(side.boundary, side.on_left);
+  }
 };
 
 /// The left or the right side of a lane, along the boundary there.
