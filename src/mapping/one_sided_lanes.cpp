@@ -105,6 +105,8 @@ class OneSidedLanes {
                                           const std::vector<std::size_t>& others) const {
     const Marking& marking = boundaries_[side.line].marking;
     const bool driven = is_driven_along(side);
+    if (!driven && std::ranges::count(marking.styles, MarkingStyle::dashed, &StyleRange::style) == 0)
+      return {};
     const auto is_dashed = [&](double arc_m) {
       return dashed_excess_m(marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) > 0.0;
     };
