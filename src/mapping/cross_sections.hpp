@@ -76,6 +76,11 @@ std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorde
 std::span<const CrossSection> next_run(const std::vector<CrossSection>& sections, std::size_t& begin,
                                        const LaneConfig& config);
 
+/// Along the left boundary.
+inline double length_of(std::span<const CrossSection> run) {
+  return run.back().left_arc_m - run.front().left_arc_m;
+}
+
 /// The lane of a run.
 Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const LaneBorder& right);
 

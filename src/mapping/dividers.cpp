@@ -91,8 +91,10 @@ class Divisions {
     LaneConfig both_lanes = config_;
     both_lanes.max_width_variation_m *= 2.0;
     for (std::size_t begin = 0; begin < sections.size();) {
-      const auto run = without_flares(next_run(sections, begin, both_lanes));
-      if (run.back().left_arc_m - run.front().left_arc_m < kMinInferredLength_m) continue;
+      auto run = next_run(sections, begin, both_lanes);
+      if (length_of(run) < kMinInferredLength_m) continue;
+      run = without_flares(run);
+      if (length_of(run) < kMinInferredLength_m) continue;
       auto halves = divide(run, pair);
       if (!halves) continue;
       left_taken.push_back(left.own({run.front().left_arc_m, run.back().left_arc_m}));

@@ -43,7 +43,7 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
     for (std::size_t begin = 0; begin < sections.size();) {
       const auto run = next_run(sections, begin, config);
       const double min_length_m = run.front().wide ? kMinKerbLaneLength_m : config.min_length_m;
-      if (run.back().left_arc_m - run.front().left_arc_m >= min_length_m) {
+      if (length_of(run) >= min_length_m) {
         lanes.push_back(make_lane(run, left, right));
         lanes.back().section = pair.section;
         used[pair.left][pair.left_reversed].push_back(lanes.back().left_range);

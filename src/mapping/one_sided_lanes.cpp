@@ -74,9 +74,8 @@ class OneSidedLanes {
     const std::vector<CrossSection> sections = open_sections(side, others);
     for (std::size_t begin = 0; begin < sections.size();) {
       const auto run = next_run(sections, begin, config_);
-      const double length_m = run.back().left_arc_m - run.front().left_arc_m;
-      if (length_m < kMinInferredLength_m) continue;
-      if (length_m < kMinBetween_m && is_gap(side, others, sections, run)) continue;
+      if (length_of(run) < kMinInferredLength_m) continue;
+      if (length_of(run) < kMinBetween_m && is_gap(side, others, sections, run)) continue;
       Polyline border, middle;
       for (const CrossSection& section : run) {
         border.push_back(side.border(section));
