@@ -123,6 +123,12 @@ LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::
 
 }  // namespace
 
+std::size_t index_of(const std::vector<LaneBoundary>& boundaries, ElementId id) {
+  const auto found = std::ranges::lower_bound(
+      boundaries, id, {}, [](const LaneBoundary& boundary) { return boundary.marking.id; });
+  return static_cast<std::size_t>(found - boundaries.begin());
+}
+
 void reverse(LaneBoundary& boundary) {
   const double total_m = length(boundary.marking.points);
   reverse(boundary.marking);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -15,6 +16,9 @@ struct LaneBoundary {
   std::vector<Range> bridged{};    ///< the gaps between them, along the marking
   bool two_way = false;            ///< inferred, on a road from kerb to kerb: there traffic is taken to meet
 };
+
+/// Where it is among boundaries in the order of their ids.
+std::size_t index_of(const std::vector<LaneBoundary>& boundaries, ElementId id);
 
 /// The same boundary, run through in the other direction.
 void reverse(LaneBoundary& boundary);

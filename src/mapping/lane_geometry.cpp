@@ -32,6 +32,10 @@ Polyline straight_path(const Lane& from, const Lane& to) {
   return path;
 }
 
+double common_length(const Range& a, const Range& b) {
+  return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m);
+}
+
 Point moved(const Point& point, const Eigen::Vector2d& by) { return point + Point(by.x(), by.y(), 0.0); }
 
 /// Straight on from the end that is much further from where the lanes' extensions meet, then about that
@@ -72,6 +76,20 @@ std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, d
 LaneSide lane_side(const Lane& lane, bool left) {
   return left ? LaneSide{{lane.left_boundary, lane.left_reversed}, lane.left_range, lane.left_reversed}
               : LaneSide{{lane.right_boundary, !lane.right_reversed}, lane.right_range, lane.right_reversed};
+}
+
+const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {
+  const Lane* across = nullptr;
+  double longest_m = 0.0;
+  for (const Lane& lane : lanes) {
+    for (const bool left : {true, false}) {
+      const LaneSide beyond = lane_side(lane, left);
+      if (beyond.of != side.of.other()) continue;
+      const double common_m = common_length(beyond.range, side.range);
+      if (common_m > longest_m) across = &lane, longest_m = common_m;
+    }
+  }
+  return across;
 }
 
 Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }

@@ -38,6 +38,10 @@ struct LaneSide {
 };
 LaneSide lane_side(const Lane& lane, bool left);
 
+/// The lane that lies the longest along the same stretch of the boundary, on its other side; null: there is
+/// none.
+const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes);
+
 /// Unit direction in which a lane is left at its end, or entered at its start; map frame, horizontal.
 Eigen::Vector2d leaving(const Lane& lane);
 Eigen::Vector2d entering(const Lane& lane);

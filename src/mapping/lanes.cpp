@@ -17,10 +17,6 @@ Occupied joined(Occupied a, const Occupied& b) {
   return a;
 }
 
-double common_length(const Range& a, const Range& b) {
-  return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m);
-}
-
 }  // namespace
 
 std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
@@ -71,21 +67,12 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
 
 void find_neighbours(std::vector<Lane>& lanes) {
   for (Lane& lane : lanes) {
-    const auto across = [&](const LaneSide& side) {
-      ElementId neighbour = kNoElement;
-      double longest_m = 0.0;
-      for (const Lane& other : lanes) {
-        for (const bool left : {true, false}) {
-          const LaneSide beyond = lane_side(other, left);
-          if (beyond.of != side.of.other()) continue;
-          const double common_m = common_length(beyond.range, side.range);
-          if (common_m > longest_m) neighbour = other.id, longest_m = common_m;
-        }
-      }
-      return neighbour;
+    const auto neighbour = [&](bool left) {
+      const Lane* across = lane_across(lane_side(lane, left), lanes);
+      return across == nullptr ? kNoElement : across->id;
     };
-    lane.left_neighbour = across(lane_side(lane, true));
-    lane.right_neighbour = across(lane_side(lane, false));
+    lane.left_neighbour = neighbour(true);
+    lane.right_neighbour = neighbour(false);
   }
 }
 

@@ -15,22 +15,6 @@ namespace {
 constexpr double kMinGap_m = 1.0;  // a shorter one is no more than the distance between vertices
 constexpr double kPathStep_m = 1.0;
 
-/// The courses of boundaries by their ids.
-class Boundaries {
- public:
-  Boundaries(const std::vector<LaneBoundary>& boundaries, const std::vector<MeasuredPolyline>& measured)
-      : boundaries_(boundaries), measured_(measured) {}
-  const MeasuredPolyline& at(ElementId id) const {
-    const auto found = std::ranges::lower_bound(boundaries_, id, {}, id_of);
-    return measured_[static_cast<std::size_t>(found - boundaries_.begin())];
-  }
-
- private:
-  static ElementId id_of(const LaneBoundary& boundary) { return boundary.marking.id; }
-  const std::vector<LaneBoundary>& boundaries_;
-  const std::vector<MeasuredPolyline>& measured_;
-};
-
 /// From the end of one lane to the start of another along the boundary that both lie beside; empty where
 /// there is none or `to` does not follow.
 std::optional<double> shared_gap(const LaneSide& from, const LaneSide& to, double max_gap_m) {
@@ -64,8 +48,8 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
   return path;
 }
 
-/// The lane that comes next along one side of `from`.
-void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, const Boundaries& boundaries,
+/// The lane that comes next along one side of `from`. `course` gives that of a boundary by its id.
+void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, const auto& course,
                 const LinkageConfig& config, std::vector<Linkage>& linkages) {
   const LaneSide begun = lane_side(from, left);
   const Lane* next = nullptr;
@@ -82,7 +66,7 @@ void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, con
                       .to = next->id,
                       .kind = Linkage::Kind::shared_boundary,
                       .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
-                      .path = path_along(boundaries.at(begun.of.boundary), begun.end_m(),
+                      .path = path_along(course(begun.of.boundary), begun.end_m(),
                                          lane_side(*next, left).begin_m(), from, *next)});
 }
 
@@ -110,10 +94,12 @@ std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes,
                                        const std::vector<LaneBoundary>& boundaries,
                                        const std::vector<MeasuredPolyline>& measured,
                                        const LinkageConfig& config) {
-  const Boundaries by_id(boundaries, measured);
+  const auto course = [&](ElementId boundary) -> const MeasuredPolyline& {
+    return measured[index_of(boundaries, boundary)];
+  };
   std::vector<Linkage> linkages;
   for (const Lane& from : lanes) {
-    for (const bool left : {true, false}) link_along(from, left, lanes, by_id, config, linkages);
+    for (const bool left : {true, false}) link_along(from, left, lanes, course, config, linkages);
     for (const Lane& to : lanes) {
       if (to.id == from.id) continue;
       const auto confidence = alignment(from, to, config);
