@@ -127,11 +127,12 @@ void visit(auto& v, Is<SectionConfig> auto& c) {
 }
 
 void visit(auto& v, Is<LaneConfig> auto& c) {
-  auto& [min_width_m, max_width_m, max_kerb_width_m, min_divided_width_m, assumed_width_m,
-         max_width_variation_m, min_length_m, step_m, id_memory_frames] = c;
+  auto& [min_width_m, max_width_m, max_kerb_width_m, max_shoulder_width_m, min_divided_width_m,
+         assumed_width_m, max_width_variation_m, min_length_m, step_m, id_memory_frames] = c;
   v.number("min_width_m", min_width_m, "m", 0.5, 20);
   v.number("max_width_m", max_width_m, "m", 0.5, 20);
   v.number("max_kerb_width_m", max_kerb_width_m, "m", 0.5, 20);
+  v.number("max_shoulder_width_m", max_shoulder_width_m, "m", 0, 20);
   v.number("min_divided_width_m", min_divided_width_m, "m", 0, 40);
   v.number("assumed_width_m", assumed_width_m, "m", 0, 20);
   v.number("max_width_variation_m", max_width_variation_m, "m", 0, 10);

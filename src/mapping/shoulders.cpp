@@ -1,0 +1,41 @@
+#include "mapping/shoulders.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "mapping/lane_geometry.hpp"
+#include "mapping/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kMaxWidth = 0.9;  // of the lane beside it; more is a difference by chance
+
+}  // namespace
+
+void remove_shoulders(const std::vector<LaneBoundary>& boundaries, const LaneConfig& config,
+                      std::vector<Lane>& lanes) {
+  const auto marking = [&](ElementId id) -> const Marking& {
+    return boundaries[index_of(boundaries, id)].marking;
+  };
+  const auto is_edge = [&](ElementId id) { return marking(id).type == MarkingType::roadedge; };
+  const auto is_outside_a_lane = [&](const Lane& lane, bool edge_on_left) {
+    const LaneSide line = lane_side(lane, !edge_on_left);
+    if (!is_edge(lane_side(lane, edge_on_left).of.boundary) || is_edge(line.of.boundary)) return false;
+    if (dashed_excess_m(marking(line.of.boundary), line.range) >= 0.0) return false;
+    const Lane* beside = lane_across(line, lanes);
+    if (beside == nullptr || lane.width_m >= kMaxWidth * beside->width_m) return false;
+    const bool line_on_left = beside->left_boundary == line.of.boundary;
+    return !is_edge(line_on_left ? beside->right_boundary : beside->left_boundary);
+  };
+  const auto is_shoulder = [&](const Lane& lane) {
+    return lane.width_m < config.max_shoulder_width_m &&
+           (is_outside_a_lane(lane, true) || is_outside_a_lane(lane, false));
+  };
+  std::vector<Lane> others;
+  std::ranges::remove_copy_if(lanes, std::back_inserter(others), is_shoulder);
+  lanes = std::move(others);
+}
+
+}  // namespace laneloom

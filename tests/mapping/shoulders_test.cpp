@@ -1,0 +1,77 @@
+#include "mapping/shoulders.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/lanes.hpp"
+#include "mapping/road_sections.hpp"
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::boundary;
+using test::straight;
+
+/// Of what a street of 40 m along x is made, from left to right: a boundary, and what lies on its right.
+struct Strip {
+  MarkingType type;
+  MarkingStyle style;
+  double width_m;
+};
+
+constexpr Strip edge(double width_m) { return {MarkingType::roadedge, MarkingStyle::unknown, width_m}; }
+constexpr Strip solid(double width_m) { return {MarkingType::laneline, MarkingStyle::solid, width_m}; }
+constexpr Strip dashed(double width_m) { return {MarkingType::laneline, MarkingStyle::dashed, width_m}; }
+
+/// The widths of the lanes that are left, in no order.
+std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConfig& config = {}) {
+  std::vector<LaneBoundary> boundaries;
+  double y = 10.0;
+  for (const Strip& strip : strips) {
+    boundaries.push_back(boundary(boundaries.size() + 1, straight({0, y, 0}, {40, y, 0}), strip.type));
+    boundaries.back().marking.styles = {{{0, 40}, strip.style}};
+    y -= strip.width_m;
+  }
+  auto measured = test::measure(boundaries);
+  const auto graph = road_sections({}, test::at(0), boundaries, measured);
+  auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, config);
+  remove_shoulders(boundaries, config, lanes);
+  std::vector<double> widths;
+  for (const Lane& lane : lanes) widths.push_back(lane.width_m);
+  return widths;
+}
+
+auto are(std::vector<double> widths) {
+  std::vector<::testing::Matcher<double>> near;
+  near.reserve(widths.size());
+  for (const double width : widths) near.push_back(::testing::DoubleNear(width, 1e-6));
+  return ::testing::UnorderedElementsAreArray(near);
+}
+
+TEST(Shoulders, AreNoLanes) {
+  EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}), are({3.5}));
+  EXPECT_THAT(lane_widths({edge(2.5), solid(3.5), dashed(3.4), solid(2.6), edge(0)}), are({3.5, 3.4}));
+}
+
+TEST(Shoulders, LieBesideASolidLine) {
+  EXPECT_THAT(lane_widths({dashed(3.5), solid(2.6), edge(0)}), are({3.5}));
+  EXPECT_THAT(lane_widths({dashed(3.5), dashed(2.6), edge(0)}), are({3.5, 2.6}));
+}
+
+TEST(Shoulders, ANarrowRoadOfTwoLanesHasNone) {
+  EXPECT_THAT(lane_widths({edge(3.3), solid(2.6), edge(0)}), are({3.3, 2.6}));
+}
+
+TEST(Shoulders, AreNarrowAndNarrowerThanTheLane) {
+  EXPECT_THAT(lane_widths({solid(3.5), solid(3.1), edge(0)}), are({3.5, 3.1}));
+  EXPECT_THAT(lane_widths({solid(2.8), solid(2.6), edge(0)}), are({2.8, 2.6}));
+}
+
+TEST(Shoulders, AreBesideALane) { EXPECT_THAT(lane_widths({solid(2.6), edge(0)}), are({2.6})); }
+
+TEST(Shoulders, AreLanesWhereThatIsConfigured) {
+  EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {.max_shoulder_width_m = 0.0}), are({3.5, 2.6}));
+}
+
+}  // namespace
+}  // namespace laneloom
