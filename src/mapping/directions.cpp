@@ -22,6 +22,7 @@ constexpr double kStoplineEvidence = 0.3;  // per frame
 constexpr double kDoubleLine_m = 0.8;      // between its two lines
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
+constexpr double kEdgeLineEvidence = 0.5;     // of a solid line there
 constexpr double kDividerEvidence = 1.0;      // of a solid or dashed line for or against opposite directions
 constexpr double kEdgeBetweenEvidence = 2.0;  // of an edge for them
 constexpr double kWrongSide = -6.0;           // that traffic keeps to the other side
@@ -118,9 +119,15 @@ Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
                   const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
                   double side) {
   const auto boundary = [&](ElementId id) -> const LaneBoundary& {
-    return *std::ranges::find(boundaries, id, [](const LaneBoundary& b) { return b.marking.id; });
+    return boundaries[index_of(boundaries, id)];
   };
-  const auto is_edge = [&](ElementId id) { return boundary(id).marking.type == MarkingType::roadedge; };
+  const auto outer_evidence = [&](const Lane& lane, bool left) {
+    if ((left ? lane.left_neighbour : lane.right_neighbour) != kNoElement) return 0.0;
+    const Marking& outer = boundary(left ? lane.left_boundary : lane.right_boundary).marking;
+    if (outer.status == ElementStatus::inferred) return 0.0;
+    if (outer.type == MarkingType::roadedge) return kEdgeEvidence;
+    return dashed_excess_m(outer, left ? lane.left_range : lane.right_range) < 0.0 ? kEdgeLineEvidence : 0.0;
+  };
   Model model{.evidence = std::vector<double>(lanes.size(), 0.0), .pairs = {}};
   std::vector<Mean> edges(lanes.size());
   std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;
@@ -131,9 +138,7 @@ Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
     const double sense = turned ? -1.0 : 1.0;
     const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
     if (remembered != known.end()) model.evidence[own] += sense * remembered->direction_log_odds;
-    const bool right_edge = lane.right_neighbour == kNoElement && is_edge(lane.right_boundary);
-    const bool left_edge = lane.left_neighbour == kNoElement && is_edge(lane.left_boundary);
-    edges[own].add(sense * side * kEdgeEvidence * ((right_edge ? 1.0 : 0.0) - (left_edge ? 1.0 : 0.0)));
+    edges[own].add(sense * side * (outer_evidence(lane, false) - outer_evidence(lane, true)));
     for (std::size_t k = 0; k < lanes.size(); ++k) {
       const std::size_t other = groups.group(k);
       if (own == other || turned != is_opposed(groups, k) || !is_left_of(lane, lanes[k])) continue;

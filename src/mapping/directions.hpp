@@ -20,8 +20,9 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 ///
 /// Lanes that continue one another run the same way. Beside each other, the traffic from the side that is not
 /// driven on does not come from the far side of the lane; a solid line between two lanes speaks for opposite
-/// directions, a dashed one against them; the outermost lane at an edge runs as the driving side says. These
-/// and the remembered evidence are weighed against one another by max-product belief propagation.
+/// directions, a dashed one against them; the outermost lane at an edge, or at a solid line, runs as the
+/// driving side says. These and the remembered evidence are weighed against one another by max-product belief
+/// propagation.
 ///
 /// `linkages` between lanes that are turned are turned too.
 void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,

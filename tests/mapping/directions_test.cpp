@@ -129,6 +129,30 @@ TEST_F(Directions, WithoutALineTrafficBesideALineRunsAlike) {
   EXPECT_TRUE(runs_forward(12));
 }
 
+TEST_F(Directions, ASolidLineAtTheSideSpeaksAsAnEdgeDoesButLess) {
+  for (const std::size_t side : {0U, 2U}) {
+    boundaries_[side].marking.type = MarkingType::laneline;
+    boundaries_[side].marking.styles = {{{0, 40}, MarkingStyle::solid}};
+  }
+  find();
+  EXPECT_FALSE(known(11) || known(12));
+  divider(MarkingStyle::solid);
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, ADashedOrAnInferredLineAtTheSideDoesNotTell) {
+  divider(MarkingStyle::solid);
+  for (const std::size_t side : {0U, 2U}) boundaries_[side].marking.type = MarkingType::laneline;
+  boundaries_[0].marking.styles = {{{0, 40}, MarkingStyle::solid}};
+  boundaries_[0].marking.status = ElementStatus::inferred;
+  boundaries_[2].marking.styles = {{{0, 40}, MarkingStyle::dashed}};
+  find();
+  EXPECT_FALSE(known(11) || known(12));
+}
+
 TEST_F(Directions, WithoutADrivingSideOnlyObservationsTell) {
   divider(MarkingStyle::solid);
   find("unknown");
