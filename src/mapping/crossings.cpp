@@ -82,13 +82,14 @@ class Taken {
   std::set<std::pair<ElementId, Turn>> left_, entered_;
 };
 
-/// Whether no lane of the same direction lies beside it on the side that is turned to.
+/// Whether no lane that is known to run alike lies beside it, on the side that is turned to.
 bool is_outermost(const Lane& lane, Turn turn, const std::vector<Lane>& lanes) {
   const bool left = turn == Turn::left;
   const ElementId id = left ? lane.left_neighbour : lane.right_neighbour;
   const auto beside = std::ranges::find(lanes, id, &Lane::id);
   // Of lanes that run against each other, each has the other on the same side.
-  return beside == lanes.end() || (left ? beside->left_neighbour : beside->right_neighbour) == lane.id;
+  return beside == lanes.end() || beside->direction == Lane::Direction::unknown ||
+         (left ? beside->left_neighbour : beside->right_neighbour) == lane.id;
 }
 
 bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lane>& lanes) {

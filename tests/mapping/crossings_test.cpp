@@ -12,6 +12,7 @@ namespace {
 using test::straight;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using Direction = Lane::Direction;
 using Pair = std::pair<ElementId, ElementId>;
 
 Lane lane(ElementId id, Polyline centerline) {
@@ -229,6 +230,19 @@ TEST(Crossings, TurnsLeadFromTheOutermostLane) {
   EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ::testing::Contains(Pair(5, 12)));
   EXPECT_THAT(pairs_of(linkages, Linkage::Turn::left), ::testing::Not(::testing::Contains(Pair(5, 14))));
   EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ::testing::Not(::testing::Contains(Pair(1, 12))));
+}
+
+TEST(Crossings, ALaneOfUnknownDirectionDoesNotStandBetween) {
+  // Left of the way out to the north lies one more lane, 24, on the far side of which is the way in.
+  for (const Direction direction : {Direction::unknown, Direction::along_centerline}) {
+    std::vector<Lane> lanes = crossroads();
+    lanes.push_back(lane(24, straight({-1.75, 10, 0}, {-1.75, 25, 0})));
+    lanes.back().direction = direction;
+    lanes.back().right_neighbour = 14;
+    std::ranges::find(lanes, 14U, &Lane::id)->left_neighbour = 24;
+    const bool turns = direction == Direction::unknown;
+    EXPECT_EQ(std::ranges::count(pairs_of(crossings(lanes), Linkage::Turn::left), Pair(1, 14)), turns);
+  }
 }
 
 TEST(Crossings, NoWayLeadsOverAnEdge) {
