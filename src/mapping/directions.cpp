@@ -115,39 +115,69 @@ double driving_side(const DirectionConfig& config) {
   return config.driving_side == "right" ? 1.0 : -1.0;
 }
 
+/// Lanes side by side, by their indices, the left one first.
+using SideBySide = std::vector<std::pair<std::size_t, std::size_t>>;
+
+SideBySide side_by_side(const std::vector<Lane>& lanes) {
+  SideBySide pairs;
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    for (std::size_t k = 0; k < lanes.size(); ++k)
+      if (i != k && is_left_of(lanes[i], lanes[k])) pairs.emplace_back(i, k);
+  return pairs;
+}
+
+/// What the outer border of a road says of the lane at it, where traffic keeps to that side.
+double border_evidence(const Marking& border, const Range& range) {
+  if (border.status == ElementStatus::inferred) return 0.0;
+  if (border.type == MarkingType::roadedge) return kEdgeEvidence;
+  return dashed_excess_m(border, range) < 0.0 ? kEdgeLineEvidence : 0.0;
+}
+
+/// Per lane, what the borders of the road say of its direction, where traffic keeps right.
+std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const SideBySide& pairs,
+                                       const std::vector<LaneBoundary>& boundaries) {
+  std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
+  for (const auto& [left, right] : pairs) open_right[left] = open_left[right] = false;
+  const auto marking = [&](ElementId id) -> const Marking& {
+    return boundaries[index_of(boundaries, id)].marking;
+  };
+  std::vector<double> evidence(lanes.size(), 0.0);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane& lane = lanes[i];
+    if (open_right[i] && lane.right_neighbour == kNoElement)
+      evidence[i] += border_evidence(marking(lane.right_boundary), lane.right_range);
+    if (open_left[i] && lane.left_neighbour == kNoElement)
+      evidence[i] -= border_evidence(marking(lane.left_boundary), lane.left_range);
+  }
+  return evidence;
+}
+
 Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
                   const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
                   double side) {
-  const auto boundary = [&](ElementId id) -> const LaneBoundary& {
-    return boundaries[index_of(boundaries, id)];
-  };
-  const auto outer_evidence = [&](const Lane& lane, bool left) {
-    if ((left ? lane.left_neighbour : lane.right_neighbour) != kNoElement) return 0.0;
-    const Marking& outer = boundary(left ? lane.left_boundary : lane.right_boundary).marking;
-    if (outer.status == ElementStatus::inferred) return 0.0;
-    if (outer.type == MarkingType::roadedge) return kEdgeEvidence;
-    return dashed_excess_m(outer, left ? lane.left_range : lane.right_range) < 0.0 ? kEdgeLineEvidence : 0.0;
-  };
+  const SideBySide beside = side_by_side(lanes);
+  const std::vector<double> outermost = outermost_evidence(lanes, beside, boundaries);
   Model model{.evidence = std::vector<double>(lanes.size(), 0.0), .pairs = {}};
-  std::vector<Mean> edges(lanes.size());
-  std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;
+  std::vector<Mean> borders(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const Lane& lane = lanes[i];
     const std::size_t own = groups.group(i);
-    const bool turned = is_opposed(groups, i);
-    const double sense = turned ? -1.0 : 1.0;
-    const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
+    const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
+    const auto remembered = std::ranges::find(known, lanes[i].id, &KnownLane::id);
     if (remembered != known.end()) model.evidence[own] += sense * remembered->direction_log_odds;
-    edges[own].add(sense * side * (outer_evidence(lane, false) - outer_evidence(lane, true)));
-    for (std::size_t k = 0; k < lanes.size(); ++k) {
-      const std::size_t other = groups.group(k);
-      if (own == other || turned != is_opposed(groups, k) || !is_left_of(lane, lanes[k])) continue;
-      const auto beside = turned ? std::pair(other, own) : std::pair(own, other);
-      opposed[beside].add(divider_evidence(boundary(lane.right_boundary), lane.right_range));
-    }
+    borders[own].add(sense * side * outermost[i]);
   }
   for (std::size_t i = 0; i < lanes.size(); ++i)
-    model.evidence[i] = std::clamp(model.evidence[i], -kMaxEvidence, kMaxEvidence) + edges[i].value();
+    model.evidence[i] = std::clamp(model.evidence[i], -kMaxEvidence, kMaxEvidence) + borders[i].value();
+  std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;
+  for (const auto& [i, k] : beside) {
+    const std::size_t left = groups.group(i), right = groups.group(k);
+    const bool turned = is_opposed(groups, i);
+    if (left == right || turned != is_opposed(groups, k)) continue;
+    const Lane& lane = lanes[i];
+    const LaneBoundary& divider = boundaries[index_of(boundaries, lane.right_boundary)];
+    opposed[turned ? std::pair(right, left) : std::pair(left, right)].add(
+        divider_evidence(divider, lane.right_range));
+  }
   model.pairs.reserve(opposed.size());
   for (const auto& [pair, evidence] : opposed)
     model.pairs.push_back({pair.first, pair.second, evidence.value()});

@@ -143,6 +143,21 @@ TEST_F(Directions, ASolidLineAtTheSideSpeaksAsAnEdgeDoesButLess) {
   EXPECT_TRUE(runs_forward(12));
 }
 
+TEST_F(Directions, AHalfOfADoubleLineIsNoSideOfTheRoad) {
+  boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
+  lanes_[0].right_neighbour = lanes_[1].left_neighbour = kNoElement;
+  lanes_[1].left_boundary = 4;
+  lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
+  for (LaneBoundary& b : boundaries_) {
+    b.marking.type = MarkingType::laneline;
+    b.marking.styles = {{{0, 40}, MarkingStyle::solid}};
+  }
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
 TEST_F(Directions, ADashedOrAnInferredLineAtTheSideDoesNotTell) {
   divider(MarkingStyle::solid);
   for (const std::size_t side : {0U, 2U}) boundaries_[side].marking.type = MarkingType::laneline;
