@@ -4,18 +4,19 @@
 #include <iterator>
 #include <utility>
 
+#include "mapping/ego_track.hpp"
 #include "mapping/lane_geometry.hpp"
 #include "mapping/markings.hpp"
 
 namespace laneloom {
 namespace {
 
-constexpr double kMaxWidth = 0.9;  // of the lane beside it; more is a difference by chance
+constexpr double kMaxWidth = 0.95;  // of the lane beside it; more is a difference by chance
 
 }  // namespace
 
-void remove_shoulders(const std::vector<LaneBoundary>& boundaries, const LaneConfig& config,
-                      std::vector<Lane>& lanes) {
+void remove_shoulders(const std::vector<LaneBoundary>& boundaries, const Eigen::Isometry3d& T_map_body,
+                      const LaneConfig& config, std::vector<Lane>& lanes) {
   const auto marking = [&](ElementId id) -> const Marking& {
     return boundaries[index_of(boundaries, id)].marking;
   };
@@ -31,7 +32,8 @@ void remove_shoulders(const std::vector<LaneBoundary>& boundaries, const LaneCon
   };
   const auto is_shoulder = [&](const Lane& lane) {
     return lane.width_m < config.max_shoulder_width_m &&
-           (is_outside_a_lane(lane, true) || is_outside_a_lane(lane, false));
+           (is_outside_a_lane(lane, true) || is_outside_a_lane(lane, false)) &&
+           ego_sense(lane, T_map_body) == 0.0;
   };
   std::vector<Lane> others;
   std::ranges::remove_copy_if(lanes, std::back_inserter(others), is_shoulder);

@@ -24,7 +24,8 @@ constexpr Strip solid(double width_m) { return {MarkingType::laneline, MarkingSt
 constexpr Strip dashed(double width_m) { return {MarkingType::laneline, MarkingStyle::dashed, width_m}; }
 
 /// The widths of the lanes that are left, in no order.
-std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConfig& config = {}) {
+std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConfig& config = {},
+                                const Eigen::Isometry3d& T_map_body = test::at(0, -20)) {
   std::vector<LaneBoundary> boundaries;
   double y = 10.0;
   for (const Strip& strip : strips) {
@@ -35,7 +36,7 @@ std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConf
   auto measured = test::measure(boundaries);
   const auto graph = road_sections({}, test::at(0), boundaries, measured);
   auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, config);
-  remove_shoulders(boundaries, config, lanes);
+  remove_shoulders(boundaries, T_map_body, config, lanes);
   std::vector<double> widths;
   for (const Lane& lane : lanes) widths.push_back(lane.width_m);
   return widths;
@@ -64,10 +65,16 @@ TEST(Shoulders, ANarrowRoadOfTwoLanesHasNone) {
 
 TEST(Shoulders, AreNarrowAndNarrowerThanTheLane) {
   EXPECT_THAT(lane_widths({solid(3.5), solid(3.1), edge(0)}), are({3.5, 3.1}));
-  EXPECT_THAT(lane_widths({solid(2.8), solid(2.6), edge(0)}), are({2.8, 2.6}));
+  EXPECT_THAT(lane_widths({solid(2.8), solid(2.7), edge(0)}), are({2.8, 2.7}));
 }
 
 TEST(Shoulders, AreBesideALane) { EXPECT_THAT(lane_widths({solid(2.6), edge(0)}), are({2.6})); }
+
+TEST(Shoulders, AreNotWhereTheVehicleDrives) {
+  EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {}, test::at(20, 10 - 3.5 - 1.3)),
+              are({3.5, 2.6}));
+  EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {}, test::at(20, 10 - 1.7)), are({3.5}));
+}
 
 TEST(Shoulders, AreLanesWhereThatIsConfigured) {
   EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {.max_shoulder_width_m = 0.0}), are({3.5, 2.6}));
