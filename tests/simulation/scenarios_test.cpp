@@ -114,6 +114,21 @@ TEST(CountryRoad, HasNothingButALineBetweenItsDirectionsFurtherOn) {
   EXPECT_EQ(ahead.right_marking, kNoElement);
 }
 
+TEST(Motorway, HasAShoulderThatIsNoLaneOnEitherSide) {
+  const Road road = make_scenario("motorway");
+  EXPECT_EQ(road.lanes.size(), 4U);
+  EXPECT_EQ(count(road, MarkingType::roadedge, MarkingStyle::solid), 2U);
+  EXPECT_EQ(count(road, MarkingType::laneline, MarkingStyle::solid), 4U);
+  const auto from_outermost_lane_m = [&](const RoadMarking& edge) {
+    return MeasuredPolyline(edge.points).project(lane_at(road, {50.0, -5.37, 0.0}).right[10]).distance_m;
+  };
+  double nearest_m = 100.0;
+  for (const RoadMarking& marking : road.markings)
+    if (marking.type == MarkingType::roadedge)
+      nearest_m = std::min(nearest_m, from_outermost_lane_m(marking));
+  EXPECT_NEAR(nearest_m, 2.4, 1e-6);
+}
+
 TEST(Street, HasNoLineBetweenItsDirectionsFurtherOn) {
   const Road road = make_scenario("street");
   EXPECT_EQ(lane_at(road, {30.0, -1.75, 0.0}).left_marking, lane_at(road, {30.0, 1.75, 0.0}).left_marking);
@@ -223,7 +238,7 @@ TEST(Town, IsALongClosedLoop) {
 
 TEST(Scenario, AnUnknownNameNamesTheKnownOnes) {
   try {
-    make_scenario("motorway");
+    make_scenario("moon");
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("overpass"), std::string::npos) << error.what();

@@ -33,6 +33,10 @@ class SideBorders {
       lanes = change.lanes;
     }
     close_lines(lanes, 0, length_m_);
+    if (section_.shoulder_m > 0.0) {
+      add(MarkingType::laneline, MarkingStyle::solid, Profile(knots_), edge_from_m_, length_m_);
+      for (auto& [at_m, left_m] : knots_) left_m += sign_ * section_.shoulder_m;
+    }
     add(MarkingType::roadedge, MarkingStyle::solid, Profile(knots_), edge_from_m_, length_m_);
     return std::move(borders_);
   }

@@ -27,6 +27,16 @@ Road curve(double speed_mps) {
   return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m)}, speed_mps);
 }
 
+// Two lanes each way, with shoulders.
+Road motorway(double speed_mps) {
+  const Alignment way({}, {straight(100.0), bend(250.0, 45.0), straight(100.0)});
+  Section section = two_way(2, 2, CentreLine::double_solid);
+  section.shoulder_m = 2.4;
+  RoadBuilder builder("motorway");
+  builder.add_street(way, section);
+  return std::move(builder).build({way.point(10.0, -1.5 * kWidth_m)}, speed_mps);
+}
+
 // A residential street, whose line between the directions ends.
 Road street(double speed_mps) {
   const Alignment marked({}, {straight(60.0)});
@@ -134,10 +144,11 @@ Road overpass(double speed_mps) {
 }
 
 using Maker = Road (*)(double speed_mps);
-constexpr std::array<std::pair<const char*, Maker>, 11> kScenarios{{{"straight", straight_road},
+constexpr std::array<std::pair<const char*, Maker>, 12> kScenarios{{{"straight", straight_road},
                                                                     {"curve", curve},
                                                                     {"street", street},
                                                                     {"country_road", country_road},
+                                                                    {"motorway", motorway},
                                                                     {"split", split},
                                                                     {"merge", merge},
                                                                     {"t_intersection", t_intersection},

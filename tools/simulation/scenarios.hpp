@@ -8,7 +8,8 @@
 /// Made-up roads, each of one difficulty, and a town that joins them. Right-hand traffic.
 namespace laneloom {
 
-/// straight, curve, street, country_road, split, merge, t_intersection, intersection, hill, overpass, town.
+/// straight, curve, street, country_road, motorway, split, merge, t_intersection, intersection, hill,
+/// overpass, town.
 std::vector<std::string> scenario_names();
 
 /// A built-in road, driven at constant speed. The town's drive is closed: it can go round and round.
