@@ -1,45 +1,25 @@
 #include "laneloom/dds/raw_writer.hpp"
 
-#include <fastdds/dds/publisher/DataWriter.hpp>
-
-#include <string>
 #include <utility>
 
-#include "dds/participant_impl.hpp"
 #include "dds/raw_type.hpp"
-#include "dds/topic_traits.hpp"
+#include "dds/topic_writer.hpp"
 
 namespace laneloom::dds {
-
-using namespace eprosima::fastdds::dds;
 
 template <class T>
 class RawWriter<T>::Impl {
  public:
-  using Traits = TopicTraits<T>;
-
-  explicit Impl(std::shared_ptr<Participant::Impl> participant) : participant_(std::move(participant)) {
-    auto* topic = participant_->topic(Traits::kName, TypeSupport(new RawType<typename Traits::Type>));
-    writer_ = participant_->publisher().create_datawriter(topic, writer_qos(Traits::kKind));
-    if (!writer_) throw participant_->refusal(std::string("writer of ") + Traits::kName);
-  }
-  ~Impl() { participant_->publisher().delete_datawriter(writer_); }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+  explicit Impl(std::shared_ptr<Participant::Impl> participant) : writer_(std::move(participant)) {}
 
   bool write(const Bytes& message) {
     sample_ = message;
-    return writer_->write(&sample_);
+    return writer_.write(&sample_);
   }
-  int matched() const {
-    PublicationMatchedStatus status;
-    writer_->get_publication_matched_status(status);
-    return status.current_count;
-  }
+  int matched() const { return writer_.matched(); }
 
  private:
-  std::shared_ptr<Participant::Impl> participant_;
-  DataWriter* writer_ = nullptr;
+  TopicWriter<T, RawType<typename TopicTraits<T>::Type>> writer_;
   Bytes sample_;
 };
 

@@ -97,6 +97,15 @@ std::vector<LinePiece> pieces_in_range(const Polyline& points, std::size_t line,
   return pieces;
 }
 
+std::optional<LinePiece> longest_piece_in_range(const Polyline& points, std::size_t line,
+                                                const Eigen::Isometry3d& T_body_map,
+                                                const RangeConfig& range) {
+  std::vector<LinePiece> pieces = pieces_in_range(points, line, T_body_map, range);
+  if (pieces.empty()) return std::nullopt;
+  return std::move(
+      *std::ranges::max_element(pieces, {}, [](const LinePiece& piece) { return piece.samples.size(); }));
+}
+
 const char* name(LineKind kind) {
   switch (kind) {
     case LineKind::laneline:

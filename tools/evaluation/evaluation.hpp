@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -54,6 +55,11 @@ struct LinePiece {
 /// What is left of `points`, in the map frame, within the range; none shorter than what counts.
 std::vector<LinePiece> pieces_in_range(const Polyline& points, std::size_t line,
                                        const Eigen::Isometry3d& T_body_map, const RangeConfig& range);
+
+/// The longest of these; empty where there is none.
+std::optional<LinePiece> longest_piece_in_range(const Polyline& points, std::size_t line,
+                                                const Eigen::Isometry3d& T_body_map,
+                                                const RangeConfig& range);
 
 /// A prediction and the truth that it matches.
 struct TruePositive {

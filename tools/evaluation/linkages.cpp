@@ -118,11 +118,8 @@ LanePieces lane_pieces(const LocalMap& map, const RangeConfig& range) {
   const Eigen::Isometry3d T_body_map = map.T_map_body.inverse();
   LanePieces lanes;
   for (std::size_t i = 0; i < map.lanes.size(); ++i) {
-    std::vector<LinePiece> pieces = pieces_in_range(map.lanes[i].centerline, i, T_body_map, range);
-    if (pieces.empty()) continue;
-    const auto longest =
-        std::ranges::max_element(pieces, {}, [](const LinePiece& piece) { return piece.samples.size(); });
-    lanes.emplace_back(&map.lanes[i], std::move(*longest));
+    auto longest = longest_piece_in_range(map.lanes[i].centerline, i, T_body_map, range);
+    if (longest) lanes.emplace_back(&map.lanes[i], std::move(*longest));
   }
   return lanes;
 }

@@ -75,10 +75,8 @@ class PublishedGraph {
                   const RangeConfig& range) {
     Vertex vertex{.direction = chain.lanes.front()->direction};
     if (chain.existence_probability >= 0.0) vertex.confidence = chain.existence_probability;
-    const std::vector<LinePiece> pieces = pieces_in_range(chain.centerline, 0, T_body_map, range);
-    const auto longest =
-        std::ranges::max_element(pieces, {}, [](const LinePiece& piece) { return piece.samples.size(); });
-    if (longest != pieces.end()) vertex.points = resampled(longest->points);
+    const auto longest = longest_piece_in_range(chain.centerline, 0, T_body_map, range);
+    if (longest) vertex.points = resampled(longest->points);
     vertices_.push_back(std::move(vertex));
   }
 
