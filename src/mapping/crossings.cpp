@@ -10,6 +10,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/directions.hpp"
 #include "mapping/lane_geometry.hpp"
+#include "mapping/markings.hpp"
 
 namespace laneloom {
 namespace {
@@ -82,28 +83,34 @@ class Taken {
   std::set<std::pair<ElementId, Turn>> left_, entered_;
 };
 
-/// Whether no lane that is known to run alike lies beside it, on the side that is turned to.
-bool is_outermost(const Lane& lane, Turn turn, const std::vector<Lane>& lanes) {
+/// Whether no lane that runs alike lies beside it, on the side that is turned to: none that is known to, and
+/// none of unknown direction across dashes.
+bool is_outermost(const Lane& lane, Turn turn, const std::vector<Lane>& lanes,
+                  const std::vector<LaneBoundary>& boundaries) {
   const bool left = turn == Turn::left;
-  const ElementId id = left ? lane.left_neighbour : lane.right_neighbour;
-  const auto beside = std::ranges::find(lanes, id, &Lane::id);
+  const auto beside = std::ranges::find(lanes, left ? lane.left_neighbour : lane.right_neighbour, &Lane::id);
+  if (beside == lanes.end()) return true;
+  if (beside->direction == Lane::Direction::unknown) {
+    const LaneSide side = lane_side(lane, left);
+    return dashed_excess_m(boundaries[index_of(boundaries, side.of.boundary)].marking, side.range) <= 0.0;
+  }
   // Of lanes that run against each other, each has the other on the same side.
-  return beside == lanes.end() || beside->direction == Lane::Direction::unknown ||
-         (left ? beside->left_neighbour : beside->right_neighbour) == lane.id;
+  return (left ? beside->left_neighbour : beside->right_neighbour) == lane.id;
 }
 
-bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lane>& lanes) {
+bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lane>& lanes,
+              const std::vector<LaneBoundary>& boundaries) {
   const bool known = from.direction != Lane::Direction::unknown && to.direction != Lane::Direction::unknown;
-  return known && is_outermost(from, turn, lanes) && is_outermost(to, turn, lanes);
+  return known && is_outermost(from, turn, lanes, boundaries) && is_outermost(to, turn, lanes, boundaries);
 }
 
 /// How `to` may follow `from` by what they look like, if at all. What does not fit takes an SD map's word.
 std::optional<Crossing> crossing(const Lane& from, const Lane& to, const std::vector<Lane>& lanes,
-                                 const LinkageConfig& config) {
+                                 const std::vector<LaneBoundary>& boundaries, const LinkageConfig& config) {
   if (const auto straight = straight_misfit(from, to, config))
     return Crossing{.misfit = *straight, .turn = Turn::straight};
   const Turn side = cross(leaving(from), entering(to)) > 0.0 ? Turn::left : Turn::right;
-  if (!can_turn(from, to, side, lanes)) return std::nullopt;
+  if (!can_turn(from, to, side, lanes, boundaries)) return std::nullopt;
   if (const auto turn = turn_misfit(from, to, config)) return Crossing{.misfit = *turn, .turn = side};
   const double gap_m = gap_between(from, to).norm();
   const bool ahead = gap_between(from, to).dot(leaving(from)) > 0.0;
@@ -111,13 +118,14 @@ std::optional<Crossing> crossing(const Lane& from, const Lane& to, const std::ve
   return Crossing{.misfit = kMisfit + gap_m, .turn = turn_between(from, to)};
 }
 
-std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes, const SdMap& sd_map,
+std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes,
+                                         const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
                                          const LinkageConfig& config) {
   std::vector<Crossing> crossings;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     for (std::size_t j = 0; j < lanes.size(); ++j) {
       if (i == j || gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
-      auto found = crossing(lanes[i], lanes[j], lanes, config);
+      auto found = crossing(lanes[i], lanes[j], lanes, boundaries, config);
       if (!found) continue;
       const auto verdict = sd_map.verdict(lanes[i].centerline, lanes[j].centerline);
       found->confirmed = verdict == SdMap::Verdict::connected;
@@ -210,9 +218,9 @@ void link_across_intersections(const std::vector<LaneBoundary>& boundaries, cons
                         .path = std::move(path)});
   };
   // Straight on first: what that tells of directions, turns depend on.
-  for (const Crossing& crossing : possible_crossings(lanes, sd_map, config))
+  for (const Crossing& crossing : possible_crossings(lanes, boundaries, sd_map, config))
     if (crossing.turn == Turn::straight) link(crossing);
-  for (const Crossing& crossing : possible_crossings(lanes, sd_map, config))
+  for (const Crossing& crossing : possible_crossings(lanes, boundaries, sd_map, config))
     if (crossing.turn != Turn::straight) link(crossing);
   std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
 }

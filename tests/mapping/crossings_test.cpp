@@ -232,17 +232,31 @@ TEST(Crossings, TurnsLeadFromTheOutermostLane) {
   EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ::testing::Not(::testing::Contains(Pair(1, 12))));
 }
 
-TEST(Crossings, ALaneOfUnknownDirectionDoesNotStandBetween) {
-  // Left of the way out to the north lies one more lane, 24, on the far side of which is the way in.
-  for (const Direction direction : {Direction::unknown, Direction::along_centerline}) {
-    std::vector<Lane> lanes = crossroads();
-    lanes.push_back(lane(24, straight({-1.75, 10, 0}, {-1.75, 25, 0})));
-    lanes.back().direction = direction;
-    lanes.back().right_neighbour = 14;
-    std::ranges::find(lanes, 14U, &Lane::id)->left_neighbour = 24;
-    const bool turns = direction == Direction::unknown;
-    EXPECT_EQ(std::ranges::count(pairs_of(crossings(lanes), Linkage::Turn::left), Pair(1, 14)), turns);
-  }
+/// Whether 1 turns left into 14, where one more lane of that direction is between this and the way in.
+bool turns_past(Direction direction, MarkingStyle divider) {
+  std::vector<Lane> lanes = crossroads();
+  const auto get = [&](ElementId id) -> Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
+  get(4).centerline = straight({-5.25, 25, 0}, {-5.25, 10, 0});
+  get(4).left_neighbour = 24;
+  get(14).centerline = straight({1.75, 10, 0}, {1.75, 25, 0});
+  get(14).left_neighbour = 24;
+  get(14).left_boundary = 50;
+  get(14).left_range = {0, 15};
+  lanes.push_back(lane(24, straight({-1.75, 10, 0}, {-1.75, 25, 0})));
+  lanes.back().direction = direction;
+  lanes.back().left_neighbour = 4;
+  lanes.back().right_neighbour = 14;
+  std::vector<LaneBoundary> boundaries{test::boundary(50, straight({0, 10, 0}, {0, 25, 0}))};
+  boundaries[0].marking.styles = {{{0, 15}, divider}};
+  const auto left = pairs_of(crossings(lanes, {}, {}, boundaries), Linkage::Turn::left);
+  return std::ranges::count(left, Pair(1, 14)) > 0;
+}
+
+TEST(Crossings, ALaneOfUnknownDirectionStandsBetweenOnlyAcrossDashes) {
+  EXPECT_TRUE(turns_past(Direction::unknown, MarkingStyle::solid));
+  EXPECT_TRUE(turns_past(Direction::unknown, MarkingStyle::unknown));
+  EXPECT_FALSE(turns_past(Direction::unknown, MarkingStyle::dashed));
+  EXPECT_FALSE(turns_past(Direction::along_centerline, MarkingStyle::solid));
 }
 
 TEST(Crossings, NoWayLeadsOverAnEdge) {
