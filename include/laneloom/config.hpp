@@ -78,8 +78,8 @@ struct SectionConfig {
 struct LaneConfig {
   double min_width_m = 2.3;
   double max_width_m = 4.5;
-  double max_kerb_width_m = 6.5;      ///< beside a roadedge: room to park; and the room beside one line
-  double max_shoulder_width_m = 3.0;  ///< between an edge and a solid line, beside a lane; 0: it is one
+  double max_kerb_width_m = 6.5;      ///< beside a roadedge: room to park; also the room beside one line
+  double max_shoulder_width_m = 3.0;  ///< between an edge and a lane's solid line; 0: that is a lane
   double min_divided_width_m = 6.5;   ///< from which a road without lines is two lanes; 0: never
   double assumed_width_m = 3.3;       ///< beside a line with nothing else on that side; 0: no lane there
   double max_width_variation_m = 0.8;

@@ -152,8 +152,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   done(Stage::road_sections);
   const auto pairs = boundary_pairs(sections, boundaries, measured);
   map.lanes = generate_lanes(pairs, boundaries, measured, config_.lane);
-  remove_shoulders(boundaries, T_map_body, config_.lane, map.lanes);
   TakenSpace taken(map.lanes);
+  remove_shoulders(pairs, boundaries, T_map_body, config_.lane, map.lanes);
   auto inferred = divide_unmarked(pairs, boundaries, measured, config_.lane, taken);
   std::ranges::move(one_sided_lanes(sections.sections, boundaries, measured, range, config_.lane, taken),
                     std::back_inserter(inferred));

@@ -79,6 +79,19 @@ TEST(Mapper, AGhostGoesAgain) {
   EXPECT_EQ(drive.mapper.map().boundaries.size(), 3U);
 }
 
+TEST(Mapper, WhatLiesBeyondAShoulderIsNoRoad) {
+  const auto along = [](MarkingType type, double y) {
+    return test::detection(type, straight({-50, y, 0}, {300, y, 0}), MarkingStyle::solid);
+  };
+  const std::vector<Detection> detections{
+      along(MarkingType::laneline, -1.8), along(MarkingType::laneline, 1.8),
+      along(MarkingType::roadedge, 4.4), along(MarkingType::roadedge, 13.4)};
+  Drive drive;
+  for (int i = 0; i < 20; ++i) drive.step(detections);
+  EXPECT_EQ(drive.mapper.map().boundaries.size(), 4U);
+  EXPECT_EQ(drive.mapper.map().lanes.size(), 1U);
+}
+
 TEST(Mapper, WhatBecameOfADoubleIsTold) {
   Drive drive;
   const LocalMap before = drive.steps(15);

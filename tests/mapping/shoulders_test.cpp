@@ -35,8 +35,9 @@ std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConf
   }
   auto measured = test::measure(boundaries);
   const auto graph = road_sections({}, test::at(0), boundaries, measured);
-  auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, config);
-  remove_shoulders(boundaries, T_map_body, config, lanes);
+  const auto pairs = boundary_pairs(graph, boundaries, measured);
+  auto lanes = generate_lanes(pairs, boundaries, measured, config);
+  remove_shoulders(pairs, boundaries, T_map_body, config, lanes);
   std::vector<double> widths;
   for (const Lane& lane : lanes) widths.push_back(lane.width_m);
   return widths;
@@ -61,6 +62,8 @@ TEST(Shoulders, LieBesideASolidLine) {
 
 TEST(Shoulders, ANarrowRoadOfTwoLanesHasNone) {
   EXPECT_THAT(lane_widths({edge(3.3), solid(2.6), edge(0)}), are({3.3, 2.6}));
+  // Nor where a line is painted along an edge.
+  EXPECT_THAT(lane_widths({edge(0.5), solid(3.3), solid(2.6), edge(0)}), are({3.3, 2.6}));
 }
 
 TEST(Shoulders, AreNarrowAndNarrowerThanTheLane) {
@@ -74,6 +77,25 @@ TEST(Shoulders, AreNotWhereTheVehicleDrives) {
   EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {}, test::at(20, 10 - 3.5 - 1.3)),
               are({3.5, 2.6}));
   EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {}, test::at(20, 10 - 1.7)), are({3.5}));
+}
+
+TEST(Shoulders, AreNotAheadOfWhereTheVehicleDrives) {
+  // In a bay of the edge there is no lane beside the line.
+  std::vector<LaneBoundary> boundaries{
+      boundary(1, straight({0, 6.1, 0}, {40, 6.1, 0})), boundary(2, straight({0, 2.6, 0}, {40, 2.6, 0})),
+      boundary(3, {{0, 0, 0}, {16, 0, 0}, {18, -6, 0}, {22, -6, 0}, {24, 0, 0}, {40, 0, 0}},
+               MarkingType::roadedge)};
+  boundaries[1].marking.styles = {{{0, 40}, MarkingStyle::solid}};
+  auto measured = test::measure(boundaries);
+  const auto pairs =
+      boundary_pairs(road_sections({}, test::at(0), boundaries, measured), boundaries, measured);
+  const auto pieces = [&](const Eigen::Isometry3d& T_map_body) {
+    auto lanes = generate_lanes(pairs, boundaries, measured, {});
+    remove_shoulders(pairs, boundaries, T_map_body, {}, lanes);
+    return std::ranges::count(lanes, 3U, &Lane::right_boundary);
+  };
+  EXPECT_EQ(pieces(test::at(5, 1.3)), 2);
+  EXPECT_EQ(pieces(test::at(5, 4.3)), 0);
 }
 
 TEST(Shoulders, AreLanesWhereThatIsConfigured) {
