@@ -116,10 +116,10 @@ double driving_side(const DirectionConfig& config) {
 }
 
 /// Lanes side by side, by their indices, the left one first.
-using SideBySide = std::vector<std::pair<std::size_t, std::size_t>>;
+using LanePairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-SideBySide side_by_side(const std::vector<Lane>& lanes) {
-  SideBySide pairs;
+LanePairs side_by_side(const std::vector<Lane>& lanes) {
+  LanePairs pairs;
   for (std::size_t i = 0; i < lanes.size(); ++i)
     for (std::size_t k = 0; k < lanes.size(); ++k)
       if (i != k && is_left_of(lanes[i], lanes[k])) pairs.emplace_back(i, k);
@@ -134,7 +134,7 @@ double border_evidence(const Marking& border, const Range& range) {
 }
 
 /// Per lane, what the borders of the road say of its direction, where traffic keeps right.
-std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const SideBySide& pairs,
+std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const LanePairs& pairs,
                                        const std::vector<LaneBoundary>& boundaries) {
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
   for (const auto& [left, right] : pairs) open_right[left] = open_left[right] = false;
@@ -155,7 +155,7 @@ std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const Sid
 Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
                   const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
                   double side) {
-  const SideBySide beside = side_by_side(lanes);
+  const LanePairs beside = side_by_side(lanes);
   const std::vector<double> outermost = outermost_evidence(lanes, beside, boundaries);
   Model model{.evidence = std::vector<double>(lanes.size(), 0.0), .pairs = {}};
   std::vector<Mean> borders(lanes.size());

@@ -24,7 +24,7 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 /// driving side says. These and the remembered evidence are weighed against one another by max-product belief
 /// propagation.
 ///
-/// `linkages` between lanes that are turned are turned too.
+/// `boundaries` are in the order of their ids. `linkages` between lanes that are turned are turned too.
 void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
                      const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
                      std::vector<Linkage>& linkages);

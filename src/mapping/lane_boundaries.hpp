@@ -17,7 +17,7 @@ struct LaneBoundary {
   bool two_way = false;            ///< inferred, on a road from kerb to kerb: there traffic is taken to meet
 };
 
-/// Where it is among boundaries in the order of their ids.
+/// Where it is among boundaries in the order of their ids; it has to be there.
 std::size_t index_of(const std::vector<LaneBoundary>& boundaries, ElementId id);
 
 /// The same boundary, run through in the other direction.

@@ -253,5 +253,17 @@ TEST(ShippedFiles, PaperYamlPinsThePapersParameters) {
   EXPECT_EQ(config.mapper.clustering.min_ratio, 0.7);
 }
 
+TEST(ShippedFiles, PaperYamlHasNothingBeyondThePaper) {
+  const MapperConfig mapper = load_config(kConfigDir / "paper.yaml").mapper;
+  EXPECT_EQ(mapper.method, "voxels");
+  EXPECT_EQ(mapper.lane.max_kerb_width_m, mapper.lane.max_width_m);
+  EXPECT_EQ(mapper.lane.max_shoulder_width_m, 0.0);
+  EXPECT_EQ(mapper.lane.min_divided_width_m, 0.0);
+  EXPECT_EQ(mapper.lane.assumed_width_m, 0.0);
+  EXPECT_EQ(mapper.linkage.max_crossing_gap_m, 0.0);
+  EXPECT_EQ(mapper.linkage.max_turn_gap_m, 0.0);
+  EXPECT_EQ(mapper.direction.driving_side, "unknown");
+}
+
 }  // namespace
 }  // namespace laneloom

@@ -134,13 +134,23 @@ TEST_F(Directions, ASolidLineAtTheSideSpeaksAsAnEdgeDoesButLess) {
     boundaries_[side].marking.type = MarkingType::laneline;
     boundaries_[side].marking.styles = {{{0, 40}, MarkingStyle::solid}};
   }
+  // With one frame's driving in it, an edge would do.
+  observe(test::at(20, 1.75));
   find();
-  EXPECT_FALSE(known(11) || known(12));
+  EXPECT_FALSE(known(12));
   divider(MarkingStyle::solid);
+  known_.clear();
   find();
   EXPECT_TRUE(known(11) && known(12));
   EXPECT_FALSE(runs_forward(11));
   EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, AnEdgeWithOneFramesDrivingIsEnough) {
+  boundaries_[0].marking.type = MarkingType::laneline;
+  observe(test::at(20, 1.75));
+  find();
+  EXPECT_TRUE(known(12));
 }
 
 TEST_F(Directions, AHalfOfADoubleLineIsNoSideOfTheRoad) {
