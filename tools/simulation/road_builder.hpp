@@ -36,8 +36,7 @@ struct Section {
   Side backward{.lanes = 0, .changes = {}};  ///< 0: one-way, and the reference line is the left edge
   CentreLine centre = CentreLine::solid;
   double lane_width_m = 3.5;
-  double shoulder_m =
-      0.0;  ///< less than 2.5; from a solid line to the edge, where lanes neither begin nor end
+  double shoulder_m = 0.0;    ///< below 2.5; from a solid line to the edge, where no lane begins or ends
   bool visible_edges = true;  ///< else it ends in grass
   double gore_begin_m = 0.0;  ///< of a one-way street: its left edge is painted solid up to here (an exit)
   double gore_end_m = 0.0;    ///< likewise over this last length (an entry)
