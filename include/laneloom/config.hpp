@@ -76,7 +76,7 @@ struct SectionConfig {
 
 /// Paper, Sec. III-D-3; the values are ours.
 struct LaneConfig {
-  double min_width_m = 2.3;
+  double min_width_m = 2.1;
   double max_width_m = 4.5;
   double max_kerb_width_m = 6.5;      ///< beside a roadedge: room to park; also the room beside one line
   double max_shoulder_width_m = 3.0;  ///< between an edge and a lane's solid line; 0: that is a lane

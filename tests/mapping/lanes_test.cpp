@@ -227,7 +227,7 @@ TEST_P(Width, MustLieInTheInterval) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Interval, Width,
-                         ::testing::Values(std::pair(2.2, false), std::pair(2.4, true), std::pair(4.4, true),
+                         ::testing::Values(std::pair(2.0, false), std::pair(2.4, true), std::pair(4.4, true),
                                            std::pair(4.6, false)));
 
 // Paper, Fig. 5 (c): the valid range is where the distance is steady and in the interval.
