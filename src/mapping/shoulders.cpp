@@ -1,8 +1,8 @@
 #include "mapping/shoulders.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <utility>
+#include <cstddef>
+#include <ranges>
 
 #include "mapping/ego_track.hpp"
 #include "mapping/lane_geometry.hpp"
@@ -44,16 +44,18 @@ void remove_shoulders(const std::vector<BoundaryPair>& pairs, const std::vector<
     if (beside == nullptr || lane.width_m >= kMaxWidth * beside->width_m) return false;
     return !road_ends_at(*beside, beside->left_boundary != line.of.boundary);
   };
-  const auto driven =
-      std::ranges::find_if(lanes, [&](const Lane& lane) { return ego_sense(lane, T_map_body) != 0.0; });
-  const auto is_shoulder = [&](const Lane& lane) {
-    return lane.width_m < config.max_shoulder_width_m &&
-           (is_outside_a_lane(lane, true) || is_outside_a_lane(lane, false)) &&
-           (driven == lanes.end() || !share_a_side(lane, *driven));
+  const auto is_driven_along = [&](const Lane& lane) {
+    return std::ranges::any_of(lanes, [&](const Lane& other) {
+      return share_a_side(lane, other) && ego_sense(other, T_map_body) != 0.0;
+    });
   };
-  std::vector<Lane> others;
-  std::ranges::remove_copy_if(lanes, std::back_inserter(others), is_shoulder);
-  lanes = std::move(others);
+  std::vector<std::ptrdiff_t> shoulders;
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    if (lanes[i].width_m < config.max_shoulder_width_m &&
+        (is_outside_a_lane(lanes[i], true) || is_outside_a_lane(lanes[i], false)) &&
+        !is_driven_along(lanes[i]))
+      shoulders.push_back(static_cast<std::ptrdiff_t>(i));
+  for (const std::ptrdiff_t i : std::views::reverse(shoulders)) lanes.erase(lanes.begin() + i);
 }
 
 }  // namespace laneloom

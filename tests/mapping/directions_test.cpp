@@ -42,6 +42,14 @@ class Directions : public ::testing::Test {
 
   void divider(MarkingStyle style) { boundaries_[1].marking.styles = {{{0, 40}, style}}; }
 
+  /// One more line beside the divider, so that the lanes share none.
+  void double_divider() {
+    boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
+    lanes_[0].right_neighbour = lanes_[1].left_neighbour = kNoElement;
+    lanes_[1].left_boundary = 4;
+    lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
+  }
+
   void observe(const Eigen::Isometry3d& T_map_body, const std::vector<Marking>& markings = {}) {
     for (const Lane& lane : lanes_) {
       if (std::ranges::find(known_, lane.id, &KnownLane::id) == known_.end())
@@ -89,10 +97,7 @@ TEST_F(Directions, InLeftHandTrafficTheOtherWayRound) {
 }
 
 TEST_F(Directions, ADoubleLineIsOne) {
-  boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
-  lanes_[0].right_neighbour = lanes_[1].left_neighbour = kNoElement;
-  lanes_[1].left_boundary = 4;
-  lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
+  double_divider();
   divider(MarkingStyle::solid);
   find();
   EXPECT_TRUE(known(11) && known(12));
@@ -154,10 +159,7 @@ TEST_F(Directions, AnEdgeWithOneFramesDrivingIsEnough) {
 }
 
 TEST_F(Directions, AHalfOfADoubleLineIsNoSideOfTheRoad) {
-  boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
-  lanes_[0].right_neighbour = lanes_[1].left_neighbour = kNoElement;
-  lanes_[1].left_boundary = 4;
-  lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
+  double_divider();
   for (LaneBoundary& b : boundaries_) {
     b.marking.type = MarkingType::laneline;
     b.marking.styles = {{{0, 40}, MarkingStyle::solid}};
