@@ -92,7 +92,7 @@ bool is_outermost(const Lane& lane, Turn turn, const std::vector<Lane>& lanes,
   if (beside == lanes.end()) return true;
   if (beside->direction == Lane::Direction::unknown) {
     const LaneSide side = lane_side(lane, left);
-    return dashed_excess_m(boundaries[index_of(boundaries, side.of.boundary)].marking, side.range) <= 0.0;
+    return dashed_excess_m(boundary_of(boundaries, side.of.boundary).marking, side.range) <= 0.0;
   }
   // Of lanes that run against each other, each has the other on the same side.
   return (left ? beside->left_neighbour : beside->right_neighbour) == lane.id;

@@ -138,9 +138,7 @@ std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const Lan
                                        const std::vector<LaneBoundary>& boundaries) {
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
   for (const auto& [left, right] : pairs) open_right[left] = open_left[right] = false;
-  const auto marking = [&](ElementId id) -> const Marking& {
-    return boundaries[index_of(boundaries, id)].marking;
-  };
+  const auto marking = [&](ElementId id) -> const Marking& { return boundary_of(boundaries, id).marking; };
   std::vector<double> evidence(lanes.size(), 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane& lane = lanes[i];
@@ -174,7 +172,7 @@ Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
     const bool turned = is_opposed(groups, i);
     if (left == right || turned != is_opposed(groups, k)) continue;
     const Lane& lane = lanes[i];
-    const LaneBoundary& divider = boundaries[index_of(boundaries, lane.right_boundary)];
+    const LaneBoundary& divider = boundary_of(boundaries, lane.right_boundary);
     opposed[turned ? std::pair(right, left) : std::pair(left, right)].add(
         divider_evidence(divider, lane.right_range));
   }

@@ -129,6 +129,10 @@ std::size_t index_of(const std::vector<LaneBoundary>& boundaries, ElementId id) 
   return static_cast<std::size_t>(found - boundaries.begin());
 }
 
+const LaneBoundary& boundary_of(const std::vector<LaneBoundary>& boundaries, ElementId id) {
+  return boundaries[index_of(boundaries, id)];
+}
+
 void reverse(LaneBoundary& boundary) {
   const double total_m = length(boundary.marking.points);
   reverse(boundary.marking);

@@ -19,6 +19,7 @@ struct LaneBoundary {
 
 /// Where it is among boundaries in the order of their ids; it has to be there.
 std::size_t index_of(const std::vector<LaneBoundary>& boundaries, ElementId id);
+const LaneBoundary& boundary_of(const std::vector<LaneBoundary>& boundaries, ElementId id);
 
 /// The same boundary, run through in the other direction.
 void reverse(LaneBoundary& boundary);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 
 #include "mapping/ego_track.hpp"
 #include "mapping/lane_geometry.hpp"
@@ -25,9 +24,7 @@ bool share_a_side(const Lane& a, const Lane& b) {
 void remove_shoulders(const std::vector<BoundaryPair>& pairs, const std::vector<LaneBoundary>& boundaries,
                       const Eigen::Isometry3d& T_map_body, const LaneConfig& config,
                       std::vector<Lane>& lanes) {
-  const auto marking = [&](ElementId id) -> const Marking& {
-    return boundaries[index_of(boundaries, id)].marking;
-  };
+  const auto marking = [&](ElementId id) -> const Marking& { return boundary_of(boundaries, id).marking; };
   const auto is_edge = [&](ElementId id) { return marking(id).type == MarkingType::roadedge; };
   const auto road_ends_at = [&](const Lane& lane, bool left) {
     const std::size_t a = index_of(boundaries, lane.left_boundary);
@@ -55,7 +52,7 @@ void remove_shoulders(const std::vector<BoundaryPair>& pairs, const std::vector<
         (is_outside_a_lane(lanes[i], true) || is_outside_a_lane(lanes[i], false)) &&
         !is_driven_along(lanes[i]))
       shoulders.push_back(static_cast<std::ptrdiff_t>(i));
-  for (const std::ptrdiff_t i : std::views::reverse(shoulders)) lanes.erase(lanes.begin() + i);
+  for (auto i = shoulders.rbegin(); i != shoulders.rend(); ++i) lanes.erase(lanes.begin() + *i);
 }
 
 }  // namespace laneloom
