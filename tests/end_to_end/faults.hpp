@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "laneloom/state_names.hpp"
 #include "participants.hpp"
 #include "process.hpp"
 #include "service.hpp"
@@ -24,6 +25,14 @@ inline bool has_reason(const PublishedMap& map, StateReason reason) {
 template <class T>
 std::vector<T> lose(const T& /*message*/) {
   return {};
+}
+
+/// A host that stops the senders or the service for a while is no fault of what is tested.
+inline bool busy_host_explains(const PublishedMap& map) {
+  return has_lanes(map) && std::all_of(map.reasons.begin(), map.reasons.end(), [](StateReason reason) {
+           return reason == StateReason::overloaded || reason == StateReason::no_detections ||
+                  reason == StateReason::no_poses;
+         });
 }
 
 /// A service on a road, a planner that hears it, and what goes wrong.
@@ -46,10 +55,13 @@ class Faults : public ::testing::Test {
       return map.state == state && has_reason(map, reason) && has_lanes(map);
     });
   }
-  /// A good map comes from now on.
-  bool is_good_again() {
+  /// So many good maps in a row come from now on.
+  bool is_good_again(std::size_t maps = 1) {
     maps_.forget();
-    return maps_.wait_for(is_good);
+    return maps_.wait_for([maps, in_a_row = std::size_t{0}](const PublishedMap& map) mutable {
+      in_a_row = is_good(map) ? in_a_row + 1 : 0;
+      return in_a_row == maps;
+    });
   }
   /// The fault ends.
   bool recovers() {
@@ -77,19 +89,19 @@ class Faults : public ::testing::Test {
       return found != now.end() && found->second > before[counter];
     });
   }
-  /// `maps` maps in a row are good.
-  bool stays_good(std::size_t maps) {
+  /// `maps` maps in a row are good, and none before them is bad.
+  ::testing::AssertionResult stays_good(std::size_t maps) {
     maps_.forget();
-    if (!maps_.wait_for([&, seen = std::size_t{0}](const PublishedMap&) mutable { return ++seen == maps; })) {
-      return false;
-    }
-    const auto samples = maps_.samples();
-    // A busy host is no fault of what is tested.
-    const auto good = [](const PublishedMap& map) {
-      return is_good(map) || (has_lanes(map) && map.state == MapState::degraded &&
-                              map.reasons == std::vector{StateReason::overloaded});
-    };
-    return std::all_of(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(maps), good);
+    std::size_t in_a_row = 0;
+    std::string bad;
+    maps_.wait_for([&](const PublishedMap& map) {
+      in_a_row = is_good(map) ? in_a_row + 1 : 0;
+      if (!is_good(map) && !busy_host_explains(map)) bad = state_text(map.state, map.reasons);
+      return in_a_row == maps || !bad.empty();
+    });
+    if (bad.empty() && in_a_row == maps) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << (bad.empty() ? "not good for long" : bad) << "\n"
+                                         << service_->errors();
   }
 
   const DdsConfig config_ = private_config();

@@ -43,8 +43,7 @@ TEST_F(ReadOnlyFolder, IsEnoughForTheConfiguration) {
   EXPECT_TRUE(service_->wait_for_error("event=changed key=service.log_level value=debug"))
       << service_->errors();
   EXPECT_TRUE(service_->wait_for_error("event=reopened")) << service_->errors();
-  EXPECT_TRUE(is_good_again());
-  EXPECT_TRUE(stays_good(10));
+  EXPECT_TRUE(is_good_again(10)) << "the senders did not find the new endpoints";
 }
 
 TEST_F(ReadOnlyFolder, TakesNoSnapshotAndTheServiceSaysSo) {
