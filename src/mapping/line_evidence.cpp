@@ -30,13 +30,12 @@ bool View::sees(const Point& point_map, MarkingType type, const LocalRange& rang
                                          [&](const Polyline& area) { return contains(area, point); });
 }
 
-void discount_unobserved(const StationsObserved& observed, const View& view, const LocalRange& range,
-                         const FusionConfig& config, std::vector<Line>& lines) {
-  for (std::size_t i = 0; i < observed.size(); ++i) {
-    Line& line = lines[i];
-    for (std::size_t k = 0; k < observed[i].size(); ++k) {
-      Station& station = line.stations[k];
-      if (observed[i][k] || !view.sees(station.position, line.type(), range)) continue;
+void discount_unobserved(const View& view, const LocalRange& range, const FusionConfig& config,
+                         std::vector<Line>& lines) {
+  for (Line& line : lines) {
+    for (Station& station : line.stations) {
+      if (station.sight == Sight::observed || !view.sees(station.position, line.type(), range)) continue;
+      station.sight = Sight::missed;
       const double range_m = (view.T_body_map * station.position).head<2>().norm();
       station.log_odds -= config.miss_log_odds * std::max(0.0, 1.0 - range_m / config.miss_range_m);
     }

@@ -20,8 +20,8 @@ struct View {
 };
 
 /// Lowers the evidence of the stations that were in view and not observed, the less the further they are.
-void discount_unobserved(const StationsObserved& observed, const View& view, const LocalRange& range,
-                         const FusionConfig& config, std::vector<Line>& lines);
+void discount_unobserved(const View& view, const LocalRange& range, const FusionConfig& config,
+                         std::vector<Line>& lines);
 
 /// Takes away what has lost its evidence or left the range: ends are cut, a line that is lost in between is
 /// split. Its longest piece keeps the id; returns the others, each with the line that it was cut off from.

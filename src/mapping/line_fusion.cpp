@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "laneloom/polyline.hpp"
 
@@ -66,12 +67,11 @@ bool is_seen_through(const SampleMatch& from, const SampleMatch& to) {
 /// would turn its neighbours' normals.
 class Observations {
  public:
-  Observations(const SampledDetection& detection, const Line& line, const Point& origin,
-               const FusionConfig& config)
+  Observations(const SampledDetection& detection, Line& line, const Point& origin, const FusionConfig& config)
       : detection_(detection), line_(line), origin_(origin), config_(config) {}
 
-  /// Leaves out what is `observed` already, and marks the rest.
-  void gather(const std::vector<SampleMatch>& samples, std::vector<bool>& observed) {
+  /// Leaves out what is observed already, and marks the rest.
+  void gather(const std::vector<SampleMatch>& samples) {
     for (std::size_t i = 1; i < samples.size(); ++i) {
       const SampleMatch &a = samples[i - 1], &b = samples[i];
       if (!is_seen_through(a, b)) continue;
@@ -83,8 +83,7 @@ class Observations {
       const double high = forwards ? b.foot.index + after : a.foot.index + before;
       for (auto k = static_cast<std::size_t>(std::max(0.0, std::ceil(low)));
            k < line_.stations.size() && static_cast<double>(k) <= high; ++k) {
-        if (observed[k]) continue;
-        observed[k] = true;
+        if (std::exchange(line_.stations[k].sight, Sight::observed) == Sight::observed) continue;
         all_.push_back(between(a, b, k));
       }
     }
@@ -114,16 +113,16 @@ class Observations {
   }
 
   const SampledDetection& detection_;
-  const Line& line_;
+  Line& line_;
   const Point& origin_;
   const FusionConfig& config_;
   std::vector<Observation> all_;
 };
 
 void fuse(const LineMatch& match, const SampledDetection& detection, const Point& origin,
-          const FusionConfig& config, Line& line, std::vector<bool>& observed) {
+          const FusionConfig& config, Line& line) {
   Observations seen(detection, line, origin, config);
-  seen.gather(match.samples, observed);
+  seen.gather(match.samples);
   for (const Observation& observation : seen.all()) {
     Station& station = line.stations[observation.station];
     observe(station, observation, origin, config);
@@ -194,15 +193,12 @@ void extend_line(const LineMatch& match, bool at_back, const Point& origin, cons
 
 }  // namespace
 
-StationsObserved fuse_matches(const std::vector<LineMatch>& matches,
-                              const std::vector<SampledDetection>& detections, const Point& origin,
-                              const FusionConfig& config, std::vector<Line>& lines) {
-  StationsObserved observed(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) observed[i].assign(lines[i].stations.size(), false);
-  for (const LineMatch& match : matches) {
-    fuse(match, detections[match.detection], origin, config, lines[match.line], observed[match.line]);
-  }
-  return observed;
+void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
+                  const Point& origin, const FusionConfig& config, std::vector<Line>& lines) {
+  for (Line& line : lines)
+    for (Station& station : line.stations) station.sight = Sight::out_of_view;
+  for (const LineMatch& match : matches)
+    fuse(match, detections[match.detection], origin, config, lines[match.line]);
 }
 
 void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, const LocalRange& range,

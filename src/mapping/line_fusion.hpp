@@ -12,10 +12,9 @@
 namespace laneloom {
 
 /// Moves the observed stations towards what was seen, weighing each observation by its deviation, as given or
-/// by its range from `origin`, and raises their evidence. Returns which stations were.
-StationsObserved fuse_matches(const std::vector<LineMatch>& matches,
-                              const std::vector<SampledDetection>& detections, const Point& origin,
-                              const FusionConfig& config, std::vector<Line>& lines);
+/// by its range from `origin`, and raises their evidence.
+void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
+                  const Point& origin, const FusionConfig& config, std::vector<Line>& lines);
 
 /// Continues lines where a detection runs on beyond their ends, as far as the range goes.
 void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, const LocalRange& range,

@@ -11,12 +11,16 @@
 namespace laneloom {
 
 /// A place on a line, about every metre, with what is known of the line there.
+/// What a frame says of a place on a line.
+enum class Sight : std::uint8_t { out_of_view, missed, observed };
+
 struct Station {
   Point position = Point::Zero();   ///< map frame
   double information_per_m2 = 0.0;  ///< inverse variance of the lateral position
   double closest_m = 0.0;           ///< from which it was observed
   double log_odds = 0.0;            ///< that the line exists here
-  std::array<double, kMarkingStyleCount> style_votes{};
+  StyleVotes style_votes{};
+  Sight sight = Sight::out_of_view;  ///< in this frame; not kept
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -40,9 +44,6 @@ struct Line {
     archive(id, stations, type_votes, observations, first_seen_ns);
   }
 };
-
-/// Per line and station, whether a detection of the frame observed it.
-using StationsObserved = std::vector<std::vector<bool>>;
 
 /// Lanelines and roadedges are told apart by vote, stoplines from the start: they cross the others.
 inline bool is_stopline(MarkingType type) { return type == MarkingType::stopline; }

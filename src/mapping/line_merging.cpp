@@ -82,9 +82,10 @@ bool side_by_side(const std::vector<Line>& lines, std::size_t a, std::size_t b, 
   return lies_beside(lines[a], courses[b], distance_m);
 }
 
-bool mostly_observed(const StationsObserved& observed, std::size_t line) {
-  return line < observed.size() &&
-         2 * std::ranges::count(observed[line], true) > std::ranges::ssize(observed[line]);
+/// As far as it is in view.
+bool mostly_observed(const Line& line) {
+  const auto count = [&](Sight sight) { return std::ranges::count(line.stations, sight, &Station::sight); };
+  return count(Sight::observed) > count(Sight::missed);
 }
 
 double evidence(const Line& line, const FusionConfig& config) {
@@ -95,15 +96,15 @@ double evidence(const Line& line, const FusionConfig& config) {
 
 }  // namespace
 
-std::vector<Relative> merge_doubles(const StationsObserved& observed, const FusionConfig& config,
-                                    std::vector<Line>& lines, PairHistories& doubles) {
+std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
+                                    PairHistories& doubles) {
   PairHistories kept;
   std::vector<Relative> merged;
   std::vector<bool> gone(lines.size(), false);
   Courses courses(lines);
   for (const auto& [i, j] : neighbours(lines, config)) {
     if (gone[i] || gone[j] || !side_by_side(lines, i, j, config.merge_distance_m, courses)) continue;
-    const bool i_seen = mostly_observed(observed, i), j_seen = mostly_observed(observed, j);
+    const bool i_seen = mostly_observed(lines[i]), j_seen = mostly_observed(lines[j]);
     const PairHistory history =
         continued(doubles, lines[i].id, lines[j].id, i_seen && j_seen, i_seen != j_seen);
     if (!seen_apart(history)) {

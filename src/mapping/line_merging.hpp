@@ -10,10 +10,9 @@
 namespace laneloom {
 
 /// Counts which neighbouring lines are seen in the same frame, as two real lines are, and which in different
-/// ones, as a line and its double are. Of two that are, the one with less evidence goes. `observed` says for
-/// every line which of its stations were observed in this frame; lines that are newer than it may follow.
-/// Returns what went, each with the line that stays.
-std::vector<Relative> merge_doubles(const StationsObserved& observed, const FusionConfig& config,
-                                    std::vector<Line>& lines, PairHistories& doubles);
+/// ones, as a line and its double are. Of two that are, the one with less evidence goes. Returns what went,
+/// each with the line that stays.
+std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
+                                    PairHistories& doubles);
 
 }  // namespace laneloom

@@ -96,12 +96,12 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   mark_explained(matches, detections);
   count_joints(matches, lines, config.boundary.max_gap_m, state.joints);
   done(Stage::association);
-  const auto observed = fuse_matches(matches, detections, origin, fusion, lines);
-  discount_unobserved(observed, {input.T_map_body.inverse(), &input.frame}, input.range, fusion, lines);
+  fuse_matches(matches, detections, origin, fusion, lines);
+  discount_unobserved({input.T_map_body.inverse(), &input.frame}, input.range, fusion, lines);
   done(Stage::line_update);
   extend_lines(matches, origin, input.range, fusion, detections, lines);
   create_lines(detections, origin, input.frame.stamp_ns, input.range, fusion, lines, state.next_id);
-  relatives = merge_doubles(observed, fusion, lines, state.doubles);
+  relatives = merge_doubles(fusion, lines, state.doubles);
   std::ranges::copy(prune_lines(input.range, fusion, lines, state.next_id), std::back_inserter(relatives));
   done(Stage::line_set);
   auto markings = publish_lines(lines, config);

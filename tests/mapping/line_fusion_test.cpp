@@ -26,8 +26,8 @@ class LineFusion : public ::testing::Test {
     auto detections = sample_detections(markings, config_);
     const auto matches = LineMatcher(lines_, config_).match(detections);
     mark_explained(matches, detections);
-    const auto observed = fuse_matches(matches, detections, Point::Zero(), config_, lines_);
-    discount_unobserved(observed, {Eigen::Isometry3d::Identity(), &frame_}, range_, config_, lines_);
+    fuse_matches(matches, detections, Point::Zero(), config_, lines_);
+    discount_unobserved({Eigen::Isometry3d::Identity(), &frame_}, range_, config_, lines_);
     extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
     create_lines(detections, Point::Zero(), 7, range_, config_, lines_, next_id_);
     std::ranges::copy(prune_lines(range_, config_, lines_, next_id_), std::back_inserter(cut_off_));

@@ -17,9 +17,11 @@ class LineMerging : public ::testing::Test {
     for (Station& station : lines_[0].stations) station.log_odds = 3.0;
   }
   void frame(bool first, bool second) {
-    const StationsObserved observed{std::vector<bool>(21, first), std::vector<bool>(17, second)};
-    merged_ = merge_doubles(observed, {}, lines_, pairs_);
+    for (Station& station : lines_[0].stations) station.sight = first ? Sight::observed : Sight::missed;
+    for (Station& station : lines_[1].stations) station.sight = second ? Sight::observed : Sight::missed;
+    merge();
   }
+  void merge() { merged_ = merge_doubles({}, lines_, pairs_); }
   std::vector<Line> lines_;
   PairHistories pairs_;
   std::vector<Relative> merged_;
@@ -39,6 +41,13 @@ TEST_F(LineMerging, ADoubleThatIsNeverSeenWithTheLineGoes) {
 TEST_F(LineMerging, TwoLinesThatAreSeenTogetherStay) {
   for (int i = 0; i < 100; ++i) frame(true, i % 2 == 0);
   EXPECT_EQ(lines_.size(), 2U);
+}
+
+TEST_F(LineMerging, WhatIsOutOfViewDoesNotTell) {
+  for (Station& station : lines_[1].stations) station.sight = Sight::observed;
+  for (std::size_t k = 0; k < 8; ++k) lines_[0].stations[k].sight = Sight::observed;
+  for (int i = 0; i < 100; ++i) merge();
+  EXPECT_EQ(lines_.size(), 2U) << "both are seen as far as the camera looks";
 }
 
 TEST_F(LineMerging, LinesApartAreNoPair) {
