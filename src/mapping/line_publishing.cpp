@@ -12,17 +12,14 @@ namespace {
 
 using Stations = std::span<const Station>;
 
-/// The longest stretch with enough evidence.
+/// From the first to the last place with enough evidence. What is weak in between has been seen and is about
+/// to be seen again, or else the line is cut there.
 Stations published_stretch(const Line& line, const FusionConfig& config) {
-  const Stations all(line.stations);
-  Stations best;
-  for (std::size_t begin = 0; begin < all.size();) {
-    std::size_t end = begin;
-    while (end < all.size() && all[end].log_odds >= config.publish_log_odds) ++end;
-    if (end - begin > best.size()) best = all.subspan(begin, end - begin);
-    begin = std::max(end, begin + 1);
-  }
-  return best;
+  const auto enough = [&](const Station& station) { return station.log_odds >= config.publish_log_odds; };
+  const auto begin = std::ranges::find_if(line.stations, enough);
+  auto end = line.stations.end();
+  while (end != begin && !enough(*std::prev(end))) --end;
+  return {begin, end};
 }
 
 /// Twice by the neighbours; the ends stay.

@@ -36,6 +36,14 @@ TEST_F(LinePublishing, WhatHasEvidenceAsFarAsItReaches) {
   EXPECT_EQ(publish()[0].status, ElementStatus::confirmed);
 }
 
+TEST_F(LinePublishing, AWeakPlaceDoesNotHideWhatIsBeyondIt) {
+  believe(0, 51, 3.0);
+  believe(28, 29, -0.1);
+  const auto markings = publish();
+  ASSERT_EQ(markings.size(), 1U);
+  EXPECT_NEAR(length(markings[0].points), 50.0, 1e-9);
+}
+
 TEST_F(LinePublishing, CertaintyGrowsWithEvidenceAndNearness) {
   const FusionConfig config;
   for (std::size_t i = 0; i < 51; ++i) {
