@@ -10,6 +10,7 @@ namespace laneloom {
 namespace {
 
 constexpr double kBirthTrust = 0.25;   // what was seen once is not yet known to be the line
+constexpr double kTypeMemory = 0.98;   // per observation: the border of a road may become another
 constexpr double kMinStddev_m = 0.02;  // of an observation, whatever is said of it
 
 double distance(const Point& point, const Point& origin) { return (point - origin).head<2>().norm(); }
@@ -129,6 +130,7 @@ void fuse(const LineMatch& match, const SampledDetection& detection, const Point
     station.log_odds = std::min(station.log_odds + hit(detection, config), config.max_log_odds);
     station.style_votes[index(detection.style)] += 1.0;
   }
+  for (double& votes : line.type_votes) votes *= kTypeMemory;
   line.type_votes[index(detection.type)] += static_cast<double>(match.samples.size());
   ++line.observations;
 }

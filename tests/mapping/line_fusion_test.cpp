@@ -218,6 +218,13 @@ TEST_F(LineFusion, TheTypeIsThatOfMostObservations) {
   EXPECT_EQ(lines_[0].type(), MarkingType::laneline);
 }
 
+TEST_F(LineFusion, ALineThatBecomesAnEdgeIsOneSoon) {
+  for (int i = 0; i < 600; ++i) see({straight({0, 0, 0}, {20, 0, 0})});
+  for (int i = 0; i < 40; ++i) see({straight({0, 0, 0}, {20, 0, 0})}, MarkingType::roadedge);
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(lines_[0].type(), MarkingType::roadedge);
+}
+
 TEST_F(LineFusion, NothingIsKeptBeyondTheRange) {
   see({straight({-60, 0, 0}, {90, 0, 0})});
   ASSERT_EQ(lines_.size(), 1U);
