@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "laneloom/types.hpp"
+#include "mapping/markings.hpp"
 
 namespace laneloom {
 

@@ -36,25 +36,11 @@ Polyline smoothed(Stations stations) {
   return points;
 }
 
-MarkingStyle style_of(const Station& station, const StyleConfig& config) {
-  const double solid = station.style_votes[index(MarkingStyle::solid)];
-  const double dashed = station.style_votes[index(MarkingStyle::dashed)];
-  if (solid > 0.0 && solid >= config.min_share * (solid + dashed)) return MarkingStyle::solid;
-  if (dashed > 0.0 && dashed >= config.min_share * (solid + dashed)) return MarkingStyle::dashed;
-  return MarkingStyle::unknown;
-}
-
 std::vector<StyleRange> styles_along(Stations stations, const Polyline& points, const StyleConfig& config) {
   const std::vector<double> arc = arc_lengths(points);
   std::vector<StyleRange> styles;
-  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-    const MarkingStyle style = style_of(stations[i], config);
-    if (!styles.empty() && styles.back().style == style) {
-      styles.back().range.to_m = arc[i + 1];
-    } else {
-      styles.push_back({{arc[i], arc[i + 1]}, style});
-    }
-  }
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i)
+    append_style(styles, {{arc[i], arc[i + 1]}, voted(stations[i].style_votes, config)});
   return styles;
 }
 

@@ -7,6 +7,22 @@
 namespace laneloom {
 namespace {
 
+/// The mean of both, by their lengths; not estimated where one of them is not.
+double joint_existence(const Marking& a, double a_m, const Marking& b, double b_m) {
+  if (a.existence_probability < 0.0 || b.existence_probability < 0.0 || a_m + b_m <= 0.0) return -1.0;
+  return (a.existence_probability * a_m + b.existence_probability * b_m) / (a_m + b_m);
+}
+
+}  // namespace
+
+MarkingStyle voted(const StyleVotes& votes, const StyleConfig& config) {
+  const double solid = votes[index(MarkingStyle::solid)], dashed = votes[index(MarkingStyle::dashed)];
+  const double needed = config.min_share * (solid + dashed);
+  if (solid > 0.0 && solid >= needed) return MarkingStyle::solid;
+  if (dashed > 0.0 && dashed >= needed) return MarkingStyle::dashed;
+  return MarkingStyle::unknown;
+}
+
 void append_style(std::vector<StyleRange>& styles, const StyleRange& next) {
   if (next.range.length() <= 0.0) return;
   if (!styles.empty() && styles.back().style == next.style) {

@@ -1,7 +1,6 @@
 #include "mapping/vectorise.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "laneloom/polyline.hpp"
@@ -37,7 +36,7 @@ std::vector<StyleRange> estimate_styles(const Polyline& line, const std::vector<
   const auto bins =
       static_cast<std::size_t>(std::max(1.0, std::ceil(measured.length() / config.bin_length_m)));
   const double bin_m = measured.length() / static_cast<double>(bins);
-  std::vector<std::array<double, kMarkingStyleCount>> votes(bins);
+  std::vector<StyleVotes> votes(bins);
   for (const VoxelId id : voxels) {
     const double arc_m = measured.project(map.center(map[id])).arc_m;
     auto& bin = votes[std::min(bins - 1, static_cast<std::size_t>(arc_m / bin_m))];
@@ -45,17 +44,8 @@ std::vector<StyleRange> estimate_styles(const Polyline& line, const std::vector<
   }
   std::vector<StyleRange> styles;
   for (std::size_t k = 0; k < bins; ++k) {
-    const double solid = votes[k][index(MarkingStyle::solid)];
-    const double dashed = votes[k][index(MarkingStyle::dashed)];
-    MarkingStyle style = MarkingStyle::unknown;
-    if (solid > 0.0 && solid >= config.min_share * (solid + dashed)) style = MarkingStyle::solid;
-    if (dashed > 0.0 && dashed >= config.min_share * (solid + dashed)) style = MarkingStyle::dashed;
-    const double to_m = bin_m * static_cast<double>(k + 1);
-    if (!styles.empty() && styles.back().style == style) {
-      styles.back().range.to_m = to_m;
-    } else {
-      styles.push_back({{bin_m * static_cast<double>(k), to_m}, style});
-    }
+    const auto bin = static_cast<double>(k);
+    append_style(styles, {{bin_m * bin, bin_m * (bin + 1.0)}, voted(votes[k], config)});
   }
   return styles;
 }
