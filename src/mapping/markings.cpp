@@ -32,14 +32,6 @@ void append_style(std::vector<StyleRange>& styles, const StyleRange& next) {
   }
 }
 
-/// The mean of both, by their lengths; not estimated where one of them is not.
-double joint_existence(const Marking& a, double a_m, const Marking& b, double b_m) {
-  if (a.existence_probability < 0.0 || b.existence_probability < 0.0 || a_m + b_m <= 0.0) return -1.0;
-  return (a.existence_probability * a_m + b.existence_probability * b_m) / (a_m + b_m);
-}
-
-}  // namespace
-
 double deviation_at(const std::vector<double>& arc_m, const std::vector<double>& deviations_m, double at_m) {
   const auto after = static_cast<std::size_t>(std::ranges::upper_bound(arc_m, at_m) - arc_m.begin());
   if (after == 0) return deviations_m.front();
@@ -89,8 +81,10 @@ void reverse(Marking& marking) {
 
 void append(Marking& marking, const Marking& next) {
   const double end_m = length(marking.points);
+  const double next_m = length(next.points);
   const double start_m = end_m + (next.points.front() - marking.points.back()).head<2>().norm();
-  marking.existence_probability = joint_existence(marking, end_m, next, length(next.points));
+  marking.existence_probability = joint_existence(marking, end_m, next, next_m);
+  if (next_m > end_m) marking.status = next.status;
   append_style(marking.styles, {{end_m, start_m}, MarkingStyle::unknown});
   for (const auto& [range, style] : next.styles) {
     append_style(marking.styles, {{start_m + range.from_m, start_m + range.to_m}, style});

@@ -29,8 +29,8 @@ Marking slice(const Marking& marking, const Range& stretch);
 /// The same marking, run through in the other direction.
 void reverse(Marking& marking);
 
-/// Appends `next` to `marking`, which keeps its id. The gap between them is bridged straight; its style is
-/// unknown.
+/// Appends `next` to `marking`, which keeps its id and has the status of the longer one. The gap between them
+/// is bridged straight; its style is unknown.
 void append(Marking& marking, const Marking& next);
 
 }  // namespace laneloom

@@ -41,6 +41,16 @@ TEST(Markings, ExistenceOfAChainIsTheMeanByLength) {
   EXPECT_EQ(marking.existence_probability, -1.0);
 }
 
+TEST(Markings, AChainHasTheStatusOfTheLongerPart) {
+  const auto chain = [](double first_m, double second_m) {
+    Marking marking{.status = ElementStatus::tentative, .points = {{0, 0, 0}, {first_m, 0, 0}}};
+    append(marking, Marking{.points = {{first_m, 0, 0}, {first_m + second_m, 0, 0}}});
+    return marking.status;
+  };
+  EXPECT_EQ(chain(3, 30), ElementStatus::confirmed);
+  EXPECT_EQ(chain(30, 3), ElementStatus::tentative);
+}
+
 TEST(Markings, ReversedTwiceIsTheSame) {
   Marking m = styled();
   reverse(m);
