@@ -20,6 +20,7 @@ namespace {
 constexpr double kEgoEvidence = 0.5;       // per frame
 constexpr double kStoplineEvidence = 0.3;  // per frame
 constexpr double kDoubleLine_m = 0.8;      // between its two lines
+constexpr double kMemory = 0.995;          // per frame: one may have overtaken in the oncoming lane
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;     // of a solid line there
@@ -227,6 +228,7 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
     double& log_odds = remembered->direction_log_odds;
     log_odds += kEgoEvidence * ego_sense(lane, T_map_body) +
                 kStoplineEvidence * stopline_sense(lane, markings, config);
+    log_odds *= kMemory;
     log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);
   }
 }

@@ -229,6 +229,17 @@ TEST_F(Directions, CrossingTheLaneSaysNothing) {
 
 TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
   lanes_ = {lane(12, 2, 0, 10), lane(13, 2, 30, 40)};  // along the edge, on both sides of an intersection
+TEST_F(Directions, TheOncomingLaneThatWasOvertakenInIsNotTakenForOurs) {
+  divider(MarkingStyle::solid);
+  for (int i = 0; i < 30; ++i) observe(test::at(3, 5.25));
+  find();
+  EXPECT_TRUE(runs_forward(11));
+  for (int i = 0; i < 300; ++i) observe(test::at(3, 1.75));
+  lanes_[0].direction = Direction::unknown;
+  find();
+  EXPECT_FALSE(known(11) && runs_forward(11));
+}
+
   observe(test::at(5, 1.75));
   find("unknown");
   EXPECT_TRUE(known(12) || !known(13));
