@@ -255,6 +255,9 @@ void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std
     if (turned(lane.id)) turn(lane);
   for (Linkage& linkage : linkages) {
     if (!turned(linkage.from)) continue;
+  // Where directions contradict one another, one of two linked lanes may be turned alone: it is not entered
+  // so.
+  std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
     std::swap(linkage.from, linkage.to);
     std::ranges::reverse(linkage.path);
   }

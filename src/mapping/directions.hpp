@@ -30,7 +30,8 @@ void find_directions(const std::vector<LaneBoundary>& boundaries, const Directio
                      const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
                      std::vector<Linkage>& linkages);
 
-/// Lets lanes run the other way, with their sides and neighbours, and the linkages between them.
+/// Lets lanes run the other way, with their sides and neighbours, and the linkages between them. A linkage of
+/// which one lane is turned and the other is not goes.
 void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
 
 }  // namespace laneloom

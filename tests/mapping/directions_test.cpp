@@ -284,6 +284,12 @@ TEST_F(Directions, LanesThatContinueOneAnotherRunTheSameWay) {
   EXPECT_FALSE(runs_forward(11) || runs_forward(13));
   EXPECT_EQ(linkages_[0].from, 13U);
   EXPECT_EQ(linkages_[0].to, 11U);
+TEST_F(Directions, NoWayLeadsFromATurnedLaneIntoOneThatIsNot) {
+  linkages_ = {{.from = 11, .to = 12}, {.from = 12, .to = 11}};
+  turn_lanes({11}, lanes_, linkages_);
+  EXPECT_TRUE(linkages_.empty());
+}
+
 }
 
 }  // namespace
