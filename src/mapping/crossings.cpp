@@ -10,6 +10,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/directions.hpp"
 #include "mapping/lane_geometry.hpp"
+#include "mapping/levels.hpp"
 #include "mapping/markings.hpp"
 
 namespace laneloom {
@@ -142,7 +143,8 @@ std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes,
 
 bool crosses_edge(const Polyline& path, const std::vector<LaneBoundary>& boundaries) {
   return std::ranges::any_of(boundaries, [&](const LaneBoundary& boundary) {
-    return boundary.marking.type == MarkingType::roadedge && intersect(path, boundary.marking.points);
+    return boundary.marking.type == MarkingType::roadedge &&
+           intersect(path, boundary.marking.points, kLevel_m);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/ego_track.hpp"
 #include "mapping/lane_geometry.hpp"
+#include "mapping/levels.hpp"
 #include "mapping/markings.hpp"
 #include "mapping/oriented_groups.hpp"
 #include "mapping/stoplines.hpp"
@@ -19,8 +20,8 @@ namespace {
 // Log odds that a lane runs along its centerline.
 constexpr double kEgoEvidence = 0.5;       // per frame
 constexpr double kStoplineEvidence = 0.3;  // per frame
-constexpr double kDoubleLine_m = 0.8;      // between its two lines
 constexpr double kMemory = 0.995;          // per frame: one may have overtaken in the oncoming lane
+constexpr double kDoubleLine_m = 0.8;      // between its two lines
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;     // of a solid line there
@@ -105,9 +106,10 @@ bool is_left_of(const Lane& lane, const Lane& other) {
   if (other.left_neighbour != kNoElement) return false;
   const MeasuredPolyline right(lane.right), left(other.left);
   const double middle_m = 0.5 * right.length();
-  const Projection foot = left.project(right.at(middle_m));
+  const Point middle = right.at(middle_m);
+  const Projection foot = left.project(middle);
   const bool along = right.direction(middle_m).dot(left.direction(foot.arc_m)) > 0.0;
-  return foot.inside && along && foot.distance_m < kDoubleLine_m;
+  return foot.inside && along && foot.distance_m < kDoubleLine_m && same_level(foot.foot, middle);
 }
 
 /// 1 where traffic keeps right, -1 where it keeps left, 0 where that is not said.
@@ -226,9 +228,9 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
   for (const Lane& lane : lanes) {
     const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
     double& log_odds = remembered->direction_log_odds;
+    log_odds *= kMemory;
     log_odds += kEgoEvidence * ego_sense(lane, T_map_body) +
                 kStoplineEvidence * stopline_sense(lane, markings, config);
-    log_odds *= kMemory;
     log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);
   }
 }
@@ -253,11 +255,11 @@ void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std
   const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
   for (Lane& lane : lanes)
     if (turned(lane.id)) turn(lane);
-  for (Linkage& linkage : linkages) {
-    if (!turned(linkage.from)) continue;
   // Where directions contradict one another, one of two linked lanes may be turned alone: it is not entered
   // so.
   std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
+  for (Linkage& linkage : linkages) {
+    if (!turned(linkage.from)) continue;
     std::swap(linkage.from, linkage.to);
     std::ranges::reverse(linkage.path);
   }

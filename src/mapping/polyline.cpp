@@ -235,20 +235,22 @@ double cos_degrees(double angle_deg) {
 
 namespace {
 
-bool segments_intersect(const Point& a, const Point& b, const Point& c, const Point& d) {
+bool segments_intersect(const Point& a, const Point& b, const Point& c, const Point& d, double max_height_m) {
   const Eigen::Vector2d ab = (b - a).head<2>(), cd = (d - c).head<2>(), ac = (c - a).head<2>();
   const double sine = cross(ab, cd);
   if (sine == 0.0) return false;
   const double along_ab = cross(ac, cd) / sine, along_cd = cross(ac, ab) / sine;
-  return along_ab >= 0.0 && along_ab <= 1.0 && along_cd >= 0.0 && along_cd <= 1.0;
+  if (along_ab < 0.0 || along_ab > 1.0 || along_cd < 0.0 || along_cd > 1.0) return false;
+  const double over_m = a.z() + along_ab * (b - a).z() - (c.z() + along_cd * (d - c).z());
+  return std::abs(over_m) <= max_height_m;
 }
 
 }  // namespace
 
-bool intersect(const Polyline& a, const Polyline& b) {
+bool intersect(const Polyline& a, const Polyline& b, double max_height_m) {
   for (std::size_t i = 0; i + 1 < a.size(); ++i)
     for (std::size_t j = 0; j + 1 < b.size(); ++j)
-      if (segments_intersect(a[i], a[i + 1], b[j], b[j + 1])) return true;
+      if (segments_intersect(a[i], a[i + 1], b[j], b[j + 1], max_height_m)) return true;
   return false;
 }
 

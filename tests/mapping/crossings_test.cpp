@@ -264,6 +264,9 @@ TEST(Crossings, NoWayLeadsOverAnEdge) {
       test::boundary(50, test::arc({-10, -10, 0}, 7.0, 0, 90), MarkingType::roadedge)};
   EXPECT_THAT(pairs_of(crossings(crossroads(), {}, {}, corner), Linkage::Turn::right),
               ElementsAre(Pair(1, 12), Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+  const std::vector<LaneBoundary> flyover{
+      test::boundary(50, straight({-9, -9, 6}, {0, 0, 6}), MarkingType::roadedge)};
+  EXPECT_EQ(crossings(crossroads(), {}, {}, flyover).size(), crossings(crossroads()).size());
   const std::vector<LaneBoundary> island{
       test::boundary(50, straight({-9, -9, 0}, {0, 0, 0}), MarkingType::roadedge)};
   EXPECT_THAT(pairs_of(crossings(crossroads(), {}, {}, island), Linkage::Turn::right),

@@ -105,6 +105,15 @@ TEST_F(Directions, ADoubleLineIsOne) {
   EXPECT_TRUE(runs_forward(12));
 }
 
+TEST_F(Directions, ALineOnABridgeMakesNoDoubleLineWithOneBelow) {
+  double_divider();
+  divider(MarkingStyle::solid);
+  for (Polyline* line : {&lanes_[1].left, &lanes_[1].right, &lanes_[1].centerline})
+    for (Point& point : *line) point.z() = 6.0;
+  find();
+  EXPECT_FALSE(known(11));
+}
+
 TEST_F(Directions, ADashedLineDoesNotTell) {
   divider(MarkingStyle::dashed);
   find();
@@ -220,15 +229,6 @@ TEST_F(Directions, AStandingVehicleSaysNoMoreThanAPassingOne) {
   EXPECT_FALSE(runs_forward(12));
 }
 
-TEST_F(Directions, CrossingTheLaneSaysNothing) {
-  divider(MarkingStyle::dashed);
-  for (int i = 0; i < 10; ++i) observe(test::at(3, 1.75, 0.5 * std::numbers::pi));
-  find();
-  EXPECT_FALSE(known(12));
-}
-
-TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
-  lanes_ = {lane(12, 2, 0, 10), lane(13, 2, 30, 40)};  // along the edge, on both sides of an intersection
 TEST_F(Directions, TheOncomingLaneThatWasOvertakenInIsNotTakenForOurs) {
   divider(MarkingStyle::solid);
   for (int i = 0; i < 30; ++i) observe(test::at(3, 5.25));
@@ -240,6 +240,15 @@ TEST_F(Directions, TheOncomingLaneThatWasOvertakenInIsNotTakenForOurs) {
   EXPECT_FALSE(known(11) && runs_forward(11));
 }
 
+TEST_F(Directions, CrossingTheLaneSaysNothing) {
+  divider(MarkingStyle::dashed);
+  for (int i = 0; i < 10; ++i) observe(test::at(3, 1.75, 0.5 * std::numbers::pi));
+  find();
+  EXPECT_FALSE(known(12));
+}
+
+TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
+  lanes_ = {lane(12, 2, 0, 10), lane(13, 2, 30, 40)};  // along the edge, on both sides of an intersection
   observe(test::at(5, 1.75));
   find("unknown");
   EXPECT_TRUE(known(12) || !known(13));
@@ -275,6 +284,12 @@ TEST_F(Directions, AWayIsTurnedWithItsLanes) {
   EXPECT_EQ(linkages_[0].path.front().x(), 20.0);
 }
 
+TEST_F(Directions, NoWayLeadsFromATurnedLaneIntoOneThatIsNot) {
+  linkages_ = {{.from = 11, .to = 12}, {.from = 12, .to = 11}};
+  turn_lanes({11}, lanes_, linkages_);
+  EXPECT_TRUE(linkages_.empty());
+}
+
 TEST_F(Directions, LanesThatContinueOneAnotherRunTheSameWay) {
   lanes_ = {lane(11, 1, 0, 20), lane(13, 1, 20, 40)};
   linkages_ = {{.from = 11, .to = 13}};
@@ -284,12 +299,6 @@ TEST_F(Directions, LanesThatContinueOneAnotherRunTheSameWay) {
   EXPECT_FALSE(runs_forward(11) || runs_forward(13));
   EXPECT_EQ(linkages_[0].from, 13U);
   EXPECT_EQ(linkages_[0].to, 11U);
-TEST_F(Directions, NoWayLeadsFromATurnedLaneIntoOneThatIsNot) {
-  linkages_ = {{.from = 11, .to = 12}, {.from = 12, .to = 11}};
-  turn_lanes({11}, lanes_, linkages_);
-  EXPECT_TRUE(linkages_.empty());
-}
-
 }
 
 }  // namespace

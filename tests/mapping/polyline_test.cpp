@@ -194,10 +194,11 @@ TEST(MeasuredPolyline, ProjectsOnASinglePoint) {
 
 TEST(Polyline, IntersectWhereTheyCrossOrTouch) {
   const Polyline line{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}};
-  EXPECT_TRUE(intersect(line, {{8, 5, 3}, {12, 5, 3}}));  // seen from above
-  EXPECT_TRUE(intersect(line, {{5, 0, 0}, {5, 4, 0}}));
-  EXPECT_FALSE(intersect(line, {{5, 1, 0}, {9, 9, 0}}));
-  EXPECT_FALSE(intersect(line, {{2, 0, 0}, {4, 0, 0}}));  // within it
+  EXPECT_TRUE(intersect(line, {{8, 5, 3}, {12, 5, 3}}, 4));   // seen from above
+  EXPECT_FALSE(intersect(line, {{8, 5, 3}, {12, 5, 3}}, 2));  // over it
+  EXPECT_TRUE(intersect(line, {{5, 0, 0}, {5, 4, 0}}, 2));
+  EXPECT_FALSE(intersect(line, {{5, 1, 0}, {9, 9, 0}}, 2));
+  EXPECT_FALSE(intersect(line, {{2, 0, 0}, {4, 0, 0}}, 2));  // within it
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMatchShare = 0.75;
 constexpr double kStoplineGap_m = 3.0;
+constexpr double kLevel_m = 2.0;         // a lane on a bridge ends at no stopline below it
 constexpr std::size_t kEndSamples = 50;  // 5 m
 
 double ratio(std::size_t part, std::size_t whole) {
@@ -257,7 +258,8 @@ TruthTopology truth_topology(const Road& truth) {
     if (truth.markings[i].type != MarkingType::stopline) continue;
     std::set<std::size_t>& ended = topology.lanes_of_stopline[chains.size() + i];
     for (std::size_t chain = 0; chain < chains.size(); ++chain)
-      if (intersect(prolonged(centerline(chains[chain])), truth.markings[i].points)) ended.insert(chain);
+      if (intersect(prolonged(centerline(chains[chain])), truth.markings[i].points, kLevel_m))
+        ended.insert(chain);
   }
   return topology;
 }
