@@ -224,7 +224,7 @@ void link_across_intersections(const std::vector<LaneBoundary>& boundaries, cons
     if (crossing.turn == Turn::straight) link(crossing);
   for (const Crossing& crossing : possible_crossings(lanes, boundaries, sd_map, config))
     if (crossing.turn != Turn::straight) link(crossing);
-  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
+  sort(linkages);
 }
 
 }  // namespace laneloom

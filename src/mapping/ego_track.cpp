@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lane_geometry.hpp"
@@ -33,8 +32,10 @@ void follow(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
   if (before != lanes.end() && drives_in(*before)) return;
   const auto now = std::ranges::find_if(lanes, drives_in);
   if (now == lanes.end()) return;
-  if (before != lanes.end() && !beside(*before, *now) && leads_ahead(*before, *now))
-    track.steps.emplace_back(before->id, now->id);
+  if (before != lanes.end() && !beside(*before, *now) && leads_ahead(*before, *now)) {
+    const EgoTrack::Step step(before->id, now->id);
+    if (std::ranges::count(track.steps, step) == 0) track.steps.push_back(step);
+  }
   track.lane = now->id;
 }
 
@@ -66,13 +67,13 @@ void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_m
                           .kind = Linkage::Kind::ego_track,
                           .turn = turn_between(from, to),
                           .confidence = kConfidence,
-                          .path = path_between(from, to)});
+                          .path = path_ahead(from, to)});
     } else if (known->kind == Linkage::Kind::intersection) {
       known->kind = Linkage::Kind::ego_track;
       known->confidence = kConfidence;
     }
   }
-  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
+  sort(linkages);
 }
 
 }  // namespace laneloom

@@ -14,7 +14,7 @@ double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body);
 struct EgoTrack {
   using Step = std::pair<ElementId, ElementId>;  ///< from one lane into another
   ElementId lane = kNoElement;                   ///< that it was in last
-  std::vector<Step> steps;                       ///< between lanes that are still in the map
+  std::vector<Step> steps;                       ///< each once, between lanes that are still in the map
 
   template <class Archive>
   void serialize(Archive& archive) {

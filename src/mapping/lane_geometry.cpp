@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "mapping/levels.hpp"
 
 namespace laneloom {
 namespace {
-
-constexpr double kPathStep_m = 1.0;
 
 constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter
 constexpr double kMinTurnSine = 0.77;   // of the angle between the lanes: a turn is one of 50 to 130 degrees
@@ -122,6 +121,14 @@ Polyline path_between(const Lane& from, const Lane& to) {
   if (const auto corner = corner_between(from, to); corner && corner->before_m > 0.0 && corner->after_m > 0.0)
     return turning_path(from, to, *corner);
   return straight_path(from, to);
+}
+
+Polyline path_ahead(const Lane& from, const Lane& to) {
+  return gap_between(from, to).dot(leaving(from)) < kMinGap_m ? Polyline{} : path_between(from, to);
+}
+
+void sort(std::vector<Linkage>& linkages) {
+  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
 }
 
 }  // namespace laneloom

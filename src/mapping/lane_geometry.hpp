@@ -66,8 +66,19 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to);
 /// Says of every linkage which way it turns. The lanes have unique ids, which the linkages refer to.
 void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
 
+/// Between vertices of a path, in metres.
+inline constexpr double kPathStep_m = 1.0;
+/// A shorter gap, in metres, is no more than the distance between vertices: the ends meet.
+inline constexpr double kMinGap_m = 1.0;
+
+/// By the ids of the lanes, then by kind.
+void sort(std::vector<Linkage>& linkages);
+
 /// From the end of one lane to the start of another: straight on a cubic that leaves and enters in their
 /// directions, round a corner on an arc.
 Polyline path_between(const Lane& from, const Lane& to);
+
+/// The same, empty where `to` begins no further on than `from` ends: the lanes meet.
+Polyline path_ahead(const Lane& from, const Lane& to);
 
 }  // namespace laneloom

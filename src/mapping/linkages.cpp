@@ -4,16 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lane_geometry.hpp"
 
 namespace laneloom {
 namespace {
-
-constexpr double kMinGap_m = 1.0;  // a shorter one is no more than the distance between vertices
-constexpr double kPathStep_m = 1.0;
 
 /// From the end of one lane to the start of another along the boundary that both lie beside; empty where
 /// there is none or `to` does not follow.
@@ -27,14 +23,12 @@ std::optional<double> shared_gap(const LaneSide& from, const LaneSide& to, doubl
 }
 
 /// From the end of `from` to the start of `to`, beside the boundary that they share, between the arc lengths
-/// on it; empty where they meet.
+/// on it.
 Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m, const Lane& from,
                     const Lane& to) {
-  const double gap_m = std::abs(to_m - from_m);
-  if (gap_m < kMinGap_m) return {};
   const Point &start = from.centerline.back(), &end = to.centerline.front();
   const double start_m = boundary.project(start).lateral_m, end_m = boundary.project(end).lateral_m;
-  const int steps = static_cast<int>(std::ceil(gap_m / kPathStep_m));
+  const int steps = static_cast<int>(std::ceil(std::abs(to_m - from_m) / kPathStep_m));
   Polyline path{start};
   for (int i = 1; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps;
@@ -66,14 +60,10 @@ void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, con
                       .to = next->id,
                       .kind = Linkage::Kind::shared_boundary,
                       .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
-                      .path = path_along(course(begun.of.boundary), begun.end_m(),
-                                         lane_side(*next, left).begin_m(), from, *next)});
-}
-
-/// Between aligned lanes; empty where they meet.
-Polyline path_across(const Lane& from, const Lane& to) {
-  if (gap_between(from, to).dot(leaving(from)) < kMinGap_m) return {};
-  return path_between(from, to);
+                      .path = next_gap_m < kMinGap_m
+                                  ? Polyline{}
+                                  : path_along(course(begun.of.boundary), begun.end_m(),
+                                               lane_side(*next, left).begin_m(), from, *next)});
 }
 
 /// Confidence that `to` continues `from` by the geometry of their centerlines; empty: it does not.
@@ -108,10 +98,10 @@ std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes,
                           .to = to.id,
                           .kind = Linkage::Kind::geometric_alignment,
                           .confidence = *confidence,
-                          .path = path_across(from, to)});
+                          .path = path_ahead(from, to)});
     }
   }
-  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
+  sort(linkages);
   const auto same = [](const Linkage& a, const Linkage& b) { return a.from == b.from && a.to == b.to; };
   linkages.erase(std::unique(linkages.begin(), linkages.end(), same), linkages.end());
   return linkages;

@@ -76,7 +76,18 @@ TEST_F(EgoTrackTest, WhereLanesMeetTheOneBehindWasNotDrivenInto) {
   lanes_[0] = lane(1, {2, 0, 0}, {20, 0, 0});
   lanes_.push_back(lane(5, {-20, 0, 0}, {2, 0, 0}));
   EXPECT_THAT(drive(1.5, 0), IsEmpty());
-  EXPECT_THAT(drive(3, 0), testing::SizeIs(1));
+  const auto linkages = drive(3, 0);
+  ASSERT_EQ(linkages.size(), 1U);
+  EXPECT_THAT(linkages[0].path, IsEmpty());
+}
+
+TEST_F(EgoTrackTest, BackAndForthAtAPlaceIsOneStep) {
+  lanes_ = {lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {19, 0, 0}, {40, 0, 0})};
+  for (int i = 0; i < 10; ++i) {
+    drive(18, 0);
+    drive(21, 0);
+  }
+  EXPECT_THAT(track_.steps, testing::ElementsAre(EgoTrack::Step(1, 2)));
 }
 
 TEST_F(EgoTrackTest, ItStaysInALaneForAsLongAsThatIsThere) {

@@ -132,7 +132,7 @@ TEST(Linkages, RoundACornerTheWayKeepsBesideTheSharedEdge) {
 
 TEST(Linkages, LanesThatMeetNeedNoPath) {
   const Lane from = lane(1, {10, {0, 20}}, {11, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0}));
-  for (const double gap_m : {0.0, 0.5, 3.0}) {
+  for (const double gap_m : {-1.5, 0.0, 0.5, 3.0}) {
     const Lane shared =
         lane(2, {10, {20 + gap_m, 40}}, {21, {0, 20}}, test::straight({20 + gap_m, 0, 0}, {40, 0, 0}));
     const Lane aligned =
