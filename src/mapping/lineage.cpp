@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 namespace laneloom {
 namespace {
@@ -13,13 +12,16 @@ ElementId element_of(const Membership& membership, ElementId marking) {
   return found != membership.end() && found->first == marking ? found->second : kNoElement;
 }
 
-/// The same, or else that of the marking's relative.
+/// The same, or else that of the nearest of the marking's relatives that has one. What went may have gone
+/// into what went later.
 ElementId element_of(const Membership& membership, ElementId marking,
                      const std::vector<Relative>& relatives) {
-  const ElementId element = element_of(membership, marking);
-  if (element != kNoElement) return element;
-  const auto relative = std::ranges::find(relatives, marking, &Relative::id);
-  return relative != relatives.end() ? element_of(membership, relative->other) : kNoElement;
+  for (auto relative = relatives.begin(); relative != relatives.end(); ++relative) {
+    if (relative->id != marking) continue;
+    if (const ElementId element = element_of(membership, marking); element != kNoElement) return element;
+    marking = relative->other;
+  }
+  return element_of(membership, marking);
 }
 
 std::set<ElementId> elements(const Membership& membership) {

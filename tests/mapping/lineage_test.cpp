@@ -32,6 +32,8 @@ TEST(Lineage, OfALineThatIsCutOffOrMergedItsRelativeTells) {
   EXPECT_THAT(lineage({{1, 1}, {2, 1}}, {{1, 1}, {2, 1}, {5, 5}}, {{5, 2}}),
               ElementsAre(FieldsAre(Kind::split_from, 5, 1)));
   EXPECT_THAT(lineage({{1, 1}, {3, 3}}, {{1, 1}}, {{3, 1}}), ElementsAre(FieldsAre(Kind::merged_into, 3, 1)));
+  EXPECT_THAT(lineage({{1, 1}, {2, 2}, {3, 3}}, {{3, 3}}, {{1, 2}, {2, 3}}),
+              ElementsAre(FieldsAre(Kind::merged_into, 1, 3), FieldsAre(Kind::merged_into, 2, 3)));
   EXPECT_THAT(lineage({{1, 1}}, {{1, 1}, {5, 5}}, {{5, 4}}),
               ElementsAre(FieldsAre(Kind::born, 5, kNoElement)));
 }
