@@ -17,7 +17,8 @@ namespace laneloom {
 using Point = Eigen::Vector3d;
 using Polyline = std::vector<Point>;
 
-/// Identifies an element for as long as it exists, and is never used again in a session. 0 is none.
+/// Identifies an element, and never another one in a session; one that was lost for a moment may come back by
+/// it. 0 is none.
 using ElementId = std::uint64_t;
 inline constexpr ElementId kNoElement = 0;
 
@@ -48,8 +49,8 @@ struct DetectionFrame {
   std::uint64_t session_id = 0;  ///< of the source's run; another value means that it was restarted
   std::string source;
   std::vector<MarkingType> detected_types;  ///< what the network can detect; empty: every type
-  Polyline field_of_view;                   ///< body frame polygon; empty: unknown
-  std::vector<Polyline> occluded_areas;     ///< body frame polygons
+  Polyline field_of_view;                   ///< body frame polygon; empty: all of mapper.range
+  std::vector<Polyline> occluded_areas;     ///< body frame polygons; what is in them is not seen
   std::vector<Detection> detections;
 };
 
@@ -85,7 +86,7 @@ struct StyleRange {
   MarkingStyle style = MarkingStyle::unknown;
 };
 
-/// How an id came to be or ended, since the map before.
+/// How an id came to be in the map or left it, since the map before.
 struct LineageEvent {
   enum class Kind : std::uint8_t { born, merged_into, split_from, retired };
   Kind kind = Kind::born;
@@ -103,7 +104,7 @@ struct Marking {
   std::vector<double> lateral_stddev_m;  ///< per point; empty: not estimated
   double existence_probability = -1.0;   ///< 0..1; -1: not estimated
   std::uint64_t observations = 0;        ///< detections that contributed
-  std::int64_t first_seen_ns = 0;        ///< stamp of the frame that the id was born in
+  std::int64_t first_seen_ns = 0;        ///< stamp of the first frame that saw it
 };
 
 /// A lane between two boundaries (paper, Sec. III-D).
