@@ -46,7 +46,7 @@ Instance* nearest_match(VoxelId id, const VoxelMap& map, CoObservation& co_obser
   double best_m2 = 0.0;
   for (const CoObserved& other : co_observation.row(id)) {
     const Voxel& voxel = map[other.voxel];
-    if (voxel.instance == kNoElement || other.count == 0) continue;
+    if (voxel.instance == kNoElement) continue;
     Instance& instance = instances[voxel.instance];
     if (instance.type != map[id].likely_type()) continue;
     const double distance_m2 = (map.center(voxel) - center).squaredNorm();

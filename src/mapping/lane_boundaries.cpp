@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/levels.hpp"

@@ -11,10 +11,10 @@
 
 namespace laneloom {
 
-/// A place on a line, about every metre, with what is known of the line there.
 /// What a frame says of a place on a line.
 enum class Sight : std::uint8_t { out_of_view, missed, observed };
 
+/// A place on a line, about every metre, with what is known of the line there.
 struct Station {
   Point position = Point::Zero();   ///< map frame
   double information_per_m2 = 0.0;  ///< inverse variance of the lateral position

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "mapping/levels.hpp"
-#include "mapping/markings.hpp"
 #include "mapping/oriented_groups.hpp"
 
 namespace laneloom {
