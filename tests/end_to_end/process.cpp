@@ -45,7 +45,7 @@ Process::~Process() {
 void Process::signal(int number) const { kill(pid_, number); }
 
 std::optional<int> Process::wait() {
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     int status = 0;
     if (waitpid(pid_, &status, WNOHANG) == pid_) {
       pid_ = -1;

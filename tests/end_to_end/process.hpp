@@ -18,7 +18,7 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void signal(int number) const;
-  /// Its exit code, or minus the number of the signal that ended it. None: it still runs after 20 s.
+  /// Its exit code, or minus the number of the signal that ended it. None: it still runs after a minute.
   std::optional<int> wait();
   /// What it wrote on standard error so far.
   std::string errors() const;
