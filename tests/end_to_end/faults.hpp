@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -58,10 +59,11 @@ class Faults : public ::testing::Test {
   /// So many good maps in a row come from now on.
   bool is_good_again(std::size_t maps = 1) {
     maps_.forget();
-    return maps_.wait_for([maps, in_a_row = std::size_t{0}](const PublishedMap& map) mutable {
-      in_a_row = is_good(map) ? in_a_row + 1 : 0;
-      return in_a_row == maps;
-    });
+    const auto in_a_row = [maps, good = std::size_t{0}](const PublishedMap& map) mutable {
+      good = is_good(map) ? good + 1 : 0;
+      return good == maps;
+    };
+    return maps_.wait_for(in_a_row, kPatience);
   }
   /// The fault ends.
   bool recovers() {
@@ -94,16 +96,19 @@ class Faults : public ::testing::Test {
     maps_.forget();
     std::size_t in_a_row = 0;
     std::string bad;
-    maps_.wait_for([&](const PublishedMap& map) {
+    const auto decided = [&](const PublishedMap& map) {
       in_a_row = is_good(map) ? in_a_row + 1 : 0;
       if (!is_good(map) && !busy_host_explains(map)) bad = state_text(map.state, map.reasons);
       return in_a_row == maps || !bad.empty();
-    });
+    };
+    maps_.wait_for(decided, kPatience);
     if (bad.empty() && in_a_row == maps) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << (bad.empty() ? "not good for long" : bad) << "\n"
                                          << service_->errors();
   }
 
+  /// A busy host breaks a row of maps again and again.
+  static constexpr std::chrono::seconds kPatience{90};
   const DdsConfig config_ = private_config();
   std::vector<std::string> started_by_;  ///< a program that starts the service; empty: none
   std::unique_ptr<Process> service_;

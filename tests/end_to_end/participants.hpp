@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -58,12 +59,13 @@ class Listener {
   explicit Listener(const DdsConfig& config)
       : participant_(config, "listener"), reader_(participant_, callbacks()) {}
 
-  /// Waits (for half a minute at most) for a sample that comes after this call, or for one since the last
+  /// Waits (for `patience` at most) for a sample that comes after this call, or for one since the last
   /// forget(), for which `wanted` is true.
-  bool wait_for(const std::function<bool(const T&)>& wanted) {
+  bool wait_for(const std::function<bool(const T&)>& wanted,
+                std::chrono::milliseconds patience = std::chrono::seconds(30)) {
     std::unique_lock lock(mutex_);
     std::size_t seen = 0;
-    return changed_.wait_for(lock, std::chrono::seconds(30), [&] {
+    return changed_.wait_for(lock, patience, [&] {
       for (; seen < samples_.size(); ++seen) {
         if (wanted(samples_[seen])) return true;
       }
