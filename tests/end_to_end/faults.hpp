@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,6 +21,13 @@ namespace laneloom {
 
 inline bool has_reason(const PublishedMap& map, StateReason reason) {
   return std::find(map.reasons.begin(), map.reasons.end(), reason) != map.reasons.end();
+}
+
+/// Whether a map with lanes says so.
+inline std::function<bool(const PublishedMap&)> saying(MapState state, StateReason reason) {
+  return [=](const PublishedMap& map) {
+    return map.state == state && has_reason(map, reason) && has_lanes(map);
+  };
 }
 
 /// A message of which nothing arrives.
@@ -51,11 +59,7 @@ class Faults : public ::testing::Test {
     maps_.forget();
   }
   /// The planner is told, and the map is still there.
-  bool says(MapState state, StateReason reason) {
-    return maps_.wait_for([&](const PublishedMap& map) {
-      return map.state == state && has_reason(map, reason) && has_lanes(map);
-    });
-  }
+  bool says(MapState state, StateReason reason) { return maps_.wait_for(saying(state, reason)); }
   /// So many good maps in a row come from now on.
   bool is_good_again(std::size_t maps = 1) {
     maps_.forget();
