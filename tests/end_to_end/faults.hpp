@@ -38,10 +38,14 @@ std::vector<T> lose(const T& /*message*/) {
 
 /// A host that stops the senders or the service for a while is no fault of what is tested.
 inline bool busy_host_explains(const PublishedMap& map) {
-  return has_lanes(map) && std::all_of(map.reasons.begin(), map.reasons.end(), [](StateReason reason) {
-           return reason == StateReason::overloaded || reason == StateReason::no_detections ||
-                  reason == StateReason::no_poses;
-         });
+  // After a stop of the service, its inputs are fresh again before a frame is fused; refused frames go on.
+  const bool nothing_fused_yet =
+      map.state == MapState::stale && map.reasons == std::vector{StateReason::unsynchronised};
+  return has_lanes(map) &&
+         (nothing_fused_yet || std::all_of(map.reasons.begin(), map.reasons.end(), [](StateReason reason) {
+            return reason == StateReason::overloaded || reason == StateReason::no_detections ||
+                   reason == StateReason::no_poses;
+          }));
 }
 
 /// A service on a road, a planner that hears it, and what goes wrong.
