@@ -19,6 +19,7 @@ TEST(Laneloomd, DetectionsBecomeLanesAtThePlanner) {
   const Process service(command(config));
   Listener<PublishedMap> maps(config);
   Listener<RoadMarkings> markings(config);
+  ASSERT_TRUE(maps.wait_for([](const PublishedMap&) { return true; })) << service.errors();
   const StraightRoad road(config);
   ASSERT_TRUE(maps.wait_for(is_good)) << service.errors();
   ASSERT_TRUE(markings.wait_for([](const RoadMarkings& m) { return m.instances.size() == 2; }));
