@@ -148,6 +148,7 @@ TEST(Laneloomd, DamagedFramesAreRefusedAndCountedWhileGoodOnesGoOn) {
   });
   ASSERT_TRUE(maps.wait_for(is_good)) << service.errors();
   road.stop();
+  status.forget();
 
   // Frames written before the service's reader knew their writer never arrived: it reads best effort.
   std::map<std::string, std::uint64_t> counters;
