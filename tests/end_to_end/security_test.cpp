@@ -153,20 +153,23 @@ void openssl(const std::vector<std::string>& arguments) {
   ASSERT_EQ(process.wait(), 0) << process.errors();
 }
 
-/// How many services the planner hears, while one with the identity `other`, which may do it as far as its
-/// own side can tell, publishes maps beside the right one.
-std::size_t services_heard(const Identities& identities, const fs::path& other) {
+/// The planner hears so many services, while one with the identity `other`, which may do it as far as its own
+/// side can tell, publishes maps beside the right one.
+void expect_heard(std::size_t services, const Identities& identities, const fs::path& other) {
   const As as = [&, config = private_config()](const std::string& name) {
     return identities.as(name, config);
   };
   Followed followed(as);
   EXPECT_TRUE(followed.maps.wait_for(any)) << followed.service.errors();
   const Service intruder(as(other));
-  for (int i = 0; i < 1000 && intruder.errors().find("event=started") == std::string::npos; ++i)
-    usleep(10'000);
-  EXPECT_NE(intruder.errors().find("event=started"), std::string::npos) << intruder.errors();
+  EXPECT_TRUE(intruder.wait_for_error("event=started")) << intruder.errors();
+  std::set<std::uint64_t> heard;
+  followed.maps.wait_for([&](const PublishedMap& map) {
+    heard.insert(map.session_id);
+    return heard.size() == services;
+  });
   EXPECT_TRUE(goes_on(followed) && goes_on(followed));
-  return followed.sessions().size();
+  EXPECT_EQ(followed.sessions().size(), services);
 }
 
 /// Perception may do everything in these domains, and its own in all.
@@ -184,9 +187,9 @@ Identities::Edit trust_perception_in(const std::string& first, const std::string
 TEST(Security, PermissionsAreCheckedByThoseWhoListen) {
   // Of its own rules, Fast DDS 2.9 does not look at the domains.
   const Identities trusted_elsewhere(trust_perception_in("200", "232"));
-  EXPECT_EQ(services_heard(trusted_elsewhere, "perception"), 1U);
+  expect_heard(1, trusted_elsewhere, "perception");
   const Identities trusted_here(trust_perception_in("0", "232"));
-  EXPECT_EQ(services_heard(trusted_here, "perception"), 2U);
+  expect_heard(2, trusted_here, "perception");
 }
 
 TEST(Security, WhoPermitsHimselfMoreIsNotHeard) {
@@ -200,7 +203,7 @@ TEST(Security, WhoPermitsHimselfMoreIsNotHeard) {
   replace_in(permissions, "CN=service", "CN=perception");
   openssl({"-sign", "-in", permissions, "-signer", folder / "cert.pem", "-inkey", folder / "key.pem", "-out",
            folder / "permissions.p7s"});
-  EXPECT_EQ(services_heard(identities, folder), 1U);
+  expect_heard(1, identities, folder);
 }
 
 TEST(Security, WhoGovernsHimselfIsNotHeard) {
@@ -213,7 +216,7 @@ TEST(Security, WhoGovernsHimselfIsNotHeard) {
   const fs::path folder =
       gullible_perception(identities, text_of(lax.folder() / "ca/permissions_ca.cert.pem"));
   fs::copy(lax.folder() / "ca/governance.p7s", folder, fs::copy_options::overwrite_existing);
-  EXPECT_EQ(services_heard(identities, folder), 1U);
+  expect_heard(1, identities, folder);
 }
 
 /// Whether the name of the map's frame, which is in every pose and map, is seen on the wire.
