@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -41,9 +42,11 @@ class Processes : public testing::Test {
   std::string output() const { return content(file("output")); }
   nlohmann::json json() const { return nlohmann::json::parse(output()); }
 
-  /// Runs it again and again, as others take their time, until `wanted` is true of its exit code.
+  /// Runs it again and again, as others take their time, until `wanted` is true of its exit code; for a
+  /// minute at most.
   bool run_until(const std::vector<std::string>& words, const std::function<bool(int)>& wanted) const {
-    for (int i = 0; i < 20; ++i)
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (std::chrono::steady_clock::now() < end)
       if (wanted(run(words))) return true;
     return false;
   }
