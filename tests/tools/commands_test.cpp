@@ -291,13 +291,24 @@ class RecordedLoopback : public Loopback {
   void record(std::vector<std::string> driver, const std::string& name) {
     Process service(command({LANELOOM_SERVICE}), file("service.log"));
     Process recorder(command({LANELOOM_COMMAND, "record", "--out", file(name)}), file("record.log"));
+    for (int i = 0; i < 600 && !has_map(file(name)); ++i) usleep(50'000);
     driver.insert(driver.begin(), LANELOOM_COMMAND);
     driver.insert(driver.end(), {"--wait-for-readers", "2"});
     Process publisher(command(driver), file("publish.log"));
     ASSERT_EQ(publisher.wait(), 0) << content(file("publish.log"));
-    usleep(500'000);
+    sleep(3);
     recorder.signal(SIGTERM);
     ASSERT_EQ(recorder.wait(), 0) << content(file("record.log"));
+  }
+
+ private:
+  /// The service publishes maps before anything comes.
+  static bool has_map(const std::string& recording) {
+    if (content(recording).empty()) return false;
+    RecordingReader reader(recording);
+    while (const auto message = reader.next())
+      if (std::holds_alternative<PublishedMap>(message->message)) return true;
+    return false;
   }
 };
 
