@@ -242,6 +242,7 @@ TEST(Participants, MalformedPayloadsAreCountedAndGoodOnesFollow) {
     usleep(10'000);
     raw->get_publication_matched_status(status);
   }
+  ASSERT_TRUE(matched(reader));
   std::vector<std::uint8_t> garbage(64, 0xff);
   garbage[0] = 0;
   garbage[1] = 1;
