@@ -267,7 +267,7 @@ TEST_F(Loopback, LanesReachThePlanner) {
       command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop", "--wait-for-readers", "1",
                "--frames", file("frames.jsonl"), "--truth", file("truth.json")}),
       file("publish.log"));
-  Process planner(command({LANELOOM_COMMAND, "pnc", "--json", "--require-lanes", "--duration", "12",
+  Process planner(command({LANELOOM_COMMAND, "pnc", "--json", "--require-lanes", "--duration", "20",
                            "--record", file("map.jsonl")}),
                   file("pnc.log"));
   EXPECT_EQ(planner.wait(), 0) << content(file("pnc.log")).substr(0, 4000) << content(file("service.log"));
