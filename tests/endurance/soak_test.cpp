@@ -30,7 +30,7 @@ SoakResult soak_with_command(const std::string& script, int faults) {
   spec.fleet.command = command;
   spec.fleet.dds.domain = 91;
   spec.fleet.dds.vehicle_id = "soak_test_" + std::to_string(getpid());
-  spec.patience = std::chrono::seconds(10);
+  spec.patience = std::chrono::seconds(30);
   int made = 0;
   return soak(spec, [&] { return made++ < faults; });
 }
