@@ -103,7 +103,7 @@ TEST_F(BenchCommand, ScalesByDetectionsRangeTimeAndVehicles) {
 TEST_F(BenchCommand, TimesTheMapsOfARealService) {
   const std::string domain = std::to_string(own_domain());
   for (const char* transport : {"udp", "udp+shm"}) {
-    ASSERT_EQ(run({"latency", "--scenario", "straight", "--duration", "1", "--domain", domain, "--transport",
+    ASSERT_EQ(run({"latency", "--scenario", "straight", "--duration", "3", "--domain", domain, "--transport",
                    transport, "--load", "--json"}),
               0)
         << output();
