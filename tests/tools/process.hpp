@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,6 +27,7 @@ class Process {
     if (file < 0) throw std::system_error(errno, std::generic_category(), output);
     id_ = fork();
     if (id_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive a test that crashes
       dup2(file, STDOUT_FILENO);
       dup2(file, STDERR_FILENO);
       execv(arguments[0], arguments.data());
