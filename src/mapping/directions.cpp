@@ -20,7 +20,7 @@ namespace {
 // Log odds that a lane runs along its centerline.
 constexpr double kEgoEvidence = 0.5;       // per frame
 constexpr double kStoplineEvidence = 0.3;  // per frame
-constexpr double kMemory = 0.995;          // per frame: one may have overtaken in the oncoming lane
+constexpr double kMemory = 0.98;           // per frame beside it: the vehicle may have overtaken there
 constexpr double kDoubleLine_m = 0.8;      // between its two lines
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
@@ -225,10 +225,12 @@ void turn(Lane& lane) {
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
                         std::vector<KnownLane>& known) {
+  const auto driven =
+      std::ranges::find_if(lanes, [&](const Lane& lane) { return ego_sense(lane, T_map_body) != 0.0; });
   for (const Lane& lane : lanes) {
     const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
     double& log_odds = remembered->direction_log_odds;
-    log_odds *= kMemory;
+    if (driven != lanes.end() && are_neighbours(*driven, lane)) log_odds *= kMemory;
     log_odds += kEgoEvidence * ego_sense(lane, T_map_body) +
                 kStoplineEvidence * stopline_sense(lane, markings, config);
     log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);

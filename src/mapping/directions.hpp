@@ -10,8 +10,8 @@
 namespace laneloom {
 
 /// Remembers what tells the traffic's direction of a lane, in the known lanes of the same ids: the vehicle
-/// drives in it, or a stopline lies across one of its ends. Evidence adds up over frames, to a limit, and
-/// fades.
+/// drives in it, or a stopline lies across one of its ends. Evidence adds up over frames, to a limit; it
+/// fades while the vehicle drives beside the lane.
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
                         std::vector<KnownLane>& known);

@@ -13,11 +13,6 @@ namespace {
 constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
 constexpr double kConfidence = 0.95;
 
-bool beside(const Lane& a, const Lane& b) {
-  return a.left_neighbour == b.id || a.right_neighbour == b.id || b.left_neighbour == a.id ||
-         b.right_neighbour == a.id;
-}
-
 /// Whether `to` begins where `from` ends or further on. What lies behind was not driven into: the vehicle is
 /// where both meet.
 bool leads_ahead(const Lane& from, const Lane& to) {
@@ -32,7 +27,7 @@ void follow(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
   if (before != lanes.end() && drives_in(*before)) return;
   const auto now = std::ranges::find_if(lanes, drives_in);
   if (now == lanes.end()) return;
-  if (before != lanes.end() && !beside(*before, *now) && leads_ahead(*before, *now)) {
+  if (before != lanes.end() && !are_neighbours(*before, *now) && leads_ahead(*before, *now)) {
     const EgoTrack::Step step(before->id, now->id);
     if (std::ranges::count(track.steps, step) == 0) track.steps.push_back(step);
   }

@@ -117,6 +117,11 @@ void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages) 
   for (Linkage& linkage : linkages) linkage.turn = turn_between(lane(linkage.from), lane(linkage.to));
 }
 
+bool are_neighbours(const Lane& a, const Lane& b) {
+  return a.left_neighbour == b.id || a.right_neighbour == b.id || b.left_neighbour == a.id ||
+         b.right_neighbour == a.id;
+}
+
 Polyline path_between(const Lane& from, const Lane& to) {
   if (const auto corner = corner_between(from, to); corner && corner->before_m > 0.0 && corner->after_m > 0.0)
     return turning_path(from, to, *corner);

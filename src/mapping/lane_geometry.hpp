@@ -42,6 +42,8 @@ LaneSide lane_side(const Lane& lane, bool left);
 /// none.
 const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes);
 
+bool are_neighbours(const Lane& a, const Lane& b);
+
 /// Unit direction in which a lane is left at its end, or entered at its start; map frame, horizontal.
 Eigen::Vector2d leaving(const Lane& lane);
 Eigen::Vector2d entering(const Lane& lane);
