@@ -72,8 +72,8 @@ class MeasuredPolyline {
 /// Unit length; zero for a line without horizontal extent.
 Eigen::Vector2d end_direction(const Polyline& line, bool at_back, double reach_m = 3.0);
 
-/// Whether two polylines have a point in common, seen from above, where one is no more than `max_height_m` over
-/// the other. Stretches that run within one another in parallel do not count.
+/// Whether two polylines have a point in common, seen from above, at most `max_height_m` over one another.
+/// Stretches that run within one another in parallel do not count.
 bool intersect(const Polyline& a, const Polyline& b, double max_height_m);
 
 /// z component of the cross product: positive where b is left of a.
