@@ -45,15 +45,13 @@ bool goes_on(Followed& followed) {
   return followed.maps.wait_for([&](const PublishedMap& map) { return map.sequence > newest + 10; });
 }
 
-/// Fast DDS 2.9 now and then gives up a handshake where strangers begin theirs at the same time.
-bool one_of_three(const std::function<bool()>& attempt) { return attempt() || attempt() || attempt(); }
-
 /// Two of everything, with the same topics, domain and vehicle: neither hears the other.
 void expect_apart(const As& ours, const As& theirs) {
   Followed our(ours);
   ASSERT_TRUE(our.maps.wait_for(any)) << our.service.errors();
   std::optional<Followed> followed;
   std::optional<StraightRoad> their_road, our_road;
+  // Fast DDS 2.9 now and then gives up a handshake where strangers begin theirs at the same time.
   ASSERT_TRUE(one_of_three([&] {
     their_road.reset();
     followed.emplace(theirs);

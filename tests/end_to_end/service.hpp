@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ inline std::vector<std::string> command(const DdsConfig& config, const std::vect
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
+
+/// For what Fast DDS 2.9 now and then does not manage.
+inline bool one_of_three(const std::function<bool()>& attempt) { return attempt() || attempt() || attempt(); }
 
 inline bool has_lanes(const PublishedMap& map) { return !map.map.lanes.empty(); }
 inline bool is_good(const PublishedMap& map) { return has_lanes(map) && map.state == MapState::ok; }
