@@ -57,12 +57,14 @@ void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_m
     if (known == linkages.end()) {
       const Lane& from = *std::ranges::find(lanes, step.first, &Lane::id);
       const Lane& to = *std::ranges::find(lanes, step.second, &Lane::id);
+      const Linkage::Turn turn = turn_between(from, to);
+      const bool straight = turn == Linkage::Turn::straight;
       linkages.push_back({.from = from.id,
                           .to = to.id,
                           .kind = Linkage::Kind::ego_track,
-                          .turn = turn_between(from, to),
+                          .turn = turn,
                           .confidence = kConfidence,
-                          .path = path_ahead(from, to)});
+                          .path = straight ? path_ahead(from, to) : path_between(from, to)});
     } else if (known->kind == Linkage::Kind::intersection) {
       known->kind = Linkage::Kind::ego_track;
       known->confidence = kConfidence;

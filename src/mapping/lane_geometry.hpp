@@ -80,7 +80,7 @@ void sort(std::vector<Linkage>& linkages);
 /// directions, round a corner on an arc.
 Polyline path_between(const Lane& from, const Lane& to);
 
-/// The same, empty where `to` begins no further on than `from` ends: the lanes meet.
+/// The same straight on, empty where `to` begins no further on than `from` ends: the lanes meet.
 Polyline path_ahead(const Lane& from, const Lane& to);
 
 }  // namespace laneloom

@@ -81,6 +81,15 @@ TEST_F(EgoTrackTest, WhereLanesMeetTheOneBehindWasNotDrivenInto) {
   EXPECT_THAT(linkages[0].path, IsEmpty());
 }
 
+TEST_F(EgoTrackTest, AUTurnHasAPathBesideTheEndOfTheLane) {
+  drive(10, 0);
+  lanes_ = {lane(1, {0, 0, 0}, {20, 0, 0}), lane(5, {20, 7, 0}, {0, 7, 0})};
+  const auto linkages = drive(15, 7, 2 * kNorth);
+  ASSERT_EQ(linkages.size(), 1U);
+  ASSERT_GE(linkages[0].path.size(), 2U);
+  EXPECT_TRUE(linkages[0].path.back().isApprox(Point(20, 7, 0)));
+}
+
 TEST_F(EgoTrackTest, BackAndForthAtAPlaceIsOneStep) {
   lanes_ = {lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {19, 0, 0}, {40, 0, 0})};
   for (int i = 0; i < 10; ++i) {
