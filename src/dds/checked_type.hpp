@@ -3,7 +3,7 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <functional>
 
-#include "dds/layout.hpp"
+#include "cdr/layout.hpp"
 
 namespace laneloom::dds {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "dds/convert.hpp"
+#include "cdr/convert.hpp"
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
 

@@ -5,8 +5,8 @@
 #include "RoadMarkingsPubSubTypes.h"
 #include "ServiceStatusPubSubTypes.h"
 #include "VehiclePosePubSubTypes.h"
+#include "cdr/message_of.hpp"
 #include "dds/checked_type.hpp"
-#include "dds/message_of.hpp"
 #include "dds/qos.hpp"
 #include "laneloom/dds/topics.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "dds/convert.hpp"
+#include "cdr/convert.hpp"
 #include "dds/topic_writer.hpp"
 
 namespace laneloom::dds {

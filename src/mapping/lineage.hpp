@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "laneloom/types.hpp"
-#include "mapping/lane_boundaries.hpp"
+#include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/markings/relatives.hpp"
 
 namespace laneloom {
 
@@ -13,11 +14,6 @@ using Membership = std::vector<std::pair<ElementId, ElementId>>;
 
 /// Boundaries with their members, and stoplines, each of which is its own.
 Membership membership(const std::vector<LaneBoundary>& boundaries, const std::vector<Stopline>& stoplines);
-
-/// A line that was cut off from another, or has merged into it.
-struct Relative {
-  ElementId id = kNoElement, other = kNoElement;
-};
 
 /// What happened to the published ids from one map to the next, by ascending id. `relatives` are of the lines
 /// that came or went in between.

@@ -5,16 +5,16 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/alignment.hpp"
-#include "mapping/co_observation.hpp"
-#include "mapping/ego_track.hpp"
-#include "mapping/inferred_boundaries.hpp"
-#include "mapping/instances.hpp"
-#include "mapping/lane_identity.hpp"
-#include "mapping/line_map.hpp"
+#include "mapping/lanes/inferred_boundaries.hpp"
+#include "mapping/lanes/lane_identity.hpp"
 #include "mapping/lineage.hpp"
-#include "mapping/pair_history.hpp"
-#include "mapping/voxel_map.hpp"
+#include "mapping/lines/frame_alignment.hpp"
+#include "mapping/lines/line_map.hpp"
+#include "mapping/markings/pair_history.hpp"
+#include "mapping/topology/ego_track.hpp"
+#include "mapping/voxels/co_observation.hpp"
+#include "mapping/voxels/instances.hpp"
+#include "mapping/voxels/voxel_map.hpp"
 
 namespace laneloom {
 

@@ -12,8 +12,8 @@
 #include "service/executor.hpp"
 #include "service/health.hpp"
 #include "service/ingestion_queue.hpp"
-#include "service/snapshot_writer.hpp"
 #include "service/time_window.hpp"
+#include "snapshot/snapshot_writer.hpp"
 
 namespace laneloom {
 

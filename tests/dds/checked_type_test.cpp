@@ -5,8 +5,8 @@
 
 #include <cstring>
 
+#include "cdr/random_messages.hpp"
 #include "dds/topic_traits.hpp"
-#include "random_messages.hpp"
 
 namespace laneloom::dds {
 namespace {

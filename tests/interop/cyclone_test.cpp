@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "dds/message_of.hpp"
-#include "dds/random_messages.hpp"
-#include "dds/serialise.hpp"
+#include "cdr/message_of.hpp"
+#include "cdr/random_messages.hpp"
+#include "cdr/serialise.hpp"
 #include "end_to_end/participants.hpp"
 #include "end_to_end/process.hpp"
 #include "end_to_end/service.hpp"

@@ -6,8 +6,8 @@
 
 #include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/lane_boundaries.hpp"
-#include "mapping/line_map.hpp"
+#include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/lines/line_map.hpp"
 
 /// Lines and frames with known geometry.
 namespace laneloom::test {

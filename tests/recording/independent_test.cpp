@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "dds/message_of.hpp"
-#include "dds/random_messages.hpp"
-#include "dds/serialise.hpp"
+#include "cdr/message_of.hpp"
+#include "cdr/random_messages.hpp"
+#include "cdr/serialise.hpp"
 #include "laneloom/recording.hpp"
 #include "message_json.hpp"
 #include "recording/mcap_reader.hpp"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "dds/layout.hpp"
+#include "cdr/layout.hpp"
 
 /// Messages field by field, for a reader that shares no code with ours to compare with. Numbers of 64 bits
 /// are texts, as JSON's readers round them.

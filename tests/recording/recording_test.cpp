@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "dds/convert.hpp"
-#include "dds/message_of.hpp"
-#include "dds/random_messages.hpp"
-#include "dds/serialise.hpp"
+#include "cdr/convert.hpp"
+#include "cdr/message_of.hpp"
+#include "cdr/random_messages.hpp"
+#include "cdr/serialise.hpp"
 #include "laneloom/dds/cdr.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/mcap_writer.hpp"

@@ -10,8 +10,8 @@
 
 #include "io/json_lines.hpp"
 #include "laneloom/recording.hpp"
-#include "service/gate.hpp"
-#include "service/synchroniser.hpp"
+#include "session/gate.hpp"
+#include "session/synchroniser.hpp"
 
 namespace laneloom {
 namespace {

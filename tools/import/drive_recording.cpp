@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "laneloom/recording.hpp"
-#include "service/pose_buffer.hpp"
+#include "session/pose_buffer.hpp"
 
 namespace laneloom {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "io/json_fields.hpp"
 #include "io/json_stream.hpp"
-#include "service/gate.hpp"
+#include "session/gate.hpp"
 
 namespace laneloom {
 namespace {

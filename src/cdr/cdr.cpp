@@ -1,0 +1,46 @@
+#include "laneloom/dds/cdr.hpp"
+
+#include "cdr/convert.hpp"
+#include "cdr/message_of.hpp"
+#include "cdr/serialise.hpp"
+
+namespace laneloom::dds {
+
+template <class T>
+std::size_t to_cdr(const T& from, const std::string& map_frame_id, std::vector<std::uint8_t>& to) {
+  MessageOf<T> message;
+  const std::size_t left_out = to_msg(from, map_frame_id, message);
+  serialise(message, to);
+  return left_out;
+}
+
+template <class T>
+std::string_view from_cdr(std::span<const std::uint8_t> from, const std::string& map_frame_id, T& to) {
+  MessageOf<T> message;
+  return deserialise(from, message) ? from_msg(message, map_frame_id, to) : "malformed";
+}
+
+std::optional<CdrHeader> header_of(std::span<const std::uint8_t> message) {
+  // The header's numbers are the first of every message.
+  CdrScanner scanner(message);
+  scanner.numbers(sizeof(std::int64_t), 3);
+  if (!scanner.ok()) return std::nullopt;
+  CdrHeader header;
+  read_cdr(message, [&](eprosima::fastcdr::Cdr& cdr) {
+    cdr >> header.stamp_ns >> header.sequence >> header.session_id;
+  });
+  return header;
+}
+
+template std::size_t to_cdr(const DetectionFrame&, const std::string&, std::vector<std::uint8_t>&);
+template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, DetectionFrame&);
+template std::size_t to_cdr(const VehiclePose&, const std::string&, std::vector<std::uint8_t>&);
+template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, VehiclePose&);
+template std::size_t to_cdr(const PublishedMap&, const std::string&, std::vector<std::uint8_t>&);
+template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, PublishedMap&);
+template std::size_t to_cdr(const RoadMarkings&, const std::string&, std::vector<std::uint8_t>&);
+template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, RoadMarkings&);
+template std::size_t to_cdr(const ServiceStatus&, const std::string&, std::vector<std::uint8_t>&);
+template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, ServiceStatus&);
+
+}  // namespace laneloom::dds

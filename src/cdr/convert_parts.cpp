@@ -1,0 +1,106 @@
+#include "cdr/convert_parts.hpp"
+
+namespace laneloom::dds {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+constexpr double kUnitTolerance = 1e-3;
+
+}  // namespace
+
+Point Intake::point(const msg::Point& from) { return {number(from.x()), number(from.y()), number(from.z())}; }
+
+Polyline Intake::polyline(const std::vector<msg::Point>& from) {
+  return convert_all<Point>(from, [this](const msg::Point& p) { return point(p); });
+}
+
+Eigen::Quaterniond Intake::rotation(const msg::Quaternion& from) {
+  const Eigen::Quaterniond q(number(from.w()), number(from.x()), number(from.y()), number(from.z()));
+  const bool unit = std::abs(q.norm() - 1.0) <= kUnitTolerance;
+  if (!unit) {
+    refuse("not_a_rotation");
+    return Eigen::Quaterniond::Identity();
+  }
+  return q.normalized();
+}
+
+msg::Point to_msg(const Point& from) {
+  msg::Point to;
+  to.x(from.x());
+  to.y(from.y());
+  to.z(from.z());
+  return to;
+}
+
+std::vector<msg::Point> to_msg(const Polyline& from) {
+  return convert_all<msg::Point>(from, [](const Point& p) { return to_msg(p); });
+}
+
+msg::Range to_msg(const laneloom::Range& from) {
+  msg::Range to;
+  to.from_m(from.from_m);
+  to.to_m(from.to_m);
+  return to;
+}
+
+msg::Pose pose_to_msg(const Point& position, const Eigen::Quaterniond& orientation) {
+  msg::Pose to;
+  to.position(to_msg(position));
+  to.orientation().w(orientation.w());
+  to.orientation().x(orientation.x());
+  to.orientation().y(orientation.y());
+  to.orientation().z(orientation.z());
+  return to;
+}
+
+msg::Header header_to_msg(std::int64_t stamp_ns, std::uint64_t sequence, std::uint64_t session_id,
+                          const std::string& frame_id) {
+  msg::Header to;
+  to.stamp_ns(stamp_ns);
+  to.sequence_number(sequence);
+  to.session_id(session_id);
+  to.frame_id(frame_id.c_str());
+  return to;
+}
+
+msg::Marking to_msg(const Marking& from, std::int64_t stamp_ns) {
+  msg::Marking to;
+  to.id(from.id);
+  to.type(enum_to_msg<msg::MarkingType>(from.type));
+  to.status(enum_to_msg<msg::ElementStatus>(from.status));
+  to.points(to_msg(from.points));
+  to.styles(convert_all<msg::StyleRange>(from.styles, [](const StyleRange& style) {
+    msg::StyleRange result;
+    result.range(to_msg(style.range));
+    result.style(enum_to_msg<msg::MarkingStyle>(style.style));
+    return result;
+  }));
+  to.lateral_stddev_m(from.lateral_stddev_m);
+  to.existence_probability(from.existence_probability);
+  to.observations(from.observations);
+  to.age_s(static_cast<double>(stamp_ns - from.first_seen_ns) / kNanosecondsPerSecond);
+  return to;
+}
+
+Marking from_msg(const msg::Marking& from, std::int64_t stamp_ns, Intake& intake) {
+  Marking to;
+  to.id = from.id();
+  to.type = intake.enumeration(from.type(), MarkingType::stopline);
+  to.status = intake.enumeration(from.status(), ElementStatus::inferred);
+  to.points = intake.polyline(from.points());
+  to.styles = convert_all<StyleRange>(from.styles(), [&](const msg::StyleRange& style) {
+    return StyleRange{intake.range(style.range()), intake.enumeration(style.style(), MarkingStyle::dashed)};
+  });
+  to.lateral_stddev_m = intake.numbers(from.lateral_stddev_m());
+  intake.sizes_match(to.lateral_stddev_m.size(), to.points.size());
+  to.existence_probability = intake.number(from.existence_probability());
+  to.observations = from.observations();
+  const double age_ns = intake.number(from.age_s()) * kNanosecondsPerSecond;
+  // Within a century (and a number at all) the conversion is defined; the stamp may be anything.
+  const bool defined = std::abs(age_ns) <= 3.2e18;
+  if (!defined || __builtin_sub_overflow(stamp_ns, std::llround(age_ns), &to.first_seen_ns))
+    intake.refuse("not_finite");
+  return to;
+}
+
+}  // namespace laneloom::dds

@@ -1,0 +1,93 @@
+#include <algorithm>
+
+#include "cdr/convert.hpp"
+#include "cdr/convert_parts.hpp"
+
+namespace laneloom::dds {
+namespace {
+
+msg::TimeSummary to_msg(const TimeSummary& from) {
+  msg::TimeSummary to;
+  to.mean_ms(from.mean_ms);
+  to.p50_ms(from.p50_ms);
+  to.p99_ms(from.p99_ms);
+  to.max_ms(from.max_ms);
+  return to;
+}
+
+TimeSummary from_msg(const msg::TimeSummary& from, Intake& intake) {
+  return {intake.number(from.mean_ms()), intake.number(from.p50_ms()), intake.number(from.p99_ms()),
+          intake.number(from.max_ms())};
+}
+
+msg::SourceStatus to_msg(const SourceStatus& from) {
+  msg::SourceStatus to;
+  to.source(from.source.c_str());
+  to.session_id(from.session_id);
+  to.first_sequence(from.first_sequence);
+  to.last_sequence(from.last_sequence);
+  to.frames(from.frames);
+  return to;
+}
+
+SourceStatus from_msg(const msg::SourceStatus& from) {
+  return {from.source().to_string(), from.session_id(), from.first_sequence(), from.last_sequence(),
+          from.frames()};
+}
+
+}  // namespace
+
+std::size_t to_msg(const ServiceStatus& from, const std::string& /*map_frame_id*/, msg::ServiceStatus& to) {
+  to.header(header_to_msg(from.published_ns, from.sequence, from.session_id, ""));
+  to.state(enum_to_msg<msg::MapState>(from.state));
+  to.reasons(convert_all<msg::StateReason>(
+      from.reasons, [](StateReason reason) { return enum_to_msg<msg::StateReason>(reason); }));
+  to.uptime_s(from.uptime_s);
+  to.detections_age_s(from.detections_age_s);
+  to.poses_age_s(from.poses_age_s);
+  to.tick(to_msg(from.tick));
+  to.tick_delay(to_msg(from.tick_delay));
+  to.pending_frames(from.pending_frames);
+  to.counters().clear();
+  for (const auto& [name, value] : from.counters) {
+    if (to.counters().size() == msg::MAX_COUNTERS) break;
+    msg::Counter counter;
+    counter.name(name.c_str());
+    counter.value(value);
+    to.counters().push_back(counter);
+  }
+  const std::size_t sources = std::min<std::size_t>(from.sources.size(), msg::MAX_SOURCES);
+  to.sources().clear();
+  for (std::size_t i = from.sources.size() - sources; i < from.sources.size(); ++i) {
+    to.sources().push_back(to_msg(from.sources[i]));
+  }
+  to.version(from.version.c_str());
+  to.config_hash(from.config_hash.c_str());
+  return from.counters.size() - to.counters().size() + from.sources.size() - sources;
+}
+
+Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_id*/, ServiceStatus& to) {
+  Intake intake;
+  to.published_ns = from.header().stamp_ns();
+  to.sequence = from.header().sequence_number();
+  to.session_id = from.header().session_id();
+  to.state = intake.enumeration(from.state(), MapState::stale);
+  to.reasons = convert_all<StateReason>(from.reasons(), [&](msg::StateReason reason) {
+    return intake.enumeration(reason, StateReason::another_service);
+  });
+  to.uptime_s = intake.number(from.uptime_s());
+  to.detections_age_s = intake.number(from.detections_age_s());
+  to.poses_age_s = intake.number(from.poses_age_s());
+  to.tick = from_msg(from.tick(), intake);
+  to.tick_delay = from_msg(from.tick_delay(), intake);
+  to.pending_frames = from.pending_frames();
+  to.counters.clear();
+  for (const auto& counter : from.counters())
+    to.counters.emplace_back(counter.name().to_string(), counter.value());
+  to.sources = convert_all<SourceStatus>(from.sources(), [](const auto& source) { return from_msg(source); });
+  to.version = from.version().to_string();
+  to.config_hash = from.config_hash().to_string();
+  return intake.refusal();
+}
+
+}  // namespace laneloom::dds

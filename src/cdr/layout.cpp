@@ -1,0 +1,134 @@
+#include "cdr/layout.hpp"
+
+#include <type_traits>
+
+namespace laneloom::dds {
+namespace {
+
+constexpr std::size_t kEnum = 4;
+constexpr std::size_t kLong = 4;
+constexpr std::size_t kLongLong = 8;
+constexpr std::size_t kDouble = 8;
+constexpr std::size_t kTextBound = std::remove_cvref_t<decltype(msg::Header().frame_id())>::max_size;
+
+void header(CdrScanner& cdr) {
+  cdr.numbers(kLongLong, 3);
+  cdr.text(kTextBound);
+}
+
+void polyline(CdrScanner& cdr) { cdr.double_sequence(3, msg::MAX_POINTS); }
+void point_values(CdrScanner& cdr) { cdr.double_sequence(1, msg::MAX_POINTS); }
+void pose(CdrScanner& cdr) { cdr.numbers(kDouble, 7); }
+
+void detection(CdrScanner& cdr) {
+  cdr.numbers(kEnum, 2);
+  cdr.numbers(kDouble);
+  polyline(cdr);
+  point_values(cdr);
+}
+
+void marking(CdrScanner& cdr) {
+  cdr.numbers(kLongLong);
+  cdr.numbers(kEnum, 2);
+  polyline(cdr);
+  cdr.sequence(msg::MAX_STYLES, [](CdrScanner& style_range) {
+    style_range.numbers(kDouble, 2);
+    style_range.numbers(kEnum);
+  });
+  point_values(cdr);
+  cdr.numbers(kDouble);
+  cdr.numbers(kLongLong);
+  cdr.numbers(kDouble);
+}
+
+void lane(CdrScanner& cdr) {
+  cdr.numbers(kLongLong, 3);
+  cdr.numbers(kDouble, 4);
+  for (int line = 0; line < 3; ++line) polyline(cdr);
+  cdr.numbers(kDouble);
+  cdr.numbers(kLongLong, 2);
+  cdr.numbers(kEnum);
+  cdr.numbers(kLong);
+  cdr.numbers(kEnum);
+  cdr.numbers(kDouble);
+  cdr.double_sequence(2, msg::MAX_RANGES);
+}
+
+void stopline(CdrScanner& cdr) {
+  marking(cdr);
+  cdr.number_sequence(kLongLong, msg::MAX_STOPLINE_LANES);
+  cdr.numbers(kDouble, 3);
+}
+
+void linkage(CdrScanner& cdr) {
+  cdr.numbers(kLongLong, 2);
+  cdr.numbers(kEnum, 2);
+  cdr.numbers(kDouble);
+  polyline(cdr);
+}
+
+void lineage_event(CdrScanner& cdr) {
+  cdr.numbers(kEnum);
+  cdr.numbers(kLongLong, 2);
+}
+
+void counter(CdrScanner& cdr) {
+  cdr.text(kTextBound);
+  cdr.numbers(kLongLong);
+}
+
+void source(CdrScanner& cdr) {
+  cdr.text(kTextBound);
+  cdr.numbers(kLongLong, 4);
+}
+
+}  // namespace
+
+void scan(CdrScanner& cdr, const msg::Detections* /*type*/) {
+  header(cdr);
+  cdr.text(kTextBound);
+  cdr.number_sequence(kEnum, msg::MAX_TYPES);
+  polyline(cdr);
+  cdr.sequence(msg::MAX_AREAS, polyline);
+  cdr.sequence(msg::MAX_MARKINGS, detection);
+}
+
+void scan(CdrScanner& cdr, const msg::VehiclePose* /*type*/) {
+  header(cdr);
+  pose(cdr);
+  cdr.number_sequence(kDouble, 36);
+}
+
+void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
+  header(cdr);
+  cdr.numbers(kLongLong);
+  cdr.numbers(kDouble);
+  cdr.numbers(kEnum);
+  cdr.number_sequence(kEnum, msg::MAX_REASONS);
+  pose(cdr);
+  cdr.sequence(msg::MAX_FRAMES, [](CdrScanner& frame) { frame.numbers(kLongLong, 3); });
+  cdr.sequence(msg::MAX_MARKINGS, marking);
+  cdr.sequence(msg::MAX_LANES, lane);
+  cdr.sequence(msg::MAX_MARKINGS, stopline);
+  cdr.sequence(msg::MAX_LINKAGES, linkage);
+  cdr.sequence(msg::MAX_LINKAGES, lineage_event);
+}
+
+void scan(CdrScanner& cdr, const msg::RoadMarkings* /*type*/) {
+  header(cdr);
+  cdr.sequence(msg::MAX_MARKINGS, marking);
+}
+
+void scan(CdrScanner& cdr, const msg::ServiceStatus* /*type*/) {
+  header(cdr);
+  cdr.numbers(kEnum);
+  cdr.number_sequence(kEnum, msg::MAX_REASONS);
+  cdr.numbers(kDouble, 11);
+  cdr.numbers(kLong);
+  cdr.sequence(msg::MAX_COUNTERS, counter);
+  cdr.sequence(msg::MAX_SOURCES, source);
+  cdr.text(kTextBound);
+  cdr.text(kTextBound);
+}
+
+}  // namespace laneloom::dds

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <utility>
+
+#include "cdr/layout.hpp"
+#include "laneloom/messages.hpp"
+
+/// The message of each plain type.
+namespace laneloom::dds {
+
+msg::Detections message_of(const DetectionFrame&);
+msg::VehiclePose message_of(const VehiclePose&);
+msg::LaneMap message_of(const PublishedMap&);
+msg::RoadMarkings message_of(const RoadMarkings&);
+msg::ServiceStatus message_of(const ServiceStatus&);
+
+template <class T>
+using MessageOf = decltype(message_of(std::declval<const T&>()));
+
+}  // namespace laneloom::dds

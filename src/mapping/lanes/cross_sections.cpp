@@ -1,0 +1,156 @@
+#include "mapping/lanes/cross_sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mapping/geometry/levels.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kNarrow_m = 2.5;  // narrower are lanes that are so from end to end
+constexpr double kMinAlong = 0.9;  // cosine between a line and the boundaries that it runs along
+constexpr double kTaper_m = 0.3;   // by which what is not so grows beyond that
+
+bool contains(const std::vector<Range>& ranges, double arc_m) {
+  return std::ranges::any_of(ranges, [&](const Range& r) { return r.from_m < arc_m && arc_m < r.to_m; });
+}
+
+/// The end of the longest run from `begin` in which the width varies little and the left boundary is
+/// followed.
+std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin, const LaneConfig& config) {
+  double narrowest = std::numeric_limits<double>::infinity(), widest = 0.0;
+  std::size_t end = begin;
+  while (end < sections.size() && sections[end].valid) {
+    if (end > begin && sections[end].left_arc_m < sections[end - 1].left_arc_m) break;
+    if (sections[end].wide != sections[begin].wide) break;
+    narrowest = std::min(narrowest, sections[end].width_m);
+    widest = std::max(widest, sections[end].width_m);
+    if (widest - narrowest > config.max_width_variation_m) break;
+    ++end;
+  }
+  return end;
+}
+
+/// The last range grows by the stretch, if that follows it.
+void append(std::vector<Range>& ranges, const Range& stretch) {
+  if (!ranges.empty() && ranges.back().to_m == stretch.from_m) {
+    ranges.back().to_m = stretch.to_m;
+  } else {
+    ranges.push_back(stretch);
+  }
+}
+
+/// How sure a lane is that lies between two markings.
+void set_trust(const Marking& left, const Marking& right, Lane& lane) {
+  const auto either = [&](ElementStatus status) { return left.status == status || right.status == status; };
+  lane.status = either(ElementStatus::inferred)    ? ElementStatus::inferred
+                : either(ElementStatus::tentative) ? ElementStatus::tentative
+                                                   : ElementStatus::confirmed;
+  lane.existence_probability = std::min(left.existence_probability, right.existence_probability);
+}
+
+}  // namespace
+
+LaneBorder::LaneBorder(const LaneBoundary& boundary, const MeasuredPolyline& measured, bool reversed,
+                       const Occupied& occupied)
+    : boundary_(boundary), measured_(measured), reversed_(reversed), occupied_(occupied) {
+  if (reversed) turned_ = MeasuredPolyline(Polyline(measured.points().rbegin(), measured.points().rend()));
+}
+
+bool LaneBorder::is_free(double arc_m) const { return !contains(occupied_, own(arc_m)); }
+
+bool LaneBorder::is_bridged(double arc_m) const { return contains(boundary_.bridged, own(arc_m)); }
+
+std::optional<Between> find_between(const CrossSection& section, const BoundaryPair& pair,
+                                    const std::vector<LaneBoundary>& boundaries,
+                                    const std::vector<MeasuredPolyline>& measured) {
+  const Point middle = section.middle();
+  const Eigen::Vector2d across = (section.right - section.left).head<2>();
+  const double width_m = across.norm(), reach_m = 0.5 * width_m - kAlongEdge_m;
+  std::optional<Between> line;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    if (i == pair.left || i == pair.right) continue;
+    const bool is_edge = boundaries[i].marking.type == MarkingType::roadedge;
+    if (!is_edge && boundaries[i].marking.status != ElementStatus::confirmed) continue;
+    const Projection foot = measured[i].project(middle, reach_m);
+    if (!foot.inside || foot.distance_m >= reach_m || !same_level(foot.foot, middle)) continue;
+    const double share = (foot.foot - section.left).head<2>().dot(across) / (width_m * width_m);
+    if (is_edge) return Between{true, share};
+    if (std::abs(cross(measured[i].direction(foot), across)) > kMinAlong * width_m)
+      line = Between{false, share};
+  }
+  return line;
+}
+
+std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorder& right, double min_width_m,
+                                         double max_width_m, const LaneConfig& config) {
+  const Polyline points = right.line().resample(config.step_m);
+  std::vector<CrossSection> sections(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double arc_m =
+        right.line().length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    if (!right.is_free(arc_m)) continue;
+    const Projection foot = left.line().project(points[i], max_width_m);
+    if (!foot.inside || foot.distance_m < min_width_m || foot.lateral_m >= 0.0) continue;
+    if (!left.is_free(foot.arc_m)) continue;
+    sections[i] = {.left_arc_m = foot.arc_m,
+                   .right_arc_m = arc_m,
+                   .width_m = foot.distance_m,
+                   .wide = foot.distance_m > config.max_width_m,
+                   .left = foot.foot,
+                   .right = points[i],
+                   .valid = true};
+  }
+  return sections;
+}
+
+std::span<const CrossSection> next_run(const std::vector<CrossSection>& sections, std::size_t& begin,
+                                       const LaneConfig& config) {
+  const auto is_narrow = [](const CrossSection& section) { return section.width_m < kNarrow_m; };
+  const auto run_from = [&](std::size_t first) {
+    return std::span(sections).subspan(first, std::max(run_end(sections, first, config), first + 1) - first);
+  };
+  auto run = run_from(begin);
+  if (std::ranges::max_element(run, {}, &CrossSection::width_m)->width_m >= kNarrow_m + kTaper_m) {
+    while (is_narrow(sections[begin])) ++begin;
+    run = run_from(begin);
+    begin += run.size();
+    while (is_narrow(run.back())) run = run.first(run.size() - 1);
+    return run;
+  }
+  begin += run.size();
+  return run;
+}
+
+Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const LaneBorder& right) {
+  Lane lane{.left_boundary = left.marking().id,
+            .right_boundary = right.marking().id,
+            .left_range = left.own({run.front().left_arc_m, run.back().left_arc_m}),
+            .right_range = right.own({run.front().right_arc_m, run.back().right_arc_m}),
+            .left_reversed = left.reversed(),
+            .right_reversed = right.reversed()};
+  set_trust(left.marking(), right.marking(), lane);
+  // Sides and centerline all go through the cross-sections, so that the one is left of the other wherever the
+  // boundaries' own vertices are.
+  for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) line->reserve(run.size());
+  double width_sum_m = 0.0, arc_m = 0.0;
+  for (const CrossSection& section : run) {
+    width_sum_m += section.width_m;
+    const Point center = section.middle();
+    const double from_m = arc_m;
+    if (!lane.centerline.empty()) arc_m += (center - lane.centerline.back()).head<2>().norm();
+    if (left.is_bridged(section.left_arc_m) || right.is_bridged(section.right_arc_m))
+      append(lane.inferred_ranges, {from_m, arc_m});
+    lane.left.push_back(section.left);
+    lane.right.push_back(section.right);
+    lane.centerline.push_back(center);
+  }
+  lane.left = MeasuredPolyline(lane.left).points();
+  lane.width_m = width_sum_m / static_cast<double>(run.size());
+  std::erase_if(lane.inferred_ranges, [](const Range& range) { return range.length() <= 0.0; });
+  return lane;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,152 @@
+#include "mapping/lanes/lane_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "mapping/geometry/levels.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter
+constexpr double kMinAlongLane = 0.7;   // cosine between the vehicle's heading and a lane that it drives in
+constexpr double kMinTurnSine = 0.77;   // of the angle between the lanes: a turn is one of 50 to 130 degrees
+
+using Turn = Linkage::Turn;
+
+/// A cubic that leaves and enters in the lanes' directions.
+Polyline straight_path(const Lane& from, const Lane& to) {
+  const Point a = from.centerline.back(), b = to.centerline.front();
+  const double length_m = (b - a).head<2>().norm();
+  const Eigen::Vector2d begin = length_m * leaving(from), end = length_m * entering(to);
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kPathStep_m)));
+  Polyline path;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps;
+    const double blend = t * t * (3.0 - 2.0 * t);  // Hermite's basis
+    Point point = a + blend * (b - a);
+    point.head<2>() += t * (1.0 - t) * ((1.0 - t) * begin - t * end);
+    path.push_back(point);
+  }
+  return path;
+}
+
+double common_length(const Range& a, const Range& b) {
+  return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m);
+}
+
+Point moved(const Point& point, const Eigen::Vector2d& by) { return point + Point(by.x(), by.y(), 0.0); }
+
+/// Straight on from the end that is much further from where the lanes' extensions meet, then about that
+/// corner: Bezier's cubic, which is nearest to an arc where both are as far. A way that cut the corner would
+/// lead over the kerb.
+Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
+  constexpr double kArc = 0.55;  // of the way to the corner, for a quarter of a circle
+  const double reach_m = kMaxLongerLeg * std::min(corner.before_m, corner.after_m);
+  const double before_m = std::min(corner.before_m, reach_m), after_m = std::min(corner.after_m, reach_m);
+  const Point &start = from.centerline.back(), &end = to.centerline.front();
+  const Point a = moved(start, (corner.before_m - before_m) * leaving(from)),
+              d = moved(end, (after_m - corner.after_m) * entering(to));
+  const Point b = moved(a, kArc * before_m * leaving(from)), c = moved(d, -kArc * after_m * entering(to));
+  const int steps = std::max(2, static_cast<int>(std::ceil(0.8 * (before_m + after_m) / kPathStep_m)));
+  Polyline path{start};
+  for (int i = 0; i <= steps; ++i) {
+    const double t = static_cast<double>(i) / steps, s = 1.0 - t;
+    path.push_back(s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d);
+  }
+  path.push_back(end);
+  path = MeasuredPolyline(path).points();
+  const double length_m = length(path);
+  const std::vector<double> arc_m = arc_lengths(path);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    path[i].z() = start.z() + (end.z() - start.z()) * arc_m[i] / length_m;
+  return path;
+}
+
+}  // namespace
+
+std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
+  return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
+    const Projection foot = other.project(point, max_distance_m);
+    return foot.inside && foot.distance_m < max_distance_m && same_level(foot.foot, point);
+  }));
+}
+
+LaneSide lane_side(const Lane& lane, bool left) {
+  return left ? LaneSide{{lane.left_boundary, lane.left_reversed}, lane.left_range, lane.left_reversed}
+              : LaneSide{{lane.right_boundary, !lane.right_reversed}, lane.right_range, lane.right_reversed};
+}
+
+const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {
+  const Lane* across = nullptr;
+  double longest_m = 0.0;
+  for (const Lane& lane : lanes) {
+    for (const bool left : {true, false}) {
+      const LaneSide beyond = lane_side(lane, left);
+      if (beyond.of != side.of.other()) continue;
+      const double common_m = common_length(beyond.range, side.range);
+      if (common_m > longest_m) across = &lane, longest_m = common_m;
+    }
+  }
+  return across;
+}
+
+Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }
+Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, false); }
+Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {
+  return (to.centerline.front() - from.centerline.back()).head<2>();
+}
+
+std::optional<Corner> corner_between(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
+  const double sine = cross(a, b);
+  if (std::abs(sine) < kMinTurnSine) return std::nullopt;
+  // from + before * a = to - after * b
+  return Corner{cross(gap, b) / sine, cross(a, gap) / sine};
+}
+
+Linkage::Turn turn_between(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to);
+  if (a.dot(b) < -kMinTurnSine) return Turn::u_turn;
+  if (std::abs(cross(a, b)) < kMinTurnSine) return Turn::straight;
+  return cross(a, b) > 0.0 ? Turn::left : Turn::right;
+}
+
+void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages) {
+  const auto lane = [&](ElementId id) -> const Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
+  for (Linkage& linkage : linkages) linkage.turn = turn_between(lane(linkage.from), lane(linkage.to));
+}
+
+bool are_neighbours(const Lane& a, const Lane& b) {
+  return a.left_neighbour == b.id || a.right_neighbour == b.id || b.left_neighbour == a.id ||
+         b.right_neighbour == a.id;
+}
+
+double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
+  const MeasuredPolyline line(lane.centerline);
+  const Point vehicle = T_map_body.translation();
+  const Projection foot = line.project(vehicle);
+  if (!foot.inside || foot.distance_m > 0.5 * lane.width_m) return 0.0;
+  if (!same_level(foot.foot, vehicle)) return 0.0;
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
+  const double cosine = line.direction(foot.arc_m).dot(heading);
+  if (std::abs(cosine) < kMinAlongLane * heading.norm()) return 0.0;
+  return cosine > 0.0 ? 1.0 : -1.0;
+}
+
+Polyline path_between(const Lane& from, const Lane& to) {
+  if (const auto corner = corner_between(from, to); corner && corner->before_m > 0.0 && corner->after_m > 0.0)
+    return turning_path(from, to, *corner);
+  return straight_path(from, to);
+}
+
+Polyline path_ahead(const Lane& from, const Lane& to) {
+  return gap_between(from, to).dot(leaving(from)) < kMinGap_m ? Polyline{} : path_between(from, to);
+}
+
+void sort(std::vector<Linkage>& linkages) {
+  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
+}
+
+}  // namespace laneloom

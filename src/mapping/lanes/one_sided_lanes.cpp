@@ -1,0 +1,186 @@
+#include "mapping/lanes/one_sided_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kChord_m = 3.0;        // either way, for a direction without noise
+constexpr double kMinAdvance = 0.3;     // of the step; less is the inside of a bend that is too tight
+constexpr double kStyleReach_m = 5.0;   // either way; shorter patches of another style are noise
+constexpr double kMinBetween_m = 20.0;  // where there is something before and behind it
+constexpr double kBeyondEnd_m = 10.0;   // so far before or behind a line the vehicle drives beside it
+constexpr double kMinAlong = 0.9;       // cosine between its heading and the line
+// From the line, as shares of the lane's width.
+constexpr double kDrivenFrom = 0.25, kDrivenTo = 0.75;
+constexpr double kSpared = 0.75;  // up to here no other lane is
+constexpr double kOwn = 0.8;      // of the room's half, which the line itself may come near to
+
+/// One side of a line.
+struct OpenSide {
+  std::size_t line = 0;  ///< index of the boundary
+  bool left = false;     ///< as that runs
+
+  const Point& border(const CrossSection& section) const { return left ? section.left : section.right; }
+  const Point& at_line(const CrossSection& section) const { return left ? section.right : section.left; }
+};
+
+/// A strip on a side of a line; both arcs are the line's. Not valid where it would fold.
+std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenSide& side, double width_m,
+                                       double step_m) {
+  const Polyline points = line.resample(step_m);
+  std::vector<CrossSection> strip;
+  for (const Point& point : points) {
+    const double arc_m =
+        line.length() * static_cast<double>(strip.size()) / static_cast<double>(points.size() - 1);
+    const Eigen::Vector2d along =
+        (line.at(arc_m + kChord_m) - line.at(arc_m - kChord_m)).head<2>().normalized();
+    const Point left(-along.y(), along.x(), 0.0);
+    const Point border = point + (side.left ? width_m : -width_m) * left;
+    CrossSection section{.left_arc_m = arc_m,
+                         .right_arc_m = arc_m,
+                         .width_m = width_m,
+                         .left = side.left ? border : point,
+                         .right = side.left ? point : border,
+                         .valid = true};
+    if (!strip.empty())
+      section.valid = (border - side.border(strip.back())).head<2>().dot(along) > kMinAdvance * step_m;
+    strip.push_back(section);
+  }
+  return strip;
+}
+
+/// Finds the lanes, side by side of the lines.
+class OneSidedLanes {
+ public:
+  OneSidedLanes(const std::vector<LaneBoundary>& boundaries, const std::vector<MeasuredPolyline>& measured,
+                const LocalRange& range, const LaneConfig& config, TakenSpace& taken)
+      : boundaries_(boundaries), measured_(measured), range_(range), config_(config), taken_(taken) {
+    boxes_.reserve(measured.size());
+    for (const MeasuredPolyline& line : measured) boxes_.push_back(box_around(line.points()));
+  }
+
+  void add(const OpenSide& side, std::uint32_t road_section) {
+    const Marking& marking = boundaries_[side.line].marking;
+    if (marking.type != MarkingType::laneline || marking.status != ElementStatus::confirmed) return;
+    const std::vector<std::size_t> others = others_near(side.line);
+    const std::vector<CrossSection> sections = open_sections(side, others);
+    for (std::size_t begin = 0; begin < sections.size();) {
+      const auto run = next_run(sections, begin, config_);
+      if (length_of(run) < kMinInferredLength_m) continue;
+      if (length_of(run) < kMinBetween_m && is_gap(side, others, sections, run)) continue;
+      Polyline border, middle;
+      for (const CrossSection& section : run) {
+        border.push_back(side.border(section));
+        middle.push_back(section.middle());
+      }
+      taken_.add(middle, 0.5 * config_.assumed_width_m);
+      InferredBoundary found{.marking = inferred_marking(border), .section = road_section};
+      (side.left ? found.on_right : found.on_left)
+          .emplace(InferredBoundary::Beside{.boundary = side.line, .sections = {run.begin(), run.end()}});
+      found_.push_back(std::move(found));
+    }
+  }
+
+  std::vector<InferredBoundary> take() { return std::move(found_); }
+
+ private:
+  /// Whether there is something else just before and just behind a run.
+  bool is_gap(const OpenSide& side, const std::vector<std::size_t>& others,
+              const std::vector<CrossSection>& sections, std::span<const CrossSection> run) const {
+    const auto first = static_cast<std::size_t>(run.data() - sections.data()), end = first + run.size();
+    return first > 0 && end < sections.size() && !has_nothing_else(side, others, sections[first - 1]) &&
+           !has_nothing_else(side, others, sections[end]);
+  }
+
+  std::vector<CrossSection> open_sections(const OpenSide& side,
+                                          const std::vector<std::size_t>& others) const {
+    const Marking& marking = boundaries_[side.line].marking;
+    const bool driven = is_driven_along(side);
+    if (!driven && std::ranges::count(marking.styles, MarkingStyle::dashed, &StyleRange::style) == 0)
+      return {};
+    const auto is_dashed = [&](double arc_m) {
+      return dashed_excess_m(marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) > 0.0;
+    };
+    auto sections = strip_beside(measured_[side.line], side, config_.assumed_width_m, config_.step_m);
+    for (CrossSection& section : sections) {
+      const Point &from = side.at_line(section), &border = side.border(section);
+      section.valid = section.valid && (driven || is_dashed(section.left_arc_m)) && range_.shows(border) &&
+                      !taken_.contains(section.middle()) &&
+                      !taken_.contains(from + kSpared * (border - from)) &&
+                      has_nothing_else(side, others, section);
+    }
+    return sections;
+  }
+
+  /// The vehicle is on that side, as in the lane.
+  bool is_driven_along(const OpenSide& side) const {
+    const MeasuredPolyline& line = measured_[side.line];
+    const Eigen::Isometry3d& vehicle = range_.T_map_body();
+    const Projection foot = line.project(vehicle.translation());
+    const double share = (side.left ? foot.lateral_m : -foot.lateral_m) / config_.assumed_width_m;
+    if (share < kDrivenFrom || share > kDrivenTo) return false;
+    const double beyond_end_m2 = foot.distance_m * foot.distance_m - foot.lateral_m * foot.lateral_m;
+    if (beyond_end_m2 > kBeyondEnd_m * kBeyondEnd_m) return false;
+    if (!same_level(foot.foot, vehicle.translation())) return false;
+    const Eigen::Vector2d heading = vehicle.linear().col(0).head<2>();
+    return std::abs(line.direction(foot).dot(heading)) > kMinAlong * heading.norm();
+  }
+
+  /// The boundaries that could be in the room beside a line; also itself.
+  std::vector<std::size_t> others_near(std::size_t line) const {
+    const Box reach = box_around(measured_[line].points(), config_.max_kerb_width_m);
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      if (reach.intersects(boxes_[i])) others.push_back(i);
+    return others;
+  }
+
+  bool has_nothing_else(const OpenSide& side, const std::vector<std::size_t>& others,
+                        const CrossSection& section) const {
+    const double room_m = 0.5 * config_.max_kerb_width_m;
+    const Point &from = side.at_line(section), &border = side.border(section);
+    const Point middle = from + room_m / section.width_m * (border - from);
+    return std::ranges::none_of(others, [&](std::size_t i) {
+      // The line itself may come back.
+      const double reach_m = i == side.line ? kOwn * room_m : room_m;
+      const Projection foot = measured_[i].project(middle, reach_m);
+      return foot.inside && foot.distance_m < reach_m && same_level(foot.foot, middle);
+    });
+  }
+
+  const std::vector<LaneBoundary>& boundaries_;
+  const std::vector<MeasuredPolyline>& measured_;
+  const LocalRange& range_;
+  const LaneConfig& config_;
+  TakenSpace& taken_;
+  std::vector<Box> boxes_;  ///< of the boundaries
+  std::vector<InferredBoundary> found_;
+};
+
+}  // namespace
+
+std::vector<InferredBoundary> one_sided_lanes(const std::vector<RoadSection>& sections,
+                                              const std::vector<LaneBoundary>& boundaries,
+                                              const std::vector<MeasuredPolyline>& measured,
+                                              const LocalRange& range, const LaneConfig& config,
+                                              TakenSpace& taken) {
+  if (config.assumed_width_m <= 0.0) return {};
+  OneSidedLanes lanes(boundaries, measured, range, config, taken);
+  for (std::uint32_t section = 0; section < sections.size(); ++section) {
+    for (const std::size_t line : sections[section].boundaries) {
+      lanes.add({line, false}, section);
+      lanes.add({line, true}, section);
+    }
+  }
+  return lanes.take();
+}
+
+}  // namespace laneloom

@@ -1,0 +1,165 @@
+#include "mapping/lanes/unmarked_roads.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kReach_m = 6.0;  // beyond a stretch, in which a line is looked for that it continues
+constexpr double kReachStep_m = 2.0;
+constexpr double kFlare_m = 0.3;  // by which a road is wider than usual, as it opens into an intersection
+constexpr double kBeyondEdge_m = kAlongEdge_m + 1.2;  // where half a lane is, beside a line along the edge
+
+/// The share of the width at which a line begins or ends beyond the last cross-section of a run.
+std::optional<double> line_beyond(const CrossSection& last, const CrossSection& before,
+                                  const BoundaryPair& pair, const std::vector<LaneBoundary>& boundaries,
+                                  const std::vector<MeasuredPolyline>& measured) {
+  const Point onwards = (last.middle() - before.middle()).normalized();
+  for (double ahead_m = kReachStep_m; ahead_m <= kReach_m; ahead_m += kReachStep_m) {
+    CrossSection section = last;
+    section.left += ahead_m * onwards;
+    section.right += ahead_m * onwards;
+    const auto between = find_between(section, pair, boundaries, measured);
+    if (between) return between->is_edge ? std::nullopt : std::optional(between->share);
+  }
+  return std::nullopt;
+}
+
+/// A run without its flared ends, where edges turn off round the corners of an intersection.
+std::span<const CrossSection> without_flares(std::span<const CrossSection> run) {
+  std::vector<double> widths_m;
+  for (const CrossSection& section : run) widths_m.push_back(section.width_m);
+  const auto middle = widths_m.begin() + static_cast<std::ptrdiff_t>(widths_m.size() / 2);
+  std::ranges::nth_element(widths_m, middle);
+  const double usual_m = *middle;
+  while (run.front().width_m > usual_m + kFlare_m) run = run.subspan(1);
+  while (run.back().width_m > usual_m + kFlare_m) run = run.first(run.size() - 1);
+  return run;
+}
+
+/// How wide the lane on the left and the one on the right of a divider may be.
+struct MaxWidths {
+  double left_m, right_m;
+};
+
+/// The two halves of a run, divided at a share of its width that changes evenly.
+struct Halves {
+  std::vector<CrossSection> left, right;
+  Polyline divider;
+};
+
+/// Empty where a lane would be too narrow or too wide.
+std::optional<Halves> divide(std::span<const CrossSection> run, double share_at_begin, double share_at_end,
+                             double min_width_m, const MaxWidths& max_width) {
+  Halves halves;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const double along = static_cast<double>(i) / static_cast<double>(run.size() - 1);
+    const double share = share_at_begin + along * (share_at_end - share_at_begin);
+    CrossSection left = run[i], right = run[i];
+    left.right = right.left = run[i].left + share * (run[i].right - run[i].left);
+    left.width_m *= share;
+    right.width_m *= 1.0 - share;
+    if (std::min(left.width_m, right.width_m) < min_width_m) return std::nullopt;
+    if (left.width_m > max_width.left_m || right.width_m > max_width.right_m) return std::nullopt;
+    halves.divider.push_back(left.right);
+    halves.left.push_back(left);
+    halves.right.push_back(right);
+  }
+  return halves;
+}
+
+/// Finds what can be divided, pair by pair of boundaries.
+class Divisions {
+ public:
+  Divisions(const std::vector<LaneBoundary>& boundaries, const std::vector<MeasuredPolyline>& measured,
+            const LaneConfig& config, TakenSpace& taken)
+      : boundaries_(boundaries), measured_(measured), config_(config), lanes_(taken), taken_(taken) {}
+
+  void add(const BoundaryPair& pair) {
+    if ((!pair.left_kerb && !pair.right_kerb) || pair.crosses_kerb) return;
+    if (!is_confirmed(pair.left) || !is_confirmed(pair.right)) return;
+    Occupied& left_taken = taken_.beside({boundaries_[pair.left].marking.id, pair.left_reversed});
+    Occupied& right_taken = taken_.beside({boundaries_[pair.right].marking.id, !pair.right_reversed});
+    const LaneBorder left(boundaries_[pair.left], measured_[pair.left], pair.left_reversed, left_taken);
+    const LaneBorder right(boundaries_[pair.right], measured_[pair.right], pair.right_reversed, right_taken);
+    const std::vector<CrossSection> sections = unmarked(pair, left, right);
+    LaneConfig both_lanes = config_;
+    both_lanes.max_width_variation_m *= 2.0;
+    for (std::size_t begin = 0; begin < sections.size();) {
+      auto run = next_run(sections, begin, both_lanes);
+      if (length_of(run) < kMinInferredLength_m) continue;
+      run = without_flares(run);
+      if (length_of(run) < kMinInferredLength_m) continue;
+      auto halves = divide(run, pair);
+      if (!halves) continue;
+      left_taken.push_back(left.own({run.front().left_arc_m, run.back().left_arc_m}));
+      right_taken.push_back(right.own({run.front().right_arc_m, run.back().right_arc_m}));
+      taken_.add(halves->divider, config_.min_width_m);
+      found_.push_back({.marking = inferred_marking(halves->divider),
+                        .on_left = {{pair.left, pair.left_reversed, std::move(halves->left)}},
+                        .on_right = {{pair.right, pair.right_reversed, std::move(halves->right)}},
+                        .two_way = pair.left_kerb && pair.right_kerb,
+                        .section = pair.section});
+    }
+  }
+
+  std::vector<InferredBoundary> take() { return std::move(found_); }
+
+ private:
+  bool is_confirmed(std::size_t i) const { return boundaries_[i].marking.status == ElementStatus::confirmed; }
+
+  /// Sections without an edge, a confirmed line or a lane in them, that are not a median.
+  std::vector<CrossSection> unmarked(const BoundaryPair& pair, const LaneBorder& left,
+                                     const LaneBorder& right) const {
+    const bool two_kerbs = pair.left_kerb && pair.right_kerb;
+    const double max_width_m = 2.0 * (two_kerbs ? config_.max_kerb_width_m : config_.max_width_m);
+    auto sections = cross_sections(left, right, config_.min_divided_width_m, max_width_m, config_);
+    for (CrossSection& section : sections) {
+      section.valid = section.valid && !find_between(section, pair, boundaries_, measured_) &&
+                      !taken_.contains(section.middle()) && !(two_kerbs && is_beside_lanes(section));
+    }
+    return sections;
+  }
+
+  /// Beyond the edge of a road with lanes is a verge, a pavement or a cycle track.
+  bool is_beside_lanes(const CrossSection& section) const {
+    const Point out = kBeyondEdge_m * (section.right - section.left).normalized();
+    return lanes_.contains(section.left - out) || lanes_.contains(section.right + out);
+  }
+
+  /// At the lines that it continues, or in the middle.
+  std::optional<Halves> divide(std::span<const CrossSection> run, const BoundaryPair& pair) const {
+    const auto before = line_beyond(run.front(), run[1], pair, boundaries_, measured_);
+    const auto after = line_beyond(run.back(), run[run.size() - 2], pair, boundaries_, measured_);
+    const double at_begin = before ? *before : after.value_or(0.5);
+    const auto max_width_m = [&](bool kerb) { return kerb ? config_.max_kerb_width_m : config_.max_width_m; };
+    return laneloom::divide(run, at_begin, after.value_or(at_begin), config_.min_width_m,
+                            {max_width_m(pair.left_kerb), max_width_m(pair.right_kerb)});
+  }
+
+  const std::vector<LaneBoundary>& boundaries_;
+  const std::vector<MeasuredPolyline>& measured_;
+  const LaneConfig& config_;
+  const TakenSpace lanes_;  ///< that were seen
+  TakenSpace& taken_;
+  std::vector<InferredBoundary> found_;
+};
+
+}  // namespace
+
+std::vector<InferredBoundary> divide_unmarked(const std::vector<BoundaryPair>& pairs,
+                                              const std::vector<LaneBoundary>& boundaries,
+                                              const std::vector<MeasuredPolyline>& measured,
+                                              const LaneConfig& config, TakenSpace& taken) {
+  if (config.min_divided_width_m <= 0.0) return {};
+  Divisions divisions(boundaries, measured, config, taken);
+  for (const BoundaryPair& pair : pairs) divisions.add(pair);
+  return divisions.take();
+}
+
+}  // namespace laneloom

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+#include "mapping/lines/line_map.hpp"
+#include "mapping/lines/nearest_stations.hpp"
+#include "mapping/markings/preprocess.hpp"
+
+namespace laneloom {
+
+/// A sample of a detection with its foot on a line.
+struct SampleMatch {
+  std::size_t sample = 0;
+  StationFoot foot;
+};
+
+/// Whether the line leads from the one foot to the other. It does not where a closed line ends and begins.
+bool is_led_through(const SampleMatch& from, const SampleMatch& to);
+
+/// What one detection says of one line.
+struct LineMatch {
+  std::size_t detection = 0;
+  std::size_t line = 0;
+  std::vector<SampleMatch> samples;  ///< ascending; at least two
+};
+
+/// A detection, sampled evenly.
+struct SampledDetection {
+  Polyline samples;        ///< map frame, evenly spaced
+  double spacing_m = 0.0;  ///< of the samples along the detection, at most `sample_step_m`
+  MarkingType type = MarkingType::laneline;
+  MarkingStyle style = MarkingStyle::unknown;
+  double confidence = 0.0;
+  std::vector<double> stddev_m{};  ///< per sample, lateral; empty: not given
+  std::vector<bool> explained{};   ///< per sample: some line accounts for it
+
+  /// How much of the detection a sample stands for, in metres: half of the way to either neighbour.
+  double share_m(std::size_t sample) const {
+    return sample == 0 || sample + 1 == samples.size() ? 0.5 * spacing_m : spacing_m;
+  }
+};
+
+std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,
+                                                const FusionConfig& config);
+
+/// Tells which detection observes which of the lines of one instant. Not thread-safe.
+class LineMatcher {
+ public:
+  /// `lines` have to stay as they are.
+  LineMatcher(const std::vector<Line>& lines, const FusionConfig& config);
+
+  /// Pairs that lie close and run alike, the best fit first. No place of a line is observed by two detections
+  /// of one frame, since what is seen side by side is not one line; no sample observes two lines. Looks at
+  /// every `stride`-th sample only.
+  std::vector<LineMatch> match(const std::vector<SampledDetection>& detections, std::size_t stride = 1);
+
+  const std::vector<Line>& lines() const { return lines_; }
+
+ private:
+  struct Candidate;
+  void find_candidates(std::size_t index, const SampledDetection& detection, std::size_t stride,
+                       std::vector<Candidate>& candidates);
+
+  const std::vector<Line>& lines_;
+  FusionConfig config_;
+  double min_cosine_;
+  NearestStations along_, across_;
+};
+
+/// Marks the samples that were matched.
+void mark_explained(const std::vector<LineMatch>& matches, std::vector<SampledDetection>& detections);
+
+}  // namespace laneloom

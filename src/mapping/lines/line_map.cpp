@@ -1,0 +1,92 @@
+#include "mapping/lines/line_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kCell_m = 1.0;  // about a gate and a station's spacing: what is looked for is in few cells
+
+}  // namespace
+
+MarkingType Line::type() const {
+  return static_cast<MarkingType>(std::ranges::max_element(type_votes) - type_votes.begin());
+}
+
+StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point) {
+  const auto& stations = line.stations;
+  const std::size_t first = nearest == 0 ? 0 : nearest - 1;
+  const std::size_t last = std::min(nearest + 1, stations.size() - 1);
+  StationFoot best;
+  double best_distance_m = -1.0;
+  for (std::size_t i = first; i < last; ++i) {
+    const Point& a = stations[i].position;
+    const Point segment = stations[i + 1].position - a;
+    const Eigen::Vector2d along = segment.head<2>();
+    const double length_m = along.norm();
+    if (length_m <= 0.0) continue;
+    const Eigen::Vector2d offset = (point - a).head<2>();
+    const double share = offset.dot(along) / (length_m * length_m);
+    const double clamped = std::clamp(share, 0.0, 1.0);
+    const Point foot = a + clamped * segment;
+    const double distance_m = (point - foot).head<2>().norm();
+    if (best_distance_m >= 0.0 && distance_m >= best_distance_m) continue;
+    best_distance_m = distance_m;
+    const bool beyond = (i == 0 && share < 0.0) || (i + 2 == stations.size() && share > 1.0);
+    best = {.index = static_cast<double>(i) + (beyond ? share : clamped),
+            .lateral_m = cross(along, offset) / length_m,
+            .height_m = point.z() - foot.z(),
+            .inside = !beyond};
+  }
+  return best;
+}
+
+Eigen::Vector2d direction_at(const Line& line, std::size_t station) {
+  const std::size_t before = station == 0 ? 0 : station - 1;
+  const std::size_t after = std::min(station + 1, line.stations.size() - 1);
+  return (line.stations[after].position - line.stations[before].position).head<2>().normalized();
+}
+
+StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
+  const auto wanted = [&](const Line& line) { return is_stopline(line.type()) == of_stoplines; };
+  std::size_t count = 0;
+  for (const Line& line : lines) count += wanted(line) ? line.stations.size() : 0U;
+  std::vector<Entry> all;
+  all.reserve(count);
+  Eigen::AlignedBox2d bounds;
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    if (!wanted(lines[i])) continue;
+    const auto& stations = lines[i].stations;
+    for (std::uint32_t k = 0; k < stations.size(); ++k) {
+      bounds.extend(stations[k].position.head<2>());
+      all.push_back({stations[k].position, i, k});
+    }
+  }
+  if (all.empty()) return;
+  origin_ = bounds.min();
+  size_ = (bounds.sizes() / kCell_m).array().floor().cast<int>() + 1;
+  // Counting sort by cell; within a cell by line and station.
+  starts_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
+  std::vector<std::size_t> cells;
+  cells.reserve(all.size());
+  for (const Entry& entry : all) {
+    cells.push_back(cell_number(cell_of(entry.position.head<2>())));
+    ++starts_[cells.back() + 1];
+  }
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  entries_.resize(all.size());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::size_t i = 0; i < all.size(); ++i) entries_[next[cells[i]]++] = all[i];
+}
+
+Eigen::Vector2i StationGrid::cell_of(const Eigen::Vector2d& place) const {
+  // Clamped, so that what is far away does not overflow. Truncated, as a place before the first cell may
+  // count to that; adding one first would round the end of the last cell up to beyond it.
+  const Eigen::Vector2d cells = (place - origin_) / kCell_m;
+  return cells.cwiseMax(0.0).cwiseMin(size_.cast<double>()).cast<int>();
+}
+
+}  // namespace laneloom

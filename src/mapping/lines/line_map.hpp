@@ -1,0 +1,108 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "laneloom/types.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+
+/// What a frame says of a place on a line.
+enum class Sight : std::uint8_t { out_of_view, missed, observed };
+
+/// A place on a line, about every metre, with what is known of the line there.
+struct Station {
+  Point position = Point::Zero();   ///< map frame
+  double information_per_m2 = 0.0;  ///< inverse variance of the lateral position
+  double closest_m = 0.0;           ///< from which it was observed
+  double log_odds = 0.0;            ///< that the line exists here
+  StyleVotes style_votes{};
+  Sight sight = Sight::out_of_view;  ///< in this frame; not kept
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(position, information_per_m2, closest_m, log_odds, style_votes);
+  }
+};
+
+/// A marking that is followed over time.
+struct Line {
+  ElementId id = kNoElement;
+  std::vector<Station> stations;  ///< in order along the line
+  std::array<double, kMarkingTypeCount> type_votes{};
+  std::uint64_t observations = 0;
+  std::int64_t first_seen_ns = 0;
+
+  /// The most voted type; the first one of equals.
+  MarkingType type() const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(id, stations, type_votes, observations, first_seen_ns);
+  }
+};
+
+/// Lanelines and roadedges are told apart by vote, stoplines from the start: they cross the others.
+inline bool is_stopline(MarkingType type) { return type == MarkingType::stopline; }
+
+/// The foot of a point on a line.
+struct StationFoot {
+  double index = 0.0;      ///< of the foot between stations: 2.5 is halfway between the third and the fourth
+  double lateral_m = 0.0;  ///< of the point; left of the line is positive
+  double height_m = 0.0;   ///< of the point above the foot
+  bool inside = false;     ///< not beyond one of the line's ends
+};
+
+/// Foot of `point` on the two segments at station `nearest`. The line has at least two stations.
+StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point);
+
+/// Horizontal unit direction of the line at a station.
+Eigen::Vector2d direction_at(const Line& line, std::size_t station);
+
+/// Finds stations by place: a uniform grid over the stations of one instant.
+class StationGrid {
+ public:
+  /// What is asked of a station again and again lies together, in the order in which it is walked.
+  struct Entry {
+    Point position = Point::Zero();
+    std::uint32_t line = 0;
+    std::uint32_t station = 0;
+  };
+  /// Of all stoplines, or of all other lines.
+  StationGrid(const std::vector<Line>& lines, bool of_stoplines);
+
+  /// Calls `visit(entry)` for every station that is within `reach_m` of `point`, and for some that are little
+  /// further, in a fixed order.
+  template <class Visit>
+  void around(const Point& point, double reach_m, Visit&& visit) const {
+    if (entries_.empty()) return;
+    const Eigen::Vector2d reach(reach_m, reach_m);
+    const Eigen::Vector2i first = cell_of(point.head<2>() - reach).cwiseMax(0);
+    const Eigen::Vector2i last = cell_of(point.head<2>() + reach).cwiseMin(size_ - Eigen::Vector2i::Ones());
+    if (first.x() > last.x()) return;
+    for (int y = first.y(); y <= last.y(); ++y) {
+      // The cells of a row follow one another.
+      const Entry* const end = entries_.data() + starts_[cell_number({last.x(), y}) + 1];
+      for (const Entry* entry = entries_.data() + starts_[cell_number({first.x(), y})]; entry != end; ++entry)
+        visit(*entry);
+    }
+  }
+
+ private:
+  Eigen::Vector2i cell_of(const Eigen::Vector2d& place) const;
+  std::size_t cell_number(const Eigen::Vector2i& cell) const {
+    return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(size_.x()) +
+           static_cast<std::size_t>(cell.x());
+  }
+
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2i size_ = Eigen::Vector2i::Zero();
+  std::vector<std::uint32_t> starts_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace laneloom

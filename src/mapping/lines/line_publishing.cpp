@@ -1,0 +1,96 @@
+#include "mapping/lines/line_publishing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+using Stations = std::span<const Station>;
+
+/// From the first to the last place with enough evidence. What is weak in between has been seen and is about
+/// to be seen again, or else the line is cut there.
+Stations published_stretch(const Line& line, const FusionConfig& config) {
+  const auto enough = [&](const Station& station) { return station.log_odds >= config.publish_log_odds; };
+  const auto begin = std::ranges::find_if(line.stations, enough);
+  auto end = line.stations.end();
+  while (end != begin && !enough(*std::prev(end))) --end;
+  return {begin, end};
+}
+
+/// Twice by the neighbours; the ends stay.
+Polyline smoothed(Stations stations) {
+  Polyline points;
+  points.reserve(stations.size());
+  for (const Station& station : stations) points.push_back(station.position);
+  for (int pass = 0; pass < 2; ++pass) {
+    const Polyline before = points;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      points[i] = 0.25 * before[i - 1] + 0.5 * before[i] + 0.25 * before[i + 1];
+    }
+  }
+  return points;
+}
+
+std::vector<StyleRange> styles_along(Stations stations, const Polyline& points, const StyleConfig& config) {
+  const std::vector<double> arc = arc_lengths(points);
+  std::vector<StyleRange> styles;
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i)
+    append_style(styles, {{arc[i], arc[i + 1]}, voted(stations[i].style_votes, config)});
+  return styles;
+}
+
+/// An observation's noise averages out; the network's bias towards a line, which lasts, does not.
+double lateral_stddev_m(const Station& station, const FusionConfig& config) {
+  const double bias_m = config.bias_stddev_m + config.bias_stddev_per_m * station.closest_m;
+  return std::sqrt(bias_m * bias_m + 1.0 / station.information_per_m2);
+}
+
+/// Grows with the evidence between what is published and what is certain.
+double existence_probability(double log_odds, const FusionConfig& config) {
+  const double span = std::max(1e-9, config.max_log_odds - config.publish_log_odds);
+  const double share = std::clamp((log_odds - config.publish_log_odds) / span, 0.0, 1.0);
+  return config.existence_at_publish + share * (config.existence_at_max - config.existence_at_publish);
+}
+
+Marking as_marking(const Line& line, Stations stations, const MapperConfig& config) {
+  Marking marking{.id = line.id, .type = line.type(), .points = smoothed(stations)};
+  marking.lateral_stddev_m.reserve(stations.size());
+  for (const Station& station : stations)
+    marking.lateral_stddev_m.push_back(lateral_stddev_m(station, config.fusion));
+  if (is_stopline(marking.type)) {
+    marking.lateral_stddev_m = {marking.lateral_stddev_m.front(), marking.lateral_stddev_m.back()};
+    marking.points = {marking.points.front(), marking.points.back()};
+    marking.styles = {{{0.0, length(marking.points)}, MarkingStyle::unknown}};
+  } else {
+    marking.styles = styles_along(stations, marking.points, config.style);
+  }
+  double log_odds = 0.0;
+  for (const Station& station : stations) log_odds += station.log_odds / static_cast<double>(stations.size());
+  const bool confirmed = log_odds >= config.fusion.confirm_log_odds;
+  marking.status = confirmed ? ElementStatus::confirmed : ElementStatus::tentative;
+  marking.existence_probability = existence_probability(log_odds, config.fusion);
+  marking.observations = line.observations;
+  marking.first_seen_ns = line.first_seen_ns;
+  return marking;
+}
+
+}  // namespace
+
+std::vector<Marking> publish_lines(const std::vector<Line>& lines, const MapperConfig& config) {
+  std::vector<Marking> markings;
+  for (const Line& line : lines) {
+    const Stations stations = published_stretch(line, config.fusion);
+    if (stations.size() < 2) continue;
+    Marking marking = as_marking(line, stations, config);
+    if (length(marking.points) >= config.fusion.min_length_m) markings.push_back(std::move(marking));
+  }
+  std::ranges::sort(markings, {}, &Marking::id);
+  return markings;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// How often two lines were seen as one and as two, fading over about 30 frames. What the paper's
+/// co-observation is to voxels, this is to lines.
+struct PairHistory {
+  ElementId a = kNoElement;  ///< the smaller id
+  ElementId b = kNoElement;
+  double together = 0.0;  ///< frames
+  double apart = 0.0;     ///< frames
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(a, b, together, apart);
+  }
+};
+
+/// In the order of their ids.
+using PairHistories = std::vector<PairHistory>;
+void sort(PairHistories& histories);
+
+/// Null: the two have none.
+const PairHistory* find(const PairHistories& histories, ElementId a, ElementId b);
+
+/// What is known of the two, with one more frame.
+PairHistory continued(const PairHistories& histories, ElementId a, ElementId b, bool together, bool apart);
+
+/// Whether they were seen long enough, and too seldom together.
+bool seen_apart(const PairHistory& history);
+
+/// The same of two ids; a pair without a history was not seen apart.
+bool are_separate(const PairHistories& histories, ElementId a, ElementId b);
+
+}  // namespace laneloom

@@ -1,0 +1,269 @@
+#include "mapping/topology/directions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
+#include "mapping/geometry/oriented_groups.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
+#include "mapping/markings/markings.hpp"
+#include "mapping/topology/stoplines.hpp"
+
+namespace laneloom {
+namespace {
+
+// Log odds that a lane runs along its centerline.
+constexpr double kEgoEvidence = 0.5;       // per frame
+constexpr double kStoplineEvidence = 0.3;  // per frame
+constexpr double kMemory = 0.98;           // per frame beside it: the vehicle may have overtaken there
+constexpr double kDoubleLine_m = 0.8;      // between its two lines
+constexpr double kMaxEvidence = 6.0;
+constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
+constexpr double kEdgeLineEvidence = 0.5;     // of a solid line there
+constexpr double kDividerEvidence = 1.0;      // of a solid or dashed line for or against opposite directions
+constexpr double kEdgeBetweenEvidence = 2.0;  // of an edge for them
+constexpr double kWrongSide = -6.0;           // that traffic keeps to the other side
+constexpr double kKnown = 1.5;                // from which the direction is said
+
+constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
+
+/// 1: stoplines lie at the lane's end, -1: at its start, 0: at none or both.
+double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, const StoplineConfig& config) {
+  double sense = 0.0;
+  for (const Marking& marking : markings) {
+    if (marking.type != MarkingType::stopline) continue;
+    if (crosses_end(marking, lane, true, config)) sense += 1.0;
+    if (crosses_end(marking, lane, false, config)) sense -= 1.0;
+  }
+  return std::clamp(sense, -1.0, 1.0);
+}
+
+/// Lanes that continue one another, or lie along the same side of one boundary: one variable of the model.
+OrientedGroups group(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) {
+  struct First {
+    std::size_t lane;
+    bool reversed;  ///< the boundary runs against it
+  };
+  OrientedGroups groups(lanes.size());
+  std::map<ElementId, std::size_t> index;
+  std::map<BoundarySide, First> beside;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    index.emplace(lanes[i].id, i);
+    for (const bool left : {true, false}) {
+      const LaneSide side = lane_side(lanes[i], left);
+      const First& first = beside.emplace(side.of, First{i, side.reversed}).first->second;
+      groups.join(first.lane, i, side.reversed != first.reversed);
+    }
+  }
+  for (const Linkage& linkage : linkages) groups.join(index.at(linkage.from), index.at(linkage.to), false);
+  return groups;
+}
+
+/// Whether a lane runs against the first one of its group.
+bool is_opposed(const OrientedGroups& groups, std::size_t lane) {
+  return groups.opposed(lane, groups.group(lane));
+}
+
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+  void add(double value) { sum += value, ++count; }
+  double value() const { return count == 0 ? 0.0 : sum / count; }
+};
+
+/// Two groups side by side, with what tells that they run against each other.
+struct SideBySideGroups {
+  std::size_t left, right;
+  double opposed;
+  double to_left = 0.0, to_right = 0.0;  ///< messages
+};
+
+struct Model {
+  std::vector<double> evidence;  ///< per group
+  std::vector<SideBySideGroups> pairs;
+};
+
+/// What the boundary between two lanes says of opposite directions.
+double divider_evidence(const LaneBoundary& divider, const Range& range) {
+  const Marking& boundary = divider.marking;
+  if (boundary.status == ElementStatus::inferred)
+    return divider.two_way ? kDividerEvidence : -kDividerEvidence;
+  if (boundary.type == MarkingType::roadedge) return kEdgeBetweenEvidence;
+  const double dashed_m = dashed_excess_m(boundary, range);
+  if (dashed_m == 0.0) return 0.0;
+  return dashed_m < 0.0 ? kDividerEvidence : -kDividerEvidence;
+}
+
+/// Whether the lanes are neighbours that run alike, be it across a double line.
+bool is_left_of(const Lane& lane, const Lane& other) {
+  if (lane.right_neighbour != kNoElement)
+    return lane.right_neighbour == other.id && lane.right_boundary == other.left_boundary;
+  if (other.left_neighbour != kNoElement) return false;
+  const MeasuredPolyline right(lane.right), left(other.left);
+  const double middle_m = 0.5 * right.length();
+  const Point middle = right.at(middle_m);
+  const Projection foot = left.project(middle);
+  const bool along = right.direction(middle_m).dot(left.direction(foot.arc_m)) > 0.0;
+  return foot.inside && along && foot.distance_m < kDoubleLine_m && same_level(foot.foot, middle);
+}
+
+/// 1 where traffic keeps right, -1 where it keeps left, 0 where that is not said.
+double driving_side(const DirectionConfig& config) {
+  if (config.driving_side == "unknown") return 0.0;
+  return config.driving_side == "right" ? 1.0 : -1.0;
+}
+
+/// Lanes side by side, by their indices, the left one first.
+using LanePairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+LanePairs side_by_side(const std::vector<Lane>& lanes) {
+  LanePairs pairs;
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    for (std::size_t k = 0; k < lanes.size(); ++k)
+      if (i != k && is_left_of(lanes[i], lanes[k])) pairs.emplace_back(i, k);
+  return pairs;
+}
+
+/// What the outer border of a road says of the lane at it, where traffic keeps to that side.
+double border_evidence(const Marking& border, const Range& range) {
+  if (border.status == ElementStatus::inferred) return 0.0;
+  if (border.type == MarkingType::roadedge) return kEdgeEvidence;
+  return dashed_excess_m(border, range) < 0.0 ? kEdgeLineEvidence : 0.0;
+}
+
+/// Per lane, what the borders of the road say of its direction, where traffic keeps right.
+std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const LanePairs& pairs,
+                                       const std::vector<LaneBoundary>& boundaries) {
+  std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
+  for (const auto& [left, right] : pairs) open_right[left] = open_left[right] = false;
+  const auto marking = [&](ElementId id) -> const Marking& { return boundary_of(boundaries, id).marking; };
+  std::vector<double> evidence(lanes.size(), 0.0);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane& lane = lanes[i];
+    if (open_right[i] && lane.right_neighbour == kNoElement)
+      evidence[i] += border_evidence(marking(lane.right_boundary), lane.right_range);
+    if (open_left[i] && lane.left_neighbour == kNoElement)
+      evidence[i] -= border_evidence(marking(lane.left_boundary), lane.left_range);
+  }
+  return evidence;
+}
+
+Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
+                  const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
+                  double side) {
+  const LanePairs beside = side_by_side(lanes);
+  const std::vector<double> outermost = outermost_evidence(lanes, beside, boundaries);
+  Model model{.evidence = std::vector<double>(lanes.size(), 0.0), .pairs = {}};
+  std::vector<Mean> borders(lanes.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const std::size_t own = groups.group(i);
+    const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
+    const auto remembered = std::ranges::find(known, lanes[i].id, &KnownLane::id);
+    if (remembered != known.end()) model.evidence[own] += sense * remembered->direction_log_odds;
+    borders[own].add(sense * side * outermost[i]);
+  }
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    model.evidence[i] = std::clamp(model.evidence[i], -kMaxEvidence, kMaxEvidence) + borders[i].value();
+  std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;
+  for (const auto& [i, k] : beside) {
+    const std::size_t left = groups.group(i), right = groups.group(k);
+    const bool turned = is_opposed(groups, i);
+    if (left == right || turned != is_opposed(groups, k)) continue;
+    const Lane& lane = lanes[i];
+    const LaneBoundary& divider = boundary_of(boundaries, lane.right_boundary);
+    opposed[turned ? std::pair(right, left) : std::pair(left, right)].add(
+        divider_evidence(divider, lane.right_range));
+  }
+  model.pairs.reserve(opposed.size());
+  for (const auto& [pair, evidence] : opposed)
+    model.pairs.push_back({pair.first, pair.second, evidence.value()});
+  return model;
+}
+
+/// Log odds that each group runs along its centerlines, at their best (max-product; maxima and sums only, so
+/// that it is the same to the last bit on every host).
+std::vector<double> beliefs(Model model, double side) {
+  std::vector<double> belief = model.evidence;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> next = model.evidence;
+    for (SideBySideGroups& pair : model.pairs) {
+      // Left against and right along is how right-hand traffic meets.
+      const double meeting = side < 0.0 ? kWrongSide : pair.opposed;
+      const double parting = side > 0.0 ? kWrongSide : pair.opposed;
+      const double left = belief[pair.left] - pair.to_left, right = belief[pair.right] - pair.to_right;
+      pair.to_right = std::max(meeting, left) - std::max(0.0, left + parting);
+      pair.to_left = std::max(parting, right) - std::max(0.0, right + meeting);
+      next[pair.right] += pair.to_right;
+      next[pair.left] += pair.to_left;
+    }
+    belief = std::move(next);
+  }
+  return belief;
+}
+
+void turn(Lane& lane) {
+  for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) std::ranges::reverse(*line);
+  std::swap(lane.left, lane.right);
+  std::swap(lane.left_boundary, lane.right_boundary);
+  std::swap(lane.left_range, lane.right_range);
+  std::swap(lane.left_reversed, lane.right_reversed);
+  lane.left_reversed = !lane.left_reversed;
+  lane.right_reversed = !lane.right_reversed;
+  std::swap(lane.left_neighbour, lane.right_neighbour);
+  const double total_m = length(lane.centerline);
+  std::ranges::reverse(lane.inferred_ranges);
+  for (Range& range : lane.inferred_ranges) range = {total_m - range.to_m, total_m - range.from_m};
+}
+
+}  // namespace
+
+void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
+                        const std::vector<Marking>& markings, const StoplineConfig& config,
+                        std::vector<KnownLane>& known) {
+  const auto driven =
+      std::ranges::find_if(lanes, [&](const Lane& lane) { return ego_sense(lane, T_map_body) != 0.0; });
+  for (const Lane& lane : lanes) {
+    const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
+    double& log_odds = remembered->direction_log_odds;
+    if (driven != lanes.end() && are_neighbours(*driven, lane)) log_odds *= kMemory;
+    log_odds += kEgoEvidence * ego_sense(lane, T_map_body) +
+                kStoplineEvidence * stopline_sense(lane, markings, config);
+    log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);
+  }
+}
+
+void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
+                     const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
+                     std::vector<Linkage>& linkages) {
+  const OrientedGroups groups = group(lanes, linkages);
+  const double side = driving_side(config);
+  const std::vector<double> belief = beliefs(build_model(lanes, groups, boundaries, known, side), side);
+  std::vector<ElementId> against;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const double log_odds = (is_opposed(groups, i) ? -1.0 : 1.0) * belief[groups.group(i)];
+    if (std::abs(log_odds) < kKnown) continue;
+    lanes[i].direction = Lane::Direction::along_centerline;
+    if (log_odds < 0.0) against.push_back(lanes[i].id);
+  }
+  turn_lanes(against, lanes, linkages);
+}
+
+void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std::vector<Linkage>& linkages) {
+  const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
+  for (Lane& lane : lanes)
+    if (turned(lane.id)) turn(lane);
+  // Where directions contradict one another, one of two linked lanes may be turned alone: it is not entered
+  // so.
+  std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
+  for (Linkage& linkage : linkages) {
+    if (!turned(linkage.from)) continue;
+    std::swap(linkage.from, linkage.to);
+    std::ranges::reverse(linkage.path);
+  }
+}
+
+}  // namespace laneloom

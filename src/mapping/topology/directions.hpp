@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+#include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/lanes/lane_identity.hpp"
+
+namespace laneloom {
+
+/// Remembers what tells the traffic's direction of a lane, in the known lanes of the same ids: the vehicle
+/// drives in it, or a stopline lies across one of its ends. Evidence adds up over frames, to a limit; it
+/// fades while the vehicle drives beside the lane.
+void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
+                        const std::vector<Marking>& markings, const StoplineConfig& config,
+                        std::vector<KnownLane>& known);
+
+/// Gives every lane its driving direction where that can be told, and turns it to run with the traffic. Ours,
+/// beyond the paper.
+///
+/// Lanes that continue one another run the same way. Beside each other, the traffic from the side that is not
+/// driven on does not come from the far side of the lane; a solid line between two lanes speaks for opposite
+/// directions, a dashed one against them; the outermost lane at an edge, or at a solid line, runs as the
+/// driving side says. These and the remembered evidence are weighed against one another by max-product belief
+/// propagation.
+///
+/// `boundaries` are in the order of their ids. `linkages` between lanes that are turned are turned too.
+void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
+                     const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
+                     std::vector<Linkage>& linkages);
+
+/// Lets lanes run the other way, with their sides and neighbours, and the linkages between them. A linkage of
+/// which one lane is turned and the other is not goes.
+void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
+
+}  // namespace laneloom

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// The way that the vehicle took through the lanes.
+struct EgoTrack {
+  using Step = std::pair<ElementId, ElementId>;  ///< from one lane into another
+  ElementId lane = kNoElement;                   ///< that it was in last
+  std::vector<Step> steps;                       ///< each once, between lanes that are still in the map
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(lane, steps);
+  }
+};
+
+/// Follows the vehicle. Where it left one lane and came into another that is neither beside it nor linked by
+/// markings, that is a linkage: it has been driven. One across an intersection that was a hypothesis is
+/// confirmed. Ours, beyond the paper.
+void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track,
+                    std::vector<Linkage>& linkages);
+
+}  // namespace laneloom

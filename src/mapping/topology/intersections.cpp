@@ -1,0 +1,230 @@
+#include "mapping/topology/intersections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
+#include "mapping/markings/markings.hpp"
+#include "mapping/topology/directions.hpp"
+
+namespace laneloom {
+namespace {
+
+using Turn = Linkage::Turn;
+
+constexpr double kMisfit = 1.0;
+
+struct Crossing {
+  double misfit = 0.0;  ///< 0: as it should be; kMisfit: just acceptable
+  std::size_t from = 0, to = 0;
+  Turn turn = Turn::straight;
+  bool confirmed = false;  ///< by the SD map
+};
+
+/// Beyond which no way leads from one lane into another.
+double max_gap_m(const LinkageConfig& config) {
+  return std::max(config.max_crossing_gap_m, 2.0 * config.max_turn_gap_m);
+}
+
+/// How badly `to` lies ahead of `from`; empty: it does not.
+std::optional<double> straight_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
+  const double angle = std::abs(cross(a, b));
+  const double max_angle =
+      std::sqrt(1.0 - cos_degrees(config.max_angle_deg) * cos_degrees(config.max_angle_deg));
+  if (a.dot(b) <= 0.0 || angle > max_angle) return std::nullopt;
+  const double along_m = gap.dot(a);
+  if (along_m <= config.max_gap_m || along_m > config.max_crossing_gap_m) return std::nullopt;
+  // From either end, so that a bend within the intersection is shared between them.
+  const double lateral_m = 0.5 * std::abs(cross(a, gap) + cross(b, gap));
+  if (lateral_m > config.max_crossing_lateral_m) return std::nullopt;
+  return 0.5 * (lateral_m / config.max_crossing_lateral_m + angle / max_angle);
+}
+
+/// How badly one turns from `from` into `to`; empty: not at all.
+std::optional<double> turn_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
+  const auto corner = corner_between(from, to);
+  if (!corner) return std::nullopt;
+  const double shorter_m = std::min(corner->before_m, corner->after_m);
+  const double longer_m = std::max(corner->before_m, corner->after_m);
+  // A circle that touches both lanes' extensions has radius * tan(angle / 2) to either point of contact.
+  const Eigen::Vector2d a = leaving(from), b = entering(to);
+  const double tangent = (1.0 - a.dot(b)) / std::abs(cross(a, b));
+  if (shorter_m < config.min_turn_radius_m * tangent || longer_m > config.max_turn_gap_m) return std::nullopt;
+  return longer_m / config.max_turn_gap_m;
+}
+
+/// The ways by which lanes are left and entered already.
+class Taken {
+ public:
+  /// `linkages` are those by markings.
+  explicit Taken(const std::vector<Linkage>& linkages) {
+    for (const Linkage& linkage : linkages) {
+      take(linkage.from, linkage.to, linkage.turn);
+      if (linkage.turn != Turn::straight) continue;
+      // Where markings lead straight on, there is no intersection.
+      for (const Turn side : {Turn::left, Turn::right, Turn::u_turn}) take(linkage.from, linkage.to, side);
+    }
+  }
+  bool contains(ElementId from, ElementId to, Turn turn) const {
+    return left_.contains({from, turn}) || entered_.contains({to, turn});
+  }
+  void take(ElementId from, ElementId to, Turn turn) {
+    left_.emplace(from, turn);
+    entered_.emplace(to, turn);
+  }
+
+ private:
+  std::set<std::pair<ElementId, Turn>> left_, entered_;
+};
+
+/// Whether no lane that runs alike lies beside it, on the side that is turned to: none that is known to, and
+/// none of unknown direction across dashes.
+bool is_outermost(const Lane& lane, Turn turn, const std::vector<Lane>& lanes,
+                  const std::vector<LaneBoundary>& boundaries) {
+  const bool left = turn == Turn::left;
+  const auto beside = std::ranges::find(lanes, left ? lane.left_neighbour : lane.right_neighbour, &Lane::id);
+  if (beside == lanes.end()) return true;
+  if (beside->direction == Lane::Direction::unknown) {
+    const LaneSide side = lane_side(lane, left);
+    return dashed_excess_m(boundary_of(boundaries, side.of.boundary).marking, side.range) <= 0.0;
+  }
+  // Of lanes that run against each other, each has the other on the same side.
+  return (left ? beside->left_neighbour : beside->right_neighbour) == lane.id;
+}
+
+bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lane>& lanes,
+              const std::vector<LaneBoundary>& boundaries) {
+  const bool known = from.direction != Lane::Direction::unknown && to.direction != Lane::Direction::unknown;
+  return known && is_outermost(from, turn, lanes, boundaries) && is_outermost(to, turn, lanes, boundaries);
+}
+
+/// How `to` may follow `from` by what they look like, if at all. What does not fit takes an SD map's word.
+std::optional<Crossing> crossing(const Lane& from, const Lane& to, const std::vector<Lane>& lanes,
+                                 const std::vector<LaneBoundary>& boundaries, const LinkageConfig& config) {
+  if (const auto straight = straight_misfit(from, to, config))
+    return Crossing{.misfit = *straight, .turn = Turn::straight};
+  const Turn side = cross(leaving(from), entering(to)) > 0.0 ? Turn::left : Turn::right;
+  if (!can_turn(from, to, side, lanes, boundaries)) return std::nullopt;
+  if (const auto turn = turn_misfit(from, to, config)) return Crossing{.misfit = *turn, .turn = side};
+  const double gap_m = gap_between(from, to).norm();
+  const bool ahead = gap_between(from, to).dot(leaving(from)) > 0.0;
+  if (!ahead || gap_m > config.max_turn_gap_m) return std::nullopt;
+  return Crossing{.misfit = kMisfit + gap_m, .turn = turn_between(from, to)};
+}
+
+std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes,
+                                         const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
+                                         const LinkageConfig& config) {
+  std::vector<Crossing> crossings;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    for (std::size_t j = 0; j < lanes.size(); ++j) {
+      if (i == j || gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
+      auto found = crossing(lanes[i], lanes[j], lanes, boundaries, config);
+      if (!found) continue;
+      const auto verdict = sd_map.verdict(lanes[i].centerline, lanes[j].centerline);
+      found->confirmed = verdict == SdMap::Verdict::connected;
+      if (verdict == SdMap::Verdict::forbidden || (found->misfit > kMisfit && !found->confirmed)) continue;
+      found->from = i;
+      found->to = j;
+      crossings.push_back(*found);
+    }
+  }
+  std::ranges::sort(crossings, {},
+                    [](const Crossing& c) { return std::tuple(c.misfit, c.from, c.to, c.turn); });
+  return crossings;
+}
+
+bool crosses_edge(const Polyline& path, const std::vector<LaneBoundary>& boundaries) {
+  return std::ranges::any_of(boundaries, [&](const LaneBoundary& boundary) {
+    return boundary.marking.type == MarkingType::roadedge &&
+           intersect(path, boundary.marking.points, kLevel_m);
+  });
+}
+
+/// Lanes that lead into each other straight on run the same way.
+void agree_on_direction(Lane& from, Lane& to) {
+  using Direction = Lane::Direction;
+  if (from.direction == Direction::unknown && to.direction == Direction::unknown) return;
+  from.direction = to.direction = Direction::along_centerline;
+}
+
+double confidence(const Crossing& crossing) {
+  if (crossing.confirmed) return 0.95;
+  return crossing.turn == Turn::straight ? 0.9 - 0.5 * crossing.misfit : 0.8 - 0.4 * crossing.misfit;
+}
+
+Lane reversed(Lane lane) {
+  std::ranges::reverse(lane.centerline);
+  return lane;
+}
+
+/// The lanes that continue one another with `lane`.
+std::vector<ElementId> linked_with(ElementId lane, const std::vector<Linkage>& linkages) {
+  std::vector<ElementId> ids{lane};
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (const Linkage& linkage : linkages) {
+      const ElementId other = linkage.from == ids[i] ? linkage.to : linkage.from;
+      const bool linked = linkage.from == ids[i] || linkage.to == ids[i];
+      if (linked && std::ranges::count(ids, other) == 0) ids.push_back(other);
+    }
+  }
+  return ids;
+}
+
+/// Beyond an intersection, a lane of unknown direction may run towards the one that leads into it: it is
+/// turned with those that it is linked with.
+void turn_unknown_ahead(const LinkageConfig& config, std::vector<Lane>& lanes,
+                        std::vector<Linkage>& linkages) {
+  const auto is_unknown = [](const Lane& lane) { return lane.direction == Lane::Direction::unknown; };
+  const auto leads_into = [&](const Lane& to) {
+    return std::ranges::any_of(lanes, [&](const Lane& from) {
+      return !is_unknown(from) && gap_between(from, to).norm() <= max_gap_m(config) &&
+             straight_misfit(from, to, config).has_value();
+    });
+  };
+  for (const Lane& lane : lanes) {
+    if (!is_unknown(lane) || leads_into(lane) || !leads_into(reversed(lane))) continue;
+    const std::vector<ElementId> chain = linked_with(lane.id, linkages);
+    const bool all_unknown = std::ranges::all_of(
+        chain, [&](ElementId id) { return is_unknown(*std::ranges::find(lanes, id, &Lane::id)); });
+    if (all_unknown) turn_lanes(chain, lanes, linkages);
+  }
+}
+
+}  // namespace
+
+void link_across_intersections(const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
+                               const LinkageConfig& config, std::vector<Lane>& lanes,
+                               std::vector<Linkage>& linkages) {
+  turn_unknown_ahead(config, lanes, linkages);
+  Taken taken(linkages);
+  const auto link = [&](const Crossing& crossing) {
+    Lane &from = lanes[crossing.from], &to = lanes[crossing.to];
+    if (taken.contains(from.id, to.id, crossing.turn)) return;
+    Polyline path = path_between(from, to);
+    if (crosses_edge(path, boundaries)) return;
+    taken.take(from.id, to.id, crossing.turn);
+    if (crossing.turn == Turn::straight) agree_on_direction(from, to);
+    linkages.push_back({.from = from.id,
+                        .to = to.id,
+                        .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,
+                        .turn = crossing.turn,
+                        .confidence = confidence(crossing),
+                        .path = std::move(path)});
+  };
+  // Straight on first: what that tells of directions, turns depend on.
+  for (const Crossing& crossing : possible_crossings(lanes, boundaries, sd_map, config))
+    if (crossing.turn == Turn::straight) link(crossing);
+  for (const Crossing& crossing : possible_crossings(lanes, boundaries, sd_map, config))
+    if (crossing.turn != Turn::straight) link(crossing);
+  sort(linkages);
+}
+
+}  // namespace laneloom

@@ -1,0 +1,110 @@
+#include "mapping/topology/linkages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
+
+namespace laneloom {
+namespace {
+
+/// From the end of one lane to the start of another along the boundary that both lie beside; empty where
+/// there is none or `to` does not follow.
+std::optional<double> shared_gap(const LaneSide& from, const LaneSide& to, double max_gap_m) {
+  if (from.of != to.of || from.reversed != to.reversed) return std::nullopt;
+  const double sense = from.reversed ? -1.0 : 1.0;
+  const double gap_m = sense * (to.begin_m() - from.end_m());
+  const bool follows =
+      gap_m >= -kMaxOverlap_m && gap_m <= max_gap_m && sense * (to.begin_m() - from.begin_m()) > 0.0;
+  return follows ? std::optional(std::max(gap_m, 0.0)) : std::nullopt;
+}
+
+/// From the end of `from` to the start of `to`, beside the boundary that they share, between the arc lengths
+/// on it.
+Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m, const Lane& from,
+                    const Lane& to) {
+  const Point &start = from.centerline.back(), &end = to.centerline.front();
+  const double start_m = boundary.project(start).lateral_m, end_m = boundary.project(end).lateral_m;
+  const int steps = static_cast<int>(std::ceil(std::abs(to_m - from_m) / kPathStep_m));
+  Polyline path{start};
+  for (int i = 1; i < steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const double arc_m = from_m + share * (to_m - from_m);
+    const Eigen::Vector2d along =
+        (boundary.at(arc_m + kPathStep_m) - boundary.at(arc_m - kPathStep_m)).head<2>().normalized();
+    const double lateral_m = start_m + share * (end_m - start_m);
+    path.push_back(boundary.at(arc_m) + lateral_m * Point(-along.y(), along.x(), 0.0));
+  }
+  path.push_back(end);
+  return path;
+}
+
+/// The lane that comes next along one side of `from`. `course` gives that of a boundary by its id.
+void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, const auto& course,
+                const LinkageConfig& config, std::vector<Linkage>& linkages) {
+  const LaneSide begun = lane_side(from, left);
+  const Lane* next = nullptr;
+  double next_gap_m = std::numeric_limits<double>::infinity();
+  for (const Lane& to : lanes) {
+    if (to.id == from.id) continue;
+    const auto gap_m = shared_gap(begun, lane_side(to, left), config.max_shared_gap_m);
+    if (!gap_m || *gap_m >= next_gap_m) continue;
+    next = &to;
+    next_gap_m = *gap_m;
+  }
+  if (next == nullptr) return;
+  linkages.push_back({.from = from.id,
+                      .to = next->id,
+                      .kind = Linkage::Kind::shared_boundary,
+                      .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
+                      .path = next_gap_m < kMinGap_m
+                                  ? Polyline{}
+                                  : path_along(course(begun.of.boundary), begun.end_m(),
+                                               lane_side(*next, left).begin_m(), from, *next)});
+}
+
+/// Confidence that `to` continues `from` by the geometry of their centerlines; empty: it does not.
+std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageConfig& config) {
+  const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
+  if (a.dot(b) < cos_degrees(config.max_angle_deg)) return std::nullopt;
+  const double along_m = gap.dot(a);
+  const double lateral_m = std::abs(cross(a, gap));
+  if (along_m < -kMaxOverlap_m || along_m > config.max_gap_m) return std::nullopt;
+  if (lateral_m > config.max_lateral_m) return std::nullopt;
+  const double misfit = std::max(std::abs(along_m) / config.max_gap_m, lateral_m / config.max_lateral_m);
+  return 1.0 - 0.5 * misfit;
+}
+
+}  // namespace
+
+std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes,
+                                       const std::vector<LaneBoundary>& boundaries,
+                                       const std::vector<MeasuredPolyline>& measured,
+                                       const LinkageConfig& config) {
+  const auto course = [&](ElementId boundary) -> const MeasuredPolyline& {
+    return measured[index_of(boundaries, boundary)];
+  };
+  std::vector<Linkage> linkages;
+  for (const Lane& from : lanes) {
+    for (const bool left : {true, false}) link_along(from, left, lanes, course, config, linkages);
+    for (const Lane& to : lanes) {
+      if (to.id == from.id) continue;
+      const auto confidence = alignment(from, to, config);
+      if (!confidence) continue;
+      linkages.push_back({.from = from.id,
+                          .to = to.id,
+                          .kind = Linkage::Kind::geometric_alignment,
+                          .confidence = *confidence,
+                          .path = path_ahead(from, to)});
+    }
+  }
+  sort(linkages);
+  const auto same = [](const Linkage& a, const Linkage& b) { return a.from == b.from && a.to == b.to; };
+  linkages.erase(std::unique(linkages.begin(), linkages.end(), same), linkages.end());
+  return linkages;
+}
+
+}  // namespace laneloom

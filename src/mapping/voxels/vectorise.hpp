@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+#include "mapping/geometry/local_range.hpp"
+#include "mapping/voxels/instances.hpp"
+#include "mapping/voxels/voxel_map.hpp"
+
+namespace laneloom {
+
+/// Estimates the polyline and the styles of every instance whose voxels changed. A line keeps the direction
+/// that it had; a new one runs along `forward`.
+void update_polylines(const PolylineConfig& config, const StyleConfig& style_config, const VoxelMap& map,
+                      const Eigen::Vector2d& forward, Instances& instances);
+
+/// The instances' polylines within the local range, as markings; `next_id` names the further stretches of a
+/// line that leaves the range and comes back.
+std::vector<Marking> markings_in_range(const LocalRange& range, double min_length_m, Instances& instances,
+                                       ElementId& next_id);
+
+/// The styles along `line`, from the votes of the voxels nearest to each stretch (paper, Sec. IV-E). Covers
+/// the line.
+std::vector<StyleRange> estimate_styles(const Polyline& line, const std::vector<VoxelId>& voxels,
+                                        const VoxelMap& map, const StyleConfig& config);
+
+}  // namespace laneloom

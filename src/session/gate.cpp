@@ -1,0 +1,111 @@
+#include "session/gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace laneloom {
+namespace {
+
+constexpr int kOutliersToBelieve = 3;
+constexpr std::size_t kSessionsRemembered = 8;
+constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;  // differences do not overflow
+
+double seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns - from_ns) / 1e9;
+}
+
+bool plausible_stamp(std::int64_t stamp_ns) { return stamp_ns > 0 && stamp_ns < kMaxStamp_ns; }
+
+// Written so that NaN is refused.
+bool within(const Point& point, double max_m) {
+  return point.cwiseAbs().maxCoeff() <= max_m && !point.hasNaN();
+}
+
+bool within(const Polyline& line, double max_m) {
+  return std::all_of(line.begin(), line.end(), [=](const Point& point) { return within(point, max_m); });
+}
+
+double length_3d(const Polyline& line) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) length_m += (line[i] - line[i - 1]).norm();
+  return length_m;
+}
+
+std::string_view defect(const Detection& detection, const GateConfig& config) {
+  if (detection.points.size() < 2) return "too_few_points";
+  if (!within(detection.points, config.max_coordinate_m)) return "coordinate";
+  if (!(detection.confidence >= 0.0 && detection.confidence <= 1.0)) return "confidence";
+  const auto& stddev_m = detection.stddev_m;
+  if (!stddev_m.empty() && stddev_m.size() != detection.points.size()) return "wrong_size";
+  const auto plausible = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  if (!std::all_of(stddev_m.begin(), stddev_m.end(), plausible)) return "stddev";
+  return {};
+}
+
+}  // namespace
+
+Gate::Verdict Gate::check(const StreamPoint& point) {
+  if (!last_) {
+    last_ = point;
+    return Verdict::accepted;
+  }
+  if (point.session_id != last_->session_id) {
+    return is_superseded(point.session_id) ? check_outlier(point) : begin_anew(point);
+  }
+  const double step_s = seconds(last_->stamp_ns, point.stamp_ns);
+  if (point.stamp_ns == last_->stamp_ns) return Verdict::repeated;
+  if (step_s < 0.0 && step_s >= -config_.max_stamp_step_s) return Verdict::late;
+  if (!plausible(*last_, point)) return check_outlier(point);
+  last_ = point;
+  outliers_in_a_row_ = 0;
+  return Verdict::accepted;
+}
+
+bool Gate::plausible(const StreamPoint& from, const StreamPoint& to) const {
+  const double step_s = seconds(from.stamp_ns, to.stamp_ns);
+  return from.session_id == to.session_id && step_s > 0.0 && step_s <= config_.max_stamp_step_s &&
+         (to.position - from.position).norm() <= config_.max_pose_jump_m + config_.max_speed_mps * step_s;
+}
+
+bool Gate::is_superseded(std::uint64_t session_id) const {
+  return std::find(superseded_.begin(), superseded_.end(), session_id) != superseded_.end();
+}
+
+Gate::Verdict Gate::check_outlier(const StreamPoint& point) {
+  const bool agrees = outliers_in_a_row_ > 0 && plausible(*outlier_, point);
+  outliers_in_a_row_ = agrees ? outliers_in_a_row_ + 1 : 1;
+  outlier_ = point;
+  return outliers_in_a_row_ < kOutliersToBelieve ? Verdict::outlier : begin_anew(point);
+}
+
+Gate::Verdict Gate::begin_anew(const StreamPoint& point) {
+  std::erase(superseded_, point.session_id);
+  if (point.session_id != last_->session_id) superseded_.push_back(last_->session_id);
+  if (superseded_.size() > kSessionsRemembered) superseded_.pop_front();
+  last_ = point;
+  outliers_in_a_row_ = 0;
+  return Verdict::begins_anew;
+}
+
+std::string_view defect(const DetectionFrame& frame, const GateConfig& config) {
+  if (!plausible_stamp(frame.stamp_ns)) return "stamp";
+  if (!within(frame.field_of_view, config.max_coordinate_m)) return "coordinate";
+  for (const auto& area : frame.occluded_areas) {
+    if (!within(area, config.max_coordinate_m)) return "coordinate";
+  }
+  double length_m = 0.0;
+  for (const auto& detection : frame.detections) {
+    if (const auto found = defect(detection, config); !found.empty()) return found;
+    length_m += length_3d(detection.points);
+  }
+  return length_m <= config.max_frame_length_m ? std::string_view() : "too_long";
+}
+
+std::string_view defect(const VehiclePose& pose, const GateConfig& config) {
+  if (!plausible_stamp(pose.stamp_ns)) return "stamp";
+  if (!within(pose.position, config.max_coordinate_m)) return "coordinate";
+  const bool unit = std::abs(pose.orientation.norm() - 1.0) <= 1e-3;  // false for NaN
+  return unit ? std::string_view() : "not_a_rotation";
+}
+
+}  // namespace laneloom

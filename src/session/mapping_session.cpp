@@ -1,0 +1,221 @@
+#include "laneloom/mapping_session.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "mapping/state.hpp"
+#include "session/gate.hpp"
+#include "session/synchroniser.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::size_t kMaxSources = 8;  // at a time; a stack may take a new name with every run
+
+using Checkpoint = MappingSession::Checkpoint;
+
+/// `max_pause_s` is how long the service may have been away.
+bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateConfig& config,
+             double max_pause_s) {
+  const double step_s = static_cast<double>(pose.stamp_ns - checkpoint.pose_stamp_ns) / 1e9;
+  return pose.session_id == checkpoint.pose_session_id && step_s > 0.0 &&
+         step_s <= config.max_stamp_step_s + max_pause_s &&
+         (pose.position - checkpoint.position).norm() <=
+             config.max_pose_jump_m + config.max_speed_mps * step_s;
+}
+
+std::string_view reason(Gate::Verdict verdict) {
+  switch (verdict) {
+    case Gate::Verdict::repeated:
+      return "repeated";
+    case Gate::Verdict::late:
+      return "late";
+    case Gate::Verdict::outlier:
+      return "outlier";
+    case Gate::Verdict::accepted:
+    case Gate::Verdict::begins_anew:
+      break;
+  }
+  return {};
+}
+
+/// A gate for each source of frames. Of too many, the one that accepted nothing for longest is forgotten.
+class FrameGates {
+ public:
+  explicit FrameGates(const GateConfig& config) : config_(config) {}
+
+  Gate::Verdict check(const DetectionFrame& frame) {
+    auto& source = sources_.try_emplace(frame.source, Source{Gate(config_)}).first->second;
+    const auto verdict = source.gate.check({frame.stamp_ns, frame.session_id});
+    if (reason(verdict).empty()) source.accepted = ++accepted_;
+    // A source that is new accepts its first frame, and so is not the one.
+    if (sources_.size() > kMaxSources) sources_.erase(idle());
+    return verdict;
+  }
+
+ private:
+  struct Source {
+    Gate gate;
+    std::uint64_t accepted = 0;  ///< number of its newest accepted frame, among those of all sources
+  };
+  using Sources = std::map<std::string, Source>;
+
+  Sources::iterator idle() {
+    return std::ranges::min_element(sources_, {}, [](const auto& entry) { return entry.second.accepted; });
+  }
+
+  GateConfig config_;
+  Sources sources_;
+  std::uint64_t accepted_ = 0;
+};
+
+}  // namespace
+
+struct MappingSession::State {
+  explicit State(const Config& c)
+      : gate_config(c.gate),
+        max_pause_s(c.service.snapshot_max_age_s),
+        pose_gate(c.gate),
+        frame_gates(c.gate),
+        synchroniser(c.sync),
+        mapper(c.mapper, load_sd_map(c.sd_map)) {}
+
+  std::string_view add(const VehiclePose& pose);
+  std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
+  std::string_view check_source(const DetectionFrame& frame);
+  void check_resumed(const VehiclePose& pose);
+  void fuse_ready();
+  void fuse(const SynchronisedFrame& synchronised);
+  void reset();
+  void refuse_frames(std::string_view why, std::size_t count = 1) {
+    if (count > 0) counters.add("detections_refused_" + std::string(why), count);
+  }
+
+  GateConfig gate_config;
+  double max_pause_s;
+  Gate pose_gate;
+  FrameGates frame_gates;
+  Synchroniser synchroniser;
+  Mapper mapper;
+  std::optional<std::int64_t> newest_stamp_ns;
+  std::optional<std::int64_t> newest_arrival_ns;
+  std::optional<VehiclePose> newest_pose;
+  std::optional<Checkpoint> resumed;  ///< until the first pose
+  Counters counters;
+  Progress progress;
+  StageObserver* observer = nullptr;
+  std::function<void(const FusedFrame&, const LocalMap&)> map_observer;
+};
+
+std::string_view MappingSession::State::add(const VehiclePose& pose) {
+  if (const auto found = defect(pose, gate_config); !found.empty()) return found;
+  const auto verdict = pose_gate.check({pose.stamp_ns, pose.session_id, pose.position});
+  if (const auto why = reason(verdict); !why.empty()) return why;
+  if (verdict == Gate::Verdict::begins_anew) {
+    reset();
+    synchroniser.clear_poses();
+  }
+  check_resumed(pose);
+  counters.add("poses_accepted");
+  newest_pose = pose;
+  synchroniser.add(pose);
+  fuse_ready();
+  return {};
+}
+
+void MappingSession::State::check_resumed(const VehiclePose& pose) {
+  if (resumed && !follows(pose, *resumed, gate_config, max_pause_s)) reset();
+  resumed.reset();
+}
+
+std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t arrival_ns) {
+  if (const auto found = defect(frame, gate_config); !found.empty()) return found;
+  if (const auto why = check_source(frame); !why.empty()) return why;
+  if (newest_stamp_ns && frame.stamp_ns < *newest_stamp_ns) return "late";
+  synchroniser.add(PendingFrame{std::move(frame), arrival_ns});
+  fuse_ready();
+  if (const auto dropped = synchroniser.drop_excess()) counters.add("frames_dropped_queue_full", dropped);
+  return {};
+}
+
+std::string_view MappingSession::State::check_source(const DetectionFrame& frame) {
+  const auto verdict = frame_gates.check(frame);
+  if (verdict == Gate::Verdict::begins_anew) reset();
+  return reason(verdict);
+}
+
+void MappingSession::State::fuse_ready() {
+  std::size_t unsynchronised = 0;
+  while (const auto frame = synchroniser.next(unsynchronised)) fuse(*frame);
+  refuse_frames("unsynchronised", unsynchronised);
+}
+
+void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
+  const auto& frame = synchronised.pending.frame;
+  const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
+  newest_stamp_ns = frame.stamp_ns;
+  newest_arrival_ns = synchronised.pending.arrival_ns;
+  counters.add("frames_fused");
+  progress.fused.push_back({frame.session_id, frame.sequence, frame.stamp_ns});
+  if (map_observer) map_observer(progress.fused.back(), map);
+  progress.lineage.insert(progress.lineage.end(), map.lineage.begin(), map.lineage.end());
+}
+
+/// Forgets the map, and the frames that belong to what was before.
+void MappingSession::State::reset() {
+  refuse_frames("reset", synchroniser.clear_frames());
+  mapper.reset();
+  newest_stamp_ns.reset();
+  newest_arrival_ns.reset();
+  counters.add("map_resets");
+  ++progress.resets;
+}
+
+MappingSession::MappingSession(const Config& config) : state_(std::make_unique<State>(config)) {}
+MappingSession::~MappingSession() = default;
+MappingSession::MappingSession(MappingSession&&) noexcept = default;
+MappingSession& MappingSession::operator=(MappingSession&&) noexcept = default;
+
+void MappingSession::add(const VehiclePose& pose) {
+  const auto why = state_->add(pose);
+  if (!why.empty()) state_->counters.add("poses_refused_" + std::string(why));
+}
+
+void MappingSession::add(DetectionFrame frame, std::int64_t arrival_ns) {
+  const auto why = state_->add(std::move(frame), arrival_ns);
+  if (!why.empty()) state_->refuse_frames(why);
+}
+
+void MappingSession::expire(std::int64_t now_ns) {
+  state_->refuse_frames("unsynchronised", state_->synchroniser.expire(now_ns));
+}
+
+MappingSession::Progress MappingSession::take_progress() { return std::exchange(state_->progress, {}); }
+
+std::optional<MappingSession::Checkpoint> MappingSession::checkpoint() const {
+  const State& state = *state_;
+  if (!state.newest_stamp_ns || state.counters["frames_fused"] == 0) return std::nullopt;
+  return Checkpoint{*state.newest_stamp_ns, *state.newest_arrival_ns, state.newest_pose->stamp_ns,
+                    state.newest_pose->session_id, state.newest_pose->position};
+}
+
+void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
+  state_->mapper.load(std::move(state));
+  state_->newest_stamp_ns = checkpoint.frame_stamp_ns;
+  state_->newest_arrival_ns = checkpoint.frame_arrival_ns;
+  state_->resumed = checkpoint;
+}
+
+const LocalMap& MappingSession::map() const { return state_->mapper.map(); }
+Mapper& MappingSession::mapper() { return state_->mapper; }
+std::size_t MappingSession::pending() const { return state_->synchroniser.pending(); }
+std::optional<std::int64_t> MappingSession::newest_arrival_ns() const { return state_->newest_arrival_ns; }
+const Counters& MappingSession::counters() const { return state_->counters; }
+void MappingSession::observe(StageObserver* observer) { state_->observer = observer; }
+void MappingSession::observe(std::function<void(const FusedFrame&, const LocalMap&)> observer) {
+  state_->map_observer = std::move(observer);
+}
+
+}  // namespace laneloom

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+#include "session/pose_buffer.hpp"
+
+namespace laneloom {
+
+/// A frame that waits for its poses.
+struct PendingFrame {
+  DetectionFrame frame;
+  std::int64_t arrival_ns = 0;
+};
+
+/// A frame and the pose at its stamp.
+struct SynchronisedFrame {
+  PendingFrame pending;
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+};
+
+/// Holds frames, in the order of their stamps, until the poses around their stamps are there.
+class Synchroniser {
+ public:
+  explicit Synchroniser(const SyncConfig& config) : config_(config), poses_(config) {}
+
+  void add(const VehiclePose& pose) { poses_.add(pose); }
+  void add(PendingFrame frame) { pending_.emplace(frame.frame.stamp_ns, std::move(frame)); }
+
+  /// The oldest frame that can be fused now. Frames that never can be are removed and counted in `refused`.
+  std::optional<SynchronisedFrame> next(std::size_t& refused);
+  /// Removes the frames that have waited for longer than max_wait_s; returns how many.
+  std::size_t expire(std::int64_t now_ns);
+  /// Removes the oldest frames above the capacity; returns how many.
+  std::size_t drop_excess();
+  /// Removes all frames; returns how many.
+  std::size_t clear_frames();
+  void clear_poses() { poses_.clear(); }
+
+  std::size_t pending() const { return pending_.size(); }
+
+ private:
+  SyncConfig config_;
+  PoseBuffer poses_;
+  std::multimap<std::int64_t, PendingFrame> pending_;  ///< by stamp
+};
+
+}  // namespace laneloom

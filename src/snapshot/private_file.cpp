@@ -1,0 +1,70 @@
+#include "snapshot/private_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+namespace laneloom {
+namespace {
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+std::system_error failure(int error, const std::string& what) {
+  return {error, std::generic_category(), what};
+}
+
+/// A new file: neither one that someone has put there, nor what a link points to.
+File create(const std::string& file) {
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (descriptor < 0) throw failure(errno, "cannot make " + file);
+  return File(fdopen(descriptor, "wb"));
+}
+
+/// Does not wait for the other end of a pipe.
+File open_to_read(const std::string& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0 && errno == ELOOP) throw std::runtime_error("is a link");
+  if (descriptor < 0) throw failure(errno, "cannot be read");
+  return File(fdopen(descriptor, "rb"));
+}
+
+}  // namespace
+
+void replace_private_file(const std::string& file, std::string_view bytes) {
+  const std::string unfinished = file + ".new";
+  unlink(unfinished.c_str());  // of a crash while it was written
+  File out = create(unfinished);
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out.get()) == bytes.size();
+  if (std::fclose(out.release()) != 0 || !written) throw failure(errno, "cannot write " + unfinished);
+  if (std::rename(unfinished.c_str(), file.c_str()) != 0) throw failure(errno, "cannot replace " + file);
+}
+
+std::string read_private_file(const std::string& file) {
+  const File in = open_to_read(file);
+  struct stat status {};
+  if (fstat(fileno(in.get()), &status) != 0) throw failure(errno, "cannot be read");
+  if (!S_ISREG(status.st_mode)) throw std::runtime_error("not a regular file");
+  if (status.st_uid != geteuid() && status.st_uid != 0) {
+    throw std::runtime_error("belongs to user " + std::to_string(status.st_uid));
+  }
+  std::string bytes;
+  std::array<char, 65536> part{};
+  for (std::size_t count = part.size(); count == part.size();) {
+    count = std::fread(part.data(), 1, part.size(), in.get());
+    bytes.append(part.data(), count);
+  }
+  if (std::ferror(in.get()) != 0) throw failure(errno, "cannot be read");
+  return bytes;
+}
+
+}  // namespace laneloom

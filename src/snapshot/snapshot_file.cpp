@@ -1,0 +1,74 @@
+#include "snapshot/snapshot_file.hpp"
+
+#include <xxhash.h>
+
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/string.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "snapshot/private_file.hpp"
+#include "snapshot/snapshot.hpp"
+
+namespace laneloom {
+
+template <class Archive>
+void serialize(Archive& archive, SnapshotStamp& stamp) {
+  archive(stamp.maker, stamp.steady_ns, stamp.system_ns);
+}
+
+template <class Archive>
+void serialize(Archive& archive, MappingSession::Checkpoint& c) {
+  archive(c.frame_stamp_ns, c.frame_arrival_ns, c.pose_stamp_ns, c.pose_session_id, c.position.x(),
+          c.position.y(), c.position.z());
+}
+
+namespace {
+
+constexpr std::size_t kDigestBytes = sizeof(XXH64_canonical_t);
+
+std::string digest(std::string_view bytes) {
+  XXH64_canonical_t canonical;
+  XXH64_canonicalFromHash(&canonical, XXH3_64bits(bytes.data(), bytes.size()));
+  return {reinterpret_cast<const char*>(canonical.digest), kDigestBytes};
+}
+
+void check(const SnapshotStamp& stamp, const SnapshotStamp& now, double max_age_s) {
+  if (stamp.maker != now.maker) throw std::runtime_error("made by " + stamp.maker + ", not by " + now.maker);
+  for (const std::int64_t age_ns : {now.steady_ns - stamp.steady_ns, now.system_ns - stamp.system_ns}) {
+    const double age_s = static_cast<double>(age_ns) / 1e9;
+    if (age_s < 0.0 || age_s > max_age_s) throw std::runtime_error(std::to_string(age_s) + " s old");
+  }
+}
+
+}  // namespace
+
+void write_snapshot(const std::string& file, const Snapshot& snapshot) {
+  std::ostringstream body;
+  cereal::PortableBinaryOutputArchive archive(body);
+  archive(snapshot.stamp, snapshot.checkpoint, to_bytes(snapshot.state));
+  const std::string bytes = std::move(body).str();
+  replace_private_file(file, digest(bytes) + bytes);
+}
+
+Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
+                       const VoxelMapConfig& config) {
+  const std::string bytes = read_private_file(file);
+  // Lengths are only believed in what is as it was written.
+  if (bytes.size() < kDigestBytes || digest(std::string_view(bytes).substr(kDigestBytes)) !=
+                                         std::string_view(bytes).substr(0, kDigestBytes)) {
+    throw std::runtime_error("damaged");
+  }
+  std::istringstream body(bytes.substr(kDigestBytes));
+  cereal::PortableBinaryInputArchive archive(body);
+  Snapshot snapshot{{}, {}, MapperState(config)};
+  archive(snapshot.stamp);
+  check(snapshot.stamp, now, max_age_s);  // first: what another version wrote may not be readable
+  std::string state;
+  archive(snapshot.checkpoint, state);
+  snapshot.state = from_bytes(state, config);
+  return snapshot;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,101 @@
+#include "cdr/bounds.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cdr/convert.hpp"
+
+namespace laneloom::dds {
+namespace {
+
+const Polyline kLine{{0, 0, 0}, {1, 0, 0}};
+const Polyline kTooLong(msg::MAX_POINTS + 1, Point::Zero());
+
+/// Lanes 1001, 1002, ... between boundaries 1, 2, 3, ...; each lane links to the next and has it as its
+/// neighbour.
+PublishedMap road_of(std::size_t lanes) {
+  PublishedMap result;
+  for (ElementId i = 0; i <= lanes; ++i)
+    result.map.boundaries.push_back(Marking{.id = 1 + i, .points = kLine});
+  for (ElementId i = 0; i < lanes; ++i) {
+    const ElementId next = i + 1 < lanes ? 1002 + i : kNoElement;
+    result.map.lanes.push_back(Lane{.id = 1001 + i,
+                                    .left_boundary = 1 + i,
+                                    .right_boundary = 2 + i,
+                                    .left = kLine,
+                                    .right = kLine,
+                                    .centerline = kLine,
+                                    .right_neighbour = next});
+    if (next != kNoElement) result.map.linkages.push_back(Linkage{.from = 1001 + i, .to = next});
+  }
+  result.map.stoplines.push_back(
+      Stopline{.marking = {.id = 5000, .points = kLine}, .lanes = {1001, 1000 + lanes}});
+  return result;
+}
+
+TEST(Bounds, AMapThatFitsIsLeftAlone) {
+  auto map = road_of(msg::MAX_LANES);
+  EXPECT_TRUE(within_bounds(map));
+  EXPECT_EQ(keep_within_bounds(map), 0U);
+  EXPECT_EQ(map.map.lanes.size(), msg::MAX_LANES);
+}
+
+TEST(Bounds, WhatRefersToALaneThatWentGoesToo) {
+  auto map = road_of(msg::MAX_LANES + 3);
+  EXPECT_FALSE(within_bounds(map));
+  EXPECT_EQ(keep_within_bounds(map), 3U + 3U);  // lanes and linkages
+  EXPECT_TRUE(within_bounds(map));
+  EXPECT_EQ(map.map.lanes.back().id, 1000U + msg::MAX_LANES);
+  EXPECT_EQ(map.map.lanes.back().right_neighbour, kNoElement);
+  EXPECT_EQ(map.map.linkages.back().to, 1000U + msg::MAX_LANES);
+  EXPECT_EQ(map.map.stoplines[0].lanes, std::vector<ElementId>{1001});
+}
+
+TEST(Bounds, AnElementThatIsTooLongGoesAsAWhole) {
+  auto map = road_of(4);
+  map.map.boundaries[1].points = kTooLong;  // of lanes 1001 and 1002
+  EXPECT_EQ(keep_within_bounds(map), 1U + 2U + 2U);
+  ASSERT_EQ(map.map.lanes.size(), 2U);
+  EXPECT_EQ(map.map.lanes[0].id, 1003U);
+  ASSERT_EQ(map.map.linkages.size(), 1U);
+  EXPECT_EQ(map.map.linkages[0].from, 1003U);
+}
+
+TEST(Bounds, EveryListIsBounded) {
+  auto map = road_of(2);
+  map.fused_frames.resize(msg::MAX_FRAMES + 1);
+  map.map.lineage.resize(msg::MAX_LINKAGES + 1);
+  map.map.boundaries[2].styles.resize(65);
+  map.map.stoplines[0].lanes.assign(33, 1001);
+  map.map.linkages[0].path = kTooLong;
+  keep_within_bounds(map);
+  EXPECT_TRUE(within_bounds(map));
+  RoadMarkings markings;
+  markings.instances.resize(msg::MAX_MARKINGS + 2);
+  EXPECT_EQ(keep_within_bounds(markings), 2U);
+}
+
+TEST(Bounds, MessagesOfWhatIsTooLargeAreValid) {
+  msg::LaneMap map_message;
+  EXPECT_GT(to_msg(road_of(msg::MAX_LANES + 1), "map", map_message), 0U);
+  EXPECT_EQ(map_message.lanes().size(), msg::MAX_LANES);
+
+  DetectionFrame frame;
+  frame.detections.assign(msg::MAX_MARKINGS + 2, Detection{.points = kLine});
+  frame.detections[0].points = kTooLong;
+  frame.field_of_view = kTooLong;
+  frame.occluded_areas.assign(msg::MAX_AREAS + 1, kLine);
+  msg::Detections detections;
+  EXPECT_EQ(to_msg(frame, "map", detections), 2U + 1U + 1U);
+  EXPECT_EQ(detections.detections().size(), msg::MAX_MARKINGS);
+
+  ServiceStatus status;
+  status.counters.resize(msg::MAX_COUNTERS + 1);
+  status.sources.resize(msg::MAX_SOURCES + 2);
+  status.sources.back().session_id = 9;
+  msg::ServiceStatus status_message;
+  EXPECT_EQ(to_msg(status, "map", status_message), 1U + 2U);
+  EXPECT_EQ(status_message.sources().back().session_id(), 9U) << "the newest are left out";
+}
+
+}  // namespace
+}  // namespace laneloom::dds

@@ -1,0 +1,216 @@
+#include "cdr/convert.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cdr/random_messages.hpp"
+
+namespace laneloom::dds {
+namespace {
+
+constexpr unsigned kSeeds = 50;
+const double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Message -> plain type -> message: what either direction forgets, is missing at the end.
+template <class Plain, class Message>
+Message through_plain(const Message& message, const std::string& map_frame_id) {
+  Plain plain;
+  EXPECT_EQ(from_msg(message, map_frame_id, plain), "");
+  Message result;
+  EXPECT_EQ(to_msg(plain, map_frame_id, result), 0U);
+  return result;
+}
+
+TEST(Convert, DetectionsSurvive) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    auto message = RandomMessages(seed).detections();
+    message.header().frame_id("body");
+    EXPECT_TRUE(through_plain<DetectionFrame>(message, "map") == message) << seed;
+  }
+}
+
+TEST(Convert, VehiclePosesSurvive) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    auto message = RandomMessages(seed).vehicle_pose();
+    message.covariance().clear();
+    const auto frame = message.header().frame_id().to_string();
+    EXPECT_TRUE(through_plain<VehiclePose>(message, frame) == message) << seed;
+  }
+}
+
+TEST(Convert, RoadMarkingsSurvive) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    const auto message = RandomMessages(seed).road_markings();
+    EXPECT_TRUE(through_plain<RoadMarkings>(message, "map") == message) << seed;
+  }
+}
+
+TEST(Convert, LaneMapsSurvive) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    const auto message = RandomMessages(seed).lane_map();
+    EXPECT_TRUE(through_plain<PublishedMap>(message, "map") == message) << seed;
+  }
+}
+
+TEST(Convert, StatusSurvives) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    auto message = RandomMessages(seed).service_status();
+    message.header().frame_id("");
+    EXPECT_TRUE(through_plain<ServiceStatus>(message, "map") == message) << seed;
+  }
+}
+
+// A round trip does not see what is exchanged in both directions.
+TEST(Convert, FieldsKeepTheirMeaning) {
+  auto message = RandomMessages(1).lane_map();
+  PublishedMap plain;
+  ASSERT_EQ(from_msg(message, "map", plain), "");
+  EXPECT_EQ(plain.map.stamp_ns, message.header().stamp_ns());
+  EXPECT_EQ(plain.sequence, message.header().sequence_number());
+  EXPECT_EQ(plain.session_id, message.header().session_id());
+  EXPECT_EQ(plain.map.lanes[0].left_boundary, message.lanes()[0].left_boundary());
+  EXPECT_EQ(plain.map.lanes[0].left[0].y(), message.lanes()[0].left()[0].y());
+  EXPECT_EQ(plain.map.lanes[0].right_neighbour, message.lanes()[0].right_neighbour());
+  EXPECT_EQ(plain.map.linkages[0].from, message.linkages()[0].from_lane());
+  EXPECT_EQ(plain.map.T_map_body.translation().x(), message.pose().position().x());
+
+  msg::VehiclePose pose;
+  const double half = std::sqrt(0.5);
+  to_msg(VehiclePose{.stamp_ns = 5, .position = {1, 2, 3}, .orientation = {half, 0, 0, half}}, "odom", pose);
+  EXPECT_EQ(pose.header().frame_id().to_string(), "odom");
+  EXPECT_EQ(pose.pose().position().z(), 3.0);
+  EXPECT_EQ(pose.pose().orientation().w(), half);
+  EXPECT_EQ(pose.pose().orientation().z(), half);
+  EXPECT_EQ(pose.pose().orientation().x(), 0.0);
+}
+
+TEST(Convert, AgesAreTakenFromTheStamp) {
+  RoadMarkings markings;
+  markings.stamp_ns = 5'000'000'000;
+  markings.instances.push_back(Marking{.points = {{0, 0, 0}, {1, 0, 0}}, .first_seen_ns = 2'000'000'001});
+  msg::RoadMarkings message;
+  to_msg(markings, "map", message);
+  EXPECT_DOUBLE_EQ(message.instances()[0].age_s(), 2.999999999);
+}
+
+TEST(Refuse, AgesThatReachBeyondAllTime) {
+  msg::RoadMarkings message;
+  to_msg(RoadMarkings{.stamp_ns = std::numeric_limits<std::int64_t>::min() + 10,
+                      .instances = {Marking{.id = 1, .points = {{0, 0, 0}, {1, 0, 0}}}}},
+         "map", message);
+  for (const double age_s : {1.0, std::numeric_limits<double>::quiet_NaN(), 1e300}) {
+    message.instances()[0].age_s(age_s);
+    RoadMarkings markings;
+    EXPECT_EQ(from_msg(message, "map", markings), "not_finite") << age_s;
+  }
+}
+
+TEST(Refuse, NumbersThatAreNotFinite) {
+  DetectionFrame frame;
+  for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
+    auto message = RandomMessages(2).detections();
+    message.detections()[0].points()[0].y(bad);
+    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    message = RandomMessages(2).detections();
+    message.detections()[0].confidence(bad);
+    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    message = RandomMessages(2).detections();
+    message.detections()[0].stddev_m()[0] = bad;
+    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    message = RandomMessages(2).detections();
+    message.occluded_areas()[0].outline()[0].z(bad);
+    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    message = RandomMessages(2).detections();
+    message.field_of_view()[0].x(bad);
+    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+  }
+}
+
+TEST(Refuse, UnknownEnumerations) {
+  DetectionFrame frame;
+  auto message = RandomMessages(3).detections();
+  message.detections()[0].type(static_cast<msg::MarkingType>(3));
+  EXPECT_EQ(from_msg(message, "map", frame), "unknown_enum");
+  message = RandomMessages(3).detections();
+  message.detections()[0].style(static_cast<msg::MarkingStyle>(0xffffffff));
+  EXPECT_EQ(from_msg(message, "map", frame), "unknown_enum");
+  message = RandomMessages(3).detections();
+  message.detected_types()[0] = static_cast<msg::MarkingType>(77);
+  EXPECT_EQ(from_msg(message, "map", frame), "unknown_enum");
+}
+
+TEST(Refuse, DeviationsThatMatchNoPoints) {
+  DetectionFrame frame;
+  auto message = RandomMessages(4).detections();
+  message.detections()[0].stddev_m().push_back(0.1);
+  EXPECT_EQ(from_msg(message, "map", frame), "wrong_size");
+  message.detections()[0].stddev_m().clear();
+  EXPECT_EQ(from_msg(message, "map", frame), "");
+}
+
+TEST(Refuse, DetectionsInTheMapFrame) {
+  DetectionFrame frame;
+  auto message = RandomMessages(4).detections();
+  message.header().frame_id("map");
+  EXPECT_EQ(from_msg(message, "map", frame), "wrong_frame");
+  EXPECT_EQ(from_msg(message, "utm", frame), "");
+}
+
+TEST(Convert, ManyDetectedTypesStaySome) {
+  DetectionFrame frame;
+  frame.detected_types.assign(msg::MAX_TYPES + 1, MarkingType::roadedge);
+  frame.detected_types.push_back(MarkingType::laneline);
+  msg::Detections message;
+  EXPECT_EQ(to_msg(frame, "map", message), 0U);
+  const std::vector expected{msg::MarkingType::LANELINE, msg::MarkingType::ROADEDGE};
+  EXPECT_EQ(message.detected_types(), expected);
+}
+
+TEST(Convert, ASourceWhoseNameIsCutIsCounted) {
+  DetectionFrame frame;
+  msg::Detections message;
+  frame.source = std::string(64, 's');
+  EXPECT_EQ(to_msg(frame, "map", message), 0U);
+  frame.source += "1";
+  EXPECT_EQ(to_msg(frame, "map", message), 1U);
+}
+
+TEST(Refuse, PosesThatAreNone) {
+  VehiclePose pose;
+  const auto good = [] {
+    auto message = RandomMessages(5).vehicle_pose();
+    message.header().frame_id("map");
+    return message;
+  };
+  auto message = good();
+  EXPECT_EQ(from_msg(message, "map", pose), "");
+  message.pose().orientation().w(0.9);
+  EXPECT_EQ(from_msg(message, "map", pose), "not_a_rotation");
+  message = good();
+  message.pose().orientation({});
+  EXPECT_EQ(from_msg(message, "map", pose), "not_a_rotation");
+  message = good();
+  message.pose().orientation().x(kNaN);
+  EXPECT_EQ(from_msg(message, "map", pose), "not_finite");
+  message = good();
+  message.pose().position().x(kNaN);
+  EXPECT_EQ(from_msg(message, "map", pose), "not_finite");
+  message = good();
+  message.header().frame_id("odom");
+  EXPECT_EQ(from_msg(message, "map", pose), "wrong_frame");
+  message = good();
+  message.covariance().pop_back();
+  EXPECT_EQ(from_msg(message, "map", pose), "wrong_size");
+}
+
+TEST(Convert, AnOrientationIsNormalised) {
+  auto message = RandomMessages(6).vehicle_pose();
+  message.pose().orientation().w(0.5003);
+  VehiclePose pose;
+  ASSERT_EQ(from_msg(message, message.header().frame_id().to_string(), pose), "");
+  EXPECT_NEAR(pose.orientation.norm(), 1.0, 1e-15);
+}
+
+}  // namespace
+}  // namespace laneloom::dds

@@ -1,0 +1,211 @@
+#include "cdr/random_messages.hpp"
+
+namespace laneloom::dds {
+
+std::vector<double> RandomMessages::numbers(std::size_t count) {
+  std::vector<double> list(count);
+  for (auto& value : list) value = number();
+  return list;
+}
+
+msg::Point RandomMessages::point() {
+  msg::Point m;
+  m.x(number());
+  m.y(number());
+  m.z(number());
+  return m;
+}
+
+msg::Range RandomMessages::range() {
+  msg::Range m;
+  m.from_m(number());
+  m.to_m(number());
+  return m;
+}
+
+msg::Pose RandomMessages::pose() {
+  msg::Pose m;
+  m.position(point());
+  // One of the rotations that survive any way of writing them down to the last bit.
+  m.orientation().x(0.5);
+  m.orientation().y(-0.5);
+  m.orientation().z(0.5);
+  m.orientation().w(0.5);
+  return m;
+}
+
+msg::Header RandomMessages::header() {
+  msg::Header m;
+  m.stamp_ns(stamp());
+  m.sequence_number(id());
+  m.session_id(id());
+  m.frame_id(text("frame").c_str());
+  return m;
+}
+
+msg::Marking RandomMessages::marking() {
+  msg::Marking m;
+  m.id(id());
+  m.type(one_of(msg::STOPLINE));
+  m.status(one_of(msg::STATUS_INFERRED));
+  m.points(polyline());
+  m.styles(several(5, [&] {
+    msg::StyleRange style;
+    style.range(range());
+    style.style(one_of(msg::STYLE_DASHED));
+    return style;
+  }));
+  m.lateral_stddev_m(numbers(m.points().size()));
+  m.existence_probability(number());
+  m.observations(id());
+  m.age_s(age());
+  return m;
+}
+
+msg::Lane RandomMessages::lane() {
+  msg::Lane m;
+  m.id(id());
+  m.left_boundary(id());
+  m.right_boundary(id());
+  m.left_range(range());
+  m.right_range(range());
+  m.left(polyline());
+  m.right(polyline());
+  m.centerline(polyline());
+  m.width_m(number());
+  m.left_neighbour(id());
+  m.right_neighbour(id());
+  m.direction(one_of(msg::DIRECTION_AGAINST_CENTERLINE));
+  m.section(static_cast<std::uint32_t>(whole(1000)));
+  m.status(one_of(msg::STATUS_INFERRED));
+  m.existence_probability(number());
+  m.inferred_ranges(several(4, [&] { return range(); }));
+  return m;
+}
+
+msg::Stopline RandomMessages::stopline() {
+  msg::Stopline m;
+  m.marking(marking());
+  m.lanes(several(4, [&] { return id(); }));
+  m.heading(point());
+  return m;
+}
+
+msg::Linkage RandomMessages::linkage() {
+  msg::Linkage m;
+  m.from_lane(id());
+  m.to_lane(id());
+  m.kind(one_of(msg::LINKAGE_EGO_TRACK));
+  m.turn(one_of(msg::TURN_U));
+  m.confidence(number());
+  m.path(polyline());
+  return m;
+}
+
+msg::Detections RandomMessages::detections() {
+  msg::Detections m;
+  m.header(header());
+  m.source(text("source").c_str());
+  m.detected_types(several(3, [&] { return one_of(msg::STOPLINE); }));
+  m.field_of_view(polyline());
+  m.occluded_areas(several(4, [&] {
+    msg::Area area;
+    area.outline(polyline());
+    return area;
+  }));
+  m.detections(several(6, [&] {
+    msg::Detection detection;
+    detection.type(one_of(msg::STOPLINE));
+    detection.style(one_of(msg::STYLE_DASHED));
+    detection.confidence(number());
+    detection.points(polyline());
+    detection.stddev_m(numbers(detection.points().size()));
+    return detection;
+  }));
+  return m;
+}
+
+msg::VehiclePose RandomMessages::vehicle_pose() {
+  msg::VehiclePose m;
+  m.header(header());
+  m.pose(pose());
+  m.covariance(numbers(36));
+  return m;
+}
+
+msg::LaneMap RandomMessages::lane_map() {
+  msg::LaneMap m;
+  m.header(header());
+  m.published_ns(stamp());
+  m.age_s(number());
+  m.state(one_of(msg::MAP_STALE));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_ANOTHER_SERVICE); }));
+  m.pose(pose());
+  m.fused_frames(several(4, [&] {
+    msg::FusedFrame frame;
+    frame.session_id(id());
+    frame.sequence_number(id());
+    frame.stamp_ns(stamp());
+    return frame;
+  }));
+  m.boundaries(several(5, [&] { return marking(); }));
+  m.lanes(several(4, [&] { return lane(); }));
+  m.stoplines(several(3, [&] { return stopline(); }));
+  m.linkages(several(4, [&] { return linkage(); }));
+  m.lineage(several(4, [&] {
+    msg::LineageEvent event;
+    event.kind(one_of(msg::LINEAGE_RETIRED));
+    event.id(id());
+    event.other(id());
+    return event;
+  }));
+  return m;
+}
+
+msg::RoadMarkings RandomMessages::road_markings() {
+  msg::RoadMarkings m;
+  m.header(header());
+  m.instances(several(5, [&] { return marking(); }));
+  return m;
+}
+
+msg::ServiceStatus RandomMessages::service_status() {
+  const auto times = [&] {
+    msg::TimeSummary summary;
+    summary.mean_ms(number());
+    summary.p50_ms(number());
+    summary.p99_ms(number());
+    summary.max_ms(number());
+    return summary;
+  };
+  msg::ServiceStatus m;
+  m.header(header());
+  m.state(one_of(msg::MAP_STALE));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_ANOTHER_SERVICE); }));
+  m.uptime_s(number());
+  m.detections_age_s(number());
+  m.poses_age_s(number());
+  m.tick(times());
+  m.tick_delay(times());
+  m.pending_frames(static_cast<std::uint32_t>(whole(1000)));
+  m.counters(several(5, [&] {
+    msg::Counter counter;
+    counter.name(text("counter").c_str());
+    counter.value(id());
+    return counter;
+  }));
+  m.sources(several(5, [&] {
+    msg::SourceStatus source;
+    source.source(text("camera").c_str());
+    source.session_id(id());
+    source.first_sequence(id());
+    source.last_sequence(id());
+    source.frames(id());
+    return source;
+  }));
+  m.version(text("version").c_str());
+  m.config_hash(text("hash").c_str());
+  return m;
+}
+
+}  // namespace laneloom::dds

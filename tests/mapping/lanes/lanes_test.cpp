@@ -1,0 +1,355 @@
+#include "mapping/lanes/lanes.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/lanes/lane_identity.hpp"
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::boundary;
+using test::straight;
+
+/// Lanes of boundaries that run forward, with ids and neighbours.
+std::vector<Lane> lanes_of(std::vector<LaneBoundary> boundaries) {
+  auto measured = test::measure(boundaries);
+  const auto graph = road_sections({}, test::at(0), boundaries, measured);
+  auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  identify_lanes(1, {}, lanes, known, next_id);
+  find_neighbours(lanes);
+  return lanes;
+}
+
+const Lane* between(const std::vector<Lane>& lanes, ElementId left, ElementId right) {
+  const auto found = std::ranges::find_if(
+      lanes, [&](const Lane& l) { return l.left_boundary == left && l.right_boundary == right; });
+  return found == lanes.end() ? nullptr : &*found;
+}
+
+TEST(Lanes, BetweenTwoBoundaries) {
+  const auto lanes = lanes_of(
+      {boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
+  ASSERT_EQ(lanes.size(), 1U);
+  const Lane& lane = lanes[0];
+  EXPECT_EQ(lane.left_boundary, 1U);
+  EXPECT_EQ(lane.right_boundary, 2U);
+  EXPECT_NEAR(lane.width_m, 3.5, 1e-9);
+  EXPECT_NEAR(lane.left_range.length(), 30.0, 1e-9);
+  EXPECT_NEAR(lane.right_range.length(), 30.0, 1e-9);
+  for (const Point& p : lane.centerline) EXPECT_NEAR(p.y(), 1.75, 1e-9);
+  EXPECT_NEAR(length(lane.centerline), 30.0, 1e-9);
+  EXPECT_EQ(lane.left_neighbour, kNoElement);
+}
+
+TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 7, 0}, {30, 7, 0})),
+                               boundary(2, straight({0, 3.5, 0}, {30, 3.5, 0})),
+                               boundary(3, straight({0, 0, 0}, {30, 0, 0}))});
+  ASSERT_EQ(lanes.size(), 2U);
+  const Lane* left = between(lanes, 1, 2);
+  const Lane* right = between(lanes, 2, 3);
+  ASSERT_TRUE(left && right);
+  EXPECT_EQ(left->right_neighbour, right->id);
+  EXPECT_EQ(right->left_neighbour, left->id);
+  EXPECT_EQ(left->left_neighbour, kNoElement);
+  EXPECT_EQ(left->section, right->section);
+}
+
+/// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
+/// right. Round its corners no sense of direction fits all.
+std::vector<LaneBoundary> t_junction() {
+  const auto joined = [](Polyline a, const Polyline& b, const Polyline& c) {
+    a.insert(a.end(), b.begin(), b.end());
+    a.insert(a.end(), c.begin(), c.end());
+    return a;
+  };
+  const Polyline west = joined(straight({-30, -3.5, 0}, {13, -3.5, 0}), test::arc({13.5, -6.5, 0}, 3, 90, 0),
+                               straight({16.5, -7, 0}, {16.5, -30, 0}));
+  const Polyline east =
+      joined(straight({23.5, -30, 0}, {23.5, -7, 0}), test::arc({26.5, -6.5, 0}, 3, 180, 90),
+             straight({27, -3.5, 0}, {60, -3.5, 0}));
+  return {boundary(1, straight({-30, 3.5, 0}, {60, 3.5, 0}), MarkingType::roadedge),
+          boundary(2, straight({-30, 0, 0}, {12, 0, 0})),
+          boundary(3, straight({28, 0, 0}, {60, 0, 0})),
+          boundary(4, west, MarkingType::roadedge),
+          boundary(5, east, MarkingType::roadedge),
+          boundary(6, straight({20, -30, 0}, {20, -8, 0}))};
+}
+
+TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
+  const auto lanes = lanes_of(t_junction());
+  ASSERT_EQ(lanes.size(), 6U);
+  for (const Lane& lane : lanes) {
+    EXPECT_NEAR(lane.width_m, 3.5, 0.05);
+    EXPECT_GT(length(lane.centerline), 20.0);
+    EXPECT_LT(MeasuredPolyline(lane.left).project(lane.right[1]).lateral_m, 0.0);
+    // Each has the other one of its road across the centre line.
+    EXPECT_TRUE((lane.left_neighbour == kNoElement) != (lane.right_neighbour == kNoElement));
+    for (const auto& [id, range] :
+         {std::pair(lane.left_boundary, lane.left_range), std::pair(lane.right_boundary, lane.right_range)}) {
+      EXPECT_LT(range.from_m, range.to_m);
+      const auto boundaries = t_junction();
+      const double end_m = length(std::ranges::find(boundaries, id, [](const LaneBoundary& b) {
+                                    return b.marking.id;
+                                  })->marking.points);
+      EXPECT_GE(range.from_m, 0.0);
+      EXPECT_LE(range.to_m, end_m + 1e-9);
+    }
+  }
+}
+
+TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
+  // Both boundaries have the other on their left, whatever way they run.
+  std::vector<LaneBoundary> boundaries{boundary(1, straight({0, 0, 0}, {30, 0, 0})),
+                                       boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))};
+  const SectionGraph graph{.sections = {{{0, 1}}},
+                           .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
+  const auto measured = test::measure(boundaries);
+  const auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_EQ(lanes[0].right_boundary, 1U);
+  EXPECT_EQ(lanes[0].left_boundary, 2U);
+  EXPECT_TRUE(lanes[0].left_reversed);
+  EXPECT_FALSE(lanes[0].right_reversed);
+  EXPECT_NEAR(lanes[0].left_range.from_m, 10.0, 1e-9);
+  EXPECT_NEAR(lanes[0].left_range.to_m, 40.0, 1e-9);
+  EXPECT_NEAR(lanes[0].right_range.from_m, 0.0, 1e-9);
+  EXPECT_TRUE(lanes[0].centerline.front().isApprox(Point(0, 1.75, 0)));
+}
+
+TEST(Lanes, ALineThatIsPaintedAlongAnEdgeLeavesRoomToPark) {
+  for (const double from_edge_m : {0.5, 2.0}) {
+    const auto lanes = lanes_of(
+        {boundary(1, straight({0, 5.5, 0}, {30, 5.5, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
+         boundary(3, straight({0, -from_edge_m, 0}, {30, -from_edge_m, 0}), MarkingType::roadedge)});
+    EXPECT_EQ(between(lanes, 1, 2) != nullptr, from_edge_m < 1.0);
+  }
+}
+
+TEST(Lanes, AWideOneEndsWhereALineLiesInIt) {
+  const auto lane_beside = [](double line_to_x) {
+    auto lanes = lanes_of({boundary(1, straight({0, 6, 0}, {60, 6, 0})),
+                           boundary(2, straight({0, 0, 0}, {60, 0, 0}), MarkingType::roadedge),
+                           boundary(3, straight({-20, 3, 0}, {line_to_x, 3, 0}))});
+    const Lane* lane = between(lanes, 1, 2);
+    return lane == nullptr ? Range{} : lane->right_range;
+  };
+  // What only touches it at the end does not take it away.
+  EXPECT_NEAR(lane_beside(4.0).from_m, 4.5, 1.0);
+  EXPECT_NEAR(lane_beside(4.0).to_m, 60.0, 1e-6);
+  EXPECT_EQ(lane_beside(30.0).length(), 0.0);
+}
+
+TEST(Lanes, BetweenTwoEdgesThereIsOneWithoutMarkings) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
+                               boundary(2, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});
+  EXPECT_EQ(lanes.size(), 1U);
+}
+
+TEST(Lanes, BeyondTheEdgeOfARoadWithLanesIsNone) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 7, 0}, {30, 7, 0})),
+                               boundary(2, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
+                               boundary(3, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_TRUE(between(lanes, 1, 2));
+}
+
+TEST(Lanes, SayWhereTheyWereInferredAcrossAGap) {
+  auto left = boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}));
+  left.bridged = {{10, 14}};
+  const auto lanes = lanes_of({left, boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
+  ASSERT_EQ(lanes.size(), 1U);
+  ASSERT_EQ(lanes[0].inferred_ranges.size(), 1U);
+  EXPECT_NEAR(lanes[0].inferred_ranges[0].from_m, 10.0, 1.0);
+  EXPECT_NEAR(lanes[0].inferred_ranges[0].to_m, 14.0, 1.0);
+}
+
+TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
+  auto left = boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}));
+  auto right = boundary(2, straight({0, 0, 0}, {30, 0, 0}));
+  left.marking.existence_probability = 0.9;
+  right.marking.existence_probability = 0.6;
+  right.marking.status = ElementStatus::tentative;
+  const auto lanes = lanes_of({left, right});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_EQ(lanes[0].existence_probability, 0.6);
+  EXPECT_EQ(lanes[0].status, ElementStatus::tentative);
+}
+
+TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
+  std::vector<KnownLane> known{{.id = 7,
+                                .boundary_a = 1,
+                                .boundary_b = 2,
+                                .centerline = straight({0, 0, 0}, {20, 0, 0}, 21),
+                                .last_frame = 1,
+                                .direction_log_odds = 2.0}};
+  Lane lane{.left_boundary = 2, .right_boundary = 1, .centerline = straight({20, 0, 0}, {0, 0, 0}, 21)};
+  std::vector<Lane> lanes{lane};
+  ElementId next_id = 100;
+  identify_lanes(2, {}, lanes, known, next_id);
+  ASSERT_EQ(lanes[0].id, 7U);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known[0].direction_log_odds, -2.0);
+}
+
+TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
+  const auto pair = [](double width_m, MarkingType right_type,
+                       MarkingType left_type = MarkingType::laneline) {
+    std::vector<LaneBoundary> sides{boundary(1, straight({0, width_m, 0}, {30, width_m, 0})),
+                                    boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
+    sides[0].marking.type = left_type;
+    sides[1].marking.type = right_type;
+    return lanes_of(sides).size();
+  };
+  EXPECT_EQ(pair(6.0, MarkingType::laneline), 0U);
+  EXPECT_EQ(pair(6.0, MarkingType::roadedge), 1U);
+  EXPECT_EQ(pair(7.0, MarkingType::roadedge), 0U);
+  EXPECT_EQ(pair(6.0, MarkingType::roadedge, MarkingType::roadedge), 0U);
+  EXPECT_EQ(pair(3.5, MarkingType::roadedge, MarkingType::roadedge), 1U);
+  // Over the line between two lanes there is none, however narrow they are.
+  std::vector<LaneBoundary> narrow{boundary(1, straight({0, 6, 0}, {30, 6, 0})),
+                                   boundary(2, straight({0, 3, 0}, {30, 3, 0})),
+                                   boundary(3, straight({0, 0, 0}, {30, 0, 0}))};
+  narrow[2].marking.type = MarkingType::roadedge;
+  EXPECT_FALSE(between(lanes_of(narrow), 1, 3));
+}
+
+class Width : public ::testing::TestWithParam<std::pair<double, bool>> {};
+
+TEST_P(Width, MustLieInTheInterval) {
+  const auto [width_m, is_lane] = GetParam();
+  const auto lanes = lanes_of({boundary(1, straight({0, width_m, 0}, {30, width_m, 0})),
+                               boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
+  EXPECT_EQ(lanes.size(), is_lane ? 1U : 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Interval, Width,
+                         ::testing::Values(std::pair(2.0, false), std::pair(2.4, true), std::pair(4.4, true),
+                                           std::pair(4.6, false)));
+
+// Paper, Fig. 5 (c): the valid range is where the distance is steady and in the interval.
+TEST(Lanes, EndWhereTheRoadWidens) {
+  const auto lanes = lanes_of(
+      {boundary(1, straight({0, 3.5, 0}, {40, 3.5, 0})), boundary(2, {{0, 0, 0}, {20, 0, 0}, {40, -10, 0}})});
+  ASSERT_GE(lanes.size(), 1U);
+  const Lane& lane = lanes[0];
+  EXPECT_NEAR(lane.right_range.from_m, 0.0, 1e-9);
+  EXPECT_GT(lane.left_range.to_m, 20.0);
+  EXPECT_LT(lane.left_range.to_m, 22.5);  // 0.8 m wider than at its narrowest
+}
+
+// Paper, Fig. 5 (d): one lane becomes two, by (b_i, b_i+1) and (b_i, b_i+2).
+TEST(Lanes, ASplitGivesThreeLanes) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})),
+                               boundary(2, straight({24, 0, 0}, {60, 0, 0})),  // begins at the taper
+                               boundary(3, {{0, 0, 0}, {20, 0, 0}, {30, -3.5, 0}, {60, -3.5, 0}})});
+  const Lane* before = between(lanes, 1, 3);
+  const Lane* left = between(lanes, 1, 2);
+  const Lane* right = between(lanes, 2, 3);
+  ASSERT_TRUE(before && left && right);
+  EXPECT_NEAR(before->left_range.to_m, 22.0, 1.5);
+  EXPECT_NEAR(left->left_range.from_m, 24.0, 0.6);
+  EXPECT_GT(right->left_range.from_m, 0.0);
+  EXPECT_NEAR(left->left_range.to_m, 60.0, 1e-9);
+}
+
+TEST(Lanes, AMergeGivesTheSameLanesMirrored) {
+  const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})),
+                               boundary(2, straight({0, 0, 0}, {36, 0, 0})),
+                               boundary(3, {{0, -3.5, 0}, {30, -3.5, 0}, {40, 0, 0}, {60, 0, 0}})});
+  EXPECT_TRUE(between(lanes, 1, 2) && between(lanes, 2, 3) && between(lanes, 1, 3));
+}
+
+TEST(Lanes, DoNotOverlapWhereANarrowStripRunsBeside) {
+  // A cycle strip of 1.2 m: the lane is to its near side, not across it, though both widths are allowed.
+  const auto lanes =
+      lanes_of({boundary(1, straight({0, 3, 0}, {30, 3, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
+                boundary(3, straight({0, -1.2, 0}, {30, -1.2, 0}))});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_EQ(lanes[0].right_boundary, 2U);
+}
+
+TEST(Lanes, GoOnWhereADoubleLineEndsAndOneLineBeginsBesideIt) {
+  // Both halves of the double line lie between the left edge of the road and the line, but for a metre only.
+  const auto lanes = lanes_of(
+      {boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})), boundary(2, straight({0, 0.2, 0}, {21, 0.2, 0})),
+       boundary(3, straight({0, 0.1, 0}, {21, 0.1, 0})), boundary(4, straight({20, 0, 0}, {60, 0, 0}))});
+  const Lane* after = between(lanes, 1, 4);
+  ASSERT_TRUE(after);
+  EXPECT_GT(after->left_range.length(), 35.0);
+}
+
+TEST(Lanes, InABendOfTwelveMetres) {
+  const auto lanes = lanes_of(
+      {boundary(1, test::arc({0, 0, 0}, 10.25, -90, 0)), boundary(2, test::arc({0, 0, 0}, 13.75, -90, 0))});
+  ASSERT_EQ(lanes.size(), 1U);
+  EXPECT_NEAR(lanes[0].width_m, 3.5, 0.02);
+  EXPECT_LT(test::max_distance(lanes[0].centerline, test::arc({0, 0, 0}, 12, -90, 0)), 0.05);
+}
+
+TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  const auto window = [&](double from_m, std::uint64_t frame) {
+    std::vector<LaneBoundary> boundaries{boundary(1, straight({from_m, 3.5, 0}, {from_m + 35, 3.5, 0})),
+                                         boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
+    auto measured = test::measure(boundaries);
+    const auto graph = road_sections({}, test::at(from_m), boundaries, measured);
+    auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
+    identify_lanes(frame, {}, lanes, known, next_id);
+    return lanes;
+  };
+  for (std::uint64_t frame = 0; frame < 50; ++frame) {
+    const auto lanes = window(1.2 * static_cast<double>(frame), frame);
+    ASSERT_EQ(lanes.size(), 1U);
+    EXPECT_EQ(lanes[0].id, 100U);
+  }
+  EXPECT_EQ(known.size(), 1U);
+}
+
+TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
+  const auto lane_between = [](ElementId left, ElementId right, const Polyline& centerline) {
+    return Lane{.left_boundary = left, .right_boundary = right, .centerline = centerline};
+  };
+  const Lane through = lane_between(1, 2, straight({0, 0, 0}, {20, 0, 0}, 21));
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  std::vector<Lane> first{through};
+  identify_lanes(1, {}, first, known, next_id);
+  // The one is missed in a frame in which another that merges into it is new.
+  std::vector<Lane> merging{lane_between(3, 2, straight({0, -8, 0}, {20, -0.5, 0}, 21))};
+  identify_lanes(2, {}, merging, known, next_id);
+  EXPECT_EQ(merging[0].id, 101U);
+  std::vector<Lane> both{through, merging[0]};
+  both[1].id = kNoElement;
+  identify_lanes(3, {}, both, known, next_id);
+  EXPECT_EQ(both[0].id, 100U);
+  EXPECT_EQ(both[1].id, 101U);
+}
+
+TEST(LaneIds, ComeBackAfterAShortGapOnly) {
+  Lane lane;
+  lane.left_boundary = 1;
+  lane.right_boundary = 2;
+  lane.centerline = straight({0, 0, 0}, {20, 0, 0}, 21);
+  std::vector<KnownLane> known;
+  ElementId next_id = 100;
+  const auto id_at = [&](std::uint64_t frame) {
+    std::vector<Lane> lanes{lane};
+    identify_lanes(frame, {}, lanes, known, next_id);
+    return lanes[0].id;
+  };
+  EXPECT_EQ(id_at(1), 100U);
+  std::vector<Lane> none;
+  for (std::uint64_t frame = 2; frame < 40; ++frame) identify_lanes(frame, {}, none, known, next_id);
+  EXPECT_EQ(id_at(40), 100U);
+  for (std::uint64_t frame = 41; frame < 95; ++frame) identify_lanes(frame, {}, none, known, next_id);
+  EXPECT_TRUE(known.empty());
+  EXPECT_EQ(id_at(95), 101U);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,96 @@
+#include "mapping/lines/line_publishing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::line;
+using test::straight;
+
+class LinePublishing : public ::testing::Test {
+ protected:
+  std::vector<Marking> publish() { return publish_lines({line_}, {}); }
+  void believe(std::size_t from, std::size_t to, double log_odds) {
+    for (std::size_t i = from; i < to; ++i) line_.stations[i].log_odds = log_odds;
+  }
+  Line line_ = line(4, straight({-12, 0, 0}, {38, 0, 0}, 51));
+};
+
+TEST_F(LinePublishing, WhatHasEvidenceAsFarAsItReaches) {
+  believe(0, 51, -0.1);
+  EXPECT_TRUE(publish().empty());
+  believe(0, 40, 1.0);
+  const auto markings = publish();
+  ASSERT_EQ(markings.size(), 1U);
+  EXPECT_EQ(markings[0].id, 4U);
+  EXPECT_NEAR(markings[0].points.front().x(), -12.0, 1e-9);
+  EXPECT_NEAR(markings[0].points.back().x(), 27.0, 1e-9);
+  EXPECT_EQ(markings[0].status, ElementStatus::tentative);
+  believe(0, 40, 3.0);
+  EXPECT_EQ(publish()[0].status, ElementStatus::confirmed);
+}
+
+TEST_F(LinePublishing, AWeakPlaceDoesNotHideWhatIsBeyondIt) {
+  believe(0, 51, 3.0);
+  believe(28, 29, -0.1);
+  const auto markings = publish();
+  ASSERT_EQ(markings.size(), 1U);
+  EXPECT_NEAR(length(markings[0].points), 50.0, 1e-9);
+}
+
+TEST_F(LinePublishing, CertaintyGrowsWithEvidenceAndNearness) {
+  const FusionConfig config;
+  for (std::size_t i = 0; i < 51; ++i) {
+    line_.stations[i].information_per_m2 = i < 25 ? 1e9 : 25.0;
+    line_.stations[i].closest_m = i < 25 ? 0.0 : 10.0;
+  }
+  believe(0, 51, config.publish_log_odds);
+  const Marking unsure = publish()[0];
+  EXPECT_NEAR(unsure.existence_probability, config.existence_at_publish, 1e-9);
+  ASSERT_EQ(unsure.lateral_stddev_m.size(), unsure.points.size());
+  EXPECT_NEAR(unsure.lateral_stddev_m.front(), config.bias_stddev_m, 1e-6);
+  const double far_bias_m = config.bias_stddev_m + 10.0 * config.bias_stddev_per_m;
+  EXPECT_NEAR(unsure.lateral_stddev_m.back(), std::sqrt(far_bias_m * far_bias_m + 1.0 / 25.0), 1e-6);
+  believe(0, 51, config.max_log_odds);
+  EXPECT_NEAR(publish()[0].existence_probability, config.existence_at_max, 1e-9);
+}
+
+TEST_F(LinePublishing, ZigzagBetweenStationsIsSmoothed) {
+  for (std::size_t i = 0; i < 51; ++i) line_.stations[i].position.y() = i % 2 == 0 ? 0.1 : -0.1;
+  believe(0, 51, 1.0);
+  const Marking marking = publish()[0];
+  ASSERT_EQ(marking.points.size(), 51U);
+  for (std::size_t i = 1; i < 50; ++i) EXPECT_LT(std::abs(marking.points[i].y()), 0.06) << i;
+}
+
+TEST_F(LinePublishing, ABendOfTwelveMetresStaysOne) {
+  line_ = line(4, test::arc({0, 12, 0}, 12, -90, 0));
+  for (Station& station : line_.stations) station.log_odds = 1.0;
+  EXPECT_LT(test::max_distance(publish()[0].points, test::arc({0, 12, 0}, 12, -90, 0)), 0.03);
+}
+
+TEST_F(LinePublishing, StylesFollowTheVotes) {
+  believe(0, 51, 1.0);
+  for (std::size_t i = 0; i < 51; ++i)
+    line_.stations[i].style_votes = {9.0, i < 20 ? 5.0 : 0.0, i < 20 ? 1.0 : 5.0};
+  const auto styles = publish()[0].styles;
+  ASSERT_EQ(styles.size(), 2U);
+  EXPECT_EQ(styles[0].style, MarkingStyle::solid);
+  EXPECT_NEAR(styles[0].range.to_m, 20.0, 1.01);
+  EXPECT_EQ(styles[1].style, MarkingStyle::dashed);
+}
+
+TEST_F(LinePublishing, AStoplineHasTwoPoints) {
+  line_ = line(4, straight({10, -3, 0}, {10, 3, 0}, 7), MarkingType::stopline);
+  for (Station& station : line_.stations) station.log_odds = 1.0;
+  EXPECT_EQ(publish()[0].points.size(), 2U);
+}
+
+}  // namespace
+}  // namespace laneloom

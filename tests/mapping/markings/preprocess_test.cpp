@@ -1,0 +1,69 @@
+#include "mapping/markings/preprocess.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::arc;
+using test::detection;
+using test::straight;
+
+DetectionFrame frame_of(std::vector<Detection> detections) {
+  DetectionFrame frame;
+  frame.detections = std::move(detections);
+  return frame;
+}
+
+TEST(Preprocess, KeepsTheThresholdAndDropsWhatIsBelow) {
+  auto weak = detection(MarkingType::laneline, straight({0, 0, 0}, {10, 0, 0}));
+  auto enough = weak;
+  weak.confidence = 0.2999;
+  enough.confidence = 0.3;
+  EXPECT_EQ(preprocess(frame_of({weak, enough}), test::at(0), {}).size(), 1U);
+}
+
+TEST(Preprocess, DropsWhatIsNoLine) {
+  const auto point = detection(MarkingType::laneline, {{0, 0, 0}});
+  EXPECT_TRUE(preprocess(frame_of({point}), test::at(0), {}).empty());
+}
+
+TEST(Preprocess, TransformsToTheMapFrame) {
+  const auto line = detection(MarkingType::roadedge, straight({2, 1, 0.5}, {4, 1, 0.5}), MarkingStyle::solid);
+  const auto markings = preprocess(frame_of({line}), test::at(10, 20, std::numbers::pi / 2), {});
+  ASSERT_EQ(markings.size(), 1U);
+  EXPECT_EQ(markings[0].type, MarkingType::roadedge);
+  EXPECT_EQ(markings[0].style, MarkingStyle::solid);
+  EXPECT_TRUE(markings[0].points[0].isApprox(Point(9, 22, 0.5)));
+  EXPECT_TRUE(markings[0].points[1].isApprox(Point(9, 24, 0.5)));
+}
+
+TEST(Zigzag, OneTurnIsACornerTwoAreAZigzag) {
+  const Polyline corner{{0, 0, 0}, {5, 0, 0}, {5, 5, 0}};
+  const Polyline zigzag{{0, 0, 0}, {5, 0, 0}, {4, 2, 0}, {9, 2, 0}};
+  EXPECT_FALSE(is_zigzag(corner, {}));
+  EXPECT_TRUE(is_zigzag(zigzag, {}));
+}
+
+TEST(Zigzag, ABendIsNone) { EXPECT_FALSE(is_zigzag(arc({0, 0, 0}, 12, 0, 180), {})); }
+
+TEST(Zigzag, ShortSegmentsCarryNoAngle) {
+  // A jag of 0.1 m on a straight line, as a network makes it.
+  const Polyline jagged{{0, 0, 0}, {5, 0, 0}, {5.05, 0.1, 0}, {5.1, 0, 0}, {10, 0, 0}};
+  EXPECT_FALSE(is_zigzag(jagged, {}));
+}
+
+TEST(Zigzag, CanBeSwitchedOff) {
+  PreprocessConfig config;
+  config.reject_zigzag = false;
+  const auto zigzag = detection(MarkingType::laneline, {{0, 0, 0}, {5, 0, 0}, {4, 2, 0}, {9, 2, 0}});
+  EXPECT_EQ(preprocess(frame_of({zigzag}), test::at(0), config).size(), 1U);
+  EXPECT_TRUE(preprocess(frame_of({zigzag}), test::at(0), {}).empty());
+}
+
+}  // namespace
+}  // namespace laneloom

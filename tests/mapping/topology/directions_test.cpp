@@ -1,0 +1,305 @@
+#include "mapping/topology/directions.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using test::straight;
+using Direction = Lane::Direction;
+
+/// Lanes of 3.5 m between y = 0 and y = 7, from x = 0 to 40, given from left to right; boundaries 1, 2, 3.
+class Directions : public ::testing::Test {
+ protected:
+  Directions() {
+    for (const ElementId id : {1U, 2U, 3U}) {
+      const double y = 7.0 - 3.5 * static_cast<double>(id - 1);
+      boundaries_.push_back(test::boundary(id, straight({0, y, 0}, {40, y, 0})));
+    }
+    boundaries_[0].marking.type = boundaries_[2].marking.type = MarkingType::roadedge;
+    lanes_ = {lane(11, 1, 0, 40), lane(12, 2, 0, 40)};
+    lanes_[0].right_neighbour = 12;
+    lanes_[1].left_neighbour = 11;
+  }
+
+  static Lane lane(ElementId id, ElementId left, double from_x, double to_x) {
+    const double y = 7.0 - 3.5 * static_cast<double>(left - 1);
+    Lane lane{.id = id,
+              .left_boundary = left,
+              .right_boundary = left + 1,
+              .left_range = {from_x, to_x},
+              .right_range = {from_x, to_x},
+              .left = straight({from_x, y, 0}, {to_x, y, 0}),
+              .right = straight({from_x, y - 3.5, 0}, {to_x, y - 3.5, 0}),
+              .centerline = straight({from_x, y - 1.75, 0}, {to_x, y - 1.75, 0}),
+              .width_m = 3.5};
+    return lane;
+  }
+
+  void divider(MarkingStyle style) { boundaries_[1].marking.styles = {{{0, 40}, style}}; }
+
+  /// One more line beside the divider, so that the lanes share none.
+  void double_divider() {
+    boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
+    lanes_[0].right_neighbour = lanes_[1].left_neighbour = kNoElement;
+    lanes_[1].left_boundary = 4;
+    lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
+  }
+
+  void observe(const Eigen::Isometry3d& T_map_body, const std::vector<Marking>& markings = {}) {
+    for (const Lane& lane : lanes_) {
+      if (std::ranges::find(known_, lane.id, &KnownLane::id) == known_.end())
+        known_.push_back({.id = lane.id, .centerline = lane.centerline});
+    }
+    observe_directions(lanes_, T_map_body, markings, {}, known_);
+  }
+
+  void find(const std::string& driving_side = "right") {
+    find_directions(boundaries_, {.driving_side = driving_side}, known_, lanes_, linkages_);
+  }
+
+  const Lane& get(ElementId id) const { return *std::ranges::find(lanes_, id, &Lane::id); }
+  bool runs_forward(ElementId id) const {
+    return get(id).centerline.back().x() > get(id).centerline.front().x();
+  }
+  bool known(ElementId id) const { return get(id).direction == Direction::along_centerline; }
+
+  std::vector<LaneBoundary> boundaries_;
+  std::vector<Lane> lanes_;
+  std::vector<Linkage> linkages_;
+  std::vector<KnownLane> known_;
+};
+
+TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
+  divider(MarkingStyle::solid);
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+  // The turned lane's sides are its own; both see the other across their left side.
+  EXPECT_EQ(get(11).left_boundary, 2U);
+  EXPECT_EQ(get(11).left_neighbour, 12U);
+  EXPECT_EQ(get(11).right_neighbour, kNoElement);
+  EXPECT_LT(MeasuredPolyline(get(11).left).project(get(11).right.front()).lateral_m, 0.0);
+  EXPECT_EQ(get(12).left_neighbour, 11U);
+}
+
+TEST_F(Directions, InLeftHandTrafficTheOtherWayRound) {
+  divider(MarkingStyle::solid);
+  find("left");
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_TRUE(runs_forward(11));
+  EXPECT_FALSE(runs_forward(12));
+}
+
+TEST_F(Directions, ADoubleLineIsOne) {
+  double_divider();
+  divider(MarkingStyle::solid);
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, ALineOnABridgeMakesNoDoubleLineWithOneBelow) {
+  double_divider();
+  divider(MarkingStyle::solid);
+  for (Polyline* line : {&lanes_[1].left, &lanes_[1].right, &lanes_[1].centerline})
+    for (Point& point : *line) point.z() = 6.0;
+  find();
+  EXPECT_FALSE(known(11));
+}
+
+TEST_F(Directions, ADashedLineDoesNotTell) {
+  divider(MarkingStyle::dashed);
+  find();
+  EXPECT_FALSE(known(11) || known(12));
+  EXPECT_TRUE(runs_forward(11) && runs_forward(12));
+}
+
+TEST_F(Directions, WithoutALineTrafficMeetsOnARoadOfTwoWays) {
+  boundaries_[1].marking.status = ElementStatus::inferred;
+  boundaries_[1].two_way = true;
+  find();
+  EXPECT_TRUE(known(11));
+  EXPECT_TRUE(known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, WithoutALineTrafficBesideALineRunsAlike) {
+  boundaries_[0].marking.type = MarkingType::laneline;
+  boundaries_[1].marking.status = ElementStatus::inferred;
+  observe(test::at(20, 5.25));
+  observe(test::at(20, 5.25));
+  observe(test::at(20, 5.25));
+  find();
+  EXPECT_TRUE(known(11));
+  EXPECT_TRUE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, ASolidLineAtTheSideSpeaksAsAnEdgeDoesButLess) {
+  for (const std::size_t side : {0U, 2U}) {
+    boundaries_[side].marking.type = MarkingType::laneline;
+    boundaries_[side].marking.styles = {{{0, 40}, MarkingStyle::solid}};
+  }
+  // With one frame's driving in it, an edge would do.
+  observe(test::at(20, 1.75));
+  find();
+  EXPECT_FALSE(known(12));
+  divider(MarkingStyle::solid);
+  known_.clear();
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, AnEdgeWithOneFramesDrivingIsEnough) {
+  boundaries_[0].marking.type = MarkingType::laneline;
+  observe(test::at(20, 1.75));
+  find();
+  EXPECT_TRUE(known(12));
+}
+
+TEST_F(Directions, AHalfOfADoubleLineIsNoSideOfTheRoad) {
+  double_divider();
+  for (LaneBoundary& b : boundaries_) {
+    b.marking.type = MarkingType::laneline;
+    b.marking.styles = {{{0, 40}, MarkingStyle::solid}};
+  }
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, ADashedOrAnInferredLineAtTheSideDoesNotTell) {
+  divider(MarkingStyle::solid);
+  for (const std::size_t side : {0U, 2U}) boundaries_[side].marking.type = MarkingType::laneline;
+  boundaries_[0].marking.styles = {{{0, 40}, MarkingStyle::solid}};
+  boundaries_[0].marking.status = ElementStatus::inferred;
+  boundaries_[2].marking.styles = {{{0, 40}, MarkingStyle::dashed}};
+  find();
+  EXPECT_FALSE(known(11) || known(12));
+}
+
+TEST_F(Directions, WithoutADrivingSideOnlyObservationsTell) {
+  divider(MarkingStyle::solid);
+  find("unknown");
+  EXPECT_FALSE(known(11) || known(12));
+}
+
+TEST_F(Directions, TheVehicleDrivesWithTheTraffic) {
+  divider(MarkingStyle::dashed);
+  for (int i = 0; i < 5; ++i) observe(test::at(i, 1.75));
+  find();
+  EXPECT_TRUE(known(12));
+  EXPECT_TRUE(runs_forward(12));
+  EXPECT_FALSE(known(11));  // overtaking lane, or oncoming traffic
+}
+
+TEST_F(Directions, RightOfALaneAlongTheRoadEveryLaneRunsAlong) {
+  divider(MarkingStyle::dashed);
+  for (int i = 0; i < 5; ++i) observe(test::at(i, 5.25));
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_TRUE(runs_forward(11) && runs_forward(12));
+}
+
+TEST_F(Directions, AStoplineStopsTheTrafficThatComesToIt) {
+  divider(MarkingStyle::dashed);
+  const auto stopline = test::marking(9, {{0.5, 3.6, 0}, {0.5, 6.9, 0}}, MarkingType::stopline);
+  for (int i = 0; i < 8; ++i) observe(test::at(20, 30), {stopline});
+  find();
+  EXPECT_TRUE(known(11));
+  EXPECT_FALSE(runs_forward(11));
+}
+
+TEST_F(Directions, AStandingVehicleSaysNoMoreThanAPassingOne) {
+  divider(MarkingStyle::dashed);
+  for (int i = 0; i < 10000; ++i) observe(test::at(3, 1.75));
+  for (int i = 0; i < 30; ++i) observe(test::at(3, 1.75, std::numbers::pi));
+  find();
+  EXPECT_FALSE(runs_forward(12));
+}
+
+TEST_F(Directions, TheOncomingLaneThatWasOvertakenInIsNotTakenForOurs) {
+  divider(MarkingStyle::solid);
+  for (int i = 0; i < 30; ++i) observe(test::at(3, 5.25));
+  find();
+  EXPECT_TRUE(runs_forward(11));
+  for (int i = 0; i < 300; ++i) observe(test::at(3, 1.75));
+  lanes_[0].direction = Direction::unknown;
+  find();
+  EXPECT_FALSE(known(11) && runs_forward(11));
+}
+
+TEST_F(Directions, CrossingTheLaneSaysNothing) {
+  divider(MarkingStyle::dashed);
+  for (int i = 0; i < 10; ++i) observe(test::at(3, 1.75, 0.5 * std::numbers::pi));
+  find();
+  EXPECT_FALSE(known(12));
+}
+
+TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
+  lanes_ = {lane(12, 2, 0, 10), lane(13, 2, 30, 40)};  // along the edge, on both sides of an intersection
+  observe(test::at(5, 1.75));
+  find("unknown");
+  EXPECT_TRUE(known(12) || !known(13));
+  for (int i = 0; i < 5; ++i) observe(test::at(5, 1.75));
+  find("unknown");
+  EXPECT_TRUE(known(12) && known(13));
+  EXPECT_TRUE(runs_forward(13));
+}
+
+TEST_F(Directions, ALaneThatRunsAgainstOthersBesideItsBoundaryIsTurned) {
+  // The second stretch of the left lane was built against its boundaries.
+  lanes_ = {lane(11, 1, 0, 20), lane(13, 1, 20, 40)};
+  Lane& turned = lanes_[1];
+  for (Polyline* line : {&turned.left, &turned.right, &turned.centerline}) std::ranges::reverse(*line);
+  std::swap(turned.left, turned.right);
+  std::swap(turned.left_boundary, turned.right_boundary);
+  turned.left_reversed = turned.right_reversed = true;
+  for (int i = 0; i < 5; ++i) observe(test::at(10, 5.25));
+  find("unknown");
+  EXPECT_TRUE(known(11) && known(13));
+  EXPECT_TRUE(runs_forward(11) && runs_forward(13));
+  EXPECT_EQ(get(13).left_boundary, 1U);
+  EXPECT_FALSE(get(13).left_reversed || get(13).right_reversed);
+}
+
+TEST_F(Directions, AWayIsTurnedWithItsLanes) {
+  lanes_ = {lane(11, 1, 0, 10), lane(12, 1, 20, 40)};
+  linkages_ = {{.from = 11, .to = 12, .path = {{10, 5.25, 0}, {20, 5.25, 0}}}};
+  for (int i = 0; i < 5; ++i) observe(test::at(5, 5.25, std::numbers::pi));
+  find("unknown");
+  ASSERT_FALSE(runs_forward(11));
+  EXPECT_EQ(linkages_[0].from, 12U);
+  EXPECT_EQ(linkages_[0].path.front().x(), 20.0);
+}
+
+TEST_F(Directions, NoWayLeadsFromATurnedLaneIntoOneThatIsNot) {
+  linkages_ = {{.from = 11, .to = 12}, {.from = 12, .to = 11}};
+  turn_lanes({11}, lanes_, linkages_);
+  EXPECT_TRUE(linkages_.empty());
+}
+
+TEST_F(Directions, LanesThatContinueOneAnotherRunTheSameWay) {
+  lanes_ = {lane(11, 1, 0, 20), lane(13, 1, 20, 40)};
+  linkages_ = {{.from = 11, .to = 13}};
+  for (int i = 0; i < 5; ++i) observe(test::at(30.0 + i, 5.25, std::numbers::pi));
+  find();
+  EXPECT_TRUE(known(11) && known(13));
+  EXPECT_FALSE(runs_forward(11) || runs_forward(13));
+  EXPECT_EQ(linkages_[0].from, 13U);
+  EXPECT_EQ(linkages_[0].to, 11U);
+}
+
+}  // namespace
+}  // namespace laneloom

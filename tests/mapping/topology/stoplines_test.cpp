@@ -1,0 +1,58 @@
+#include "mapping/topology/stoplines.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+Lane lane(ElementId id, const Point& from, const Point& to) {
+  Lane l;
+  l.id = id;
+  l.centerline = test::straight(from, to);
+  return l;
+}
+
+Stopline tie(const Polyline& stopline, const std::vector<Lane>& lanes) {
+  return tie_stoplines({test::marking(1, stopline, MarkingType::stopline)}, lanes, {}).at(0);
+}
+
+TEST(Stoplines, EndTheLanesThatTheyCross) {
+  const Stopline stopline = tie({{21, -3.5, 0}, {21, 3.5, 0}},
+                                {lane(7, {0, 1.75, 0}, {20, 1.75, 0}), lane(8, {0, -1.75, 0}, {22, -1.75, 0}),
+                                 lane(9, {0, 5.25, 0}, {20, 5.25, 0})});  // beside its end
+  EXPECT_THAT(stopline.lanes, ElementsAre(7, 8));
+  EXPECT_TRUE(stopline.heading.isApprox(Point(1, 0, 0)));
+}
+
+TEST(Stoplines, HeadTowardsTheEndThatTheyLieAt) {
+  const Stopline stopline = tie({{-1, 0, 0}, {-1, 3.5, 0}}, {lane(7, {0, 1.75, 0}, {20, 1.75, 0})});
+  EXPECT_THAT(stopline.lanes, ElementsAre(7));
+  EXPECT_TRUE(stopline.heading.isApprox(Point(-1, 0, 0)));
+}
+
+TEST(Stoplines, AtTheStartOfALaneOfKnownDirectionEndNothing) {
+  Lane l = lane(7, {0, 1.75, 0}, {20, 1.75, 0});
+  l.direction = Lane::Direction::along_centerline;
+  EXPECT_THAT(tie({{-1, 0, 0}, {-1, 3.5, 0}}, {l}).lanes, IsEmpty());
+  EXPECT_THAT(tie({{21, 0, 0}, {21, 3.5, 0}}, {l}).lanes, ElementsAre(7));
+}
+
+TEST(Stoplines, EndNothingInTheMiddleFarAheadOrAlongside) {
+  const std::vector<Lane> lanes{lane(7, {0, 0, 0}, {20, 0, 0})};
+  EXPECT_THAT(tie({{10, -2, 0}, {10, 2, 0}}, lanes).lanes, IsEmpty());
+  EXPECT_THAT(tie({{24, -2, 0}, {24, 2, 0}}, lanes).lanes, IsEmpty());
+  EXPECT_THAT(tie({{18, -1, 0}, {22, 1, 0}}, lanes).lanes, IsEmpty());
+  EXPECT_EQ(tie({{10, -2, 0}, {10, 2, 0}}, lanes).heading, Point(0, 0, 0));
+}
+
+TEST(Stoplines, OthersAreNone) {
+  EXPECT_THAT(tie_stoplines({test::marking(1, {{0, 0, 0}, {1, 0, 0}})}, {}, {}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,132 @@
+#include "session/gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+using Verdict = Gate::Verdict;
+
+StreamPoint at(std::int64_t stamp_ms, double x = 0.0, std::uint64_t session = 1) {
+  return {stamp_ms * kMs, session, {x, 0.0, 0.0}};
+}
+
+class GateTest : public ::testing::Test {
+ protected:
+  GateTest() { EXPECT_EQ(gate_.check(at(10'000)), Verdict::accepted); }
+  Gate gate_{GateConfig{}};
+};
+
+TEST_F(GateTest, ASteadyStreamIsAccepted) {
+  for (int i = 1; i < 50; ++i) EXPECT_EQ(gate_.check(at(10'000 + 100 * i, 3.0 * i)), Verdict::accepted);
+  EXPECT_EQ(gate_.check(at(16'900, 150.0)), Verdict::accepted);  // a gap of 2 s
+}
+
+TEST_F(GateTest, OneOutlierIsRefusedAndTheStreamGoesOn) {
+  for (const auto& outlier : {at(3'610'000), at(10'000 - 3'600'000), at(10'050, 100.0)}) {
+    EXPECT_EQ(gate_.check(outlier), Verdict::outlier);
+  }
+  EXPECT_EQ(gate_.check(at(10'100)), Verdict::accepted);
+}
+
+TEST_F(GateTest, ThreeConsistentOutliersAreBelieved) {
+  EXPECT_EQ(gate_.check(at(3'610'000)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(3'610'100)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(3'610'200)), Verdict::begins_anew);
+  EXPECT_EQ(gate_.check(at(3'610'300)), Verdict::accepted);
+  EXPECT_EQ(gate_.check(at(10'100)), Verdict::outlier);
+}
+
+TEST_F(GateTest, OutliersThatDisagreeAreNotBelieved) {
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(gate_.check(at(100'000 + i * 10'000)), Verdict::outlier);
+}
+
+TEST_F(GateTest, AGoodMessageEndsTheRow) {
+  EXPECT_EQ(gate_.check(at(10'050, 100.0)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(10'060, 100.0)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(10'070)), Verdict::accepted);
+  EXPECT_EQ(gate_.check(at(10'080, 100.0)), Verdict::outlier);
+}
+
+TEST_F(GateTest, AJumpOfThePoseIsBelievedWhenItStays) {
+  EXPECT_EQ(gate_.check(at(10'010, 100.0)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(10'020, 100.1)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(10'030, 100.2)), Verdict::begins_anew);
+}
+
+TEST_F(GateTest, RepeatedAndLateMessagesAreNoOutliers) {
+  EXPECT_EQ(gate_.check(at(10'100)), Verdict::accepted);
+  EXPECT_EQ(gate_.check(at(10'100)), Verdict::repeated);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(gate_.check(at(10'000 + i)), Verdict::late);
+  EXPECT_EQ(gate_.check(at(10'200)), Verdict::accepted);
+}
+
+TEST_F(GateTest, ANewSessionIsBelievedAtOnce) {
+  EXPECT_EQ(gate_.check(at(10'100, 0.0, 2)), Verdict::begins_anew);
+  EXPECT_EQ(gate_.check(at(5, 500.0, 3)), Verdict::begins_anew);
+  EXPECT_EQ(gate_.check(at(15, 500.0, 3)), Verdict::accepted);
+}
+
+TEST_F(GateTest, TwoWritersAtOnceDoNotResetEachOther) {
+  EXPECT_EQ(gate_.check(at(10'100, 0.0, 2)), Verdict::begins_anew);
+  for (int i = 1; i < 20; ++i) {
+    EXPECT_EQ(gate_.check(at(10'100 + 100 * i, 0.0, 1)), Verdict::outlier);
+    EXPECT_EQ(gate_.check(at(10'100 + 100 * i, 0.0, 2)), Verdict::accepted);
+  }
+  // The older one is alone again.
+  EXPECT_EQ(gate_.check(at(13'000, 0.0, 1)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(13'100, 0.0, 1)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(at(13'200, 0.0, 1)), Verdict::begins_anew);
+  EXPECT_EQ(gate_.check(at(13'300, 0.0, 1)), Verdict::accepted);
+}
+
+DetectionFrame good_frame() {
+  DetectionFrame frame{.stamp_ns = 5};
+  frame.detections.push_back(Detection{.confidence = 0.5, .points = {{0, 0, 0}, {10, 0, 0}}});
+  return frame;
+}
+
+std::string_view with(const std::function<void(DetectionFrame&)>& damage) {
+  auto frame = good_frame();
+  damage(frame);
+  return defect(frame, GateConfig{});
+}
+
+TEST(Defect, OfFrames) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(defect(good_frame(), GateConfig{}), "");
+  EXPECT_EQ(with([](auto& f) { f.stamp_ns = 0; }), "stamp");
+  EXPECT_EQ(with([](auto& f) { f.stamp_ns = std::numeric_limits<std::int64_t>::min(); }), "stamp");
+  EXPECT_EQ(with([](auto& f) { f.stamp_ns = std::numeric_limits<std::int64_t>::max(); }), "stamp");
+  EXPECT_EQ(with([](auto& f) { f.detections[0].points.pop_back(); }), "too_few_points");
+  EXPECT_EQ(with([](auto& f) { f.detections[0].points[1].y() = 2e7; }), "coordinate");
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(with([&](auto& f) { f.detections[0].points[1][axis] = nan; }), "coordinate") << axis;
+  }
+  EXPECT_EQ(with([&](auto& f) { f.field_of_view = {{0, nan, 0}}; }), "coordinate");
+  EXPECT_EQ(with([&](auto& f) { f.occluded_areas = {{{0, nan, 0}}}; }), "coordinate");
+  EXPECT_EQ(with([&](auto& f) { f.detections[0].confidence = nan; }), "confidence");
+  EXPECT_EQ(with([](auto& f) { f.detections[0].confidence = 1.1; }), "confidence");
+  EXPECT_EQ(with([](auto& f) { f.detections[0].stddev_m = {0.1}; }), "wrong_size");
+  EXPECT_EQ(with([](auto& f) { f.detections[0].stddev_m = {0.1, -0.1}; }), "stddev");
+  EXPECT_EQ(with([&](auto& f) { f.detections[0].stddev_m = {0.1, nan}; }), "stddev");
+  EXPECT_EQ(with([](auto& f) { f.detections[0].points[1].x() = 20'001.0; }), "too_long");
+  EXPECT_EQ(with([](auto& f) { f.detections[0].points[1].x() = 9e6; }), "too_long");
+}
+
+TEST(Defect, OfPoses) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const GateConfig config;
+  EXPECT_EQ(defect(VehiclePose{.stamp_ns = 5}, config), "");
+  EXPECT_EQ(defect(VehiclePose{.stamp_ns = -5}, config), "stamp");
+  EXPECT_EQ(defect(VehiclePose{.stamp_ns = 5, .position = {0, 0, nan}}, config), "coordinate");
+  EXPECT_EQ(defect(VehiclePose{.stamp_ns = 5, .position = {-2e7, 0, 0}}, config), "coordinate");
+  EXPECT_EQ(defect(VehiclePose{.stamp_ns = 5, .orientation = {0.9, 0, 0, 0}}, config), "not_a_rotation");
+  EXPECT_EQ(defect(VehiclePose{.stamp_ns = 5, .orientation = {nan, 0, 0, 0}}, config), "not_a_rotation");
+}
+
+}  // namespace
+}  // namespace laneloom

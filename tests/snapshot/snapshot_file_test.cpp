@@ -1,0 +1,133 @@
+#include "snapshot/snapshot_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "snapshot/snapshot.hpp"
+#include "snapshot/snapshot_writer.hpp"
+#include "temporary_folder.hpp"
+
+namespace laneloom {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+class SnapshotFileTest : public ::testing::Test {
+ protected:
+  static Snapshot snapshot() {
+    Snapshot result{
+        {"1.0 abc", 100 * kSecond, 500 * kSecond}, {1, 2, 3, 4, {5, 6, 7}}, MapperState(VoxelMapConfig{})};
+    result.state.next_id = 42;
+    result.state.map.boundaries.push_back(Marking{.id = 7, .points = {{1, 2, 3}, {4, 5, 6}}});
+    result.state.map.lanes.push_back(Lane{.id = 8, .left_reversed = true});
+    result.state.map.lanes.push_back(Lane{.id = 9, .right_reversed = true});
+    return result;
+  }
+  Snapshot read(const SnapshotStamp& now) const { return read_snapshot(file_, now, 5.0, VoxelMapConfig{}); }
+  /// Why it is not read; empty: it is.
+  std::string refusal(const SnapshotStamp& now) const {
+    try {
+      read(now);
+      return {};
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  }
+  std::string bytes() const {
+    std::ostringstream bytes;
+    bytes << std::ifstream(file_, std::ios::binary).rdbuf();
+    return std::move(bytes).str();
+  }
+
+  const SnapshotStamp soon_{"1.0 abc", 103 * kSecond, 503 * kSecond};
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_.file("map");
+};
+
+TEST_F(SnapshotFileTest, ComesBackAsItWas) {
+  write_snapshot(file_, snapshot());
+  const auto back = read(soon_);
+  EXPECT_EQ(to_bytes(back.state), to_bytes(snapshot().state));
+  ASSERT_EQ(back.state.map.lanes.size(), 2U);
+  EXPECT_TRUE(back.state.map.lanes[0].left_reversed);
+  EXPECT_TRUE(back.state.map.lanes[1].right_reversed);
+  EXPECT_EQ(back.checkpoint.frame_stamp_ns, 1);
+  EXPECT_EQ(back.checkpoint.frame_arrival_ns, 2);
+  EXPECT_EQ(back.checkpoint.pose_stamp_ns, 3);
+  EXPECT_EQ(back.checkpoint.pose_session_id, 4U);
+  EXPECT_EQ(back.checkpoint.position, Point(5, 6, 7));
+}
+
+TEST_F(SnapshotFileTest, IsRefusedWhenItIsOldOrFromBeforeTheHostStarted) {
+  write_snapshot(file_, snapshot());
+  EXPECT_EQ(refusal({"1.0 abc", 105 * kSecond, 505 * kSecond}), "");
+  EXPECT_THAT(refusal({"1.0 abc", 106 * kSecond, 503 * kSecond}), HasSubstr("6.0"));
+  EXPECT_THAT(refusal({"1.0 abc", 103 * kSecond, 900 * kSecond}), HasSubstr("400.0"));
+  EXPECT_THAT(refusal({"1.0 abc", 3 * kSecond, 503 * kSecond}), HasSubstr("-97.0"));
+}
+
+TEST_F(SnapshotFileTest, IsRefusedWhenAnotherVersionOrConfigurationMadeIt) {
+  write_snapshot(file_, snapshot());
+  EXPECT_THAT(refusal({"1.1 abc", 103 * kSecond, 503 * kSecond}), HasSubstr("made by 1.0 abc"));
+  EXPECT_THAT(refusal({"1.0 abd", 103 * kSecond, 503 * kSecond}), HasSubstr("made by 1.0 abc"));
+}
+
+TEST_F(SnapshotFileTest, IsRefusedWhereverItIsDamaged) {
+  write_snapshot(file_, snapshot());
+  const std::string whole = bytes();
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    std::ofstream(file_, std::ios::binary) << damaged;
+    EXPECT_EQ(refusal(soon_), "damaged") << "byte " << i;
+  }
+  for (const std::size_t length :
+       {whole.size() - 1, whole.size() / 2, std::size_t{8}, std::size_t{3}, std::size_t{0}}) {
+    std::ofstream(file_, std::ios::binary) << whole.substr(0, length);
+    EXPECT_EQ(refusal(soon_), "damaged") << length << " bytes";
+  }
+}
+
+TEST_F(SnapshotFileTest, IsRefusedWhereItMayBeAnothers) {
+  write_snapshot(folder_.file("elsewhere"), snapshot());
+  std::filesystem::create_symlink(folder_.file("elsewhere"), file_);
+  EXPECT_EQ(refusal(soon_), "is a link");
+}
+
+TEST_F(SnapshotFileTest, IsReadByItsUserAlone) {
+  const auto before = umask(0);
+  write_snapshot(file_, snapshot());
+  umask(before);
+  EXPECT_EQ(std::filesystem::status(file_).permissions(), std::filesystem::perms{0600});
+}
+
+TEST_F(SnapshotFileTest, TheWriterCountsWhatItDid) {
+  const auto wait_for = [](const SnapshotWriter& writer, std::uint64_t SnapshotWriter::Totals::*count) {
+    for (int i = 0; i < 2000 && writer.totals().*count == 0; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  };
+  SnapshotWriter writer(file_);
+  writer.write(snapshot());
+  wait_for(writer, &SnapshotWriter::Totals::written);
+  EXPECT_EQ(writer.totals().written, 1U);
+  EXPECT_EQ(refusal(soon_), "");
+
+  SnapshotWriter nowhere(folder_.file("none/map"));
+  nowhere.write(snapshot());
+  wait_for(nowhere, &SnapshotWriter::Totals::failed);
+  EXPECT_EQ(nowhere.totals().failed, 1U);
+  EXPECT_EQ(nowhere.totals().written, 0U);
+}
+
+}  // namespace
+}  // namespace laneloom
