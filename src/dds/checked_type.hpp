@@ -2,21 +2,24 @@
 
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <functional>
+#include <span>
+#include <string_view>
 
 #include "cdr/layout.hpp"
+#include "cdr/protection.hpp"
 
 namespace laneloom::dds {
 
-/// What a reader takes: a message, or the knowledge that one came which was none.
+/// What a reader takes: a message, or why what came is none.
 template <class Message>
 struct Sample {
   Message message;
-  bool well_formed = true;
+  std::string_view refusal;  ///< "crc", "data_id" or "malformed"; empty: the message is whole
 };
 
-/// The generated type support, made safe: a payload that is malformed neither throws (which would terminate
-/// the process, or be thrown again at every later take) nor allocates what it claims to need. It arrives as a
-/// sample that says so, for the reader to count.
+/// The generated type support, made safe, and protected from end to end: a payload that is malformed neither
+/// throws (which would terminate the process, or be thrown again at every later take) nor allocates what it
+/// claims to need. It arrives as a sample that says so, for the reader to count.
 template <class PubSubType>
 class CheckedType : public PubSubType {
  public:
@@ -31,16 +34,21 @@ class CheckedType : public PubSubType {
 
   bool deserialize(Payload* payload, void* data) override {
     auto* sample = static_cast<Sample<Message>*>(data);
+    const std::span<const std::uint8_t> bytes(payload->data, payload->length);
+    sample->refusal = check_protection(bytes, kDataId<Message>);
+    if (!sample->refusal.empty()) return true;
     try {
-      sample->well_formed = well_formed<Message>({payload->data, payload->length}) &&
-                            PubSubType::deserialize(payload, &sample->message);
+      const bool whole = well_formed<Message>(bytes) && PubSubType::deserialize(payload, &sample->message);
+      if (!whole) sample->refusal = "malformed";
     } catch (...) {
-      sample->well_formed = false;
+      sample->refusal = "malformed";
     }
     return true;
   }
   bool serialize(void* data, Payload* payload) override {
-    return PubSubType::serialize(&static_cast<Sample<Message>*>(data)->message, payload);
+    const bool whole = PubSubType::serialize(&static_cast<Sample<Message>*>(data)->message, payload);
+    if (whole) protect({payload->data, payload->length}, kDataId<Message>);
+    return whole;
   }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
     return PubSubType::getSerializedSizeProvider(&static_cast<Sample<Message>*>(data)->message);

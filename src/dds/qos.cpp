@@ -4,6 +4,7 @@
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -13,22 +14,36 @@
 #include <string>
 
 #include "laneloom/config_file.hpp"
+#include "laneloom/dds/participant.hpp"
 
 namespace laneloom::dds {
 namespace {
 
 using namespace eprosima::fastdds::dds;
 using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
+using eprosima::fastdds::rtps::UDPTransportDescriptor;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 // A map of 500 KB is lost on the way with the kernel's default buffer; the kernel may give less than asked
 // for.
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20;
-// What an Ethernet frame holds: of a larger datagram the loss of one piece loses all, where DDS repairs
-// pieces. The handshakes of DDS-Security do not come through so small.
-constexpr std::uint32_t kMaxDatagramBytes = 1472;
 constexpr std::uint32_t kSharedMemoryBytes = 16U << 20;
+
+/// UDP that receives datagrams of any size and sends none above `max_sent_bytes`. Fast DDS asks the
+/// descriptor for the largest message to send, and the transport, which has a copy of the base class alone,
+/// for the size of the buffer to receive into.
+struct UdpDescriptor : UDPv4TransportDescriptor {
+  explicit UdpDescriptor(std::uint32_t bytes) : max_sent_bytes(bytes) {}
+  std::uint32_t max_message_size() const override { return max_sent_bytes; }
+
+  std::uint32_t max_sent_bytes;
+};
+// A datagram that fits into one Ethernet frame is lost alone. IP loses a larger datagram with any of its
+// pieces.
+constexpr std::uint32_t kSmallDatagramBytes = 1472;
+// The handshakes of DDS-Security do not come through small datagrams.
+constexpr std::uint32_t kLargeDatagramBytes = 65500;
 
 eprosima::fastrtps::Duration_t milliseconds(int value) {
   return {value / 1000, static_cast<std::uint32_t>(value % 1000) * 1'000'000U};
@@ -65,10 +80,10 @@ void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
   qos.transport().use_builtin_transports = false;
   qos.transport().send_socket_buffer_size = kSocketBufferBytes;
   qos.transport().listen_socket_buffer_size = kSocketBufferBytes;
-  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  auto udp = std::make_shared<UdpDescriptor>(config.security_directory.empty() ? kSmallDatagramBytes
+                                                                               : kLargeDatagramBytes);
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
-  if (config.security_directory.empty()) udp->maxMessageSize = kMaxDatagramBytes;
   qos.transport().user_transports.push_back(udp);
   if (config.transport == "udp+shm") {
     auto shared_memory = std::make_shared<SharedMemTransportDescriptor>();
@@ -156,6 +171,15 @@ DomainParticipantQos participant_qos(const DdsConfig& config, const std::string&
   return qos;
 }
 
+std::uint32_t largest_datagram(const DdsConfig& config) {
+  const DomainParticipantQos qos = participant_qos(config, "");
+  std::uint32_t largest = kLargeDatagramBytes;
+  for (const auto& transport : qos.transport().user_transports)
+    if (const auto* udp = dynamic_cast<const UDPTransportDescriptor*>(transport.get()))
+      largest = std::min(largest, udp->maxMessageSize);
+  return largest;
+}
+
 DataWriterQos writer_qos(TopicKind kind) {
   DataWriterQos qos = DATAWRITER_QOS_DEFAULT;
   set_common(kind, qos);
@@ -167,14 +191,27 @@ DataWriterQos writer_qos(TopicKind kind) {
   return qos;
 }
 
-DataReaderQos reader_qos(TopicKind kind) {
+DataReaderQos reader_qos(TopicKind kind, ReliabilityQosPolicyKind reliability) {
   DataReaderQos qos = DATAREADER_QOS_DEFAULT;
   set_common(kind, qos);
-  // Sensors often write best effort, which a reliable reader would not match; and a frame that has to be sent
-  // again comes too late to be waited for.
-  const bool input = kind == TopicKind::detections || kind == TopicKind::poses;
-  qos.reliability().kind = input ? BEST_EFFORT_RELIABILITY_QOS : RELIABLE_RELIABILITY_QOS;
+  qos.reliability().kind = reliability;
   return qos;
+}
+
+std::vector<ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind) {
+  switch (kind) {
+    case TopicKind::detections:
+      // Sensors often write best effort, which a reliable reader would not match. Of a reliable writer, the
+      // one reader has a frame at once, and the other a frame that had to be repaired: a large one seldom
+      // comes through whole.
+      return {BEST_EFFORT_RELIABILITY_QOS, RELIABLE_RELIABILITY_QOS};
+    case TopicKind::poses:
+      return {BEST_EFFORT_RELIABILITY_QOS};  // a pose that has to be sent again comes after the next one
+    case TopicKind::map:
+    case TopicKind::status:
+      break;
+  }
+  return {RELIABLE_RELIABILITY_QOS};
 }
 
 }  // namespace laneloom::dds

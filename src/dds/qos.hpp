@@ -4,6 +4,9 @@
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 
+#include <string>
+#include <vector>
+
 #include "laneloom/config.hpp"
 
 /// All quality of service of laneloom.
@@ -20,6 +23,11 @@ enum class TopicKind {
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsConfig& config,
                                                              const std::string& name);
 eprosima::fastdds::dds::DataWriterQos writer_qos(TopicKind kind);
-eprosima::fastdds::dds::DataReaderQos reader_qos(TopicKind kind);
+eprosima::fastdds::dds::DataReaderQos reader_qos(
+    TopicKind kind, eprosima::fastdds::dds::ReliabilityQosPolicyKind reliability);
+
+/// What the readers of a topic ask for, one reader each. The first asks for least, so that it matches every
+/// writer.
+std::vector<eprosima::fastdds::dds::ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind);
 
 }  // namespace laneloom::dds

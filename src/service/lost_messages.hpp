@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 
@@ -7,22 +8,38 @@
 
 namespace laneloom {
 
-/// Tells by the writers' own numbers how many messages never arrived, whatever their contents.
+/// Tells by the writers' own numbers how many messages never arrived, whatever their contents. A message that
+/// comes after newer ones is not lost any more.
 class LostMessages {
  public:
-  /// How many are missing between this message and the one before it of the same writer.
-  std::uint64_t before(const dds::WriterId& writer, std::uint64_t number) {
-    if (newest_.size() >= kMaxWriters) newest_.clear();
-    const auto [known, first] = newest_.try_emplace(writer, number);
-    if (first || number <= known->second) return 0;
-    const auto missing = number - known->second - 1;
-    known->second = number;
-    return missing;
+  /// Each number of a writer at most once.
+  void note(const dds::WriterId& writer, std::uint64_t number) {
+    if (writers_.size() >= kMaxWriters) forget();
+    Numbers& numbers = writers_.try_emplace(writer, Numbers{number, number, 0}).first->second;
+    numbers.first = std::min(numbers.first, number);
+    numbers.newest = std::max(numbers.newest, number);
+    ++numbers.arrived;
+  }
+  std::uint64_t total() const {
+    std::uint64_t lost = of_forgotten_;
+    for (const auto& [writer, numbers] : writers_)
+      lost += numbers.newest - numbers.first + 1 - numbers.arrived;
+    return lost;
   }
 
  private:
+  struct Numbers {
+    std::uint64_t first = 0, newest = 0, arrived = 0;
+  };
+
+  void forget() {
+    of_forgotten_ = total();
+    writers_.clear();
+  }
+
   static constexpr std::size_t kMaxWriters = 1024;  // none is forgotten alone: it may come back
-  std::map<dds::WriterId, std::uint64_t> newest_;
+  std::map<dds::WriterId, Numbers> writers_;
+  std::uint64_t of_forgotten_ = 0;
 };
 
 }  // namespace laneloom

@@ -250,7 +250,7 @@ TEST(Participants, MalformedPayloadsAreCountedAndGoodOnesFollow) {
   ASSERT_TRUE(raw->write(&garbage));
   ASSERT_TRUE(raw->write(&empty));
   ASSERT_TRUE(received.wait_for_refusals(2));
-  EXPECT_EQ(received.refused(), (std::vector<std::string>{"malformed", "malformed"}));
+  EXPECT_EQ(received.refused(), (std::vector<std::string>{"crc", "malformed"}));
 
   const Participant honest(config, "honest");
   Writer<DetectionFrame> writer(honest);

@@ -47,7 +47,8 @@ static void range(const laneloom_msg_Range* m) { FIRST(from_m, real), NEXT(to_m,
 LIST_OF_STRUCTS(ranges, dds_sequence_laneloom_msg_Range, range)
 
 static void header(const laneloom_msg_Header* m) {
-  FIRST(stamp_ns, stamp), NEXT(sequence_number, large), NEXT(session_id, large), NEXT(frame_id, text), END;
+  FIRST(crc, large), NEXT(data_id, number), NEXT(stamp_ns, stamp), NEXT(sequence_number, large);
+  NEXT(session_id, large), NEXT(frame_id, text), END;
 }
 
 static void area(const laneloom_msg_Area* m) { FIRST_STRUCT(outline, polyline), END; }
@@ -68,15 +69,20 @@ LIST_OF_STRUCTS(styles, dds_sequence_laneloom_msg_StyleRange, style_range)
 static void marking(const laneloom_msg_Marking* m) {
   FIRST(id, large), NEXT(type, number), NEXT(status, number), NEXT_STRUCT(points, polyline);
   NEXT_STRUCT(styles, styles), NEXT_STRUCT(lateral_stddev_m, reals), NEXT(existence_probability, real);
-  NEXT(observations, large), NEXT(age_s, real), END;
+  NEXT(observations, large), NEXT(age_s, real), NEXT(unseen_s, real), END;
 }
 LIST_OF_STRUCTS(markings, dds_sequence_laneloom_msg_Marking, marking)
+
+static void neighbour(const laneloom_msg_Neighbour* m) {
+  FIRST(lane, large), NEXT_STRUCT(range, range), NEXT_STRUCT(crossable, ranges), END;
+}
+LIST_OF_STRUCTS(neighbours, dds_sequence_laneloom_msg_Neighbour, neighbour)
 
 static void lane(const laneloom_msg_Lane* m) {
   FIRST(id, large), NEXT(left_boundary, large), NEXT(right_boundary, large);
   NEXT_STRUCT(left_range, range), NEXT_STRUCT(right_range, range);
   NEXT_STRUCT(left, polyline), NEXT_STRUCT(right, polyline), NEXT_STRUCT(centerline, polyline);
-  NEXT(width_m, real), NEXT(left_neighbour, large), NEXT(right_neighbour, large);
+  NEXT(width_m, real), NEXT_STRUCT(left_neighbours, neighbours), NEXT_STRUCT(right_neighbours, neighbours);
   NEXT(direction, number), NEXT(section, number), NEXT(status, number), NEXT(existence_probability, real);
   NEXT_STRUCT(inferred_ranges, ranges), END;
 }
@@ -100,7 +106,7 @@ static void lineage_event(const laneloom_msg_LineageEvent* m) {
 LIST_OF_STRUCTS(lineage, dds_sequence_laneloom_msg_LineageEvent, lineage_event)
 
 static void fused_frame(const laneloom_msg_FusedFrame* m) {
-  FIRST(session_id, large), NEXT(sequence_number, large), NEXT(stamp_ns, stamp), END;
+  FIRST(source, text), NEXT(session_id, large), NEXT(sequence_number, large), NEXT(stamp_ns, stamp), END;
 }
 LIST_OF_STRUCTS(fused_frames, dds_sequence_laneloom_msg_FusedFrame, fused_frame)
 LIST(reasons, dds_sequence_laneloom_msg_StateReason, number)
@@ -112,9 +118,15 @@ static void time_summary(const laneloom_msg_TimeSummary* m) {
 static void counter(const laneloom_msg_Counter* m) { FIRST(name, text), NEXT(value, large), END; }
 LIST_OF_STRUCTS(counters, dds_sequence_laneloom_msg_Counter, counter)
 
+static void named_value(const laneloom_msg_NamedValue* m) { FIRST(name, text), NEXT(value, real), END; }
+LIST_OF_STRUCTS(named_values, dds_sequence_laneloom_msg_NamedValue, named_value)
+
+static void setting(const laneloom_msg_Setting* m) { FIRST(key, text), NEXT(value, text), END; }
+LIST_OF_STRUCTS(settings, dds_sequence_laneloom_msg_Setting, setting)
+
 static void source(const laneloom_msg_SourceStatus* m) {
   FIRST(source, text), NEXT(session_id, large), NEXT(first_sequence, large), NEXT(last_sequence, large);
-  NEXT(frames, large), END;
+  NEXT(frames, large), NEXT(fused, large), NEXT(lag_s, real), NEXT_STRUCT(learned, named_values), END;
 }
 LIST_OF_STRUCTS(sources, dds_sequence_laneloom_msg_SourceStatus, source)
 
@@ -138,7 +150,8 @@ void print_vehicle_pose(const laneloom_msg_VehiclePose* m) {
 
 void print_lane_map(const laneloom_msg_LaneMap* m) {
   begin("lane_map");
-  FIRST_STRUCT(header, header), NEXT(published_ns, stamp), NEXT(age_s, real), NEXT(state, number);
+  FIRST_STRUCT(header, header), NEXT(published_ns, stamp), NEXT(map_id, large), NEXT(age_s, real);
+  NEXT(lag_s, real), NEXT(state, number);
   NEXT_STRUCT(reasons, reasons), NEXT_STRUCT(pose, pose), NEXT_STRUCT(fused_frames, fused_frames);
   NEXT_STRUCT(boundaries, markings), NEXT_STRUCT(lanes, lanes), NEXT_STRUCT(stoplines, stoplines);
   NEXT_STRUCT(linkages, linkages), NEXT_STRUCT(lineage, lineage), end();
@@ -146,7 +159,7 @@ void print_lane_map(const laneloom_msg_LaneMap* m) {
 
 void print_road_markings(const laneloom_msg_RoadMarkings* m) {
   begin("road_markings");
-  FIRST_STRUCT(header, header), NEXT_STRUCT(instances, markings), end();
+  FIRST_STRUCT(header, header), NEXT_STRUCT(markings, markings), end();
 }
 
 void print_status(const laneloom_msg_ServiceStatus* m) {
@@ -155,5 +168,5 @@ void print_status(const laneloom_msg_ServiceStatus* m) {
   NEXT(detections_age_s, real), NEXT(poses_age_s, real);
   NEXT_STRUCT(tick, time_summary), NEXT_STRUCT(tick_delay, time_summary), NEXT(pending_frames, number);
   NEXT_STRUCT(counters, counters), NEXT_STRUCT(sources, sources), NEXT(version, text);
-  NEXT(config_hash, text), end();
+  NEXT(config_hash, text), NEXT_STRUCT(configuration, settings), end();
 }

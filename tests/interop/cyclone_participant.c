@@ -1,14 +1,18 @@
-// cyclone_participant DOMAIN VEHICLE_ID FILE: perception, odometry and planning of a car on a straight road
-// with one lane, on Cyclone DDS. Prints every message that it writes or reads into FILE (cyclone_json.h),
-// until it is killed.
+// cyclone_participant DOMAIN VEHICLE_ID FILE [KILOBYTES PERIOD_MS]: perception, odometry and planning of a
+// car on a straight road with one lane, on Cyclone DDS. Prints every message that it writes or reads into
+// FILE (cyclone_json.h), until it is killed. With KILOBYTES, each frame is padded to that size, and frames
+// are not printed.
 #include <dds/dds.h>
+#include <dds/ddsi/ddsi_serdata.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cyclone_json.h"
 
-enum { kStep_ms = 10, kFramePeriod_ms = 100 };
+enum { kStep_ms = 10, kPaddingPoints = 1000 };
+static int64_t frame_period_ms = 100;
+static uint32_t padding_lines = 0;
 static const int64_t kStart_ns = INT64_C(1700000000000000000);
 static const double kSpeed_mps = 5.0;
 
@@ -84,36 +88,77 @@ static laneloom_msg_Detection laneline(laneloom_msg_Point* points, uint32_t coun
                                   .stddev_m = {._length = count, ._buffer = stddev_m}};
 }
 
+/// Lines that nobody trusts, for the size of the frame.
+static laneloom_msg_Detection padding(void) {
+  static laneloom_msg_Point points[kPaddingPoints];
+  for (int i = 0; i < kPaddingPoints; ++i) points[i] = (laneloom_msg_Point){0.01 * i, 12.0, 0.0};
+  laneloom_msg_Detection line = laneline(points, kPaddingPoints, NULL);
+  line.stddev_m._length = 0;
+  line.confidence = 0.05;
+  return line;
+}
+
 static void write_frame(dds_entity_t writer, int64_t time_ms) {
   laneloom_msg_Point right[] = {{-5.0, -1.75, 0.125}, {25.0, -1.75, 0.25}};
   laneloom_msg_Point left[] = {{-5.0, 1.75, 0.125}, {10.0, 1.75, 0.125}, {25.0, 1.75, 0.25}};
   laneloom_msg_Point view[] = {{-5.0, -15.0, 0.0}, {30.0, -15.0, 0.0}, {30.0, 15.0, 0.0}, {-5.0, 15.0, 0.0}};
   laneloom_msg_Point car[] = {{12.0, 5.0, 0.0}, {16.0, 5.0, 0.0}, {16.0, 7.0, 0.0}};
   double stddev_m[] = {0.0625, 0.125, 0.25};
-  laneloom_msg_Detection seen[] = {laneline(right, 2, stddev_m), laneline(left, 3, stddev_m)};
+  laneloom_msg_Detection seen[512] = {laneline(right, 2, stddev_m), laneline(left, 3, stddev_m)};
+  for (uint32_t i = 0; i < padding_lines; ++i) seen[2 + i] = padding();
   laneloom_msg_MarkingType types[] = {laneloom_msg_LANELINE, laneloom_msg_ROADEDGE};
   laneloom_msg_Area occluded[] = {{.outline = SEQUENCE(car)}};
   laneloom_msg_Detections frame = {
       // As a network does, it delivers late.
-      .header = header(kStart_ns + DDS_MSECS(time_ms - 40), time_ms / kFramePeriod_ms, 6, "base_link"),
+      .header = header(kStart_ns + DDS_MSECS(time_ms - 40), time_ms / frame_period_ms, 6, "base_link"),
       .source = "cyclone",
       .detected_types = SEQUENCE(types),
       .field_of_view = SEQUENCE(view),
       .occluded_areas = SEQUENCE(occluded),
-      .detections = SEQUENCE(seen)};
+      .detections = {._length = 2 + padding_lines, ._buffer = seen}};
   dds_write(writer, &frame);
-  print_detections(&frame);
+  if (padding_lines == 0) print_detections(&frame);
 }
 
-#define PRINT_ALL(reader, type, print)                    \
-  do {                                                    \
-    void* sample = NULL;                                  \
-    dds_sample_info_t info;                               \
-    while (dds_take(reader, &sample, &info, 1, 1) == 1) { \
-      if (info.valid_data) print((const type*)sample);    \
-      dds_return_loan(reader, &sample, 1);                \
-      sample = NULL;                                      \
-    }                                                     \
+/// The CRC-64/XZ that Header.crc is: of all bytes behind it, which Cyclone fills up to a multiple of four.
+static uint64_t crc64(const unsigned char* bytes, size_t size) {
+  uint64_t crc = ~UINT64_C(0);
+  for (size_t i = 0; i < size; ++i) {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (UINT64_C(0xC96C5795D7870F42) & (0 - (crc & 1)));
+  }
+  return ~crc;
+}
+
+/// Whether a message came as its writer protected it. Behind four bytes of encapsulation lie crc and data_id.
+static bool is_protected(const struct ddsi_serdata* message, uint32_t data_id) {
+  enum { kCrc = 4, kDataId = 12, kBehind = 16 };
+  const uint32_t size = ddsi_serdata_size(message);
+  unsigned char* bytes = dds_alloc(size);
+  ddsi_serdata_to_ser(message, 0, size, bytes);
+  uint64_t crc = 0;
+  uint32_t id = 0;
+  memcpy(&crc, bytes + kCrc, sizeof crc);
+  memcpy(&id, bytes + kDataId, sizeof id);
+  const bool holds = size >= kBehind && id == data_id && crc == crc64(bytes + kDataId, size - kDataId);
+  dds_free(bytes);
+  return holds;
+}
+
+#define PRINT_ALL(reader, type, print, data_id)                                 \
+  do {                                                                          \
+    struct ddsi_serdata* message = NULL;                                        \
+    dds_sample_info_t info;                                                     \
+    while (dds_takecdr(reader, &message, 1, &info, DDS_ANY_STATE) == 1) {       \
+      if (info.valid_data && is_protected(message, data_id)) {                  \
+        void* sample = dds_alloc(sizeof(type));                                 \
+        if (ddsi_serdata_to_sample(message, sample, NULL, NULL)) print(sample); \
+        dds_sample_free(sample, &type##_desc, DDS_FREE_ALL);                    \
+      } else if (info.valid_data) {                                             \
+        puts("{\"topic\":\"damaged\",\"message\":{}}");                         \
+      }                                                                         \
+      ddsi_serdata_unref(message);                                              \
+    }                                                                           \
   } while (0)
 
 static void print_liveliness(dds_entity_t maps) {
@@ -125,9 +170,14 @@ static void print_liveliness(dds_entity_t maps) {
 }
 
 int main(int argc, char** argv) {
-  if (argc != 4 || !freopen(argv[3], "w", stdout)) {
-    fprintf(stderr, "usage: cyclone_participant DOMAIN VEHICLE_ID FILE\n");
+  if ((argc != 4 && argc != 6) || !freopen(argv[3], "w", stdout)) {
+    fprintf(stderr, "usage: cyclone_participant DOMAIN VEHICLE_ID FILE [KILOBYTES PERIOD_MS]\n");
     return EXIT_FAILURE;
+  }
+  if (argc == 6) {
+    padding_lines = (uint32_t)(atoi(argv[4]) * 1000 / (int)(kPaddingPoints * sizeof(laneloom_msg_Point)));
+    if (padding_lines > 510) padding_lines = 510;
+    frame_period_ms = atoi(argv[5]);
   }
   const dds_entity_t participant =
       made(dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL), "participant");
@@ -136,14 +186,14 @@ int main(int argc, char** argv) {
   const dds_entity_t subscriber = made(dds_create_subscriber(participant, partition, NULL), "subscriber");
   dds_delete_qos(partition);
   const dds_entity_t detections_topic =
-      topic(participant, &laneloom_msg_Detections_desc, "laneloom/v1/detections");
+      topic(participant, &laneloom_msg_Detections_desc, "laneloom/v2/detections");
   const dds_entity_t pose_topic =
-      topic(participant, &laneloom_msg_VehiclePose_desc, "laneloom/v1/vehicle_pose");
-  const dds_entity_t map_topic = topic(participant, &laneloom_msg_LaneMap_desc, "laneloom/v1/lane_map");
+      topic(participant, &laneloom_msg_VehiclePose_desc, "laneloom/v2/vehicle_pose");
+  const dds_entity_t map_topic = topic(participant, &laneloom_msg_LaneMap_desc, "laneloom/v2/lane_map");
   const dds_entity_t markings_topic =
-      topic(participant, &laneloom_msg_RoadMarkings_desc, "laneloom/v1/road_markings");
+      topic(participant, &laneloom_msg_RoadMarkings_desc, "laneloom/v2/road_markings");
   const dds_entity_t status_topic =
-      topic(participant, &laneloom_msg_ServiceStatus_desc, "laneloom/v1/status");
+      topic(participant, &laneloom_msg_ServiceStatus_desc, "laneloom/v2/status");
 
   const dds_entity_t detections =
       made(dds_create_writer(publisher, detections_topic, input_qos(), NULL), "detections");
@@ -156,11 +206,11 @@ int main(int argc, char** argv) {
 
   for (int64_t time_ms = 0;; time_ms += kStep_ms) {
     write_pose(poses, time_ms);
-    if (time_ms > 0 && time_ms % kFramePeriod_ms == 0) write_frame(detections, time_ms);
+    if (time_ms > 0 && time_ms % frame_period_ms == 0) write_frame(detections, time_ms);
     print_liveliness(maps);
-    PRINT_ALL(maps, laneloom_msg_LaneMap, print_lane_map);
-    PRINT_ALL(markings, laneloom_msg_RoadMarkings, print_road_markings);
-    PRINT_ALL(statuses, laneloom_msg_ServiceStatus, print_status);
+    PRINT_ALL(maps, laneloom_msg_LaneMap, print_lane_map, laneloom_msg_DATA_ID_LANE_MAP);
+    PRINT_ALL(markings, laneloom_msg_RoadMarkings, print_road_markings, laneloom_msg_DATA_ID_ROAD_MARKINGS);
+    PRINT_ALL(statuses, laneloom_msg_ServiceStatus, print_status, laneloom_msg_DATA_ID_STATUS);
     dds_sleepfor(DDS_MSECS(kStep_ms));
   }
 }

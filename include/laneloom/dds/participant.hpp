@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -11,6 +12,10 @@ namespace laneloom::dds {
 /// when the profile is missing or invalid, or a file of security is unreadable; whether DDS believes what is
 /// in the latter only shows when there is a participant. Thread-safe.
 void check_files(const DdsConfig& config);
+
+/// The longest datagram, in bytes, that a participant with this configuration receives whole. Fast DDS cuts
+/// longer ones without a word. Throws as check_files().
+std::uint32_t largest_datagram(const DdsConfig& config);
 
 /// One participant in the domain, in the partition of one vehicle. Readers and writers keep it alive.
 /// Not thread-safe; not to be used within a reader's callback.

@@ -3,11 +3,11 @@
 /// The topics of laneloom. Types cannot evolve in place: a change of any type is a new version here.
 namespace laneloom::dds {
 
-inline constexpr const char* kDetectionsTopic = "laneloom/v1/detections";
-inline constexpr const char* kVehiclePoseTopic = "laneloom/v1/vehicle_pose";
-inline constexpr const char* kLaneMapTopic = "laneloom/v1/lane_map";
-inline constexpr const char* kRoadMarkingsTopic = "laneloom/v1/road_markings";
-inline constexpr const char* kStatusTopic = "laneloom/v1/status";
+inline constexpr const char* kDetectionsTopic = "laneloom/v2/detections";
+inline constexpr const char* kVehiclePoseTopic = "laneloom/v2/vehicle_pose";
+inline constexpr const char* kLaneMapTopic = "laneloom/v2/lane_map";
+inline constexpr const char* kRoadMarkingsTopic = "laneloom/v2/road_markings";
+inline constexpr const char* kStatusTopic = "laneloom/v2/status";
 
 /// Their types, by the names that go over the wire.
 inline constexpr const char* kDetectionsType = "laneloom::msg::Detections";

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dds/participant_impl.hpp"
+#include "dds/sample_numbers.hpp"
+#include "dds/topic_traits.hpp"
+
+namespace laneloom::dds {
+
+/// Nothing may be thrown into DDS: it would end the process.
+template <class... Arguments, class... Values>
+void call(const std::function<void(Arguments...)>& callback, Values&&... values) noexcept {
+  if (!callback) return;
+  try {
+    callback(std::forward<Values>(values)...);
+  } catch (...) {
+  }
+}
+
+/// The DDS readers of the topic of T, whose samples are as `Type` supports them; one for each reliability
+/// that reader_reliabilities() names. A sample that several of them receive is handed on once, one at a time.
+template <class T, class Type, class Sample>
+class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
+ public:
+  using DataReader = eprosima::fastdds::dds::DataReader;
+  /// `sample` is null where the writer only told of its end.
+  using Take = std::function<void(const WriterId& writer, std::uint64_t number, Sample* sample)>;
+  struct Events {
+    std::function<void(int writers)> matched, alive;
+    std::function<void(std::uint64_t)> deadline_missed;
+  };
+
+  TopicReader(std::shared_ptr<Participant::Impl> participant, Take take, Events events)
+      : participant_(std::move(participant)), take_(std::move(take)), events_(std::move(events)) {
+    using Traits = TopicTraits<T>;
+    auto* topic = participant_->topic(Traits::kName, eprosima::fastdds::dds::TypeSupport(new Type));
+    for (const auto reliability : reader_reliabilities(Traits::kKind)) {
+      auto* reader =
+          participant_->subscriber().create_datareader(topic, reader_qos(Traits::kKind, reliability), this);
+      if (reader == nullptr) {
+        end();
+        throw participant_->refusal(std::string("reader of ") + Traits::kName);
+      }
+      readers_.push_back(reader);
+    }
+  }
+  ~TopicReader() override { end(); }
+  TopicReader(const TopicReader&) = delete;
+  TopicReader& operator=(const TopicReader&) = delete;
+
+  Participant::Impl& participant() const { return *participant_; }
+
+  void on_data_available(DataReader* reader) override {
+    Sample sample;
+    eprosima::fastdds::dds::SampleInfo info;
+    while (reader->take_next_sample(&sample, &info) == ReturnCode::RETCODE_OK) {
+      const WriterId writer = id_of(info.sample_identity.writer_guid());
+      const std::uint64_t number = info.sample_identity.sequence_number().to64long();
+      const std::lock_guard lock(mutex_);
+      if (numbers_.is_new(writer, number)) call(take_, writer, number, info.valid_data ? &sample : nullptr);
+    }
+  }
+  void on_subscription_matched(DataReader* reader,
+                               const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override {
+    if (tells(reader)) call(events_.matched, status.current_count);
+  }
+  void on_liveliness_changed(DataReader* reader,
+                             const eprosima::fastdds::dds::LivelinessChangedStatus& status) override {
+    if (tells(reader)) call(events_.alive, status.alive_count);
+  }
+  void on_requested_deadline_missed(
+      DataReader* reader, const eprosima::fastdds::dds::RequestedDeadlineMissedStatus& status) override {
+    if (tells(reader)) call(events_.deadline_missed, status.total_count);
+  }
+
+ private:
+  using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+
+  /// The first reader matches every writer that another one matches.
+  static bool tells(const DataReader* reader) {
+    return reader->get_qos().reliability().kind == reader_reliabilities(TopicTraits<T>::kKind).front();
+  }
+  static WriterId id_of(const eprosima::fastrtps::rtps::GUID_t& guid) {
+    WriterId writer;
+    const auto entity = std::copy_n(guid.guidPrefix.value, guid.guidPrefix.size, writer.begin());
+    std::copy_n(guid.entityId.value, guid.entityId.size, entity);
+    return writer;
+  }
+  void end() {
+    for (auto* reader : readers_) reader->set_listener(nullptr);
+    for (auto* reader : readers_) participant_->subscriber().delete_datareader(reader);
+  }
+
+  std::shared_ptr<Participant::Impl> participant_;
+  Take take_;
+  Events events_;
+  std::mutex mutex_;
+  SampleNumbers numbers_;
+  std::vector<DataReader*> readers_;
+};
+
+}  // namespace laneloom::dds
