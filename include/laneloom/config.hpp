@@ -189,13 +189,16 @@ struct GateConfig {
   double max_speed_mps = 80.0;
   double max_pose_jump_m = 2.0;  ///< beyond what the speed explains
   double max_coordinate_m = 1e7;
-  double max_frame_length_m = 20000.0;  ///< of all markings of a frame together; it bounds the work
+  int max_frame_detections = 128;      ///< of more, the least trusted are left out; it bounds the work
+  double max_frame_length_m = 2000.0;  ///< of all markings of a frame together, likewise
 };
 
 struct ServiceConfig {
   double tick_rate_hz = 10.0;
   double stale_after_s = 0.4;      ///< without a fused frame, the map is STALE
   double degraded_after_s = 0.25;  ///< without detections or poses, it is DEGRADED
+  double stale_lag_s = 1.0;        ///< by stamps, fused frames that are older than the poses make it STALE
+  double degraded_lag_s = 0.5;     ///< and DEGRADED
   double status_period_s = 1.0;
   std::string log_level = "info";
   std::string snapshot_file;  ///< what a restarted service goes on with; empty: none

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -36,6 +37,9 @@ void apply_preset(Config& config, std::string_view preset);
 
 /// The whole configuration as a file that load_config() reads back unchanged, with units and ranges.
 std::string dump(const Config& config);
+
+/// Every key ("section.key") with its value as set_value() takes it, in the order of the file.
+std::vector<std::pair<std::string, std::string>> settings(const Config& config);
 
 /// The keys ("section.key") whose values differ, in the order of the file.
 std::vector<std::string> changed_keys(const Config& before, const Config& after);

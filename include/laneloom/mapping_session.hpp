@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -14,8 +15,20 @@
 
 namespace laneloom {
 
+/// What became of one source of detections, since it began.
+struct SourceProgress {
+  std::string source;
+  std::uint64_t session_id = 0;
+  std::uint64_t fused = 0;                       ///< frames that went into the map
+  std::int64_t arrival_ns = 0;                   ///< of its newest believed frame
+  std::optional<std::int64_t> fused_arrival_ns;  ///< of the one that was fused last
+  std::optional<std::int64_t> fused_stamp_ns;    ///< of its newest fused frame
+};
+
 /// From poses and detection frames, in the order of their arrival, to the map: decides what is believed,
-/// waits for the poses that belong to each frame, and fuses the frames in the order of their stamps.
+/// waits for the poses that belong to each frame, and fuses each frame with the pose at its own stamp. Frames
+/// that are ready together are fused in the order of their stamps; a frame that comes later than newer ones
+/// of another source is fused all the same.
 ///
 /// It has no clock, thread or queue of its own. What it decides depends on the messages and their order
 /// alone, except for expire(); so a replay of the same messages makes the same maps. Not thread-safe: one
@@ -34,6 +47,9 @@ class MappingSession {
   void add(DetectionFrame frame, std::int64_t arrival_ns);
   /// Refuses the frames that have waited for their poses for too long.
   void expire(std::int64_t now_ns);
+  /// From now until the next call, fuses frames with at most this many metres of markings together, but one
+  /// frame at least; the others wait. There is no limit before the first call.
+  void grant_work(double markings_m);
 
   /// What was done since the last call.
   struct Progress {
@@ -64,10 +80,15 @@ class MappingSession {
   /// Arrival of the newest frame in the map; none: the map is empty.
   std::optional<std::int64_t> newest_arrival_ns() const;
 
-  /// frames_fused, frames_dropped_queue_full, detections_refused_<reason>, poses_accepted,
+  /// frames_fused, frames_thinned (of which admission left detections out), detections_left_out (those),
+  /// sources_restarted, frames_dropped_queue_full, detections_refused_<reason>, poses_accepted,
   /// poses_refused_<reason>, map_resets. Every frame that was added is fused, refused, dropped or pending;
   /// every pose is accepted or refused.
   const Counters& counters() const;
+  /// By source.
+  std::vector<SourceProgress> sources() const;
+  /// From the stamp of the newest fused frame to that of the newest pose; none: nothing was fused yet.
+  std::optional<double> lag_s() const;
 
   /// Told of the stages of every fused frame; may be null.
   void observe(StageObserver* observer);

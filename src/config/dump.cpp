@@ -117,6 +117,10 @@ std::string dump(const Config& config) {
   return result.text;
 }
 
+std::vector<std::pair<std::string, std::string>> settings(const Config& config) {
+  return config::list(config).values;
+}
+
 std::vector<std::string> changed_keys(const Config& before, const Config& after) {
   const auto old_values = config::list(before).values;
   auto new_values = config::list(after).values;

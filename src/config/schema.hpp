@@ -195,21 +195,25 @@ void visit(auto& v, Is<SyncConfig> auto& c) {
 }
 
 void visit(auto& v, Is<GateConfig> auto& c) {
-  auto& [max_stamp_step_s, max_speed_mps, max_pose_jump_m, max_coordinate_m, max_frame_length_m] = c;
+  auto& [max_stamp_step_s, max_speed_mps, max_pose_jump_m, max_coordinate_m, max_frame_detections,
+         max_frame_length_m] = c;
   v.number("max_stamp_step_s", max_stamp_step_s, "s", 0.01, 60);
   v.number("max_speed_mps", max_speed_mps, "m/s", 1, 200);
   v.number("max_pose_jump_m", max_pose_jump_m, "m", 0.01, 1000);
   v.number("max_coordinate_m", max_coordinate_m, "m", 1000, 1e7);
-  v.number("max_frame_length_m", max_frame_length_m, "m", 100, 1e6);
+  v.number("max_frame_detections", max_frame_detections, "", 1, 512);
+  v.number("max_frame_length_m", max_frame_length_m, "m", 100, 1e5);
 }
 
 void visit(auto& v, Is<ServiceConfig> auto& c) {
-  auto& [tick_rate_hz, stale_after_s, degraded_after_s, status_period_s, log_level, snapshot_file,
-         snapshot_period_s, snapshot_max_age_s] = c;
+  auto& [tick_rate_hz, stale_after_s, degraded_after_s, stale_lag_s, degraded_lag_s, status_period_s,
+         log_level, snapshot_file, snapshot_period_s, snapshot_max_age_s] = c;
   // Two maps are at most as far apart as their deadline (250 ms, src/dds/qos.cpp) allows.
   v.number("tick_rate_hz", tick_rate_hz, "Hz", 5, 100);
   v.number("stale_after_s", stale_after_s, "s", 0.05, 60);
   v.number("degraded_after_s", degraded_after_s, "s", 0.05, 60);
+  v.number("stale_lag_s", stale_lag_s, "s", 0.1, 60);
+  v.number("degraded_lag_s", degraded_lag_s, "s", 0.1, 60);
   v.number("status_period_s", status_period_s, "s", 0.1, 60);
   v.choice("log_level", log_level, "debug|info|warn|error|off");
   v.path("snapshot_file", snapshot_file);

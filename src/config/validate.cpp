@@ -98,6 +98,9 @@ std::optional<Problem> find_contradiction(const Config& c) {
   if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {
     return Problem{"sync.pose_history_s", "must exceed max_pose_gap_s"};
   }
+  if (c.service.degraded_lag_s > c.service.stale_lag_s) {
+    return Problem{"service.degraded_lag_s", "must not exceed stale_lag_s"};
+  }
   if (c.service.degraded_after_s > c.service.stale_after_s) {
     return Problem{"service.degraded_after_s", "must not exceed stale_after_s"};
   }

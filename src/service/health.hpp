@@ -16,6 +16,8 @@ struct Arrivals {
   std::optional<std::int64_t> poses_ns;
   std::optional<std::int64_t> fused_ns;          ///< arrival of the newest frame in the map
   std::optional<std::int64_t> other_service_ns;  ///< a status of another service of this vehicle
+  std::optional<double> lag_s;    ///< of the newest fused frame's stamp behind the newest pose's
+  bool source_not_fused = false;  ///< a source of several, that was heard a moment ago
 };
 
 struct Verdict {
@@ -25,7 +27,8 @@ struct Verdict {
 };
 
 /// Judges how far the map can be relied on. STALE: nothing was fused for stale_after_s. DEGRADED: input is
-/// missing, or something went wrong within the last second. Times are the steady clock's.
+/// missing, or something went wrong within the last second. Times are the steady clock's; the lag is by
+/// stamps, which are the sensors'.
 class Health {
  public:
   explicit Health(ServiceConfig config) : config_(std::move(config)) {}

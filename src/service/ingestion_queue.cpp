@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
+
+#include "session/admission.hpp"
 
 namespace laneloom {
 namespace {
@@ -12,34 +16,47 @@ constexpr std::size_t kMaxSources = 16;
 
 }  // namespace
 
-IngestionQueue::IngestionQueue(const SyncConfig& config) : config_(config) {
-  for (const auto* name : {"detections_received", "detections_lost", "poses_received", "poses_lost",
-                           "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
+IngestionQueue::IngestionQueue(const Config& config) : config_(config.sync), gate_(config.gate) {
+  for (const auto* name :
+       {"detections_received", "poses_received", "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
     state_.counters.add(name, 0);
   }
 }
 
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
+  const std::size_t left_out = admit(gate_, frame);
   const std::lock_guard lock(mutex_);
   count_frame();
+  if (left_out > 0) {
+    state_.counters.add("frames_thinned");
+    state_.counters.add("detections_left_out", left_out);
+  }
   state_.newest_frame_ns = arrival_ns;
   note_source(frame);
-  push(frames_, config_.queue_capacity, {std::move(frame), arrival_ns}, "frames_dropped_queue_full");
+  if (frames_.size() >= static_cast<std::size_t>(config_.queue_capacity)) drop_oldest_of_most();
+  push(frames_, {std::move(frame), arrival_ns});
 }
 
 void IngestionQueue::push(VehiclePose&& pose, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
   count_pose();
   state_.newest_pose_ns = arrival_ns;
-  push(poses_, config_.pose_queue_capacity, {std::move(pose), arrival_ns}, "poses_dropped_queue_full");
+  if (poses_.size() >= static_cast<std::size_t>(config_.pose_queue_capacity)) {
+    poses_.pop_front();
+    state_.counters.add("poses_dropped_queue_full");
+  }
+  push(poses_, {std::move(pose), arrival_ns});
 }
 
-void IngestionQueue::push(Queue& queue, int capacity, Arrival&& arrival, std::string_view dropped) {
-  if (queue.size() >= static_cast<std::size_t>(capacity)) {
-    queue.pop_front();
-    state_.counters.add(dropped);
-  }
-  queue.push_back({next_order_++, std::move(arrival)});
+void IngestionQueue::drop_oldest_of_most() {
+  const auto source_of = [](const Numbered& numbered) -> const std::string& {
+    return std::get<DetectionFrame>(numbered.arrival.message).source;
+  };
+  std::map<std::string_view, std::size_t> counts;
+  for (const Numbered& numbered : frames_) ++counts[source_of(numbered)];
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; });
+  frames_.erase(std::ranges::find(frames_, most->first, source_of));
+  state_.counters.add("frames_dropped_queue_full");
 }
 
 void IngestionQueue::note_source(const DetectionFrame& frame) {
@@ -58,12 +75,12 @@ void IngestionQueue::note_source(const DetectionFrame& frame) {
 
 void IngestionQueue::count_frame() {
   state_.counters.add("detections_received");
-  state_.counters.add("detections_lost", std::exchange(frames_missing_, 0));
+  frames_lost_ = lost_frames_.total();
 }
 
 void IngestionQueue::count_pose() {
   state_.counters.add("poses_received");
-  state_.counters.add("poses_lost", std::exchange(poses_missing_, 0));
+  poses_lost_ = lost_poses_.total();
 }
 
 void IngestionQueue::refuse_detections(std::string_view reason) {
@@ -85,12 +102,12 @@ void IngestionQueue::note_other_service(std::int64_t arrival_ns) {
 
 void IngestionQueue::number_detections(const dds::WriterId& writer, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  frames_missing_ += lost_frames_.before(writer, number);
+  lost_frames_.note(writer, number);
 }
 
 void IngestionQueue::number_pose(const dds::WriterId& writer, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  poses_missing_ += lost_poses_.before(writer, number);
+  lost_poses_.note(writer, number);
 }
 
 std::vector<Arrival> IngestionQueue::drain() {
@@ -116,6 +133,8 @@ IngestionQueue::Snapshot IngestionQueue::snapshot() const {
   const std::lock_guard lock(mutex_);
   auto result = state_;
   result.queued_frames = frames_.size();
+  result.counters.add("detections_lost", frames_lost_);
+  result.counters.add("poses_lost", poses_lost_);
   return result;
 }
 

@@ -24,12 +24,14 @@ struct Arrival {
   std::int64_t arrival_ns = 0;
 };
 
-/// Between the threads of DDS, which push, and the executor, which drains. Bounded: the oldest message of a
-/// kind is dropped for a new one, and counted. All functions are thread-safe.
+/// Between the threads of DDS, which push, and the executor, which drains. Bounded: for a new pose the oldest
+/// is dropped, for a new frame the oldest of the source that has the most; both are counted. All functions
+/// are thread-safe.
 class IngestionQueue {
  public:
-  explicit IngestionQueue(const SyncConfig& config);
+  explicit IngestionQueue(const Config& config);
 
+  /// Keeps of the frame what admit() leaves, so that memory is bounded too.
   void push(DetectionFrame&& frame, std::int64_t arrival_ns);
   void push(VehiclePose&& pose, std::int64_t arrival_ns);
   /// A message came that was no valid one.
@@ -63,21 +65,23 @@ class IngestionQueue {
   };
   using Queue = std::deque<Numbered>;
 
-  void push(Queue& queue, int capacity, Arrival&& arrival, std::string_view dropped);
+  void push(Queue& queue, Arrival&& arrival) { queue.push_back({next_order_++, std::move(arrival)}); }
+  void drop_oldest_of_most();
   void note_source(const DetectionFrame& frame);
   void count_frame();
   void count_pose();
 
   SyncConfig config_;
+  GateConfig gate_;
   mutable std::mutex mutex_;
   std::uint64_t next_order_ = 0;
   Queue frames_;
   Queue poses_;
   LostMessages lost_frames_;
   LostMessages lost_poses_;
-  // Counted with the message that shows it, so that the sums are right at every instant.
-  std::uint64_t frames_missing_ = 0;
-  std::uint64_t poses_missing_ = 0;
+  // What was lost is taken over with the message that shows it, so that the sums are right at every instant.
+  std::uint64_t frames_lost_ = 0;
+  std::uint64_t poses_lost_ = 0;
   Snapshot state_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -19,6 +20,10 @@ namespace laneloom {
 namespace {
 
 constexpr double kStatisticsWindow_s = 10.0;
+// Metres of markings that a tick fuses: a few of the dearest frames that the gate admits, and far more than
+// perception sends.
+constexpr double kTickWork_m = 6000.0;
+constexpr double kSourceRemembered_s = 10.0;  // a source that ended, or took another name, is missed so long
 
 std::uint64_t random_id() {
   std::random_device device;
@@ -34,8 +39,9 @@ std::int64_t system_now_ns() {
 bool is_incident(std::string_view counter) {
   return counter.find("_refused_") != std::string_view::npos ||
          counter.find("_dropped_") != std::string_view::npos || counter.ends_with("_lost") ||
-         counter == "map_resets" || counter == "ticks_missed" || counter == "elements_left_out" ||
-         counter == "writes_failed" || counter == "snapshots_failed";
+         counter == "map_resets" || counter == "sources_restarted" || counter == "frames_thinned" ||
+         counter == "ticks_missed" || counter == "elements_left_out" || counter == "writes_failed" ||
+         counter == "snapshots_failed";
 }
 
 std::size_t ticks_within(double window_s, double rate_hz) {
@@ -53,9 +59,10 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
       config_hash_(config_hash(config)),
       now_ns_(std::move(now_ns)),
       session_id_(random_id()),
+      map_id_(random_id()),
       started_ns_(now_ns_()),
       session_(config),
-      queue_(config.sync),
+      queue_(config),
       health_(config.service),
       work_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       delay_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
@@ -82,6 +89,7 @@ void Service::resume() {
     auto snapshot =
         read_snapshot(file, snapshot_stamp(), config_.service.snapshot_max_age_s, config_.mapper.voxel_map);
     session_.resume(snapshot.checkpoint, std::move(snapshot.state));
+    map_id_ = snapshot.map_id;
     counters_.add("snapshots_resumed");
     spdlog::info("event=resumed file={} lanes={}", file, session_.map().lanes.size());
   } catch (const std::exception& error) {
@@ -95,7 +103,7 @@ void Service::keep_snapshot(std::int64_t now_ns) {
   const auto checkpoint = session_.checkpoint();
   if (!snapshots_ || !checkpoint || now_ns < next_snapshot_ns_) return;
   next_snapshot_ns_ = now_ns + static_cast<std::int64_t>(config_.service.snapshot_period_s * 1e9);
-  snapshots_->write({snapshot_stamp(), *checkpoint, session_.mapper().state()});
+  snapshots_->write({snapshot_stamp(), map_id_, *checkpoint, session_.mapper().state()});
 }
 
 void Service::reopen() {
@@ -118,6 +126,7 @@ void Service::tick(const Tick& tick) {
 }
 
 void Service::ingest(std::int64_t now_ns) {
+  session_.grant_work(kTickWork_m);
   for (auto& [message, arrival_ns] : queue_.drain()) {
     if (auto* frame = std::get_if<DetectionFrame>(&message)) {
       session_.add(std::move(*frame), arrival_ns);
@@ -126,6 +135,15 @@ void Service::ingest(std::int64_t now_ns) {
     }
   }
   session_.expire(now_ns);
+}
+
+bool Service::source_not_fused(std::int64_t now_ns) const {
+  const auto sources = session_.sources();
+  return sources.size() > 1 && std::ranges::any_of(sources, [&](const SourceProgress& source) {
+           return age_s(now_ns, source.arrival_ns) < kSourceRemembered_s &&
+                  (!source.fused_arrival_ns ||
+                   age_s(now_ns, source.fused_arrival_ns) > config_.service.stale_after_s);
+         });
 }
 
 // Benchmarks tell by it how long the map of a tick takes to its readers.
@@ -140,8 +158,11 @@ bool Service::judge(const Tick& tick, std::uint64_t resets) {
   const auto unsynchronised = session_.counters()["detections_refused_unsynchronised"];
   const auto dropped = arrived.counters["frames_dropped_queue_full"] +
                        arrived.counters["poses_dropped_queue_full"] +
-                       session_.counters()["frames_dropped_queue_full"];
-  if (resets > 0) health_.note_reset(tick.start_ns);
+                       session_.counters()["frames_dropped_queue_full"] + arrived.counters["frames_thinned"];
+  if (resets > 0) {
+    health_.note_reset(tick.start_ns);
+    map_id_ = random_id();
+  }
   if (unsynchronised > std::exchange(unsynchronised_seen_, unsynchronised)) {
     health_.note_unsynchronised(tick.start_ns);
   }
@@ -154,8 +175,10 @@ bool Service::judge(const Tick& tick, std::uint64_t resets) {
   const auto checkpoint = session_.checkpoint();
   const auto fused_ns = checkpoint ? std::optional(checkpoint->frame_arrival_ns) : std::nullopt;
   // Ages are taken now: what arrived since the tick's start has none that is negative.
-  const auto verdict = health_.assess(
-      now_ns_(), {arrived.newest_frame_ns, arrived.newest_pose_ns, fused_ns, arrived.other_service_ns});
+  const auto now_ns = now_ns_();
+  const auto verdict =
+      health_.assess(now_ns, {arrived.newest_frame_ns, arrived.newest_pose_ns, fused_ns,
+                              arrived.other_service_ns, session_.lag_s(), source_not_fused(now_ns)});
   return std::exchange(verdict_, verdict) != verdict;
 }
 
@@ -172,7 +195,9 @@ void Service::publish_map(MappingSession::Progress&& progress) {
   map.session_id = session_id_;
   map.frame_id = config_.dds.map_frame_id;
   map.published_ns = system_now_ns();
+  map.map_id = map_id_;
   map.age_s = age_s(now_ns_(), session_.newest_arrival_ns());
+  map.lag_s = session_.lag_s().value_or(-1.0);
   map.state = verdict_.state;
   map.reasons = verdict_.reasons;
   map.fused_frames = std::move(progress.fused);
@@ -180,7 +205,7 @@ void Service::publish_map(MappingSession::Progress&& progress) {
   map.map.lineage = std::move(progress.lineage);
   write(endpoints_->map, map);
   write(endpoints_->road_markings, RoadMarkings{map.map.stamp_ns, map.sequence, map.session_id, map.frame_id,
-                                                std::move(map.map.instances)});
+                                                std::move(map.map.markings)});
 }
 
 void Service::publish_status(std::int64_t now_ns) {
@@ -210,9 +235,23 @@ ServiceStatus Service::status() const {
   const auto counters = all_counters(arrived);
   status.counters.assign(counters.values().begin(), counters.values().end());
   status.sources = arrived.sources;
+  for (SourceStatus& source : status.sources) add_progress(source);
   status.version = version();
   status.config_hash = config_hash_;
+  status.configuration = settings(config_);
   return status;
+}
+
+void Service::add_progress(SourceStatus& source) const {
+  const auto all = session_.sources();
+  const auto found = std::ranges::find_if(all, [&](const SourceProgress& progress) {
+    return progress.source == source.source && progress.session_id == source.session_id;
+  });
+  if (found == all.end()) return;
+  source.fused = found->fused;
+  const auto lag_s = session_.lag_s();
+  if (!found->fused_stamp_ns || !lag_s) return;
+  source.lag_s = *lag_s + static_cast<double>(session_.map().stamp_ns - *found->fused_stamp_ns) / 1e9;
 }
 
 Counters Service::all_counters(const IngestionQueue::Snapshot& arrived) const {
@@ -230,8 +269,10 @@ Counters Service::all_counters(const IngestionQueue::Snapshot& arrived) const {
 // Once per status period, so that nothing that others send can flood the log.
 void Service::log_incidents(const Counters& counters) {
   for (const auto& [counter, total] : counters.values()) {
-    const auto rise = total - reported_[counter];
-    if (rise > 0 && is_incident(counter)) spdlog::warn("counter={} new={} total={}", counter, rise, total);
+    const auto before = reported_[counter];
+    if (total <= before) continue;  // a message that was taken for lost may still come
+    const auto rise = total - before;
+    if (is_incident(counter)) spdlog::warn("counter={} new={} total={}", counter, rise, total);
   }
   reported_ = counters;
 }

@@ -49,6 +49,9 @@ class Service {
   void publish_map(MappingSession::Progress&& progress);
   void publish_status(std::int64_t now_ns);
   ServiceStatus status() const;
+  void add_progress(SourceStatus& source) const;
+  /// Whether one of several sources that was heard a moment ago does not go into the map.
+  bool source_not_fused(std::int64_t now_ns) const;
   Counters all_counters(const IngestionQueue::Snapshot& arrived) const;
   void log_incidents(const Counters& counters);
   template <class T>
@@ -58,6 +61,7 @@ class Service {
   std::string config_hash_;
   std::function<std::int64_t()> now_ns_;
   std::uint64_t session_id_;
+  std::uint64_t map_id_;  ///< ids of elements are valid while it stays
   std::int64_t started_ns_;
   MappingSession session_;
   IngestionQueue queue_;

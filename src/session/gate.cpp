@@ -25,12 +25,6 @@ bool within(const Polyline& line, double max_m) {
   return std::all_of(line.begin(), line.end(), [=](const Point& point) { return within(point, max_m); });
 }
 
-double length_3d(const Polyline& line) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) length_m += (line[i] - line[i - 1]).norm();
-  return length_m;
-}
-
 std::string_view defect(const Detection& detection, const GateConfig& config) {
   if (detection.points.size() < 2) return "too_few_points";
   if (!within(detection.points, config.max_coordinate_m)) return "coordinate";
@@ -93,12 +87,10 @@ std::string_view defect(const DetectionFrame& frame, const GateConfig& config) {
   for (const auto& area : frame.occluded_areas) {
     if (!within(area, config.max_coordinate_m)) return "coordinate";
   }
-  double length_m = 0.0;
   for (const auto& detection : frame.detections) {
     if (const auto found = defect(detection, config); !found.empty()) return found;
-    length_m += length_3d(detection.points);
   }
-  return length_m <= config.max_frame_length_m ? std::string_view() : "too_long";
+  return {};
 }
 
 std::string_view defect(const VehiclePose& pose, const GateConfig& config) {

@@ -1,18 +1,21 @@
 #include "laneloom/mapping_session.hpp"
 
 #include <algorithm>
-#include <map>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "mapping/state.hpp"
+#include "session/admission.hpp"
 #include "session/gate.hpp"
+#include "session/sources.hpp"
 #include "session/synchroniser.hpp"
 
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kMaxSources = 8;  // at a time; a stack may take a new name with every run
+// Of a frame without markings, too: the map is laid out anew.
+constexpr double kFrameWork_m = 100.0;
 
 using Checkpoint = MappingSession::Checkpoint;
 
@@ -41,36 +44,6 @@ std::string_view reason(Gate::Verdict verdict) {
   return {};
 }
 
-/// A gate for each source of frames. Of too many, the one that accepted nothing for longest is forgotten.
-class FrameGates {
- public:
-  explicit FrameGates(const GateConfig& config) : config_(config) {}
-
-  Gate::Verdict check(const DetectionFrame& frame) {
-    auto& source = sources_.try_emplace(frame.source, Source{Gate(config_)}).first->second;
-    const auto verdict = source.gate.check({frame.stamp_ns, frame.session_id});
-    if (reason(verdict).empty()) source.accepted = ++accepted_;
-    // A source that is new accepts its first frame, and so is not the one.
-    if (sources_.size() > kMaxSources) sources_.erase(idle());
-    return verdict;
-  }
-
- private:
-  struct Source {
-    Gate gate;
-    std::uint64_t accepted = 0;  ///< number of its newest accepted frame, among those of all sources
-  };
-  using Sources = std::map<std::string, Source>;
-
-  Sources::iterator idle() {
-    return std::ranges::min_element(sources_, {}, [](const auto& entry) { return entry.second.accepted; });
-  }
-
-  GateConfig config_;
-  Sources sources_;
-  std::uint64_t accepted_ = 0;
-};
-
 }  // namespace
 
 struct MappingSession::State {
@@ -78,13 +51,12 @@ struct MappingSession::State {
       : gate_config(c.gate),
         max_pause_s(c.service.snapshot_max_age_s),
         pose_gate(c.gate),
-        frame_gates(c.gate),
+        sources(c.gate),
         synchroniser(c.sync),
         mapper(c.mapper, load_sd_map(c.sd_map)) {}
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
-  std::string_view check_source(const DetectionFrame& frame);
   void check_resumed(const VehiclePose& pose);
   void fuse_ready();
   void fuse(const SynchronisedFrame& synchronised);
@@ -96,13 +68,14 @@ struct MappingSession::State {
   GateConfig gate_config;
   double max_pause_s;
   Gate pose_gate;
-  FrameGates frame_gates;
+  Sources sources;
   Synchroniser synchroniser;
   Mapper mapper;
   std::optional<std::int64_t> newest_stamp_ns;
   std::optional<std::int64_t> newest_arrival_ns;
   std::optional<VehiclePose> newest_pose;
   std::optional<Checkpoint> resumed;  ///< until the first pose
+  double work_left_m = std::numeric_limits<double>::infinity();
   Counters counters;
   Progress progress;
   StageObserver* observer = nullptr;
@@ -132,33 +105,37 @@ void MappingSession::State::check_resumed(const VehiclePose& pose) {
 
 std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t arrival_ns) {
   if (const auto found = defect(frame, gate_config); !found.empty()) return found;
-  if (const auto why = check_source(frame); !why.empty()) return why;
-  if (newest_stamp_ns && frame.stamp_ns < *newest_stamp_ns) return "late";
-  synchroniser.add(PendingFrame{std::move(frame), arrival_ns});
+  const Sources::Verdict verdict = sources.check(frame, arrival_ns);
+  if (!verdict.refusal.empty()) return verdict.refusal;
+  if (verdict.restarted) counters.add("sources_restarted");
+  if (const auto left_out = admit(gate_config, frame); left_out > 0) {
+    counters.add("frames_thinned");
+    counters.add("detections_left_out", left_out);
+  }
+  const double work_m = kFrameWork_m + length_of_markings(frame);
+  synchroniser.add(PendingFrame{std::move(frame), arrival_ns, work_m});
   fuse_ready();
   if (const auto dropped = synchroniser.drop_excess()) counters.add("frames_dropped_queue_full", dropped);
   return {};
 }
 
-std::string_view MappingSession::State::check_source(const DetectionFrame& frame) {
-  const auto verdict = frame_gates.check(frame);
-  if (verdict == Gate::Verdict::begins_anew) reset();
-  return reason(verdict);
-}
-
 void MappingSession::State::fuse_ready() {
   std::size_t unsynchronised = 0;
-  while (const auto frame = synchroniser.next(unsynchronised)) fuse(*frame);
+  while (const auto frame = synchroniser.next(work_left_m, unsynchronised)) {
+    work_left_m = std::max(0.0, work_left_m - frame->pending.work_m);
+    fuse(*frame);
+  }
   refuse_frames("unsynchronised", unsynchronised);
 }
 
 void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   const auto& frame = synchronised.pending.frame;
   const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
-  newest_stamp_ns = frame.stamp_ns;
+  newest_stamp_ns = map.stamp_ns;
   newest_arrival_ns = synchronised.pending.arrival_ns;
+  sources.note_fused(frame, synchronised.pending.arrival_ns);
   counters.add("frames_fused");
-  progress.fused.push_back({frame.session_id, frame.sequence, frame.stamp_ns});
+  progress.fused.push_back({frame.source, frame.session_id, frame.sequence, frame.stamp_ns});
   if (map_observer) map_observer(progress.fused.back(), map);
   progress.lineage.insert(progress.lineage.end(), map.lineage.begin(), map.lineage.end());
 }
@@ -190,6 +167,19 @@ void MappingSession::add(DetectionFrame frame, std::int64_t arrival_ns) {
 
 void MappingSession::expire(std::int64_t now_ns) {
   state_->refuse_frames("unsynchronised", state_->synchroniser.expire(now_ns));
+}
+
+void MappingSession::grant_work(double markings_m) {
+  state_->work_left_m = markings_m;
+  state_->fuse_ready();
+}
+
+std::vector<SourceProgress> MappingSession::sources() const { return state_->sources.progress(); }
+
+std::optional<double> MappingSession::lag_s() const {
+  const State& state = *state_;
+  if (!state.newest_stamp_ns || !state.newest_pose) return std::nullopt;
+  return static_cast<double>(state.newest_pose->stamp_ns - *state.newest_stamp_ns) / 1e9;
 }
 
 MappingSession::Progress MappingSession::take_progress() { return std::exchange(state_->progress, {}); }

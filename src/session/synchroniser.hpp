@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -15,6 +16,7 @@ namespace laneloom {
 struct PendingFrame {
   DetectionFrame frame;
   std::int64_t arrival_ns = 0;
+  double work_m = 0.0;  ///< markings, what fusing it costs
 };
 
 /// A frame and the pose at its stamp.
@@ -31,11 +33,12 @@ class Synchroniser {
   void add(const VehiclePose& pose) { poses_.add(pose); }
   void add(PendingFrame frame) { pending_.emplace(frame.frame.stamp_ns, std::move(frame)); }
 
-  /// The oldest frame that can be fused now. Frames that never can be are removed and counted in `refused`.
-  std::optional<SynchronisedFrame> next(std::size_t& refused);
-  /// Removes the frames that have waited for longer than max_wait_s; returns how many.
+  /// The oldest frame that can be fused now with at most this work. Frames that never can be fused are
+  /// removed and counted in `refused`.
+  std::optional<SynchronisedFrame> next(double most_work_m, std::size_t& refused);
+  /// Removes the frames that have waited for their poses for longer than max_wait_s; returns how many.
   std::size_t expire(std::int64_t now_ns);
-  /// Removes the oldest frames above the capacity; returns how many.
+  /// Removes frames above the capacity, each the oldest of the source that has the most; returns how many.
   std::size_t drop_excess();
   /// Removes all frames; returns how many.
   std::size_t clear_frames();
@@ -44,6 +47,8 @@ class Synchroniser {
   std::size_t pending() const { return pending_.size(); }
 
  private:
+  std::string_view source_with_most() const;
+
   SyncConfig config_;
   PoseBuffer poses_;
   std::multimap<std::int64_t, PendingFrame> pending_;  ///< by stamp

@@ -6,10 +6,12 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "laneloom/state_names.hpp"
@@ -34,6 +36,18 @@ inline std::function<bool(const PublishedMap&)> saying(MapState state, StateReas
 template <class T>
 std::vector<T> lose(const T& /*message*/) {
   return {};
+}
+
+/// Everything arrives so many messages later.
+template <class T>
+Channel<T> delay(std::size_t messages) {
+  return [messages, waiting = std::deque<T>()](T message) mutable {
+    waiting.push_back(std::move(message));
+    if (waiting.size() <= messages) return std::vector<T>{};
+    std::vector<T> sent{waiting.front()};
+    waiting.pop_front();
+    return sent;
+  };
 }
 
 /// A host that stops the senders or the service for a while is no fault of what is tested.

@@ -23,7 +23,7 @@ TEST(Laneloomd, DetectionsBecomeLanesAtThePlanner) {
   ASSERT_TRUE(maps.wait_for([](const PublishedMap&) { return true; })) << service.errors();
   const StraightRoad road(config);
   ASSERT_TRUE(maps.wait_for(is_good)) << service.errors();
-  ASSERT_TRUE(markings.wait_for([](const RoadMarkings& m) { return m.instances.size() == 2; }));
+  ASSERT_TRUE(markings.wait_for([](const RoadMarkings& m) { return m.markings.size() == 2; }));
 
   const auto samples = maps.samples();
   const auto good = *std::find_if(samples.begin(), samples.end(), is_good);

@@ -17,6 +17,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t id() const { return pid_; }
   void signal(int number) const;
   /// Its exit code, or minus the number of the signal that ended it. None: it still runs after a minute.
   std::optional<int> wait();

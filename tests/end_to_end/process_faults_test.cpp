@@ -13,17 +13,33 @@
 namespace laneloom {
 namespace {
 
-TEST_F(Faults, ARestartedPerceptionBeginsANewMap) {
+TEST_F(Faults, ARestartedPerceptionKeepsTheMap) {
   start();
-  road_.reset();
+  const auto before = counters();
+  road_->send_frames(lose<DetectionFrame>);
   EXPECT_TRUE(says(MapState::stale, StateReason::no_detections));
-  road_ = std::make_unique<StraightRoad>(config_);
+  const auto map_id = maps_.samples().back().map_id;
   road_->send_frames([](DetectionFrame frame) {
     frame.session_id = 7;
     return std::vector{frame};
   });
+  EXPECT_TRUE(is_good_again());
+  EXPECT_EQ(maps_.samples().back().map_id, map_id);
+  EXPECT_TRUE(rises("sources_restarted", before));
+  EXPECT_EQ(counters()["map_resets"], 0U);
+}
+
+TEST_F(Faults, ARestartedOdometryBeginsANewMap) {
+  start();
+  const auto map_id =
+      maps_.wait_for([](const PublishedMap&) { return true; }) ? maps_.samples().back().map_id : 0;
+  road_->send_poses([](VehiclePose pose) {
+    pose.session_id = 9;
+    return std::vector{pose};
+  });
   EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
   EXPECT_TRUE(is_good_again());
+  EXPECT_NE(maps_.samples().back().map_id, map_id);
 }
 
 TEST_F(Faults, AStoppedPlannerHoldsUpNobody) {

@@ -55,12 +55,32 @@ TEST_F(HealthTest, IncidentsDegradeForASecond) {
   EXPECT_EQ(assess(0, 0, 0), (Verdict{MapState::ok, {}}));
 }
 
-TEST_F(HealthTest, AResetIsSaidUntilTheMapLivesAgain) {
+TEST_F(HealthTest, AResetIsSaidForASecond) {
   health_.note_reset(now_ns_);
   EXPECT_EQ(assess(0, 0, -1), (Verdict{MapState::stale, {StateReason::reset}}));
-  now_ns_ += 5000 * kMs;
-  EXPECT_EQ(assess(0, 0, -1), (Verdict{MapState::stale, {StateReason::reset}}));
+  now_ns_ += 1001 * kMs;
+  EXPECT_EQ(assess(0, 0, -1), (Verdict{MapState::stale, {StateReason::starting}}));
   EXPECT_EQ(assess(0, 0, 0), (Verdict{MapState::ok, {}}));
+}
+
+// Frames come and are fused at once, but their stamps lie behind those of the poses.
+TEST_F(HealthTest, FramesThatAreOldByTheirStampsMakeItOutdated) {
+  const auto lag = [&](double lag_s) {
+    return health_.assess(now_ns_, {now_ns_, now_ns_, now_ns_, std::nullopt, lag_s});
+  };
+  EXPECT_EQ(lag(0.5), (Verdict{MapState::ok, {}}));
+  EXPECT_EQ(lag(0.51), (Verdict{MapState::degraded, {StateReason::outdated}}));
+  EXPECT_EQ(lag(1.0), (Verdict{MapState::degraded, {StateReason::outdated}}));
+  EXPECT_EQ(lag(1.01), (Verdict{MapState::stale, {StateReason::outdated}}));
+  EXPECT_EQ(lag(-0.1), (Verdict{MapState::ok, {}}));
+}
+
+TEST_F(HealthTest, ASourceThatIsNotFusedDegradesTheMapOfTheOthers) {
+  const auto fused_ago = [&](std::int64_t ago_ms) {
+    return health_.assess(now_ns_, {now_ns_, now_ns_, now_ns_ - ago_ms * kMs, std::nullopt, 0.1, true});
+  };
+  EXPECT_EQ(fused_ago(100), (Verdict{MapState::degraded, {StateReason::source_not_fused}}));
+  EXPECT_EQ(fused_ago(500), (Verdict{MapState::stale, {StateReason::unsynchronised}})) << "none is";
 }
 
 TEST_F(HealthTest, AnotherServiceIsSaidForAsLongAsItIsHeard) {

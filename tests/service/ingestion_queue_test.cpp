@@ -8,10 +8,10 @@
 namespace laneloom {
 namespace {
 
-SyncConfig capacities(int frames, int poses) {
-  SyncConfig config;
-  config.queue_capacity = frames;
-  config.pose_queue_capacity = poses;
+Config capacities(int frames, int poses) {
+  Config config;
+  config.sync.queue_capacity = frames;
+  config.sync.pose_queue_capacity = poses;
   return config;
 }
 
@@ -58,6 +58,27 @@ TEST(IngestionQueue, DropsTheOldestOfAKindAndCountsIt) {
   EXPECT_EQ(counters["poses_received"], 5U);
   EXPECT_EQ(counters["frames_dropped_queue_full"], 3U);
   EXPECT_EQ(counters["poses_dropped_queue_full"], 2U);
+}
+
+TEST(IngestionQueue, AFloodOfOneSourceLeavesTheFramesOfAnother) {
+  IngestionQueue queue(capacities(4, 4));
+  auto quiet = frame(1);
+  quiet.source = "quiet";
+  queue.push(std::move(quiet), 0);
+  for (std::uint64_t i = 10; i < 30; ++i) queue.push(frame(i), 0);
+  EXPECT_EQ(text(queue.drain()), "f1 f27 f28 f29");
+}
+
+TEST(IngestionQueue, ThinsAFrameThatIsTooMuchWork) {
+  auto config = capacities(4, 4);
+  config.gate.max_frame_detections = 2;
+  IngestionQueue queue(config);
+  auto heavy = frame(1);
+  heavy.detections.resize(5);
+  queue.push(std::move(heavy), 0);
+  EXPECT_EQ(queue.snapshot().counters["frames_thinned"], 1U);
+  EXPECT_EQ(queue.snapshot().counters["detections_left_out"], 3U);
+  EXPECT_EQ(std::get<DetectionFrame>(queue.drain()[0].message).detections.size(), 2U);
 }
 
 TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
