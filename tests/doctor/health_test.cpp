@@ -13,7 +13,7 @@ TEST(HealthFindings, TheStatesReasons) {
   Observed seen = healthy();
   seen.services[0].last.state = MapState::stale;
   seen.services[0].last.reasons = {StateReason::no_poses, StateReason::overloaded};
-  const Findings found = health_findings(seen);
+  const Findings found = state_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("state_no_poses", "state_overloaded"));
   EXPECT_EQ(found[0].found, "The service says STALE: no_poses.");
 }
@@ -24,8 +24,11 @@ TEST(HealthFindings, FramesThatAreNotFusedAreNotBlamedOnPosesAlone) {
   seen.services[0].last.state = MapState::stale;
   seen.services[0].last.reasons = {StateReason::unsynchronised};
   seen.services[0].last.counters = {{"detections_refused_stddev", 20}};
-  const Findings found = health_findings(seen);
-  ASSERT_THAT(ids(found), ElementsAre("state_unsynchronised", "detections_refused_stddev"));
+  const Findings found = state_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("state_unsynchronised"));
+  EXPECT_THAT(ids(incident_findings(seen)), ElementsAre("detections_refused_stddev"));
+  EXPECT_THAT(ids(findings(seen)), ElementsAre("detections_refused_stddev", "state_unsynchronised"))
+      << "the cause first";
   EXPECT_THAT(found[0].why, HasSubstr("or for another reason"));
   EXPECT_THAT(found[0].remedy, HasSubstr("detections_refused_<reason>"));
 }
@@ -43,7 +46,7 @@ TEST(HealthFindings, CountersThatRise) {
                                     {"poses_lost", 4},
                                     {"detections_refused_late", 3},
                                     {"poses_refused_wrong_frame", 7}};
-  const Findings found = health_findings(seen);
+  const Findings found = incident_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("poses_lost", "poses_refused_wrong_frame"));
   EXPECT_EQ(found[0].found, "poses_lost: poses were lost on the way (2 more).");
   EXPECT_EQ(found[1].found,
@@ -56,25 +59,42 @@ TEST(HealthFindings, EveryReasonOfTheServiceIsExplained) {
   const std::string unknown(explain_refusal("no such reason").cause);
   for (const char* reason : {"malformed", "unknown_enum", "not_finite", "not_a_rotation", "wrong_frame",
                              "wrong_size", "stamp", "coordinate", "too_few_points", "confidence", "stddev",
-                             "too_long", "repeated", "late", "outlier", "unsynchronised", "reset"})
+                             "crc", "data_id", "repeated", "late", "outlier", "unsynchronised", "reset"})
     EXPECT_NE(explain_refusal(reason).cause, unknown) << reason;
+}
+
+TEST(HealthFindings, ASourceOfWhichNothingIsMapped) {
+  Observed seen = healthy();
+  const auto sources = [](std::uint64_t front_fused, std::uint64_t rear_fused, std::uint64_t frames) {
+    SourceStatus front{.source = "front", .session_id = 1, .frames = frames, .fused = front_fused};
+    SourceStatus rear{.source = "rear", .session_id = 2, .frames = frames, .fused = rear_fused};
+    return std::vector{front, rear};
+  };
+  seen.services[0].first.sources = sources(10, 0, 10);
+  seen.services[0].last.sources = sources(30, 0, 30);
+  const Findings found = incident_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("source_not_fused"));
+  EXPECT_EQ(found[0].found, "Of source \"rear\", 20 frames arrived and none was mapped.");
+  seen.services[0].last.sources = sources(30, 1, 30);
+  EXPECT_THAT(incident_findings(seen), IsEmpty());
 }
 
 TEST(HealthFindings, AServiceThatIsNotHeard) {
   Observed seen = healthy();
   seen.services.clear();
-  const Findings found = health_findings(seen);
+  const Findings found = state_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("service_silent"));
-  EXPECT_EQ(found[0].found, "\"laneloomd\" (10.0.0.1) publishes maps, but no status of it came within 3 s.");
+  EXPECT_EQ(found[0].found,
+            "\"laneloomd\" (10.0.0.1) publishes maps, but no status of it came within 3.0 s.");
 }
 
 TEST(HealthFindings, WhatAServiceWouldRefuse) {
   Observed seen = healthy();
   seen.poses.refused = {{"wrong_frame", 5}};
-  EXPECT_THAT(health_findings(seen), IsEmpty()) << "the service knows better";
+  EXPECT_THAT(incident_findings(seen), IsEmpty()) << "the service knows better";
   seen.services.clear();
   seen.endpoints.erase(seen.endpoints.begin());
-  EXPECT_THAT(ids(health_findings(seen)), ElementsAre("poses_refused_wrong_frame"));
+  EXPECT_THAT(ids(incident_findings(seen)), ElementsAre("poses_refused_wrong_frame"));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ TEST(Streams, AWriterOfWhichNothingComes) {
   seen.detections = {};
   const Findings found = stream_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("detections_silent"));
-  EXPECT_EQ(found[0].found, "\"perception\" (10.0.0.1) writes detections, but none came within 3 s.");
+  EXPECT_EQ(found[0].found, "\"perception\" (10.0.0.1) writes detections, but none came within 3.0 s.");
   seen.endpoints.erase(seen.endpoints.begin() + 1);
   EXPECT_THAT(stream_findings(seen), IsEmpty()) << "nobody writes: topic_findings() say so";
 }
@@ -25,12 +25,53 @@ TEST(Streams, Rates) {
     seen.detections.window_s = seen.poses.window_s = window_s;
     return ids(stream_findings(seen));
   };
-  EXPECT_THAT(found_at(2, 41, 2.0), IsEmpty());      // 0.5 and 20 a second
+  EXPECT_THAT(found_at(9, 41, 2.0), IsEmpty());      // 4 and 20 a second
   EXPECT_THAT(found_at(101, 4001, 2.0), IsEmpty());  // 50 and 2000
   EXPECT_THAT(found_at(30, 60, 2.97), IsEmpty()) << "20 poses a second, and the window ends before the next";
-  EXPECT_THAT(found_at(2, 41, 6.1), ElementsAre("detections_slow", "poses_slow"));
+  EXPECT_THAT(found_at(7, 41, 2.3), ElementsAre("detections_slow", "poses_slow"));
   EXPECT_THAT(found_at(102, 41, 2.0), ElementsAre("detections_fast"));
   EXPECT_THAT(found_at(1, 1, 0.9), IsEmpty()) << "too early to tell";
+}
+
+TEST(Streams, TwoWritersOfPosesAreNamed) {
+  Observed seen = healthy();
+  auto second = pose_writer();
+  second.participant.name = "second odometry";
+  seen.endpoints.push_back(second);
+  const Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("poses_two_writers"));
+  EXPECT_THAT(found[0].found, HasSubstr("second odometry"));
+  seen = healthy();
+  seen.endpoints.push_back(detections_writer());
+  EXPECT_THAT(stream_findings(seen), IsEmpty()) << "two cameras are two sources";
+}
+
+TEST(Streams, ASequenceNumberThatStays) {
+  Observed seen = healthy();
+  seen.detections.unnumbered = 25;
+  const Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("detections_unnumbered"));
+  EXPECT_EQ(found[0].found, "25 detections have the sequence_number of the one before.");
+}
+
+TEST(Streams, AFieldOfViewThatIsNeverGivenIsAdvisedAndNotWrong) {
+  Observed seen = healthy();
+  seen.detections.without_view = seen.detections.messages - 1;
+  EXPECT_THAT(stream_findings(seen), IsEmpty()) << "one had it";
+  ++seen.detections.without_view;
+  const Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("no_field_of_view"));
+  EXPECT_TRUE(found[0].advice);
+}
+
+TEST(Streams, AProfileThatCutsDatagrams) {
+  Observed seen = healthy();
+  seen.dds.profile_file = "small.xml";
+  seen.largest_datagram = 1400;
+  const Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("datagrams_cut"));
+  EXPECT_THAT(found[0].found, HasSubstr("more than 1400 bytes"));
+  EXPECT_THAT(found[0].found, HasSubstr("small.xml"));
 }
 
 TEST(Streams, DetectionsAndPosesOfDifferentClocks) {

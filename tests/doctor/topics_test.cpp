@@ -33,18 +33,18 @@ TEST(Topics, AnotherPartition) {
 }
 
 TEST(Topics, SimilarNames) {
-  for (const char* name : {"laneloom/detections", "laneloom/v2/detections", "laneloom/v1/Detections",
-                           "rt/laneloom/v1/detections", "/laneloom/v1/detections", "detections"}) {
+  for (const char* name : {"laneloom/detections", "laneloom/v1/detections", "laneloom/v2/Detections",
+                           "rt/laneloom/v2/detections", "/laneloom/v2/detections", "detections"}) {
     Observed seen = healthy();
     seen.endpoints[kDetections].topic = name;
     const Findings found = topic_findings(seen);
     ASSERT_THAT(ids(found), ElementsAre("no_detections", "similar_topic")) << name;
-    EXPECT_THAT(found[1].found, HasSubstr(std::string("the topic ") + name + ", not laneloom/v1/detections"));
+    EXPECT_THAT(found[1].found, HasSubstr(std::string("the topic ") + name + ", not laneloom/v2/detections"));
   }
   Observed seen = healthy();
   seen.endpoints[kPoses].topic = "rt/VehiclePose";
   EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("no_poses", "similar_topic"));
-  seen.endpoints[kPoses].topic = "laneloom/v1/gnss";
+  seen.endpoints[kPoses].topic = "laneloom/v2/gnss";
   EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("no_poses"));
 }
 

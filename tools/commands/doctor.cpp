@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -72,7 +73,7 @@ void doctor(const Options& options) {
                report_json(seen, found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     fmt::print("{}", report(seen, found));
-  if (!found.empty()) throw CLI::RuntimeError(kFindings);
+  if (!std::ranges::all_of(found, &Finding::advice)) throw CLI::RuntimeError(kFindings);
 }
 
 }  // namespace

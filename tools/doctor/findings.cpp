@@ -17,9 +17,11 @@ Findings findings(const Observed& seen) {
     add(topic_findings(seen));
     add(qos_findings(seen));
     add(stream_findings(seen));
-    add(health_findings(seen));
+    add(incident_findings(seen));
+    add(state_findings(seen));
   }
   add(shared_memory_findings(seen));
+  std::ranges::stable_partition(all, [](const Finding& finding) { return !finding.advice; });
   return all;
 }
 

@@ -9,10 +9,11 @@
 namespace laneloom {
 
 struct Finding {
-  std::string id;      ///< for machines
-  std::string found;   ///< what is so
-  std::string why;     ///< why that matters
-  std::string remedy;  ///< what to do
+  std::string id;       ///< for machines
+  std::string found;    ///< what is so
+  std::string why;      ///< why that matters
+  std::string remedy;   ///< what to do
+  bool advice = false;  ///< nothing is wrong, but it could be better
 };
 using Findings = std::vector<Finding>;
 
@@ -22,14 +23,17 @@ Findings presence_findings(const Observed& seen);
 Findings topic_findings(const Observed& seen);
 /// Which writers and readers of the vehicle would match, but for their quality of service.
 Findings qos_findings(const Observed& seen);
-/// Whether the inputs come, how often, and by which clocks.
+/// Whether the inputs come, how often, by which clocks, and with what is useful in them.
 Findings stream_findings(const Observed& seen);
-/// What the service says of itself, and what it refuses.
-Findings health_findings(const Observed& seen);
+/// What the service refuses, and what else it counts that should not happen.
+Findings incident_findings(const Observed& seen);
+/// What the service says of itself: the consequences.
+Findings state_findings(const Observed& seen);
 /// What is in the way of shared memory, where that is used.
 Findings shared_memory_findings(const Observed& seen);
 
-/// All of these, in this order, each once. Where nobody is there, no more is said of those who are not.
+/// All of these, in this order, so that causes stand before their consequences; each once. Where nobody is
+/// there, no more is said of those who are not.
 Findings findings(const Observed& seen);
 
 }  // namespace laneloom

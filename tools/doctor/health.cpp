@@ -32,6 +32,9 @@ constexpr std::array kIncidents{
              kLoad},
     Incident{"poses_dropped_queue_full", "poses were dropped from a full queue (sync.pose_queue_capacity)",
              kLoad},
+    Incident{"frames_thinned",
+             "frames had more markings than gate.max_frame_detections and max_frame_length_m admit",
+             "Send what the network trusts, within its range; the least trusted and farthest were left out."},
     Incident{"elements_left_out", "elements of maps exceed the bounds of the IDL",
              "See the log of the service."},
     Incident{"writes_failed", "DDS did not take what the service wrote", "See the log of the service."},
@@ -65,6 +68,14 @@ Explanation explain(StateReason reason) {
     case StateReason::another_service:
       return {"Another service publishes maps for the same vehicle.",
               "End one of them, or give each vehicle an id of its own."};
+    case StateReason::outdated:
+      return {
+          "By their stamps, frames are mapped long after they were measured (service.degraded_lag_s): "
+          "perception is late, however often it writes.",
+          "See what holds perception up, or whether it stamps by another clock than odometry."};
+    case StateReason::source_not_fused:
+      return {"A source of detections that was heard a moment ago does not go into the map.",
+              "See what else is found of it, and the sources in `laneloom status`."};
   }
   return {"This version of the doctor does not know it.", "See the log of the service."};
 }
@@ -107,29 +118,51 @@ void judge_own(const char* subject, const InputObserved& input, Findings& found)
     found.push_back(refusal("The doctor, as the service would,", subject, reason, count));
 }
 
+/// Frames of a source that arrive, while none goes into the map.
+void judge_source(const SourceStatus& source, const ServiceStatus& first, Findings& found) {
+  const auto before = std::ranges::find_if(first.sources, [&](const SourceStatus& other) {
+    return other.source == source.source && other.session_id == source.session_id;
+  });
+  if (before == first.sources.end() || source.frames <= before->frames || source.fused > before->fused)
+    return;
+  found.push_back({"source_not_fused",
+                   printable(fmt::format("Of source \"{}\", {} frames arrived and none was mapped.",
+                                         source.source, source.frames - before->frames)),
+                   "The map knows nothing of what this source sees.",
+                   "See what is refused: no poses around its stamps, another clock, or stamps that repeat."});
+}
+
 }  // namespace
 
-Findings health_findings(const Observed& seen) {
+Findings incident_findings(const Observed& seen) {
   Findings found;
   if (seen.services.empty()) {
     judge_own("detections", seen.detections, found);
     judge_own("poses", seen.poses, found);
+  }
+  for (const ServiceObserved& service : seen.services) {
+    for (const auto& [counter, rise] : rises(service.last, service.first))
+      judge_counter(counter, rise, found);
+    for (const SourceStatus& source : service.last.sources) judge_source(source, service.first, found);
+  }
+  return found;
+}
+
+Findings state_findings(const Observed& seen) {
+  Findings found;
+  if (seen.services.empty()) {
     const auto all = services(seen);
     const auto silent = std::ranges::find_if(
         all, [&](const auto& service) { return is_of_vehicle(service, seen.dds.vehicle_id); });
     if (silent != all.end())
       found.push_back({"service_silent",
-                       fmt::format("{} publishes maps, but no status of it came within {} s.",
+                       fmt::format("{} publishes maps, but no status of it came within {:.1f} s.",
                                    who(silent->participant), seen.duration_s),
                        "It hangs, or its data does not arrive here.",
                        "See its log (journalctl -u laneloom). If it runs: a firewall may pass multicast "
                        "alone, or it sends by shared memory to processes that can't read it."});
   }
-  for (const ServiceObserved& service : seen.services) {
-    judge_state(service.last, found);
-    for (const auto& [counter, rise] : rises(service.last, service.first))
-      judge_counter(counter, rise, found);
-  }
+  for (const ServiceObserved& service : seen.services) judge_state(service.last, found);
   return found;
 }
 

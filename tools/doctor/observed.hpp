@@ -22,7 +22,9 @@ struct InputObserved {
   std::uint64_t messages = 0;                    ///< refused ones included
   std::map<std::string, std::uint64_t> refused;  ///< by reason
   double window_s = 0.0;                         ///< from the first message to the end of the observation
-  std::optional<Newest> newest;                  ///< that was not refused
+  std::optional<Newest> newest;                  ///< that has a header, refused or not
+  std::uint64_t unnumbered = 0;                  ///< have the sequence number and session of the one before
+  std::uint64_t without_view = 0;                ///< detections without a field of view
 };
 
 /// What one service told of itself.
@@ -41,7 +43,8 @@ struct SharedMemoryFile {
 };
 
 struct Observed {
-  DdsConfig dds;
+  DdsConfig dds;  ///< as it was asked for; the map frame is the service's own where it told
+  std::uint32_t largest_datagram = 65500;  ///< bytes that these settings receive whole
   double duration_s = 0.0;
   std::vector<dds::Peer> participants;  ///< all but those of doctors
   std::vector<dds::Endpoint> endpoints;

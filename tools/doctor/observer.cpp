@@ -25,8 +25,14 @@ double offset_s(const ServiceStatus& status) {
 
 }  // namespace
 
-void Observer::Stream::note_arrival() {
-  if (observed.messages++ == 0) first = SteadyClock::now();
+void Observer::Stream::note(const std::optional<dds::CdrHeader>& newest) {
+  const bool is_first = observed.messages++ == 0;
+  if (is_first) first = SteadyClock::now();
+  if (!newest) return;
+  const bool same = newest->sequence == header.sequence && newest->session_id == header.session_id;
+  if (!is_first && same) ++observed.unnumbered;
+  header = *newest;
+  observed.newest = {newest->stamp_ns, now_ns<SteadyClock>()};
 }
 
 InputObserved Observer::Stream::until(SteadyClock::time_point now) const {
@@ -39,29 +45,41 @@ Observer::Observer(const DdsConfig& config)
     : config_(config),
       discovery_(config, kName),
       participant_(config, kName),
-      detections_(participant_, callbacks_into<DetectionFrame>(detections_stream_)),
-      poses_(participant_, callbacks_into<VehiclePose>(poses_stream_)),
+      detections_(participant_, [this](Bytes&& message) { receive_detections(message); }),
+      poses_(participant_, [this](Bytes&& message) { receive_pose(message); }),
       statuses_(participant_, {.sample = [this](ServiceStatus&& status) { receive(std::move(status)); }}) {}
 
-template <class T>
-dds::ReaderCallbacks<T> Observer::callbacks_into(Stream& stream) {
-  dds::ReaderCallbacks<T> callbacks;
-  callbacks.sample = [this, &stream](T&& message) {
-    const std::lock_guard lock(mutex_);
-    stream.note_arrival();
-    stream.observed.newest = {message.stamp_ns, now_ns<SteadyClock>()};
-  };
-  callbacks.refused = [this, &stream](std::string_view reason) {
-    const std::lock_guard lock(mutex_);
-    stream.note_arrival();
-    ++stream.observed.refused[std::string(reason)];
-  };
-  return callbacks;
+void Observer::receive_detections(const Bytes& message) {
+  DetectionFrame frame;
+  const std::lock_guard lock(mutex_);
+  detections_stream_.note(dds::header_of(message));
+  const auto refusal = dds::from_cdr(message, config_.map_frame_id, frame);
+  if (!refusal.empty()) ++detections_stream_.observed.refused[std::string(refusal)];
+  if (refusal.empty() && frame.field_of_view.empty()) ++detections_stream_.observed.without_view;
+}
+
+void Observer::receive_pose(const Bytes& message) {
+  VehiclePose pose;
+  const std::lock_guard lock(mutex_);
+  poses_stream_.note(dds::header_of(message));
+  const auto refusal = dds::from_cdr(message, config_.map_frame_id, pose);
+  if (!refusal.empty()) ++poses_stream_.observed.refused[std::string(refusal)];
+}
+
+/// The map frame is what the service was told it is, whatever this doctor was told.
+void Observer::take_configuration(const ServiceStatus& status) {
+  for (const auto& [key, value] : status.configuration) {
+    if (key != "dds.map_frame_id" || value == config_.map_frame_id) continue;
+    config_.map_frame_id = value;
+    detections_stream_.observed.refused.erase("wrong_frame");
+    poses_stream_.observed.refused.erase("wrong_frame");
+  }
 }
 
 void Observer::receive(ServiceStatus&& status) {
   const double offset = offset_s(status);
   const std::lock_guard lock(mutex_);
+  take_configuration(status);
   auto found = services_.find(status.session_id);
   if (found == services_.end()) {
     if (services_.size() == kMaxSessions) return;
@@ -75,7 +93,7 @@ void Observer::receive(ServiceStatus&& status) {
 
 Observed Observer::observed() const {
   Observed result;
-  result.dds = config_;
+  result.largest_datagram = dds::largest_datagram(config_);
   result.participants = discovery_.participants();
   std::erase_if(result.participants, [](const dds::Peer& peer) { return peer.name == kName; });
   result.endpoints = discovery_.endpoints();
@@ -87,6 +105,7 @@ Observed Observer::observed() const {
 
   const auto now = SteadyClock::now();
   const std::lock_guard lock(mutex_);
+  result.dds = config_;
   result.duration_s = std::chrono::duration<double>(now - start_).count();
   result.detections = detections_stream_.until(now);
   result.poses = poses_stream_.until(now);

@@ -5,6 +5,8 @@
 #include <mutex>
 
 #include "doctor/observed.hpp"
+#include "laneloom/dds/cdr.hpp"
+#include "laneloom/dds/raw_reader.hpp"
 #include "laneloom/dds/reader.hpp"
 
 namespace laneloom {
@@ -25,14 +27,18 @@ class Observer {
   struct Stream {
     InputObserved observed;
     SteadyClock::time_point first;
+    dds::CdrHeader header;  ///< of the newest message
 
-    void note_arrival();
+    void note(const std::optional<dds::CdrHeader>& header);
     InputObserved until(SteadyClock::time_point now) const;
   };
 
-  template <class T>
-  dds::ReaderCallbacks<T> callbacks_into(Stream& stream);
+  using Bytes = std::vector<std::uint8_t>;
+
+  void receive_detections(const Bytes& message);
+  void receive_pose(const Bytes& message);
   void receive(ServiceStatus&& status);
+  void take_configuration(const ServiceStatus& status);
 
   DdsConfig config_;
   SteadyClock::time_point start_ = SteadyClock::now();
@@ -41,8 +47,8 @@ class Observer {
   std::map<std::uint64_t, ServiceObserved> services_;  ///< by session
   dds::Discovery discovery_;
   dds::Participant participant_;
-  dds::Reader<DetectionFrame> detections_;
-  dds::Reader<VehiclePose> poses_;
+  dds::RawReader<DetectionFrame> detections_;
+  dds::RawReader<VehiclePose> poses_;
   dds::Reader<ServiceStatus> statuses_;
 };
 

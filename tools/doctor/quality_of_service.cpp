@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
 
@@ -65,6 +67,14 @@ std::vector<std::string> mismatches(const Endpoint& writer, const Endpoint& read
   return result;
 }
 
+/// Whether another reader of the same participant gets the topic: one for each kind of writers, say.
+bool another_matches(const Endpoint& writer, const Endpoint& reader, const std::vector<Endpoint>& endpoints) {
+  return std::ranges::any_of(endpoints, [&](const Endpoint& other) {
+    return !other.is_writer && other.participant.id == reader.participant.id && other.topic == reader.topic &&
+           other.type == reader.type && mismatches(writer, other).empty();
+  });
+}
+
 }  // namespace
 
 Findings qos_findings(const Observed& seen) {
@@ -77,12 +87,12 @@ Findings qos_findings(const Observed& seen) {
       if (!writer.is_writer || reader.is_writer || writer.topic != reader.topic || writer.type != reader.type)
         continue;
       const auto policies = mismatches(writer, reader);
-      if (policies.empty()) continue;
+      if (policies.empty() || another_matches(writer, reader, ours)) continue;
       found.push_back({"qos_mismatch",
                        fmt::format("{} writes {}, but {} can't read it: {}.", who(writer.participant),
                                    writer.topic, who(reader.participant), fmt::join(policies, ", ")),
                        "A writer and a reader only match if the writer offers at least what the reader asks "
-                       "for; else nothing is sent, and neither is told.",
+                       "for; else nothing is sent. Their listeners may be told, but nobody else.",
                        "Let the reader ask for less, or the writer offer more. The service's own QoS is in "
                        "the README's table of topics."});
     }

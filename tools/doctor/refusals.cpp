@@ -13,6 +13,11 @@ constexpr std::string_view kIdl =
     "Generate its types from this version's IDL, as plain XCDR1; the bounds are part of it.";
 
 constexpr std::array kRefusals{
+    Refusal{"crc", "their bytes are not those that their writer protected (Header.crc)",
+            "Something on the way damages them, or the writer computes the CRC otherwise than idl/Common.idl "
+            "says."},
+    Refusal{"data_id", "they are protected as messages of another topic (Header.data_id)",
+            "Give them the data id that idl/Common.idl has for the topic."},
     Refusal{"malformed", "their bytes are no message of the topic's type", kIdl},
     Refusal{"unknown_enum", "an enumeration has a value that the IDL does not know", kIdl},
     Refusal{"not_finite", "they hold a NaN or an infinity", kWriter},
@@ -29,11 +34,10 @@ constexpr std::array kRefusals{
             "Leave such lines out where they are written."},
     Refusal{"confidence", "a confidence is not within 0..1", kWriter},
     Refusal{"stddev", "a standard deviation is negative", kWriter},
-    Refusal{"too_long", "the lines of a frame are longer together than gate.max_frame_length_m", kGate},
     Refusal{"repeated", "their stamp is that of the one before",
             "See whether two writers send the same data, or one sends it twice."},
     Refusal{"late", "their stamp is before one that was taken already",
-            "Write them in the order of their stamps; see whether two writers share a source name."},
+            "Write poses in the order of their stamps; see whether two writers take turns."},
     Refusal{"outlier",
             "their stamp or position jumped (gate.max_stamp_step_s, max_speed_mps, max_pose_jump_m)",
             "See whether two writers take turns, or a clock or localisation jumps. Three in a row that agree "

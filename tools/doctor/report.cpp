@@ -20,11 +20,13 @@ std::string report(const Observed& seen, const Findings& found) {
   std::string text = printable(fmt::format(
       "Domain {}, vehicle \"{}\", watched for {:.1f} s: {} participants{}{}.", seen.dds.domain,
       seen.dds.vehicle_id, seen.duration_s, names.size(), names.empty() ? "" : ": ", fmt::join(names, ", ")));
-  if (found.empty()) return text + "\nNothing wrong was found.\n";
+  if (std::ranges::all_of(found, &Finding::advice)) text += "\nNothing wrong was found.";
+  if (found.empty()) return text + "\n";
   text += "\n";
   for (std::size_t i = 0; i < found.size(); ++i)
-    text += fmt::format("\n{}. {}\n   Why it matters: {}\n   What to do: {}\n", i + 1,
-                        printable(found[i].found), printable(found[i].why), printable(found[i].remedy));
+    text += fmt::format("\n{}. {}{}\n   Why it matters: {}\n   What to do: {}\n", i + 1,
+                        found[i].advice ? "Advice: " : "", printable(found[i].found), printable(found[i].why),
+                        printable(found[i].remedy));
   return text;
 }
 
@@ -33,8 +35,11 @@ json report_json(const Observed& seen, const Findings& found) {
   for (const dds::Peer& peer : seen.participants)
     participants.push_back({{"id", peer.id}, {"name", peer.name}, {"address", peer.address}});
   for (const Finding& finding : found)
-    findings.push_back(
-        {{"id", finding.id}, {"found", finding.found}, {"why", finding.why}, {"remedy", finding.remedy}});
+    findings.push_back({{"id", finding.id},
+                        {"found", finding.found},
+                        {"why", finding.why},
+                        {"remedy", finding.remedy},
+                        {"advice", finding.advice}});
   return {{"domain", seen.dds.domain},
           {"vehicle_id", seen.dds.vehicle_id},
           {"duration_s", seen.duration_s},

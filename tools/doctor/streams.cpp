@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
@@ -20,7 +21,17 @@ struct Input {
   const char* topic;
   const InputObserved& messages;
   double min_rate_hz, max_rate_hz;
+  bool one_writer;
 };
+
+void judge_numbers(const Input& input, Findings& found) {
+  if (input.messages.unnumbered < 2) return;
+  found.push_back({fmt::format("{}_unnumbered", input.what),
+                   fmt::format("{} {} have the sequence_number of the one before.", input.messages.unnumbered,
+                               input.what),
+                   "Losses cannot be told, nor which frames a map was made of.",
+                   "Count sequence_number up by one with each message."});
+}
 
 void judge_rate(const Input& input, Findings& found) {
   if (input.messages.messages == 0 || input.messages.window_s < kMinWindow_s) return;
@@ -49,13 +60,46 @@ void judge(const Observed& seen, const Input& input, Findings& found) {
   });
   if (!writers.empty() && input.messages.messages == 0)
     found.push_back({fmt::format("{}_silent", input.what),
-                     fmt::format("{} writes {}, but none came within {} s.", who(writers[0].participant),
+                     fmt::format("{} writes {}, but none came within {:.1f} s.", who(writers[0].participant),
                                  input.what, seen.duration_s),
                      "It is known, so discovery works; its data does not arrive, or it writes none.",
                      "See whether it gets data itself. If it does: a firewall may pass multicast alone, a "
                      "host may announce an address that is out of reach, or it sends by shared memory to "
                      "processes that can't read it (another user, a container)."});
+  if (writers.size() > 1 && input.one_writer)
+    found.push_back({fmt::format("{}_two_writers", input.what),
+                     fmt::format("{} and {} both write {} of this vehicle.", who(writers[0].participant),
+                                 who(writers[1].participant), input.what),
+                     "Where their messages differ, each takes the other for a jump, and the map begins anew.",
+                     "End one of them, or give each vehicle an id of its own."});
   judge_rate(input, found);
+  judge_numbers(input, found);
+}
+
+void judge_datagrams(const Observed& seen, Findings& found) {
+  constexpr std::uint32_t kLargest = 65500;  // bytes that participants send by default
+  if (seen.largest_datagram >= kLargest) return;
+  found.push_back(
+      {"datagrams_cut",
+       fmt::format("Datagrams of more than {} bytes are cut when they are received, and lost without a "
+                   "word (maxMessageSize in {}).",
+                   seen.largest_datagram, seen.dds.profile_file),
+       "Other participants send up to 65500 bytes in one, and so every large frame would be missing.",
+       "Leave maxMessageSize out of the profile: Fast DDS receives into a buffer of that size."});
+}
+
+void judge_view(const Observed& seen, Findings& found) {
+  const InputObserved& frames = seen.detections;
+  const std::uint64_t refused =
+      std::accumulate(frames.refused.begin(), frames.refused.end(), std::uint64_t{0},
+                      [](auto sum, const auto& entry) { return sum + entry.second; });
+  if (frames.without_view == 0 || frames.without_view + refused < frames.messages) return;
+  found.push_back(
+      {"no_field_of_view", "Detections come without a field of view.",
+       "Where nothing is seen, the mapper cannot tell a line that is gone from one out of sight.",
+       "Fill Detections.field_of_view with what the sensors cover, and occluded_areas where they are "
+       "blocked.",
+       true});
 }
 
 /// Stamp against arrival, in seconds.
@@ -94,10 +138,12 @@ void judge_host_clocks(const Observed& seen, Findings& found) {
 
 Findings stream_findings(const Observed& seen) {
   Findings found;
-  judge(seen, {"detections", dds::kDetectionsTopic, seen.detections, 0.5, 50.0}, found);
-  judge(seen, {"poses", dds::kVehiclePoseTopic, seen.poses, 20.0, kAnyRate_hz}, found);
+  judge(seen, {"detections", dds::kDetectionsTopic, seen.detections, 4.0, 50.0, false}, found);
+  judge(seen, {"poses", dds::kVehiclePoseTopic, seen.poses, 20.0, kAnyRate_hz, true}, found);
+  judge_datagrams(seen, found);
   judge_sensor_clock(seen, found);
   judge_host_clocks(seen, found);
+  judge_view(seen, found);
   return found;
 }
 
