@@ -32,7 +32,7 @@ void MapperMeter::update(const FrameRecord& record) {
   const auto end = std::chrono::steady_clock::now();
   cost_.update_ms.push_back(std::chrono::duration<double, std::milli>(end - start).count());
   if (count_allocations_) cost_.allocations.push_back(static_cast<double>(tally_.count - allocated));
-  cost_.markings += map.instances.size();
+  cost_.markings += map.markings.size();
 }
 
 MapperCost MapperMeter::take_cost() {

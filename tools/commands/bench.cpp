@@ -104,6 +104,7 @@ void add_bench(CLI::App& app) {
   const std::vector<CLI::Option*> own = command->get_options();
   add_bench_latency(*command);
   add_bench_scale(*command);
+  add_bench_worst(*command);
   // Each has its own, behind its name; those before it would be of no account.
   for (CLI::App* measurement : command->get_subcommands({})) {
     for (CLI::Option* option : own) measurement->excludes(option);
