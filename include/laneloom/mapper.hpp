@@ -52,8 +52,9 @@ class Mapper {
   Mapper(Mapper&&) noexcept;
   Mapper& operator=(Mapper&&) noexcept;
 
-  /// Fuses one frame, seen from T_map_body, and rebuilds the local map. Frames come in stamp order, with
-  /// finite values; whoever takes them from outside checks that first. `observer` may be null.
+  /// Fuses one frame, seen from T_map_body, and rebuilds the local map about the newest pose so far. A frame
+  /// may be older than the one before it. Values are finite; whoever takes them from outside checks that
+  /// first. `observer` may be null.
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 

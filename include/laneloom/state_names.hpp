@@ -36,6 +36,10 @@ inline const char* name(StateReason reason) {
       return "overloaded";
     case StateReason::another_service:
       return "another_service";
+    case StateReason::outdated:
+      return "outdated";
+    case StateReason::source_not_fused:
+      return "source_not_fused";
   }
   return "unknown";
 }

@@ -105,6 +105,14 @@ struct Marking {
   double existence_probability = -1.0;   ///< 0..1; -1: not estimated
   std::uint64_t observations = 0;        ///< detections that contributed
   std::int64_t first_seen_ns = 0;        ///< stamp of the first frame that saw it
+  std::int64_t last_seen_ns = 0;         ///< stamp of the newest frame that saw it; 0: not known
+};
+
+/// A lane on the other side of a boundary, along a stretch. Each of two neighbours names the other.
+struct Neighbour {
+  ElementId lane = kNoElement;
+  Range range;                   ///< on the centerline of the lane that names it
+  std::vector<Range> crossable;  ///< within the range: where the line between the two is dashed
 };
 
 /// A lane between two boundaries (paper, Sec. III-D).
@@ -117,10 +125,10 @@ struct Lane {
   Range right_range;           ///< on the right boundary
   bool left_reversed = false;  ///< the left boundary runs against the lane; not published
   bool right_reversed = false;
-  Polyline left, right, centerline;  ///< map frame, all in the same direction
-  double width_m = 0.0;              ///< mean
-  ElementId left_neighbour = kNoElement;
-  ElementId right_neighbour = kNoElement;
+  Polyline left, right, centerline;        ///< map frame, all in the same direction
+  double width_m = 0.0;                    ///< mean
+  std::vector<Neighbour> left_neighbours;  ///< in the order of their ranges
+  std::vector<Neighbour> right_neighbours;
   Direction direction = Direction::unknown;
   std::uint32_t section = 0;  ///< lanes of one road section share it, within one map
   ElementStatus status = ElementStatus::confirmed;
@@ -150,7 +158,7 @@ struct Linkage {
 struct LocalMap {
   std::int64_t stamp_ns = 0;                                     ///< of the newest fused frame; 0: none yet
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< at the stamp
-  std::vector<Marking> instances;                                ///< the vectorised instances, of all types
+  std::vector<Marking> markings;                                 ///< the fused markings, of all types
   std::vector<Marking> boundaries;  ///< of lanes: lanelines, roadedges, and inferred ones
   std::vector<Stopline> stoplines;
   std::vector<Lane> lanes;

@@ -16,9 +16,15 @@ bool fits(const Marking& marking) {
          marking.lateral_stddev_m.size() <= msg::MAX_POINTS;
 }
 
+bool fits(const std::vector<Neighbour>& neighbours) {
+  return neighbours.size() <= msg::MAX_NEIGHBOURS && std::ranges::all_of(neighbours, [](const Neighbour& n) {
+           return n.crossable.size() <= msg::MAX_RANGES;
+         });
+}
+
 bool fits(const Lane& lane) {
-  return fits(lane.left) && fits(lane.right) && fits(lane.centerline) &&
-         lane.inferred_ranges.size() <= msg::MAX_RANGES;
+  return fits(lane.left_neighbours) && fits(lane.right_neighbours) && fits(lane.left) && fits(lane.right) &&
+         fits(lane.centerline) && lane.inferred_ranges.size() <= msg::MAX_RANGES;
 }
 
 bool fits(const Stopline& stopline) {
@@ -66,11 +72,9 @@ bool within_bounds(const PublishedMap& map) {
          within(m.lineage, msg::MAX_LINKAGES);
 }
 
-bool within_bounds(const RoadMarkings& markings) { return within(markings.instances, msg::MAX_MARKINGS); }
+bool within_bounds(const RoadMarkings& markings) { return within(markings.markings, msg::MAX_MARKINGS); }
 
-std::size_t keep_within_bounds(RoadMarkings& markings) {
-  return prune(markings.instances, msg::MAX_MARKINGS);
-}
+std::size_t keep_within_bounds(RoadMarkings& markings) { return prune(markings.markings, msg::MAX_MARKINGS); }
 
 std::size_t keep_within_bounds(PublishedMap& map) {
   auto& m = map.map;
@@ -83,8 +87,8 @@ std::size_t keep_within_bounds(PublishedMap& map) {
   });
   const auto lanes = ids_of(m.lanes);
   for (auto& lane : m.lanes) {
-    if (!lanes.contains(lane.left_neighbour)) lane.left_neighbour = kNoElement;
-    if (!lanes.contains(lane.right_neighbour)) lane.right_neighbour = kNoElement;
+    for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours})
+      std::erase_if(*neighbours, [&](const Neighbour& beside) { return !lanes.contains(beside.lane); });
   }
   for (auto& stopline : m.stoplines) {
     std::erase_if(stopline.lanes, [&](ElementId lane) { return !lanes.contains(lane); });

@@ -17,17 +17,22 @@ std::size_t to_cdr(const T& from, const std::string& map_frame_id, std::vector<s
 template <class T>
 std::string_view from_cdr(std::span<const std::uint8_t> from, const std::string& map_frame_id, T& to) {
   MessageOf<T> message;
-  return deserialise(from, message) ? from_msg(message, map_frame_id, to) : "malformed";
+  const auto why = deserialise(from, message);
+  return why.empty() ? from_msg(message, map_frame_id, to) : why;
 }
 
 std::optional<CdrHeader> header_of(std::span<const std::uint8_t> message) {
   // The header's numbers are the first of every message.
   CdrScanner scanner(message);
+  scanner.numbers(sizeof(std::uint64_t));
+  scanner.numbers(sizeof(std::uint32_t));
   scanner.numbers(sizeof(std::int64_t), 3);
   if (!scanner.ok()) return std::nullopt;
   CdrHeader header;
   read_cdr(message, [&](eprosima::fastcdr::Cdr& cdr) {
-    cdr >> header.stamp_ns >> header.sequence >> header.session_id;
+    std::uint64_t crc = 0;
+    std::uint32_t data_id = 0;
+    cdr >> crc >> data_id >> header.stamp_ns >> header.sequence >> header.session_id;
   });
   return header;
 }

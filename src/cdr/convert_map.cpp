@@ -8,6 +8,31 @@ namespace {
 using dds::from_msg;  // beside the overloads here
 using dds::to_msg;
 
+std::vector<msg::Range> to_msg(const std::vector<laneloom::Range>& from) {
+  return convert_all<msg::Range>(from, [](const laneloom::Range& range) { return to_msg(range); });
+}
+
+std::vector<laneloom::Range> from_msg(const std::vector<msg::Range>& from, Intake& intake) {
+  return convert_all<laneloom::Range>(from, [&](const msg::Range& range) { return intake.range(range); });
+}
+
+std::vector<msg::Neighbour> to_msg(const std::vector<Neighbour>& from) {
+  return convert_all<msg::Neighbour>(from, [](const Neighbour& neighbour) {
+    msg::Neighbour to;
+    to.lane(neighbour.lane);
+    to.range(to_msg(neighbour.range));
+    to.crossable(to_msg(neighbour.crossable));
+    return to;
+  });
+}
+
+std::vector<Neighbour> from_msg(const std::vector<msg::Neighbour>& from, Intake& intake) {
+  return convert_all<Neighbour>(from, [&](const msg::Neighbour& neighbour) {
+    return Neighbour{neighbour.lane(), intake.range(neighbour.range()),
+                     from_msg(neighbour.crossable(), intake)};
+  });
+}
+
 msg::Lane to_msg(const Lane& from) {
   msg::Lane to;
   to.id(from.id);
@@ -19,14 +44,13 @@ msg::Lane to_msg(const Lane& from) {
   to.right(to_msg(from.right));
   to.centerline(to_msg(from.centerline));
   to.width_m(from.width_m);
-  to.left_neighbour(from.left_neighbour);
-  to.right_neighbour(from.right_neighbour);
+  to.left_neighbours(to_msg(from.left_neighbours));
+  to.right_neighbours(to_msg(from.right_neighbours));
   to.direction(enum_to_msg<msg::DrivingDirection>(from.direction));
   to.section(from.section);
   to.status(enum_to_msg<msg::ElementStatus>(from.status));
   to.existence_probability(from.existence_probability);
-  to.inferred_ranges(convert_all<msg::Range>(from.inferred_ranges,
-                                             [](const laneloom::Range& range) { return to_msg(range); }));
+  to.inferred_ranges(to_msg(from.inferred_ranges));
   return to;
 }
 
@@ -41,14 +65,13 @@ Lane from_msg(const msg::Lane& from, Intake& intake) {
   to.right = intake.polyline(from.right());
   to.centerline = intake.polyline(from.centerline());
   to.width_m = intake.number(from.width_m());
-  to.left_neighbour = from.left_neighbour();
-  to.right_neighbour = from.right_neighbour();
+  to.left_neighbours = from_msg(from.left_neighbours(), intake);
+  to.right_neighbours = from_msg(from.right_neighbours(), intake);
   to.direction = intake.enumeration(from.direction(), Lane::Direction::against_centerline);
   to.section = from.section();
   to.status = intake.enumeration(from.status(), ElementStatus::inferred);
   to.existence_probability = intake.number(from.existence_probability());
-  to.inferred_ranges = convert_all<laneloom::Range>(
-      from.inferred_ranges(), [&](const msg::Range& range) { return intake.range(range); });
+  to.inferred_ranges = from_msg(from.inferred_ranges(), intake);
   return to;
 }
 
@@ -94,6 +117,7 @@ msg::LineageEvent to_msg(const LineageEvent& from) {
 
 msg::FusedFrame to_msg(const FusedFrame& from) {
   msg::FusedFrame to;
+  to.source(from.source.c_str());
   to.session_id(from.session_id);
   to.sequence_number(from.sequence);
   to.stamp_ns(from.stamp_ns);
@@ -136,7 +160,9 @@ std::size_t to_msg(const PublishedMap& from, const std::string& map_frame_id, ms
   }
   to.header(header_to_msg(from.map.stamp_ns, from.sequence, from.session_id, from.frame_id));
   to.published_ns(from.published_ns);
+  to.map_id(from.map_id);
   to.age_s(from.age_s);
+  to.lag_s(from.lag_s);
   to.state(enum_to_msg<msg::MapState>(from.state));
   to.reasons(convert_all<msg::StateReason>(
       from.reasons, [](StateReason reason) { return enum_to_msg<msg::StateReason>(reason); }));
@@ -154,15 +180,18 @@ Refusal from_msg(const msg::LaneMap& from, const std::string& /*map_frame_id*/, 
   to.session_id = from.header().session_id();
   to.frame_id = from.header().frame_id().to_string();
   to.published_ns = from.published_ns();
+  to.map_id = from.map_id();
   to.age_s = intake.number(from.age_s());
+  to.lag_s = intake.number(from.lag_s());
   to.state = intake.enumeration(from.state(), MapState::stale);
   to.reasons = convert_all<StateReason>(from.reasons(), [&](msg::StateReason reason) {
-    return intake.enumeration(reason, StateReason::another_service);
+    return intake.enumeration(reason, StateReason::source_not_fused);
   });
   to.map.T_map_body =
       Eigen::Translation3d(intake.point(from.pose().position())) * intake.rotation(from.pose().orientation());
   to.fused_frames = convert_all<FusedFrame>(from.fused_frames(), [](const msg::FusedFrame& frame) {
-    return FusedFrame{frame.session_id(), frame.sequence_number(), frame.stamp_ns()};
+    return FusedFrame{frame.source().to_string(), frame.session_id(), frame.sequence_number(),
+                      frame.stamp_ns()};
   });
   elements_from_msg(from, intake, to.map);
   return intake.refusal();
@@ -176,8 +205,8 @@ std::size_t to_msg(const RoadMarkings& from, const std::string& map_frame_id, ms
     return left_out;
   }
   to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, from.frame_id));
-  to.instances(convert_all<msg::Marking>(
-      from.instances, [&](const Marking& marking) { return to_msg(marking, from.stamp_ns); }));
+  to.markings(convert_all<msg::Marking>(
+      from.markings, [&](const Marking& marking) { return to_msg(marking, from.stamp_ns); }));
   return 0;
 }
 
@@ -187,8 +216,8 @@ Refusal from_msg(const msg::RoadMarkings& from, const std::string& /*map_frame_i
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();
   to.frame_id = from.header().frame_id().to_string();
-  to.instances = convert_all<Marking>(
-      from.instances(), [&](const msg::Marking& marking) { return from_msg(marking, to.stamp_ns, intake); });
+  to.markings = convert_all<Marking>(
+      from.markings(), [&](const msg::Marking& marking) { return from_msg(marking, to.stamp_ns, intake); });
   return intake.refusal();
 }
 

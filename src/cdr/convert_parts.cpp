@@ -6,6 +6,17 @@ namespace {
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kUnitTolerance = 1e-3;
 
+/// The stamp that was `age_s` before `stamp_ns`.
+std::int64_t stamp_before(std::int64_t stamp_ns, double age_s, Intake& intake) {
+  const double age_ns = intake.number(age_s) * kNanosecondsPerSecond;
+  std::int64_t before_ns = 0;
+  // Within a century (and a number at all) the conversion is defined; the stamp may be anything.
+  const bool defined = std::abs(age_ns) <= 3.2e18;
+  if (!defined || __builtin_sub_overflow(stamp_ns, std::llround(age_ns), &before_ns))
+    intake.refuse("not_finite");
+  return before_ns;
+}
+
 }  // namespace
 
 Point Intake::point(const msg::Point& from) { return {number(from.x()), number(from.y()), number(from.z())}; }
@@ -79,6 +90,8 @@ msg::Marking to_msg(const Marking& from, std::int64_t stamp_ns) {
   to.existence_probability(from.existence_probability);
   to.observations(from.observations);
   to.age_s(static_cast<double>(stamp_ns - from.first_seen_ns) / kNanosecondsPerSecond);
+  const auto unseen_ns = static_cast<double>(stamp_ns - from.last_seen_ns);
+  to.unseen_s(from.last_seen_ns == 0 ? -1.0 : unseen_ns / kNanosecondsPerSecond);
   return to;
 }
 
@@ -95,11 +108,9 @@ Marking from_msg(const msg::Marking& from, std::int64_t stamp_ns, Intake& intake
   intake.sizes_match(to.lateral_stddev_m.size(), to.points.size());
   to.existence_probability = intake.number(from.existence_probability());
   to.observations = from.observations();
-  const double age_ns = intake.number(from.age_s()) * kNanosecondsPerSecond;
-  // Within a century (and a number at all) the conversion is defined; the stamp may be anything.
-  const bool defined = std::abs(age_ns) <= 3.2e18;
-  if (!defined || __builtin_sub_overflow(stamp_ns, std::llround(age_ns), &to.first_seen_ns))
-    intake.refuse("not_finite");
+  to.first_seen_ns = stamp_before(stamp_ns, from.age_s(), intake);
+  if (intake.number(from.unseen_s()) >= 0.0)
+    to.last_seen_ns = stamp_before(stamp_ns, from.unseen_s(), intake);
   return to;
 }
 

@@ -27,12 +27,31 @@ msg::SourceStatus to_msg(const SourceStatus& from) {
   to.first_sequence(from.first_sequence);
   to.last_sequence(from.last_sequence);
   to.frames(from.frames);
+  to.fused(from.fused);
+  to.lag_s(from.lag_s);
+  to.learned().clear();
+  for (const auto& [name, value] : from.learned) {
+    if (to.learned().size() == msg::MAX_VALUES) break;
+    msg::NamedValue learned;
+    learned.name(name.c_str());
+    learned.value(value);
+    to.learned().push_back(learned);
+  }
   return to;
 }
 
-SourceStatus from_msg(const msg::SourceStatus& from) {
-  return {from.source().to_string(), from.session_id(), from.first_sequence(), from.last_sequence(),
-          from.frames()};
+SourceStatus from_msg(const msg::SourceStatus& from, Intake& intake) {
+  SourceStatus to;
+  to.source = from.source().to_string();
+  to.session_id = from.session_id();
+  to.first_sequence = from.first_sequence();
+  to.last_sequence = from.last_sequence();
+  to.frames = from.frames();
+  to.fused = from.fused();
+  to.lag_s = intake.number(from.lag_s());
+  for (const auto& learned : from.learned())
+    to.learned.emplace_back(learned.name().to_string(), intake.number(learned.value()));
+  return to;
 }
 
 }  // namespace
@@ -63,7 +82,16 @@ std::size_t to_msg(const ServiceStatus& from, const std::string& /*map_frame_id*
   }
   to.version(from.version.c_str());
   to.config_hash(from.config_hash.c_str());
-  return from.counters.size() - to.counters().size() + from.sources.size() - sources;
+  to.configuration().clear();
+  for (const auto& [key, value] : from.configuration) {
+    if (to.configuration().size() == msg::MAX_SETTINGS) break;
+    msg::Setting setting;
+    setting.key(key.c_str());
+    setting.value(value.c_str());
+    to.configuration().push_back(setting);
+  }
+  return from.counters.size() - to.counters().size() + from.sources.size() - sources +
+         from.configuration.size() - to.configuration().size();
 }
 
 Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_id*/, ServiceStatus& to) {
@@ -73,7 +101,7 @@ Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_
   to.session_id = from.header().session_id();
   to.state = intake.enumeration(from.state(), MapState::stale);
   to.reasons = convert_all<StateReason>(from.reasons(), [&](msg::StateReason reason) {
-    return intake.enumeration(reason, StateReason::another_service);
+    return intake.enumeration(reason, StateReason::source_not_fused);
   });
   to.uptime_s = intake.number(from.uptime_s());
   to.detections_age_s = intake.number(from.detections_age_s());
@@ -84,9 +112,13 @@ Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_
   to.counters.clear();
   for (const auto& counter : from.counters())
     to.counters.emplace_back(counter.name().to_string(), counter.value());
-  to.sources = convert_all<SourceStatus>(from.sources(), [](const auto& source) { return from_msg(source); });
+  to.sources =
+      convert_all<SourceStatus>(from.sources(), [&](const auto& source) { return from_msg(source, intake); });
   to.version = from.version().to_string();
   to.config_hash = from.config_hash().to_string();
+  to.configuration.clear();
+  for (const auto& setting : from.configuration())
+    to.configuration.emplace_back(setting.key().to_string(), setting.value().to_string());
   return intake.refusal();
 }
 

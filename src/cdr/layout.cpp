@@ -10,8 +10,11 @@ constexpr std::size_t kLong = 4;
 constexpr std::size_t kLongLong = 8;
 constexpr std::size_t kDouble = 8;
 constexpr std::size_t kTextBound = std::remove_cvref_t<decltype(msg::Header().frame_id())>::max_size;
+constexpr std::size_t kValueBound = std::remove_cvref_t<decltype(msg::Setting().value())>::max_size;
 
 void header(CdrScanner& cdr) {
+  cdr.numbers(kLongLong);
+  cdr.numbers(kLong);
   cdr.numbers(kLongLong, 3);
   cdr.text(kTextBound);
 }
@@ -38,7 +41,15 @@ void marking(CdrScanner& cdr) {
   point_values(cdr);
   cdr.numbers(kDouble);
   cdr.numbers(kLongLong);
-  cdr.numbers(kDouble);
+  cdr.numbers(kDouble, 2);
+}
+
+void neighbours(CdrScanner& cdr) {
+  cdr.sequence(msg::MAX_NEIGHBOURS, [](CdrScanner& neighbour) {
+    neighbour.numbers(kLongLong);
+    neighbour.numbers(kDouble, 2);
+    neighbour.double_sequence(2, msg::MAX_RANGES);
+  });
 }
 
 void lane(CdrScanner& cdr) {
@@ -46,7 +57,8 @@ void lane(CdrScanner& cdr) {
   cdr.numbers(kDouble, 4);
   for (int line = 0; line < 3; ++line) polyline(cdr);
   cdr.numbers(kDouble);
-  cdr.numbers(kLongLong, 2);
+  neighbours(cdr);
+  neighbours(cdr);
   cdr.numbers(kEnum);
   cdr.numbers(kLong);
   cdr.numbers(kEnum);
@@ -79,7 +91,17 @@ void counter(CdrScanner& cdr) {
 
 void source(CdrScanner& cdr) {
   cdr.text(kTextBound);
-  cdr.numbers(kLongLong, 4);
+  cdr.numbers(kLongLong, 5);
+  cdr.numbers(kDouble);
+  cdr.sequence(msg::MAX_VALUES, [](CdrScanner& value) {
+    value.text(kTextBound);
+    value.numbers(kDouble);
+  });
+}
+
+void setting(CdrScanner& cdr) {
+  cdr.text(kTextBound);
+  cdr.text(kValueBound);
 }
 
 }  // namespace
@@ -101,12 +123,15 @@ void scan(CdrScanner& cdr, const msg::VehiclePose* /*type*/) {
 
 void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
   header(cdr);
-  cdr.numbers(kLongLong);
-  cdr.numbers(kDouble);
+  cdr.numbers(kLongLong, 2);
+  cdr.numbers(kDouble, 2);
   cdr.numbers(kEnum);
   cdr.number_sequence(kEnum, msg::MAX_REASONS);
   pose(cdr);
-  cdr.sequence(msg::MAX_FRAMES, [](CdrScanner& frame) { frame.numbers(kLongLong, 3); });
+  cdr.sequence(msg::MAX_FRAMES, [](CdrScanner& frame) {
+    frame.text(kTextBound);
+    frame.numbers(kLongLong, 3);
+  });
   cdr.sequence(msg::MAX_MARKINGS, marking);
   cdr.sequence(msg::MAX_LANES, lane);
   cdr.sequence(msg::MAX_MARKINGS, stopline);
@@ -129,6 +154,7 @@ void scan(CdrScanner& cdr, const msg::ServiceStatus* /*type*/) {
   cdr.sequence(msg::MAX_SOURCES, source);
   cdr.text(kTextBound);
   cdr.text(kTextBound);
+  cdr.sequence(msg::MAX_SETTINGS, setting);
 }
 
 }  // namespace laneloom::dds

@@ -16,6 +16,15 @@ void scan(CdrScanner& cdr, const msg::LaneMap*);
 void scan(CdrScanner& cdr, const msg::RoadMarkings*);
 void scan(CdrScanner& cdr, const msg::ServiceStatus*);
 
+/// Which topic's message each is, from end to end (Header.data_id).
+constexpr std::uint32_t data_id(const msg::Detections* /*type*/) { return msg::DATA_ID_DETECTIONS; }
+constexpr std::uint32_t data_id(const msg::VehiclePose* /*type*/) { return msg::DATA_ID_VEHICLE_POSE; }
+constexpr std::uint32_t data_id(const msg::LaneMap* /*type*/) { return msg::DATA_ID_LANE_MAP; }
+constexpr std::uint32_t data_id(const msg::RoadMarkings* /*type*/) { return msg::DATA_ID_ROAD_MARKINGS; }
+constexpr std::uint32_t data_id(const msg::ServiceStatus* /*type*/) { return msg::DATA_ID_STATUS; }
+template <class Message>
+inline constexpr std::uint32_t kDataId = data_id(static_cast<const Message*>(nullptr));
+
 /// Whether `payload` can be a Message: every length is within its bound and within the payload.
 template <class Message>
 bool well_formed(std::span<const std::uint8_t> payload) {

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <exception>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "cdr/layout.hpp"
+#include "cdr/protection.hpp"
 
 namespace laneloom::dds {
 
@@ -22,6 +24,7 @@ void serialise(const Message& from, std::vector<std::uint8_t>& to) {
   cdr.serialize_encapsulation();
   from.serialize(cdr);
   to.resize(cdr.getSerializedDataLength());
+  protect(to, kDataId<Message>);
 }
 
 /// Calls `read(cdr)` behind the encapsulation header, which must be well formed. Throws what Fast CDR throws.
@@ -35,15 +38,17 @@ void read_cdr(std::span<const std::uint8_t> from, Read read) {
   read(cdr);
 }
 
-/// False when the bytes are no such message; `to` is of no use then.
+/// Why the bytes are no such message: "crc", "data_id" or "malformed"; `to` is of no use then. Empty: they
+/// are.
 template <class Message>
-bool deserialise(std::span<const std::uint8_t> from, Message& to) {
-  if (!well_formed<Message>(from)) return false;
+std::string_view deserialise(std::span<const std::uint8_t> from, Message& to) {
+  if (const auto why = check_protection(from, kDataId<Message>); !why.empty()) return why;
+  if (!well_formed<Message>(from)) return "malformed";
   try {
     read_cdr(from, [&](eprosima::fastcdr::Cdr& cdr) { to.deserialize(cdr); });
-    return true;
+    return {};
   } catch (const std::exception&) {
-    return false;
+    return "malformed";
   }
 }
 

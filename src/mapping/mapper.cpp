@@ -13,6 +13,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/lane_identity.hpp"
 #include "mapping/lanes/lanes.hpp"
+#include "mapping/lanes/neighbours.hpp"
 #include "mapping/lanes/one_sided_lanes.hpp"
 #include "mapping/lanes/shoulders.hpp"
 #include "mapping/lanes/unmarked_roads.hpp"
@@ -133,42 +134,46 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   MapperState& state = *state_;
   LocalMap& map = state.map;
   if (observer != nullptr) observer->update_begins();
-  const LocalRange range(config_.range, T_map_body);
+  // A frame may come after newer ones of another source: it is fused as it was seen, into the map of now.
+  const bool newest = frame.stamp_ns >= map.stamp_ns;
+  const std::int64_t now_ns = newest ? frame.stamp_ns : map.stamp_ns;
+  const Eigen::Isometry3d T_map_now = newest ? T_map_body : map.T_map_body;
+  const LocalRange range(config_.range, T_map_now);
   ++state.frame;
 
   const auto markings = preprocess(frame, T_map_body, config_.preprocess);
   done(Stage::preprocess);
-  map = LocalMap{.stamp_ns = frame.stamp_ns, .T_map_body = T_map_body};
+  map = LocalMap{.stamp_ns = now_ns, .T_map_body = T_map_now};
   const Input input{frame, T_map_body, markings, range};
   std::vector<Relative> relatives;
-  map.instances = config_.method == "voxels" ? fuse_voxels(input, config_, done, state)
-                                             : fuse_lines(input, config_, done, state, relatives);
-  auto boundaries = lane_boundaries(map.instances, state.joints, config_.boundary);
+  map.markings = config_.method == "voxels" ? fuse_voxels(input, config_, done, state)
+                                            : fuse_lines(input, config_, done, state, relatives);
+  auto boundaries = lane_boundaries(map.markings, state.joints, config_.boundary);
   std::vector<MeasuredPolyline> measured;
   measured.reserve(boundaries.size());
   for (const LaneBoundary& boundary : boundaries) measured.emplace_back(boundary.marking.points);
   done(Stage::lane_boundaries);
-  const SectionGraph sections = road_sections(config_.section, T_map_body, boundaries, measured);
+  const SectionGraph sections = road_sections(config_.section, T_map_now, boundaries, measured);
   done(Stage::road_sections);
   const auto pairs = boundary_pairs(sections, boundaries, measured);
   map.lanes = generate_lanes(pairs, boundaries, measured, config_.lane);
   TakenSpace taken(map.lanes);
-  remove_shoulders(pairs, boundaries, T_map_body, config_.lane, map.lanes);
+  remove_shoulders(pairs, boundaries, T_map_now, config_.lane, map.lanes);
   auto inferred = divide_unmarked(pairs, boundaries, measured, config_.lane, taken);
   std::ranges::move(one_sided_lanes(sections.sections, boundaries, measured, range, config_.lane, taken),
                     std::back_inserter(inferred));
-  identify_inferred(state.frame, frame.stamp_ns, config_.lane, inferred, state.known_inferred, state.next_id);
+  identify_inferred(state.frame, now_ns, config_.lane, inferred, state.known_inferred, state.next_id);
   add_inferred(std::move(inferred), boundaries, measured, map.lanes);
   identify_lanes(state.frame, config_.lane, map.lanes, state.known_lanes, state.next_id);
-  find_neighbours(map.lanes);
+  find_neighbours(boundaries, map.lanes);
   done(Stage::lanes);
   map.linkages = generate_linkages(map.lanes, boundaries, measured, config_.linkage);
-  observe_directions(map.lanes, T_map_body, map.instances, config_.stopline, state.known_lanes);
+  observe_directions(map.lanes, T_map_now, map.markings, config_.stopline, state.known_lanes);
   find_directions(boundaries, config_.direction, state.known_lanes, map.lanes, map.linkages);
   find_turns(map.lanes, map.linkages);
   link_across_intersections(boundaries, sd_map_, config_.linkage, map.lanes, map.linkages);
-  link_ego_track(map.lanes, T_map_body, state.ego_track, map.linkages);
-  map.stoplines = tie_stoplines(map.instances, map.lanes, config_.stopline);
+  link_ego_track(map.lanes, T_map_now, state.ego_track, map.linkages);
+  map.stoplines = tie_stoplines(map.markings, map.lanes, config_.stopline);
   done(Stage::linkages);
 
   Membership now = membership(boundaries, map.stoplines);

@@ -48,18 +48,24 @@ void serialize(Archive& archive, LineageEvent& event) {
 template <class Archive>
 void serialize(Archive& archive, Marking& marking) {
   auto& [id, type, status, points, styles, lateral_stddev_m, existence_probability, observations,
-         first_seen_ns] = marking;
+         first_seen_ns, last_seen_ns] = marking;
   archive(id, type, status, points, styles, lateral_stddev_m, existence_probability, observations,
-          first_seen_ns);
+          first_seen_ns, last_seen_ns);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Neighbour& neighbour) {
+  auto& [lane, range, crossable] = neighbour;
+  archive(lane, range, crossable);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Lane& lane) {
   auto& [id, left_boundary, right_boundary, left_range, right_range, left_reversed, right_reversed, left,
-         right, centerline, width_m, left_neighbour, right_neighbour, direction, section, status,
+         right, centerline, width_m, left_neighbours, right_neighbours, direction, section, status,
          existence_probability, inferred_ranges] = lane;
   archive(id, left_boundary, right_boundary, left_range, right_range, left_reversed, right_reversed, left,
-          right, centerline, width_m, left_neighbour, right_neighbour, direction, section, status,
+          right, centerline, width_m, left_neighbours, right_neighbours, direction, section, status,
           existence_probability, inferred_ranges);
 }
 
@@ -77,13 +83,13 @@ void serialize(Archive& archive, Linkage& linkage) {
 
 template <class Archive>
 void serialize(Archive& archive, LocalMap& map) {
-  auto& [stamp_ns, T_map_body, instances, boundaries, stoplines, lanes, linkages, lineage] = map;
-  archive(stamp_ns, T_map_body, instances, boundaries, stoplines, lanes, linkages, lineage);
+  auto& [stamp_ns, T_map_body, markings, boundaries, stoplines, lanes, linkages, lineage] = map;
+  archive(stamp_ns, T_map_body, markings, boundaries, stoplines, lanes, linkages, lineage);
 }
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x33'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x34'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 

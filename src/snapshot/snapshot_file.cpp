@@ -47,7 +47,7 @@ void check(const SnapshotStamp& stamp, const SnapshotStamp& now, double max_age_
 void write_snapshot(const std::string& file, const Snapshot& snapshot) {
   std::ostringstream body;
   cereal::PortableBinaryOutputArchive archive(body);
-  archive(snapshot.stamp, snapshot.checkpoint, to_bytes(snapshot.state));
+  archive(snapshot.stamp, snapshot.map_id, snapshot.checkpoint, to_bytes(snapshot.state));
   const std::string bytes = std::move(body).str();
   replace_private_file(file, digest(bytes) + bytes);
 }
@@ -62,11 +62,11 @@ Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double
   }
   std::istringstream body(bytes.substr(kDigestBytes));
   cereal::PortableBinaryInputArchive archive(body);
-  Snapshot snapshot{{}, {}, MapperState(config)};
+  Snapshot snapshot{{}, 0, {}, MapperState(config)};
   archive(snapshot.stamp);
   check(snapshot.stamp, now, max_age_s);  // first: what another version wrote may not be readable
   std::string state;
-  archive(snapshot.checkpoint, state);
+  archive(snapshot.map_id, snapshot.checkpoint, state);
   snapshot.state = from_bytes(state, config);
   return snapshot;
 }

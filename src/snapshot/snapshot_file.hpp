@@ -19,6 +19,7 @@ struct SnapshotStamp {
 /// What a service that starts again goes on with.
 struct Snapshot {
   SnapshotStamp stamp;
+  std::uint64_t map_id = 0;  ///< the ids in the state belong to it
   MappingSession::Checkpoint checkpoint;
   MapperState state;
 };

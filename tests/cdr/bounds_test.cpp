@@ -18,13 +18,15 @@ PublishedMap road_of(std::size_t lanes) {
     result.map.boundaries.push_back(Marking{.id = 1 + i, .points = kLine});
   for (ElementId i = 0; i < lanes; ++i) {
     const ElementId next = i + 1 < lanes ? 1002 + i : kNoElement;
+    std::vector<Neighbour> beside;
+    if (next != kNoElement) beside.push_back({.lane = next, .range = {0.0, 1.0}, .crossable = {}});
     result.map.lanes.push_back(Lane{.id = 1001 + i,
                                     .left_boundary = 1 + i,
                                     .right_boundary = 2 + i,
                                     .left = kLine,
                                     .right = kLine,
                                     .centerline = kLine,
-                                    .right_neighbour = next});
+                                    .right_neighbours = beside});
     if (next != kNoElement) result.map.linkages.push_back(Linkage{.from = 1001 + i, .to = next});
   }
   result.map.stoplines.push_back(
@@ -45,7 +47,7 @@ TEST(Bounds, WhatRefersToALaneThatWentGoesToo) {
   EXPECT_EQ(keep_within_bounds(map), 3U + 3U);  // lanes and linkages
   EXPECT_TRUE(within_bounds(map));
   EXPECT_EQ(map.map.lanes.back().id, 1000U + msg::MAX_LANES);
-  EXPECT_EQ(map.map.lanes.back().right_neighbour, kNoElement);
+  EXPECT_TRUE(map.map.lanes.back().right_neighbours.empty());
   EXPECT_EQ(map.map.linkages.back().to, 1000U + msg::MAX_LANES);
   EXPECT_EQ(map.map.stoplines[0].lanes, std::vector<ElementId>{1001});
 }
@@ -70,7 +72,7 @@ TEST(Bounds, EveryListIsBounded) {
   keep_within_bounds(map);
   EXPECT_TRUE(within_bounds(map));
   RoadMarkings markings;
-  markings.instances.resize(msg::MAX_MARKINGS + 2);
+  markings.markings.resize(msg::MAX_MARKINGS + 2);
   EXPECT_EQ(keep_within_bounds(markings), 2U);
 }
 

@@ -71,7 +71,8 @@ TEST(Convert, FieldsKeepTheirMeaning) {
   EXPECT_EQ(plain.session_id, message.header().session_id());
   EXPECT_EQ(plain.map.lanes[0].left_boundary, message.lanes()[0].left_boundary());
   EXPECT_EQ(plain.map.lanes[0].left[0].y(), message.lanes()[0].left()[0].y());
-  EXPECT_EQ(plain.map.lanes[0].right_neighbour, message.lanes()[0].right_neighbour());
+  ASSERT_FALSE(plain.map.lanes[0].right_neighbours.empty());
+  EXPECT_EQ(plain.map.lanes[0].right_neighbours[0].lane, message.lanes()[0].right_neighbours()[0].lane());
   EXPECT_EQ(plain.map.linkages[0].from, message.linkages()[0].from_lane());
   EXPECT_EQ(plain.map.T_map_body.translation().x(), message.pose().position().x());
 
@@ -88,19 +89,23 @@ TEST(Convert, FieldsKeepTheirMeaning) {
 TEST(Convert, AgesAreTakenFromTheStamp) {
   RoadMarkings markings;
   markings.stamp_ns = 5'000'000'000;
-  markings.instances.push_back(Marking{.points = {{0, 0, 0}, {1, 0, 0}}, .first_seen_ns = 2'000'000'001});
+  markings.markings.push_back(Marking{.points = {{0, 0, 0}, {1, 0, 0}}, .first_seen_ns = 2'000'000'001});
   msg::RoadMarkings message;
   to_msg(markings, "map", message);
-  EXPECT_DOUBLE_EQ(message.instances()[0].age_s(), 2.999999999);
+  EXPECT_DOUBLE_EQ(message.markings()[0].age_s(), 2.999999999);
+  EXPECT_EQ(message.markings()[0].unseen_s(), -1.0);
+  markings.markings[0].last_seen_ns = 4'500'000'000;
+  to_msg(markings, "map", message);
+  EXPECT_DOUBLE_EQ(message.markings()[0].unseen_s(), 0.5);
 }
 
 TEST(Refuse, AgesThatReachBeyondAllTime) {
   msg::RoadMarkings message;
   to_msg(RoadMarkings{.stamp_ns = std::numeric_limits<std::int64_t>::min() + 10,
-                      .instances = {Marking{.id = 1, .points = {{0, 0, 0}, {1, 0, 0}}}}},
+                      .markings = {Marking{.id = 1, .points = {{0, 0, 0}, {1, 0, 0}}}}},
          "map", message);
   for (const double age_s : {1.0, std::numeric_limits<double>::quiet_NaN(), 1e300}) {
-    message.instances()[0].age_s(age_s);
+    message.markings()[0].age_s(age_s);
     RoadMarkings markings;
     EXPECT_EQ(from_msg(message, "map", markings), "not_finite") << age_s;
   }

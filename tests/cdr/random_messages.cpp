@@ -59,6 +59,15 @@ msg::Marking RandomMessages::marking() {
   m.existence_probability(number());
   m.observations(id());
   m.age_s(age());
+  m.unseen_s(age());
+  return m;
+}
+
+msg::Neighbour RandomMessages::neighbour() {
+  msg::Neighbour m;
+  m.lane(id());
+  m.range(range());
+  m.crossable(several(3, [&] { return range(); }));
   return m;
 }
 
@@ -73,8 +82,8 @@ msg::Lane RandomMessages::lane() {
   m.right(polyline());
   m.centerline(polyline());
   m.width_m(number());
-  m.left_neighbour(id());
-  m.right_neighbour(id());
+  m.left_neighbours(several(3, [&] { return neighbour(); }));
+  m.right_neighbours(several(3, [&] { return neighbour(); }));
   m.direction(one_of(msg::DIRECTION_AGAINST_CENTERLINE));
   m.section(static_cast<std::uint32_t>(whole(1000)));
   m.status(one_of(msg::STATUS_INFERRED));
@@ -137,12 +146,15 @@ msg::LaneMap RandomMessages::lane_map() {
   msg::LaneMap m;
   m.header(header());
   m.published_ns(stamp());
+  m.map_id(id());
   m.age_s(number());
+  m.lag_s(number());
   m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_ANOTHER_SERVICE); }));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_SOURCE_NOT_FUSED); }));
   m.pose(pose());
   m.fused_frames(several(4, [&] {
     msg::FusedFrame frame;
+    frame.source(text("camera").c_str());
     frame.session_id(id());
     frame.sequence_number(id());
     frame.stamp_ns(stamp());
@@ -165,7 +177,7 @@ msg::LaneMap RandomMessages::lane_map() {
 msg::RoadMarkings RandomMessages::road_markings() {
   msg::RoadMarkings m;
   m.header(header());
-  m.instances(several(5, [&] { return marking(); }));
+  m.markings(several(5, [&] { return marking(); }));
   return m;
 }
 
@@ -181,7 +193,7 @@ msg::ServiceStatus RandomMessages::service_status() {
   msg::ServiceStatus m;
   m.header(header());
   m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_ANOTHER_SERVICE); }));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_SOURCE_NOT_FUSED); }));
   m.uptime_s(number());
   m.detections_age_s(number());
   m.poses_age_s(number());
@@ -201,10 +213,24 @@ msg::ServiceStatus RandomMessages::service_status() {
     source.first_sequence(id());
     source.last_sequence(id());
     source.frames(id());
+    source.fused(id());
+    source.lag_s(number());
+    source.learned(several(3, [&] {
+      msg::NamedValue value;
+      value.name(text("value").c_str());
+      value.value(number());
+      return value;
+    }));
     return source;
   }));
   m.version(text("version").c_str());
   m.config_hash(text("hash").c_str());
+  m.configuration(several(3, [&] {
+    msg::Setting setting;
+    setting.key(text("key").c_str());
+    setting.value(text("value").c_str());
+    return setting;
+  }));
   return m;
 }
 

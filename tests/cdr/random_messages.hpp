@@ -56,6 +56,7 @@ class RandomMessages {
   msg::Pose pose();
   msg::Header header();
   msg::Marking marking();
+  msg::Neighbour neighbour();
   msg::Lane lane();
   msg::Stopline stopline();
   msg::Linkage linkage();

@@ -181,12 +181,7 @@ TEST(Planner, ChangesLanesWhereItsLaneEnds) {
   map.lanes = {lane_of(1, straight_line({0, 0, 0}, {40, 0, 0})),
                lane_of(2, straight_line({0, 3.5, 0}, {90, 3.5, 0}))};
   for (Point& point : map.lanes[0].right) point.y() += point.x() / 40.0;
-  map.lanes[0].left_neighbour = 2;
-  map.lanes[0].left_boundary = 7;
-  Marking boundary;
-  boundary.id = 7;
-  boundary.styles = {{{0.0, 80.0}, MarkingStyle::dashed}};
-  map.boundaries = {boundary};
+  map.lanes[0].left_neighbours = {{.lane = 2, .range = {0.0, 40.0}, .crossable = {{0.0, 40.0}}}};
   const Plan plan = settled_plan(map, {.rear_axle = {2.0, 0.0}, .speed_mps = 5.0}, kNoWish, 30);
   EXPECT_LT(distance(plan, {60, 3.5, 0}), 0.1);
   EXPECT_EQ(plan.support_at({60, 3.5, 0}), Support::mapped);

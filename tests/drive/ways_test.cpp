@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "maps.hpp"
 
 namespace laneloom {
@@ -75,23 +78,17 @@ TEST(Ways, OncomingTrafficIsKnownByTheDirection) {
 }
 
 /// Lane 1 narrows to 2.5 m and ends at x = 40; lane 2 on its left goes on.
-LocalMap ending_lane(MarkingStyle between) {
+LocalMap ending_lane(std::vector<Range> crossable) {
   LocalMap map;
   map.lanes = {lane_of(1, straight_line({0, 0, 0}, {40, 0, 0})),
                lane_of(2, straight_line({0, 3.5, 0}, {80, 3.5, 0}))};
   for (Point& point : map.lanes[0].right) point.y() += point.x() / 40.0;
-  map.lanes[0].left_neighbour = 2;
-  map.lanes[0].left_boundary = 7;
-  Marking boundary;
-  boundary.id = 7;
-  boundary.points = straight_line({0, 1.75, 0}, {80, 1.75, 0});
-  boundary.styles = {{{0.0, 80.0}, between}};
-  map.boundaries = {boundary};
+  map.lanes[0].left_neighbours = {{.lane = 2, .range = {0.0, 40.0}, .crossable = std::move(crossable)}};
   return map;
 }
 
 TEST(Ways, ALaneThatEndsLeadsToTheOneBeside) {
-  LocalMap map = ending_lane(MarkingStyle::dashed);
+  LocalMap map = ending_lane({{0.0, 40.0}});
   const Way way{map.lanes.data(), false};
   ASSERT_NE(beside(map, way).lane, nullptr);
   EXPECT_EQ(beside(map, way).lane->id, 2U);
@@ -100,9 +97,11 @@ TEST(Ways, ALaneThatEndsLeadsToTheOneBeside) {
 }
 
 TEST(Ways, NoneIsChangedToAcrossASolidLineNorWhereOnlyTheViewEnds) {
-  const LocalMap solid = ending_lane(MarkingStyle::solid);
-  EXPECT_EQ(beside(solid, {solid.lanes.data(), false}).lane, nullptr);
-  LocalMap wide = ending_lane(MarkingStyle::dashed);
+  for (const auto& crossable : {std::vector<Range>{}, std::vector<Range>{{0.0, 10.0}}}) {
+    const LocalMap solid = ending_lane(crossable);
+    EXPECT_EQ(beside(solid, {solid.lanes.data(), false}).lane, nullptr);
+  }
+  LocalMap wide = ending_lane({{0.0, 40.0}});
   for (Point& point : wide.lanes[0].right) point.y() = -1.75;
   EXPECT_EQ(beside(wide, {wide.lanes.data(), false}).lane, nullptr);
 }

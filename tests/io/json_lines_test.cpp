@@ -136,8 +136,8 @@ LocalMap full_map() {
   lane.right_range = {4.0, 3.0};
   lane.left = lane.right = lane.centerline = boundary.points;
   lane.width_m = 3.25;
-  lane.left_neighbour = 7;
-  lane.right_neighbour = 8;
+  lane.left_neighbours = {{.lane = 7, .range = {0.0, 2.0}, .crossable = {{0.5, 1.0}}}};
+  lane.right_neighbours = {{.lane = 8, .range = {0.25, 1.0}, .crossable = {}}};
   lane.direction = Lane::Direction::against_centerline;
   lane.section = 3;
   lane.status = ElementStatus::inferred;

@@ -128,7 +128,10 @@ TEST_P(EitherMapper, LanesHaveBoundariesStylesAndNeighbours) {
   const LocalMap& map = drive.steps(20);
   ASSERT_EQ(map.lanes.size(), 2U);
   for (const Lane& lane : map.lanes) EXPECT_NEAR(lane.width_m, 3.6, 0.01);
-  EXPECT_NE(map.lanes[0].left_neighbour == map.lanes[1].id, map.lanes[0].right_neighbour == map.lanes[1].id);
+  const auto& lane = map.lanes[0];
+  ASSERT_EQ(lane.left_neighbours.size() + lane.right_neighbours.size(), 1U);
+  EXPECT_EQ((lane.left_neighbours.empty() ? lane.right_neighbours : lane.left_neighbours)[0].lane,
+            map.lanes[1].id);
   for (const Marking& boundary : map.boundaries) {
     ASSERT_EQ(boundary.styles.size(), 1U);
     const bool is_edge = boundary.type == MarkingType::roadedge;
@@ -167,7 +170,7 @@ TEST_P(EitherMapper, WhatLeavesTheRangeGoes) {
   drive.x += 1000.0;
   const LocalMap& map = drive.step({});
   EXPECT_TRUE(map.boundaries.empty());
-  EXPECT_TRUE(map.instances.empty());
+  EXPECT_TRUE(map.markings.empty());
   EXPECT_EQ(drive.mapper.state().voxels.living(), 0U);
   EXPECT_TRUE(drive.mapper.state().lines.empty());
   EXPECT_EQ(map.lineage.size(), published);  // all retired
@@ -177,7 +180,7 @@ TEST_P(EitherMapper, EverythingPublishedLiesInTheRange) {
   Drive drive(GetParam());
   const double margin_m = GetParam() == "lines" ? RangeConfig{}.margin_forward_m : 0.0;  // published, too
   for (int i = 0; i < 60; ++i) {
-    for (const Marking& instance : drive.step().instances) {
+    for (const Marking& instance : drive.step().markings) {
       for (const Point& p : instance.points) {
         const Point body = drive.mapper.map().T_map_body.inverse() * p;
         EXPECT_GE(body.x(), -5.0 - margin_m - 1e-6);

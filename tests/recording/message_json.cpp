@@ -27,7 +27,9 @@ static json of(const std::vector<T>& list) {
 }
 
 static json of(const Header& m) {
-  return {{"stamp_ns", of(m.stamp_ns())},
+  return {{"crc", of(m.crc())},
+          {"data_id", m.data_id()},
+          {"stamp_ns", of(m.stamp_ns())},
           {"sequence_number", of(m.sequence_number())},
           {"session_id", of(m.session_id())},
           {"frame_id", m.frame_id().to_string()}};
@@ -60,11 +62,16 @@ static json of(const Marking& m) {
           {"lateral_stddev_m", of(m.lateral_stddev_m())},
           {"existence_probability", m.existence_probability()},
           {"observations", of(m.observations())},
-          {"age_s", m.age_s()}};
+          {"age_s", m.age_s()},
+          {"unseen_s", m.unseen_s()}};
 }
 
 static json of(const LineageEvent& m) {
   return {{"kind", of(m.kind())}, {"id", of(m.id())}, {"other", of(m.other())}};
+}
+
+static json of(const Neighbour& m) {
+  return {{"lane", of(m.lane())}, {"range", of(m.range())}, {"crossable", of(m.crossable())}};
 }
 
 static json of(const Lane& m) {
@@ -77,8 +84,8 @@ static json of(const Lane& m) {
           {"right", of(m.right())},
           {"centerline", of(m.centerline())},
           {"width_m", m.width_m()},
-          {"left_neighbour", of(m.left_neighbour())},
-          {"right_neighbour", of(m.right_neighbour())},
+          {"left_neighbours", of(m.left_neighbours())},
+          {"right_neighbours", of(m.right_neighbours())},
           {"direction", of(m.direction())},
           {"section", m.section()},
           {"status", of(m.status())},
@@ -96,7 +103,8 @@ static json of(const Linkage& m) {
 }
 
 static json of(const FusedFrame& m) {
-  return {{"session_id", of(m.session_id())},
+  return {{"source", m.source().to_string()},
+          {"session_id", of(m.session_id())},
           {"sequence_number", of(m.sequence_number())},
           {"stamp_ns", of(m.stamp_ns())}};
 }
@@ -105,12 +113,19 @@ static json of(const TimeSummary& m) {
   return {{"mean_ms", m.mean_ms()}, {"p50_ms", m.p50_ms()}, {"p99_ms", m.p99_ms()}, {"max_ms", m.max_ms()}};
 }
 
+static json of(const NamedValue& m) { return {{"name", m.name().to_string()}, {"value", m.value()}}; }
+
+static json of(const Setting& m) { return {{"key", m.key().to_string()}, {"value", m.value().to_string()}}; }
+
 static json of(const SourceStatus& m) {
   return {{"source", m.source().to_string()},
           {"session_id", of(m.session_id())},
           {"first_sequence", of(m.first_sequence())},
           {"last_sequence", of(m.last_sequence())},
-          {"frames", of(m.frames())}};
+          {"frames", of(m.frames())},
+          {"fused", of(m.fused())},
+          {"lag_s", m.lag_s()},
+          {"learned", of(m.learned())}};
 }
 
 static json of(const Counter& m) { return {{"name", m.name().to_string()}, {"value", of(m.value())}}; }
@@ -135,7 +150,9 @@ json json_of(const msg::VehiclePose& m) {
 json json_of(const msg::LaneMap& m) {
   return {{"header", of(m.header())},
           {"published_ns", of(m.published_ns())},
+          {"map_id", of(m.map_id())},
           {"age_s", m.age_s()},
+          {"lag_s", m.lag_s()},
           {"state", of(m.state())},
           {"reasons", of(m.reasons())},
           {"pose", of(m.pose())},
@@ -148,7 +165,7 @@ json json_of(const msg::LaneMap& m) {
 }
 
 json json_of(const msg::RoadMarkings& m) {
-  return {{"header", of(m.header())}, {"instances", of(m.instances())}};
+  return {{"header", of(m.header())}, {"markings", of(m.markings())}};
 }
 
 json json_of(const msg::ServiceStatus& m) {
@@ -164,7 +181,8 @@ json json_of(const msg::ServiceStatus& m) {
           {"counters", of(m.counters())},
           {"sources", of(m.sources())},
           {"version", m.version().to_string()},
-          {"config_hash", m.config_hash().to_string()}};
+          {"config_hash", m.config_hash().to_string()},
+          {"configuration", of(m.configuration())}};
 }
 
 }  // namespace laneloom

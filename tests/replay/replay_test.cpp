@@ -169,10 +169,10 @@ TEST(LiveComparison, TellsEqualDifferentAndMissing) {
   EXPECT_FALSE(LiveComparison().result().holds());
 
   LiveComparison markings;
-  replayed.map.instances = replayed.map.boundaries;
+  replayed.map.markings = replayed.map.boundaries;
   markings.add_replayed(replayed);
-  RoadMarkings other{.stamp_ns = 100, .instances = replayed.map.instances};
-  other.instances[0].id = 8;
+  RoadMarkings other{.stamp_ns = 100, .markings = replayed.map.markings};
+  other.markings[0].id = 8;
   markings.add_live(other);
   EXPECT_EQ(markings.result().different, 1U);
 }

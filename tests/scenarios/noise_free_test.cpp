@@ -162,9 +162,12 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
   /// Or side by side: once the line between them has begun, a lane that opens or ends is reached by changing
   /// to it.
   static bool continues(const LocalMap& map, const Lane& from, const Lane& to) {
-    const bool beside = to.id == from.left_neighbour || to.id == from.right_neighbour ||
-                        from.id == to.left_neighbour || from.id == to.right_neighbour;
+    const bool beside = names(from.left_neighbours, to.id) || names(from.right_neighbours, to.id);
     return beside || reaches(map, from.id, to.id) || reaches(map, to.id, from.id);
+  }
+
+  static bool names(const std::vector<Neighbour>& neighbours, ElementId lane) {
+    return std::ranges::find(neighbours, lane, &Neighbour::lane) != neighbours.end();
   }
 
   /// Within two linkages: a lane of the truth may be published in two pieces.

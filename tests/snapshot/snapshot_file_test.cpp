@@ -24,8 +24,10 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 class SnapshotFileTest : public ::testing::Test {
  protected:
   static Snapshot snapshot() {
-    Snapshot result{
-        {"1.0 abc", 100 * kSecond, 500 * kSecond}, {1, 2, 3, 4, {5, 6, 7}}, MapperState(VoxelMapConfig{})};
+    Snapshot result{{"1.0 abc", 100 * kSecond, 500 * kSecond},
+                    77,
+                    {1, 2, 3, 4, {5, 6, 7}},
+                    MapperState(VoxelMapConfig{})};
     result.state.next_id = 42;
     result.state.map.boundaries.push_back(Marking{.id = 7, .points = {{1, 2, 3}, {4, 5, 6}}});
     result.state.map.lanes.push_back(Lane{.id = 8, .left_reversed = true});

@@ -50,10 +50,10 @@ PublishedMap good_map() {
   map.map.boundaries = {marking(1, MarkingType::roadedge, line_at(0.0)),
                         marking(2, MarkingType::laneline, line_at(3.0)),
                         marking(3, MarkingType::roadedge, line_at(6.0))};
-  map.map.instances = map.map.boundaries;
+  map.map.markings = map.map.boundaries;
   map.map.lanes = {lane(10, 0.0, 2, 1), lane(11, 3.0, 3, 2)};
-  map.map.lanes[0].left_neighbour = 11;
-  map.map.lanes[1].right_neighbour = 10;
+  map.map.lanes[0].left_neighbours = {{.lane = 11, .range = {0.0, 20.0}}};
+  map.map.lanes[1].right_neighbours = {{.lane = 10, .range = {0.0, 20.0}}};
   Stopline stopline;
   stopline.marking = marking(4, MarkingType::stopline, {{20, 0, 0}, {20, 6, 0}});
   stopline.marking.styles.clear();
@@ -99,7 +99,7 @@ TEST(Contract, HoldsForNeighboursOfOppositeDirections) {
   for (Polyline* line : {&upper.left, &upper.right, &upper.centerline})
     std::reverse(line->begin(), line->end());
   upper.left_range = upper.right_range = {20.0, 0.0};
-  std::swap(upper.left_neighbour, upper.right_neighbour);
+  std::swap(upper.left_neighbours, upper.right_neighbours);
   EXPECT_TRUE(check_contract(map, nullptr).empty());
 }
 
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
               [](auto& m) { m.map.T_map_body.translation().x() = kNan; }},
         Fault{"heading", ContractRule::finite_numbers,
               [](auto& m) { m.map.stoplines[0].heading.x() = kNan; }},
-        Fault{"empty_line", ContractRule::valid_geometry, [](auto& m) { m.map.instances[0].points.clear(); }},
+        Fault{"empty_line", ContractRule::valid_geometry, [](auto& m) { m.map.markings[0].points.clear(); }},
         Fault{"one_point", ContractRule::valid_geometry, [](auto& m) { lower(m).right.resize(1); }},
         Fault{"no_length", ContractRule::valid_geometry,
               [](auto& m) {
@@ -137,14 +137,20 @@ INSTANTIATE_TEST_SUITE_P(
                 m.map.linkages[0].path = {{1, 1, 0}};
               }},
         Fault{"boundary_twice", ContractRule::unique_ids, [](auto& m) { m.map.boundaries[1].id = 1; }},
-        Fault{"instance_twice", ContractRule::unique_ids, [](auto& m) { m.map.instances[1].id = 1; }},
+        Fault{"instance_twice", ContractRule::unique_ids, [](auto& m) { m.map.markings[1].id = 1; }},
         Fault{"stopline_is_boundary", ContractRule::unique_ids,
               [](auto& m) { m.map.stoplines[0].marking.id = 3; }},
         Fault{"lane_twice", ContractRule::unique_ids, [](auto& m) { upper(m).id = 10; }},
         Fault{"no_id", ContractRule::unique_ids, [](auto& m) { m.map.boundaries[0].id = kNoElement; }},
         Fault{"unknown_boundary", ContractRule::known_ids, [](auto& m) { lower(m).left_boundary = 99; }},
-        Fault{"unknown_neighbour", ContractRule::known_ids, [](auto& m) { lower(m).left_neighbour = 99; }},
-        Fault{"own_neighbour", ContractRule::known_ids, [](auto& m) { lower(m).left_neighbour = 10; }},
+        Fault{"unknown_neighbour", ContractRule::known_ids,
+              [](auto& m) {
+                lower(m).left_neighbours = {{.lane = 99, .range = {0.0, 20.0}}};
+              }},
+        Fault{"own_neighbour", ContractRule::known_ids,
+              [](auto& m) {
+                lower(m).left_neighbours = {{.lane = 10, .range = {0.0, 20.0}}};
+              }},
         Fault{"unknown_stopline_lane", ContractRule::known_ids,
               [](auto& m) { m.map.stoplines[0].lanes = {99}; }},
         Fault{"linkage_from", ContractRule::known_ids, [](auto& m) { m.map.linkages[0].from = 99; }},
@@ -160,11 +166,11 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"centerline_right", ContractRule::centered_line,
               [](auto& m) { lower(m).centerline[1].y() = -0.2; }},
         Fault{"one_sided_left", ContractRule::neighbours_across_boundary,
-              [](auto& m) { upper(m).right_neighbour = kNoElement; }},
+              [](auto& m) { upper(m).right_neighbours.clear(); }},
         Fault{"one_sided_right", ContractRule::neighbours_across_boundary,
-              [](auto& m) { lower(m).left_neighbour = kNoElement; }},
+              [](auto& m) { lower(m).left_neighbours.clear(); }},
         Fault{"wrong_side", ContractRule::neighbours_across_boundary,
-              [](auto& m) { std::swap(upper(m).left_neighbour, upper(m).right_neighbour); }},
+              [](auto& m) { std::swap(upper(m).left_neighbours, upper(m).right_neighbours); }},
         Fault{"range_beyond", ContractRule::range_in_boundary,
               [](auto& m) { lower(m).left_range.to_m = 20.2; }},
         Fault{"range_before", ContractRule::range_in_boundary,

@@ -32,8 +32,8 @@ void link(LocalMap& map, ElementId from, ElementId to) {
 LocalMap road() {
   LocalMap map;
   map.lanes = {lane(1, 0, 15, 0, 3, 3), lane(2, 0, 15, 3, 3, 3), lane(3, 15, 30, 0, 4, 4)};
-  map.lanes[0].left_neighbour = 2;
-  map.lanes[1].right_neighbour = 1;
+  map.lanes[0].left_neighbours = {{.lane = 2, .range = {0.0, 20.0}}};
+  map.lanes[1].right_neighbours = {{.lane = 1, .range = {0.0, 20.0}}};
   link(map, 1, 3);
   map.T_map_body.translation() = Point(1, 1, 0);
   return map;
@@ -61,7 +61,7 @@ TEST(EgoView, SeesALaneThatIsGivenAgainstTheVehicle) {
   Lane& ego = map.lanes[0];
   for (Polyline* line : {&ego.left, &ego.right, &ego.centerline}) std::reverse(line->begin(), line->end());
   std::swap(ego.left, ego.right);
-  std::swap(ego.left_neighbour, ego.right_neighbour);
+  std::swap(ego.left_neighbours, ego.right_neighbours);
   map.linkages.clear();
   link(map, 7, 1);  // ahead of the vehicle, where the lane's points begin
   const EgoView view = ego_view(map);

@@ -83,7 +83,7 @@ TEST(MapLines, AreBoundariesStoplinesAndLanes) {
   map.stoplines.resize(1);
   map.stoplines[0].marking.type = MarkingType::stopline;
   map.lanes.resize(1);
-  map.instances.resize(5);
+  map.markings.resize(5);
   std::vector<LineKind> kinds;
   for (const KindLine& line : kind_lines(map)) kinds.push_back(line.kind);
   EXPECT_THAT(kinds, testing::ElementsAre(LineKind::stopline, LineKind::laneline, LineKind::roadedge,

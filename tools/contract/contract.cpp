@@ -50,7 +50,7 @@ void check_id(ElementId id, const char* kind, std::set<ElementId>& seen, Finding
 
 void check_ids(const LocalMap& map, Findings& findings) {
   std::set<ElementId> instances, markings, lanes;
-  for (const Marking& m : map.instances) check_id(m.id, "instance", instances, findings);
+  for (const Marking& m : map.markings) check_id(m.id, "instance", instances, findings);
   for (const Marking& m : map.boundaries) check_id(m.id, "boundary", markings, findings);
   for (const Stopline& s : map.stoplines) check_id(s.marking.id, "stopline", markings, findings);
   for (const Lane& l : map.lanes) check_id(l.id, "lane", lanes, findings);
@@ -68,7 +68,7 @@ void check_ids(const LocalMap& map, Findings& findings) {
 }
 
 void check_markings(const LocalMap& map, Findings& findings) {
-  for (const Marking& marking : map.instances) check_marking(marking, "instance", findings);
+  for (const Marking& marking : map.markings) check_marking(marking, "instance", findings);
   for (const Marking& marking : map.boundaries) {
     check_marking(marking, "boundary", findings);
     findings.require(marking.type != MarkingType::stopline, ContractRule::valid_values,

@@ -15,8 +15,8 @@ enum class ContractRule : std::uint8_t {
   known_ids,                   ///< every id that is referred to is in the map, and not the element's own
   left_is_left,                ///< a lane's left side is left of its right side, in the direction of both
   centered_line,               ///< a lane's centerline lies between its sides
-  neighbours_across_boundary,  ///< a lane and its neighbour share the boundary between them, and both have a
-                               ///< neighbour there
+  neighbours_across_boundary,  ///< a lane and its neighbour share the boundary between them, and each names
+                               ///< the other
   range_in_boundary,           ///< ranges lie within the line that they are a stretch of
   valid_values,                ///< probabilities, confidences, deviations and widths are possible
   ascending_sequence,          ///< within a session, sequence numbers neither repeat nor go back

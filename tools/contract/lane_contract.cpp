@@ -62,20 +62,36 @@ bool same_way(const Lane& a, const Lane& b) {
   return line_a.direction(middle_m).dot(line_b.direction(foot.arc_m)) > 0.0;
 }
 
-void check_neighbour(const Lane& lane, bool on_left, const LanesById& lanes, Findings& findings) {
-  const ElementId id = on_left ? lane.left_neighbour : lane.right_neighbour;
-  if (id == kNoElement) return;
-  const std::string what = label(lane) + (on_left ? " left" : " right") + " neighbour " + std::to_string(id);
-  const auto found = lanes.find(id);
-  if (!findings.require(found != lanes.end() && id != lane.id, ContractRule::known_ids,
+/// The neighbours of a lane on its left or right side.
+const std::vector<Neighbour>& neighbours_of(const Lane& lane, bool on_left) {
+  return on_left ? lane.left_neighbours : lane.right_neighbours;
+}
+
+void check_stretches(const Neighbour& neighbour, const Lane& lane, const std::string& what,
+                     Findings& findings) {
+  check_range(neighbour.range, length(lane.centerline), what, findings);
+  for (const Range& crossable : neighbour.crossable) {
+    const bool within =
+        crossable.from_m >= neighbour.range.from_m - 1e-6 && crossable.to_m <= neighbour.range.to_m + 1e-6;
+    findings.require(within, ContractRule::range_in_boundary, what + " may be crossed where it does not lie");
+  }
+}
+
+void check_neighbour(const Lane& lane, const Neighbour& neighbour, bool on_left, const LanesById& lanes,
+                     Findings& findings) {
+  const std::string what =
+      label(lane) + (on_left ? " left" : " right") + " neighbour " + std::to_string(neighbour.lane);
+  const auto found = lanes.find(neighbour.lane);
+  if (!findings.require(found != lanes.end() && neighbour.lane != lane.id, ContractRule::known_ids,
                         what + " is not another lane of the map"))
     return;
   const Lane& other = *found->second;
   if (!is_measurable(lane.centerline) || !is_measurable(other.centerline)) return;  // recorded already
+  check_stretches(neighbour, lane, what, findings);
   const bool faces_left = same_way(lane, other) ? !on_left : on_left;
-  // One lane may run beside two in a row: it names one of them, and both name it.
-  const ElementId facing = faces_left ? other.left_neighbour : other.right_neighbour;
-  findings.require(facing != kNoElement, ContractRule::neighbours_across_boundary, what + " has none there");
+  const auto& facing = neighbours_of(other, faces_left);
+  findings.require(std::ranges::find(facing, lane.id, &Neighbour::lane) != facing.end(),
+                   ContractRule::neighbours_across_boundary, what + " does not name it in return");
   const ElementId boundary = on_left ? lane.left_boundary : lane.right_boundary;
   findings.require((faces_left ? other.left_boundary : other.right_boundary) == boundary,
                    ContractRule::neighbours_across_boundary, what + " is not across the boundary");
@@ -92,8 +108,9 @@ void check_lanes(const LocalMap& map, Findings& findings) {
     check_shape(lane, findings);
     check_boundary(lane, lane.left_boundary, lane.left_range, boundaries, findings);
     check_boundary(lane, lane.right_boundary, lane.right_range, boundaries, findings);
-    check_neighbour(lane, true, lanes, findings);
-    check_neighbour(lane, false, lanes, findings);
+    for (const bool on_left : {true, false})
+      for (const Neighbour& neighbour : neighbours_of(lane, on_left))
+        check_neighbour(lane, neighbour, on_left, lanes, findings);
     check_probability(lane.existence_probability, label(lane), findings);
     findings.require(std::isfinite(lane.width_m) && lane.width_m > 0.0, ContractRule::valid_values,
                      label(lane) + " has width " + std::to_string(lane.width_m));

@@ -41,15 +41,11 @@ const Lane* find(const LocalMap& map, ElementId id) {
   return found == map.lanes.end() ? nullptr : &*found;
 }
 
-bool is_dashed(const LocalMap& map, ElementId boundary) {
-  const auto found = std::ranges::find(map.boundaries, boundary, &Marking::id);
-  if (found == map.boundaries.end()) return false;
-  double dashed_m = 0.0, solid_m = 0.0;
-  for (const StyleRange& part : found->styles) {
-    if (part.style == MarkingStyle::dashed) dashed_m += part.range.length();
-    if (part.style == MarkingStyle::solid) solid_m += part.range.length();
-  }
-  return dashed_m > solid_m;
+/// Whether most of the line between both may be crossed.
+bool is_crossable(const Neighbour& neighbour) {
+  double crossable_m = 0.0;
+  for (const Range& range : neighbour.crossable) crossable_m += range.length();
+  return crossable_m > 0.5 * neighbour.range.length();
 }
 
 /// Where a lane ends, it narrows; where only the view of it ends, it does not.
@@ -110,11 +106,12 @@ Way beside(const LocalMap& map, const Way& way) {
   if (!narrows(way)) return {};
   const Lane& lane = *way.lane;
   const Point end = way.centerline().back();
-  for (const auto& [id, boundary] : {std::pair(lane.left_neighbour, lane.left_boundary),
-                                     std::pair(lane.right_neighbour, lane.right_boundary)}) {
-    const Way candidate{find(map, id), way.against};
-    if (candidate.lane == nullptr || candidate.oncoming() || !is_dashed(map, boundary)) continue;
-    if (goes_on_beyond(map, candidate, end)) return candidate;
+  for (const auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {
+    for (const Neighbour& neighbour : *neighbours) {
+      const Way candidate{find(map, neighbour.lane), way.against};
+      if (candidate.lane == nullptr || candidate.oncoming() || !is_crossable(neighbour)) continue;
+      if (goes_on_beyond(map, candidate, end)) return candidate;
+    }
   }
   return {};
 }

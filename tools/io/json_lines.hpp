@@ -30,11 +30,13 @@
 ///     {"t": seconds, "pose": […], "stamp_ns": 1,
 ///      "instances": [{"id": 1, "type": "…", "points": [[x, y, z], …], "styles": [[from, to, "solid"], …],
 ///                     "status": "tentative" | "confirmed" | "inferred", "existence": 0..1 or -1,
-///                     "observations": 1, "first_seen_ns": 1, "lateral_stddev": [σ, …]}, …],
+///                     "observations": 1, "first_seen_ns": 1, "last_seen_ns": 1, "lateral_stddev": [σ, …]},
+///                     …],
 ///      "lanes": [{"id": 1, "left": [[x, y, z], …], "right": […], "centerline": […], "successors": [2, …],
 ///                 "left_boundary": 1, "right_boundary": 2, "left_range": [from, to], "right_range": [from,
-///                 to], "left_neighbour": 0, "right_neighbour": 0, "width": 3.5, "section": 1, "direction":
-///                 "unknown" | "along" | "against", "status": "…", "existence": -1, "inferred_ranges":
+///                 to], "left_neighbours": [{"lane": 2, "range": [from, to], "crossable": [[from, to], …]},
+///                 …], "right_neighbours": […], "width": 3.5, "section": 1, "direction": "unknown" | "along"
+///                 | "against", "status": "…", "existence": -1, "inferred_ranges":
 ///                 [[from, to], …]}, …],
 ///      "linkages": [{"from": 1, "to": 2, "kind": "…", "turn": "…", "confidence": 0..1, "path": […]}, …],
 ///      "stoplines": [{"id": 1, "lanes": [1, …], "heading": [x, y, z]}, …]}
@@ -55,7 +57,7 @@ std::string to_json_line(const FrameRecord& record);
 std::string to_json_line(const LocalMap& map);
 
 /// Throw std::runtime_error naming the key where `text` is not such a line. Whether ids that a map refers to
-/// are in it is not checked, and `lineage` and `instances` stay empty: what is read is boundaries, stoplines
+/// are in it is not checked, and `lineage` and `markings` stay empty: what is read is boundaries, stoplines
 /// and lanes.
 FrameRecord frame_from_json(std::string_view text);
 LocalMap map_from_json(std::string_view text);

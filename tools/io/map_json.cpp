@@ -34,6 +34,20 @@ auto one_of(const std::array<const char*, N>& names) {
 
 json to_json(const Range& range) { return {range.from_m, range.to_m}; }
 
+json to_json(const std::vector<Range>& ranges) {
+  json list = json::array();
+  for (const Range& range : ranges) list.push_back(to_json(range));
+  return list;
+}
+
+json to_json(const std::vector<Neighbour>& neighbours) {
+  json list = json::array();
+  for (const Neighbour& beside : neighbours)
+    list.push_back(
+        {{"lane", beside.lane}, {"range", to_json(beside.range)}, {"crossable", to_json(beside.crossable)}});
+  return list;
+}
+
 json to_json(const Marking& marking) {
   json styles = json::array();
   for (const StyleRange& style : marking.styles)
@@ -46,15 +60,15 @@ json to_json(const Marking& marking) {
           {"existence", marking.existence_probability},
           {"observations", marking.observations},
           {"first_seen_ns", marking.first_seen_ns},
+          {"last_seen_ns", marking.last_seen_ns},
           {"lateral_stddev", marking.lateral_stddev_m}};
 }
 
 json to_json(const Lane& lane, const LocalMap& map) {
-  json successors = json::array(), inferred = json::array();
+  json successors = json::array();
   for (const Linkage& linkage : map.linkages) {
     if (linkage.from == lane.id) successors.push_back(linkage.to);
   }
-  for (const Range& range : lane.inferred_ranges) inferred.push_back(to_json(range));
   return {{"id", lane.id},
           {"left", polyline_json(lane.left)},
           {"right", polyline_json(lane.right)},
@@ -64,14 +78,14 @@ json to_json(const Lane& lane, const LocalMap& map) {
           {"right_boundary", lane.right_boundary},
           {"left_range", to_json(lane.left_range)},
           {"right_range", to_json(lane.right_range)},
-          {"left_neighbour", lane.left_neighbour},
-          {"right_neighbour", lane.right_neighbour},
+          {"left_neighbours", to_json(lane.left_neighbours)},
+          {"right_neighbours", to_json(lane.right_neighbours)},
           {"width", lane.width_m},
           {"section", lane.section},
           {"direction", named(lane.direction, kDirectionNames)},
           {"status", named(lane.status, kStatusNames)},
           {"existence", lane.existence_probability},
-          {"inferred_ranges", std::move(inferred)}};
+          {"inferred_ranges", to_json(lane.inferred_ranges)}};
 }
 
 json to_json(const Linkage& linkage) {
@@ -114,6 +128,7 @@ Marking marking(const json& value) {
   out.existence_probability = optional(value, "existence", existence).value_or(out.existence_probability);
   out.observations = optional(value, "observations", count).value_or(out.observations);
   out.first_seen_ns = optional(value, "first_seen_ns", integer).value_or(out.first_seen_ns);
+  out.last_seen_ns = optional(value, "last_seen_ns", integer).value_or(out.last_seen_ns);
   out.lateral_stddev_m = optional(value, "lateral_stddev", numbers).value_or(out.lateral_stddev_m);
   return out;
 }
@@ -122,6 +137,12 @@ std::uint32_t section(const json& value) {
   const std::uint64_t number = count(value);
   if (number > UINT32_MAX) throw JsonError("is too large");
   return static_cast<std::uint32_t>(number);
+}
+
+Neighbour neighbour(const json& value) {
+  const auto ranges = [](const json& items) { return list(items, range); };
+  return {required(value, "lane", count), required(value, "range", range),
+          required(value, "crossable", ranges)};
 }
 
 Lane lane(const json& value) {
@@ -135,8 +156,9 @@ Lane lane(const json& value) {
   out.right_boundary = optional(value, "right_boundary", count).value_or(kNoElement);
   out.left_range = optional(value, "left_range", range).value_or(Range{});
   out.right_range = optional(value, "right_range", range).value_or(Range{});
-  out.left_neighbour = optional(value, "left_neighbour", count).value_or(kNoElement);
-  out.right_neighbour = optional(value, "right_neighbour", count).value_or(kNoElement);
+  const auto neighbours = [](const json& items) { return list(items, neighbour); };
+  out.left_neighbours = optional(value, "left_neighbours", neighbours).value_or(out.left_neighbours);
+  out.right_neighbours = optional(value, "right_neighbours", neighbours).value_or(out.right_neighbours);
   out.width_m = optional(value, "width", number).value_or(0.0);
   out.section = optional(value, "section", section).value_or(0);
   out.direction =

@@ -75,6 +75,14 @@ std::optional<double> width_ahead(const LocalMap& map, Way way, double from_m, d
   return std::nullopt;
 }
 
+/// The neighbour at this place of the centerline.
+ElementId beside(const std::vector<Neighbour>& neighbours, double arc_m) {
+  const auto found = std::ranges::find_if(neighbours, [arc_m](const Neighbour& neighbour) {
+    return neighbour.range.from_m <= arc_m && arc_m <= neighbour.range.to_m;
+  });
+  return found == neighbours.end() ? kNoElement : found->lane;
+}
+
 }  // namespace
 
 EgoView ego_view(const LocalMap& map) {
@@ -82,10 +90,12 @@ EgoView ego_view(const LocalMap& map) {
   const Way way = ego_lane(map);
   if (way.lane == nullptr) return view;
   view.lane = way.lane->id;
-  view.left_neighbour = way.against ? way.lane->right_neighbour : way.lane->left_neighbour;
-  view.right_neighbour = way.against ? way.lane->left_neighbour : way.lane->right_neighbour;
+  const Point vehicle = map.T_map_body.translation();
+  const double arc_m = MeasuredPolyline(way.lane->centerline).project(vehicle).arc_m;
+  view.left_neighbour = beside(way.against ? way.lane->right_neighbours : way.lane->left_neighbours, arc_m);
+  view.right_neighbour = beside(way.against ? way.lane->left_neighbours : way.lane->right_neighbours, arc_m);
   view.successors = next_lanes(map, way);
-  const Projection foot = MeasuredPolyline(centerline(way)).project(map.T_map_body.translation());
+  const Projection foot = MeasuredPolyline(centerline(way)).project(vehicle);
   view.offset_m = foot.lateral_m;
   for (std::size_t i = 0; i < kLookahead_m.size(); ++i)
     view.width_m[i] = width_ahead(map, way, foot.arc_m, kLookahead_m[i]);

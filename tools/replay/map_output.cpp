@@ -64,7 +64,7 @@ std::unique_ptr<MapOutput> create_map_output(const std::string& path, Compressio
 }
 
 RoadMarkings road_markings(const PublishedMap& map) {
-  return {map.map.stamp_ns, map.sequence, map.session_id, map.frame_id, map.map.instances};
+  return {map.map.stamp_ns, map.sequence, map.session_id, map.frame_id, map.map.markings};
 }
 
 }  // namespace laneloom

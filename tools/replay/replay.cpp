@@ -32,13 +32,13 @@ std::string digest_of(const T& message) {
 std::string content_digest(const PublishedMap& map) {
   PublishedMap content;
   content.map = map.map;
-  content.map.instances.clear();  // they are on the topic road_markings
+  content.map.markings.clear();  // they are on the topic road_markings
   content.map.lineage.clear();
   return digest_of(content);
 }
 
 std::string content_digest(const RoadMarkings& markings) {
-  return digest_of(RoadMarkings{.stamp_ns = markings.stamp_ns, .instances = markings.instances});
+  return digest_of(RoadMarkings{.stamp_ns = markings.stamp_ns, .markings = markings.markings});
 }
 
 }  // namespace

@@ -119,8 +119,17 @@ void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages) 
 }
 
 bool are_neighbours(const Lane& a, const Lane& b) {
-  return a.left_neighbour == b.id || a.right_neighbour == b.id || b.left_neighbour == a.id ||
-         b.right_neighbour == a.id;
+  const auto names = [](const std::vector<Neighbour>& neighbours, ElementId id) {
+    return std::ranges::find(neighbours, id, &Neighbour::lane) != neighbours.end();
+  };
+  return names(a.left_neighbours, b.id) || names(a.right_neighbours, b.id) ||
+         names(b.left_neighbours, a.id) || names(b.right_neighbours, a.id);
+}
+
+ElementId main_neighbour(const std::vector<Neighbour>& neighbours) {
+  const auto longest = std::ranges::max_element(
+      neighbours, {}, [](const Neighbour& neighbour) { return neighbour.range.length(); });
+  return longest == neighbours.end() ? kNoElement : longest->lane;
 }
 
 double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {

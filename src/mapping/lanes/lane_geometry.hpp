@@ -44,6 +44,9 @@ const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes);
 
 bool are_neighbours(const Lane& a, const Lane& b);
 
+/// The neighbour of the longest stretch; kNoElement: there is none.
+ElementId main_neighbour(const std::vector<Neighbour>& neighbours);
+
 /// 1: the vehicle drives along the lane, -1: against it, 0: it is elsewhere or crosses it.
 double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body);
 

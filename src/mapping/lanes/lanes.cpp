@@ -65,15 +65,4 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
   return lanes;
 }
 
-void find_neighbours(std::vector<Lane>& lanes) {
-  for (Lane& lane : lanes) {
-    const auto neighbour = [&](bool left) {
-      const Lane* across = lane_across(lane_side(lane, left), lanes);
-      return across == nullptr ? kNoElement : across->id;
-    };
-    lane.left_neighbour = neighbour(true);
-    lane.right_neighbour = neighbour(false);
-  }
-}
-
 }  // namespace laneloom

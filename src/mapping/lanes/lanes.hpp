@@ -17,8 +17,4 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
                                  const std::vector<LaneBoundary>& boundaries,
                                  const std::vector<MeasuredPolyline>& measured, const LaneConfig& config);
 
-/// Names for every lane the lanes beside it, across a shared boundary: the ones that run beside it the
-/// longest.
-void find_neighbours(std::vector<Lane>& lanes);
-
 }  // namespace laneloom

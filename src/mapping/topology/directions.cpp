@@ -100,9 +100,9 @@ double divider_evidence(const LaneBoundary& divider, const Range& range) {
 
 /// Whether the lanes are neighbours that run alike, be it across a double line.
 bool is_left_of(const Lane& lane, const Lane& other) {
-  if (lane.right_neighbour != kNoElement)
-    return lane.right_neighbour == other.id && lane.right_boundary == other.left_boundary;
-  if (other.left_neighbour != kNoElement) return false;
+  if (!lane.right_neighbours.empty())
+    return main_neighbour(lane.right_neighbours) == other.id && lane.right_boundary == other.left_boundary;
+  if (!other.left_neighbours.empty()) return false;
   const MeasuredPolyline right(lane.right), left(other.left);
   const double middle_m = 0.5 * right.length();
   const Point middle = right.at(middle_m);
@@ -144,9 +144,9 @@ std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const Lan
   std::vector<double> evidence(lanes.size(), 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane& lane = lanes[i];
-    if (open_right[i] && lane.right_neighbour == kNoElement)
+    if (open_right[i] && lane.right_neighbours.empty())
       evidence[i] += border_evidence(marking(lane.right_boundary), lane.right_range);
-    if (open_left[i] && lane.left_neighbour == kNoElement)
+    if (open_left[i] && lane.left_neighbours.empty())
       evidence[i] -= border_evidence(marking(lane.left_boundary), lane.left_range);
   }
   return evidence;
@@ -205,6 +205,13 @@ std::vector<double> beliefs(Model model, double side) {
   return belief;
 }
 
+Range reversed(const Range& range, double total_m) { return {total_m - range.to_m, total_m - range.from_m}; }
+
+void reverse(std::vector<Range>& ranges, double total_m) {
+  std::ranges::reverse(ranges);
+  for (Range& range : ranges) range = reversed(range, total_m);
+}
+
 void turn(Lane& lane) {
   for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) std::ranges::reverse(*line);
   std::swap(lane.left, lane.right);
@@ -213,10 +220,16 @@ void turn(Lane& lane) {
   std::swap(lane.left_reversed, lane.right_reversed);
   lane.left_reversed = !lane.left_reversed;
   lane.right_reversed = !lane.right_reversed;
-  std::swap(lane.left_neighbour, lane.right_neighbour);
   const double total_m = length(lane.centerline);
-  std::ranges::reverse(lane.inferred_ranges);
-  for (Range& range : lane.inferred_ranges) range = {total_m - range.to_m, total_m - range.from_m};
+  reverse(lane.inferred_ranges, total_m);
+  std::swap(lane.left_neighbours, lane.right_neighbours);
+  for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {
+    std::ranges::reverse(*neighbours);
+    for (Neighbour& neighbour : *neighbours) {
+      neighbour.range = reversed(neighbour.range, total_m);
+      reverse(neighbour.crossable, total_m);
+    }
+  }
 }
 
 }  // namespace

@@ -89,14 +89,15 @@ class Taken {
 bool is_outermost(const Lane& lane, Turn turn, const std::vector<Lane>& lanes,
                   const std::vector<LaneBoundary>& boundaries) {
   const bool left = turn == Turn::left;
-  const auto beside = std::ranges::find(lanes, left ? lane.left_neighbour : lane.right_neighbour, &Lane::id);
+  const auto beside = std::ranges::find(
+      lanes, main_neighbour(left ? lane.left_neighbours : lane.right_neighbours), &Lane::id);
   if (beside == lanes.end()) return true;
   if (beside->direction == Lane::Direction::unknown) {
     const LaneSide side = lane_side(lane, left);
     return dashed_excess_m(boundary_of(boundaries, side.of.boundary).marking, side.range) <= 0.0;
   }
   // Of lanes that run against each other, each has the other on the same side.
-  return (left ? beside->left_neighbour : beside->right_neighbour) == lane.id;
+  return main_neighbour(left ? beside->left_neighbours : beside->right_neighbours) == lane.id;
 }
 
 bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lane>& lanes,

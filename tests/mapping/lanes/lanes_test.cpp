@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/lane_identity.hpp"
+#include "mapping/lanes/neighbours.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
@@ -19,7 +21,7 @@ std::vector<Lane> lanes_of(std::vector<LaneBoundary> boundaries) {
   std::vector<KnownLane> known;
   ElementId next_id = 100;
   identify_lanes(1, {}, lanes, known, next_id);
-  find_neighbours(lanes);
+  find_neighbours(boundaries, lanes);
   return lanes;
 }
 
@@ -41,7 +43,7 @@ TEST(Lanes, BetweenTwoBoundaries) {
   EXPECT_NEAR(lane.right_range.length(), 30.0, 1e-9);
   for (const Point& p : lane.centerline) EXPECT_NEAR(p.y(), 1.75, 1e-9);
   EXPECT_NEAR(length(lane.centerline), 30.0, 1e-9);
-  EXPECT_EQ(lane.left_neighbour, kNoElement);
+  EXPECT_TRUE(lane.left_neighbours.empty());
 }
 
 TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
@@ -52,9 +54,9 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   const Lane* left = between(lanes, 1, 2);
   const Lane* right = between(lanes, 2, 3);
   ASSERT_TRUE(left && right);
-  EXPECT_EQ(left->right_neighbour, right->id);
-  EXPECT_EQ(right->left_neighbour, left->id);
-  EXPECT_EQ(left->left_neighbour, kNoElement);
+  EXPECT_EQ(main_neighbour(left->right_neighbours), right->id);
+  EXPECT_EQ(main_neighbour(right->left_neighbours), left->id);
+  EXPECT_TRUE(left->left_neighbours.empty());
   EXPECT_EQ(left->section, right->section);
 }
 
@@ -87,7 +89,7 @@ TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
     EXPECT_GT(length(lane.centerline), 20.0);
     EXPECT_LT(MeasuredPolyline(lane.left).project(lane.right[1]).lateral_m, 0.0);
     // Each has the other one of its road across the centre line.
-    EXPECT_TRUE((lane.left_neighbour == kNoElement) != (lane.right_neighbour == kNoElement));
+    EXPECT_NE(lane.left_neighbours.empty(), lane.right_neighbours.empty());
     for (const auto& [id, range] :
          {std::pair(lane.left_boundary, lane.left_range), std::pair(lane.right_boundary, lane.right_range)}) {
       EXPECT_LT(range.from_m, range.to_m);

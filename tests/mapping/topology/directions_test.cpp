@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
@@ -22,8 +23,8 @@ class Directions : public ::testing::Test {
     }
     boundaries_[0].marking.type = boundaries_[2].marking.type = MarkingType::roadedge;
     lanes_ = {lane(11, 1, 0, 40), lane(12, 2, 0, 40)};
-    lanes_[0].right_neighbour = 12;
-    lanes_[1].left_neighbour = 11;
+    lanes_[0].right_neighbours = {{.lane = 12, .range = {0.0, 20.0}}};
+    lanes_[1].left_neighbours = {{.lane = 11, .range = {0.0, 20.0}}};
   }
 
   static Lane lane(ElementId id, ElementId left, double from_x, double to_x) {
@@ -45,7 +46,8 @@ class Directions : public ::testing::Test {
   /// One more line beside the divider, so that the lanes share none.
   void double_divider() {
     boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
-    lanes_[0].right_neighbour = lanes_[1].left_neighbour = kNoElement;
+    lanes_[0].right_neighbours.clear();
+    lanes_[1].left_neighbours.clear();
     lanes_[1].left_boundary = 4;
     lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
   }
@@ -82,10 +84,10 @@ TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
   EXPECT_TRUE(runs_forward(12));
   // The turned lane's sides are its own; both see the other across their left side.
   EXPECT_EQ(get(11).left_boundary, 2U);
-  EXPECT_EQ(get(11).left_neighbour, 12U);
-  EXPECT_EQ(get(11).right_neighbour, kNoElement);
+  EXPECT_EQ(main_neighbour(get(11).left_neighbours), 12U);
+  EXPECT_TRUE(get(11).right_neighbours.empty());
   EXPECT_LT(MeasuredPolyline(get(11).left).project(get(11).right.front()).lateral_m, 0.0);
-  EXPECT_EQ(get(12).left_neighbour, 11U);
+  EXPECT_EQ(main_neighbour(get(12).left_neighbours), 11U);
 }
 
 TEST_F(Directions, InLeftHandTrafficTheOtherWayRound) {

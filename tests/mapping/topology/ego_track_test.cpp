@@ -22,7 +22,7 @@ class EgoTrackTest : public ::testing::Test {
   EgoTrackTest()
       : lanes_{lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {40, 0, 0}, {60, 0, 0}),
                lane(3, {30, 10, 0}, {30, 30, 0}), lane(4, {0, 3.5, 0}, {20, 3.5, 0})} {
-    lanes_[0].left_neighbour = 4;
+    lanes_[0].left_neighbours = {{.lane = 4, .range = {0.0, 20.0}}};
   }
   std::vector<Linkage> drive(double x, double y, double yaw_rad = 0.0, std::vector<Linkage> known = {}) {
     link_ego_track(lanes_, test::at(x, y, yaw_rad), track_, known);

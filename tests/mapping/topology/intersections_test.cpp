@@ -47,8 +47,8 @@ std::vector<Lane> crossroads() {
     const auto in = static_cast<ElementId>(id), out = in + 10;
     lanes.push_back(driven(in, arm * Point(25, 1.75, 0), arm * Point(10, 1.75, 0)));
     lanes.push_back(driven(out, arm * Point(10, -1.75, 0), arm * Point(25, -1.75, 0)));
-    lanes[lanes.size() - 2].left_neighbour = out;
-    lanes.back().left_neighbour = in;
+    lanes[lanes.size() - 2].left_neighbours = {{.lane = out, .range = {0.0, 20.0}}};
+    lanes.back().left_neighbours = {{.lane = in, .range = {0.0, 20.0}}};
   }
   std::ranges::sort(lanes, {}, &Lane::id);
   return lanes;
@@ -223,8 +223,8 @@ TEST(Crossings, TurnsLeadFromTheOutermostLane) {
   // Two lanes from the west; the left one is 1, the right one 5.
   std::vector<Lane> lanes = crossroads();
   lanes.push_back(driven(5, {-25, -5.25, 0}, {-10, -5.25, 0}));
-  lanes[0].right_neighbour = 5;
-  lanes.back().left_neighbour = 1;
+  lanes[0].right_neighbours = {{.lane = 5, .range = {0.0, 20.0}}};
+  lanes.back().left_neighbours = {{.lane = 1, .range = {0.0, 20.0}}};
   const auto linkages = crossings(lanes);
   EXPECT_THAT(pairs_of(linkages, Linkage::Turn::left), ::testing::Contains(Pair(1, 14)));
   EXPECT_THAT(pairs_of(linkages, Linkage::Turn::right), ::testing::Contains(Pair(5, 12)));
@@ -237,15 +237,15 @@ bool turns_past(Direction direction, MarkingStyle divider) {
   std::vector<Lane> lanes = crossroads();
   const auto get = [&](ElementId id) -> Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
   get(4).centerline = straight({-5.25, 25, 0}, {-5.25, 10, 0});
-  get(4).left_neighbour = 24;
+  get(4).left_neighbours = {{.lane = 24, .range = {0.0, 20.0}}};
   get(14).centerline = straight({1.75, 10, 0}, {1.75, 25, 0});
-  get(14).left_neighbour = 24;
+  get(14).left_neighbours = {{.lane = 24, .range = {0.0, 20.0}}};
   get(14).left_boundary = 50;
   get(14).left_range = {0, 15};
   lanes.push_back(lane(24, straight({-1.75, 10, 0}, {-1.75, 25, 0})));
   lanes.back().direction = direction;
-  lanes.back().left_neighbour = 4;
-  lanes.back().right_neighbour = 14;
+  lanes.back().left_neighbours = {{.lane = 4, .range = {0.0, 20.0}}};
+  lanes.back().right_neighbours = {{.lane = 14, .range = {0.0, 20.0}}};
   std::vector<LaneBoundary> boundaries{test::boundary(50, straight({0, 10, 0}, {0, 25, 0}))};
   boundaries[0].marking.styles = {{{0, 15}, divider}};
   const auto left = pairs_of(crossings(lanes, {}, {}, boundaries), Linkage::Turn::left);

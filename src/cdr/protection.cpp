@@ -1,0 +1,60 @@
+#include "cdr/protection.hpp"
+
+#include <boost/crc.hpp>
+
+#include <cstddef>
+
+namespace laneloom::dds {
+namespace {
+
+constexpr std::size_t kCrc = 4;  // behind the encapsulation
+constexpr std::size_t kDataId = kCrc + sizeof(std::uint64_t);
+constexpr std::size_t kBehind = kDataId + sizeof(std::uint32_t);
+
+using Crc64 = boost::crc_optimal<64, 0x42F0E1EBA9EA3693ULL, ~0ULL, ~0ULL, true, true>;
+
+std::uint64_t crc_of(std::span<const std::uint8_t> message) {
+  Crc64 crc;
+  crc.process_bytes(message.data() + kDataId, message.size() - kDataId);
+  // RTPS pads a message to a multiple of four bytes, and does not always tell the reader.
+  for (std::size_t size = message.size(); size % 4 != 0; ++size) crc.process_byte(0);
+  return crc.checksum();
+}
+
+/// Numbers in the byte order that the encapsulation tells.
+template <class T>
+T read(std::span<const std::uint8_t> message, std::size_t at) {
+  T value = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    const std::size_t shift = 8 * (message[1] == 1 ? i : sizeof(T) - 1 - i);
+    value |= static_cast<T>(T{message[at + i]} << shift);
+  }
+  return value;
+}
+
+template <class T>
+void write(T value, std::size_t at, std::span<std::uint8_t> message) {
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    const std::size_t shift = 8 * (message[1] == 1 ? i : sizeof(T) - 1 - i);
+    message[at + i] = static_cast<std::uint8_t>(value >> shift);
+  }
+}
+
+}  // namespace
+
+void protect(std::span<std::uint8_t> message, std::uint32_t data_id) {
+  if (message.size() < kBehind) return;
+  write(data_id, kDataId, message);
+  write(crc_of(message), kCrc, message);
+}
+
+std::string_view check_protection(std::span<const std::uint8_t> message, std::uint32_t data_id) {
+  if (message.size() < kBehind) return {};
+  const auto crc = read<std::uint64_t>(message, kCrc);
+  const auto id = read<std::uint32_t>(message, kDataId);
+  if (crc == 0 && id == 0) return {};
+  if (crc != crc_of(message)) return "crc";
+  return id == data_id ? std::string_view() : "data_id";
+}
+
+}  // namespace laneloom::dds
