@@ -42,6 +42,14 @@ TEST_F(Faults, ARestartedOdometryBeginsANewMap) {
   EXPECT_NE(maps_.samples().back().map_id, map_id);
 }
 
+TEST_F(Faults, ThirtyPlannersThatJoinAtOnceAllGetTheMap) {
+  start();
+  std::vector<std::unique_ptr<Listener<PublishedMap>>> planners(30);
+  for (auto& planner : planners) planner = std::make_unique<Listener<PublishedMap>>(config_);
+  for (auto& planner : planners) EXPECT_TRUE(planner->wait_for(has_lanes));
+  EXPECT_EQ(counters()["writes_failed"], 0U);
+}
+
 TEST_F(Faults, AStoppedPlannerHoldsUpNobody) {
   start();
   const Process planner({LANELOOM, "pnc", "--domain", std::to_string(config_.domain), "--vehicle-id",
