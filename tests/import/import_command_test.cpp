@@ -105,6 +105,16 @@ TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   EXPECT_THAT(output(), HasSubstr("nowhere"));
 }
 
+TEST_F(ImportCommand, ADirectoryOfLogsGivesAFileEach) {
+  for (const std::string log : {"a", "b"}) {
+    std::filesystem::create_directories(file("data/val/" + log));
+    std::filesystem::copy(file("log/city_SE3_egovehicle.csv"), file("data/val/" + log));
+  }
+  ASSERT_EQ(run({"argoverse2", file("data"), "--out", file("poses")}), 0) << output();
+  EXPECT_TRUE(std::filesystem::exists(file("poses/a.mcap")));
+  EXPECT_TRUE(std::filesystem::exists(file("poses/b.mcap")));
+}
+
 TEST_F(ImportCommand, WrongUseAndInputAreNamed) {
   const std::vector<std::string> drive{"--argoverse2", file("log"), "--out", file("drive.mcap")};
   const auto maptr = [&](const std::string& results) {

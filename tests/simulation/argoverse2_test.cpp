@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "io/feather_writer.hpp"
 #include "laneloom/polyline.hpp"
 #include "road_checks.hpp"
 #include "temporary_folder.hpp"
@@ -84,6 +86,27 @@ TEST_F(RealLogs, TheVehicleDrivesInsideTheEdgesWithoutJumps) {
   }
 }
 
+TEST_F(RealLogs, AsDistributedTheyGiveTheSameRoadAsWithACsv) {
+  for (const fs::path& log : logs) {
+    const TemporaryFolder folder;
+    const fs::path given = fs::path(folder.path()) / "sensor" / "val" / log.filename();
+    const fs::path converted = fs::path(folder.path()) / "csv" / log.filename();
+    fs::create_directories(given / "map");
+    fs::create_directories(converted);
+    for (const auto& file : fs::directory_iterator(log)) {
+      const fs::path name = file.path().filename();
+      const bool is_map = name.extension() == ".json";
+      if (name.extension() != ".csv") fs::create_symlink(file, is_map ? given / "map" / name : given / name);
+      if (name.extension() != ".feather") fs::create_symlink(file, converted / name);
+    }
+    EXPECT_EQ(argoverse2_logs(folder.file("sensor")), std::vector{given});
+    save_truth(folder.file("given.json"), load_argoverse2(given));
+    save_truth(folder.file("converted.json"), load_argoverse2(converted));
+    EXPECT_EQ(bytes_of(folder.file("given.json")), bytes_of(folder.file("converted.json")));
+    EXPECT_GT(bytes_of(folder.file("given.json")).size(), 100'000u);
+  }
+}
+
 // A made-up log of two opposite lanes, whose common border each draws its own way.
 class MadeUpLog : public testing::Test {
  protected:
@@ -142,6 +165,40 @@ TEST_F(MadeUpLog, SharedBordersComeOnceAndBicycleLanesAreNoLanes) {
   EXPECT_EQ(road.lanes[0].right_marking, road.markings[1].id) << "unpainted, along the edge";
   EXPECT_EQ(road.markings[1].points.front(), road.markings[1].points.back()) << "a ring";
   EXPECT_NEAR(road.drive.pose_at(0.5).position.x(), 5.0, 1e-6);
+}
+
+TEST_F(MadeUpLog, IsReadAsItIsDistributed) {
+  fs::create_directory(directory / "map");
+  fs::rename(directory / "log_map_archive_x.json", directory / "map" / "log_map_archive_x.json");
+  fs::remove(directory / "city_SE3_egovehicle.csv");
+  EXPECT_NE(error().find("has no city_SE3_egovehicle.feather"), std::string::npos) << error();
+  write_bytes(directory / "city_SE3_egovehicle.feather",
+              FeatherWriter(pose_columns(7'000'000'000, 11)).write());
+  const Road road = load_argoverse2(directory);
+  EXPECT_EQ(road.markings.size(), 2u);
+  EXPECT_NEAR(road.drive.duration_s(), 1.0, 1e-9);
+  EXPECT_NEAR(road.drive.pose_at(0.55).position.x(), 5.5, 1e-6);
+}
+
+TEST_F(MadeUpLog, ImpossiblePosesOfAFeatherFileAreNamedWithTheirRow) {
+  FeatherWriter::Columns columns = pose_columns(0, 5);
+  std::get<std::vector<double>>(columns[1].second)[3] = 2.0;
+  write_bytes(directory / "city_SE3_egovehicle.feather", FeatherWriter(columns).write());
+  EXPECT_NE(error().find("feather: row 3: a quaternion of unit length"), std::string::npos) << error();
+  columns = pose_columns(0, 5);
+  std::get<std::vector<double>>(columns[6].second)[1] = std::numeric_limits<double>::infinity();
+  write_bytes(directory / "city_SE3_egovehicle.feather", FeatherWriter(columns).write());
+  EXPECT_NE(error().find("feather: row 1: a finite number"), std::string::npos) << error();
+}
+
+TEST_F(MadeUpLog, LogsAreFoundBelowADirectory) {
+  EXPECT_EQ(argoverse2_logs(directory), std::vector{directory}) << "it is one itself";
+  const TemporaryFolder data_set;
+  const fs::path val = fs::path(data_set.path()) / "sensor" / "val";
+  for (const char* const log : {"b", "a", "no_poses"}) fs::create_directories(val / log / "map");
+  for (const char* const log : {"a", "b"}) std::ofstream(val / log / "city_SE3_egovehicle.feather");
+  EXPECT_EQ(argoverse2_logs(data_set.path()), (std::vector{val / "a", val / "b"}));
+  EXPECT_THROW(argoverse2_logs(val / "no_poses"), std::runtime_error);
 }
 
 TEST_F(MadeUpLog, BadFilesAreNamedWithKeyOrLine) {

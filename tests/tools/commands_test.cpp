@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/feather_writer.hpp"
 #include "laneloom/recording.hpp"
 #include "own_domain.hpp"
 #include "process.hpp"
@@ -53,6 +54,26 @@ TEST_F(Commands, DetectionsWithoutNoiseScorePerfectly) {
   EXPECT_EQ(score.at("total").at("precision"), 1.0);
   EXPECT_EQ(score.at("total").at("recall"), 1.0);
   EXPECT_LT(score.at("total").at("acd_m"), 0.02);
+}
+
+TEST_F(Commands, EveryLogInADirectoryIsSimulated) {
+  for (const std::string log : {"log_a", "log_b"}) {
+    std::filesystem::create_directories(file("data/val/" + log + "/map"));
+    write_bytes(file("data/val/" + log + "/city_SE3_egovehicle.feather"),
+                FeatherWriter(pose_columns(1'000'000'000, 11)).write());
+    std::ofstream(file("data/val/" + log + "/map/log_map_archive_x.json"))
+        << R"({"lane_segments":{},"drivable_areas":{}})";
+  }
+  ASSERT_EQ(
+      run({"simulate", "--argoverse2", file("data"), "--frames", file("frames"), "--truth", file("truth")}),
+      0)
+      << output();
+  for (const std::string log : {"log_a", "log_b"}) {
+    EXPECT_GT(content(file("frames/" + log + ".frames.jsonl")).size(), 100u);
+    EXPECT_THAT(content(file("truth/" + log + ".truth.json")), HasSubstr(log));
+  }
+  EXPECT_EQ(run({"publish", "--argoverse2", file("data"), "--duration", "1"}), 1);
+  EXPECT_THAT(output(), HasSubstr("holds 2 logs; name one"));
 }
 
 TEST_F(Commands, ReplayGivesTheSameMapsAgain) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "commands/log_files.hpp"
 #include "import/drive_log.hpp"
 #include "import/drive_recording.hpp"
 #include "import/maptr.hpp"
@@ -53,8 +55,8 @@ void add_maptr(CLI::App& app) {
   drive->add_option("--argoverse2", options->argoverse2, "Directory of an Argoverse 2 log");
   CLI::Option* nuscenes =
       drive->add_option("--nuscenes", options->nuscenes, "Folder of nuScenes' tables (v1.0-…)");
-  CLI::Option* poses =
-      drive->add_option("--poses", options->poses, "Poses (.csv: timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m)");
+  CLI::Option* poses = drive->add_option("--poses", options->poses,
+                                         "Poses (.csv or .feather: timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m)");
   drive->require_option(1);
   CLI::Option* scene = command->add_option("--scene", options->scene, "Of nuScenes, such as scene-0061");
   CLI::Option* samples =
@@ -76,22 +78,29 @@ struct LogOptions {
   std::string directory, out, truth;
 };
 
+void import_log(const std::filesystem::path& log, const std::string& out, const std::string& truth) {
+  if (!truth.empty()) save_truth(truth, load_argoverse2(log));
+  if (out.empty()) return;
+  const std::vector<VehiclePose> poses = argoverse2_poses(log);
+  write_drive(out, poses, {});
+  fmt::print("{}: {} poses\n", log.string(), poses.size());
+}
+
 void import_argoverse2(const LogOptions& options) {
-  if (!options.truth.empty()) save_truth(options.truth, load_argoverse2(options.directory));
-  if (options.out.empty()) return;
-  const std::vector<VehiclePose> poses = argoverse2_poses(options.directory);
-  write_drive(options.out, poses, {});
-  fmt::print("{}: {} poses\n", options.directory, poses.size());
+  for (const auto& log : argoverse2_logs(options.directory))
+    import_log(log, file_of_log(options.out, options.directory, log, ".mcap"),
+               file_of_log(options.truth, options.directory, log, ".truth.json"));
 }
 
 void add_argoverse2(CLI::App& app) {
   CLI::App* command = app.add_subcommand("argoverse2", "Map and poses of an Argoverse 2 log");
   const auto options = std::make_shared<LogOptions>();
-  command->add_option("directory", options->directory, "Of the log")->required();
+  command->add_option("directory", options->directory, "Of the log, or of logs")->required();
   CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
   outputs->add_option("--out", options->out, "Recording of the poses to write (.mcap)");
   outputs->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   outputs->require_option(1, 2);
+  command->footer("Of a directory of logs, --out and --truth are folders, with a file per log.");
   command->callback([options] { import_argoverse2(*options); });
 }
 

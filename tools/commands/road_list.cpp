@@ -11,7 +11,8 @@ std::vector<DriveSpec> RoadList::drives(const NoiseProfile& noise) const {
   std::vector<std::shared_ptr<const Road>> roads;
   const auto add = [&](Road road) { roads.push_back(std::make_shared<const Road>(std::move(road))); };
   for (const std::string& name : scenarios) add(make_scenario(name, speed_mps));
-  for (const std::string& folder : argoverse2) add(load_argoverse2(folder));
+  for (const std::string& directory : argoverse2)
+    for (const auto& log : argoverse2_logs(directory)) add(load_argoverse2(log));
   for (const std::string& file : lanelet2) add(load_lanelet2(file, speed_mps));
   std::vector<DriveSpec> drives;
   drives.reserve(roads.size() * seeds.size());
@@ -24,7 +25,7 @@ std::vector<DriveSpec> RoadList::drives(const NoiseProfile& noise) const {
 void add_roads(CLI::App& command, RoadList& roads) {
   CLI::Option_group* road = command.add_option_group("Roads", "any number of");
   road->add_option("--scenario", roads.scenarios, "A built-in road")->check(CLI::IsMember(scenario_names()));
-  road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log")
+  road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log, or of logs")
       ->check(CLI::ExistingDirectory);
   road->add_option("--lanelet2", roads.lanelet2, "A Lanelet2 map (.osm), driven along its lanes")
       ->check(CLI::ExistingFile);

@@ -17,7 +17,10 @@ struct RoadSource {
   std::string noise = "none";
   std::uint64_t seed = 1;
 
-  /// Throws std::runtime_error or std::invalid_argument naming what is wrong with the road.
+  /// One source per log where a directory of several is given, else this one alone.
+  std::vector<RoadSource> each() const;
+  /// Throws std::runtime_error or std::invalid_argument naming what is wrong with the road, or where there
+  /// are several.
   Road load() const;
   Perception perception(const Road& road) const;
 };

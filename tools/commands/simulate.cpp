@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/log_files.hpp"
 #include "commands/options.hpp"
 #include "commands/road_source.hpp"
 #include "io/json_lines.hpp"
@@ -18,20 +19,31 @@ struct Options {
   std::string frames, truth;
 };
 
-void simulate(const Options& options) {
-  const Road road = options.source.load();
-  if (!options.truth.empty()) save_truth(options.truth, road);
-  Perception perception = options.source.perception(road);
-  const double duration_s = options.duration_s > 0.0 ? options.duration_s : road.drive.duration_s();
+void simulate(const RoadSource& source, double duration_s, const std::string& frames_file,
+              const std::string& truth_file) {
+  const Road road = source.load();
+  if (!truth_file.empty()) save_truth(truth_file, road);
+  Perception perception = source.perception(road);
+  if (!(duration_s > 0.0)) duration_s = road.drive.duration_s();
   const auto frames = static_cast<std::int64_t>(std::floor(duration_s * 10.0));
-  JsonLinesWriter out(options.frames);
+  JsonLinesWriter out(frames_file);
   for (std::int64_t i = 1; i <= frames; ++i) {  // from 0.1 s: the stamp 0 means none
     VehiclePose pose = road.drive.pose_at(static_cast<double>(i) * 0.1);
     pose.stamp_ns = i * 100'000'000;
     out.write(FrameRecord{perception.observe(pose), pose});
   }
   out.close();
-  fmt::print("{}: {} frames of {}\n", options.frames, frames, road.name);
+  fmt::print("{}: {} frames of {}\n", frames_file, frames, road.name);
+}
+
+void simulate_each(const Options& options) {
+  for (const RoadSource& source : options.source.each()) {
+    const auto file = [&](const std::string& path, const char* ending) {
+      return file_of_log(path, options.source.argoverse2, source.argoverse2, ending);
+    };
+    simulate(source, options.duration_s, file(options.frames, ".frames.jsonl"),
+             file(options.truth, ".truth.json"));
+  }
 }
 
 }  // namespace
@@ -45,7 +57,8 @@ void add_simulate(CLI::App& app) {
   command->add_option("--frames", options->frames, "Detections and poses to write (.frames.jsonl)")
       ->required();
   command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
-  command->callback([options] { simulate(*options); });
+  command->footer("Of a directory of logs, --frames and --truth are folders, with a file per log.");
+  command->callback([options] { simulate_each(*options); });
 }
 
 }  // namespace laneloom

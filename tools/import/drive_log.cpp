@@ -6,7 +6,7 @@
 
 #include "io/csv.hpp"
 #include "simulation/argoverse2.hpp"
-#include "simulation/pose_csv.hpp"
+#include "simulation/pose_table.hpp"
 
 namespace laneloom {
 namespace {
@@ -50,7 +50,7 @@ DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::
     if (!stamps.emplace(token, take_number<std::int64_t>(row)).second)
       throw std::runtime_error("the sample " + token + " is given twice");
   });
-  DriveLog drive{.name = samples.string(), .poses = read_pose_csv(poses)};
+  DriveLog drive{.name = samples.string(), .poses = read_pose_table(poses)};
   drive.stamp_ns_of = [stamps = std::move(stamps)](const std::string& token) -> std::optional<std::int64_t> {
     const auto found = stamps.find(token);
     return found == stamps.end() ? std::nullopt : std::optional(found->second);

@@ -9,7 +9,7 @@
 #include "import/drive_log.hpp"
 #include "io/json_fields.hpp"
 #include "io/json_stream.hpp"
-#include "simulation/pose_csv.hpp"
+#include "simulation/pose_table.hpp"
 
 namespace laneloom {
 namespace {

@@ -11,7 +11,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/borders.hpp"
 #include "simulation/drivable_areas.hpp"
-#include "simulation/pose_csv.hpp"
+#include "simulation/pose_table.hpp"
 
 namespace laneloom {
 namespace {
@@ -23,6 +23,7 @@ constexpr double kJoinEdges_m = 1.5;  // outlines end a little before the area t
 constexpr double kAlongEdge_m = 0.5;
 constexpr std::int64_t kPosePeriod_ns = 10'000'000;
 constexpr std::int64_t kMaxDrive_ns = 3'600'000'000'000;
+constexpr int kMaxDepth = 3;  // of logs in a directory: <data set>/sensor/val/<log id>
 
 Point xyz(const json& value) {
   return {required(value, "x", coordinate), required(value, "y", coordinate),
@@ -159,25 +160,55 @@ Drive resampled(std::vector<VehiclePose> poses) {
   return Drive::recorded(std::move(clean));
 }
 
-std::filesystem::path map_archive(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::vector<std::filesystem::path> found;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
-    if (entry.path().filename().string().starts_with("log_map_archive_") &&
-        entry.path().extension() == ".json")
-      found.push_back(entry.path());
+/// None where a directory has no poses, and so is no log.
+std::optional<std::filesystem::path> pose_table(const std::filesystem::path& directory) {
+  for (const char* const ending : {".feather", ".csv"}) {
+    const std::filesystem::path file = directory / (std::string("city_SE3_egovehicle") + ending);
+    if (std::filesystem::exists(file)) return file;
   }
-  if (found.empty()) throw std::runtime_error(directory.string() + ": has no log_map_archive_*.json");
-  return *std::min_element(found.begin(), found.end());
+  return std::nullopt;
+}
+
+std::filesystem::path map_archive(const std::filesystem::path& log_directory) {
+  std::error_code absent;
+  std::vector<std::filesystem::path> found;
+  for (const auto& directory : {log_directory / "map", log_directory}) {
+    for (const auto& entry : std::filesystem::directory_iterator(directory, absent)) {
+      if (entry.path().filename().string().starts_with("log_map_archive_") &&
+          entry.path().extension() == ".json")
+        found.push_back(entry.path());
+    }
+    if (!found.empty()) return *std::min_element(found.begin(), found.end());
+  }
+  throw std::runtime_error(log_directory.string() + ": has no map/log_map_archive_*.json");
+}
+
+void add_logs(const std::filesystem::path& directory, int depth, std::vector<std::filesystem::path>& logs) {
+  if (pose_table(directory)) return logs.push_back(directory);
+  if (depth == 0) return;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, unreadable))
+    if (entry.is_directory(unreadable)) add_logs(entry.path(), depth - 1, logs);
 }
 
 }  // namespace
 
+std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> logs;
+  add_logs(directory, kMaxDepth, logs);
+  if (logs.empty())
+    throw std::runtime_error(directory.string() +
+                             ": holds no log of Argoverse 2 (city_SE3_egovehicle.feather)");
+  std::sort(logs.begin(), logs.end());
+  return logs;
+}
+
 std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory) {
-  const std::filesystem::path file = log_directory / "city_SE3_egovehicle.csv";
-  std::vector<VehiclePose> poses = read_pose_csv(file);
+  const auto file = pose_table(log_directory);
+  if (!file) throw std::runtime_error(log_directory.string() + ": has no city_SE3_egovehicle.feather");
+  std::vector<VehiclePose> poses = read_pose_table(*file);
   if (poses.back().stamp_ns - poses.front().stamp_ns > kMaxDrive_ns)
-    throw std::runtime_error(file.string() + ": lasts longer than an hour");
+    throw std::runtime_error(file->string() + ": lasts longer than an hour");
   return poses;
 }
 

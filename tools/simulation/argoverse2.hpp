@@ -7,9 +7,15 @@
 
 namespace laneloom {
 
-/// Loads an Argoverse 2 sensor log: its vector map (log_map_archive_*.json) and the recorded poses
-/// (city_SE3_egovehicle.csv). Coordinates are the city's, as they are; the vehicle's origin is about 0.33 m
-/// above the surface.
+/// The Argoverse 2 logs in a directory, in the order of their names: the directory itself where it has a
+/// log's poses, else those below it, as in `sensor/val/<log id>`. Throws std::runtime_error naming the
+/// directory where there is none.
+std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& directory);
+
+/// Loads an Argoverse 2 sensor log as it is distributed: its vector map (map/log_map_archive_*.json) and the
+/// recorded poses (city_SE3_egovehicle.feather). The map may also lie beside the poses, and these may be
+/// a .csv with the same columns. Coordinates are the city's, as they are; the vehicle's origin is about 0.33
+/// m above the surface.
 ///
 /// Lanelines are the painted borders of the lanes, bicycle lanes included; of a double line with two styles,
 /// the style of the nearer one. Roadedges are the outlines of the drivable areas where no other area adjoins.
@@ -19,7 +25,8 @@ namespace laneloom {
 /// Throws std::runtime_error naming file and key, or file and line.
 Road load_argoverse2(const std::filesystem::path& log_directory);
 
-/// The recorded poses alone, in city coordinates and at the stamps of the log's sensors, as read_pose_csv().
+/// The recorded poses alone, in city coordinates and at the stamps of the log's sensors, as
+/// read_pose_table().
 std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory);
 
 }  // namespace laneloom

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "recording/files.hpp"
+
+namespace laneloom {
+namespace arrow {
+struct Block;
+}
+
+/// A table of numbers in a file of Apache Arrow's IPC format (Feather V2), compressed or not. The file need
+/// not be whole: every length in it is checked before it is used. All throw std::runtime_error naming the
+/// file and what is wrong with it.
+class FeatherTable {
+ public:
+  explicit FeatherTable(const std::filesystem::path& path);
+
+  std::size_t rows() const { return static_cast<std::size_t>(rows_); }
+  /// All rows of a column; `Number` is std::int64_t or double, and must be what the column has.
+  template <class Number>
+  std::vector<Number> column(const std::string& name) const;
+
+ private:
+  /// Rows that were written together.
+  struct Batch {
+    Bytes metadata;
+    std::int64_t body_offset = 0, body_length = 0;
+  };
+
+  Bytes read(std::int64_t offset, std::int64_t length) const;
+  Bytes read_footer() const;
+  void add_batch(const arrow::Block& block);
+  std::uint32_t index_of(const std::string& name) const;
+  template <class Number>
+  void append(const Batch& batch, std::uint32_t column, std::vector<Number>& to) const;
+  template <class Work>
+  auto naming_the_file(Work work) const;
+
+  InputFile file_;
+  Bytes footer_;
+  std::vector<Batch> batches_;
+  std::int64_t end_of_batches_ = 0;
+  std::int64_t rows_ = 0;
+};
+
+}  // namespace laneloom

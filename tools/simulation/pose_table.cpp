@@ -1,0 +1,77 @@
+#include "simulation/pose_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "io/csv.hpp"
+#include "io/feather.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr std::int64_t kSamePose_ns = 1'000'000;
+
+using Numbers = std::array<double, 7>;  // qw to tz_m
+
+VehiclePose checked_pose(std::int64_t stamp_ns, const Numbers& v) {
+  if (stamp_ns < 0) throw std::runtime_error("a stamp of 0 or more is expected");
+  const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
+  if (!(std::abs(q.norm() - 1.0) < 1e-3)) throw std::runtime_error("a quaternion of unit length is expected");
+  VehiclePose pose{.stamp_ns = stamp_ns, .position = {v[4], v[5], v[6]}, .orientation = q.normalized()};
+  if (!pose.position.allFinite()) throw std::runtime_error("a finite number is expected");
+  return pose;
+}
+
+std::vector<VehiclePose> read_csv(const std::filesystem::path& path) {
+  std::vector<VehiclePose> poses;
+  for_each_csv_row(path, "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m", [&](std::string_view row) {
+    const auto stamp_ns = take_number<std::int64_t>(row);
+    Numbers numbers{};
+    for (double& number : numbers) number = take_number<double>(row);
+    poses.push_back(checked_pose(stamp_ns, numbers));
+  });
+  return poses;
+}
+
+std::vector<VehiclePose> read_feather(const std::filesystem::path& path) {
+  const FeatherTable table(path);
+  const std::vector<std::int64_t> stamps_ns = table.column<std::int64_t>("timestamp_ns");
+  std::vector<std::vector<double>> columns;
+  for (const char* name : {"qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m"})
+    columns.push_back(table.column<double>(name));
+  std::vector<VehiclePose> poses;
+  for (std::size_t row = 0; row < stamps_ns.size(); ++row) {
+    Numbers numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = columns[i][row];
+    try {
+      poses.push_back(checked_pose(stamps_ns[row], numbers));
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(path.string() + ": row " + std::to_string(row) + ": " + error.what());
+    }
+  }
+  return poses;
+}
+
+}  // namespace
+
+std::vector<VehiclePose> read_pose_table(const std::filesystem::path& path) {
+  std::vector<VehiclePose> poses =
+      cleaned_poses(path.extension() == ".feather" ? read_feather(path) : read_csv(path));
+  if (poses.size() < 2) throw std::runtime_error(path.string() + ": has fewer than two poses");
+  return poses;
+}
+
+std::vector<VehiclePose> cleaned_poses(std::vector<VehiclePose> poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const VehiclePose& a, const VehiclePose& b) { return a.stamp_ns < b.stamp_ns; });
+  const auto same = [](const VehiclePose& a, const VehiclePose& b) {
+    return b.stamp_ns - a.stamp_ns < kSamePose_ns;
+  };
+  poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
+  return poses;
+}
+
+}  // namespace laneloom
