@@ -1,8 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
+#include "commands/unknown_command.hpp"
 
 namespace {
 
@@ -25,11 +29,18 @@ int run(int argc, char** argv) {
   laneloom::add_drive(app);
   laneloom::add_bench(app);
   laneloom::add_soak(app);
+  const std::string complaint = laneloom::unknown_command(app, {argv + std::min(1, argc), argv + argc});
+  if (!complaint.empty()) {
+    std::fprintf(stderr, "laneloom: %s\n", complaint.c_str());
+    return laneloom::kWrongUse;
+  }
   try {
     app.parse(argc, argv);
-    return 0;
-  } catch (const CLI::Error& error) {
-    return app.exit(error);
+    return laneloom::kDone;
+  } catch (const CLI::RuntimeError& end) {  // of end_with()
+    return end.get_exit_code();
+  } catch (const CLI::Error& error) {  // or a call for help
+    return app.exit(error) == 0 ? laneloom::kDone : laneloom::kWrongUse;
   }
 }
 
@@ -41,7 +52,7 @@ int run_and_tell(int argc, char** argv) {
     return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "laneloom: %s\n", error.what());
-    return 1;
+    return laneloom::kFailed;
   }
 }
 
@@ -51,5 +62,5 @@ int main(int argc, char** argv) {
   const int code = run_and_tell(argc, argv);
   if (printed()) return code;
   std::fprintf(stderr, "laneloom: standard output cannot be written\n");
-  return code == 0 ? 1 : code;
+  return code == laneloom::kDone ? laneloom::kFailed : code;
 }

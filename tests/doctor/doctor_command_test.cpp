@@ -27,7 +27,7 @@ class Doctor : public Processes {
   /// Until the finding says `text`.
   bool run_until_found(const std::vector<std::string>& words, const std::string& id,
                        const testing::Matcher<std::string>& text = Not(testing::IsEmpty())) const {
-    return run_until(words, [&](int code) { return code == 1 && Value(found(id), text); });
+    return run_until(words, [&](int code) { return code == 2 && Value(found(id), text); });
   }
 };
 
@@ -48,7 +48,7 @@ TEST_F(Doctor, FindsAWrongPartition) {
                                HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\""));
   const auto others = testing::IsSupersetOf({"no_detections", "no_poses", "state_no_detections"});
   EXPECT_TRUE(run_until(doctor(), [&](int code) {
-    return code == 1 && Value(found("wrong_partition"), partition) && Value(ids(), others);
+    return code == 2 && Value(found("wrong_partition"), partition) && Value(ids(), others);
   })) << output();
 }
 
@@ -103,7 +103,7 @@ TEST_F(Doctor, FindsAWrongDomain) {
   const auto words =
       command({LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"}, domain_ + 45, vehicle_);
   EXPECT_TRUE(run_until(words, [&](int code) {
-    return code == 1 && found("empty_domain").find(" " + std::to_string(domain_)) != std::string::npos;
+    return code == 2 && found("empty_domain").find(" " + std::to_string(domain_)) != std::string::npos;
   })) << output();
   EXPECT_THAT(ids(), ElementsAre("empty_domain"));
 }
@@ -127,12 +127,12 @@ TEST_F(Doctor, FindsPosesInAnotherFrame) {
 
 TEST_F(Doctor, FindsAWrongConfiguration) {
   std::ofstream(file("config.yaml")) << "dds:\n  domain: 1\n  vehicle: ego\n";
-  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 1);
+  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 2);
   EXPECT_THAT(ids(), ElementsAre("configuration"));
   EXPECT_THAT(found("configuration"), HasSubstr(file("config.yaml") + ":3: dds.vehicle"));
 
   std::ofstream(file("config.yaml")) << "dds:\n  profile_file: /nowhere.xml\n  profile_name: mine\n";
-  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 1);
+  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 2);
   EXPECT_THAT(ids(), ElementsAre("participant"));
   EXPECT_THAT(found("participant"), HasSubstr("/nowhere.xml"));
 }

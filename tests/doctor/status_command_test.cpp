@@ -21,7 +21,7 @@ TEST_F(Status, NobodyIsHeard) {
 
 TEST_F(Status, TheExitCodeIsTheState) {
   const Process running(service(), file("service.log"));
-  ASSERT_TRUE(run_until(once(), [](int code) { return code == 2; })) << output();
+  ASSERT_TRUE(run_until(once(), [](int code) { return code == 4; })) << output();
   EXPECT_EQ(json().at("state"), "STALE");
   EXPECT_THAT(json().at("reasons"), testing::Contains("no_detections"));
   EXPECT_TRUE(json().at("detections_age_s").is_null());
@@ -34,7 +34,7 @@ TEST_F(Status, TheExitCodeIsTheState) {
 
   const Process other(service(), file("other.log"));
   EXPECT_TRUE(run_until(once(), [&](int code) {
-    return code == 1 && json().at("reasons") == nlohmann::json{"another_service"};
+    return code == 2 && json().at("reasons") == nlohmann::json{"another_service"};
   })) << output();
 }
 
@@ -56,7 +56,7 @@ TEST_F(Status, FollowsAllServicesOfAVehicle) {
   EXPECT_EQ(sessions.size(), 2U);
   EXPECT_TRUE(rose);
   status.signal(SIGTERM);
-  EXPECT_EQ(status.wait(), 2) << "the newest status said STALE";
+  EXPECT_EQ(status.wait(), 4) << "the newest status said STALE";
 }
 
 TEST_F(Status, IsRedrawnInPlaceOnATerminal) {

@@ -51,7 +51,7 @@ TEST_F(DriveCommand, FailsOnRequestWhenTheLaneIsLeft) {
   EXPECT_THAT(output(), HasSubstr("overpass, seed 1: "));
   std::vector<std::string> strict = words;
   strict.emplace_back("--require-lane");
-  EXPECT_EQ(run(strict), 1);
+  EXPECT_EQ(run(strict), 2);
 }
 
 TEST_F(DriveCommand, WrongInputIsNamed) {
@@ -84,7 +84,7 @@ TEST_F(DriveCommand, DrivesOnTheMapOfARunningService) {
 
 TEST_F(DriveCommand, SaysThatNoServiceIsThere) {
   const std::string domain = std::to_string(own_domain());
-  EXPECT_EQ(run({"--scenario", "straight", "--dds", "--domain", domain, "--vehicle-id", "nobody"}), 1);
+  EXPECT_EQ(run({"--scenario", "straight", "--dds", "--domain", domain, "--vehicle-id", "nobody"}), 3);
   EXPECT_THAT(output(), HasSubstr("no service"));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/feather_writer.hpp"
+#include "io/json_lines.hpp"
 #include "laneloom/recording.hpp"
 #include "own_domain.hpp"
 #include "process.hpp"
@@ -30,6 +31,17 @@ class Commands : public testing::Test {
     return Process(arguments, file("output")).wait();
   }
   std::string output() const { return content(file("output")); }
+
+  /// Frames and their poses as they would have been recorded.
+  void write_recording(const std::string& frames, const std::string& recording) {
+    RecordingWriter out(file(recording));
+    JsonLinesReader in(file(frames));
+    while (const auto record = in.next_frame()) {
+      out.write(record->pose, record->pose.stamp_ns);
+      out.write(record->frame, record->frame.stamp_ns);
+    }
+    out.close();
+  }
 
   void simulate(const std::string& noise, const std::string& frames) {
     ASSERT_EQ(run({"simulate", "--scenario", "straight", "--noise", noise, "--duration", "8", "--frames",
@@ -203,6 +215,109 @@ TEST_F(Commands, RenderDrawsEveryInput) {
   EXPECT_THAT(content(file("truth.svg")), HasSubstr("</svg>"));
 }
 
+TEST_F(Commands, EveryCommandTakesRecordingsAndLines) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.mcap")}), 0) << output();
+  write_recording("in.frames.jsonl", "in.mcap");
+  std::vector<std::string> pictures;
+  for (const char* const frames : {"in.frames.jsonl", "in.mcap"}) {
+    for (const char* const map : {"map.jsonl", "map.mcap"}) {
+      ASSERT_EQ(
+          run({"render", "--frames", file(frames), "--map", file(map), "--at", "3", "--out", file("x.svg")}),
+          0)
+          << output();
+      pictures.push_back(content(file("x.svg")));
+      ASSERT_EQ(
+          run({"evaluate", "--truth", file("truth.json"), "--frames", file(frames), "--map", file(map)}), 0)
+          << output();
+    }
+    ASSERT_EQ(run({"replay", "--in", file(frames)}), 0) << output();
+  }
+  EXPECT_THAT(pictures, testing::Each(pictures.front()));
+}
+
+TEST_F(Commands, ACommandThatThereIsNotIsNamedWithTheNearest) {
+  EXPECT_EQ(run({"frobnicate"}), 64);
+  EXPECT_THAT(output(), HasSubstr("there is no command 'frobnicate'; the nearest is"));
+  EXPECT_EQ(run({"evalute", "--truth", "x"}), 64);
+  EXPECT_THAT(output(), HasSubstr("there is no command 'evalute'; the nearest is 'evaluate'"));
+  EXPECT_EQ(run({"import", "argoverse"}), 64);
+  EXPECT_THAT(output(), HasSubstr("there is no command 'argoverse'; the nearest is 'argoverse2'"));
+  EXPECT_EQ(run({"bench", "worse"}), 64);
+}
+
+TEST_F(Commands, WrongUseHasOneExitCode) {
+  EXPECT_EQ(run({}), 64);
+  EXPECT_EQ(run({"--nonsense"}), 64);
+  EXPECT_EQ(run({"replay"}), 64) << "an option is missing";
+  EXPECT_EQ(run({"pnc", "--duration", "soon"}), 64);
+  EXPECT_EQ(run({"simulate", "--scenario", "nowhere", "--frames", file("x")}), 64);
+  EXPECT_EQ(run({"import", "--help"}), 0);
+}
+
+TEST_F(Commands, AFileThatIsNotThereIsAFailureOfEveryCommand) {
+  const std::string absent = file("absent");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"replay", "--in", absent},
+                                                {"render", "--map", absent, "--out", file("x.svg")},
+                                                {"evaluate", "--truth", absent, "--map", absent},
+                                                {"simulate", "--argoverse2", absent, "--frames", file("x")},
+                                                {"simulate", "--lanelet2", absent, "--frames", file("x")},
+                                                {"experiment", "--argoverse2", absent},
+                                                {"drive", "--scenario", "hill", "--config", absent},
+                                                {"bench", "--config", absent},
+                                                {"import", "argoverse2", absent, "--out", file("x")}}) {
+    EXPECT_EQ(run(words), 1) << words.front() << output();
+    EXPECT_THAT(output(), HasSubstr(absent)) << words.front();
+  }
+}
+
+TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
+  const auto advice = [&](const std::string& lines) {
+    std::ofstream(file("in.jsonl")) << lines;
+    EXPECT_EQ(run({"replay", "--in", file("in.jsonl")}), 0) << output();
+    return output();
+  };
+  /// Frames every 2 m, each with a line that no vehicle drives along.
+  const auto drive = [](int frames, double confidence) {
+    std::string lines;
+    for (int i = 0; i < frames; ++i)
+      lines += R"({"t":)" + std::to_string(0.1 * i) + R"(,"pose":[)" + std::to_string(2 * i) +
+               R"(,0,0,0,0,0,1],"detections":[{"type":"laneline","style":"solid","score":)" +
+               std::to_string(confidence) + R"(,"points":[[0,9,0],[10,9,0],[25,9,0]]}]})" + "\n";
+    return lines;
+  };
+  EXPECT_THAT(advice(""), HasSubstr("no map came of it: the input has no detections"));
+  EXPECT_THAT(advice(R"({"t":-1,"pose":[0,0,0,0,0,0,1],"detections":[]})"),
+              HasSubstr("all poses were refused, most of them as 'stamp'"));
+  EXPECT_THAT(advice(R"({"t":1,"pose":[0,0,0,0,0,0,1],"detections":[]})"),
+              HasSubstr("no map has a marking: no frame has a detection"));
+  EXPECT_THAT(advice(drive(20, 0.1)), HasSubstr("confidence of 0.3 or more"));
+  EXPECT_THAT(advice(drive(3, 0.9)), HasSubstr("3 frames were fused, and a lane needs about 5"));
+  EXPECT_THAT(advice(drive(20, 0.9)),
+              HasSubstr("no map has a lane: a lane needs a line or an edge on both sides"));
+  simulate("none", "good.jsonl");
+  EXPECT_EQ(run({"replay", "--in", file("good.jsonl")}), 0);
+  EXPECT_THAT(output(), testing::Not(HasSubstr("no map")));
+}
+
+TEST_F(Commands, ADriveThatBeginsAtTimeZeroLosesNoFrame) {
+  simulate("none", "in.frames.jsonl");
+  std::ifstream in(file("in.frames.jsonl"));
+  std::ofstream out(file("zero.jsonl"));
+  std::int64_t t_ns = 0;
+  for (std::string line; std::getline(in, line); t_ns += 100'000'000) {
+    json frame = json::parse(line);
+    frame["t"] = static_cast<double>(t_ns) * 1e-9;
+    frame.erase("stamp_ns");
+    out << frame.dump() << '\n';
+  }
+  out.close();
+  ASSERT_EQ(run({"replay", "--in", file("zero.jsonl"), "--report", file("report.json")}), 0) << output();
+  EXPECT_EQ(json::parse(content(file("report.json"))).at("frames"), 80);
+  EXPECT_THAT(output(), testing::Not(HasSubstr("refused")));
+}
+
 TEST_F(Commands, WrongInputIsNamed) {
   EXPECT_EQ(run({"replay", "--in", file("missing.jsonl")}), 1);
   EXPECT_THAT(output(), HasSubstr("missing.jsonl"));
@@ -340,7 +455,7 @@ TEST_F(RecordedLoopback, AReplayMakesTheMapsThatTheServicePublished) {
   const json live = json::parse(content(file("live.json")));
   EXPECT_GE(live.at("frames"), 77);
   // With another configuration they are others, and that is seen.
-  EXPECT_EQ(run({"replay", "--in", file("live.mcap"), "--verify", "--preset", "av2"}), 1) << output();
+  EXPECT_EQ(run({"replay", "--in", file("live.mcap"), "--verify", "--preset", "av2"}), 2) << output();
 
   // Published again, the same messages make the same maps, in the service and in a replay.
   record({"replay", "--in", file("live.mcap"), "--publish", "--speed-up", "2"}, "again.mcap");

@@ -41,7 +41,7 @@ void add_bench_drive(CLI::App& command, BenchDrive& drive) {
   command.add_option("--preset", drive.preset, "Range, and alpha_n of the voxel method")
       ->check(CLI::IsMember({"inhouse", "av2"}))
       ->capture_default_str();
-  command.add_option("--config", drive.config, "Configuration file")->check(CLI::ExistingFile);
+  command.add_option("--config", drive.config, "Configuration file");
 }
 
 }  // namespace laneloom

@@ -5,8 +5,8 @@ class App;
 }
 
 /// The subcommands of `laneloom`, one file each. Each function registers its command; the command's work is
-/// done while the command line is parsed. It throws what main() reports: std::exception for exit code 1, and
-/// CLI::RuntimeError for a code of its own.
+/// done while the command line is parsed. It throws what main() reports: std::exception where it failed, and
+/// what end_with() throws (exit_codes.hpp) for any other exit code.
 namespace laneloom {
 
 void add_publish(CLI::App& app);

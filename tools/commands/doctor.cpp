@@ -10,6 +10,7 @@
 #include <string>
 
 #include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
 #include "doctor/observer.hpp"
@@ -18,8 +19,6 @@
 
 namespace laneloom {
 namespace {
-
-constexpr int kFindings = 1;
 
 struct Options {
   DdsConfig dds;
@@ -73,14 +72,14 @@ void doctor(const Options& options) {
                report_json(seen, found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     fmt::print("{}", report(seen, found));
-  if (!std::ranges::all_of(found, &Finding::advice)) throw CLI::RuntimeError(kFindings);
+  if (!std::ranges::all_of(found, &Finding::advice)) end_with(kFoundWrong);
 }
 
 }  // namespace
 
 void add_doctor(CLI::App& app) {
   CLI::App* command = app.add_subcommand("doctor", "Finds why nothing arrives");
-  command->footer(fmt::format("Exit code: 0 nothing wrong was found; {} something was.", kFindings));
+  command->footer(fmt::format("Exit code: {} where something wrong was found.", +kFoundWrong));
   const auto options = std::make_shared<Options>();
   command
       ->add_option_function<std::string>(

@@ -9,6 +9,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/drive_tables.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
 #include "commands/road_list.hpp"
 #include "commands/stop_signal.hpp"
@@ -22,7 +23,6 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr int kLeftLane = 1;
 constexpr std::chrono::seconds kPatience{10};
 
 struct Options {
@@ -65,12 +65,17 @@ std::vector<DriveResult> drive_offline(const std::vector<DriveSpec>& drives, con
   return results;
 }
 
+[[noreturn]] void nobody_heard(const char* why) {
+  fmt::print(stderr, "laneloom: {}\n", why);
+  end_with(kNobodyHeard);
+}
+
 void connect(const DdsMapService& service) {
   const auto deadline = SteadyClock::now() + kPatience;
   while (!service.connected() && SteadyClock::now() < deadline) {
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
   }
-  if (!service.connected()) throw std::runtime_error("no service takes part");
+  if (!service.connected()) nobody_heard("no service takes part");
   sleep_until(SteadyClock::now() + kDiscovery);
 }
 
@@ -87,7 +92,7 @@ std::vector<DriveResult> drive_over_dds(const std::vector<DriveSpec>& drives, co
   for (auto due = SteadyClock::now(); !is_over(options, loop) && sleep_until(due);
        due += std::chrono::milliseconds(10))
     loop.step();
-  if (service.received() == 0) throw std::runtime_error("no map came");
+  if (service.received() == 0) nobody_heard("no map came");
   return {{drives.front().road->name, drives.front().seed, loop.score()}};
 }
 
@@ -105,7 +110,7 @@ void drive(const Options& options) {
   }
   const bool left = std::ranges::any_of(
       results, [](const DriveResult& result) { return !result.score.departures.empty(); });
-  if (options.require_lane && left) throw CLI::RuntimeError(kLeftLane);
+  if (options.require_lane && left) end_with(kFoundWrong);
 }
 
 }  // namespace
@@ -113,7 +118,9 @@ void drive(const Options& options) {
 void add_drive(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "drive", "Steers a simulated vehicle by the map alone, and says how well it keeps its lane");
-  command->footer("Exit code: 1 the vehicle left its lane (--require-lane).");
+  command->footer(
+      "Exit code: 2 the vehicle left its lane (--require-lane); 3 no service is there, or no map came "
+      "(--dds).");
   const auto options = std::make_shared<Options>();
   add_roads(*command, options->roads);
   command->add_option("--speed", options->roads.speed_mps, "Of the vehicle at most, in m/s")
@@ -128,8 +135,7 @@ void add_drive(CLI::App& app) {
   command->add_option("--km", options->km, "Kilometres per drive, instead")
       ->check(within(1e-3, 1e6))
       ->excludes(duration);
-  auto* config =
-      command->add_option("--config", options->config, "Configuration file")->check(CLI::ExistingFile);
+  auto* config = command->add_option("--config", options->config, "Configuration file");
   auto* preset = command->add_option("--preset", options->preset, "Range, and alpha_n of the voxel method")
                      ->check(CLI::IsMember({"inhouse", "av2"}));
   auto* dds = command->add_flag("--dds", options->over_dds, "In real time, by the map of a running laneloomd")

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/inbox.hpp"
 #include "commands/live_display.hpp"
 #include "commands/options.hpp"
@@ -22,10 +23,6 @@ namespace laneloom {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-constexpr int kViolations = 2;
-constexpr int kNoMaps = 3;
-constexpr int kNoLanes = 4;
 
 struct Options {
   DdsConfig dds;
@@ -99,10 +96,10 @@ struct Tally {
     missed += update.missed;
     violations += update.violations.size();
   }
-  int exit_code(bool require_lanes) const {
-    if (violations + refused > 0) return kViolations;
-    if (maps == 0) return kNoMaps;
-    return require_lanes && maps_with_lanes == 0 ? kNoLanes : 0;
+  ExitCode exit_code(bool require_lanes) const {
+    if (violations + refused > 0) return kFoundWrong;
+    if (maps == 0) return kNobodyHeard;
+    return require_lanes && maps_with_lanes == 0 ? kNothingToDriveOn : kDone;
   }
 };
 
@@ -156,7 +153,7 @@ class Follower {
 void pnc(const Options& options) {
   catch_stop_signals();
   const Tally tally = Follower(options).run();
-  const int code = tally.exit_code(options.require_lanes);
+  const ExitCode code = tally.exit_code(options.require_lanes);
   if (options.json)
     fmt::print("{}\n", nlohmann::json{{"event", "end"},
                                       {"maps", tally.maps},
@@ -164,12 +161,12 @@ void pnc(const Options& options) {
                                       {"missed", tally.missed},
                                       {"refused", tally.refused},
                                       {"violations", tally.violations},
-                                      {"exit_code", code}}
+                                      {"exit_code", +code}}
                            .dump());
   else
     fmt::print("{} maps ({} with lanes), {} missed, {} refused, {} contract violations\n", tally.maps,
                tally.maps_with_lanes, tally.missed, tally.refused, tally.violations);
-  throw CLI::RuntimeError(code);
+  end_with(code);
 }
 
 }  // namespace
@@ -177,10 +174,9 @@ void pnc(const Options& options) {
 void add_pnc(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("pnc", "Planning participant: follows the map and checks its contract");
-  command->footer(fmt::format(
-      "Exit code: 0 maps were received, none broke the contract; {} one did, or was refused; {} no map came; "
-      "{} no map had a lane (--require-lanes).",
-      kViolations, kNoMaps, kNoLanes));
+  command->footer(
+      "Exit code: 0 maps were received, none broke the contract; 2 one did, or was refused; 3 no map came; "
+      "4 no map had a lane (--require-lanes).");
   const auto options = std::make_shared<Options>();
   add_dds(*command, options->dds);
   command->add_flag("--json", options->json, "One JSON object per update");

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "commands/commands.hpp"
+#include "commands/evaluation_inputs.hpp"
 #include "commands/options.hpp"
-#include "io/json_lines.hpp"
 #include "render/figure.hpp"
 #include "render/truth_map.hpp"
 
@@ -23,8 +23,13 @@ struct Options {
   RangeConfig range;
 };
 
+struct SeenFrame {
+  DetectionFrame frame;
+  Eigen::Isometry3d T_map_body;
+};
+
 struct Inputs {
-  std::vector<FrameRecord> frames;
+  std::vector<SeenFrame> frames;
   std::vector<LocalMap> maps;
   std::optional<Road> truth;
 };
@@ -33,19 +38,24 @@ Inputs read(const Options& options) {
   Inputs inputs;
   if (!options.truth.empty()) inputs.truth = load_truth(options.truth);
   if (!options.frames.empty()) {
-    JsonLinesReader in(options.frames);
-    while (auto record = in.next_frame()) inputs.frames.push_back(std::move(*record));
-    if (inputs.frames.empty()) throw std::runtime_error(options.frames + ": holds no frame");
+    const InputAccount account =
+        for_each_frame(options.frames, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+          inputs.frames.push_back({frame, T_map_body});
+        });
+    warn_of(options.frames, account.refused, account.cut_off);
+    if (inputs.frames.empty())
+      throw std::runtime_error(fmt::format("{}: holds no frame with a pose", options.frames));
   }
   if (!options.map.empty()) {
-    JsonLinesReader in(options.map);
-    while (auto map = in.next_map()) inputs.maps.push_back(std::move(*map));
+    const InputAccount account =
+        for_each_map(options.map, [&](const LocalMap& map) { inputs.maps.push_back(map); });
+    warn_of(options.map, account.refused, account.cut_off);
     if (inputs.maps.empty()) throw std::runtime_error(options.map + ": holds no map");
   }
   return inputs;
 }
 
-std::int64_t stamp(const FrameRecord& record) { return record.frame.stamp_ns; }
+std::int64_t stamp(const SeenFrame& seen) { return seen.frame.stamp_ns; }
 std::int64_t stamp(const LocalMap& map) { return map.stamp_ns; }
 
 template <class T>
@@ -87,9 +97,9 @@ Moment draw_moment(const Inputs& inputs, std::int64_t stamp_ns, std::int64_t fir
   Moment moment;
   moment.label = fmt::format("t = {:.1f} s", static_cast<double>(stamp_ns - first_ns) * 1e-9);
   if (!inputs.frames.empty()) {
-    const FrameRecord& record = nearest(inputs.frames, stamp_ns);
-    moment.T_map_body = transform(record.pose);
-    moment.panels.push_back({"Detections (one frame)", map_of(record.frame, moment.T_map_body), truth_lines});
+    const SeenFrame& seen = nearest(inputs.frames, stamp_ns);
+    moment.T_map_body = seen.T_map_body;
+    moment.panels.push_back({"Detections (one frame)", map_of(seen.frame, moment.T_map_body), truth_lines});
   }
   if (!inputs.maps.empty()) {
     const LocalMap& map = nearest(inputs.maps, stamp_ns);
@@ -117,8 +127,8 @@ void add_render(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Draws detections, maps and truth side by side");
   const auto options = std::make_shared<Options>();
   CLI::Option_group* inputs = command->add_option_group("Inputs", "any of");
-  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl)");
-  inputs->add_option("--map", options->map, "Fused maps (.jsonl)");
+  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl or .mcap)");
+  inputs->add_option("--map", options->map, "Fused maps (.jsonl or .mcap)");
   inputs->add_option("--truth", options->truth, "Truth of the road (.json)");
   inputs->require_option(1, 3);
   CLI::Option* at =

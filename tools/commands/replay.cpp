@@ -10,7 +10,9 @@
 
 #include "commands/commands.hpp"
 #include "commands/evaluation_inputs.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
+#include "commands/replay_advice.hpp"
 #include "commands/replay_report.hpp"
 #include "commands/score_table.hpp"
 #include "commands/stop_signal.hpp"
@@ -92,10 +94,12 @@ ReplayResult run(const Options& options, const std::string& config_file, const s
   Replay replay(config, take_map, &result.timer);
   ProgressBar bar;
   const auto start = SteadyClock::now();
+  ReplayInput input;
   const auto next = [&] { return options.verify ? source->next() : source->next_input(); };
   while (std::optional<RecordedMessage> message = next()) {
     bar.show(source->progress());
     if (options.verify) result.add_live(message->message);
+    input.add(message->message);
     replay.add(std::move(*message));
   }
   if (output) output->close();
@@ -104,6 +108,7 @@ ReplayResult run(const Options& options, const std::string& config_file, const s
   result.hash = replay.hash();
   result.counters = replay.counters();
   result.pending = replay.pending();
+  result.advice = advice_on(input, result, config.mapper);
   if (evaluation) result.score = evaluation->score();
   warn_of(options.in, source->refused(), source->cut_off());
   return result;
@@ -114,7 +119,7 @@ void check_live(const ReplayResult& result) {
   fmt::print("live messages: {} equal, {} different, {} missing\n", live.equal, live.different, live.missing);
   if (live.equal + live.different + live.missing == 0)
     throw std::runtime_error("the recording has no maps of a live service to compare with");
-  if (!live.holds()) throw CLI::RuntimeError("", 1);
+  if (!live.holds()) end_with(kFoundWrong);
 }
 
 /// Whether two paths name one file, which need not be there yet.
@@ -151,7 +156,10 @@ void replay(Options& options) {
   for (std::size_t i = 0; i < options.config_files.size(); ++i)
     results.push_back(run(options, options.config_files[i],
                           options.out.empty() ? std::string() : options.out[i], truth.get()));
-  for (const ReplayResult& result : results) print_result(result);
+  for (const ReplayResult& result : results) {
+    print_result(result);
+    if (!result.advice.empty()) fmt::print(stderr, "laneloom: {}: {}\n", options.in, result.advice);
+  }
   if (results.size() > 1) print_comparison(results);
   if (truth) {
     std::vector<NamedScore> scores;

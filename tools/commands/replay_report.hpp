@@ -20,6 +20,7 @@ struct ReplayResult {
   std::size_t pending = 0;                                        ///< frames whose poses never came
   std::size_t maps = 0, boundaries = 0, lanes = 0, linkages = 0;  ///< summed over the maps
   std::int64_t first_ns = 0, last_ns = 0;                         ///< stamps
+  std::string advice;                                             ///< where nothing came of it: why
   LiveComparison comparison;
   MapScore score;
 

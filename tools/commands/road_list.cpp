@@ -25,10 +25,8 @@ std::vector<DriveSpec> RoadList::drives(const NoiseProfile& noise) const {
 void add_roads(CLI::App& command, RoadList& roads) {
   CLI::Option_group* road = command.add_option_group("Roads", "any number of");
   road->add_option("--scenario", roads.scenarios, "A built-in road")->check(CLI::IsMember(scenario_names()));
-  road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log, or of logs")
-      ->check(CLI::ExistingDirectory);
-  road->add_option("--lanelet2", roads.lanelet2, "A Lanelet2 map (.osm), driven along its lanes")
-      ->check(CLI::ExistingFile);
+  road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log, or of logs");
+  road->add_option("--lanelet2", roads.lanelet2, "A Lanelet2 map (.osm), driven along its lanes");
   road->require_option(1, 0);
   command.add_option("--seeds", roads.seeds, "Of the noise; every road is driven with each")
       ->delimiter(',')

@@ -47,10 +47,8 @@ void add_road_source(CLI::App& command, RoadSource& source) {
   CLI::Option_group* road = command.add_option_group("Road", "one of");
   road->add_option("--scenario", source.scenario, "A built-in road")->check(CLI::IsMember(scenario_names()));
   road->add_option("--argoverse2", source.argoverse2,
-                   "Directory of an Argoverse 2 log, driven as recorded, or of logs")
-      ->check(CLI::ExistingDirectory);
-  road->add_option("--lanelet2", source.lanelet2, "A Lanelet2 map (.osm), driven along its lanes")
-      ->check(CLI::ExistingFile);
+                   "Directory of an Argoverse 2 log, driven as recorded, or of logs");
+  road->add_option("--lanelet2", source.lanelet2, "A Lanelet2 map (.osm), driven along its lanes");
   road->require_option(1);
   command.add_option("--speed", source.speed_mps, "Of the vehicle, in m/s; recorded drives keep theirs")
       ->check(within(0.1, 60.0))

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
 #include "endurance/soak.hpp"
@@ -45,7 +46,7 @@ void run(Options& options) {
   spec.fleet.dds.vehicle_id = fmt::format("soak_{}", getpid());  // apart from every other vehicle
   const SoakResult result = soak(spec, [] { return !stop_requested(); });
   print(result);
-  if (!result.passed()) throw CLI::RuntimeError(1);
+  if (!result.passed()) end_with(kFoundWrong);
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ void add_soak(CLI::App& app) {
       ->check(CLI::Range(0, 232))
       ->capture_default_str();
   command->footer(
-      "Exit code 1: a frame is not accounted for, a map broke the contract, no good one came after a fault "
+      "Exit code 2: a frame is not accounted for, a map broke the contract, no good one came after a fault "
       "(to the planner too), a process ended by itself, or one that was told to end crashed or hung.");
   command->callback([options] { run(*options); });
 }

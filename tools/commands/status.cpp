@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/inbox.hpp"
 #include "commands/live_display.hpp"
 #include "commands/options.hpp"
@@ -23,7 +24,6 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr int kNobody = 3;
 constexpr double kPatience_s = 5.0;  ///< for the first status, with --once
 /// A service that was not heard for so long is no more shown beside one that is.
 constexpr std::chrono::seconds kForgotten{10};
@@ -40,6 +40,18 @@ struct Refused {
 };
 using Events = Inbox<std::variant<ServiceStatus, Refused>>;
 
+ExitCode code_of(MapState state) {
+  switch (state) {
+    case MapState::ok:
+      return kDone;
+    case MapState::degraded:
+      return kFoundWrong;
+    case MapState::stale:
+      break;
+  }
+  return kNothingToDriveOn;
+}
+
 /// What one service said last.
 struct Heard {
   ServiceStatus status;
@@ -55,7 +67,7 @@ class Watch {
   explicit Watch(const Options& options) : options_(options) {}
 
   /// The exit code: of the newest status.
-  int run() {
+  ExitCode run() {
     Events inbox;
     const dds::Participant participant(options_.dds, "laneloom status");
     const dds::Reader<ServiceStatus> reader(
@@ -81,7 +93,7 @@ class Watch {
     if (heard.when != SteadyClock::time_point()) heard.previous = std::move(heard.status);
     heard.status = status;
     heard.when = now;
-    exit_code_ = static_cast<int>(status.state);  // 0 OK, 1 DEGRADED, 2 STALE
+    exit_code_ = code_of(status.state);
     if (options_.json) {
       output_.print_line(
           to_json(status, heard.before()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -112,26 +124,23 @@ class Watch {
   const Options& options_;
   LiveDisplay output_;
   std::map<std::uint64_t, Heard> heard_;  ///< by session
-  int exit_code_ = kNobody;
+  ExitCode exit_code_ = kNobodyHeard;
 };
 
 void status(const Options& options) {
   catch_stop_signals();
-  const int code = Watch(options).run();
-  if (code == kNobody && !options.json)
+  const ExitCode code = Watch(options).run();
+  if (code == kNobodyHeard && !options.json)
     fmt::print(stderr, "laneloom: no service of vehicle \"{}\" was heard in domain {}\n",
                options.dds.vehicle_id, options.dds.domain);
-  throw CLI::RuntimeError(code);
+  end_with(code);
 }
 
 }  // namespace
 
 void add_status(CLI::App& app) {
   CLI::App* command = app.add_subcommand("status", "Health of the running service, live");
-  command->footer(
-      fmt::format("Exit code, by the newest status: 0 OK; 1 DEGRADED, or an error of the command itself; 2 "
-                  "STALE; {} no service was heard.",
-                  kNobody));
+  command->footer("Exit code, by the newest status: 0 OK; 2 DEGRADED; 4 STALE; 3 no service was heard.");
   const auto options = std::make_shared<Options>();
   add_dds(*command, options->dds);
   command->add_flag(

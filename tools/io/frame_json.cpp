@@ -74,6 +74,7 @@ FrameRecord frame_from_json(std::string_view text) {
   FrameRecord record;
   DetectionFrame& frame = record.frame;
   frame.stamp_ns = read_stamp_ns(object);
+  if (frame.stamp_ns == 0) frame.stamp_ns = 1;  // of a message, 0 says that it has none
   record.pose = read_pose(object);
   frame.detections = required(object, "detections", [](const json& items) { return list(items, detection); });
   frame.sequence = optional(object, "sequence", count).value_or(0);

@@ -22,8 +22,8 @@
 ///      "field_of_view": [[x, y, z], …], "occluded_areas": [[[x, y, z], …], …]}
 ///
 /// The pose is T_map_body at t, points are in the body frame, metres. A detection's style and stddev, and
-/// everything from stamp_ns on, may be left out; stamp_ns is exact where t is rounded. Coordinates are within
-/// 10 000 km.
+/// everything from stamp_ns on, may be left out; stamp_ns is exact where t is rounded. Time 0 is read as 1
+/// ns, as the stamp 0 of a message is none. Coordinates are within 10 000 km.
 ///
 /// A map:
 ///

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "commands/replay_report.hpp"
+#include "laneloom/config.hpp"
+#include "laneloom/recording.hpp"
+
+namespace laneloom {
+
+/// What goes into a replay.
+struct ReplayInput {
+  std::uint64_t poses = 0, frames = 0, detections = 0;
+  double best_confidence = 0.0;
+
+  void add(const AnyMessage& message);
+};
+
+/// Where a replay gave no map, no marking or no lane: that, and a likely reason. Else empty.
+std::string advice_on(const ReplayInput& input, const ReplayResult& result, const MapperConfig& config);
+
+}  // namespace laneloom

@@ -1,0 +1,48 @@
+#include "commands/unknown_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace laneloom {
+namespace {
+
+/// How many letters have to be put in, taken out or changed (Levenshtein's distance).
+std::size_t edits_between(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);  // from the first letters of a to each beginning of b
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::vector<std::size_t> next{i + 1};
+    for (std::size_t j = 0; j < b.size(); ++j)
+      next.push_back(std::min({row[j] + (a[i] == b[j] ? 0 : 1), row[j + 1] + 1, next[j] + 1}));
+    row = std::move(next);
+  }
+  return row.back();
+}
+
+std::string complaint(const CLI::App& app, const std::string& word) {
+  const std::vector<const CLI::App*> commands = app.get_subcommands({});
+  const auto edits = [&](const CLI::App* command) { return edits_between(word, command->get_name()); };
+  const CLI::App* const nearest = *std::ranges::min_element(commands, {}, edits);
+  return fmt::format("there is no command '{}'; the nearest is '{}', and --help lists all", word,
+                     nearest->get_name());
+}
+
+}  // namespace
+
+std::string unknown_command(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* within = &app;
+  for (const std::string& word : words) {
+    if (word.starts_with('-') || within->get_require_subcommand_min() == 0) return {};
+    const std::vector<const CLI::App*> commands = within->get_subcommands({});
+    const auto named = std::ranges::find(commands, word, [](const CLI::App* c) { return c->get_name(); });
+    if (named == commands.end()) return complaint(*within, word);
+    within = *named;
+  }
+  return {};
+}
+
+}  // namespace laneloom
