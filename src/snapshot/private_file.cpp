@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
@@ -21,6 +22,19 @@ using File = std::unique_ptr<std::FILE, Close>;
 
 std::system_error failure(int error, const std::string& what) {
   return {error, std::generic_category(), what};
+}
+
+bool is_trusted(uid_t user) { return user == geteuid() || user == 0; }
+
+/// A link of another user in the path would lead to where that user wants. Throws std::runtime_error.
+void refuse_planted_links(const std::string& file) {
+  std::filesystem::path whole;
+  for (const auto& part : std::filesystem::absolute(file).parent_path()) {
+    whole /= part;
+    struct stat status {};
+    if (lstat(whole.c_str(), &status) == 0 && S_ISLNK(status.st_mode) && !is_trusted(status.st_uid))
+      throw std::runtime_error(whole.string() + " is a link of user " + std::to_string(status.st_uid));
+  }
 }
 
 /// A new file: neither one that someone has put there, nor what a link points to.
@@ -41,6 +55,7 @@ File open_to_read(const std::string& file) {
 }  // namespace
 
 void replace_private_file(const std::string& file, std::string_view bytes) {
+  refuse_planted_links(file);
   const std::string unfinished = file + ".new";
   unlink(unfinished.c_str());  // of a crash while it was written
   File out = create(unfinished);
@@ -50,11 +65,12 @@ void replace_private_file(const std::string& file, std::string_view bytes) {
 }
 
 std::string read_private_file(const std::string& file) {
+  refuse_planted_links(file);
   const File in = open_to_read(file);
   struct stat status {};
   if (fstat(fileno(in.get()), &status) != 0) throw failure(errno, "cannot be read");
   if (!S_ISREG(status.st_mode)) throw std::runtime_error("not a regular file");
-  if (status.st_uid != geteuid() && status.st_uid != 0) {
+  if (!is_trusted(status.st_uid)) {
     throw std::runtime_error("belongs to user " + std::to_string(status.st_uid));
   }
   std::string bytes;

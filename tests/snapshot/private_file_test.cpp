@@ -122,6 +122,20 @@ TEST_F(PrivateFile, IsRefusedWhereItIsNoRegularFile) {
   expect_refusal("is a link");
 }
 
+TEST_F(PrivateFile, IsNotSoughtWhereAnothersLinkLeads) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be two users";
+  const std::string mine = folder_.file("mine"), planted = folder_.file("planted");
+  fs::create_directory(mine);
+  replace_private_file(mine + "/map", "before");
+  fs::create_directory_symlink(mine, planted);
+  EXPECT_EQ(read_private_file(planted + "/map"), "before") << "a link of one's own";
+  ASSERT_EQ(lchown(planted.c_str(), kOther, 0), 0);
+  const auto refuses = ThrowsMessage<std::runtime_error>(HasSubstr(planted + " is a link of user 65534"));
+  EXPECT_THAT([&] { read_private_file(planted + "/map"); }, refuses);
+  EXPECT_THAT([&] { replace_private_file(planted + "/map", "after"); }, refuses);
+  EXPECT_EQ(read_private_file(mine + "/map"), "before");
+}
+
 TEST_F(PrivateFile, StaysAsItWasWhereItCanNotBeWritten) {
   EXPECT_THROW(replace_private_file(folder_.file("none/map"), "map"), std::runtime_error);
   replace_private_file(file_, "before");
