@@ -10,18 +10,21 @@
 namespace laneloom::dds {
 
 using namespace eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::DiscoveryProtocol_t;
 
 void check_files(const DdsConfig& config) { participant_qos(config, ""); }
 
-Participant::Participant(const DdsConfig& config, const std::string& name)
-    : impl_(std::make_shared<Impl>(config, name)) {}
+Participant::Participant(const DdsConfig& config, const std::string& name, Presence presence)
+    : impl_(std::make_shared<Impl>(config, name, presence)) {}
 
-Participant::Impl::Impl(const DdsConfig& config, const std::string& name)
+Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presence presence)
     : map_frame_id_(config.map_frame_id), security_directory_(config.security_directory) {
-  const auto qos = participant_qos(config, name);
+  auto qos = participant_qos(config, name);
+  if (presence == Presence::hidden)
+    qos.wire_protocol().builtin.discovery_config.discoveryProtocol = DiscoveryProtocol_t::NONE;
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
       static_cast<DomainId_t>(config.domain), qos);
-  if (!participant_) throw refusal("participant in domain " + std::to_string(config.domain));
+  if (!participant_) refuse("participant in domain " + std::to_string(config.domain));
 
   PublisherQos publisher_qos = PUBLISHER_QOS_DEFAULT;
   publisher_qos.partition().push_back(config.vehicle_id.c_str());
@@ -31,7 +34,7 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name)
   subscriber_ = participant_->create_subscriber(subscriber_qos);
   if (!publisher_ || !subscriber_) {
     close();
-    throw refusal("publisher or subscriber");
+    refuse("publisher or subscriber");
   }
 }
 
@@ -46,16 +49,15 @@ Topic* Participant::Impl::topic(const std::string& name, const TypeSupport& type
   if (auto* known = dynamic_cast<Topic*>(participant_->lookup_topicdescription(name))) return known;
   participant_->register_type(type);
   auto* topic = participant_->create_topic(name, type.get_type_name(), TOPIC_QOS_DEFAULT);
-  if (!topic) throw refusal("topic " + name);
+  if (!topic) refuse("topic " + name);
   return topic;
 }
 
-std::runtime_error Participant::Impl::refusal(const std::string& entity) const {
-  std::string text = "DDS refused to make a " + entity;
-  if (!security_directory_.empty()) {
-    text += "; dds.security_directory: not valid, or not permitted to the identity in " + security_directory_;
-  }
-  return std::runtime_error(text);
+void Participant::Impl::refuse(const std::string& entity) const {
+  const std::string text = "DDS refused to make a " + entity;
+  if (security_directory_.empty()) throw std::runtime_error(text);
+  throw NotPermitted(text + "; dds.security_directory: not valid, or not permitted to the identity in " +
+                     security_directory_);
 }
 
 }  // namespace laneloom::dds

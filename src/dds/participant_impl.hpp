@@ -13,7 +13,7 @@ namespace laneloom::dds {
 
 class Participant::Impl {
  public:
-  Impl(const DdsConfig& config, const std::string& name);
+  Impl(const DdsConfig& config, const std::string& name, Presence presence);
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -25,8 +25,8 @@ class Participant::Impl {
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }
-  /// To be thrown when DDS made no `entity`, of which it does not say why.
-  std::runtime_error refusal(const std::string& entity) const;
+  /// DDS made no `entity`, of which it does not say why. Throws as Participant().
+  [[noreturn]] void refuse(const std::string& entity) const;
 
  private:
   void close();

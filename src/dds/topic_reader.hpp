@@ -50,7 +50,7 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
           participant_->subscriber().create_datareader(topic, reader_qos(Traits::kKind, reliability), this);
       if (reader == nullptr) {
         end();
-        throw participant_->refusal(std::string("reader of ") + Traits::kName);
+        participant_->refuse(std::string("reader of ") + Traits::kName);
       }
       readers_.push_back(reader);
     }

@@ -20,7 +20,7 @@ class TopicWriter {
     using Traits = TopicTraits<T>;
     auto* topic = participant_->topic(Traits::kName, eprosima::fastdds::dds::TypeSupport(new Type));
     writer_ = participant_->publisher().create_datawriter(topic, writer_qos(Traits::kKind));
-    if (!writer_) throw participant_->refusal(std::string("writer of ") + Traits::kName);
+    if (!writer_) participant_->refuse(std::string("writer of ") + Traits::kName);
   }
   ~TopicWriter() { participant_->publisher().delete_datawriter(writer_); }
   TopicWriter(const TopicWriter&) = delete;

@@ -39,8 +39,8 @@ dds::ReaderCallbacks<ServiceStatus> look_for_others(std::uint64_t session_id, In
 }  // namespace
 
 Endpoints::Endpoints(const DdsConfig& config, std::uint64_t session_id, IngestionQueue& queue,
-                     const std::function<std::int64_t()>& now_ns)
-    : participant_(config, "laneloomd"),
+                     const std::function<std::int64_t()>& now_ns, dds::Participant::Presence presence)
+    : participant_(config, "laneloomd", presence),
       map(participant_),
       road_markings(participant_),
       status(participant_),

@@ -16,9 +16,10 @@ namespace laneloom {
 class Endpoints {
  public:
   /// What arrives goes into `queue`, which must outlive this; so does that another service than that of
-  /// `session_id` has the same vehicle. Throws std::runtime_error.
+  /// `session_id` has the same vehicle. Throws as dds::Participant().
   Endpoints(const DdsConfig& config, std::uint64_t session_id, IngestionQueue& queue,
-            const std::function<std::int64_t()>& now_ns);
+            const std::function<std::int64_t()>& now_ns,
+            dds::Participant::Presence presence = dds::Participant::Presence::shown);
 
  private:
   dds::Participant participant_;

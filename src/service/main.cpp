@@ -162,6 +162,9 @@ int main(int argc, char** argv) try {
 } catch (const laneloom::ConfigError& error) {
   laneloom::print_error(error.what());
   return EX_CONFIG;  // systemd does not try again: it would be refused again
+} catch (const laneloom::dds::NotPermitted& error) {
+  laneloom::print_error(error.what());
+  return EX_NOPERM;  // systemd tries again: the clock may be what is wrong
 } catch (const std::exception& error) {
   laneloom::print_error(error.what());
   return EXIT_FAILURE;

@@ -106,9 +106,20 @@ void Service::keep_snapshot(std::int64_t now_ns) {
   snapshots_->write({snapshot_stamp(), map_id_, *checkpoint, session_.mapper().state()});
 }
 
+/// While there still are endpoints to go on with.
+void Service::check_reopening() {
+  dds::check_files(config_.dds);
+  if (!endpoints_ || config_.dds.security_directory.empty()) return;
+  try {
+    const Endpoints trial(config_.dds, session_id_, queue_, now_ns_, dds::Participant::Presence::hidden);
+  } catch (const dds::NotPermitted& error) {
+    throw ConfigError(error.what());
+  }
+}
+
 void Service::reopen() {
-  dds::check_files(config_.dds);  // while there still are endpoints to go on with
-  endpoints_.reset();             // before the new ones, or two services on one vehicle id would be seen
+  check_reopening();
+  endpoints_.reset();  // before the new ones, or two services on one vehicle id would be seen
   endpoints_ = std::make_unique<Endpoints>(config_.dds, session_id_, queue_, now_ns_);
 }
 

@@ -30,14 +30,15 @@ class Service {
 
   void tick(const Tick& tick);
   /// Makes all DDS endpoints anew; the map and what is queued stay. Throws ConfigError, and keeps the
-  /// endpoints that there are, when a file of the profile or of security is missing or invalid. After the
-  /// std::runtime_error of a DDS that refuses, nothing else may be called.
+  /// endpoints that there are, when a file of the profile or of security is missing or invalid, or DDS does
+  /// not believe it. After the std::runtime_error of a DDS that refuses, nothing else may be called.
   void reopen();
 
   /// State and numbers in one line, for people.
   std::string summary() const;
 
  private:
+  void check_reopening();
   /// Goes on with the map of the service before, if it left one.
   void resume();
   void keep_snapshot(std::int64_t now_ns);

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kUnreadable = 78;  ///< for good
-constexpr int kNotBelieved = 1;  ///< as long as the clock may be what is wrong
+constexpr int kUnreadable = 78;   ///< for good
+constexpr int kNotBelieved = 77;  ///< as long as the clock may be what is wrong
 
 /// A copy of the service's folder, damaged, must stop the start, and be named.
 void expect_refused(const Identities& identities, int code, const std::string& what,
@@ -71,7 +71,7 @@ TEST(Identities, AFolderThatIsNotInOrderStopsTheStart) {
 TEST(Identities, OtherDomainsAreClosed) {
   const Identities identities({}, {"--domains", "200-232"});
   Service service(identities.as("service", private_config()));
-  EXPECT_EQ(service.wait(), 1) << service.errors();
+  EXPECT_EQ(service.wait(), kNotBelieved) << service.errors();
 }
 
 TEST(Identities, AreReadAgainAtAReload) {
@@ -80,7 +80,8 @@ TEST(Identities, AreReadAgainAtAReload) {
   Service service(identities.as("service", config));
   Listener<PublishedMap> maps(identities.as("pnc", config));
   ASSERT_TRUE(maps.wait_for([](const PublishedMap&) { return true; })) << service.errors();
-  const fs::path folder = identities.folder() / "service";
+  const fs::path folder = identities.folder() / "service", intact = identities.folder() / "intact";
+  fs::copy(folder, intact);
   fs::remove(folder / "governance.p7s");
   service.signal(SIGHUP);
   EXPECT_TRUE(
@@ -90,10 +91,27 @@ TEST(Identities, AreReadAgainAtAReload) {
   maps.forget();
   EXPECT_TRUE(maps.wait_for([](const PublishedMap&) { return true; })) << "it did not go on";
 
-  // What only DDS can judge shows when the endpoints are gone.
+  // So it is with what DDS does not believe, or what does not permit a service to do its work.
+  const auto goes_on_without = [&](const std::string& entity) {
+    const std::uint64_t session = maps.samples().back().session_id;
+    const std::uint64_t newest = maps.samples().back().sequence;
+    service.signal(SIGHUP);
+    EXPECT_TRUE(
+        service.wait_for_error("error event=reopening_refused reason=\"DDS refused to make a " + entity))
+        << service.errors();
+    EXPECT_TRUE(maps.wait_for([&](const PublishedMap& map) { return map.sequence > newest + 5; }));
+    EXPECT_EQ(maps.samples().back().session_id, session);
+  };
   fs::copy(fs::path(LANELOOM_SOURCE_DIR) / "config/security/governance.xml", folder / "governance.p7s");
+  goes_on_without("participant");
+  fs::remove_all(folder);
+  fs::copy(identities.folder() / "perception", folder);
+  goes_on_without("writer of laneloom/v2/lane_map");
+
+  fs::remove_all(folder);
+  fs::copy(intact, folder);
   service.signal(SIGHUP);
-  EXPECT_EQ(service.wait(), kNotBelieved) << service.errors();
+  EXPECT_TRUE(service.wait_for_error("event=reopened")) << service.errors();
 }
 
 TEST(Identities, ServeTheTools) {

@@ -131,7 +131,7 @@ TEST(Security, EachIdentityMayDoWhatItNeeds) {
 TEST(Security, PerceptionCannotPublishAMap) {
   const Identities identities;
   Service service(identities.as("perception", private_config()));
-  EXPECT_EQ(service.wait(), 1);
+  EXPECT_EQ(service.wait(), 77);
   const auto errors = service.errors();
   EXPECT_NE(errors.find("laneloomd: DDS refused to make a writer of laneloom/v2/lane_map; "
                         "dds.security_directory: "),

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "laneloom/config.hpp"
@@ -17,12 +18,20 @@ void check_files(const DdsConfig& config);
 /// longer ones without a word. Throws as check_files().
 std::uint32_t largest_datagram(const DdsConfig& config);
 
+/// DDS does not believe the files of security, or they do not permit what is wanted.
+struct NotPermitted : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// One participant in the domain, in the partition of one vehicle. Readers and writers keep it alive.
 /// Not thread-safe; not to be used within a reader's callback.
 class Participant {
  public:
-  /// `name` is shown to others. Throws ConfigError as check_files(), and std::runtime_error when DDS refuses.
-  Participant(const DdsConfig& config, const std::string& name);
+  /// `name` is shown to others, but for one that is hidden: it is only to see what DDS refuses, and neither
+  /// hears nor is heard. Throws ConfigError as check_files(), NotPermitted where there is security and DDS
+  /// refuses, else std::runtime_error.
+  enum class Presence { shown, hidden };
+  Participant(const DdsConfig& config, const std::string& name, Presence presence = Presence::shown);
 
   class Impl;
   const std::shared_ptr<Impl>& impl() const { return impl_; }
