@@ -2,6 +2,7 @@
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <algorithm>
@@ -23,6 +24,7 @@ using namespace eprosima::fastdds::dds;
 using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
 using eprosima::fastdds::rtps::UDPTransportDescriptor;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 // A map of 500 KB is lost on the way with the kernel's default buffer; the kernel may give less than asked
@@ -178,6 +180,16 @@ std::uint32_t largest_datagram(const DdsConfig& config) {
     if (const auto* udp = dynamic_cast<const UDPTransportDescriptor*>(transport.get()))
       largest = std::min(largest, udp->maxMessageSize);
   return largest;
+}
+
+std::vector<std::string> discovery_servers(const DdsConfig& config) {
+  const DomainParticipantQos qos = participant_qos(config, "");
+  std::vector<std::string> result;
+  for (const auto& server : qos.wire_protocol().builtin.discovery_config.m_DiscoveryServers)
+    for (const auto& locator : server.metatrafficUnicastLocatorList)
+      result.push_back(IPLocator::ip_to_string(locator) + ":" +
+                       std::to_string(IPLocator::getPhysicalPort(locator)));
+  return result;
 }
 
 DataWriterQos writer_qos(TopicKind kind) {

@@ -91,6 +91,14 @@ TEST_F(DoctorBehindAServer, SeesEverybody) {
       << output();
 }
 
+TEST_F(DoctorBehindAServer, FindsThatTheServerDoesNotAnswer) {
+  EXPECT_EQ(run(configured(doctor())), 2);
+  EXPECT_THAT(ids(), ElementsAre("no_discovery_server"));
+  EXPECT_THAT(found("no_discovery_server"), HasSubstr("127.0.0.1:" + port_));
+  const Process serving(server(), file("server.log"));
+  EXPECT_TRUE(run_until_found(configured(doctor()), "no_service")) << output();
+}
+
 TEST_F(Doctor, FindsAServiceOfAnotherVehicle) {
   const Process running(service(), file("service.log"));
   EXPECT_TRUE(run_until_found(command({LANELOOM_COMMAND, "doctor", "--json"}, domain_, "other"), "no_service",

@@ -94,6 +94,7 @@ void Observer::receive(ServiceStatus&& status) {
 Observed Observer::observed() const {
   Observed result;
   result.largest_datagram = dds::largest_datagram(config_);
+  result.discovery_servers = dds::discovery_servers(config_);
   result.participants = discovery_.participants();
   std::erase_if(result.participants, [](const dds::Peer& peer) { return peer.name == kName; });
   result.endpoints = discovery_.endpoints();

@@ -22,6 +22,14 @@ Finding empty_domain(const Observed& seen) {
           "7400 on that no firewall closes; with DDS-Security, an identity that they trust (--security)."};
 }
 
+Finding no_discovery_server(const Observed& seen) {
+  return {"no_discovery_server",
+          fmt::format("No discovery server answers at {}.", fmt::join(seen.discovery_servers, ", nor at ")),
+          "Participants with these settings (dds.profile_file) find each other through it alone.",
+          "Start it (fastdds discovery), or mend its address or number in the profile; a firewall must pass "
+          "its port."};
+}
+
 Finding no_service(const Observed& seen, const std::vector<dds::Endpoint>& all) {
   std::set<std::string> others;
   for (const auto& service : all) others.insert(partitions_text(service.partitions));
@@ -49,7 +57,8 @@ Finding two_services(const Observed& seen, const std::vector<dds::Endpoint>& all
 }  // namespace
 
 Findings presence_findings(const Observed& seen) {
-  if (seen.participants.empty()) return {empty_domain(seen)};
+  if (seen.participants.empty())
+    return {seen.discovery_servers.empty() ? empty_domain(seen) : no_discovery_server(seen)};
   const auto all = services(seen);
   std::vector<dds::Endpoint> ours;
   std::ranges::copy_if(all, std::back_inserter(ours),

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "laneloom/config.hpp"
 
@@ -17,6 +18,10 @@ void check_files(const DdsConfig& config);
 /// The longest datagram, in bytes, that a participant with this configuration receives whole. Fast DDS cuts
 /// longer ones without a word. Throws as check_files().
 std::uint32_t largest_datagram(const DdsConfig& config);
+
+/// Where the servers are, as "address:port", that such a participant asks for the others; none where it finds
+/// them by itself. Throws as check_files().
+std::vector<std::string> discovery_servers(const DdsConfig& config);
 
 /// DDS does not believe the files of security, or they do not permit what is wanted.
 struct NotPermitted : std::runtime_error {
