@@ -18,21 +18,33 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// With this shell script as the command `laneloom`.
-SoakResult soak_with_command(const std::string& script, int faults) {
-  const WorkFolder folder;
-  const std::string command = folder.file("laneloom");
-  std::ofstream(command) << "#!/bin/sh\n" << script << "\nexec " LANELOOM " \"$@\"\n";
-  std::filesystem::permissions(command, std::filesystem::perms{0700});
-
+SoakSpec healthy() {
   SoakSpec spec;
   spec.fleet.service = LANELOOMD;
-  spec.fleet.command = command;
+  spec.fleet.command = LANELOOM;
   spec.fleet.dds.domain = 91;
   spec.fleet.dds.vehicle_id = "soak_test_" + std::to_string(getpid());
   spec.patience = std::chrono::seconds(30);
+  return spec;
+}
+
+SoakResult soak_with(const SoakSpec& spec, int faults) {
   int made = 0;
   return soak(spec, [&] { return made++ < faults; });
+}
+
+void write_script(const std::string& file, const std::string& script) {
+  std::ofstream(file) << "#!/bin/sh\n" << script << "\n";
+  std::filesystem::permissions(file, std::filesystem::perms{0700});
+}
+
+/// With this shell script as the command `laneloom`.
+SoakResult soak_with_command(const std::string& script, int faults) {
+  const WorkFolder folder;
+  SoakSpec spec = healthy();
+  spec.fleet.command = folder.file("laneloom");
+  write_script(spec.fleet.command, script + "\nexec " LANELOOM " \"$@\"");
+  return soak_with(spec, faults);
 }
 
 /// After one fault, with this shell command as the planner.
@@ -63,6 +75,32 @@ TEST(Soak, FailsWhereAProcessThatIsToldToEndCrashes) {
       0);
   EXPECT_THAT(result.failures, Contains("the publisher, told to end, ended by signal 11"));
   EXPECT_FALSE(result.passed());
+}
+
+TEST(Soak, FailsWhereThePlannerRecoversTooLate) {
+  SoakSpec spec = healthy();
+  spec.recovery = std::chrono::milliseconds(1);
+  const auto result = soak_with(spec, 1);
+  EXPECT_THAT(result.failures, Contains(HasSubstr("the planner got a map only ")));
+  EXPECT_FALSE(result.passed());
+}
+
+TEST(Soak, FailsWhereNothingOfAnotherPerceptionIsFused) {
+  const WorkFolder folder;
+  SoakSpec spec = healthy();
+  spec.fleet.perceptions = {folder.file("idler")};
+  write_script(spec.fleet.perceptions.front(), "echo session_id,sequence,published_ns >$3\nexec sleep 1000");
+  const auto result = soak_with(spec, 0);
+  EXPECT_THAT(result.failures, Contains("no frame of the idler was fused"));
+  EXPECT_FALSE(result.passed());
+}
+
+TEST(Soak, HasAnotherVendorsPerceptionAmongItsActors) {
+  SoakSpec spec = healthy();
+  spec.fleet.perceptions = {STOCK_PERCEPTION};
+  const auto result = soak_with(spec, 3);
+  EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_TRUE(result.passed());
 }
 
 TEST(Soak, PassesWhereNothingIsWrong) {

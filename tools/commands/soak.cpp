@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
@@ -17,11 +19,14 @@ namespace {
 struct Options {
   SoakSpec spec;
   double minutes = 1.0;
+  double recovery_s = 10.0;
+  std::vector<std::string> perceptions;
 };
 
 void print(const SoakResult& result) {
-  fmt::print("| {:<20} | {:>5} |\n|---|---|\n", "fault", "times");
-  for (const auto& [fault, times] : result.faults) fmt::print("| {:<20} | {:>5} |\n", fault, times);
+  fmt::print("| {:<24} | times | planner's recovery at most, s |\n|---|---|---|\n", "fault");
+  for (const auto& [fault, count] : result.faults)
+    fmt::print("| {:<24} | {:>5} | {:>29.1f} |\n", fault, count.times, count.longest_recovery_s);
   fmt::print("\n| {:<20} | published | fused | refused | dropped | pending | lost | unexplained |\n",
              "session of the service");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
@@ -41,6 +46,8 @@ void run(Options& options) {
   catch_stop_signals();
   SoakSpec& spec = options.spec;
   spec.duration = std::chrono::duration<double>(60.0 * options.minutes);
+  spec.fleet.perceptions.assign(options.perceptions.begin(), options.perceptions.end());
+  spec.recovery = std::chrono::duration<double>(options.recovery_s);
   spec.fleet.command = std::filesystem::read_symlink("/proc/self/exe");
   spec.fleet.service = spec.fleet.command.parent_path() / "laneloomd";
   spec.fleet.dds.vehicle_id = fmt::format("soak_{}", getpid());  // apart from every other vehicle
@@ -52,19 +59,27 @@ void run(Options& options) {
 }  // namespace
 
 void add_soak(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "soak", "Runs publisher, service and planner under random faults, and accounts for every frame");
+  CLI::App* command = app.add_subcommand("soak",
+                                         "Runs publisher, service, planner and other perceptions under "
+                                         "random faults, and accounts for every frame");
   const auto options = std::make_shared<Options>();
   command->add_option("--minutes", options->minutes, "For so long")
       ->check(within(1e-3, 1e6))
       ->capture_default_str();
   command->add_option("--seed", options->spec.seed, "Of the faults")->capture_default_str();
+  command->add_option("--perception", options->perceptions,
+                      "One more perception, run as PROGRAM DOMAIN VEHICLE_ID FILE (tests/interop has two)");
+  command
+      ->add_option("--recovery", options->recovery_s,
+                   "Seconds that the planner has to wait for a map at most")
+      ->check(positive_seconds())
+      ->capture_default_str();
   command->add_option("--domain", options->spec.fleet.dds.domain, "DDS domain")
       ->check(CLI::Range(0, 232))
       ->capture_default_str();
   command->footer(
       "Exit code 2: a frame is not accounted for, a map broke the contract, no good one came after a fault "
-      "(to the planner too), a process ended by itself, or one that was told to end crashed or hung.");
+      "(to the planner in time), a process ended by itself, or one that was told to end crashed or hung.");
   command->callback([options] { run(*options); });
 }
 

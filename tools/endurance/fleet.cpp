@@ -10,64 +10,71 @@
 
 namespace laneloom {
 
-const char* Fleet::name(Member member) {
-  switch (member) {
-    case Member::publisher:
-      return "publisher";
-    case Member::service:
-      return "service";
-    case Member::planner:
-      return "planner";
-  }
-  return "";
-}
-
 Fleet::Fleet(Spec spec) : spec_(std::move(spec)) {
   std::ofstream config(folder_.file("laneloomd.yaml"));
   config << "service:\n  snapshot_file: " << folder_.file("snapshot") << "\n  snapshot_period_s: 0.5\n";
   config.close();
   if (!config) throw std::runtime_error(folder_.file("laneloomd.yaml") + ": cannot be written");
-  for (const Member member : {Member::service, Member::publisher, Member::planner}) start(member);
+  for (const Member& member : members()) start(member);
 }
 
-std::vector<std::string> Fleet::vehicle() const {
-  return {"--domain", std::to_string(spec_.dds.domain), "--vehicle-id", spec_.dds.vehicle_id};
+std::vector<Fleet::Member> Fleet::members() const {
+  std::vector<Member> result{kService, kPublisher, kPlanner};
+  for (const auto& program : spec_.perceptions) result.push_back(program.filename());
+  return result;
 }
 
-std::vector<std::string> Fleet::command_of(Member member) {
-  switch (member) {
-    case Member::publisher:
-      logs_.push_back(folder_.file(fmt::format("publications_{}.csv", logs_.size()).c_str()));
-      return {spec_.command,  "publish",   "--scenario",
-              spec_.scenario, "--noise",   spec_.noise,
-              "--loop",       "--seed",    std::to_string(logs_.size()),
-              "--times",      logs_.back()};
-    case Member::service:
-      return {spec_.service, "--config", folder_.file("laneloomd.yaml")};
-    case Member::planner:
-      break;
+const std::string& Fleet::new_log() {
+  logs_.push_back(folder_.file(fmt::format("publications_{}.csv", logs_.size()).c_str()));
+  return logs_.back();
+}
+
+std::vector<std::string> Fleet::perception(const std::filesystem::path& program) {
+  return {program, std::to_string(spec_.dds.domain), spec_.dds.vehicle_id, new_log()};
+}
+
+std::vector<std::string> Fleet::command_of(const Member& member) {
+  for (const auto& program : spec_.perceptions)
+    if (program.filename() == member) return perception(program);
+  std::vector<std::string> command;
+  if (member == kPublisher) {
+    command = {spec_.command, "publish", "--scenario", spec_.scenario, "--noise",
+               spec_.noise,   "--loop",  "--times",    new_log()};
+    command.insert(command.end(), {"--seed", std::to_string(logs_.size())});
+  } else if (member == kService) {
+    command = {spec_.service, "--config", folder_.file("laneloomd.yaml")};
+  } else {
+    command = {spec_.command, "pnc", "--json"};
   }
-  return {spec_.command, "pnc", "--json"};
+  command.insert(command.end(),
+                 {"--domain", std::to_string(spec_.dds.domain), "--vehicle-id", spec_.dds.vehicle_id});
+  return command;
 }
 
-void Fleet::start(Member member) {
-  auto command = command_of(member);
-  const auto more = vehicle();
-  command.insert(command.end(), more.begin(), more.end());
-  processes_[member] = std::make_unique<ChildProcess>(command, output_of(member));
+void Fleet::start(const Member& member) {
+  processes_[member] = std::make_unique<ChildProcess>(command_of(member), output_of(member));
 }
 
-void Fleet::signal(Member member, int number) { kill(processes_.at(member)->id(), number); }
+void Fleet::signal(const Member& member, int number) { kill(processes_.at(member)->id(), number); }
 
-void Fleet::kill_and_restart(Member member) {
+void Fleet::kill_and_restart(const Member& member) {
   processes_.erase(member);
   start(member);
 }
 
-std::string Fleet::stop(Member member) {
+std::string Fleet::stop(const Member& member) {
   const std::string failure = processes_.at(member)->stop();
   processes_.erase(member);
-  return failure.empty() ? "" : fmt::format("the {}, told to end, {}", name(member), failure);
+  return failure.empty() ? "" : fmt::format("the {}, told to end, {}", member, failure);
+}
+
+std::vector<std::string> Fleet::stop_perceptions() {
+  std::vector<std::string> failures;
+  for (const Member& member : members()) {
+    if (member == kService || member == kPlanner) continue;
+    if (std::string failure = stop(member); !failure.empty()) failures.push_back(std::move(failure));
+  }
+  return failures;
 }
 
 std::vector<Fleet::Member> Fleet::restart_ended() {
@@ -75,15 +82,15 @@ std::vector<Fleet::Member> Fleet::restart_ended() {
   for (const auto& [member, process] : processes_) {
     if (!process->running()) ended.push_back(member);
   }
-  for (const Member member : ended) start(member);
+  for (const Member& member : ended) start(member);
   return ended;
 }
 
-bool Fleet::planner_gets_maps(const MapNumber& newest, std::chrono::seconds patience) const {
-  return wait_for_planner(output_of(Member::planner), newest, patience);
+bool Fleet::planner_gets_maps(std::int64_t since_ns, std::chrono::milliseconds patience) const {
+  return wait_for_planner(output_of(kPlanner), since_ns, patience);
 }
 
-std::string Fleet::restart(Member member) {
+std::string Fleet::restart(const Member& member) {
   std::string failure = stop(member);
   start(member);
   return failure;

@@ -12,16 +12,15 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 /// A line that is cut is none.
-bool is_fresh_map(const std::string& line, const MapNumber& newest) {
+bool is_fresh_map(const std::string& line, std::int64_t since_ns) {
   const auto update = nlohmann::json::parse(line, nullptr, false);
   if (!update.is_object() || update.value("event", "") != "map") return false;
-  const bool later = update.at("session_id") != newest.session_id || update.at("sequence") > newest.sequence;
-  return later && update.at("state") != name(MapState::stale);
+  return update.at("stamp_ns") > since_ns && update.at("state") != name(MapState::stale);
 }
 
 }  // namespace
 
-bool wait_for_planner(const std::string& file, const MapNumber& newest, std::chrono::seconds patience) {
+bool wait_for_planner(const std::string& file, std::int64_t since_ns, std::chrono::milliseconds patience) {
   const auto deadline = SteadyClock::now() + patience;
   std::ifstream in(file);
   in.seekg(0, std::ios::end);
@@ -33,7 +32,7 @@ bool wait_for_planner(const std::string& file, const MapNumber& newest, std::chr
       in.clear();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     } else {
-      if (is_fresh_map(line, newest)) return true;
+      if (is_fresh_map(line, since_ns)) return true;
       line.clear();
     }
   }

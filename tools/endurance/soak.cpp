@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <csignal>
+#include <optional>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
+#include "bench/system_clock.hpp"
 #include "simulation/random.hpp"
 
 namespace laneloom {
@@ -21,7 +24,7 @@ struct Fault {
   std::function<std::string(Fleet& fleet, Random& random)> make;
 };
 
-std::string hang(Fleet& fleet, Member member, Random& random) {
+std::string hang(Fleet& fleet, const Member& member, Random& random) {
   fleet.signal(member, SIGSTOP);
   std::this_thread::sleep_for(Seconds(random.uniform(0.2, 3.0)));
   fleet.signal(member, SIGCONT);
@@ -29,35 +32,59 @@ std::string hang(Fleet& fleet, Member member, Random& random) {
 }
 
 std::string reload(Fleet& fleet) {
-  fleet.signal(Member::service, SIGHUP);
+  fleet.signal(Fleet::kService, SIGHUP);
   return {};
 }
 
-std::string crash(Fleet& fleet, Member member) {
+std::string crash(Fleet& fleet, const Member& member) {
   fleet.kill_and_restart(member);
   return {};
 }
 
-std::vector<Fault> all_faults() {
+std::vector<Fault> all_faults(const Fleet& fleet) {
   std::vector<Fault> faults{
-      {"reload service", [](Fleet& fleet, Random& /*random*/) { return reload(fleet); }}};
-  for (const Member member : {Member::publisher, Member::service, Member::planner}) {
-    const std::string name = Fleet::name(member);
+      {"reload service", [](Fleet& faulty, Random& /*random*/) { return reload(faulty); }}};
+  for (const Member& member : fleet.members()) {
     faults.push_back(
-        {"kill " + name, [member](Fleet& fleet, Random& /*random*/) { return crash(fleet, member); }});
+        {"kill " + member, [member](Fleet& faulty, Random& /*random*/) { return crash(faulty, member); }});
     faults.push_back(
-        {"end " + name, [member](Fleet& fleet, Random& /*random*/) { return fleet.restart(member); }});
+        {"end " + member, [member](Fleet& faulty, Random& /*random*/) { return faulty.restart(member); }});
     faults.push_back(
-        {"hang " + name, [member](Fleet& fleet, Random& random) { return hang(fleet, member, random); }});
+        {"hang " + member, [member](Fleet& faulty, Random& random) { return hang(faulty, member, random); }});
   }
   return faults;
 }
 
-/// Who got no good map in time, in words; empty: nobody.
-std::string without_map(const Watch& watch, const Fleet& fleet, std::chrono::seconds patience) {
-  if (!watch.wait_for_good_map(patience)) return "no good map came";
-  if (!fleet.planner_gets_maps(watch.newest(), patience)) return "the planner got no map";
-  return {};
+/// Seconds until the planner has a map with a frame of now; none: not within `patience`.
+std::optional<double> recovery_s(const Fleet& fleet, std::chrono::seconds patience) {
+  const auto start = std::chrono::steady_clock::now();
+  if (!fleet.planner_gets_maps(system_now_ns(), patience)) return std::nullopt;
+  return Seconds(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Waits for what has to follow a fault, and returns what did not, in words; empty: all did.
+std::string follow(const SoakSpec& spec, const Watch& watch, const Fleet& fleet, FaultCount& count) {
+  const std::optional<double> planner_s = recovery_s(fleet, spec.patience);
+  if (!planner_s) return "the planner got no map";
+  count.longest_recovery_s = std::max(count.longest_recovery_s, *planner_s);
+  if (*planner_s > spec.recovery.count())
+    return fmt::format("the planner got a map only {:.1f} s", *planner_s);
+  return watch.wait_for_good_map(spec.patience) ? "" : "no good map came";
+}
+
+/// The perceptions of which no service fused a frame.
+std::vector<std::string> never_fused(const Fleet::Spec& fleet,
+                                     const std::map<std::uint64_t, Watch::Session>& sessions) {
+  std::vector<std::string> result;
+  for (const auto& program : fleet.perceptions) {
+    const auto fused_it = [&](const auto& session) {
+      return std::ranges::any_of(session.second.sources, [&](const SourceStatus& source) {
+        return source.source == program.filename() && source.fused > 0;
+      });
+    };
+    if (std::ranges::none_of(sessions, fused_it)) result.push_back(program.filename());
+  }
+  return result;
 }
 
 }  // namespace
@@ -75,27 +102,30 @@ SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
   Fleet fleet(spec.fleet);
   if (!watch.wait_for_good_map(spec.patience)) throw std::runtime_error("no good map came");
 
-  const auto faults = all_faults();
+  const auto faults = all_faults(fleet);
   const auto end = std::chrono::steady_clock::now() + spec.duration;
   while (std::chrono::steady_clock::now() < end && go_on()) {
     const Fault& fault = faults[random.below(faults.size())];
     const std::string wrong_end = fault.make(fleet, random);
     if (!wrong_end.empty()) result.failures.push_back(wrong_end);
-    ++result.faults[fault.name];
-    const std::string failure = without_map(watch, fleet, spec.patience);
+    FaultCount& count = result.faults[fault.name];
+    ++count.times;
+    const std::string failure = follow(spec, watch, fleet, count);
     if (!failure.empty()) result.failures.push_back(fmt::format("{} after: {}", failure, fault.name));
     std::this_thread::sleep_for(Seconds(random.uniform(0.5, 4.0)));
-    for (const Member member : fleet.restart_ended()) {
-      result.failures.push_back(fmt::format("the {} ended after: {}", Fleet::name(member), fault.name));
+    for (const Member& member : fleet.restart_ended()) {
+      result.failures.push_back(fmt::format("the {} ended after: {}", member, fault.name));
     }
   }
-  if (const std::string wrong_end = fleet.stop(Member::publisher); !wrong_end.empty())
-    result.failures.push_back(wrong_end);
+  for (std::string& wrong_end : fleet.stop_perceptions()) result.failures.push_back(std::move(wrong_end));
   if (!watch.wait_for_settled_status(spec.patience))
     result.failures.emplace_back("no settled status came after the publisher's end");
 
   const auto publications = fleet.publications();
-  for (const auto& [id, session] : watch.sessions()) {
+  const auto sessions = watch.sessions();
+  for (const std::string& name : never_fused(spec.fleet, sessions))
+    result.failures.push_back(fmt::format("no frame of the {} was fused", name));
+  for (const auto& [id, session] : sessions) {
     result.accounts.emplace(id, account_of(session.last, session.sources, publications));
   }
   result.maps = watch.maps();

@@ -59,11 +59,6 @@ Watch::Maps Watch::maps() const {
   return maps_;
 }
 
-MapNumber Watch::newest() const {
-  const std::lock_guard lock(mutex_);
-  return previous_ ? MapNumber{previous_->session_id, previous_->sequence} : MapNumber{};
-}
-
 void Watch::take(PublishedMap&& map) {
   PncUpdate update = judge(std::move(map), previous_ ? &*previous_ : nullptr);
   const std::lock_guard lock(mutex_);

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "endurance/planner_output.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/messages.hpp"
@@ -37,8 +36,6 @@ class Watch {
     std::vector<std::string> violations;  ///< of the contract
   };
   Maps maps() const;
-  /// The last map that came.
-  MapNumber newest() const;
 
  private:
   void take(PublishedMap&& map);
