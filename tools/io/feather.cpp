@@ -37,6 +37,12 @@ const Root& verified(const Bytes& metadata) {
   return *flatbuffers::GetRoot<Root>(metadata.data());
 }
 
+/// The verifier looks at the place of a list of structs, but not at their alignment.
+template <class List>
+bool is_misaligned(const List* list) {
+  return list != nullptr && reinterpret_cast<std::uintptr_t>(list->Data()) % alignof(std::int64_t) != 0;
+}
+
 template <class Number>
 bool is_of(const arrow::Field& field) {
   if constexpr (std::is_same_v<Number, double>) {
@@ -82,7 +88,8 @@ FeatherTable::FeatherTable(const std::filesystem::path& path) : file_(path.strin
   naming_the_file([this] {
     footer_ = read_footer();
     const auto& footer = verified<arrow::Footer>(footer_);
-    if (footer.schema() == nullptr || footer.schema()->fields() == nullptr)
+    if (footer.schema() == nullptr || footer.schema()->fields() == nullptr ||
+        is_misaligned(footer.record_batches()))
       throw std::runtime_error("its footer is damaged");
     if (footer.schema()->endianness() != arrow::Endianness::Little)
       throw std::runtime_error("its numbers are big-endian");
@@ -115,7 +122,8 @@ void FeatherTable::add_batch(const arrow::Block& block) {
               .body_offset = block.offset() + metadata_length,
               .body_length = block.body_length()};
   const arrow::RecordBatch* rows = verified<arrow::Message>(batch.metadata).header_as_RecordBatch();
-  if (rows == nullptr || rows->nodes() == nullptr || rows->buffers() == nullptr || rows->length() < 0)
+  if (rows == nullptr || rows->nodes() == nullptr || rows->buffers() == nullptr || rows->length() < 0 ||
+      is_misaligned(rows->nodes()) || is_misaligned(rows->buffers()))
     throw std::runtime_error("a batch of rows is damaged");
   if (rows->length() > kMaxRows - rows_) throw std::runtime_error("has more than a million rows");
   rows_ += rows->length();
