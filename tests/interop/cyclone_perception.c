@@ -1,10 +1,13 @@
 // cyclone_perception DOMAIN VEHICLE_ID FILE: what stock_perception.cpp is, on Cyclone DDS.
 #include <dds/dds.h>
+#include <ifaddrs.h>
 #include <inttypes.h>
+#include <net/if.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+#include <sys/socket.h>
 
 #include "Detections.h"
 #include "VehiclePose.h"
@@ -17,6 +20,19 @@ static volatile sig_atomic_t told_to_end = 0;
 static void end(int signal_number) {
   (void)signal_number;
   told_to_end = 1;
+}
+
+/// Cyclone refuses the one interface of a host without a network, if it is not told to take it.
+static void use_loopback_without_network(void) {
+  struct ifaddrs* all = NULL;
+  bool network = false;
+  if (getifaddrs(&all) != 0) return;
+  for (const struct ifaddrs* i = all; i; i = i->ifa_next)
+    network |= i->ifa_addr && i->ifa_addr->sa_family == AF_INET && !(i->ifa_flags & IFF_LOOPBACK);
+  freeifaddrs(all);
+  const char* loopback =
+      "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces></General>";
+  if (!network) setenv("CYCLONEDDS_URI", loopback, 0);
 }
 
 /// Ends the process when DDS refuses.
@@ -68,6 +84,7 @@ int main(int argc, char** argv) {
   FILE* log = argc == 4 ? fopen(argv[3], "w") : NULL;
   if (!log) return EXIT_FAILURE;
   signal(SIGTERM, end);
+  use_loopback_without_network();
   const dds_entity_t participant =
       made(dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL), "participant");
   dds_qos_t* partition = dds_create_qos();

@@ -212,6 +212,19 @@ INSTANTIATE_TEST_SUITE_P(
               [](auto& m) { m.reasons = {StateReason::no_poses}; }}),
     [](const testing::TestParamInfo<Fault>& fault) { return std::string(fault.param.label); });
 
+TEST(Contract, AFrameOfASlowerSourceRenewsTheAgeAndNotTheStamp) {
+  PublishedMap map = good_map();
+  PublishedMap previous = map;
+  previous.sequence = map.sequence - 1;
+  map.age_s = previous.age_s / 2.0;
+  EXPECT_FALSE(check_contract(map, &previous).empty());
+  map.fused_frames = {{.source = "slower", .stamp_ns = map.map.stamp_ns - 1}};
+  EXPECT_TRUE(check_contract(map, &previous).empty());
+  map.fused_frames.clear();
+  --previous.sequence;
+  EXPECT_TRUE(check_contract(map, &previous).empty()) << "the map between them may have it";
+}
+
 TEST(Contract, ANewSessionMayBeginAnew) {
   PublishedMap map = good_map();
   const PublishedMap previous = map;
