@@ -68,6 +68,8 @@ void IngestionQueue::note_source(const DetectionFrame& frame) {
     if (sources.size() == kMaxSources) sources.erase(sources.begin());
     sources.push_back({frame.source, frame.session_id, frame.sequence, frame.sequence, 1});
   } else {
+    // The first to arrive may have overtaken one that was lost and sent again.
+    known->first_sequence = std::min(known->first_sequence, frame.sequence);
     known->last_sequence = std::max(known->last_sequence, frame.sequence);
     ++known->frames;
   }

@@ -102,7 +102,7 @@ TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
     of_source.session_id = session;
     queue.push(std::move(of_source), 0);
   };
-  for (const std::uint64_t sequence : {5U, 6U, 9U, 8U}) push("front", 1, sequence);
+  for (const std::uint64_t sequence : {6U, 5U, 9U, 8U}) push("front", 1, sequence);
   push("front", 2, 0);
   push("rear", 1, 3);
   const auto sources = queue.snapshot().sources;
