@@ -258,15 +258,19 @@ TEST_F(Commands, WrongUseHasOneExitCode) {
 
 TEST_F(Commands, AFileThatIsNotThereIsAFailureOfEveryCommand) {
   const std::string absent = file("absent");
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"replay", "--in", absent},
-                                                {"render", "--map", absent, "--out", file("x.svg")},
-                                                {"evaluate", "--truth", absent, "--map", absent},
-                                                {"simulate", "--argoverse2", absent, "--frames", file("x")},
-                                                {"simulate", "--lanelet2", absent, "--frames", file("x")},
-                                                {"experiment", "--argoverse2", absent},
-                                                {"drive", "--scenario", "hill", "--config", absent},
-                                                {"bench", "--config", absent},
-                                                {"import", "argoverse2", absent, "--out", file("x")}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"replay", "--in", absent},
+        {"render", "--map", absent, "--out", file("x.svg")},
+        {"evaluate", "--truth", absent, "--map", absent},
+        {"simulate", "--argoverse2", absent, "--frames", file("x")},
+        {"simulate", "--lanelet2", absent, "--frames", file("x")},
+        {"experiment", "--argoverse2", absent},
+        {"drive", "--scenario", "hill", "--config", absent},
+        {"bench", "--config", absent},
+        {"bench", "--duration", "5", "--peer", absent},
+        {"bench", "latency", "--identities", absent},
+        {"experiment", "--scenario", "hill", "--duration", "5", "--config", "default", "--peer", absent},
+        {"import", "argoverse2", absent, "--out", file("x")}}) {
     EXPECT_EQ(run(words), 1) << words.front() << output();
     EXPECT_THAT(output(), HasSubstr(absent)) << words.front();
   }

@@ -98,8 +98,7 @@ void add_bench(CLI::App& app) {
       app.add_subcommand("bench", "Times the mapper's stages, also against a peer on the same frames");
   const auto options = std::make_shared<Options>();
   add_bench_drive(*command, options->drive);
-  command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines")
-      ->check(CLI::ExistingFile);
+  command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines");
   command->add_flag("--json", options->json, "One JSON object");
   const std::vector<CLI::Option*> own = command->get_options();
   add_bench_latency(*command);

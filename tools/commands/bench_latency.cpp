@@ -89,10 +89,8 @@ void add_bench_latency(CLI::App& bench) {
   command->add_option("--transport", options->dds.transport, "Of the service and this process")
       ->check(CLI::IsMember({"udp", "udp+shm"}))
       ->capture_default_str();
-  command
-      ->add_option("--identities", options->identities,
-                   "With DDS-Security: folder of tools/make-certificates")
-      ->check(CLI::ExistingDirectory);
+  command->add_option("--identities", options->identities,
+                      "With DDS-Security: folder of tools/make-certificates");
   command->add_flag("--load", options->load, "Keep all cores busy meanwhile");
   command->add_flag("--json", options->json, "One JSON object");
   command->callback([options] { latency(*options); });

@@ -66,8 +66,7 @@ void add_experiment(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--config", options->configs,
                       "Configuration, as FILE or FILE:section.key=value,…; \"default\" is the built-in one");
-  command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines")
-      ->check(CLI::ExistingFile);
+  command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines");
   command->add_flag("--oracle", options->oracle,
                     "Also the mean of all that was seen of each marking, rightly associated");
   command->callback([options] { experiment(*options); });
