@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "dds/identity_check.hpp"
 #include "dds/participant_impl.hpp"
 #include "dds/qos.hpp"
 
@@ -56,8 +57,10 @@ Topic* Participant::Impl::topic(const std::string& name, const TypeSupport& type
 void Participant::Impl::refuse(const std::string& entity) const {
   const std::string text = "DDS refused to make a " + entity;
   if (security_directory_.empty()) throw std::runtime_error(text);
-  throw NotPermitted(text + "; dds.security_directory: not valid, or not permitted to the identity in " +
-                     security_directory_);
+  const std::string problem = identity_problem(security_directory_);
+  throw NotPermitted(
+      text + "; dds.security_directory: " + (problem.empty() ? "not permitted to the identity" : problem) +
+      ", in " + security_directory_);
 }
 
 }  // namespace laneloom::dds

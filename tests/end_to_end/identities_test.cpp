@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 constexpr int kUnreadable = 78;   ///< for good
 constexpr int kNotBelieved = 77;  ///< as long as the clock may be what is wrong
 
-/// A copy of the service's folder, damaged, must stop the start, and be named.
+/// A copy of the service's folder, damaged, must stop the start, and be named, with what is wrong in it.
 void expect_refused(const Identities& identities, int code, const std::string& what,
-                    const std::function<void(const fs::path&)>& damage) {
+                    const std::function<void(const fs::path&)>& damage, const std::string& reason = "") {
   const fs::path folder = identities.folder() / "damaged";
   fs::remove_all(folder);
   fs::copy(identities.folder() / "service", folder);
@@ -31,6 +31,7 @@ void expect_refused(const Identities& identities, int code, const std::string& w
   EXPECT_EQ(service.wait(), code) << what;
   EXPECT_NE(service.errors().find("dds.security_directory: "), std::string::npos) << what << service.errors();
   EXPECT_NE(service.errors().find(folder), std::string::npos) << what << service.errors();
+  EXPECT_NE(service.errors().find(reason), std::string::npos) << what << service.errors();
   EXPECT_EQ(service.errors().find("event=started"), std::string::npos) << what;
 }
 
@@ -66,6 +67,31 @@ TEST(Identities, AFolderThatIsNotInOrderStopsTheStart) {
   });
   expect_refused(identities, kUnreadable, "no folder",
                  [](const fs::path& folder) { fs::remove_all(folder); });
+}
+
+TEST(Identities, TheFileThatIsNotBelievedIsNamed) {
+  const Identities identities, others;
+  const auto exchanged = [&](const std::string& name, const std::string& reason) {
+    const auto exchange = [&](const fs::path& folder) {
+      fs::copy(others.folder() / "service" / name, folder / name, fs::copy_options::overwrite_existing);
+    };
+    expect_refused(identities, kNotBelieved, name, exchange, "dds.security_directory: " + reason);
+  };
+  exchanged("cert.pem", "cert.pem: ");
+  exchanged("key.pem", "key.pem is not the key of cert.pem");
+  exchanged("permissions.p7s", "permissions.p7s: ");
+  exchanged("governance.p7s", "governance.p7s: ");
+  expect_refused(
+      identities, kNotBelieved, "cut off",
+      [](const fs::path& folder) { fs::resize_file(folder / "governance.p7s", 100); },
+      "governance.p7s is not signed, or cut off");
+  expect_refused(
+      identities, kNotBelieved, "of another identity",
+      [&](const fs::path& folder) {
+        fs::copy(identities.folder() / "pnc/permissions.p7s", folder / "permissions.p7s",
+                 fs::copy_options::overwrite_existing);
+      },
+      "not permitted to the identity, in ");
 }
 
 TEST(Identities, OtherDomainsAreClosed) {
