@@ -14,6 +14,10 @@ int run(int argc, char** argv) {
   CLI::App app("laneloom: drives, watches, draws and measures the lane map service", "laneloom");
   app.set_version_flag("--version", LANELOOM_VERSION);
   app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done; 1 it failed; 2 something wrong was found; 3 nobody was heard; 4 nothing to drive "
+      "on; "
+      "64 no such command, option or value.");
   laneloom::add_publish(app);
   laneloom::add_pnc(app);
   laneloom::add_status(app);

@@ -4,8 +4,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <random>
+#include <string>
 #include <thread>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>

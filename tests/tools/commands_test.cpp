@@ -254,6 +254,8 @@ TEST_F(Commands, WrongUseHasOneExitCode) {
   EXPECT_EQ(run({"pnc", "--duration", "soon"}), 64);
   EXPECT_EQ(run({"simulate", "--scenario", "nowhere", "--frames", file("x")}), 64);
   EXPECT_EQ(run({"import", "--help"}), 0);
+  EXPECT_EQ(run({"--help"}), 0);
+  EXPECT_THAT(output(), HasSubstr("Exit codes: 0 done; 1 it failed;"));
 }
 
 TEST_F(Commands, AFileThatIsNotThereIsAFailureOfEveryCommand) {
