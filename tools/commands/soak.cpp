@@ -19,7 +19,7 @@ namespace {
 struct Options {
   SoakSpec spec;
   double minutes = 1.0;
-  double recovery_s = 10.0;
+  double recovery_s = 5.0;
   std::vector<std::string> perceptions;
 };
 

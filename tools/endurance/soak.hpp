@@ -19,7 +19,7 @@ struct SoakSpec {
   std::uint64_t seed = 1;             ///< of the faults
   std::chrono::seconds patience{30};  ///< until good maps follow a fault
   /// Within this time of a fault's end, the planner must have a map to drive on, of what is seen then.
-  std::chrono::duration<double> recovery{10};
+  std::chrono::duration<double> recovery{5};
 };
 
 struct FaultCount {
