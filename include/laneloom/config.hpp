@@ -113,14 +113,6 @@ struct StoplineConfig {
   double min_angle_deg = 45.0;  ///< between stopline and lane
 };
 
-/// The error that a whole frame has against the map, taken out before it is fused. Ours. Limits of 0 leave
-/// frames as they are.
-struct AlignmentConfig {
-  double max_lateral_m = 0.3;
-  double max_longitudinal_m = 0.5;
-  double max_yaw_deg = 2.0;
-};
-
 /// Fusion along lines: every line of the map is a row of stations, each with its own lateral estimate and
 /// evidence. Instead of the paper's Sec. III-B and III-C. Ours.
 struct FusionConfig {
@@ -131,14 +123,12 @@ struct FusionConfig {
   double gate_angle_deg = 25.0;
   double min_overlap_m = 2.0;
   // How well an observation tells the lateral position.
-  double stddev_m = 0.15;                  ///< at the vehicle
-  double stddev_per_m = 0.008;             ///< more, per metre from it
-  double end_reach_m = 4.0;                ///< near its ends a detection swings: it counts less there
-  double fade_m = 5.0;                     ///< over which an extension is faded to the line
-  double max_information_per_m2 = 4000.0;  ///< of a station: keeps it able to move
-  // What averaging does not remove: how far a line is seen beside its place for as long as it is seen.
-  double bias_stddev_m = 0.115;
-  double bias_stddev_per_m = 0.004;  ///< more, per metre of the closest view of it
+  bool learn = true;             ///< how each source errs, from what is later seen from near
+  double stddev_m = 0.03;        ///< at the vehicle, before anything is learned
+  double stddev_per_m = 0.0035;  ///< more, per metre from it
+  double bias_stddev_m =
+      0.1;              ///< of what lasts from far to near: it does not average out, and is not learned
+  double fade_m = 5.0;  ///< over which an extension is faded to the line
   // Evidence that a line exists at a station, as log odds.
   double birth_log_odds = -4.0;
   double extension_log_odds = -1.0;
@@ -163,7 +153,6 @@ struct MapperConfig {
   VoxelMapConfig voxel_map;
   ClusteringConfig clustering;
   PolylineConfig polyline;
-  AlignmentConfig alignment;
   FusionConfig fusion;
   StyleConfig style;
   BoundaryConfig boundary;

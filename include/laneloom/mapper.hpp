@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "laneloom/config.hpp"
 #include "laneloom/sd_map.hpp"
@@ -61,7 +64,11 @@ class Mapper {
   /// The map after the last update.
   const LocalMap& map() const;
 
-  /// Forgets everything but the ids that were given out.
+  /// What was learned of the network behind a source of detections, by name: standard deviations by range and
+  /// the like. Empty: nothing is known of that source.
+  std::vector<std::pair<std::string, double>> learned(const std::string& source) const;
+
+  /// Forgets everything but the ids that were given out and what was learned of the networks.
   void reset();
 
   /// The whole state, as one value. Loading it into a mapper of the same configuration continues exactly.

@@ -75,6 +75,7 @@ class MappingSession {
 
   const LocalMap& map() const;
   Mapper& mapper();
+  const Mapper& mapper() const;
   /// Frames that wait for their poses.
   std::size_t pending() const;
   /// Arrival of the newest frame in the map; none: the map is empty.

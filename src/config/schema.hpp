@@ -66,31 +66,21 @@ void visit(auto& v, Is<PolylineConfig> auto& c) {
   v.number("min_length_m", min_length_m, "m", 0, 100);
 }
 
-void visit(auto& v, Is<AlignmentConfig> auto& c) {
-  auto& [max_lateral_m, max_longitudinal_m, max_yaw_deg] = c;
-  v.number("max_lateral_m", max_lateral_m, "m", 0, 5);
-  v.number("max_longitudinal_m", max_longitudinal_m, "m", 0, 5);
-  v.number("max_yaw_deg", max_yaw_deg, "deg", 0, 10);
-}
-
 void visit(auto& v, Is<FusionConfig> auto& c) {
-  auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, stddev_m, stddev_per_m,
-         end_reach_m, fade_m, max_information_per_m2, bias_stddev_m, bias_stddev_per_m, birth_log_odds,
-         extension_log_odds, hit_log_odds, miss_log_odds, miss_range_m, max_log_odds, min_log_odds,
-         publish_log_odds, confirm_log_odds, existence_at_publish, existence_at_max, min_birth_length_m,
-         min_length_m, merge_distance_m] = c;
+  auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, learn, stddev_m,
+         stddev_per_m, bias_stddev_m, fade_m, birth_log_odds, extension_log_odds, hit_log_odds, miss_log_odds,
+         miss_range_m, max_log_odds, min_log_odds, publish_log_odds, confirm_log_odds, existence_at_publish,
+         existence_at_max, min_birth_length_m, min_length_m, merge_distance_m] = c;
   v.number("sample_step_m", sample_step_m, "m", 0.1, 2);
   v.number("station_spacing_m", station_spacing_m, "m", 0.2, 2);
   v.number("gate_m", gate_m, "m", 0.1, 2);
   v.number("gate_angle_deg", gate_angle_deg, "deg", 1, 90);
   v.number("min_overlap_m", min_overlap_m, "m", 1, 20);
+  v.flag("learn", learn);
   v.number("stddev_m", stddev_m, "m", 0.01, 2);
   v.number("stddev_per_m", stddev_per_m, "m/m", 0, 0.2);
-  v.number("end_reach_m", end_reach_m, "m", 0.5, 20);
-  v.number("fade_m", fade_m, "m", 0.5, 50);
-  v.number("max_information_per_m2", max_information_per_m2, "1/m2", 1, 1000000);
   v.number("bias_stddev_m", bias_stddev_m, "m", 0, 2);
-  v.number("bias_stddev_per_m", bias_stddev_per_m, "m/m", 0, 0.2);
+  v.number("fade_m", fade_m, "m", 0.5, 50);
   v.number("birth_log_odds", birth_log_odds, "", -10, 0);
   v.number("extension_log_odds", extension_log_odds, "", -10, 10);
   v.number("hit_log_odds", hit_log_odds, "", 0.01, 5);
@@ -166,15 +156,14 @@ void visit(auto& v, Is<StoplineConfig> auto& c) {
 }
 
 void visit(auto& v, Is<MapperConfig> auto& c) {
-  auto& [method, range, preprocess, voxel_map, clustering, polyline, alignment, fusion, style, boundary,
-         section, lane, linkage, direction, stopline] = c;
+  auto& [method, range, preprocess, voxel_map, clustering, polyline, fusion, style, boundary, section, lane,
+         linkage, direction, stopline] = c;
   v.choice("method", method, "lines|voxels");
   v.section("range", range);
   v.section("preprocess", preprocess);
   v.section("voxel_map", voxel_map);
   v.section("clustering", clustering);
   v.section("polyline", polyline);
-  v.section("alignment", alignment);
   v.section("fusion", fusion);
   v.section("style", style);
   v.section("boundary", boundary);

@@ -19,7 +19,7 @@
 #include "mapping/lanes/unmarked_roads.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/lines/association.hpp"
-#include "mapping/lines/frame_alignment.hpp"
+#include "mapping/lines/frame_pitch.hpp"
 #include "mapping/lines/joints.hpp"
 #include "mapping/lines/line_evidence.hpp"
 #include "mapping/lines/line_fusion.hpp"
@@ -91,13 +91,20 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   const Point origin = input.T_map_body.translation();
   auto& lines = state.lines;
   auto detections = sample_detections(input.markings, fusion);
-  LineMatcher matcher(lines, fusion);
-  align_frame(input.T_map_body, config, matcher, detections, state.lasting_error);
-  const auto matches = matcher.match(detections);
+  const auto source = state.networks.number(input.frame.source, state.frame, fusion);
+  const NetworkModel& network = state.networks.model(source);
+  const Viewpoint from{.T_map_body = input.T_map_body,
+                       .source = static_cast<std::uint32_t>(source),
+                       .correlation_m = network.correlation_m(),
+                       .stretch_per_m = estimate_stretch_per_m(detections, input.T_map_body),
+                       .pitch_gain = network.pitch_gain()};
+  unstretch(from.pitch_gain * from.stretch_per_m, input.T_map_body, detections);
+  weigh(network, origin, detections);
+  const auto matches = LineMatcher(lines, fusion).match(detections);
   mark_explained(matches, detections);
   count_joints(matches, lines, config.boundary.max_gap_m, state.joints);
   done(Stage::association);
-  fuse_matches(matches, detections, origin, fusion, lines);
+  fuse_matches(matches, detections, from, fusion, state.networks, lines);
   discount_unobserved({input.T_map_body.inverse(), &input.frame}, input.range, fusion, lines);
   done(Stage::line_update);
   extend_lines(matches, origin, input.range, fusion, detections, lines);
@@ -185,10 +192,16 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
 
 const LocalMap& Mapper::map() const { return state_->map; }
 
+std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& source) const {
+  const NetworkModel* network = state_->networks.find(source);
+  return network != nullptr ? network->learned() : std::vector<std::pair<std::string, double>>{};
+}
+
 void Mapper::reset() {
-  const ElementId next_id = state_->next_id;
-  *state_ = MapperState(config_.voxel_map);
-  state_->next_id = next_id;
+  MapperState fresh(config_.voxel_map);
+  fresh.next_id = state_->next_id;
+  fresh.networks = std::move(state_->networks);
+  *state_ = std::move(fresh);
 }
 
 const MapperState& Mapper::state() const { return *state_; }

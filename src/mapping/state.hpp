@@ -8,8 +8,8 @@
 #include "mapping/lanes/inferred_boundaries.hpp"
 #include "mapping/lanes/lane_identity.hpp"
 #include "mapping/lineage.hpp"
-#include "mapping/lines/frame_alignment.hpp"
 #include "mapping/lines/line_map.hpp"
+#include "mapping/lines/network_model.hpp"
 #include "mapping/markings/pair_history.hpp"
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/voxels/co_observation.hpp"
@@ -27,9 +27,9 @@ struct MapperState {
   CoObservation co_observation;
   Instances instances;
   std::vector<Line> lines;
-  PairHistories doubles;  ///< of lines that lie side by side
-  PairHistories joints;   ///< of lines that end at each other
-  FrameError lasting_error = FrameError::Zero();
+  PairHistories doubles;   ///< of lines that lie side by side
+  PairHistories joints;    ///< of lines that end at each other
+  NetworkModels networks;  ///< what was learned of the sources
   std::vector<KnownInferred> known_inferred;
   std::vector<KnownLane> known_lanes;
   EgoTrack ego_track;
@@ -39,7 +39,7 @@ struct MapperState {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, known_inferred,
+    archive(frame, voxels, co_observation, instances, lines, doubles, joints, networks, known_inferred,
             known_lanes, ego_track, published, next_id, map);
   }
 };

@@ -260,6 +260,7 @@ void Service::add_progress(SourceStatus& source) const {
   });
   if (found == all.end()) return;
   source.fused = found->fused;
+  source.learned = session_.mapper().learned(source.source);
   const auto lag_s = session_.lag_s();
   if (!found->fused_stamp_ns || !lag_s) return;
   source.lag_s = *lag_s + static_cast<double>(session_.map().stamp_ns - *found->fused_stamp_ns) / 1e9;

@@ -200,6 +200,7 @@ void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
 
 const LocalMap& MappingSession::map() const { return state_->mapper.map(); }
 Mapper& MappingSession::mapper() { return state_->mapper; }
+const Mapper& MappingSession::mapper() const { return state_->mapper; }
 std::size_t MappingSession::pending() const { return state_->synchroniser.pending(); }
 std::optional<std::int64_t> MappingSession::newest_arrival_ns() const { return state_->newest_arrival_ns; }
 const Counters& MappingSession::counters() const { return state_->counters; }

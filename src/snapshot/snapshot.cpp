@@ -3,6 +3,7 @@
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/deque.hpp>
+#include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
 #include <cstdint>
@@ -89,7 +90,7 @@ void serialize(Archive& archive, LocalMap& map) {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x34'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x35'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 

@@ -47,7 +47,8 @@ inline LaneBoundary boundary(ElementId id, Polyline points, MarkingType type = M
 /// A line with a station at every vertex.
 inline Line line(ElementId id, const Polyline& points, MarkingType type = MarkingType::laneline) {
   Line result{.id = id, .stations = {}};
-  for (const Point& point : points) result.stations.push_back({.position = point, .information_per_m2 = 1.0});
+  for (const Point& point : points)
+    result.stations.push_back({.position = point, .lateral = LateralFilter({.stddev_m = 1.0})});
   result.type_votes[index(type)] = 1.0;
   return result;
 }

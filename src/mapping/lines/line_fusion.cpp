@@ -9,51 +9,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kBirthTrust = 0.25;   // what was seen once is not yet known to be the line
-constexpr double kTypeMemory = 0.98;   // per observation: the border of a road may become another
-constexpr double kMinStddev_m = 0.02;  // of an observation, whatever is said of it
-
-double distance(const Point& point, const Point& origin) { return (point - origin).head<2>().norm(); }
-
-/// Standard deviation of one observation from `range_m` away, unless its sample has one of its own.
-double stddev_m(const SampledDetection& detection, std::size_t sample, double range_m,
-                const FusionConfig& config) {
-  if (!detection.stddev_m.empty()) return std::max(kMinStddev_m, detection.stddev_m[sample]);
-  return config.stddev_m + config.stddev_per_m * range_m;
-}
-
-/// What a match says at a whole station: its samples interpolated.
-struct Observation {
-  std::size_t station;
-  Eigen::Vector2d direction;  ///< of the line there
-  double lateral_m, height_m, stddev_m;
-  double end_distance_m;  ///< along the detection, to its nearer end
-};
-
-void observe(Station& station, const Observation& seen, const Point& origin, const FusionConfig& config) {
-  const double weight_per_m2 = 1.0 / (seen.stddev_m * seen.stddev_m);
-  // Near its ends a detection swings.
-  const double end_trust = std::min(1.0, (seen.end_distance_m + 0.5) / config.end_reach_m);
-  const double weight = weight_per_m2 * end_trust * end_trust;
-  const double gain = weight / (station.information_per_m2 + weight);
-  station.position.head<2>() +=
-      gain * seen.lateral_m * Eigen::Vector2d(-seen.direction.y(), seen.direction.x());
-  station.position.z() += gain * seen.height_m;
-  station.information_per_m2 = std::min(station.information_per_m2 + weight, config.max_information_per_m2);
-  station.closest_m = std::min(station.closest_m, distance(station.position, origin));
-}
-
-Station new_station(const Point& position, const Point& origin, const SampledDetection& detection,
-                    std::size_t sample, double log_odds, const FusionConfig& config) {
-  const double range_m = distance(position, origin);
-  const double deviation_m = stddev_m(detection, sample, range_m, config);
-  Station station{.position = position,
-                  .information_per_m2 = kBirthTrust / (deviation_m * deviation_m),
-                  .closest_m = range_m,
-                  .log_odds = log_odds};
-  station.style_votes[index(detection.style)] += 1.0;
-  return station;
-}
+constexpr double kTypeMemory = 0.98;  // per observation: the border of a road may become another
 
 double hit(const SampledDetection& detection, const FusionConfig& config) {
   return config.hit_log_odds * 4.0 * detection.confidence * detection.confidence;
@@ -68,8 +24,7 @@ bool is_seen_through(const SampleMatch& from, const SampleMatch& to) {
 /// would turn its neighbours' normals.
 class Observations {
  public:
-  Observations(const SampledDetection& detection, Line& line, const Point& origin, const FusionConfig& config)
-      : detection_(detection), line_(line), origin_(origin), config_(config) {}
+  Observations(const SampledDetection& detection, Line& line) : detection_(detection), line_(line) {}
 
   /// Leaves out what is observed already, and marks the rest.
   void gather(const std::vector<SampleMatch>& samples) {
@@ -92,41 +47,32 @@ class Observations {
   const std::vector<Observation>& all() const { return all_; }
 
  private:
-  double end_distance_m(std::size_t sample) const {
-    const std::size_t last = detection_.samples.size() - 1;
-    return static_cast<double>(std::min(sample, last - sample)) * detection_.spacing_m;
-  }
-
   /// What two samples that follow one another say at a station.
   Observation between(const SampleMatch& a, const SampleMatch& b, std::size_t station) const {
     const double run = b.foot.index - a.foot.index;
     const double share =
         run != 0.0 ? std::clamp((static_cast<double>(station) - a.foot.index) / run, 0.0, 1.0) : 0.0;
     const auto mix = [share](double from, double to) { return from + share * (to - from); };
-    const double range_m = distance(line_.stations[station].position, origin_);
     return {.station = station,
             .direction = direction_at(line_, station),
             .lateral_m = mix(a.foot.lateral_m, b.foot.lateral_m),
             .height_m = mix(a.foot.height_m, b.foot.height_m),
-            .stddev_m = mix(stddev_m(detection_, a.sample, range_m, config_),
-                            stddev_m(detection_, b.sample, range_m, config_)),
-            .end_distance_m = mix(end_distance_m(a.sample), end_distance_m(b.sample))};
+            .stddev_m = mix(detection_.stddev_m[a.sample], detection_.stddev_m[b.sample])};
   }
 
   const SampledDetection& detection_;
   Line& line_;
-  const Point& origin_;
-  const FusionConfig& config_;
   std::vector<Observation> all_;
 };
 
-void fuse(const LineMatch& match, const SampledDetection& detection, const Point& origin,
-          const FusionConfig& config, Line& line) {
-  Observations seen(detection, line, origin, config);
+void fuse(const LineMatch& match, const SampledDetection& detection, const Viewpoint& from,
+          const FusionConfig& config, NetworkModels& networks, Line& line) {
+  Observations seen(detection, line);
   seen.gather(match.samples);
   for (const Observation& observation : seen.all()) {
     Station& station = line.stations[observation.station];
-    observe(station, observation, origin, config);
+    if (config.learn) learn(observation, from, station, networks);
+    observe(observation, from, station);
     station.log_odds = std::min(station.log_odds + hit(detection, config), config.max_log_odds);
     station.style_votes[index(detection.style)] += 1.0;
   }
@@ -153,7 +99,7 @@ void extend_back(const std::vector<std::size_t>& ahead, const Point& step, const
     const Eigen::Vector2d gap = (corrected - end).head<2>();
     const Eigen::Vector2d direction = direction_at(line, line.stations.size() - 1);
     if (gap.norm() < min_spacing(i == ahead.back(), config) || gap.dot(direction) <= 0.0) continue;
-    line.stations.push_back(new_station(corrected, origin, detection, i, config.extension_log_odds, config));
+    line.stations.push_back(new_station(corrected, origin, detection, i, config.extension_log_odds));
   }
 }
 
@@ -196,11 +142,12 @@ void extend_line(const LineMatch& match, bool at_back, const Point& origin, cons
 }  // namespace
 
 void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
-                  const Point& origin, const FusionConfig& config, std::vector<Line>& lines) {
+                  const Viewpoint& from, const FusionConfig& config, NetworkModels& networks,
+                  std::vector<Line>& lines) {
   for (Line& line : lines)
     for (Station& station : line.stations) station.sight = Sight::out_of_view;
   for (const LineMatch& match : matches)
-    fuse(match, detections[match.detection], origin, config, lines[match.line]);
+    fuse(match, detections[match.detection], from, config, networks, lines[match.line]);
 }
 
 void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, const LocalRange& range,
@@ -235,8 +182,7 @@ void create_lines(const std::vector<SampledDetection>& detections, const Point& 
         const bool near =
             !line.stations.empty() &&
             (sample - line.stations.back().position).head<2>().norm() < min_spacing(i + 1 == end, config);
-        if (!near)
-          line.stations.push_back(new_station(sample, origin, detection, i, config.birth_log_odds, config));
+        if (!near) line.stations.push_back(new_station(sample, origin, detection, i, config.birth_log_odds));
       }
       if (line.stations.size() >= 2 && length_m >= config.min_birth_length_m) {
         line.id = next_id++;

@@ -8,13 +8,15 @@
 #include "mapping/geometry/local_range.hpp"
 #include "mapping/lines/association.hpp"
 #include "mapping/lines/line_map.hpp"
+#include "mapping/lines/station_update.hpp"
 
 namespace laneloom {
 
-/// Moves the observed stations towards what was seen, weighing each observation by its deviation, as given or
-/// by its range from `origin`, and raises their evidence.
+/// Moves the observed stations towards what was seen, weighing each observation by its deviation, and raises
+/// their evidence. Teaches the networks.
 void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
-                  const Point& origin, const FusionConfig& config, std::vector<Line>& lines);
+                  const Viewpoint& from, const FusionConfig& config, NetworkModels& networks,
+                  std::vector<Line>& lines);
 
 /// Continues lines where a detection runs on beyond their ends, as far as the range goes.
 void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, const LocalRange& range,

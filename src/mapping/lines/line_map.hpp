@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "laneloom/types.hpp"
+#include "mapping/lines/lateral_filter.hpp"
+#include "mapping/lines/network_model.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom {
@@ -16,16 +18,17 @@ enum class Sight : std::uint8_t { out_of_view, missed, observed };
 
 /// A place on a line, about every metre, with what is known of the line there.
 struct Station {
-  Point position = Point::Zero();   ///< map frame
-  double information_per_m2 = 0.0;  ///< inverse variance of the lateral position
-  double closest_m = 0.0;           ///< from which it was observed
-  double log_odds = 0.0;            ///< that the line exists here
+  Point position = Point::Zero();  ///< map frame
+  LateralFilter lateral;           ///< how well it is known
+  double log_odds = 0.0;           ///< that the line exists here
   StyleVotes style_votes{};
-  Sight sight = Sight::out_of_view;  ///< in this frame; not kept
+  double moved_m = 0.0;                                            ///< to the left, since it was born
+  std::array<FarView, NetworkModel::kNodes_m.size()> far_views{};  ///< the first one at each range
+  Sight sight = Sight::out_of_view;                                ///< in this frame; not kept
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(position, information_per_m2, closest_m, log_odds, style_votes);
+    archive(position, lateral, log_odds, style_votes, moved_m, far_views);
   }
 };
 

@@ -46,8 +46,7 @@ std::vector<StyleRange> styles_along(Stations stations, const Polyline& points, 
 
 /// An observation's noise averages out; the network's bias towards a line, which lasts, does not.
 double lateral_stddev_m(const Station& station, const FusionConfig& config) {
-  const double bias_m = config.bias_stddev_m + config.bias_stddev_per_m * station.closest_m;
-  return std::sqrt(bias_m * bias_m + 1.0 / station.information_per_m2);
+  return std::sqrt(config.bias_stddev_m * config.bias_stddev_m + station.lateral.variance_m2());
 }
 
 /// Grows with the evidence between what is published and what is certain.

@@ -16,6 +16,8 @@ using test::straight;
 /// Sees detections from the map's origin, frame by frame.
 class LineFusion : public ::testing::Test {
  protected:
+  LineFusion() { networks_.number("", 1, config_); }
+
   void see(const std::vector<Polyline>& polylines, MarkingType type = MarkingType::laneline) {
     std::vector<ObservedMarking> markings;
     for (const Polyline& points : polylines) markings.push_back({type, MarkingStyle::solid, 0.8, points});
@@ -26,7 +28,8 @@ class LineFusion : public ::testing::Test {
     auto detections = sample_detections(markings, config_);
     const auto matches = LineMatcher(lines_, config_).match(detections);
     mark_explained(matches, detections);
-    fuse_matches(matches, detections, Point::Zero(), config_, lines_);
+    weigh(NetworkModel(config_), Point::Zero(), detections);
+    fuse_matches(matches, detections, {}, config_, networks_, lines_);
     discount_unobserved({Eigen::Isometry3d::Identity(), &frame_}, range_, config_, lines_);
     extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
     create_lines(detections, Point::Zero(), 7, range_, config_, lines_, next_id_);
@@ -37,6 +40,7 @@ class LineFusion : public ::testing::Test {
   LocalRange range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
   DetectionFrame frame_;
   std::vector<Line> lines_;
+  NetworkModels networks_;
   ElementId next_id_ = 1;
   std::vector<Relative> cut_off_;
 };
@@ -72,7 +76,7 @@ TEST_F(LineFusion, NearObservationsCountMore) {
   see({straight({0, 0.4, 0}, {25, 0.4, 0})});
   const auto& stations = lines_[0].stations;
   EXPECT_GT(stations[10].position.y(), 0.04);
-  EXPECT_GT(stations[5].information_per_m2, 2.0 * stations[20].information_per_m2);
+  EXPECT_GT(stations[20].lateral.variance_m2(), 2.0 * stations[5].lateral.variance_m2());
 }
 
 TEST_F(LineFusion, DeviationsThatAreGivenCount) {
@@ -146,6 +150,7 @@ TEST_F(LineFusion, ALineGrowsNoFurtherThanTheRange) {
       {{MarkingType::laneline, MarkingStyle::solid, 0.8, {{0, 0, 0}, {20, 0, 0}, {9000, 900, 0}}}}, config_);
   const auto matches = LineMatcher(lines_, config_).match(detections);
   mark_explained(matches, detections);
+  weigh(NetworkModel(config_), Point::Zero(), detections);
   extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
   EXPECT_GT(lines_[0].stations.back().position.x(), 50.0);
   for (const Station& station : lines_[0].stations) EXPECT_TRUE(range_.keeps(station.position));

@@ -46,17 +46,14 @@ TEST_F(LinePublishing, AWeakPlaceDoesNotHideWhatIsBeyondIt) {
 
 TEST_F(LinePublishing, CertaintyGrowsWithEvidenceAndNearness) {
   const FusionConfig config;
-  for (std::size_t i = 0; i < 51; ++i) {
-    line_.stations[i].information_per_m2 = i < 25 ? 1e9 : 25.0;
-    line_.stations[i].closest_m = i < 25 ? 0.0 : 10.0;
-  }
+  for (std::size_t i = 0; i < 51; ++i)
+    line_.stations[i].lateral = LateralFilter({.stddev_m = i < 25 ? 0.0 : 0.2});
   believe(0, 51, config.publish_log_odds);
   const Marking unsure = publish()[0];
   EXPECT_NEAR(unsure.existence_probability, config.existence_at_publish, 1e-9);
   ASSERT_EQ(unsure.lateral_stddev_m.size(), unsure.points.size());
   EXPECT_NEAR(unsure.lateral_stddev_m.front(), config.bias_stddev_m, 1e-6);
-  const double far_bias_m = config.bias_stddev_m + 10.0 * config.bias_stddev_per_m;
-  EXPECT_NEAR(unsure.lateral_stddev_m.back(), std::sqrt(far_bias_m * far_bias_m + 1.0 / 25.0), 1e-6);
+  EXPECT_NEAR(unsure.lateral_stddev_m.back(), std::hypot(config.bias_stddev_m, 0.2), 1e-6);
   believe(0, 51, config.max_log_odds);
   EXPECT_NEAR(publish()[0].existence_probability, config.existence_at_max, 1e-9);
 }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace laneloom {
+
+/// One view of a place on a line.
+struct LateralView {
+  double lateral_m = 0.0;  ///< left of the place as it is known so far
+  double stddev_m = 0.0;
+  double correlation_m =
+      1.0;  ///< over which the network's error becomes another one while the vehicle drives on
+  Eigen::Vector2d seen_from = Eigen::Vector2d::Zero();  ///< map frame
+};
+
+/// How well the lateral place of a station is known: a Kalman filter of two states, the place itself and the
+/// error that the network makes about it at the moment. So views from places that are near each other count
+/// little more than one of them, and the views of a standing vehicle hardly at all.
+class LateralFilter {
+ public:
+  /// After the first view.
+  explicit LateralFilter(const LateralView& first = {});
+
+  /// Takes in another view. Returns how far to the left the place moves.
+  double update(const LateralView& view);
+
+  double variance_m2() const { return covariance_(0, 0); }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(error_, covariance_, seen_from_);
+  }
+
+ private:
+  double error_ = 0.0;          ///< of the network, in standard deviations of a view
+  Eigen::Matrix2d covariance_;  ///< of the place, in metres, and of that error
+  Eigen::Vector2d seen_from_;   ///< of the last view
+};
+
+}  // namespace laneloom

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "laneloom/config.hpp"
+
+namespace laneloom {
+
+/// What was said of a place from far, until it is seen from near.
+struct FarView {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t source = kNone;  ///< its number among the networks
+  double range_m = 0.0;          ///< from where
+  double lateral_m = 0.0;        ///< to the left of a mark that stays
+  double stretched_m = 0.0;      ///< of these, how far the frame's pitch is suspected to have moved it
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(source, range_m, lateral_m, stretched_m);
+  }
+};
+
+/// What the detections of one network have proved to be worth. Every place that is seen from far is seen
+/// again from near, which tells how wrong it was from far. From that is learned the standard deviation by
+/// range, over which distance driven an error becomes another one, and how much of a frame's suspected pitch
+/// is true.
+class NetworkModel {
+ public:
+  /// Share of a view's variance that fades; the rest is new in every frame.
+  static constexpr double kShared = 0.9;
+  static constexpr std::array<double, 6> kNodes_m{8.0, 12.0, 18.0, 26.0, 36.0, 48.0};
+
+  NetworkModel() = default;
+  /// Before anything is learned: the deviations of the configuration, and no pitch is believed.
+  explicit NetworkModel(const FusionConfig& config);
+
+  /// Lateral standard deviation of a sample from so far away.
+  double stddev_m(double range_m) const;
+  /// Distance driven in which the correlation of the errors falls to 1/e.
+  double correlation_m() const;
+  /// Which share of a frame's suspected pitch is to be taken out: 0 to 1.
+  double pitch_gain() const;
+
+  /// From near, the place of a view has proved to be at `near_m`.
+  void learn(const FarView& view, double near_m);
+  /// Likewise the place of two views, of which one is the next after the other.
+  void learn(const FarView& one, const FarView& other, double near_m);
+
+  /// By name, for people.
+  std::vector<std::pair<std::string, double>> learned() const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(views_, squares_m2_, pairs_, products_, distances_m_, pitch_evidence_, pitch_effect_);
+  }
+
+ private:
+  double error_m(const FarView& view, double near_m) const;
+
+  // Sums of what was seen, older views counting less.
+  std::array<double, kNodes_m.size()> views_{}, squares_m2_{};  ///< at each range
+  double pairs_ = 0.0, products_ = 0.0,
+         distances_m_ = 0.0;                          ///< of errors in deviations, and between the views
+  double pitch_evidence_ = 0.0, pitch_effect_ = 0.0;  ///< regression of the error on the suspicion
+};
+
+/// The models of the sources of detections, by number. Of too many sources, the one that was not heard of for
+/// longest is forgotten.
+class NetworkModels {
+ public:
+  /// The number of a source, from which the `frame`-th frame comes.
+  std::size_t number(const std::string& source, std::uint64_t frame, const FusionConfig& config);
+  NetworkModel& model(std::size_t number) { return networks_[number].model; }
+  /// Null: nothing is known of that source.
+  const NetworkModel* find(const std::string& source) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(networks_);
+  }
+
+ private:
+  struct Network {
+    std::string source;
+    std::uint64_t frame = 0;  ///< the newest one
+    NetworkModel model;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(source, frame, model);
+    }
+  };
+  std::vector<Network> networks_;
+};
+
+}  // namespace laneloom

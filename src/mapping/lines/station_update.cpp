@@ -1,0 +1,74 @@
+#include "mapping/lines/station_update.hpp"
+
+#include <algorithm>
+
+#include "mapping/lines/frame_pitch.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kNear_m = 10.0;       // from within, a place is seen as it is
+constexpr double kMinStddev_m = 0.02;  // of an observation, whatever is said of it
+
+double distance(const Point& point, const Point& origin) { return (point - origin).head<2>().norm(); }
+
+/// The last node of the model that a view reaches.
+std::size_t ring(double range_m) {
+  const auto& nodes_m = NetworkModel::kNodes_m;
+  return static_cast<std::size_t>(std::upper_bound(nodes_m.begin() + 1, nodes_m.end(), range_m) -
+                                  nodes_m.begin() - 1);
+}
+
+Eigen::Vector2d left_of(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
+
+}  // namespace
+
+void weigh(const NetworkModel& network, const Point& origin, std::vector<SampledDetection>& detections) {
+  for (SampledDetection& detection : detections) {
+    if (detection.stddev_m.empty())
+      for (const Point& sample : detection.samples)
+        detection.stddev_m.push_back(network.stddev_m(distance(sample, origin)));
+    for (double& stddev_m : detection.stddev_m) stddev_m = std::max(kMinStddev_m, stddev_m);
+  }
+}
+
+Station new_station(const Point& position, const Point& origin, const SampledDetection& detection,
+                    std::size_t sample, double log_odds) {
+  const LateralView first{.stddev_m = detection.stddev_m[sample], .seen_from = origin.head<2>()};
+  Station station{.position = position, .lateral = LateralFilter(first), .log_odds = log_odds};
+  station.style_votes[index(detection.style)] += 1.0;
+  return station;
+}
+
+void observe(const Observation& seen, const Viewpoint& from, Station& station) {
+  const double step_m = station.lateral.update({.lateral_m = seen.lateral_m,
+                                                .stddev_m = seen.stddev_m,
+                                                .correlation_m = from.correlation_m,
+                                                .seen_from = from.T_map_body.translation().head<2>()});
+  station.moved_m += step_m;
+  station.position.head<2>() += step_m * left_of(seen.direction);
+  const double share = seen.lateral_m != 0.0 ? std::clamp(step_m / seen.lateral_m, 0.0, 1.0) : 0.0;
+  station.position.z() += share * seen.height_m;
+}
+
+void learn(const Observation& seen, const Viewpoint& from, Station& station, NetworkModels& networks) {
+  const double range_m = distance(station.position, from.T_map_body.translation());
+  const double stretched_m =
+      left_of(seen.direction).dot(stretched_by(from.stretch_per_m, station.position, from.T_map_body));
+  const double said_m = station.moved_m + seen.lateral_m + from.pitch_gain * stretched_m;
+  auto& views = station.far_views;
+  if (range_m > kNear_m) {
+    FarView& view = views[ring(range_m)];
+    if (view.source == FarView::kNone) view = {from.source, range_m, said_m, stretched_m};
+    return;
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].source == FarView::kNone) continue;
+    NetworkModel& network = networks.model(views[i].source);
+    if (i > 0 && views[i - 1].source == views[i].source) network.learn(views[i - 1], views[i], said_m);
+    network.learn(views[i], said_m);
+  }
+  views.fill({});
+}
+
+}  // namespace laneloom

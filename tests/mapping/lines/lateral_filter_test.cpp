@@ -1,0 +1,89 @@
+#include "mapping/lines/lateral_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "mapping/lines/network_model.hpp"
+
+namespace laneloom {
+namespace {
+
+/// A place and its views, all on one axis; the vehicle drives along the other one.
+class Place : public ::testing::Test {
+ protected:
+  void see(double at_m, double stddev_m, double driven_m) {
+    const LateralView view{at_m - estimate_m_, stddev_m, correlation_m_, {driven_m, 0.0}};
+    if (std::exchange(seen_, true)) {
+      estimate_m_ += filter_.update(view);
+    } else {
+      estimate_m_ = at_m;
+      filter_ = LateralFilter(view);
+    }
+  }
+  double stddev_m() const { return std::sqrt(filter_.variance_m2()); }
+
+  double correlation_m_ = 10.0;
+  double estimate_m_ = 0.0;
+  bool seen_ = false;
+  LateralFilter filter_;
+};
+
+TEST_F(Place, IsKnownAsWellAsItsOneView) {
+  see(0.3, 0.2, 0.0);
+  EXPECT_NEAR(stddev_m(), 0.2, 1e-12);
+}
+
+TEST_F(Place, ANearViewDecidesAgainstManyFarOnes) {
+  for (int i = 0; i < 12; ++i) see(0.2, 0.15, 3.0 * i);
+  see(0.0, 0.03, 39.0);
+  EXPECT_LT(std::abs(estimate_m_), 0.03);
+  EXPECT_LT(stddev_m(), 0.035);
+}
+
+TEST_F(Place, IsNeverKnownWorseThanByItsBestView) {
+  double best_m = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double deviation_m = 0.03 + 0.1 * std::abs(std::sin(i));
+    best_m = std::min(best_m, deviation_m);
+    see(0.05 * std::cos(3.0 * i), deviation_m, 0.3 * i);
+    EXPECT_LE(stddev_m(), best_m + 0.02) << i;  // and what the poses may have drifted since
+  }
+}
+
+TEST_F(Place, AStandingVehicleLearnsHardlyMore) {
+  for (int i = 0; i < 1000; ++i) see(0.1, 0.2, 0.0);
+  EXPECT_GT(stddev_m(), 0.9 * 0.2);
+}
+
+TEST_F(Place, ViewsThatHaveNothingInCommonAverage) {
+  correlation_m_ = 0.1;
+  for (int i = 0; i < 16; ++i) see(i % 2 == 0 ? 0.2 : -0.2, 0.2, 1.0 * i);
+  EXPECT_LT(stddev_m(), 0.35 * 0.2);
+  EXPECT_NEAR(estimate_m_, 0.0, 0.03);
+}
+
+TEST_F(Place, ErrsAsMuchAsItSays) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  const double step_m = 3.0, kept = std::exp(-step_m / correlation_m_);
+  double sum = 0.0;
+  const int places = 2000;
+  for (int place = 0; place < places; ++place) {
+    seen_ = false;
+    double error = normal(generator);
+    for (int i = 0; i < 12; ++i) {
+      const double stddev = 0.15 - 0.01 * i;
+      const double fresh = std::sqrt(1.0 - NetworkModel::kShared) * normal(generator);
+      see(stddev * (std::sqrt(NetworkModel::kShared) * error + fresh), stddev, step_m * i);
+      error = kept * error + std::sqrt(1.0 - kept * kept) * normal(generator);
+    }
+    sum += estimate_m_ * estimate_m_ / filter_.variance_m2();
+  }
+  EXPECT_NEAR(sum / places, 0.9, 0.15);  // a little less than 1: these poses do not drift
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,111 @@
+#include "mapping/lines/network_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace laneloom {
+namespace {
+
+/// A network whose error is known; all places are at 0.
+class Network : public ::testing::Test {
+ protected:
+  double random() { return normal_(generator_); }
+  FarView view(double range_m, double error_m, double stretched_m = 0.0) const {
+    return {.source = 0, .range_m = range_m, .lateral_m = error_m, .stretched_m = stretched_m};
+  }
+  static double true_stddev_m(double range_m) { return 0.02 + 0.0002 * range_m * range_m; }
+
+  FusionConfig config_;
+  NetworkModel network_{config_};
+  std::mt19937 generator_{1};
+  std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> range_m_{10.0, 48.0};
+};
+
+TEST_F(Network, IsAsConfiguredAtFirst) {
+  EXPECT_NEAR(network_.stddev_m(26.0), config_.stddev_m + 26.0 * config_.stddev_per_m, 1e-9);
+  EXPECT_EQ(network_.stddev_m(0.0), network_.stddev_m(8.0));
+  EXPECT_EQ(network_.stddev_m(90.0), network_.stddev_m(48.0));
+  EXPECT_EQ(network_.pitch_gain(), 0.0);
+  EXPECT_NEAR(network_.correlation_m(), 10.0, 1e-9);
+}
+
+TEST_F(Network, LearnsItsDeviationByRange) {
+  for (int i = 0; i < 5000; ++i) {
+    const double range_m = range_m_(generator_);
+    network_.learn(view(range_m, true_stddev_m(range_m) * random()), 0.0);
+  }
+  for (const double range_m : {12.0, 18.0, 26.0, 36.0, 48.0})
+    EXPECT_NEAR(network_.stddev_m(range_m), true_stddev_m(range_m), 0.15 * true_stddev_m(range_m)) << range_m;
+}
+
+TEST_F(Network, AnOutlierCountsAsNoLargerThanALargeError) {
+  const double before_m = network_.stddev_m(26.0);
+  network_.learn(view(26.0, 50.0), 0.0);
+  EXPECT_LT(network_.stddev_m(26.0), 1.1 * before_m);
+}
+
+TEST_F(Network, StaysWithinItsBounds) {
+  for (int i = 0; i < 100000; ++i) network_.learn(view(26.0, 0.0), 0.0);
+  EXPECT_GE(network_.stddev_m(26.0), 0.02);
+  for (int i = 0; i < 100000; ++i) network_.learn(view(26.0, i % 2 == 0 ? 50.0 : -50.0), 0.0);
+  EXPECT_LE(network_.stddev_m(26.0), 1.0);
+}
+
+TEST_F(Network, APitchThatComesTrueIsTakenOut) {
+  for (int i = 0; i < 2000; ++i) {
+    const double stretched_m = 0.1 * random();
+    network_.learn(view(26.0, stretched_m + 0.05 * random(), stretched_m), 0.0);
+  }
+  EXPECT_GT(network_.pitch_gain(), 0.9);
+  EXPECT_NEAR(network_.stddev_m(26.0), 0.05, 0.01);  // of what is left
+}
+
+TEST_F(Network, APitchThatDoesNotComeTrueIsLeft) {
+  for (int i = 0; i < 2000; ++i) network_.learn(view(26.0, 0.05 * random(), 0.1 * random()), 0.0);
+  EXPECT_LT(network_.pitch_gain(), 0.1);
+}
+
+TEST_F(Network, LearnsHowLongItsErrorsLast) {
+  const double correlation_m = 20.0, distance_m = 8.0;
+  const double fading = NetworkModel::kShared * std::exp(-distance_m / correlation_m);
+  for (int i = 0; i < 20000; ++i) {
+    const double here = random(), there = fading * here + std::sqrt(1.0 - fading * fading) * random();
+    const FarView one = view(18.0, 0.05 * here), other = view(18.0 + distance_m, 0.08 * there);
+    network_.learn(one, other, 0.0);
+    network_.learn(one, 0.0);
+    network_.learn(other, 0.0);
+  }
+  EXPECT_NEAR(network_.correlation_m(), correlation_m, 3.0);
+}
+
+TEST_F(Network, ShowsWhatItLearned) {
+  const auto values = network_.learned();
+  ASSERT_EQ(values.size(), NetworkModel::kNodes_m.size() + 2);
+  EXPECT_EQ(values[0].first, "stddev_at_8_m");
+  EXPECT_EQ(values.back(), std::pair(std::string("pitch_gain"), 0.0));
+}
+
+TEST(Networks, EachSourceHasItsOwn) {
+  NetworkModels networks;
+  const auto front = networks.number("front", 1, {}), rear = networks.number("rear", 2, {});
+  EXPECT_NE(front, rear);
+  EXPECT_EQ(networks.number("front", 3, {}), front);
+  EXPECT_EQ(networks.find("front"), &networks.model(front));
+  EXPECT_EQ(networks.find("side"), nullptr);
+}
+
+TEST(Networks, TheOneThatWasNotHeardOfForLongestIsForgotten) {
+  NetworkModels networks;
+  for (int i = 0; i < 8; ++i) networks.number(std::to_string(i), static_cast<std::uint64_t>(i + 1), {});
+  networks.number("0", 9, {});
+  networks.number("another", 10, {});
+  EXPECT_NE(networks.find("0"), nullptr);
+  EXPECT_EQ(networks.find("1"), nullptr);
+  EXPECT_NE(networks.find("another"), nullptr);
+}
+
+}  // namespace
+}  // namespace laneloom
