@@ -19,6 +19,7 @@
 #include "mapping/lanes/unmarked_roads.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/lines/association.hpp"
+#include "mapping/lines/frame_alignment.hpp"
 #include "mapping/lines/frame_pitch.hpp"
 #include "mapping/lines/joints.hpp"
 #include "mapping/lines/line_evidence.hpp"
@@ -93,14 +94,18 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   auto detections = sample_detections(input.markings, fusion);
   const auto source = state.networks.number(input.frame.source, state.frame, fusion);
   const NetworkModel& network = state.networks.model(source);
-  const Viewpoint from{.T_map_body = input.T_map_body,
-                       .source = static_cast<std::uint32_t>(source),
-                       .correlation_m = network.correlation_m(),
-                       .stretch_per_m = estimate_stretch_per_m(detections, input.T_map_body),
-                       .pitch_gain = network.pitch_gain()};
+  Viewpoint from{.T_map_body = input.T_map_body,
+                 .source = static_cast<std::uint32_t>(source),
+                 .correlation_m = network.correlation_m(),
+                 .stretch_per_m = estimate_stretch_per_m(detections, input.T_map_body),
+                 .pitch_gain = network.pitch_gain(),
+                 .alignment_gain = network.alignment_gain()};
   unstretch(from.pitch_gain * from.stretch_per_m, input.T_map_body, detections);
+  LineMatcher matcher(lines, fusion);
+  from.error = align_frame(input.T_map_body, from.alignment_gain, fusion.confirm_log_odds, matcher,
+                           detections, state.lasting_error);
   weigh(network, origin, detections);
-  const auto matches = LineMatcher(lines, fusion).match(detections);
+  const auto matches = matcher.match(detections);
   mark_explained(matches, detections);
   count_joints(matches, lines, config.boundary.max_gap_m, state.joints);
   done(Stage::association);

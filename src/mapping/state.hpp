@@ -8,6 +8,7 @@
 #include "mapping/lanes/inferred_boundaries.hpp"
 #include "mapping/lanes/lane_identity.hpp"
 #include "mapping/lineage.hpp"
+#include "mapping/lines/frame_alignment.hpp"
 #include "mapping/lines/line_map.hpp"
 #include "mapping/lines/network_model.hpp"
 #include "mapping/markings/pair_history.hpp"
@@ -27,8 +28,9 @@ struct MapperState {
   CoObservation co_observation;
   Instances instances;
   std::vector<Line> lines;
-  PairHistories doubles;   ///< of lines that lie side by side
-  PairHistories joints;    ///< of lines that end at each other
+  PairHistories doubles;  ///< of lines that lie side by side
+  PairHistories joints;   ///< of lines that end at each other
+  FrameError lasting_error = FrameError::Zero();
   NetworkModels networks;  ///< what was learned of the sources
   std::vector<KnownInferred> known_inferred;
   std::vector<KnownLane> known_lanes;
@@ -39,8 +41,8 @@ struct MapperState {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, doubles, joints, networks, known_inferred,
-            known_lanes, ego_track, published, next_id, map);
+    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, networks,
+            known_inferred, known_lanes, ego_track, published, next_id, map);
   }
 };
 

@@ -13,29 +13,37 @@ constexpr double kDrift_m2_per_m = 1e-4;  // of the poses: keeps a station able 
 
 }  // namespace
 
-LateralFilter::LateralFilter(const LateralView& first) : seen_from_(first.seen_from) {
-  const double shared_m = std::sqrt(kShared) * first.stddev_m;
-  covariance_ << first.stddev_m * first.stddev_m, -shared_m, -shared_m, 1.0;
+LateralFilter::LateralFilter(const LateralView& first)
+    : seen_from_(first.seen_from), stddev_m_(first.stddev_m) {
+  const double variance_m2 = first.stddev_m * first.stddev_m, shared_m2 = kShared * variance_m2;
+  covariance_ << variance_m2, -shared_m2, -shared_m2, shared_m2;
+}
+
+void LateralFilter::predict(const LateralView& view) {
+  const double driven_m = (view.seen_from - seen_from_).norm();
+  // Of the error of a better view the worse one before had its share, and one of its own. It does not shrink
+  // in proportion: the filter would go on beyond what was seen, as the views have moved so far.
+  const double ratio = stddev_m_ > 0.0 ? std::min(1.0, view.stddev_m / stddev_m_) : 1.0;
+  const double kept = std::exp(-driven_m / view.correlation_m) * ratio;
+  error_m_ *= kept;
+  covariance_.row(1) *= kept;
+  covariance_.col(1) *= kept;
+  covariance_(0, 0) += kDrift_m2_per_m * driven_m;
+  covariance_(1, 1) += kShared * (view.stddev_m * view.stddev_m - kept * kept * stddev_m_ * stddev_m_);
+  seen_from_ = view.seen_from;
+  stddev_m_ = view.stddev_m;
 }
 
 double LateralFilter::update(const LateralView& view) {
-  const double driven_m = (view.seen_from - seen_from_).norm();
-  seen_from_ = view.seen_from;
-  const Eigen::Vector2d kept(1.0, std::exp(-driven_m / view.correlation_m));
-  error_ *= kept.y();
-  covariance_ = kept.asDiagonal() * covariance_ * kept.asDiagonal();
-  covariance_.diagonal() += Eigen::Vector2d(kDrift_m2_per_m * driven_m, 1.0 - kept.y() * kept.y());
-
-  const Eigen::RowVector2d model(1.0, std::sqrt(kShared) * view.stddev_m);
+  predict(view);
   const double noise_m2 = (1.0 - kShared) * view.stddev_m * view.stddev_m;
-  const Eigen::Vector2d covariance = covariance_ * model.transpose();
-  const double surprise_m = view.lateral_m - model.y() * error_;
-  Eigen::Vector2d gain = covariance / (model * covariance + noise_m2);
-  // It would extrapolate beyond a view that is much better than the one before.
+  const Eigen::Vector2d covariance = covariance_.rowwise().sum();  // with what is seen: place and error
+  Eigen::Vector2d gain = covariance / (covariance.sum() + noise_m2);
   gain.x() = std::clamp(gain.x(), 0.0, 1.0);
-  const Eigen::Matrix2d rest = Eigen::Matrix2d::Identity() - gain * model;
+  const Eigen::Matrix2d rest = Eigen::Matrix2d::Identity() - gain * Eigen::RowVector2d::Ones();
   covariance_ = rest * covariance_ * rest.transpose() + noise_m2 * gain * gain.transpose();
-  error_ += gain.y() * surprise_m;
+  const double surprise_m = view.lateral_m - error_m_;
+  error_m_ += gain.y() * surprise_m;
   return gain.x() * surprise_m;
 }
 

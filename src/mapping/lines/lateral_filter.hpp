@@ -8,8 +8,7 @@ namespace laneloom {
 struct LateralView {
   double lateral_m = 0.0;  ///< left of the place as it is known so far
   double stddev_m = 0.0;
-  double correlation_m =
-      1.0;  ///< over which the network's error becomes another one while the vehicle drives on
+  double correlation_m = 1.0;  ///< driven, over which the network's error becomes another one
   Eigen::Vector2d seen_from = Eigen::Vector2d::Zero();  ///< map frame
 };
 
@@ -28,13 +27,16 @@ class LateralFilter {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(error_, covariance_, seen_from_);
+    archive(error_m_, covariance_, seen_from_, stddev_m_);
   }
 
  private:
-  double error_ = 0.0;          ///< of the network, in standard deviations of a view
-  Eigen::Matrix2d covariance_;  ///< of the place, in metres, and of that error
+  void predict(const LateralView& view);
+
+  double error_m_ = 0.0;        ///< of the network
+  Eigen::Matrix2d covariance_;  ///< of the place and of that error
   Eigen::Vector2d seen_from_;   ///< of the last view
+  double stddev_m_;             ///< likewise
 };
 
 }  // namespace laneloom

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kMemory = 20000.0;    // views; those of neighbouring stations are hardly different ones
 constexpr double kPriorViews = 50.0;   // that the configured deviation counts for
-constexpr double kPriorPitch = 100.0;  // squared deviations that speak against any pitch
-constexpr double kPriorPairs = 100.0;  // that the fade below counts for
+constexpr double kPriorGain = 100.0;   // squared deviations that speak against any suspicion
+constexpr double kPriorPairs = 100.0;  // that the correlation below counts for
 constexpr double kPriorCorrelation_m = 10.0, kPriorDistance_m = 8.0;
 constexpr double kMinStddev_m = 0.02, kMaxStddev_m = 1.0;
 constexpr double kMinCorrelation_m = 2.0, kMaxCorrelation_m = 30.0;
@@ -33,6 +33,13 @@ Between between(double range_m) {
 void add(double value, double& sum) { sum += value - sum / kMemory; }
 
 }  // namespace
+
+double Gain::value() const { return std::clamp(effect_ / (evidence_ + kPriorGain), 0.0, 1.0); }
+
+void Gain::learn(double suspected, double proved) {
+  add(suspected * suspected, evidence_);
+  add(suspected * proved, effect_);
+}
 
 NetworkModel::NetworkModel(const FusionConfig& config)
     : pairs_(kPriorPairs),
@@ -57,21 +64,20 @@ double NetworkModel::correlation_m() const {
   return std::clamp(-distances_m_ / pairs_ / std::log(correlation), kMinCorrelation_m, kMaxCorrelation_m);
 }
 
-double NetworkModel::pitch_gain() const {
-  return std::clamp(pitch_effect_ / (pitch_evidence_ + kPriorPitch), 0.0, 1.0);
-}
-
 double NetworkModel::error_m(const FarView& view, double near_m) const {
   const double limit_m = kOutlier * stddev_m(view.range_m);
-  return std::clamp(view.lateral_m - pitch_gain() * view.stretched_m - near_m, -limit_m, limit_m);
+  return std::clamp(
+      view.lateral_m - near_m - pitch_gain() * view.stretched_m - alignment_gain() * view.misplaced_m,
+      -limit_m, limit_m);
 }
 
 void NetworkModel::learn(const FarView& view, double near_m) {
   const double stddev_m = this->stddev_m(view.range_m), error_m = this->error_m(view, near_m);
-  // What is left is regressed, too: so an outlier counts as no larger for the pitch either.
-  const double explained_m = error_m + pitch_gain() * view.stretched_m;
-  add(view.stretched_m * view.stretched_m / (stddev_m * stddev_m), pitch_evidence_);
-  add(view.stretched_m * explained_m / (stddev_m * stddev_m), pitch_effect_);
+  // Each explains what the other one leaves.
+  const double stretched = view.stretched_m / stddev_m, misplaced = view.misplaced_m / stddev_m;
+  const double left = error_m / stddev_m;
+  pitch_.learn(stretched, left + pitch_gain() * stretched);
+  alignment_.learn(misplaced, left + alignment_gain() * misplaced);
   const auto [node, share] = between(view.range_m);
   for (const auto& [i, weight] : {std::pair(node, 1.0 - share), {node + 1, share}}) {
     squares_m2_[i] += weight * (error_m * error_m - squares_m2_[i] / kMemory);
@@ -92,6 +98,7 @@ std::vector<std::pair<std::string, double>> NetworkModel::learned() const {
     values.emplace_back("stddev_at_" + std::to_string(std::lround(range_m)) + "_m", stddev_m(range_m));
   values.emplace_back("correlation_m", correlation_m());
   values.emplace_back("pitch_gain", pitch_gain());
+  values.emplace_back("alignment_gain", alignment_gain());
   return values;
 }
 

@@ -19,17 +19,35 @@ struct FarView {
   double range_m = 0.0;          ///< from where
   double lateral_m = 0.0;        ///< to the left of a mark that stays
   double stretched_m = 0.0;      ///< of these, how far the frame's pitch is suspected to have moved it
+  double misplaced_m = 0.0;      ///< likewise the frame's pose
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(source, range_m, lateral_m, stretched_m);
+    archive(source, range_m, lateral_m, stretched_m, misplaced_m);
   }
+};
+
+/// How much of what was suspected has proved true: a regression through 0.
+class Gain {
+ public:
+  /// 0 to 1; at first 0.
+  double value() const;
+  /// Both in standard deviations of what else moves the proof.
+  void learn(double suspected, double proved);
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(evidence_, effect_);
+  }
+
+ private:
+  double evidence_ = 0.0, effect_ = 0.0;
 };
 
 /// What the detections of one network have proved to be worth. Every place that is seen from far is seen
 /// again from near, which tells how wrong it was from far. From that is learned the standard deviation by
-/// range, over which distance driven an error becomes another one, and how much of a frame's suspected pitch
-/// is true.
+/// range, over which distance driven an error becomes another one, and how much is true of what whole frames
+/// are suspected of: a wrong pitch, a wrong pose.
 class NetworkModel {
  public:
   /// Share of a view's variance that fades; the rest is new in every frame.
@@ -45,7 +63,9 @@ class NetworkModel {
   /// Distance driven in which the correlation of the errors falls to 1/e.
   double correlation_m() const;
   /// Which share of a frame's suspected pitch is to be taken out: 0 to 1.
-  double pitch_gain() const;
+  double pitch_gain() const { return pitch_.value(); }
+  /// Likewise of a frame's suspected error of the pose.
+  double alignment_gain() const { return alignment_.value(); }
 
   /// From near, the place of a view has proved to be at `near_m`.
   void learn(const FarView& view, double near_m);
@@ -57,7 +77,7 @@ class NetworkModel {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(views_, squares_m2_, pairs_, products_, distances_m_, pitch_evidence_, pitch_effect_);
+    archive(views_, squares_m2_, pairs_, products_, distances_m_, pitch_, alignment_);
   }
 
  private:
@@ -66,8 +86,8 @@ class NetworkModel {
   // Sums of what was seen, older views counting less.
   std::array<double, kNodes_m.size()> views_{}, squares_m2_{};  ///< at each range
   double pairs_ = 0.0, products_ = 0.0,
-         distances_m_ = 0.0;                          ///< of errors in deviations, and between the views
-  double pitch_evidence_ = 0.0, pitch_effect_ = 0.0;  ///< regression of the error on the suspicion
+         distances_m_ = 0.0;  ///< of errors in deviations, and between the views
+  Gain pitch_, alignment_;
 };
 
 /// The models of the sources of detections, by number. Of too many sources, the one that was not heard of for

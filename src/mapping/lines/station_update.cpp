@@ -55,11 +55,14 @@ void learn(const Observation& seen, const Viewpoint& from, Station& station, Net
   const double range_m = distance(station.position, from.T_map_body.translation());
   const double stretched_m =
       left_of(seen.direction).dot(stretched_by(from.stretch_per_m, station.position, from.T_map_body));
-  const double said_m = station.moved_m + seen.lateral_m + from.pitch_gain * stretched_m;
+  const double misplaced_m =
+      left_of(seen.direction).dot(shifted_by(from.error, station.position, from.T_map_body));
+  const double said_m =
+      station.moved_m + seen.lateral_m + from.pitch_gain * stretched_m + from.alignment_gain * misplaced_m;
   auto& views = station.far_views;
   if (range_m > kNear_m) {
     FarView& view = views[ring(range_m)];
-    if (view.source == FarView::kNone) view = {from.source, range_m, said_m, stretched_m};
+    if (view.source == FarView::kNone) view = {from.source, range_m, said_m, stretched_m, misplaced_m};
     return;
   }
   for (std::size_t i = 0; i < views.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mapping/lines/association.hpp"
+#include "mapping/lines/frame_alignment.hpp"
 #include "mapping/lines/line_map.hpp"
 #include "mapping/lines/network_model.hpp"
 
@@ -13,10 +14,12 @@ namespace laneloom {
 /// From where a frame was seen, by which network, and what is known of its error.
 struct Viewpoint {
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
-  std::uint32_t source = 0;    ///< number of the network
-  double correlation_m = 1.0;  ///< of its errors
-  double stretch_per_m = 0.0;  ///< suspected of this frame, see estimate_stretch_per_m()
-  double pitch_gain = 0.0;     ///< how much of that was taken out
+  std::uint32_t source = 0;               ///< number of the network
+  double correlation_m = 1.0;             ///< of its errors
+  double stretch_per_m = 0.0;             ///< suspected of this frame, see estimate_stretch_per_m()
+  double pitch_gain = 0.0;                ///< how much of that was taken out
+  FrameError error = FrameError::Zero();  ///< suspected of the frame's pose
+  double alignment_gain = 0.0;            ///< how much of that was taken out
 };
 
 /// What a frame says of a station.

@@ -68,6 +68,17 @@ TEST_F(Network, APitchThatDoesNotComeTrueIsLeft) {
   EXPECT_LT(network_.pitch_gain(), 0.1);
 }
 
+TEST_F(Network, ThePoseIsBelievedAsFarAsItComesTrueBesideThePitch) {
+  for (int i = 0; i < 4000; ++i) {
+    FarView seen = view(26.0, 0.05 * random(), 0.1 * random());
+    seen.misplaced_m = 0.1 * random();
+    seen.lateral_m += 0.5 * seen.misplaced_m + seen.stretched_m;
+    network_.learn(seen, 0.0);
+  }
+  EXPECT_GT(network_.pitch_gain(), 0.9);
+  EXPECT_NEAR(network_.alignment_gain(), 0.5, 0.06);
+}
+
 TEST_F(Network, LearnsHowLongItsErrorsLast) {
   const double correlation_m = 20.0, distance_m = 8.0;
   const double fading = NetworkModel::kShared * std::exp(-distance_m / correlation_m);
@@ -83,9 +94,9 @@ TEST_F(Network, LearnsHowLongItsErrorsLast) {
 
 TEST_F(Network, ShowsWhatItLearned) {
   const auto values = network_.learned();
-  ASSERT_EQ(values.size(), NetworkModel::kNodes_m.size() + 2);
+  ASSERT_EQ(values.size(), NetworkModel::kNodes_m.size() + 3);
   EXPECT_EQ(values[0].first, "stddev_at_8_m");
-  EXPECT_EQ(values.back(), std::pair(std::string("pitch_gain"), 0.0));
+  EXPECT_EQ(values.back(), std::pair(std::string("alignment_gain"), 0.0));
 }
 
 TEST(Networks, EachSourceHasItsOwn) {

@@ -1,0 +1,104 @@
+#include "mapping/lines/frame_alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace laneloom {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kLasting = 0.02;      // share of a new frame in what lasts: 5 s at 10 Hz
+constexpr double kLineStddev_m = 0.2;  // of one line's own error, which its samples have in common
+constexpr double kOutlier_m = 0.15;    // from which a line says little of the frame
+constexpr int kRounds = 3;             // of weighing the lines anew
+constexpr std::size_t kStride = 4;     // between the samples that are looked at
+const FrameError kExpected{0.3, 0.03, 0.6 * kDegree};  // standard deviations
+const FrameError kLimit{0.5, 0.3, 2.0 * kDegree};
+
+/// One sample's say: lateral_m = row * error.
+struct Equation {
+  Eigen::RowVector3d row;
+  double lateral_m;
+};
+
+Eigen::Matrix2d heading_of(const Eigen::Isometry3d& T_map_body) {
+  const Eigen::Vector2d ahead = T_map_body.linear().col(0).head<2>().normalized();
+  return (Eigen::Matrix2d() << ahead.x(), -ahead.y(), ahead.y(), ahead.x()).finished();
+}
+
+std::size_t station_of(const SampleMatch& match, const Line& line) {
+  const auto last = static_cast<double>(line.stations.size() - 1);
+  return static_cast<std::size_t>(std::lround(std::clamp(match.foot.index, 0.0, last)));
+}
+
+std::vector<Equation> equations(const LineMatch& match, const SampledDetection& detection, const Line& line,
+                                const Eigen::Isometry3d& T_map_body, double min_log_odds) {
+  const Eigen::Matrix2d R_map_body = heading_of(T_map_body);
+  std::vector<Equation> rows;
+  rows.reserve(match.samples.size());
+  for (const SampleMatch& sample : match.samples) {
+    const std::size_t k = station_of(sample, line);
+    if (!sample.foot.inside || line.stations[k].log_odds < min_log_odds) continue;
+    const Eigen::Vector2d along = R_map_body.transpose() * direction_at(line, k);
+    const Eigen::Vector2d normal(-along.y(), along.x());
+    const Point& point = detection.samples[sample.sample];
+    const Eigen::Vector2d arm = R_map_body.transpose() * (point - T_map_body.translation()).head<2>();
+    rows.push_back(
+        {{normal.x(), normal.y(), arm.x() * normal.y() - arm.y() * normal.x()}, sample.foot.lateral_m});
+  }
+  return rows;
+}
+
+double mean_residual_m(const std::vector<Equation>& rows, const FrameError& error) {
+  double sum_m = 0.0;
+  for (const Equation& equation : rows) sum_m += equation.lateral_m - equation.row * error;
+  return sum_m / static_cast<double>(rows.size());
+}
+
+}  // namespace
+
+FrameError estimate_error(const std::vector<LineMatch>& matches,
+                          const std::vector<SampledDetection>& detections, const std::vector<Line>& lines,
+                          const Eigen::Isometry3d& T_map_body, double min_log_odds) {
+  std::vector<std::vector<Equation>> by_line;
+  by_line.reserve(matches.size());
+  for (const LineMatch& match : matches) {
+    auto rows = equations(match, detections[match.detection], lines[match.line], T_map_body, min_log_odds);
+    if (!rows.empty()) by_line.push_back(std::move(rows));
+  }
+  FrameError error = FrameError::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d information = kExpected.array().square().inverse().matrix().asDiagonal();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& rows : by_line) {
+      const double misfit = mean_residual_m(rows, error) / kOutlier_m;
+      const double weight = 1.0 / (kLineStddev_m * kLineStddev_m * (1.0 + misfit * misfit));
+      for (const auto& [row, lateral_m] : rows) {
+        information += weight / static_cast<double>(rows.size()) * row.transpose() * row;
+        sum += weight / static_cast<double>(rows.size()) * lateral_m * row.transpose();
+      }
+    }
+    error = information.ldlt().solve(sum);
+  }
+  return error;
+}
+
+Eigen::Vector2d shifted_by(const FrameError& error, const Point& point, const Eigen::Isometry3d& T_map_body) {
+  const Eigen::Vector2d arm = (point - T_map_body.translation()).head<2>();
+  return heading_of(T_map_body) * error.head<2>() + error.z() * Eigen::Vector2d(-arm.y(), arm.x());
+}
+
+FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, double min_log_odds,
+                       LineMatcher& matcher, std::vector<SampledDetection>& detections, FrameError& lasting) {
+  const FrameError error = estimate_error(matcher.match(detections, kStride), detections, matcher.lines(),
+                                          T_map_body, min_log_odds);
+  const FrameError passing = (error - lasting).cwiseMin(kLimit).cwiseMax(-kLimit);
+  lasting += kLasting * (error - lasting);
+  for (SampledDetection& detection : detections)
+    for (Point& point : detection.samples) point.head<2>() -= shifted_by(gain * passing, point, T_map_body);
+  return passing;
+}
+
+}  // namespace laneloom
