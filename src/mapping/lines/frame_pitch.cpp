@@ -12,7 +12,7 @@ namespace {
 constexpr double kFurthest_m = 60.0;       // ahead; further samples say little
 constexpr double kMinLength_m = 8.0;       // ahead, of a line that says something
 constexpr double kMaxSlope = 0.5;          // of a line that runs ahead
-constexpr double kExpected_per_m = 0.003;  // standard deviation of the stretch
+constexpr double kExpected_per_m = 0.006;  // standard deviation of the stretch
 constexpr double kLimit_per_m = 0.012;
 constexpr double kStddevPer_m2 = 0.0003;  // of a sample: grows with the square of its distance
 constexpr double kStddev_m = 0.03;

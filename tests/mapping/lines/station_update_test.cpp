@@ -31,6 +31,7 @@ class StationUpdate : public ::testing::Test {
 };
 
 TEST_F(StationUpdate, MovesToTheSideOnly) {
+  station_.lateral = LateralFilter({.stddev_m = 0.1});
   observe({.direction = {0, 1}, .lateral_m = 0.4, .height_m = 0.2, .stddev_m = 0.1}, {}, station_);
   EXPECT_LT(station_.position.x(), -0.1);
   EXPECT_EQ(station_.position.y(), 0.0);
