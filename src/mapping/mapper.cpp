@@ -24,6 +24,7 @@
 #include "mapping/lines/joints.hpp"
 #include "mapping/lines/line_evidence.hpp"
 #include "mapping/lines/line_fusion.hpp"
+#include "mapping/lines/line_growth.hpp"
 #include "mapping/lines/line_merging.hpp"
 #include "mapping/lines/line_publishing.hpp"
 #include "mapping/markings/preprocess.hpp"

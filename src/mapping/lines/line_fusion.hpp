@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/geometry/local_range.hpp"
 #include "mapping/lines/association.hpp"
 #include "mapping/lines/line_map.hpp"
 #include "mapping/lines/station_update.hpp"
@@ -17,15 +16,5 @@ namespace laneloom {
 void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
                   const Viewpoint& from, const FusionConfig& config, NetworkModels& networks,
                   std::vector<Line>& lines);
-
-/// Continues lines where a detection runs on beyond their ends, as far as the range goes.
-void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, const LocalRange& range,
-                  const FusionConfig& config, std::vector<SampledDetection>& detections,
-                  std::vector<Line>& lines);
-
-/// New lines from what no line explains.
-void create_lines(const std::vector<SampledDetection>& detections, const Point& origin, std::int64_t stamp_ns,
-                  const LocalRange& range, const FusionConfig& config, std::vector<Line>& lines,
-                  ElementId& next_id);
 
 }  // namespace laneloom

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mapping/lines/line_evidence.hpp"
+#include "mapping/lines/line_growth.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
