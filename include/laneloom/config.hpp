@@ -130,20 +130,20 @@ struct FusionConfig {
       0.1;              ///< of what lasts from far to near: it does not average out, and is not learned
   double fade_m = 5.0;  ///< over which an extension is faded to the line
   // Evidence that a line exists at a station, as log odds.
-  double birth_log_odds = -4.0;
-  double extension_log_odds = -1.0;
-  double hit_log_odds = 0.4;    ///< gained by an observation of confidence 0.5
-  double miss_log_odds = 0.25;  ///< lost in a frame that should have seen it, at the vehicle
-  double miss_range_m = 60.0;   ///< where a miss says nothing any more
+  double birth_log_odds = -1.5;
+  double extension_log_odds = -0.5;
+  double hit_log_odds = 0.4;   ///< gained by an observation of confidence 0.5
+  double miss_log_odds = 0.1;  ///< a miss counts so much, times the log of how seldom the network misses
   double max_log_odds = 6.0;
-  double min_log_odds = -4.0;  ///< below, a station is taken away
-  double publish_log_odds = 0.0;
+  double min_log_odds = -4.0;     ///< below, a station is taken away
+  double extent_log_odds = -1.0;  ///< a line reaches to the last station with as much
+  double publish_log_odds = 0.5;  ///< of the line, from which it is published
   double confirm_log_odds = 2.0;
   double existence_at_publish = 0.45;  ///< probability that a line exists whose evidence is publish_log_odds
   double existence_at_max = 0.99;      ///< and one whose evidence is max_log_odds
   double min_birth_length_m = 2.0;
   double min_length_m = 2.0;      ///< of what is published
-  double merge_distance_m = 0.9;  ///< lines closer than this that are not seen together are one
+  double merge_distance_m = 1.0;  ///< lines closer than this that are not seen together are one
 };
 
 struct MapperConfig {

@@ -69,8 +69,8 @@ void visit(auto& v, Is<PolylineConfig> auto& c) {
 void visit(auto& v, Is<FusionConfig> auto& c) {
   auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, learn, stddev_m,
          stddev_per_m, bias_stddev_m, fade_m, birth_log_odds, extension_log_odds, hit_log_odds, miss_log_odds,
-         miss_range_m, max_log_odds, min_log_odds, publish_log_odds, confirm_log_odds, existence_at_publish,
-         existence_at_max, min_birth_length_m, min_length_m, merge_distance_m] = c;
+         max_log_odds, min_log_odds, extent_log_odds, publish_log_odds, confirm_log_odds,
+         existence_at_publish, existence_at_max, min_birth_length_m, min_length_m, merge_distance_m] = c;
   v.number("sample_step_m", sample_step_m, "m", 0.1, 2);
   v.number("station_spacing_m", station_spacing_m, "m", 0.2, 2);
   v.number("gate_m", gate_m, "m", 0.1, 2);
@@ -85,9 +85,9 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("extension_log_odds", extension_log_odds, "", -10, 10);
   v.number("hit_log_odds", hit_log_odds, "", 0.01, 5);
   v.number("miss_log_odds", miss_log_odds, "", 0, 5);
-  v.number("miss_range_m", miss_range_m, "m", 1, 1000);
   v.number("max_log_odds", max_log_odds, "", 0, 20);
   v.number("min_log_odds", min_log_odds, "", -20, 0);
+  v.number("extent_log_odds", extent_log_odds, "", -20, 20);
   v.number("publish_log_odds", publish_log_odds, "", -10, 10);
   v.number("confirm_log_odds", confirm_log_odds, "", -10, 10);
   v.number("existence_at_publish", existence_at_publish, "", 0, 1);

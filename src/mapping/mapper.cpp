@@ -94,31 +94,35 @@ std::vector<Marking> fuse_lines(const Input& input, const MapperConfig& config, 
   auto& lines = state.lines;
   auto detections = sample_detections(input.markings, fusion);
   const auto source = state.networks.number(input.frame.source, state.frame, fusion);
-  const NetworkModel& network = state.networks.model(source);
+  Network& network = state.networks[source];
   Viewpoint from{.T_map_body = input.T_map_body,
                  .source = static_cast<std::uint32_t>(source),
-                 .correlation_m = network.correlation_m(),
+                 .correlation_m = network.lateral.correlation_m(),
                  .stretch_per_m = estimate_stretch_per_m(detections, input.T_map_body),
-                 .pitch_gain = network.pitch_gain(),
-                 .alignment_gain = network.alignment_gain()};
+                 .pitch_gain = network.lateral.pitch_gain(),
+                 .alignment_gain = network.lateral.alignment_gain()};
   unstretch(from.pitch_gain * from.stretch_per_m, input.T_map_body, detections);
   LineMatcher matcher(lines, fusion);
   from.error = align_frame(input.T_map_body, from.alignment_gain, fusion.confirm_log_odds, matcher,
                            detections, state.lasting_error);
-  weigh(network, origin, detections);
+  weigh(network.lateral, origin, detections);
   const auto matches = matcher.match(detections);
   mark_explained(matches, detections);
   count_joints(matches, lines, config.boundary.max_gap_m, state.joints);
   done(Stage::association);
   fuse_matches(matches, detections, from, fusion, state.networks, lines);
-  discount_unobserved({input.T_map_body.inverse(), &input.frame}, input.range, fusion, lines);
+  const View view{input.T_map_body.inverse(), &input.frame, network.standpoint.news(origin)};
+  credit_observed(view, matches, detections, fusion, network.detection, lines);
+  discount_unobserved(view, input.range, fusion, network.detection, lines);
   done(Stage::line_update);
   extend_lines(matches, origin, input.range, fusion, detections, lines);
-  create_lines(detections, origin, input.frame.stamp_ns, input.range, fusion, lines, state.next_id);
+  create_lines(detections, origin, input.frame.stamp_ns, input.range, fusion, network.detection, lines,
+               state.next_id);
   relatives = merge_doubles(fusion, lines, state.doubles);
-  std::ranges::copy(prune_lines(input.range, fusion, lines, state.next_id), std::back_inserter(relatives));
+  std::ranges::copy(prune_lines(input.range, fusion, network.detection, lines, state.next_id),
+                    std::back_inserter(relatives));
   done(Stage::line_set);
-  auto markings = publish_lines(lines, config);
+  auto markings = publish_lines(lines, state.doubles, config);
   done(Stage::polylines);
   return markings;
 }
@@ -199,8 +203,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
 const LocalMap& Mapper::map() const { return state_->map; }
 
 std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& source) const {
-  const NetworkModel* network = state_->networks.find(source);
-  return network != nullptr ? network->learned() : std::vector<std::pair<std::string, double>>{};
+  const Network* network = state_->networks.find(source);
+  return network != nullptr ? network->lateral.learned() : std::vector<std::pair<std::string, double>>{};
 }
 
 void Mapper::reset() {

@@ -10,7 +10,7 @@
 #include "mapping/lineage.hpp"
 #include "mapping/lines/frame_alignment.hpp"
 #include "mapping/lines/line_map.hpp"
-#include "mapping/lines/network_model.hpp"
+#include "mapping/lines/networks.hpp"
 #include "mapping/markings/pair_history.hpp"
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/voxels/co_observation.hpp"
@@ -29,9 +29,9 @@ struct MapperState {
   Instances instances;
   std::vector<Line> lines;
   PairHistories doubles;  ///< of lines that lie side by side
-  PairHistories joints;   ///< of lines that end at each other
+  PairHistories joints;   ///< of ends of lines that lie near each other
   FrameError lasting_error = FrameError::Zero();
-  NetworkModels networks;  ///< what was learned of the sources
+  Networks networks;  ///< what was learned of the sources
   std::vector<KnownInferred> known_inferred;
   std::vector<KnownLane> known_lanes;
   EgoTrack ego_track;

@@ -34,10 +34,9 @@ const Point& end_point(const Marking& marking, bool at_back) {
   return at_back ? marking.points.back() : marking.points.front();
 }
 
-/// Whether the two ends face each other, close and aligned.
-bool can_join(const Marking& a, bool a_back, const Marking& b, bool b_back, const BoundaryConfig& config) {
+/// Whether the two ends face each other.
+bool are_aligned(const Marking& a, bool a_back, const Marking& b, bool b_back, const BoundaryConfig& config) {
   const Eigen::Vector2d gap = (end_point(b, b_back) - end_point(a, a_back)).head<2>();
-  if (gap.norm() > config.max_gap_m || !same_level(end_point(a, a_back), end_point(b, b_back))) return false;
   const Eigen::Vector2d leaving = end_direction(a.points, a_back);
   const Eigen::Vector2d entering = -end_direction(b.points, b_back);
   const double max_angle_deg = gap.norm() < kMeeting_m ? kMaxBend_deg : config.max_angle_deg;
@@ -53,10 +52,14 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHi
       if (lines[i].type != lines[j].type) continue;
       for (const bool i_back : {false, true}) {
         for (const bool j_back : {false, true}) {
-          if (!can_join(lines[i], i_back, lines[j], j_back, config)) continue;
-          if (are_separate(joints, lines[i].id, lines[j].id)) continue;
-          const double gap_m = (end_point(lines[j], j_back) - end_point(lines[i], i_back)).head<2>().norm();
-          joins.push_back({gap_m, {i, i_back}, {j, j_back}});
+          const Point &a = end_point(lines[i], i_back), &b = end_point(lines[j], j_back);
+          const double gap_m = (b - a).head<2>().norm();
+          if (gap_m > config.max_gap_m || !same_level(a, b)) continue;
+          const PairHistory* joint = find(joints, end_id(lines[i].id, i_back), end_id(lines[j].id, j_back));
+          if (joint != nullptr && seen_apart(*joint)) continue;
+          const bool one = joint != nullptr && seen_together(*joint);
+          if (one || are_aligned(lines[i], i_back, lines[j], j_back, config))
+            joins.push_back({gap_m, {i, i_back}, {j, j_back}});
         }
       }
     }

@@ -25,7 +25,8 @@ const LaneBoundary& boundary_of(const std::vector<LaneBoundary>& boundaries, Ele
 void reverse(LaneBoundary& boundary);
 
 /// Groups lanelines and roadedges, respectively, whose end points are close and aligned into continuous
-/// boundaries (paper, Sec. III-D-1), but those that are known to be separate. The nearest ends are joined
+/// boundaries (paper, Sec. III-D-1), but those that are known to be separate. Close ends that detections ran
+/// through are joined at any angle: round a hairpin or the tip of an island. The nearest ends are joined
 /// first, each end once. By ascending id; stoplines are left out.
 std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
                                           const BoundaryConfig& config);

@@ -59,8 +59,8 @@ void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>
         if ((ends[i].at[end_i] - ends[j].at[end_j]).squaredNorm() > max_gap_m * max_gap_m) continue;
         const bool one = shared(views[i][end_i], views[j][end_j]);
         const bool two = !one && !views[i][end_i].empty() && !views[j][end_j].empty();
-        counted.push_back(continued(joints, lines[i].id, lines[j].id, one, two));
-        break;
+        counted.push_back(
+            continued(joints, end_id(lines[i].id, end_i == 1), end_id(lines[j].id, end_j == 1), one, two));
       }
     }
   }

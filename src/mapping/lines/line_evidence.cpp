@@ -1,11 +1,15 @@
 #include "mapping/lines/line_evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace laneloom {
 namespace {
+
+constexpr std::size_t kMaxLines = 256;  // a flood of ghosts must not make frames slow
+constexpr std::array kMilestones{8.0, 16.0, 32.0, 64.0};
 
 /// By crossings of a ray (even-odd).
 bool contains(const Polyline& polygon, const Point& point) {
@@ -20,6 +24,8 @@ bool contains(const Polyline& polygon, const Point& point) {
 
 }  // namespace
 
+bool View::unlimited() const { return frame->field_of_view.empty() && frame->occluded_areas.empty(); }
+
 bool View::sees(const Point& point_map, MarkingType type, const LocalRange& range) const {
   const auto& types = frame->detected_types;
   if (!types.empty() && std::ranges::find(types, type) == types.end()) return false;
@@ -30,14 +36,89 @@ bool View::sees(const Point& point_map, MarkingType type, const LocalRange& rang
                                          [&](const Polyline& area) { return contains(area, point); });
 }
 
+double existence(std::span<const Station> stations, const Confidences& confidences) {
+  double sum = 0.0;
+  for (const Station& station : stations) sum += station.log_odds;
+  return sum / static_cast<double>(stations.size()) + confidences.log_odds;
+}
+
+namespace {
+
+double mean_range_m(const SampledDetection& detection, const Point& origin) {
+  double sum_m = 0.0;
+  for (const Point& sample : detection.samples) sum_m += (sample - origin).head<2>().norm();
+  return sum_m / static_cast<double>(detection.samples.size());
+}
+
+/// By how often it was seen alone.
+bool is_established(const Line& line, const FusionConfig& config) {
+  return existence(line.stations, {}) >= config.confirm_log_odds;
+}
+
+double hit(const SampledDetection& detection, const FusionConfig& config) {
+  return config.hit_log_odds * 4.0 * detection.confidence * detection.confidence;
+}
+
+/// Raises the stations that the match observed.
+void credit_stations(const LineMatch& match, double log_odds, const FusionConfig& config, Line& line) {
+  const auto [lowest, highest] =
+      std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });
+  const auto last = static_cast<double>(line.stations.size() - 1);
+  const auto begin = static_cast<std::size_t>(std::lround(std::clamp(lowest.foot.index, 0.0, last)));
+  const auto end = static_cast<std::size_t>(std::lround(std::clamp(highest.foot.index, 0.0, last)));
+  for (std::size_t k = begin; k <= end; ++k) {
+    Station& station = line.stations[k];
+    if (station.sight == Sight::observed)
+      station.log_odds = std::min(station.log_odds + log_odds, config.max_log_odds);
+  }
+}
+
+/// Counts at which a line's confidences are looked at: each twice the one before.
+bool reaches_milestone(double count, double news) {
+  return std::ranges::any_of(kMilestones, [=](double m) { return count < m && count + news >= m; });
+}
+
+}  // namespace
+
+void add_confidence(const SampledDetection& detection, const Point& origin, double news,
+                    const DetectionModel& model, Line& line) {
+  if (!model.knows_confidences()) return;
+  const double range_m = mean_range_m(detection, origin);
+  line.confidences.add(model.surplus(line.type(), range_m, detection.confidence), news);
+  line.confidences.log_odds = model.log_odds(line.type(), line.confidences);
+}
+
+void credit_observed(const View& view, const std::vector<LineMatch>& matches,
+                     const std::vector<SampledDetection>& detections, const FusionConfig& config,
+                     DetectionModel& model, std::vector<Line>& lines) {
+  const Point origin = view.T_body_map.inverse().translation();
+  for (const LineMatch& match : matches) {
+    const SampledDetection& detection = detections[match.detection];
+    Line& line = lines[match.line];
+    credit_stations(match, view.news * hit(detection, config), config, line);
+    if (is_established(line, config)) {
+      model.learn_confidence(line.type(), mean_range_m(detection, origin), detection.confidence);
+      if (reaches_milestone(line.confidences.count, view.news)) model.learn_right(line.confidences);
+    }
+    add_confidence(detection, origin, view.news, model, line);
+  }
+}
+
 void discount_unobserved(const View& view, const LocalRange& range, const FusionConfig& config,
-                         std::vector<Line>& lines) {
+                         DetectionModel& model, std::vector<Line>& lines) {
   for (Line& line : lines) {
+    const MarkingType type = line.type();
+    const bool established = is_established(line, config);
     for (Station& station : line.stations) {
-      if (station.sight == Sight::observed || !view.sees(station.position, line.type(), range)) continue;
-      station.sight = Sight::missed;
-      const double range_m = (view.T_body_map * station.position).head<2>().norm();
-      station.log_odds -= config.miss_log_odds * std::max(0.0, 1.0 - range_m / config.miss_range_m);
+      const Point place = view.T_body_map * station.position;
+      const bool seen = station.sight == Sight::observed;
+      const bool in_view = view.sees(station.position, type, range);
+      const bool could_see = seen || in_view || view.unlimited();
+      if (established && could_see && station.log_odds >= config.confirm_log_odds)
+        model.learn_rate(type, place, seen);
+      if (seen || !could_see) continue;
+      if (in_view) station.sight = Sight::missed;
+      station.log_odds += view.news * config.miss_log_odds * std::log(1.0 - model.rate(type, place));
     }
   }
 }
@@ -66,15 +147,29 @@ std::vector<Line> living_pieces(Line& line, const LocalRange& range, const Fusio
   return pieces;
 }
 
+void forget_least_believed(std::vector<Line>& lines) {
+  if (lines.size() <= kMaxLines) return;
+  const auto belief = [](const Line& line) { return existence(line.stations, line.confidences); };
+  std::vector<double> beliefs(lines.size());
+  std::ranges::transform(lines, beliefs.begin(), belief);
+  std::ranges::sort(beliefs, std::ranges::greater{});
+  std::erase_if(lines, [&](const Line& line) { return belief(line) <= beliefs[kMaxLines]; });
+}
+
 }  // namespace
 
-std::vector<Relative> prune_lines(const LocalRange& range, const FusionConfig& config,
+std::vector<Relative> prune_lines(const LocalRange& range, const FusionConfig& config, DetectionModel& model,
                                   std::vector<Line>& lines, ElementId& next_id) {
   std::vector<Line> kept, cut_off;
   std::vector<Relative> relatives;
   for (Line& line : lines) {
+    const bool leaves =
+        std::ranges::any_of(line.stations, [&](const Station& s) { return !range.keeps(s.position); });
     std::vector<Line> pieces = living_pieces(line, range, config);
-    if (pieces.empty()) continue;
+    if (pieces.empty()) {
+      if (!leaves) model.learn_wrong(line.type(), line.confidences);
+      continue;
+    }
     const auto longest =
         std::ranges::max_element(pieces, {}, [](const Line& piece) { return piece.stations.size(); });
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
@@ -87,6 +182,7 @@ std::vector<Relative> prune_lines(const LocalRange& range, const FusionConfig& c
   }
   lines = std::move(kept);
   std::ranges::move(cut_off, std::back_inserter(lines));
+  forget_least_believed(lines);
   return relatives;
 }
 

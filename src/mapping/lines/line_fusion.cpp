@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kTypeMemory = 0.98;  // per observation: the border of a road may become another
 
-double hit(const SampledDetection& detection, const FusionConfig& config) {
-  return config.hit_log_odds * 4.0 * detection.confidence * detection.confidence;
-}
-
 /// Whether a detection was seen on a line from the one sample to the next that matched.
 bool is_seen_through(const SampleMatch& from, const SampleMatch& to) {
   return to.sample <= from.sample + 2 && is_led_through(from, to);
@@ -66,14 +62,13 @@ class Observations {
 };
 
 void fuse(const LineMatch& match, const SampledDetection& detection, const Viewpoint& from,
-          const FusionConfig& config, NetworkModels& networks, Line& line) {
+          const FusionConfig& config, Networks& networks, Line& line) {
   Observations seen(detection, line);
   seen.gather(match.samples);
   for (const Observation& observation : seen.all()) {
     Station& station = line.stations[observation.station];
     if (config.learn) learn(observation, from, station, networks);
     observe(observation, from, station);
-    station.log_odds = std::min(station.log_odds + hit(detection, config), config.max_log_odds);
     station.style_votes[index(detection.style)] += 1.0;
   }
   for (double& votes : line.type_votes) votes *= kTypeMemory;
@@ -84,7 +79,7 @@ void fuse(const LineMatch& match, const SampledDetection& detection, const Viewp
 }  // namespace
 
 void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
-                  const Viewpoint& from, const FusionConfig& config, NetworkModels& networks,
+                  const Viewpoint& from, const FusionConfig& config, Networks& networks,
                   std::vector<Line>& lines) {
   for (Line& line : lines)
     for (Station& station : line.stations) station.sight = Sight::out_of_view;

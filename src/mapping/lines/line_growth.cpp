@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mapping/lines/line_evidence.hpp"
 #include "mapping/lines/station_update.hpp"
 
 namespace laneloom {
@@ -14,20 +15,32 @@ double min_spacing(bool is_last, const FusionConfig& config) {
   return is_last ? 0.5 * config.station_spacing_m : config.station_spacing_m - 0.5 * config.sample_step_m;
 }
 
+/// Whether a detection has not yet left the end of `line` with its sample `i`: it lies behind the end, and
+/// the detection runs on towards it. Beyond a sharp tip it lies behind, too, but runs away.
+bool is_before_end(const std::vector<std::size_t>& ahead, std::size_t i, const SampledDetection& detection,
+                   const Line& line) {
+  const Point& sample = detection.samples[ahead[i]];
+  const Eigen::Vector2d direction = direction_at(line, line.stations.size() - 1);
+  if ((sample - line.stations.back().position).head<2>().dot(direction) > 0.0) return false;
+  if (i + 1 == ahead.size()) return true;
+  return (detection.samples[ahead[i + 1]] - sample).head<2>().dot(direction) > 0.0;
+}
+
 /// Appends stations at the back of `line` along `ahead`, the samples that follow. The step between the fused
 /// end and this one detection fades out.
 void extend_back(const std::vector<std::size_t>& ahead, const Point& step, const Point& origin,
                  const SampledDetection& detection, const FusionConfig& config, Line& line) {
   const Point& first = detection.samples[ahead.front()];
-  for (const std::size_t i : ahead) {
-    const Point& sample = detection.samples[i];
-    const Point& end = line.stations.back().position;
+  bool left_end = false;
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    const Point& sample = detection.samples[ahead[i]];
     const double run_m = (sample - first).head<2>().norm();
     const Point corrected = sample - step * std::max(0.0, 1.0 - run_m / config.fade_m);
-    const Eigen::Vector2d gap = (corrected - end).head<2>();
-    const Eigen::Vector2d direction = direction_at(line, line.stations.size() - 1);
-    if (gap.norm() < min_spacing(i == ahead.back(), config) || gap.dot(direction) <= 0.0) continue;
-    line.stations.push_back(new_station(corrected, origin, detection, i, config.extension_log_odds));
+    const double gap_m = (corrected - line.stations.back().position).head<2>().norm();
+    if (gap_m < min_spacing(i + 1 == ahead.size(), config)) continue;
+    if (!left_end && is_before_end(ahead, i, detection, line)) continue;
+    left_end = true;
+    line.stations.push_back(new_station(corrected, origin, detection, ahead[i], config.extension_log_odds));
   }
 }
 
@@ -86,8 +99,8 @@ void extend_lines(const std::vector<LineMatch>& matches, const Point& origin, co
 }
 
 void create_lines(const std::vector<SampledDetection>& detections, const Point& origin, std::int64_t stamp_ns,
-                  const LocalRange& range, const FusionConfig& config, std::vector<Line>& lines,
-                  ElementId& next_id) {
+                  const LocalRange& range, const FusionConfig& config, const DetectionModel& model,
+                  std::vector<Line>& lines, ElementId& next_id) {
   for (const SampledDetection& detection : detections) {
     const std::size_t count = detection.samples.size();
     for (std::size_t begin = 0; begin < count;) {
@@ -106,6 +119,7 @@ void create_lines(const std::vector<SampledDetection>& detections, const Point& 
       if (line.stations.size() >= 2 && length_m >= config.min_birth_length_m) {
         line.id = next_id++;
         line.type_votes[index(detection.type)] = static_cast<double>(end - begin);
+        add_confidence(detection, origin, 1.0, model, line);
         lines.push_back(std::move(line));
       }
       begin = std::max(end, begin + 1);

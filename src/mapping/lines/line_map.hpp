@@ -20,7 +20,7 @@ enum class Sight : std::uint8_t { out_of_view, missed, observed };
 struct Station {
   Point position = Point::Zero();  ///< map frame
   LateralFilter lateral;           ///< how well it is known
-  double log_odds = 0.0;           ///< that the line exists here
+  double log_odds = 0.0;           ///< that the line is there, by how often it was seen
   StyleVotes style_votes{};
   double moved_m = 0.0;                                            ///< to the left, since it was born
   std::array<FarView, NetworkModel::kNodes_m.size()> far_views{};  ///< the first one at each range
@@ -32,6 +32,22 @@ struct Station {
   }
 };
 
+/// The confidences with which a line was detected.
+struct Confidences {
+  double count = 0.0;     ///< of independent views
+  double mean = 0.0;      ///< surplus over the confidences of established lines
+  double log_odds = 0.0;  ///< what they say of the line's existence
+
+  void add(double surplus, double news) {
+    count += news;
+    mean += news / count * (surplus - mean);
+  }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(count, mean, log_odds);
+  }
+};
+
 /// A marking that is followed over time.
 struct Line {
   ElementId id = kNoElement;
@@ -39,13 +55,14 @@ struct Line {
   std::array<double, kMarkingTypeCount> type_votes{};
   std::uint64_t observations = 0;
   std::int64_t first_seen_ns = 0;
+  Confidences confidences{};
 
   /// The most voted type; the first one of equals.
   MarkingType type() const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(id, stations, type_votes, observations, first_seen_ns);
+    archive(id, stations, type_votes, observations, first_seen_ns, confidences);
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
+#include "mapping/lines/line_evidence.hpp"
 
 namespace laneloom {
 namespace {
@@ -88,13 +89,12 @@ bool mostly_observed(const Line& line) {
   return count(Sight::observed) > count(Sight::missed);
 }
 
-double evidence(const Line& line, const FusionConfig& config) {
-  double sum = 0.0;
-  for (const Station& station : line.stations) sum += station.log_odds - config.min_log_odds;
-  return sum;
-}
-
 }  // namespace
+
+double weight(const Line& line, const FusionConfig& config) {
+  const double above = existence(line.stations, line.confidences) - config.min_log_odds;
+  return static_cast<double>(line.stations.size()) * std::max(0.0, above);
+}
 
 std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
                                     PairHistories& doubles) {
@@ -111,7 +111,7 @@ std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line
       kept.push_back(history);
       continue;
     }
-    const bool i_goes = evidence(lines[i], config) < evidence(lines[j], config);
+    const bool i_goes = weight(lines[i], config) < weight(lines[j], config);
     gone[i_goes ? i : j] = true;
     merged.push_back({lines[i_goes ? i : j].id, lines[i_goes ? j : i].id});
   }

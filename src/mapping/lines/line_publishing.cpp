@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/lines/line_evidence.hpp"
+#include "mapping/lines/line_merging.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom {
@@ -12,10 +15,10 @@ namespace {
 
 using Stations = std::span<const Station>;
 
-/// From the first to the last place with enough evidence. What is weak in between has been seen and is about
+/// From the first to the last place where the line may be. What is weak in between has been seen and is about
 /// to be seen again, or else the line is cut there.
 Stations published_stretch(const Line& line, const FusionConfig& config) {
-  const auto enough = [&](const Station& station) { return station.log_odds >= config.publish_log_odds; };
+  const auto enough = [&](const Station& station) { return station.log_odds >= config.extent_log_odds; };
   const auto begin = std::ranges::find_if(line.stations, enough);
   auto end = line.stations.end();
   while (end != begin && !enough(*std::prev(end))) --end;
@@ -56,6 +59,18 @@ double existence_probability(double log_odds, const FusionConfig& config) {
   return config.existence_at_publish + share * (config.existence_at_max - config.existence_at_publish);
 }
 
+/// Whether a line lies so near a stronger one of its type that it is taken for a shadow of it until the two
+/// are seen together.
+bool is_held_back(const Line& line, const std::vector<Line>& lines, const PairHistories& doubles,
+                  const FusionConfig& config) {
+  return std::ranges::any_of(doubles, [&](const PairHistory& pair) {
+    if ((pair.a != line.id && pair.b != line.id) || seen_together(pair)) return false;
+    const auto other = std::ranges::find(lines, pair.a == line.id ? pair.b : pair.a, &Line::id);
+    if (other == lines.end() || other->type() != line.type()) return false;
+    return std::pair(weight(*other, config), line.id) > std::pair(weight(line, config), other->id);
+  });
+}
+
 Marking as_marking(const Line& line, Stations stations, const MapperConfig& config) {
   Marking marking{.id = line.id, .type = line.type(), .points = smoothed(stations)};
   marking.lateral_stddev_m.reserve(stations.size());
@@ -68,8 +83,7 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
   } else {
     marking.styles = styles_along(stations, marking.points, config.style);
   }
-  double log_odds = 0.0;
-  for (const Station& station : stations) log_odds += station.log_odds / static_cast<double>(stations.size());
+  const double log_odds = existence(stations, line.confidences);
   const bool confirmed = log_odds >= config.fusion.confirm_log_odds;
   marking.status = confirmed ? ElementStatus::confirmed : ElementStatus::tentative;
   marking.existence_probability = existence_probability(log_odds, config.fusion);
@@ -80,13 +94,16 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
 
 }  // namespace
 
-std::vector<Marking> publish_lines(const std::vector<Line>& lines, const MapperConfig& config) {
+std::vector<Marking> publish_lines(const std::vector<Line>& lines, const PairHistories& doubles,
+                                   const MapperConfig& config) {
+  const FusionConfig& fusion = config.fusion;
   std::vector<Marking> markings;
   for (const Line& line : lines) {
-    const Stations stations = published_stretch(line, config.fusion);
-    if (stations.size() < 2) continue;
+    const Stations stations = published_stretch(line, fusion);
+    if (stations.size() < 2 || existence(stations, line.confidences) < fusion.publish_log_odds) continue;
+    if (is_held_back(line, lines, doubles, fusion)) continue;
     Marking marking = as_marking(line, stations, config);
-    if (length(marking.points) >= config.fusion.min_length_m) markings.push_back(std::move(marking));
+    if (length(marking.points) >= fusion.min_length_m) markings.push_back(std::move(marking));
   }
   std::ranges::sort(markings, {}, &Marking::id);
   return markings;

@@ -14,8 +14,7 @@ constexpr double kPriorPairs = 100.0;  // that the correlation below counts for
 constexpr double kPriorCorrelation_m = 10.0, kPriorDistance_m = 8.0;
 constexpr double kMinStddev_m = 0.02, kMaxStddev_m = 1.0;
 constexpr double kMinCorrelation_m = 2.0, kMaxCorrelation_m = 30.0;
-constexpr double kOutlier = 3.0;         // deviations, from which an error counts as no larger
-constexpr std::size_t kMaxNetworks = 8;  // as many sources are believed at a time
+constexpr double kOutlier = 3.0;  // deviations, from which an error counts as no larger
 
 /// The nodes that a range lies between, and its share of the way to the further one.
 struct Between {
@@ -100,23 +99,6 @@ std::vector<std::pair<std::string, double>> NetworkModel::learned() const {
   values.emplace_back("pitch_gain", pitch_gain());
   values.emplace_back("alignment_gain", alignment_gain());
   return values;
-}
-
-std::size_t NetworkModels::number(const std::string& source, std::uint64_t frame,
-                                  const FusionConfig& config) {
-  auto network = std::ranges::find(networks_, source, &Network::source);
-  if (network == networks_.end()) {
-    if (networks_.size() < kMaxNetworks) networks_.emplace_back();  // of frame 0: before all others
-    network = std::ranges::min_element(networks_, {}, &Network::frame);
-    *network = {source, frame, NetworkModel(config)};
-  }
-  network->frame = frame;
-  return static_cast<std::size_t>(std::distance(networks_.begin(), network));
-}
-
-const NetworkModel* NetworkModels::find(const std::string& source) const {
-  const auto network = std::ranges::find(networks_, source, &Network::source);
-  return network != networks_.end() ? &network->model : nullptr;
 }
 
 }  // namespace laneloom

@@ -90,33 +90,4 @@ class NetworkModel {
   Gain pitch_, alignment_;
 };
 
-/// The models of the sources of detections, by number. Of too many sources, the one that was not heard of for
-/// longest is forgotten.
-class NetworkModels {
- public:
-  /// The number of a source, from which the `frame`-th frame comes.
-  std::size_t number(const std::string& source, std::uint64_t frame, const FusionConfig& config);
-  NetworkModel& model(std::size_t number) { return networks_[number].model; }
-  /// Null: nothing is known of that source.
-  const NetworkModel* find(const std::string& source) const;
-
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(networks_);
-  }
-
- private:
-  struct Network {
-    std::string source;
-    std::uint64_t frame = 0;  ///< the newest one
-    NetworkModel model;
-
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive(source, frame, model);
-    }
-  };
-  std::vector<Network> networks_;
-};
-
 }  // namespace laneloom

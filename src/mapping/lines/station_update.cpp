@@ -51,7 +51,7 @@ void observe(const Observation& seen, const Viewpoint& from, Station& station) {
   station.position.z() += share * seen.height_m;
 }
 
-void learn(const Observation& seen, const Viewpoint& from, Station& station, NetworkModels& networks) {
+void learn(const Observation& seen, const Viewpoint& from, Station& station, Networks& networks) {
   const double range_m = distance(station.position, from.T_map_body.translation());
   const double stretched_m =
       left_of(seen.direction).dot(stretched_by(from.stretch_per_m, station.position, from.T_map_body));
@@ -67,7 +67,7 @@ void learn(const Observation& seen, const Viewpoint& from, Station& station, Net
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (views[i].source == FarView::kNone) continue;
-    NetworkModel& network = networks.model(views[i].source);
+    NetworkModel& network = networks[views[i].source].lateral;
     if (i > 0 && views[i - 1].source == views[i].source) network.learn(views[i - 1], views[i], said_m);
     network.learn(views[i], said_m);
   }

@@ -7,7 +7,7 @@
 #include "mapping/lines/association.hpp"
 #include "mapping/lines/frame_alignment.hpp"
 #include "mapping/lines/line_map.hpp"
-#include "mapping/lines/network_model.hpp"
+#include "mapping/lines/networks.hpp"
 
 namespace laneloom {
 
@@ -39,6 +39,6 @@ Station new_station(const Point& position, const Point& origin, const SampledDet
 void observe(const Observation& seen, const Viewpoint& from, Station& station);
 
 /// Remembers what was seen from far. What is seen from near tells the networks how wrong they were from far.
-void learn(const Observation& seen, const Viewpoint& from, Station& station, NetworkModels& networks);
+void learn(const Observation& seen, const Viewpoint& from, Station& station, Networks& networks);
 
 }  // namespace laneloom

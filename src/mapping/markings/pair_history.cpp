@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kMemory = 0.97;       // of the counts, per frame
 constexpr double kMinFrames = 4.0;     // before a pair is judged
+constexpr double kMinTogether = 1.9;   // frames: two, one after the other
 constexpr double kMaxTogether = 0.25;  // share of the frames
 
 std::pair<ElementId, ElementId> key_of(const PairHistory& history) { return {history.a, history.b}; }
@@ -33,6 +34,10 @@ PairHistory continued(const PairHistories& histories, ElementId a, ElementId b, 
 bool seen_apart(const PairHistory& history) {
   const double frames = history.together + history.apart;
   return frames >= kMinFrames && history.together < kMaxTogether * frames;
+}
+
+bool seen_together(const PairHistory& history) {
+  return history.together >= kMinTogether && history.together >= history.apart;
 }
 
 bool are_separate(const PairHistories& histories, ElementId a, ElementId b) {

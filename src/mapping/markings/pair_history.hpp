@@ -20,6 +20,9 @@ struct PairHistory {
   }
 };
 
+/// Names an end of a line.
+constexpr ElementId end_id(ElementId line, bool at_back) { return 2 * line + (at_back ? 1 : 0); }
+
 /// In the order of their ids.
 using PairHistories = std::vector<PairHistory>;
 void sort(PairHistories& histories);
@@ -32,6 +35,9 @@ PairHistory continued(const PairHistories& histories, ElementId a, ElementId b, 
 
 /// Whether they were seen long enough, and too seldom together.
 bool seen_apart(const PairHistory& history);
+
+/// Whether they were seen together often enough.
+bool seen_together(const PairHistory& history);
 
 /// The same of two ids; a pair without a history was not seen apart.
 bool are_separate(const PairHistories& histories, ElementId a, ElementId b);

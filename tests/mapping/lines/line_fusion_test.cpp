@@ -41,7 +41,7 @@ class LineFusion : public ::testing::Test {
   LocalRange range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
   DetectionFrame frame_;
   std::vector<Line> lines_;
-  NetworkModels networks_;
+  Networks networks_;
   ElementId next_id_ = 1;
   std::vector<Relative> cut_off_;
 };

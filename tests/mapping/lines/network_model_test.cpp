@@ -1,4 +1,4 @@
-#include "mapping/lines/network_model.hpp"
+#include "mapping/lines/networks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace laneloom {
 namespace {
 
 /// A network whose error is known; all places are at 0.
-class Network : public ::testing::Test {
+class LateralModel : public ::testing::Test {
  protected:
   double random() { return normal_(generator_); }
   FarView view(double range_m, double error_m, double stretched_m = 0.0) const {
@@ -24,7 +24,7 @@ class Network : public ::testing::Test {
   std::uniform_real_distribution<double> range_m_{10.0, 48.0};
 };
 
-TEST_F(Network, IsAsConfiguredAtFirst) {
+TEST_F(LateralModel, IsAsConfiguredAtFirst) {
   EXPECT_NEAR(network_.stddev_m(26.0), config_.stddev_m + 26.0 * config_.stddev_per_m, 1e-9);
   EXPECT_EQ(network_.stddev_m(0.0), network_.stddev_m(8.0));
   EXPECT_EQ(network_.stddev_m(90.0), network_.stddev_m(48.0));
@@ -32,7 +32,7 @@ TEST_F(Network, IsAsConfiguredAtFirst) {
   EXPECT_NEAR(network_.correlation_m(), 10.0, 1e-9);
 }
 
-TEST_F(Network, LearnsItsDeviationByRange) {
+TEST_F(LateralModel, LearnsItsDeviationByRange) {
   for (int i = 0; i < 5000; ++i) {
     const double range_m = range_m_(generator_);
     network_.learn(view(range_m, true_stddev_m(range_m) * random()), 0.0);
@@ -41,20 +41,20 @@ TEST_F(Network, LearnsItsDeviationByRange) {
     EXPECT_NEAR(network_.stddev_m(range_m), true_stddev_m(range_m), 0.2 * true_stddev_m(range_m)) << range_m;
 }
 
-TEST_F(Network, AnOutlierCountsAsNoLargerThanALargeError) {
+TEST_F(LateralModel, AnOutlierCountsAsNoLargerThanALargeError) {
   const double before_m = network_.stddev_m(26.0);
   network_.learn(view(26.0, 50.0), 0.0);
   EXPECT_LT(network_.stddev_m(26.0), 1.1 * before_m);
 }
 
-TEST_F(Network, StaysWithinItsBounds) {
+TEST_F(LateralModel, StaysWithinItsBounds) {
   for (int i = 0; i < 100000; ++i) network_.learn(view(26.0, 0.0), 0.0);
   EXPECT_GE(network_.stddev_m(26.0), 0.02);
   for (int i = 0; i < 100000; ++i) network_.learn(view(26.0, i % 2 == 0 ? 50.0 : -50.0), 0.0);
   EXPECT_LE(network_.stddev_m(26.0), 1.0);
 }
 
-TEST_F(Network, APitchThatComesTrueIsTakenOut) {
+TEST_F(LateralModel, APitchThatComesTrueIsTakenOut) {
   for (int i = 0; i < 2000; ++i) {
     const double stretched_m = 0.1 * random();
     network_.learn(view(26.0, stretched_m + 0.05 * random(), stretched_m), 0.0);
@@ -63,12 +63,12 @@ TEST_F(Network, APitchThatComesTrueIsTakenOut) {
   EXPECT_NEAR(network_.stddev_m(26.0), 0.05, 0.01);  // of what is left
 }
 
-TEST_F(Network, APitchThatDoesNotComeTrueIsLeft) {
+TEST_F(LateralModel, APitchThatDoesNotComeTrueIsLeft) {
   for (int i = 0; i < 2000; ++i) network_.learn(view(26.0, 0.05 * random(), 0.1 * random()), 0.0);
   EXPECT_LT(network_.pitch_gain(), 0.1);
 }
 
-TEST_F(Network, ThePoseIsBelievedAsFarAsItComesTrueBesideThePitch) {
+TEST_F(LateralModel, ThePoseIsBelievedAsFarAsItComesTrueBesideThePitch) {
   for (int i = 0; i < 4000; ++i) {
     FarView seen = view(26.0, 0.05 * random(), 0.1 * random());
     seen.misplaced_m = 0.1 * random();
@@ -79,7 +79,7 @@ TEST_F(Network, ThePoseIsBelievedAsFarAsItComesTrueBesideThePitch) {
   EXPECT_NEAR(network_.alignment_gain(), 0.5, 0.06);
 }
 
-TEST_F(Network, LearnsHowLongItsErrorsLast) {
+TEST_F(LateralModel, LearnsHowLongItsErrorsLast) {
   const double correlation_m = 20.0, distance_m = 8.0;
   const double fading = NetworkModel::kShared * std::exp(-distance_m / correlation_m);
   for (int i = 0; i < 20000; ++i) {
@@ -92,7 +92,7 @@ TEST_F(Network, LearnsHowLongItsErrorsLast) {
   EXPECT_NEAR(network_.correlation_m(), correlation_m, 3.0);
 }
 
-TEST_F(Network, ShowsWhatItLearned) {
+TEST_F(LateralModel, ShowsWhatItLearned) {
   const auto values = network_.learned();
   ASSERT_EQ(values.size(), NetworkModel::kNodes_m.size() + 3);
   EXPECT_EQ(values[0].first, "stddev_at_8_m");
@@ -100,16 +100,16 @@ TEST_F(Network, ShowsWhatItLearned) {
 }
 
 TEST(Networks, EachSourceHasItsOwn) {
-  NetworkModels networks;
+  Networks networks;
   const auto front = networks.number("front", 1, {}), rear = networks.number("rear", 2, {});
   EXPECT_NE(front, rear);
   EXPECT_EQ(networks.number("front", 3, {}), front);
-  EXPECT_EQ(networks.find("front"), &networks.model(front));
+  EXPECT_EQ(networks.find("front"), &networks[front]);
   EXPECT_EQ(networks.find("side"), nullptr);
 }
 
 TEST(Networks, TheOneThatWasNotHeardOfForLongestIsForgotten) {
-  NetworkModels networks;
+  Networks networks;
   for (int i = 0; i < 8; ++i) networks.number(std::to_string(i), static_cast<std::uint64_t>(i + 1), {});
   networks.number("0", 9, {});
   networks.number("another", 10, {});

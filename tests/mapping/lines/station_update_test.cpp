@@ -24,9 +24,9 @@ class StationUpdate : public ::testing::Test {
     learn(seen, from, station_, networks_);
     observe(seen, from, station_);
   }
-  double stddev_m(double range_m) { return networks_.model(0).stddev_m(range_m); }
+  double stddev_m(double range_m) { return networks_[0].lateral.stddev_m(range_m); }
 
-  NetworkModels networks_;
+  Networks networks_;
   Station station_;
 };
 
@@ -64,18 +64,18 @@ TEST_F(StationUpdate, ThePitchIsJudgedByWhatWasSaidBeforeItWasTakenOut) {
   for (int i = 0; i < 400; ++i) {
     const double stretch_per_m = i % 2 == 0 ? 0.005 : -0.005;
     const double wrong_m = stretched_by(stretch_per_m, {0, 4, 0}, test::at(-26.0)).y();
-    const double gain = networks_.model(0).pitch_gain();
+    const double gain = networks_[0].lateral.pitch_gain();
     see(26.0, 4.0 + (1.0 - gain) * wrong_m, stretch_per_m, gain);
     see(8.0, 4.0);
   }
-  EXPECT_GT(networks_.model(0).pitch_gain(), 0.9);
+  EXPECT_GT(networks_[0].lateral.pitch_gain(), 0.9);
 }
 
 TEST_F(StationUpdate, SamplesWeighAsTheirNetworkSaysOrHasProved) {
   std::vector<SampledDetection> detections(2);
   for (SampledDetection& detection : detections) detection.samples = {{0, 0, 0}, {30, 0, 0}};
   detections[1].stddev_m = {0.5, 0.0};
-  weigh(networks_.model(0), Point::Zero(), detections);
+  weigh(networks_[0].lateral, Point::Zero(), detections);
   EXPECT_EQ(detections[0].stddev_m, (std::vector{stddev_m(0.0), stddev_m(30.0)}));
   EXPECT_EQ(detections[1].stddev_m, (std::vector{0.5, 0.02}));
 }

@@ -1,0 +1,104 @@
+#include "mapping/lines/detection_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace laneloom {
+namespace {
+
+constexpr double kRing_m = 10.0;   // width of a range bin of the rates
+constexpr double kRange_m = 12.0;  // likewise of the confidences
+constexpr double kMinRate = 0.02, kMaxRate = 0.95;
+constexpr double kMinVariance = 1e-4;
+constexpr double kMinLasting = 0.02;
+constexpr double kMaxDeficit = 0.3;
+constexpr double kLeastConfidences = 10.0;            // to tell their level
+constexpr double kMinWrongHits = 3.0;                 // a single one is told by its lack of company
+constexpr double kMostAgainst = 4.0, kMostFor = 1.0;  // log odds: many wrong lines look right, too
+
+// Priors: of networks in general, worth some seconds of driving.
+constexpr double kRateAhead = 0.9, kRateLossPerRing = 0.06, kRateBehind = 0.05, kRateWeight = 200.0;
+constexpr double kOffsetWeight = 20.0;
+constexpr LearnedMean kVariance{0.12 * 0.12, 50.0}, kLasting{0.3, 10.0}, kDeficit{0.1, 10.0};
+
+// How much is remembered.
+constexpr double kMostViews = 3000.0, kMostConfidences = 1000.0, kMostLines = 100.0;
+
+std::size_t bin(double range_m, double width_m, std::size_t count) {
+  return std::min(static_cast<std::size_t>(range_m / width_m), count - 1);
+}
+
+/// Rings around the vehicle, ahead and behind.
+std::size_t place(const Point& point_body, std::size_t rings) {
+  const std::size_t ring = bin(point_body.head<2>().norm(), kRing_m, rings);
+  return point_body.x() >= 0.0 ? ring : rings + ring;
+}
+
+}  // namespace
+
+void LearnedMean::add(double value, double max_weight) {
+  weight = std::min(weight + 1.0, max_weight);
+  mean += (value - mean) / weight;
+}
+
+DetectionModel::DetectionModel() {
+  for (auto& of_type : rates_) {
+    for (std::size_t ring = 0; ring < kRings; ++ring) {
+      of_type[ring] = {kRateAhead - kRateLossPerRing * static_cast<double>(ring), kRateWeight};
+      of_type[kRings + ring] = {kRateBehind, kRateWeight};
+    }
+  }
+  for (auto& of_type : offsets_) of_type.fill({0.0, kOffsetWeight});
+  variance_ = kVariance;
+  lasting_ = kLasting;
+  deficits_.fill(kDeficit);
+}
+
+void DetectionModel::learn_rate(MarkingType type, const Point& point_body, bool seen) {
+  rates_[index(type)][place(point_body, kRings)].add(seen ? 1.0 : 0.0, kMostViews);
+}
+
+double DetectionModel::rate(MarkingType type, const Point& point_body) const {
+  return std::clamp(rates_[index(type)][place(point_body, kRings)].mean, kMinRate, kMaxRate);
+}
+
+void DetectionModel::learn_confidence(MarkingType type, double range_m, double confidence) {
+  if (knows_confidences()) {
+    const double above = surplus(type, range_m, confidence);
+    variance_.add(above * above, kMostConfidences);
+  }
+  level_.add(confidence, kMostConfidences);
+  offsets_[index(type)][bin(range_m, kRange_m, kRanges)].add(confidence - level_.mean, kMostConfidences);
+}
+
+bool DetectionModel::knows_confidences() const { return level_.weight >= kLeastConfidences; }
+
+double DetectionModel::surplus(MarkingType type, double range_m, double confidence) const {
+  return confidence - level_.mean - offsets_[index(type)][bin(range_m, kRange_m, kRanges)].mean;
+}
+
+void DetectionModel::learn_right(const Confidences& confidences) {
+  // The mean of independent values varies by a share of 1 / count; what it varies beyond lasts.
+  const double noise = 1.0 / confidences.count;
+  const double share = confidences.mean * confidences.mean / std::max(kMinVariance, variance_.mean);
+  lasting_.add((share - noise) / (1.0 - noise), kMostLines);
+}
+
+void DetectionModel::learn_wrong(MarkingType type, const Confidences& confidences) {
+  if (confidences.count >= kMinWrongHits) deficits_[index(type)].add(-confidences.mean, kMostLines);
+}
+
+double DetectionModel::variance_of_mean(double count) const {
+  const double lasting = std::clamp(lasting_.mean, kMinLasting, 1.0);
+  return std::max(kMinVariance, variance_.mean) * (lasting + (1.0 - lasting) / std::max(1.0, count));
+}
+
+double DetectionModel::log_odds(MarkingType type, const Confidences& confidences) const {
+  if (confidences.count <= 0.0) return 0.0;
+  // Right and wrong lines as two normal distributions that differ in their mean alone.
+  const double deficit = std::clamp(deficits_[index(type)].mean, 0.0, kMaxDeficit);
+  const double ratio = deficit * (confidences.mean + 0.5 * deficit) / variance_of_mean(confidences.count);
+  return std::clamp(ratio, -kMostAgainst, kMostFor);
+}
+
+}  // namespace laneloom
