@@ -132,8 +132,8 @@ struct FusionConfig {
   // Evidence that a line exists at a station, as log odds.
   double birth_log_odds = -1.5;
   double extension_log_odds = -0.5;
-  double hit_log_odds = 0.4;   ///< gained by an observation of confidence 0.5
-  double miss_log_odds = 0.1;  ///< a miss counts so much, times the log of how seldom the network misses
+  double hit_log_odds = 0.4;    ///< gained by an observation of confidence 0.5
+  double miss_log_odds = 0.13;  ///< a miss counts so much, times the log of how seldom the network misses
   double max_log_odds = 6.0;
   double min_log_odds = -4.0;     ///< below, a station is taken away
   double extent_log_odds = -1.0;  ///< a line reaches to the last station with as much

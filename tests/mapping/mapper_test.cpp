@@ -61,9 +61,20 @@ class Drive {
 
 TEST(Mapper, ATrueLineAppearsWithinItsFirstDetectionsAsTentative) {
   Drive drive;
-  const LocalMap& map = drive.steps(5);
+  const LocalMap& map = drive.steps(3);
   EXPECT_EQ(map.boundaries.size(), 3U);
   for (const Marking& boundary : map.boundaries) EXPECT_EQ(boundary.status, ElementStatus::tentative);
+  for (const Marking& boundary : drive.steps(10).boundaries)
+    EXPECT_EQ(boundary.status, ElementStatus::confirmed);
+}
+
+TEST(Mapper, AStandingCarConfirmsNothing) {
+  Drive drive;
+  drive.step();
+  for (int i = 2; i < 200; ++i) drive.mapper.update(frame_at(drive.x, road(), i), test::at(drive.x));
+  for (const Marking& boundary : drive.mapper.map().boundaries)
+    EXPECT_EQ(boundary.status, ElementStatus::tentative);
+  drive.number = 200;
   for (const Marking& boundary : drive.steps(10).boundaries)
     EXPECT_EQ(boundary.status, ElementStatus::confirmed);
 }
@@ -75,7 +86,7 @@ TEST(Mapper, AGhostGoesAgain) {
   with_ghost.push_back(test::detection(MarkingType::laneline, straight({45, 8, 0.1}, {55, 9, 0.1})));
   for (int i = 0; i < 5; ++i) drive.step(with_ghost);
   ASSERT_EQ(drive.mapper.map().boundaries.size(), 4U);
-  for (int i = 0; i < 20; ++i) drive.step();
+  for (int i = 0; i < 30; ++i) drive.step();
   EXPECT_EQ(drive.mapper.map().boundaries.size(), 3U);
 }
 

@@ -24,11 +24,15 @@ bool contains(const Polyline& polygon, const Point& point) {
 
 }  // namespace
 
+bool View::detects(MarkingType type) const {
+  const auto& types = frame->detected_types;
+  return types.empty() || std::ranges::find(types, type) != types.end();
+}
+
 bool View::unlimited() const { return frame->field_of_view.empty() && frame->occluded_areas.empty(); }
 
 bool View::sees(const Point& point_map, MarkingType type, const LocalRange& range) const {
-  const auto& types = frame->detected_types;
-  if (!types.empty() && std::ranges::find(types, type) == types.end()) return false;
+  if (!detects(type)) return false;
   const Point point = T_body_map * point_map;
   const bool in_view =
       frame->field_of_view.empty() ? range.shows(point_map) : contains(frame->field_of_view, point);
@@ -96,7 +100,7 @@ void credit_observed(const View& view, const std::vector<LineMatch>& matches,
     const SampledDetection& detection = detections[match.detection];
     Line& line = lines[match.line];
     credit_stations(match, view.news * hit(detection, config), config, line);
-    if (is_established(line, config)) {
+    if (view.is_independent() && is_established(line, config)) {
       model.learn_confidence(line.type(), mean_range_m(detection, origin), detection.confidence);
       if (reaches_milestone(line.confidences.count, view.news)) model.learn_right(line.confidences);
     }
@@ -108,12 +112,12 @@ void discount_unobserved(const View& view, const LocalRange& range, const Fusion
                          DetectionModel& model, std::vector<Line>& lines) {
   for (Line& line : lines) {
     const MarkingType type = line.type();
-    const bool established = is_established(line, config);
+    const bool established = view.is_independent() && is_established(line, config);
     for (Station& station : line.stations) {
       const Point place = view.T_body_map * station.position;
       const bool seen = station.sight == Sight::observed;
       const bool in_view = view.sees(station.position, type, range);
-      const bool could_see = seen || in_view || view.unlimited();
+      const bool could_see = seen || in_view || (view.unlimited() && view.detects(type));
       if (established && could_see && station.log_odds >= config.confirm_log_odds)
         model.learn_rate(type, place, seen);
       if (seen || !could_see) continue;

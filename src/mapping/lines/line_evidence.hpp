@@ -19,7 +19,10 @@ struct View {
   const DetectionFrame* frame = nullptr;
   double news = 1.0;  ///< how much of it is: evidence counts by independent views, not by frames
 
-  /// Whether nothing is told of what the network cannot see.
+  bool is_independent() const { return news >= 1.0; }
+  /// Whether the network detects markings of `type`.
+  bool detects(MarkingType type) const;
+  /// Whether nothing is told of places that it cannot see.
   bool unlimited() const;
 
   /// Whether a marking of `type` at a point of the map would have been seen.

@@ -40,9 +40,4 @@ bool seen_together(const PairHistory& history) {
   return history.together >= kMinTogether && history.together >= history.apart;
 }
 
-bool are_separate(const PairHistories& histories, ElementId a, ElementId b) {
-  const PairHistory* history = find(histories, a, b);
-  return history != nullptr && seen_apart(*history);
-}
-
 }  // namespace laneloom

@@ -39,7 +39,4 @@ bool seen_apart(const PairHistory& history);
 /// Whether they were seen together often enough.
 bool seen_together(const PairHistory& history);
 
-/// The same of two ids; a pair without a history was not seen apart.
-bool are_separate(const PairHistories& histories, ElementId a, ElementId b);
-
 }  // namespace laneloom

@@ -43,6 +43,18 @@ TEST(LaneBoundaries, LeavesApartWhatIsNotOneLine) {
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {20, 0, 0}))), 1U);
 }
 
+TEST(LaneBoundaries, EndsThatDetectionsRanThroughAreOneAtAnyAngle) {
+  const std::vector<Marking> sides{marking(1, straight({0, 0, 0}, {10, 0, 0}), MarkingType::roadedge),
+                                   marking(2, straight({0, 1.5, 0}, {10, 1.5, 0}), MarkingType::roadedge)};
+  const auto count = [&](double together, double apart) {
+    const PairHistory tip{end_id(1, true), end_id(2, true), together, apart};
+    return lane_boundaries(sides, {tip}, {}).size();
+  };
+  EXPECT_EQ(count(0.0, 0.0), 2U);
+  EXPECT_EQ(count(3.0, 1.0), 1U);
+  EXPECT_EQ(count(3.0, 5.0), 2U);
+}
+
 TEST(LaneBoundaries, FollowACornerWhereTheEndsMeet) {
   const Point centre(10, 8, 0);
   const auto pieces = [&](double gap_deg) {

@@ -24,14 +24,16 @@ class Joints : public ::testing::Test {
                  both_ = straight({0, 0, 0}, {22, 0, 0}, 23);
   std::vector<Line> lines_{line(1, first_), line(2, second_)};
   PairHistories joints_;
+
+  const PairHistory* joint() const { return find(joints_, end_id(1, true), end_id(2, false)); }
+  bool separate() const { return joint() != nullptr && seen_apart(*joint()); }
 };
 
 TEST_F(Joints, WhatIsAlwaysSeenAsTwoIsTwo) {
   for (int i = 0; i < 3; ++i) frame({first_, second_});
-  EXPECT_FALSE(are_separate(joints_, 1, 2));  // too early to tell
+  EXPECT_FALSE(separate());  // too early to tell
   for (int i = 0; i < 5; ++i) frame({first_, second_});
-  EXPECT_TRUE(are_separate(joints_, 1, 2));
-  EXPECT_TRUE(are_separate(joints_, 2, 1));
+  EXPECT_TRUE(separate());
 }
 
 TEST_F(Joints, WhatIsOftenSeenAsOneIsOne) {
@@ -39,12 +41,26 @@ TEST_F(Joints, WhatIsOftenSeenAsOneIsOne) {
     frame({both_});
     frame({first_, second_});
   }
-  EXPECT_FALSE(are_separate(joints_, 1, 2));
+  EXPECT_FALSE(separate());
+}
+
+TEST_F(Joints, ADetectionThatRanThroughBothEndsMakesThemOne) {
+  for (int i = 0; i < 2; ++i) frame({both_});
+  ASSERT_NE(joint(), nullptr);
+  EXPECT_TRUE(seen_together(*joint()));
+}
+
+TEST_F(Joints, BothTipsOfAnIslandAreJoints) {
+  const Polyline near = straight({0, 0, 0}, {10, 0, 0}, 11);
+  lines_ = {line(1, near), line(2, straight({0, 2, 0}, {10, 2, 0}, 11))};
+  frame({near, straight({0, 2, 0}, {10, 2, 0}, 11)});
+  EXPECT_NE(find(joints_, end_id(1, false), end_id(2, false)), nullptr);
+  EXPECT_NE(find(joints_, end_id(1, true), end_id(2, true)), nullptr);
 }
 
 TEST_F(Joints, SeeingOnlyOneOfThemSaysNothing) {
   for (int i = 0; i < 30; ++i) frame({first_});
-  EXPECT_FALSE(are_separate(joints_, 1, 2));
+  EXPECT_FALSE(separate());
 }
 
 TEST_F(Joints, EndsFarFromEachOtherAreNone) {

@@ -31,15 +31,18 @@ class LineFusion : public ::testing::Test {
     mark_explained(matches, detections);
     weigh(NetworkModel(config_), Point::Zero(), detections);
     fuse_matches(matches, detections, {}, config_, networks_, lines_);
-    discount_unobserved({Eigen::Isometry3d::Identity(), &frame_}, range_, config_, lines_);
+    const View view{Eigen::Isometry3d::Identity(), &frame_};
+    credit_observed(view, matches, detections, config_, model_, lines_);
+    discount_unobserved(view, range_, config_, model_, lines_);
     extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
-    create_lines(detections, Point::Zero(), 7, range_, config_, lines_, next_id_);
-    std::ranges::copy(prune_lines(range_, config_, lines_, next_id_), std::back_inserter(cut_off_));
+    create_lines(detections, Point::Zero(), 7, range_, config_, model_, lines_, next_id_);
+    std::ranges::copy(prune_lines(range_, config_, model_, lines_, next_id_), std::back_inserter(cut_off_));
   }
 
   FusionConfig config_;
   LocalRange range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
   DetectionFrame frame_;
+  DetectionModel model_;
   std::vector<Line> lines_;
   Networks networks_;
   ElementId next_id_ = 1;
@@ -156,6 +159,47 @@ TEST_F(LineFusion, ALineGrowsNoFurtherThanTheRange) {
   extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
   EXPECT_GT(lines_[0].stations.back().position.x(), 50.0);
   for (const Station& station : lines_[0].stations) EXPECT_TRUE(range_.keeps(station.position));
+}
+
+/// Out to 20 m, round a tip, and back 3 m beside it.
+Polyline hairpin() {
+  Polyline points = straight({0, 0, 0}, {20, 0, 0}, 21);
+  const Polyline back = straight({19.5, 1.2, 0}, {5, 3, 0}, 16);
+  points.insert(points.end(), back.begin(), back.end());
+  return points;
+}
+
+TEST_F(LineFusion, ALineIsExtendedRoundASharpTip) {
+  for (int i = 0; i < 3; ++i) see({straight({0, 0, 0}, {19, 0, 0})}, MarkingType::roadedge);
+  see({hairpin()}, MarkingType::roadedge);
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_GT(lines_[0].stations.size(), 30U);
+  EXPECT_NEAR(lines_[0].stations.back().position.x(), 5.0, 1.0);
+  EXPECT_NEAR(lines_[0].stations.back().position.y(), 3.0, 0.3);
+}
+
+TEST_F(LineFusion, NoMoreThan256LinesAreKept) {
+  std::vector<Polyline> ghosts;
+  for (int i = 0; i < 300; ++i) {
+    const double x = -20.0 + 4.0 * (i % 15), y = -19.0 + 2.0 * (i / 15);
+    ghosts.push_back(straight({x, y, 0}, {x + 3.0, y, 0}));
+  }
+  see({straight({-20, 19.7, 0}, {20, 19.7, 0})});
+  see({straight({-20, 19.7, 0}, {20, 19.7, 0})});
+  const ElementId believed = lines_.at(0).id;
+  see(ghosts);
+  EXPECT_LE(lines_.size(), 256U);
+  EXPECT_EQ(std::ranges::count(lines_, believed, &Line::id), 1);
+}
+
+TEST_F(LineFusion, WhereTheNetworkHardlySeesALineAMissSaysLittle) {
+  for (int i = 0; i < 5; ++i) see({straight({0, 0, 0}, {20, 0, 0})});
+  const double known = lines_[0].stations[5].log_odds;
+  see({});
+  const double lost = known - lines_[0].stations[5].log_odds;
+  for (int i = 0; i < 3000; ++i) model_.learn_rate(MarkingType::laneline, {5, 0, 0}, i % 4 == 0);
+  see({});
+  EXPECT_LT(known - lost - lines_[0].stations[5].log_odds, 0.3 * lost);
 }
 
 TEST_F(LineFusion, EvidenceGrowsAndFallsAndTheLineGoes) {

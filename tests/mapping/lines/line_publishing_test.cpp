@@ -15,7 +15,7 @@ using test::straight;
 
 class LinePublishing : public ::testing::Test {
  protected:
-  std::vector<Marking> publish() { return publish_lines({line_}, {}); }
+  std::vector<Marking> publish() { return publish_lines({line_}, {}, {}); }
   void believe(std::size_t from, std::size_t to, double log_odds) {
     for (std::size_t i = from; i < to; ++i) line_.stations[i].log_odds = log_odds;
   }
@@ -23,7 +23,7 @@ class LinePublishing : public ::testing::Test {
 };
 
 TEST_F(LinePublishing, WhatHasEvidenceAsFarAsItReaches) {
-  believe(0, 51, -0.1);
+  believe(0, 51, -1.1);
   EXPECT_TRUE(publish().empty());
   believe(0, 40, 1.0);
   const auto markings = publish();
@@ -36,12 +36,38 @@ TEST_F(LinePublishing, WhatHasEvidenceAsFarAsItReaches) {
   EXPECT_EQ(publish()[0].status, ElementStatus::confirmed);
 }
 
-TEST_F(LinePublishing, AWeakPlaceDoesNotHideWhatIsBeyondIt) {
+TEST_F(LinePublishing, AWeakStretchInTheMiddleIsPublishedWithTheLine) {
   believe(0, 51, 3.0);
-  believe(28, 29, -0.1);
+  believe(20, 35, -2.0);
   const auto markings = publish();
   ASSERT_EQ(markings.size(), 1U);
   EXPECT_NEAR(length(markings[0].points), 50.0, 1e-9);
+}
+
+TEST_F(LinePublishing, ALineExistsByItsMeanAndItsConfidences) {
+  believe(0, 51, 0.0);
+  EXPECT_TRUE(publish().empty());
+  line_.confidences.log_odds = 1.0;
+  EXPECT_EQ(publish().size(), 1U);
+  believe(0, 51, 3.0);
+  line_.confidences.log_odds = -4.0;
+  EXPECT_TRUE(publish().empty());
+}
+
+TEST_F(LinePublishing, ANearParallelIsHeldBackUntilBothAreSeenTogether) {
+  believe(0, 51, 3.0);
+  Line parallel = line(5, straight({-2, 0.7, 0}, {28, 0.7, 0}, 31));
+  for (Station& station : parallel.stations) station.log_odds = 3.0;
+  const auto count = [&](double together, double apart) {
+    return publish_lines({line_, parallel}, {{.a = 4, .b = 5, .together = together, .apart = apart}}, {})
+        .size();
+  };
+  EXPECT_EQ(count(0.0, 0.0), 1U);
+  EXPECT_EQ(count(3.0, 1.0), 2U);
+  EXPECT_EQ(count(3.0, 6.0), 1U);
+  EXPECT_EQ(publish_lines({line_, parallel}, {{.a = 4, .b = 5}}, {})[0].id, 4U) << "the longer one stays";
+  parallel.type_votes = {0.0, 1.0, 0.0};
+  EXPECT_EQ(count(0.0, 0.0), 2U) << "a line along a kerb";
 }
 
 TEST_F(LinePublishing, CertaintyGrowsWithEvidenceAndNearness) {

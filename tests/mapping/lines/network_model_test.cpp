@@ -1,4 +1,4 @@
-#include "mapping/lines/networks.hpp"
+#include "mapping/lines/network_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -97,25 +97,6 @@ TEST_F(LateralModel, ShowsWhatItLearned) {
   ASSERT_EQ(values.size(), NetworkModel::kNodes_m.size() + 3);
   EXPECT_EQ(values[0].first, "stddev_at_8_m");
   EXPECT_EQ(values.back(), std::pair(std::string("alignment_gain"), 0.0));
-}
-
-TEST(Networks, EachSourceHasItsOwn) {
-  Networks networks;
-  const auto front = networks.number("front", 1, {}), rear = networks.number("rear", 2, {});
-  EXPECT_NE(front, rear);
-  EXPECT_EQ(networks.number("front", 3, {}), front);
-  EXPECT_EQ(networks.find("front"), &networks[front]);
-  EXPECT_EQ(networks.find("side"), nullptr);
-}
-
-TEST(Networks, TheOneThatWasNotHeardOfForLongestIsForgotten) {
-  Networks networks;
-  for (int i = 0; i < 8; ++i) networks.number(std::to_string(i), static_cast<std::uint64_t>(i + 1), {});
-  networks.number("0", 9, {});
-  networks.number("another", 10, {});
-  EXPECT_NE(networks.find("0"), nullptr);
-  EXPECT_EQ(networks.find("1"), nullptr);
-  EXPECT_NE(networks.find("another"), nullptr);
 }
 
 }  // namespace
