@@ -18,7 +18,7 @@ constexpr double kMostAgainst = 4.0, kMostFor = 1.0;  // log odds: many wrong li
 
 // Priors: of networks in general, worth some seconds of driving.
 constexpr double kRateAhead = 0.9, kRateLossPerRing = 0.06, kRateBehind = 0.05, kRateWeight = 200.0;
-constexpr double kOffsetWeight = 20.0;
+constexpr double kLevelWeight = 20.0;
 constexpr LearnedMean kVariance{0.12 * 0.12, 50.0}, kLasting{0.3, 10.0}, kDeficit{0.1, 10.0};
 
 // How much is remembered.
@@ -48,7 +48,6 @@ DetectionModel::DetectionModel() {
       of_type[kRings + ring] = {kRateBehind, kRateWeight};
     }
   }
-  for (auto& of_type : offsets_) of_type.fill({0.0, kOffsetWeight});
   variance_ = kVariance;
   lasting_ = kLasting;
   deficits_.fill(kDeficit);
@@ -68,13 +67,16 @@ void DetectionModel::learn_confidence(MarkingType type, double range_m, double c
     variance_.add(above * above, kMostConfidences);
   }
   level_.add(confidence, kMostConfidences);
-  offsets_[index(type)][bin(range_m, kRange_m, kRanges)].add(confidence - level_.mean, kMostConfidences);
+  levels_[index(type)][bin(range_m, kRange_m, kRanges)].add(confidence, kMostConfidences);
 }
 
 bool DetectionModel::knows_confidences() const { return level_.weight >= kLeastConfidences; }
 
 double DetectionModel::surplus(MarkingType type, double range_m, double confidence) const {
-  return confidence - level_.mean - offsets_[index(type)][bin(range_m, kRange_m, kRanges)].mean;
+  // Where little is known yet, the level of all stands in.
+  const LearnedMean& there = levels_[index(type)][bin(range_m, kRange_m, kRanges)];
+  const double share = there.weight / (there.weight + kLevelWeight);
+  return confidence - (share * there.mean + (1.0 - share) * level_.mean);
 }
 
 void DetectionModel::learn_right(const Confidences& confidences) {

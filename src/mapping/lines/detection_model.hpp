@@ -48,7 +48,7 @@ class DetectionModel {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(rates_, level_, offsets_, variance_, lasting_, deficits_);
+    archive(rates_, level_, levels_, variance_, lasting_, deficits_);
   }
 
  private:
@@ -61,7 +61,7 @@ class DetectionModel {
 
   ByTypeAnd<2 * kRings> rates_;  ///< by range, ahead and behind
   LearnedMean level_;            ///< of the confidences of established lines
-  ByTypeAnd<kRanges> offsets_;   ///< from that level
+  ByTypeAnd<kRanges> levels_;    ///< likewise, by range
   LearnedMean variance_;         ///< of single confidences of a right line
   LearnedMean lasting_;          ///< share of it that all confidences of a line have in common
   std::array<LearnedMean, kMarkingTypeCount> deficits_;  ///< of wrong lines against right ones

@@ -73,8 +73,12 @@ TEST(LaneBoundaries, FollowACornerWhereTheEndsMeet) {
 TEST(LaneBoundaries, WhatIsKnownToBeSeparateStaysApart) {
   const std::vector<Marking> pieces{marking(4, straight({12, 0, 0}, {20, 0, 0})),
                                     marking(7, straight({0, 0, 0}, {10, 0, 0}))};
-  EXPECT_EQ(lane_boundaries(pieces, {{.a = 4, .b = 7, .apart = 10.0}}, {}).size(), 2U);
-  EXPECT_EQ(lane_boundaries(pieces, {{.a = 4, .b = 7, .together = 10.0, .apart = 10.0}}, {}).size(), 1U);
+  EXPECT_EQ(
+      lane_boundaries(pieces, {{.a = end_id(4, false), .b = end_id(7, true), .apart = 10.0}}, {}).size(), 2U);
+  EXPECT_EQ(lane_boundaries(
+                pieces, {{.a = end_id(4, false), .b = end_id(7, true), .together = 10.0, .apart = 10.0}}, {})
+                .size(),
+            1U);
 }
 
 TEST(LaneBoundaries, KnowTheGapsThatTheyBridge) {
