@@ -13,7 +13,7 @@ constexpr double kPriorGain = 100.0;   // squared deviations that speak against 
 constexpr double kPriorPairs = 100.0;  // that the correlation below counts for
 constexpr double kPriorCorrelation_m = 10.0, kPriorDistance_m = 8.0;
 constexpr double kMinStddev_m = 0.02, kMaxStddev_m = 1.0;
-constexpr double kMinCorrelation_m = 2.0, kMaxCorrelation_m = 30.0;
+constexpr double kMinCorrelation_m = 2.0, kMaxCorrelation_m = 15.0;
 constexpr double kOutlier = 3.0;  // deviations, from which an error counts as no larger
 
 /// The nodes that a range lies between, and its share of the way to the further one.

@@ -80,7 +80,7 @@ TEST_F(LateralModel, ThePoseIsBelievedAsFarAsItComesTrueBesideThePitch) {
 }
 
 TEST_F(LateralModel, LearnsHowLongItsErrorsLast) {
-  const double correlation_m = 20.0, distance_m = 8.0;
+  const double correlation_m = 14.0, distance_m = 8.0;
   const double fading = NetworkModel::kShared * std::exp(-distance_m / correlation_m);
   for (int i = 0; i < 20000; ++i) {
     const double here = random(), there = fading * here + std::sqrt(1.0 - fading * fading) * random();
@@ -89,7 +89,7 @@ TEST_F(LateralModel, LearnsHowLongItsErrorsLast) {
     network_.learn(one, 0.0);
     network_.learn(other, 0.0);
   }
-  EXPECT_NEAR(network_.correlation_m(), correlation_m, 3.0);
+  EXPECT_NEAR(network_.correlation_m(), correlation_m, 2.0);
 }
 
 TEST_F(LateralModel, ShowsWhatItLearned) {
