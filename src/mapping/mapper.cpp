@@ -173,7 +173,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const SectionGraph sections = road_sections(config_.section, T_map_now, boundaries, measured);
   done(Stage::road_sections);
   const auto pairs = boundary_pairs(sections, boundaries, measured);
-  map.lanes = generate_lanes(pairs, boundaries, measured, config_.lane);
+  map.lanes = generate_lanes(pairs, boundaries, measured, T_map_now.translation(), config_.lane);
   TakenSpace taken(map.lanes);
   remove_shoulders(pairs, boundaries, T_map_now, config_.lane, map.lanes);
   auto inferred = divide_unmarked(pairs, boundaries, measured, config_.lane, taken);

@@ -9,7 +9,6 @@ namespace laneloom {
 namespace {
 
 constexpr double kDoubleLine_m = 0.24;  // between the two lines
-constexpr double kGore_m = 15.0;
 constexpr double kStep_m = 1.0;
 constexpr double kTiny_m = 1e-6;
 
@@ -59,22 +58,23 @@ class SideBorders {
   // line.
   void cut_edge(int lanes, const LaneChange& change) {
     const bool exit = change.lanes < lanes;
-    const double gore_from_m = exit ? change.at_m : change.at_m - kGore_m;
+    const double gore_from_m = exit ? change.at_m : change.at_m - change.gore_m;
     add(MarkingType::roadedge, MarkingStyle::solid, Profile(knots_), edge_from_m_,
         exit ? change.at_m : gore_from_m);
     add(MarkingType::laneline, MarkingStyle::solid, offset_m(std::min(lanes, change.lanes)), gore_from_m,
-        gore_from_m + kGore_m);
-    edge_from_m_ = exit ? gore_from_m + kGore_m : change.at_m;
+        gore_from_m + change.gore_m);
+    edge_from_m_ = exit ? gore_from_m + change.gore_m : change.at_m;
     knots_ = {{change.at_m, offset_m(change.lanes)}};
   }
 
-  // The dashed line outside of lane k begins with lane k + 1.
+  // The line outside of lane k begins with lane k + 1.
   void open_lines(int lanes, int more, double at_m) {
     for (int k = std::max(lanes, 1); k < more; ++k) begin_m_[k] = at_m;
   }
   void close_lines(int lanes, int fewer, double at_m) {
     for (int k = std::max(fewer, 1); k < lanes; ++k)
-      add(MarkingType::laneline, MarkingStyle::dashed, offset_m(k), begin_m_[k], at_m);
+      add(MarkingType::laneline, k == section_.solid_after ? MarkingStyle::solid : MarkingStyle::dashed,
+          offset_m(k), begin_m_[k], at_m);
   }
 
   const Section& section_;

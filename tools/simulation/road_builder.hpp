@@ -13,11 +13,12 @@ namespace laneloom {
 
 /// From `at_m` on, a side has `lanes` lanes. Over a taper its edge moves outwards or inwards, and the new (or
 /// ending) lane is beside the edge. Without a taper another street takes the lane away or brings it: the edge
-/// jumps, and the lane's border is painted solid for 15 m on the side that has fewer lanes.
+/// jumps, and the lane's border is painted solid along the gore on the side that has fewer lanes.
 struct LaneChange {
   double at_m = 0.0;
   int lanes = 1;
   double taper_m = 30.0;
+  double gore_m = 15.0;
 };
 
 /// The lanes of one direction, and how their number changes along the reference line (whichever direction is
@@ -30,12 +31,13 @@ struct Side {
 enum class CentreLine { none, dashed, solid, double_solid };
 
 /// Cross-section of a street: its reference line is between the directions. Edges are roadedges, and borders
-/// between lanes of one direction are dashed.
+/// between lanes of one direction are dashed unless said to be solid.
 struct Section {
   Side forward{};
   Side backward{.lanes = 0, .changes = {}};  ///< 0: one-way, and the reference line is the left edge
   CentreLine centre = CentreLine::solid;
   double lane_width_m = 3.5;
+  int solid_after = 0;        ///< so many lanes from the reference line, the border is solid; 0: none is
   double shoulder_m = 0.0;    ///< below 2.5; from a solid line to the edge, where no lane begins or ends
   bool visible_edges = true;  ///< else it ends in grass
   double gore_begin_m = 0.0;  ///< of a one-way street: its left edge is painted solid up to here (an exit)

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "simulation/motorways.hpp"
 #include "simulation/road_builder.hpp"
 #include "simulation/town.hpp"
 
@@ -143,14 +144,21 @@ Road overpass(double speed_mps) {
   return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m)}, speed_mps);
 }
 
+Road exit(double speed_mps) { return exit_road(speed_mps); }
+Road entry(double speed_mps) { return entry_road(speed_mps); }
+Road median(double speed_mps) { return divided_road({}, speed_mps); }
+
 using Maker = Road (*)(double speed_mps);
-constexpr std::array<std::pair<const char*, Maker>, 12> kScenarios{{{"straight", straight_road},
+constexpr std::array<std::pair<const char*, Maker>, 15> kScenarios{{{"straight", straight_road},
                                                                     {"curve", curve},
                                                                     {"street", street},
                                                                     {"country_road", country_road},
                                                                     {"motorway", motorway},
                                                                     {"split", split},
                                                                     {"merge", merge},
+                                                                    {"exit", exit},
+                                                                    {"entry", entry},
+                                                                    {"median", median},
                                                                     {"t_intersection", t_intersection},
                                                                     {"intersection", intersection},
                                                                     {"hill", hill},

@@ -60,7 +60,8 @@ std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph,
                                          const std::vector<MeasuredPolyline>& measured) {
   const auto is_line = [&](std::size_t i) { return boundaries[i].marking.type != MarkingType::roadedge; };
   const auto kerbs = kerb_sides(graph, boundaries, measured);
-  std::array<std::vector<BoundaryPair>, kMaxBetween + 1> by_count;
+  // Those with nothing between, then those with what only touches either.
+  std::array<std::vector<BoundaryPair>, 3> by_rank;
   for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
     for (const std::size_t one : graph.sections[section].boundaries) {
       for (const SideBySide& other : graph.beside[one]) {
@@ -81,12 +82,12 @@ std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph,
         pair.right_kerb = kerbs[pair.right][pair.right_reversed];
         pair.crosses_kerb = (is_line(pair.left) && kerbs[pair.left][pair.left_reversed]) ||
                             (is_line(pair.right) && kerbs[pair.right][!pair.right_reversed]);
-        by_count[std::min(all, kMaxBetween)].push_back(pair);
+        by_rank[lasting > 0 ? 2 : std::min<std::size_t>(all, 1)].push_back(pair);
       }
     }
   }
   std::vector<BoundaryPair> result;
-  for (const auto& group : by_count) result.insert(result.end(), group.begin(), group.end());
+  for (const auto& group : by_rank) result.insert(result.end(), group.begin(), group.end());
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lanes/cross_sections.hpp"
+#include "mapping/lanes/gores.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 
 namespace laneloom {
@@ -21,7 +22,8 @@ Occupied joined(Occupied a, const Occupied& b) {
 
 std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
                                  const std::vector<LaneBoundary>& boundaries,
-                                 const std::vector<MeasuredPolyline>& measured, const LaneConfig& config) {
+                                 const std::vector<MeasuredPolyline>& measured, const Point& vehicle,
+                                 const LaneConfig& config) {
   std::vector<Lane> lanes;
   // Per boundary: its right side, its left side.
   std::vector<std::array<Occupied, 2>> used(boundaries.size());
@@ -32,10 +34,13 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
     const LaneBorder right(boundaries[pair.right], measured[pair.right], pair.right_reversed, right_used);
     // Between two edges so far apart, there rather is a verge.
     const bool kerb = pair.adjacent && pair.left_kerb != pair.right_kerb;
-    auto sections = cross_sections(left, right, config.min_width_m,
-                                   kerb ? config.max_kerb_width_m : config.max_width_m, config);
-    for (CrossSection& section : sections)
+    auto sections =
+        cross_sections(left, right, 0.0, kerb ? config.max_kerb_width_m : config.max_width_m, config);
+    remove_gores(left, right, vehicle, sections);
+    for (CrossSection& section : sections) {
+      if (section.width_m < config.min_width_m) section.valid = false;
       if (section.wide && find_between(section, pair, boundaries, measured)) section.valid = false;
+    }
     for (std::size_t begin = 0; begin < sections.size();) {
       const auto run = next_run(sections, begin, config);
       const double min_length_m = run.front().wide ? kMinKerbLaneLength_m : config.min_length_m;

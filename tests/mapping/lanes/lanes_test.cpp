@@ -17,7 +17,8 @@ using test::straight;
 std::vector<Lane> lanes_of(std::vector<LaneBoundary> boundaries) {
   auto measured = test::measure(boundaries);
   const auto graph = road_sections({}, test::at(0), boundaries, measured);
-  auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
+  auto lanes =
+      generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, Point::Zero(), {});
   std::vector<KnownLane> known;
   ElementId next_id = 100;
   identify_lanes(1, {}, lanes, known, next_id);
@@ -58,6 +59,15 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   EXPECT_EQ(main_neighbour(right->left_neighbours), left->id);
   EXPECT_TRUE(left->left_neighbours.empty());
   EXPECT_EQ(left->section, right->section);
+}
+
+TEST(Lanes, WhatBeginsWhereALineEndsIsNotBetweenItAndTheNext) {
+  const auto lanes = lanes_of(
+      {boundary(1, straight({0, 4.4, 0}, {30, 4.4, 0})), boundary(2, straight({0, 3.5, 0}, {20, 3.5, 0})),
+       boundary(3, straight({19.5, 3.49, 0}, {30, 3.49, 0})), boundary(4, straight({0, 0, 0}, {30, 0, 0}))});
+  ASSERT_TRUE(between(lanes, 2, 4));
+  EXPECT_NEAR(between(lanes, 2, 4)->left_range.length(), 20.0, 1.0);
+  EXPECT_FALSE(between(lanes, 1, 4));
 }
 
 /// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
@@ -110,7 +120,8 @@ TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
   const SectionGraph graph{.sections = {{{0, 1}}},
                            .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
   const auto measured = test::measure(boundaries);
-  const auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
+  const auto lanes =
+      generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, Point::Zero(), {});
   ASSERT_EQ(lanes.size(), 1U);
   EXPECT_EQ(lanes[0].right_boundary, 1U);
   EXPECT_EQ(lanes[0].left_boundary, 2U);
@@ -300,7 +311,8 @@ TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
                                          boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
     auto measured = test::measure(boundaries);
     const auto graph = road_sections({}, test::at(from_m), boundaries, measured);
-    auto lanes = generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, {});
+    auto lanes =
+        generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, Point::Zero(), {});
     identify_lanes(frame, {}, lanes, known, next_id);
     return lanes;
   };

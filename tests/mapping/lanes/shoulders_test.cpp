@@ -36,7 +36,7 @@ std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConf
   auto measured = test::measure(boundaries);
   const auto graph = road_sections({}, test::at(0), boundaries, measured);
   const auto pairs = boundary_pairs(graph, boundaries, measured);
-  auto lanes = generate_lanes(pairs, boundaries, measured, config);
+  auto lanes = generate_lanes(pairs, boundaries, measured, Point::Zero(), config);
   remove_shoulders(pairs, boundaries, T_map_body, config, lanes);
   std::vector<double> widths;
   for (const Lane& lane : lanes) widths.push_back(lane.width_m);
@@ -90,7 +90,7 @@ TEST(Shoulders, AreNotAheadOfWhereTheVehicleDrives) {
   const auto pairs =
       boundary_pairs(road_sections({}, test::at(0), boundaries, measured), boundaries, measured);
   const auto pieces = [&](const Eigen::Isometry3d& T_map_body) {
-    auto lanes = generate_lanes(pairs, boundaries, measured, {});
+    auto lanes = generate_lanes(pairs, boundaries, measured, Point::Zero(), {});
     remove_shoulders(pairs, boundaries, T_map_body, {}, lanes);
     return std::ranges::count(lanes, 3U, &Lane::right_boundary);
   };

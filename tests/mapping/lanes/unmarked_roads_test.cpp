@@ -29,7 +29,7 @@ class Dividers : public ::testing::Test {
     measured_ = test::measure(boundaries_);
     const auto graph = road_sections({}, test::at(0), boundaries_, measured_);
     const auto pairs = boundary_pairs(graph, boundaries_, measured_);
-    lanes_ = generate_lanes(pairs, boundaries_, measured_, config_);
+    lanes_ = generate_lanes(pairs, boundaries_, measured_, Point::Zero(), config_);
     TakenSpace taken(lanes_);
     add(divide_unmarked(pairs, boundaries_, measured_, config_, taken));
   }

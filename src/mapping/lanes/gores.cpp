@@ -1,0 +1,72 @@
+#include "mapping/lanes/gores.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+#include <span>
+
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kMeeting_m = 1.0;       // borders that are nearer at their end meet there
+constexpr double kGrowthFrom_m = 15.0;   // the stretch at the end from which the growth of the width is taken
+constexpr double kMinEarlyGrowth = 0.4;  // of it, on its nearer half; with less, a lane begins to widen there
+constexpr double kMaxAhead_m = 60.0;     // from the end to where borders that converge would meet
+constexpr double kStyleReach_m = 5.0;    // either way; shorter patches of another style are noise
+
+bool may_be_crossed(const LaneBorder& border, double arc_m) {
+  if (border.marking().type == MarkingType::roadedge) return false;
+  const Range around = border.own({arc_m - kStyleReach_m, arc_m + kStyleReach_m});
+  return dashed_excess_m(border.marking(), around) >= 0.0;
+}
+
+/// Whether the borders meet at the run's first cross-section, or not far before it.
+bool begins_at_meeting(std::ranges::random_access_range auto& run) {
+  const CrossSection& first = run.front();
+  if (first.width_m < kMeeting_m) return true;
+  const auto distance_m = [&](const CrossSection& section) {
+    return std::abs(section.right_arc_m - first.right_arc_m);
+  };
+  const auto beyond =
+      std::ranges::find_if(run, [&](const CrossSection& s) { return distance_m(s) > kGrowthFrom_m; });
+  const CrossSection& last = *std::prev(beyond);
+  const CrossSection& middle = *(run.begin() + (beyond - run.begin()) / 2);
+  const double growth_m = last.width_m - first.width_m;
+  if (middle.width_m - first.width_m < kMinEarlyGrowth * growth_m) return false;
+  return first.width_m * distance_m(last) < kMaxAhead_m * growth_m;
+}
+
+void remove_from_meeting(const LaneBorder& left, const LaneBorder& right,
+                         std::ranges::random_access_range auto run) {
+  if (run.empty() || !run.front().valid || !begins_at_meeting(run)) return;
+  for (CrossSection& section : run) {
+    if (may_be_crossed(left, section.left_arc_m) || may_be_crossed(right, section.right_arc_m)) return;
+    section.valid = false;
+  }
+}
+
+bool is_driven_in(std::span<const CrossSection> run, const Point& vehicle) {
+  return std::ranges::any_of(run, [&](const CrossSection& section) {
+    return (section.middle() - vehicle).norm() < 0.5 * section.width_m;
+  });
+}
+
+}  // namespace
+
+void remove_gores(const LaneBorder& left, const LaneBorder& right, const Point& vehicle,
+                  std::vector<CrossSection>& sections) {
+  for (auto begin = sections.begin(); begin != sections.end();) {
+    begin = std::find_if(begin, sections.end(), [](const CrossSection& s) { return s.valid; });
+    const auto end = std::find_if(begin, sections.end(), [](const CrossSection& s) { return !s.valid; });
+    const std::span<CrossSection> run(begin, end);
+    if (!is_driven_in(run, vehicle)) {
+      remove_from_meeting(left, right, run);
+      remove_from_meeting(left, right, std::views::reverse(run));
+    }
+    begin = end;
+  }
+}
+
+}  // namespace laneloom
