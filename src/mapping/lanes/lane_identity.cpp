@@ -33,7 +33,11 @@ void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<L
   };
   std::vector<std::optional<MeasuredPolyline>> measured(known.size());
   std::vector<bool> taken(known.size(), false);
-  std::map<ElementId, double> direction_log_odds;
+  struct Direction {
+    double log_odds = 0.0;
+    int kept = 0;
+  };
+  std::map<ElementId, Direction> directions;
   // Between the same boundaries first, then wherever a lane has been.
   for (const bool same_boundaries : {true, false}) {
     std::vector<Match> matches;
@@ -53,8 +57,8 @@ void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<L
       if (taken[k] || lanes[i].id != kNoElement) continue;
       taken[k] = true;
       lanes[i].id = known[k].id;
-      const double sense = same_way(lanes[i].centerline, *measured[k]) ? 1.0 : -1.0;
-      direction_log_odds[known[k].id] = sense * known[k].direction_log_odds;
+      const int sense = same_way(lanes[i].centerline, *measured[k]) ? 1 : -1;
+      directions[known[k].id] = {sense * known[k].direction_log_odds, sense * known[k].kept_direction};
     }
   }
   std::erase_if(known, [&](const KnownLane& lane) {
@@ -64,7 +68,8 @@ void identify_lanes(std::uint64_t frame, const LaneConfig& config, std::vector<L
   for (Lane& lane : lanes) {
     if (lane.id == kNoElement) lane.id = next_id++;
     const auto [a, b] = boundary_pair(lane);
-    known.push_back({lane.id, a, b, lane.centerline, frame, direction_log_odds[lane.id]});
+    const Direction& direction = directions[lane.id];
+    known.push_back({lane.id, a, b, lane.centerline, frame, direction.log_odds, direction.kept});
   }
   std::ranges::sort(lanes, {}, &Lane::id);
 }

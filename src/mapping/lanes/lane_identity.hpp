@@ -16,9 +16,10 @@ struct KnownLane {
   Polyline centerline;
   std::uint64_t last_frame = 0;
   double direction_log_odds = 0.0;  ///< evidence that traffic runs along the centerline
+  int kept_direction = 0;           ///< 1: it is sure to, -1: it is sure to run against it
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(id, boundary_a, boundary_b, centerline, last_frame, direction_log_odds);
+    archive(id, boundary_a, boundary_b, centerline, last_frame, direction_log_odds, kept_direction);
   }
 };
 

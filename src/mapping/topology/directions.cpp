@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
-#include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/oriented_groups.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
+#include "mapping/topology/side_by_side.hpp"
 #include "mapping/topology/stoplines.hpp"
 
 namespace laneloom {
@@ -20,14 +20,13 @@ namespace {
 constexpr double kEgoEvidence = 0.5;       // per frame
 constexpr double kStoplineEvidence = 0.3;  // per frame
 constexpr double kMemory = 0.98;           // per frame beside it: the vehicle may have overtaken there
-constexpr double kDoubleLine_m = 0.8;      // between its two lines
 constexpr double kMaxEvidence = 6.0;
-constexpr double kEdgeEvidence = 1.0;         // of the edge beside the outermost lane
-constexpr double kEdgeLineEvidence = 0.5;     // of a solid line there
-constexpr double kDividerEvidence = 1.0;      // of a solid or dashed line for or against opposite directions
-constexpr double kEdgeBetweenEvidence = 2.0;  // of an edge for them
-constexpr double kWrongSide = -6.0;           // that traffic keeps to the other side
-constexpr double kKnown = 1.5;                // from which the direction is said
+constexpr double kEdgeEvidence = 1.0;      // of the edge beside the outermost lane
+constexpr double kEdgeLineEvidence = 0.5;  // of a solid line there
+constexpr double kWrongSide = -6.0;        // that traffic keeps to the other side
+constexpr double kKnown = 1.5;             // from which the direction is said
+constexpr double kSure = 3.0;              // from which it is kept,
+constexpr double kKeptEvidence = 3.0;      // with so much
 
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
 
@@ -79,6 +78,7 @@ struct Mean {
 struct SideBySideGroups {
   std::size_t left, right;
   double opposed;
+  bool may_part;                         ///< they may be of two roads
   double to_left = 0.0, to_right = 0.0;  ///< messages
 };
 
@@ -87,45 +87,10 @@ struct Model {
   std::vector<SideBySideGroups> pairs;
 };
 
-/// What the boundary between two lanes says of opposite directions.
-double divider_evidence(const LaneBoundary& divider, const Range& range) {
-  const Marking& boundary = divider.marking;
-  if (boundary.status == ElementStatus::inferred)
-    return divider.two_way ? kDividerEvidence : -kDividerEvidence;
-  if (boundary.type == MarkingType::roadedge) return kEdgeBetweenEvidence;
-  const double dashed_m = dashed_excess_m(boundary, range);
-  if (dashed_m == 0.0) return 0.0;
-  return dashed_m < 0.0 ? kDividerEvidence : -kDividerEvidence;
-}
-
-/// Whether the lanes are neighbours that run alike, be it across a double line.
-bool is_left_of(const Lane& lane, const Lane& other) {
-  if (!lane.right_neighbours.empty())
-    return main_neighbour(lane.right_neighbours) == other.id && lane.right_boundary == other.left_boundary;
-  if (!other.left_neighbours.empty()) return false;
-  const MeasuredPolyline right(lane.right), left(other.left);
-  const double middle_m = 0.5 * right.length();
-  const Point middle = right.at(middle_m);
-  const Projection foot = left.project(middle);
-  const bool along = right.direction(middle_m).dot(left.direction(foot.arc_m)) > 0.0;
-  return foot.inside && along && foot.distance_m < kDoubleLine_m && same_level(foot.foot, middle);
-}
-
 /// 1 where traffic keeps right, -1 where it keeps left, 0 where that is not said.
 double driving_side(const DirectionConfig& config) {
   if (config.driving_side == "unknown") return 0.0;
   return config.driving_side == "right" ? 1.0 : -1.0;
-}
-
-/// Lanes side by side, by their indices, the left one first.
-using LanePairs = std::vector<std::pair<std::size_t, std::size_t>>;
-
-LanePairs side_by_side(const std::vector<Lane>& lanes) {
-  LanePairs pairs;
-  for (std::size_t i = 0; i < lanes.size(); ++i)
-    for (std::size_t k = 0; k < lanes.size(); ++k)
-      if (i != k && is_left_of(lanes[i], lanes[k])) pairs.emplace_back(i, k);
-  return pairs;
 }
 
 /// What the outer border of a road says of the lane at it, where traffic keeps to that side.
@@ -136,10 +101,11 @@ double border_evidence(const Marking& border, const Range& range) {
 }
 
 /// Per lane, what the borders of the road say of its direction, where traffic keeps right.
-std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const LanePairs& pairs,
+std::vector<double> outermost_evidence(const std::vector<Lane>& lanes,
+                                       const std::vector<SideBySideLanes>& pairs,
                                        const std::vector<LaneBoundary>& boundaries) {
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
-  for (const auto& [left, right] : pairs) open_right[left] = open_left[right] = false;
+  for (const SideBySideLanes& pair : pairs) open_right[pair.left] = open_left[pair.right] = false;
   const auto marking = [&](ElementId id) -> const Marking& { return boundary_of(boundaries, id).marking; };
   std::vector<double> evidence(lanes.size(), 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
@@ -152,35 +118,58 @@ std::vector<double> outermost_evidence(const std::vector<Lane>& lanes, const Lan
   return evidence;
 }
 
+/// What is remembered of each group: what was observed of its lanes, and which way they were said to run.
+std::vector<double> remembered_evidence(const std::vector<Lane>& lanes, const OrientedGroups& groups,
+                                        const std::vector<KnownLane>& known) {
+  std::vector<double> observed(lanes.size(), 0.0);
+  std::vector<int> kept(lanes.size(), 0);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const auto remembered = std::ranges::find(known, lanes[i].id, &KnownLane::id);
+    if (remembered == known.end()) continue;
+    const int sense = is_opposed(groups, i) ? -1 : 1;
+    observed[groups.group(i)] += sense * remembered->direction_log_odds;
+    kept[groups.group(i)] += sense * remembered->kept_direction;
+  }
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    observed[i] = std::clamp(observed[i], -kMaxEvidence, kMaxEvidence);
+    observed[i] += std::clamp(kept[i], -1, 1) * kKeptEvidence;
+  }
+  return observed;
+}
+
+std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLanes>& beside,
+                                                  const OrientedGroups& groups) {
+  struct Sum {
+    Mean opposed;
+    bool may_part = true;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Sum> sums;
+  for (const SideBySideLanes& pair : beside) {
+    const std::size_t left = groups.group(pair.left), right = groups.group(pair.right);
+    const bool turned = is_opposed(groups, pair.left);
+    if (left == right || turned != is_opposed(groups, pair.right)) continue;
+    Sum& sum = sums[turned ? std::pair(right, left) : std::pair(left, right)];
+    sum.opposed.add(pair.opposed);
+    sum.may_part = sum.may_part && pair.may_part;
+  }
+  std::vector<SideBySideGroups> pairs;
+  pairs.reserve(sums.size());
+  for (const auto& [pair, sum] : sums)
+    pairs.push_back({pair.first, pair.second, sum.opposed.value(), sum.may_part});
+  return pairs;
+}
+
 Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
                   const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
                   double side) {
-  const LanePairs beside = side_by_side(lanes);
+  const std::vector<SideBySideLanes> beside = side_by_side(lanes, boundaries);
   const std::vector<double> outermost = outermost_evidence(lanes, beside, boundaries);
-  Model model{.evidence = std::vector<double>(lanes.size(), 0.0), .pairs = {}};
+  Model model{.evidence = remembered_evidence(lanes, groups, known),
+              .pairs = side_by_side_groups(beside, groups)};
   std::vector<Mean> borders(lanes.size());
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const std::size_t own = groups.group(i);
-    const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
-    const auto remembered = std::ranges::find(known, lanes[i].id, &KnownLane::id);
-    if (remembered != known.end()) model.evidence[own] += sense * remembered->direction_log_odds;
-    borders[own].add(sense * side * outermost[i]);
-  }
   for (std::size_t i = 0; i < lanes.size(); ++i)
-    model.evidence[i] = std::clamp(model.evidence[i], -kMaxEvidence, kMaxEvidence) + borders[i].value();
-  std::map<std::pair<std::size_t, std::size_t>, Mean> opposed;
-  for (const auto& [i, k] : beside) {
-    const std::size_t left = groups.group(i), right = groups.group(k);
-    const bool turned = is_opposed(groups, i);
-    if (left == right || turned != is_opposed(groups, k)) continue;
-    const Lane& lane = lanes[i];
-    const LaneBoundary& divider = boundary_of(boundaries, lane.right_boundary);
-    opposed[turned ? std::pair(right, left) : std::pair(left, right)].add(
-        divider_evidence(divider, lane.right_range));
-  }
-  model.pairs.reserve(opposed.size());
-  for (const auto& [pair, evidence] : opposed)
-    model.pairs.push_back({pair.first, pair.second, evidence.value()});
+    borders[groups.group(i)].add((is_opposed(groups, i) ? -1.0 : 1.0) * side * outermost[i]);
+  for (std::size_t i = 0; i < lanes.size(); ++i) model.evidence[i] += borders[i].value();
   return model;
 }
 
@@ -192,8 +181,9 @@ std::vector<double> beliefs(Model model, double side) {
     std::vector<double> next = model.evidence;
     for (SideBySideGroups& pair : model.pairs) {
       // Left against and right along is how right-hand traffic meets.
-      const double meeting = side < 0.0 ? kWrongSide : pair.opposed;
-      const double parting = side > 0.0 ? kWrongSide : pair.opposed;
+      const double wrong = pair.may_part ? std::min(0.0, pair.opposed) : kWrongSide;
+      const double meeting = side < 0.0 ? wrong : pair.opposed;
+      const double parting = side > 0.0 ? wrong : pair.opposed;
       const double left = belief[pair.left] - pair.to_left, right = belief[pair.right] - pair.to_right;
       pair.to_right = std::max(meeting, left) - std::max(0.0, left + parting);
       pair.to_left = std::max(parting, right) - std::max(0.0, right + meeting);
@@ -203,6 +193,15 @@ std::vector<double> beliefs(Model model, double side) {
     belief = std::move(next);
   }
   return belief;
+}
+
+/// Keeps which way a lane runs, once that is sure, until it is no longer known.
+void keep_direction(double log_odds, ElementId lane, std::vector<KnownLane>& known) {
+  const auto remembered = std::ranges::find(known, lane, &KnownLane::id);
+  if (remembered == known.end()) return;
+  const int sense = log_odds < 0.0 ? -1 : 1;
+  const bool kept = std::abs(log_odds) >= (remembered->kept_direction == sense ? kKnown : kSure);
+  remembered->kept_direction = kept ? sense : 0;
 }
 
 Range reversed(const Range& range, double total_m) { return {total_m - range.to_m, total_m - range.from_m}; }
@@ -250,7 +249,7 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 }
 
 void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
-                     const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
+                     std::vector<KnownLane>& known, std::vector<Lane>& lanes,
                      std::vector<Linkage>& linkages) {
   const OrientedGroups groups = group(lanes, linkages);
   const double side = driving_side(config);
@@ -258,6 +257,7 @@ void find_directions(const std::vector<LaneBoundary>& boundaries, const Directio
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const double log_odds = (is_opposed(groups, i) ? -1.0 : 1.0) * belief[groups.group(i)];
+    keep_direction(log_odds, lanes[i].id, known);
     if (std::abs(log_odds) < kKnown) continue;
     lanes[i].direction = Lane::Direction::along_centerline;
     if (log_odds < 0.0) against.push_back(lanes[i].id);

@@ -20,15 +20,14 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 /// beyond the paper.
 ///
 /// Lanes that continue one another run the same way. Beside each other, the traffic from the side that is not
-/// driven on does not come from the far side of the lane; a solid line between two lanes speaks for opposite
-/// directions, a dashed one against them; the outermost lane at an edge, or at a solid line, runs as the
-/// driving side says. These and the remembered evidence are weighed against one another by max-product belief
-/// propagation.
+/// driven on does not come from the far side of the lane; what lies between two lanes speaks for opposite
+/// directions or against them (side_by_side.hpp); the outermost lane at an edge, or at a solid line, runs as
+/// the driving side says. These and the remembered evidence are weighed against one another by max-product
+/// belief propagation. What was sure stays known until it is contradicted; `known` remembers it.
 ///
 /// `boundaries` are in the order of their ids. `linkages` between lanes that are turned are turned too.
 void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
-                     const std::vector<KnownLane>& known, std::vector<Lane>& lanes,
-                     std::vector<Linkage>& linkages);
+                     std::vector<KnownLane>& known, std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
 
 /// Lets lanes run the other way, with their sides and neighbours, and the linkages between them. A linkage of
 /// which one lane is turned and the other is not goes.

@@ -1,6 +1,7 @@
 #include "mapping/topology/intersections.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -149,11 +150,23 @@ bool crosses_edge(const Polyline& path, const std::vector<LaneBoundary>& boundar
   });
 }
 
+/// Whether it lies between solid lines with lanes beyond: in the middle of a road, as lanes for turning do.
+/// What lies ahead of one may be that of the other direction.
+bool is_enclosed(const Lane& lane, const std::vector<LaneBoundary>& boundaries) {
+  if (lane.left_neighbours.empty() || lane.right_neighbours.empty()) return false;
+  return std::ranges::all_of(std::array{true, false}, [&](bool left) {
+    const LaneSide side = lane_side(lane, left);
+    return dashed_excess_m(boundary_of(boundaries, side.of.boundary).marking, side.range) < 0.0;
+  });
+}
+
 /// Lanes that lead into each other straight on run the same way.
-void agree_on_direction(Lane& from, Lane& to) {
+void agree_on_direction(Lane& from, Lane& to, const std::vector<LaneBoundary>& boundaries) {
   using Direction = Lane::Direction;
   if (from.direction == Direction::unknown && to.direction == Direction::unknown) return;
-  from.direction = to.direction = Direction::along_centerline;
+  for (Lane* lane : {&from, &to})
+    if (lane->direction == Direction::unknown && !is_enclosed(*lane, boundaries))
+      lane->direction = Direction::along_centerline;
 }
 
 double confidence(const Crossing& crossing) {
@@ -212,7 +225,7 @@ void link_across_intersections(const std::vector<LaneBoundary>& boundaries, cons
     Polyline path = path_between(from, to);
     if (crosses_edge(path, boundaries)) return;
     taken.take(from.id, to.id, crossing.turn);
-    if (crossing.turn == Turn::straight) agree_on_direction(from, to);
+    if (crossing.turn == Turn::straight) agree_on_direction(from, to, boundaries);
     linkages.push_back({.from = from.id,
                         .to = to.id,
                         .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,

@@ -61,15 +61,6 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   EXPECT_EQ(left->section, right->section);
 }
 
-TEST(Lanes, WhatBeginsWhereALineEndsIsNotBetweenItAndTheNext) {
-  const auto lanes = lanes_of(
-      {boundary(1, straight({0, 4.4, 0}, {30, 4.4, 0})), boundary(2, straight({0, 3.5, 0}, {20, 3.5, 0})),
-       boundary(3, straight({19.5, 3.49, 0}, {30, 3.49, 0})), boundary(4, straight({0, 0, 0}, {30, 0, 0}))});
-  ASSERT_TRUE(between(lanes, 2, 4));
-  EXPECT_NEAR(between(lanes, 2, 4)->left_range.length(), 20.0, 1.0);
-  EXPECT_FALSE(between(lanes, 1, 4));
-}
-
 /// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
 /// right. Round its corners no sense of direction fits all.
 std::vector<LaneBoundary> t_junction() {

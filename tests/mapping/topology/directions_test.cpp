@@ -52,6 +52,20 @@ class Directions : public ::testing::Test {
     lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
   }
 
+  /// Lane 11 is as far to the left of lane 12, behind a solid line of its own.
+  void median(double width_m) {
+    double_divider();
+    divider(MarkingStyle::solid);
+    boundaries_[3].marking.styles = {{{0, 40}, MarkingStyle::solid}};
+    lanes_[1].left = straight({0, 3.5, 0}, {40, 3.5, 0});
+    lanes_[0] = lane(11, 1, 0, 40);
+    for (Polyline* line : {&lanes_[0].left, &lanes_[0].right, &lanes_[0].centerline})
+      for (Point& point : *line) point.y() += width_m;
+    lanes_[1] = lane(12, 2, 0, 40);
+    lanes_[1].left_boundary = 4;
+    known_.clear();
+  }
+
   void observe(const Eigen::Isometry3d& T_map_body, const std::vector<Marking>& markings = {}) {
     for (const Lane& lane : lanes_) {
       if (std::ranges::find(known_, lane.id, &KnownLane::id) == known_.end())
@@ -105,6 +119,63 @@ TEST_F(Directions, ADoubleLineIsOne) {
   EXPECT_TRUE(known(11) && known(12));
   EXPECT_FALSE(runs_forward(11));
   EXPECT_TRUE(runs_forward(12));
+}
+
+TEST_F(Directions, AMedianDividesThem) {
+  for (const double width_m : {1.0, 5.0, 15.0}) {
+    median(width_m);
+    observe(test::at(20, 1.75));
+    find();
+    EXPECT_TRUE(known(11)) << width_m;
+    EXPECT_FALSE(runs_forward(11)) << width_m;
+    EXPECT_TRUE(runs_forward(12)) << width_m;
+  }
+}
+
+TEST_F(Directions, LinesThatDivergeAreNoMedian) {
+  median(1.0);
+  for (Polyline* line : {&lanes_[0].left, &lanes_[0].right, &lanes_[0].centerline}) line->back().y() += 3.0;
+  boundaries_[0].marking.styles.clear();
+  boundaries_[0].marking.type = MarkingType::laneline;
+  observe(test::at(20, 1.75));
+  find();
+  EXPECT_FALSE(known(11));
+}
+
+TEST_F(Directions, ToTheRightOfAWideMedianThereMayBeAnotherRoad) {
+  median(5.0);
+  boundaries_[2].marking.type = MarkingType::laneline;
+  for (int frame = 0; frame < 12; ++frame) observe(test::at(20, 10.25));
+  find();
+  EXPECT_TRUE(known(11) && runs_forward(11));
+  EXPECT_FALSE(known(12));
+}
+
+TEST_F(Directions, WhatWasSureStaysKnownUntilItIsContradicted) {
+  for (int frame = 0; frame < 12; ++frame) observe(test::at(20, 5.25));
+  find();
+  ASSERT_TRUE(known(12) && runs_forward(12));
+  // Now alone, between a line and nothing that tells.
+  lanes_ = {lane(12, 2, 0, 40)};
+  boundaries_[2].marking.type = MarkingType::laneline;
+  find();
+  EXPECT_TRUE(known(12) && runs_forward(12));
+  for (int frame = 0; frame < 12; ++frame) observe(test::at(20, 1.75, std::numbers::pi));
+  find();
+  EXPECT_TRUE(known(12));
+  EXPECT_FALSE(runs_forward(12));
+}
+
+TEST_F(Directions, OfThreeLanesASolidLineDoesNotTellWhichOneIsAlone) {
+  divider(MarkingStyle::solid);
+  boundaries_.push_back(test::boundary(4, straight({0, -3.5, 0}, {40, -3.5, 0}), MarkingType::roadedge));
+  boundaries_[2].marking.type = MarkingType::laneline;
+  boundaries_[2].marking.styles = {{{0, 40}, MarkingStyle::dashed}};
+  lanes_.push_back(lane(13, 3, 0, 40));
+  lanes_[1].right_neighbours = {{.lane = 13, .range = {0.0, 40.0}}};
+  lanes_[2].left_neighbours = {{.lane = 12, .range = {0.0, 40.0}}};
+  find();
+  EXPECT_FALSE(known(12));
 }
 
 TEST_F(Directions, ALineOnABridgeMakesNoDoubleLineWithOneBelow) {

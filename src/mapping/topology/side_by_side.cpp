@@ -1,0 +1,154 @@
+#include "mapping/topology/side_by_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+// Log odds of opposite directions.
+constexpr double kSolidEvidence = 0.5;
+constexpr double kMiddleEvidence = 1.0;  // of a solid line in the middle of the road
+constexpr double kDashedEvidence = -0.9;
+constexpr double kTwoWayEvidence = 1.0;     // of nothing painted from kerb to kerb
+constexpr double kUnmarkedEvidence = -0.9;  // elsewhere
+constexpr double kMedianEvidence = 2.0;     // also of an edge
+
+constexpr double kDoubleLine_m = 0.8;  // between its two lines
+constexpr double kMaxMedian_m = 16.0;
+constexpr double kNarrow_m = 2.0;               // a narrower median divides one road
+constexpr double kMinMedian_m = 12.0;           // its length
+constexpr double kMaxVariation_m = 0.4;         // of its width,
+constexpr double kMaxDoubleVariation_m = 0.15;  // of a double line: what varies more, begins to diverge
+constexpr double kMedianStep_m = 3.0;
+
+/// Of three lanes, which direction has two is open; of five, a middle one for turning may be on either side.
+bool is_middle(std::size_t left, std::size_t right) {
+  const std::size_t more = std::max(left, right), fewer = std::min(left, right);
+  return more == fewer || (more == fewer + 1 && fewer > 1);
+}
+
+struct Median {
+  std::size_t right = 0;  ///< the lane beyond it
+  double width_m = std::numeric_limits<double>::infinity();
+};
+
+bool may_be_crossed(const Marking& border, const Range& range) {
+  return border.type != MarkingType::roadedge && dashed_excess_m(border, range) >= 0.0;
+}
+
+/// What the boundary that two lanes share says.
+double boundary_evidence(const LaneBoundary& boundary, const Range& range, bool in_middle) {
+  const Marking& marking = boundary.marking;
+  if (marking.status == ElementStatus::inferred)
+    return boundary.two_way ? kTwoWayEvidence : kUnmarkedEvidence;
+  if (marking.type == MarkingType::roadedge) return kMedianEvidence;
+  const double dashed_m = dashed_excess_m(marking, range);
+  if (dashed_m == 0.0) return 0.0;
+  if (dashed_m > 0.0) return kDashedEvidence;
+  return in_middle ? kMiddleEvidence : kSolidEvidence;
+}
+
+class SideBySide {
+ public:
+  SideBySide(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries)
+      : lanes_(lanes), boundaries_(boundaries) {
+    for (const Lane& lane : lanes) left_sides_.emplace_back(lane.left);
+  }
+
+  std::vector<SideBySideLanes> pairs() const {
+    std::vector<SideBySideLanes> pairs;
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      if (const auto right = across(i, false)) {
+        const Lane& lane = lanes_[i];
+        const bool in_middle = is_middle(lanes_on(i, true) + 1, lanes_on(*right, false) + 1);
+        pairs.push_back(
+            {i, *right,
+             boundary_evidence(boundary_of(boundaries_, lane.right_boundary), lane.right_range, in_middle)});
+      } else if (lanes_[i].right_neighbours.empty()) {
+        if (const auto median = median_right_of(i)) pairs.push_back(across_median(i, *median));
+      }
+    }
+    return pairs;
+  }
+
+ private:
+  /// The lane that runs alike across the boundary on that side.
+  std::optional<std::size_t> across(std::size_t i, bool left) const {
+    const Lane& lane = lanes_[i];
+    const auto other = std::ranges::find(
+        lanes_, main_neighbour(left ? lane.left_neighbours : lane.right_neighbours), &Lane::id);
+    if (other == lanes_.end()) return std::nullopt;
+    const bool alike =
+        left ? other->right_boundary == lane.left_boundary : other->left_boundary == lane.right_boundary;
+    return alike ? std::optional(static_cast<std::size_t>(other - lanes_.begin())) : std::nullopt;
+  }
+
+  /// How many lanes there are beside one, to the end of the road.
+  std::size_t lanes_on(std::size_t i, bool left) const {
+    std::size_t count = 0;
+    for (auto next = across(i, left); next && count < lanes_.size(); next = across(*next, left)) ++count;
+    return count;
+  }
+
+  /// The nearest lane beyond the right side of one, where nothing else lies between.
+  std::optional<Median> median_right_of(std::size_t i) const {
+    const MeasuredPolyline side(lanes_[i].right);
+    const double middle_m = 0.5 * side.length();
+    const Point middle = side.at(middle_m);
+    Median nearest;
+    for (std::size_t k = 0; k < lanes_.size(); ++k) {
+      if (k == i || !lanes_[k].left_neighbours.empty()) continue;
+      const Projection foot = left_sides_[k].project(middle, kMaxMedian_m);
+      const bool along = side.direction(middle_m).dot(left_sides_[k].direction(foot.arc_m)) > 0.0;
+      const bool near = foot.inside && foot.distance_m < std::min(nearest.width_m, kMaxMedian_m);
+      if (near && along && same_level(foot.foot, middle)) nearest = {k, foot.distance_m};
+    }
+    return is_median(side, nearest) ? std::optional(nearest) : std::nullopt;
+  }
+
+  bool is_median(const MeasuredPolyline& side, const Median& median) const {
+    if (median.width_m > kMaxMedian_m) return false;
+    double narrowest_m = median.width_m, widest_m = median.width_m, beside_m = 0.0;
+    for (const Point& point : side.resample(kMedianStep_m)) {
+      const Projection foot = left_sides_[median.right].project(point, kMaxMedian_m);
+      if (!foot.inside) continue;
+      if (foot.lateral_m < 0.0) return false;
+      narrowest_m = std::min(narrowest_m, foot.distance_m);
+      widest_m = std::max(widest_m, foot.distance_m);
+      beside_m += kMedianStep_m;
+    }
+    const double max_variation_m = median.width_m < kDoubleLine_m ? kMaxDoubleVariation_m : kMaxVariation_m;
+    return beside_m >= kMinMedian_m && widest_m - narrowest_m <= max_variation_m;
+  }
+
+  SideBySideLanes across_median(std::size_t i, const Median& median) const {
+    const Lane &left = lanes_[i], &right = lanes_[median.right];
+    const LaneBoundary& border = boundary_of(boundaries_, left.right_boundary);
+    const bool closed =
+        !may_be_crossed(border.marking, left.right_range) &&
+        !may_be_crossed(boundary_of(boundaries_, right.left_boundary).marking, right.left_range);
+    return {i, median.right, closed ? kMedianEvidence : boundary_evidence(border, left.right_range, false),
+            median.width_m > kNarrow_m};
+  }
+
+  const std::vector<Lane>& lanes_;
+  const std::vector<LaneBoundary>& boundaries_;
+  std::vector<MeasuredPolyline> left_sides_;
+};
+
+}  // namespace
+
+std::vector<SideBySideLanes> side_by_side(const std::vector<Lane>& lanes,
+                                          const std::vector<LaneBoundary>& boundaries) {
+  return SideBySide(lanes, boundaries).pairs();
+}
+
+}  // namespace laneloom
