@@ -14,6 +14,7 @@ constexpr double kMeeting_m = 1.0;       // borders that are nearer at their end
 constexpr double kGrowthFrom_m = 15.0;   // the stretch at the end from which the growth of the width is taken
 constexpr double kMinEarlyGrowth = 0.4;  // of it, on its nearer half; with less, a lane begins to widen there
 constexpr double kMaxAhead_m = 60.0;     // from the end to where borders that converge would meet
+constexpr double kMinEntry_m = 1.5;      // width; into less, no one turns across dashes
 constexpr double kStyleReach_m = 5.0;    // either way; shorter patches of another style are noise
 
 bool may_be_crossed(const LaneBorder& border, double arc_m) {
@@ -42,7 +43,8 @@ void remove_from_meeting(const LaneBorder& left, const LaneBorder& right,
                          std::ranges::random_access_range auto run) {
   if (run.empty() || !run.front().valid || !begins_at_meeting(run)) return;
   for (CrossSection& section : run) {
-    if (may_be_crossed(left, section.left_arc_m) || may_be_crossed(right, section.right_arc_m)) return;
+    const bool open = may_be_crossed(left, section.left_arc_m) || may_be_crossed(right, section.right_arc_m);
+    if (open && section.width_m > kMinEntry_m) return;
     section.valid = false;
   }
 }

@@ -83,6 +83,12 @@ TEST_F(Gores, EndWhereALineMayBeCrossed) {
   EXPECT_LT(lanes_m(), 12.0);
 }
 
+TEST_F(Gores, AreNotEnteredAcrossDashesThatEndWhereTheyBegin) {
+  apart(0.2, 4.2);
+  boundaries_[0].marking.styles = {{{0.0, 5.0}, MarkingStyle::dashed}, {{5.0, 40.0}, MarkingStyle::solid}};
+  EXPECT_EQ(lanes_m(), 0.0);
+}
+
 TEST_F(Gores, WhatIsDrivenInIsNone) {
   apart(1.5, 4.2);
   EXPECT_GT(lanes_m({30.0, -1.8, 0.0}), 10.0);

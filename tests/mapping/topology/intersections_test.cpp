@@ -207,6 +207,23 @@ TEST(Crossings, StraightOnTheDirectionIsKept) {
   EXPECT_EQ(lanes[2].direction, Lane::Direction::unknown);
 }
 
+TEST(Crossings, ALaneBetweenSolidLinesTakesNoDirectionFromStraightOn) {
+  std::vector<Lane> lanes{driven(1, {0, 0, 0}, {10, 0, 0}), lane(2, straight({30, 0, 0}, {40, 0, 0}))};
+  std::vector<LaneBoundary> boundaries;
+  for (const ElementId id : {21U, 22U}) {
+    const double y = id == 21U ? 1.75 : -1.75;
+    boundaries.push_back(test::boundary(id, straight({30, y, 0}, {40, y, 0})));
+    boundaries.back().marking.styles = {{{0.0, 10.0}, MarkingStyle::solid}};
+  }
+  lanes[1].left_boundary = 21, lanes[1].right_boundary = 22;
+  lanes[1].left_range = lanes[1].right_range = {0.0, 10.0};
+  lanes[1].left_neighbours = lanes[1].right_neighbours = {{.lane = 9, .range = {0.0, 10.0}}};
+  std::vector<Linkage> linkages;
+  link_across_intersections(boundaries, {}, {}, lanes, linkages);
+  EXPECT_EQ(linkages.size(), 1U);
+  EXPECT_EQ(lanes[1].direction, Lane::Direction::unknown);
+}
+
 TEST(Crossings, AheadOfAKnownLaneAnUnknownOneIsTurnedWithWhatItIsLinkedTo) {
   std::vector<Lane> lanes{driven(1, {-30, 0, 0}, {-10, 0, 0}), lane(2, straight({30, 0, 0}, {10, 0, 0})),
                           lane(3, straight({50, 0, 0}, {30, 0, 0}))};
