@@ -7,11 +7,24 @@
 #include "mapping/lanes/cross_sections.hpp"
 #include "mapping/lanes/gores.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
+#include "mapping/markings/markings.hpp"
 
 namespace laneloom {
 namespace {
 
+constexpr double kDashedWidening = 1.15;       // of the widest lane
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
+
+/// How wide a lane between two boundaries may be. Between dashes in a bend it is wider than elsewhere; what
+/// is so wide between solid lines rather is a median.
+LaneConfig limits_between(const Marking& left, const Marking& right, LaneConfig config) {
+  const auto is_dashed = [](const Marking& marking) {
+    return marking.type == MarkingType::laneline &&
+           dashed_excess_m(marking, {0.0, length(marking.points)}) > 0.0;
+  };
+  if (is_dashed(left) && is_dashed(right)) config.max_width_m *= kDashedWidening;
+  return config;
+}
 
 Occupied joined(Occupied a, const Occupied& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -34,8 +47,9 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
     const LaneBorder right(boundaries[pair.right], measured[pair.right], pair.right_reversed, right_used);
     // Between two edges so far apart, there rather is a verge.
     const bool kerb = pair.adjacent && pair.left_kerb != pair.right_kerb;
+    const LaneConfig limits = limits_between(left.marking(), right.marking(), config);
     auto sections =
-        cross_sections(left, right, 0.0, kerb ? config.max_kerb_width_m : config.max_width_m, config);
+        cross_sections(left, right, 0.0, kerb ? limits.max_kerb_width_m : limits.max_width_m, limits);
     remove_gores(left, right, vehicle, sections);
     for (CrossSection& section : sections) {
       if (section.width_m < config.min_width_m) section.valid = false;

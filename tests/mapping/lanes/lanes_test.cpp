@@ -61,6 +61,15 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   EXPECT_EQ(left->section, right->section);
 }
 
+TEST(Lanes, BetweenDashesAreWiderThanBetweenSolidLines) {
+  for (const MarkingStyle style : {MarkingStyle::solid, MarkingStyle::dashed}) {
+    auto lines = std::vector{boundary(1, straight({0, 5, 0}, {30, 5, 0})),
+                             boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
+    for (LaneBoundary& line : lines) line.marking.styles = {{{0.0, 30.0}, style}};
+    EXPECT_EQ(lanes_of(lines).size(), style == MarkingStyle::dashed ? 1U : 0U);
+  }
+}
+
 /// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
 /// right. Round its corners no sense of direction fits all.
 std::vector<LaneBoundary> t_junction() {
