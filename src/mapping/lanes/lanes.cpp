@@ -13,16 +13,19 @@ namespace laneloom {
 namespace {
 
 constexpr double kDashedWidening = 1.15;       // of the widest lane
+constexpr double kEdgesWidening = 1.25;        // of the narrowest
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
 
-/// How wide a lane between two boundaries may be. Between dashes in a bend it is wider than elsewhere; what
-/// is so wide between solid lines rather is a median.
+/// How wide a lane between two boundaries may be. Between edges it needs room to either. Between dashes in a
+/// bend it is wider than elsewhere; what is so wide between solid lines rather is a median.
 LaneConfig limits_between(const Marking& left, const Marking& right, LaneConfig config) {
   const auto is_dashed = [](const Marking& marking) {
     return marking.type == MarkingType::laneline &&
            dashed_excess_m(marking, {0.0, length(marking.points)}) > 0.0;
   };
   if (is_dashed(left) && is_dashed(right)) config.max_width_m *= kDashedWidening;
+  if (left.type == MarkingType::roadedge && right.type == MarkingType::roadedge)
+    config.min_width_m *= kEdgesWidening;
   return config;
 }
 
@@ -52,7 +55,7 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
         cross_sections(left, right, 0.0, kerb ? limits.max_kerb_width_m : limits.max_width_m, limits);
     remove_gores(left, right, vehicle, sections);
     for (CrossSection& section : sections) {
-      if (section.width_m < config.min_width_m) section.valid = false;
+      if (section.width_m < limits.min_width_m) section.valid = false;
       if (section.wide && find_between(section, pair, boundaries, measured)) section.valid = false;
     }
     for (std::size_t begin = 0; begin < sections.size();) {

@@ -70,6 +70,14 @@ TEST(Lanes, BetweenDashesAreWiderThanBetweenSolidLines) {
   }
 }
 
+TEST(Lanes, BetweenEdgesNeedMoreRoomThanBetweenLines) {
+  for (const MarkingType type : {MarkingType::laneline, MarkingType::roadedge}) {
+    const auto lanes = lanes_of({boundary(1, straight({0, 2.3, 0}, {30, 2.3, 0}), type),
+                                 boundary(2, straight({0, 0, 0}, {30, 0, 0}), type)});
+    EXPECT_EQ(lanes.size(), type == MarkingType::laneline ? 1U : 0U);
+  }
+}
+
 /// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
 /// right. Round its corners no sense of direction fits all.
 std::vector<LaneBoundary> t_junction() {
