@@ -44,6 +44,17 @@ bool are_aligned(const Marking& a, bool a_back, const Marking& b, bool b_back, c
   return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
 }
 
+MarkingStyle end_style(const Marking& marking, bool at_back) {
+  if (marking.styles.empty()) return MarkingStyle::unknown;
+  return at_back ? marking.styles.back().style : marking.styles.front().style;
+}
+
+/// Whether one line changes its style there: a network sees it as two.
+bool is_style_change(const Marking& a, bool a_back, const Marking& b, bool b_back) {
+  const MarkingStyle one = end_style(a, a_back), other = end_style(b, b_back);
+  return one != other && one != MarkingStyle::unknown && other != MarkingStyle::unknown;
+}
+
 std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHistories& joints,
                                  const BoundaryConfig& config) {
   std::vector<Join> joins;
@@ -56,7 +67,8 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHi
           const double gap_m = (b - a).head<2>().norm();
           if (gap_m > config.max_gap_m || !same_level(a, b)) continue;
           const PairHistory* joint = find(joints, end_id(lines[i].id, i_back), end_id(lines[j].id, j_back));
-          if (joint != nullptr && seen_apart(*joint)) continue;
+          const bool is_change = gap_m < kMeeting_m && is_style_change(lines[i], i_back, lines[j], j_back);
+          if (joint != nullptr && seen_apart(*joint) && !is_change) continue;
           const bool one = joint != nullptr && seen_together(*joint);
           if (one || are_aligned(lines[i], i_back, lines[j], j_back, config))
             joins.push_back({gap_m, {i, i_back}, {j, j_back}});
