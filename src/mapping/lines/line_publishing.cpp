@@ -59,16 +59,21 @@ double existence_probability(double log_odds, const FusionConfig& config) {
   return config.existence_at_publish + share * (config.existence_at_max - config.existence_at_publish);
 }
 
-/// Whether a line lies so near a stronger one of its type that it is taken for a shadow of it until the two
-/// are seen together.
-bool is_held_back(const Line& line, const std::vector<Line>& lines, const PairHistories& doubles,
-                  const FusionConfig& config) {
-  return std::ranges::any_of(doubles, [&](const PairHistory& pair) {
-    if ((pair.a != line.id && pair.b != line.id) || seen_together(pair)) return false;
-    const auto other = std::ranges::find(lines, pair.a == line.id ? pair.b : pair.a, &Line::id);
-    if (other == lines.end() || other->type() != line.type()) return false;
-    return std::pair(weight(*other, config), line.id) > std::pair(weight(line, config), other->id);
-  });
+/// The lines that lie so near a stronger one of their type that each is taken for a shadow of it until the
+/// two are seen together.
+std::vector<ElementId> shadows(const std::vector<Line>& lines, const PairHistories& doubles,
+                               const FusionConfig& config) {
+  std::vector<ElementId> held_back;
+  for (const PairHistory& pair : doubles) {
+    // Lines that converge come near each other all of a sudden.
+    const bool never_apart = pair.apart == 0.0 && pair.together > 0.0;
+    if (never_apart || seen_together(pair)) continue;
+    const auto a = std::ranges::find(lines, pair.a, &Line::id),
+               b = std::ranges::find(lines, pair.b, &Line::id);
+    if (a == lines.end() || b == lines.end() || a->type() != b->type()) continue;
+    held_back.push_back(weight(*a, config) < weight(*b, config) ? a->id : b->id);
+  }
+  return held_back;
 }
 
 Marking as_marking(const Line& line, Stations stations, const MapperConfig& config) {
@@ -97,11 +102,12 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
 std::vector<Marking> publish_lines(const std::vector<Line>& lines, const PairHistories& doubles,
                                    const MapperConfig& config) {
   const FusionConfig& fusion = config.fusion;
+  const std::vector<ElementId> held_back = shadows(lines, doubles, fusion);
   std::vector<Marking> markings;
   for (const Line& line : lines) {
+    if (std::ranges::find(held_back, line.id) != held_back.end()) continue;
     const Stations stations = published_stretch(line, fusion);
     if (stations.size() < 2 || existence(stations, line.confidences) < fusion.publish_log_odds) continue;
-    if (is_held_back(line, lines, doubles, fusion)) continue;
     Marking marking = as_marking(line, stations, config);
     if (length(marking.points) >= fusion.min_length_m) markings.push_back(std::move(marking));
   }

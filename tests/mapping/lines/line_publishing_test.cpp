@@ -63,6 +63,8 @@ TEST_F(LinePublishing, ANearParallelIsHeldBackUntilBothAreSeenTogether) {
         .size();
   };
   EXPECT_EQ(count(0.0, 0.0), 1U);
+  EXPECT_EQ(count(0.0, 1.0), 1U);
+  EXPECT_EQ(count(1.0, 0.0), 2U) << "lines that converge";
   EXPECT_EQ(count(3.0, 1.0), 2U);
   EXPECT_EQ(count(3.0, 6.0), 1U);
   EXPECT_EQ(publish_lines({line_, parallel}, {{.a = 4, .b = 5}}, {})[0].id, 4U) << "the longer one stays";
