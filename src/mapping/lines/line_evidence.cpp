@@ -99,6 +99,7 @@ void credit_observed(const View& view, const std::vector<LineMatch>& matches,
   for (const LineMatch& match : matches) {
     const SampledDetection& detection = detections[match.detection];
     Line& line = lines[match.line];
+    line.last_seen_ns = std::max(line.last_seen_ns, view.frame->stamp_ns);
     credit_stations(match, view.news * hit(detection, config), config, line);
     if (view.is_independent() && is_established(line, config)) {
       model.learn_confidence(line.type(), mean_range_m(detection, origin), detection.confidence);

@@ -106,7 +106,7 @@ void create_lines(const std::vector<SampledDetection>& detections, const Point& 
     for (std::size_t begin = 0; begin < count;) {
       std::size_t end = begin;
       while (end < count && !detection.explained[end] && range.keeps(detection.samples[end])) ++end;
-      Line line{.stations = {}, .observations = 1, .first_seen_ns = stamp_ns};
+      Line line{.stations = {}, .observations = 1, .first_seen_ns = stamp_ns, .last_seen_ns = stamp_ns};
       double length_m = 0.0;
       for (std::size_t i = begin; i < end; ++i) {
         length_m += detection.share_m(i);

@@ -55,6 +55,7 @@ struct Line {
   std::array<double, kMarkingTypeCount> type_votes{};
   std::uint64_t observations = 0;
   std::int64_t first_seen_ns = 0;
+  std::int64_t last_seen_ns = 0;
   Confidences confidences{};
 
   /// The most voted type; the first one of equals.
@@ -62,7 +63,7 @@ struct Line {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(id, stations, type_votes, observations, first_seen_ns, confidences);
+    archive(id, stations, type_votes, observations, first_seen_ns, last_seen_ns, confidences);
   }
 };
 

@@ -94,6 +94,7 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
   marking.existence_probability = existence_probability(log_odds, config.fusion);
   marking.observations = line.observations;
   marking.first_seen_ns = line.first_seen_ns;
+  marking.last_seen_ns = line.last_seen_ns;
   return marking;
 }
 

@@ -94,6 +94,7 @@ void append(Marking& marking, const Marking& next) {
                                   next.lateral_stddev_m.end());
   marking.observations += next.observations;
   marking.first_seen_ns = std::min(marking.first_seen_ns, next.first_seen_ns);
+  marking.last_seen_ns = std::max(marking.last_seen_ns, next.last_seen_ns);
 }
 
 }  // namespace laneloom

@@ -59,6 +59,17 @@ TEST_F(LineFusion, ALineIsBornWithAStationAboutEveryMetre) {
   EXPECT_EQ(lines_[0].type(), MarkingType::laneline);
 }
 
+TEST_F(LineFusion, ALineKnowsWhenItWasLastSeen) {
+  see({straight({0, 0, 0}, {20, 0, 0})});
+  EXPECT_EQ(lines_[0].last_seen_ns, 7);
+  frame_.stamp_ns = 9;
+  see({straight({0, 0, 0}, {20, 0, 0})});
+  frame_.stamp_ns = 11;
+  see({});
+  EXPECT_EQ(lines_[0].last_seen_ns, 9);
+  EXPECT_EQ(lines_[0].first_seen_ns, 7);
+}
+
 TEST_F(LineFusion, ManyObservationsAverageBelowTheirNoise) {
   see({straight({0, 0.3, 0}, {20, 0.3, 0})});
   for (int i = 0; i < 30; ++i) {

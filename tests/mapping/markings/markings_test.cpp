@@ -67,9 +67,11 @@ TEST(Markings, AppendingBridgesTheGapWithUnknownStyle) {
   Marking next = test::marking(9, {{12, 0, 0}, {15, 0, 0}});
   next.styles = {{{0, 3}, MarkingStyle::dashed}};
   next.first_seen_ns = -5;
+  next.last_seen_ns = 8;
   append(m, next);
   EXPECT_EQ(m.id, 3U);
   EXPECT_EQ(m.first_seen_ns, -5);
+  EXPECT_EQ(m.last_seen_ns, 8);
   ASSERT_EQ(m.styles.size(), 4U);
   EXPECT_EQ(m.styles[2].style, MarkingStyle::unknown);
   EXPECT_DOUBLE_EQ(m.styles[2].range.length(), 2.0);
