@@ -9,9 +9,11 @@
 #include <stdexcept>
 
 #include "commands/commands.hpp"
+#include "commands/evaluate_later.hpp"
 #include "commands/evaluation_inputs.hpp"
 #include "commands/evaluation_plots.hpp"
 #include "commands/evaluation_tables.hpp"
+#include "commands/later_table.hpp"
 #include "commands/options.hpp"
 #include "commands/profile_tables.hpp"
 #include "commands/score_table.hpp"
@@ -21,7 +23,8 @@ namespace laneloom {
 namespace {
 
 struct Options {
-  std::string truth, frames, map, json, plots;
+  bool later = false;
+  std::string in, config, truth, frames, map, json, plots;
   RangeConfig range;
   double min_confidence = PreprocessConfig{}.min_confidence;
 };
@@ -98,7 +101,24 @@ MapEvaluation evaluate_maps(const Options& options, const Road& truth, const Sta
   return evaluation;
 }
 
-void evaluate(const Options& options) {
+void write_json(const nlohmann::json& json, const std::string& path) {
+  std::ofstream out(path);
+  out << json.dump(2) << '\n';
+  out.close();
+  if (!out) throw std::runtime_error(path + ": cannot be written");
+}
+
+void rate_by_later(const Options& options) {
+  const LaterMeter meter = evaluate_later({.in = options.in,
+                                           .config = options.config,
+                                           .frames = options.frames,
+                                           .map = options.map,
+                                           .min_confidence = options.min_confidence});
+  fmt::print("{}", later_table(meter));
+  if (!options.json.empty()) write_json(later_json(meter), options.json);
+}
+
+void rate_by_truth(const Options& options) {
   const Road truth = load_truth(options.truth);
   const auto [stamps, account] = comparison(options);
   std::vector<NamedScore> scores;
@@ -115,30 +135,45 @@ void evaluate(const Options& options) {
   nlohmann::json json = score_json(scores);
   json.update(evaluation_json(evaluations), true);
   json.update(profile_json(evaluations), true);
-  std::ofstream out(options.json);
-  out << json.dump(2) << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(options.json + ": cannot be written");
+  write_json(json, options.json);
+}
+
+void evaluate(const Options& options) {
+  if (!options.later) return rate_by_truth(options);
+  if (options.in.empty() && (options.frames.empty() || options.map.empty()))
+    throw CLI::RequiredError("--later: --in, or --frames and --map");
+  rate_by_later(options);
 }
 
 }  // namespace
 
 void add_evaluate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "evaluate", "How good detections and maps are: precision, recall, stability, lanes, trust");
+      "evaluate",
+      "How good detections and maps are. Of your own drive, without truth, by what is seen later from close "
+      "by: laneloom evaluate --later --in drive.mcap. By truth: precision, recall, stability, lanes, trust");
   const auto options = std::make_shared<Options>();
-  command->add_option("--truth", options->truth, "Truth of the road (.json)")->required();
-  CLI::Option_group* inputs = command->add_option_group("Inputs", "one or both; then at their common stamps");
-  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl or .mcap)");
-  inputs->add_option("--map", options->map, "Fused maps (.jsonl or .mcap)");
+  CLI::Option_group* references = command->add_option_group("Rated by", "one of");
+  CLI::Option* later =
+      references->add_flag("--later", options->later,
+                           "What the vehicle sees later from close by; needs --in, or --frames and --map");
+  CLI::Option* truth = references->add_option("--truth", options->truth, "Truth of the road (.json)");
+  references->require_option(1);
+  CLI::Option_group* inputs = command->add_option_group("Inputs", "compared at their common stamps");
+  CLI::Option* in =
+      inputs->add_option("--in", options->in, "Drive (.mcap or .frames.jsonl), to be mapped")->needs(later);
+  inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl or .mcap)")->excludes(in);
+  inputs->add_option("--map", options->map, "Fused maps (.jsonl or .mcap)")->excludes(in);
   inputs->require_option(1, 2);
-  add_range(*command, options->range);
+  command->add_option("--config", options->config, "Configuration to map with (.yaml)")->needs(in);
+  add_range(*command, options->range)->needs(truth);
   command->add_option("--min-confidence", options->min_confidence, "Of the single detections that count")
       ->check(within(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--json", options->json, "Figures to write (.json)");
   command->add_option("--plots", options->plots, "Folder to draw curves over time and range into")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->needs(truth);
   command->callback([options] { evaluate(*options); });
 }
 

@@ -21,6 +21,11 @@ class Distribution {
                ? 0.0
                : std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
   }
+  double root_mean_square() const {
+    if (values_.empty()) return 0.0;
+    const double squares = std::inner_product(values_.begin(), values_.end(), values_.begin(), 0.0);
+    return std::sqrt(squares / static_cast<double>(values_.size()));
+  }
   /// The smallest value that at least the `share` (0..1) of all values do not exceed.
   double quantile(double share) const {
     if (values_.empty()) return 0.0;

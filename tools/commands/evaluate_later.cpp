@@ -1,0 +1,76 @@
+#include "commands/evaluate_later.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "commands/evaluation_inputs.hpp"
+#include "laneloom/config_file.hpp"
+#include "replay/message_source.hpp"
+#include "replay/replay.hpp"
+
+namespace laneloom {
+namespace {
+
+/// Gives each map the frame that it was made after.
+class Pairs {
+ public:
+  explicit Pairs(LaterMeter& meter) : meter_(meter) {}
+
+  void add(const DetectionFrame& frame) { frames_.insert_or_assign(frame.stamp_ns, frame); }
+  void add(const LocalMap& map) {
+    const auto frame = frames_.find(map.stamp_ns);
+    if (frame == frames_.end()) return;
+    meter_.add(frame->second, map.T_map_body, map);
+    frames_.erase(frames_.begin(), std::next(frame));
+  }
+
+ private:
+  LaterMeter& meter_;
+  std::map<std::int64_t, DetectionFrame> frames_;  // newer than the last map, by stamp
+};
+
+void rate_replay(const LaterInputs& inputs, Pairs& pairs) {
+  const Config config = inputs.config.empty() ? Config{} : load_config(inputs.config);
+  const auto source = open_messages(inputs.in, config.dds.map_frame_id);
+  Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { pairs.add(map.map); });
+  while (std::optional<RecordedMessage> message = source->next_input()) {
+    if (const auto* frame = std::get_if<DetectionFrame>(&message->message)) pairs.add(*frame);
+    replay.add(std::move(*message));
+  }
+  warn_of(inputs.in, source->refused(), source->cut_off());
+}
+
+void rate_files(const LaterInputs& inputs, Pairs& pairs) {
+  const auto add_frame = [&](const DetectionFrame& frame, const Eigen::Isometry3d& /*T_map_body*/) {
+    pairs.add(frame);
+  };
+  const InputAccount frames = for_each_frame(inputs.frames, add_frame);
+  warn_of(inputs.frames, frames.refused, frames.cut_off);
+  const InputAccount maps = for_each_map(inputs.map, [&](const LocalMap& map) { pairs.add(map); });
+  warn_of(inputs.map, maps.refused, maps.cut_off);
+}
+
+}  // namespace
+
+LaterMeter evaluate_later(const LaterInputs& inputs) {
+  LaterMeter meter(inputs.min_confidence);
+  Pairs pairs(meter);
+  inputs.in.empty() ? rate_files(inputs, pairs) : rate_replay(inputs, pairs);
+  const std::string& name = inputs.in.empty() ? inputs.frames : inputs.in;
+  if (meter.frames() == 0)
+    throw std::runtime_error(fmt::format(
+        "{}: too short to be rated: after 2 s, the vehicle must drive {:g} m more, with detections and maps",
+        name, kLaterDistances_m.back()));
+  if (!meter.any())
+    throw std::runtime_error(fmt::format(
+        "{}: cannot be rated: in {:.0f} m, nothing was seen 6 to 10 m ahead of the vehicle that was to be "
+        "found before",
+        name, meter.driven_m()));
+  return meter;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <vector>
+
+#include "evaluation/distribution.hpp"
+#include "laneloom/types.hpp"
+
+/// How good single detections and maps are, told without truth: by what the vehicle sees later from close by.
+///
+/// A place ahead is on the way that the vehicle drove afterwards. Across the road there, lines are told by
+/// where they cross, as their lateral offset from the vehicle's way.
+/// - Seen later: the points of later detections that lay 6 to 10 m ahead of the vehicle, and lie within 2 m
+///   along the road of the place. At least six of them, without a gap of 0.6 m, on less than 1 m, are a line;
+///   its offset is their median.
+/// - Recall: of the lines seen later, the share for which there is a line of the same type within 0.5 m.
+/// - Precision: of the lines, the share within 0.5 m of which at least two points are seen later. Lines
+/// further
+///   to a side than anything was seen from close by, over the 28 m ahead, are not asked: a camera never sees
+///   them again.
+/// - Lateral errors: of the lines seen later that both a single detection and a map line find, the offset of
+///   the nearest one. These are pairs: both are asked of the same places.
+/// - Own lane: a lane whose sides run left and right of the vehicle's way, 8 m ahead. Its id changes where it
+///   is another one than the last, also where the vehicle itself changes lanes.
+///
+/// The vehicle's poses are taken to be exact over the 40 m that matter: what they drift adds to all errors.
+namespace laneloom {
+
+inline constexpr std::array kLaterDistances_m{12.0, 20.0, 28.0};
+inline constexpr std::array kLaterTypes{MarkingType::laneline, MarkingType::roadedge};
+
+/// Of lines of one type, at one distance ahead, over all frames.
+struct LaterScore {
+  struct Subject {
+    std::size_t lines = 0;
+    std::size_t right = 0;            ///< of the lines
+    std::size_t found = 0;            ///< of the lines seen later
+    Distribution lateral_errors_m{};  ///< absolute, of the pairs
+  };
+  std::size_t seen_later = 0;  ///< lines
+  Subject single, map;
+};
+
+struct OwnLaneScore {
+  std::size_t frames = 0;  ///< that have an own lane
+  std::size_t id_changes = 0;
+  Distribution widths_m;
+};
+
+/// Rates a drive frame by frame, as soon as what is ahead has been driven by; it remembers no more than that.
+/// Not thread-safe.
+class LaterMeter {
+ public:
+  /// Single detections count from a confidence on.
+  explicit LaterMeter(double min_confidence) : min_confidence_(min_confidence) {}
+
+  /// The next frame and the map after it, in order of stamps. Left out are the first two seconds, in which
+  /// the map is built, and frames less than 0.5 m after the one before. A step of 10 m or more begins a new
+  /// drive.
+  void add(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, const LocalMap& map);
+
+  const LaterScore& score(MarkingType type, std::size_t distance) const {
+    return scores_[distance][index(type)];
+  }
+  /// Whether any line was seen later, so that there is something to tell.
+  bool any() const;
+  const OwnLaneScore& own_lane() const { return own_lane_; }
+  std::size_t frames() const { return frames_; }  ///< that were rated
+  std::size_t lanes() const { return lanes_; }    ///< in all of their maps
+  double driven_m() const { return driven_m_; }   ///< between the frames that were rated
+
+ private:
+  using LinesByType = std::array<std::vector<Polyline>, kMarkingTypeCount>;
+  /// Between which offsets points were seen; at first none.
+  struct Sides {
+    double right_m = std::numeric_limits<double>::infinity();
+    double left_m = -std::numeric_limits<double>::infinity();
+  };
+  struct Moment {
+    std::int64_t stamp_ns = 0;
+    Eigen::Isometry3d T_map_body;
+    double driven_m = 0.0;                           ///< since the drive began
+    LinesByType single, map;                         ///< map frame
+    std::array<Polyline, kMarkingTypeCount> nearby;  ///< points that lay close ahead, map frame
+    Sides sides;                                     ///< of these points
+    std::vector<Lane> lanes;
+  };
+  void add_detections(const DetectionFrame& frame, Moment& moment) const;
+  Eigen::Isometry3d pose_ahead(double distance_m) const;
+  std::vector<double> seen_later(MarkingType type, double distance_m,
+                                 const Eigen::Isometry3d& T_there_map) const;
+  Sides sides_seen() const;
+  void rate_first();
+  void rate_lines(std::size_t distance, const Sides& sides);
+  void rate_own_lane();
+
+  double min_confidence_;
+  std::int64_t begin_ns_ = 0;  ///< of the drive
+  std::deque<Moment> moments_;
+  std::array<std::array<LaterScore, kMarkingTypeCount>, kLaterDistances_m.size()> scores_;
+  OwnLaneScore own_lane_;
+  ElementId last_own_lane_ = kNoElement;
+  std::size_t frames_ = 0, lanes_ = 0;
+  double driven_m_ = 0.0;
+};
+
+}  // namespace laneloom
