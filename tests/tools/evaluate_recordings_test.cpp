@@ -211,5 +211,55 @@ TEST_F(EvaluateRecordings, ADamagedRecordingIsNamed) {
   EXPECT_THAT(output(), HasSubstr("missing.mcap: cannot be read"));
 }
 
+/// Fifty metres along the laneline.
+class EvaluateLater : public EvaluateRecordings {
+ protected:
+  static constexpr int kMoments = 51;
+
+  void record(int moments) const {
+    RecordingWriter out(file("drive.mcap"));
+    for (int i = 0; i < moments; ++i) {
+      out.write(pose(stamp_ns(i)), stamp_ns(i));
+      out.write(frame(stamp_ns(i)), stamp_ns(i));
+      out.write(map(stamp_ns(i), 0.1), stamp_ns(i));
+    }
+    out.close();
+  }
+  int later(std::vector<std::string> inputs) const {
+    inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--later", "--json", file("score.json")});
+    return Process(inputs, file("output")).wait();
+  }
+  json at_20_m() const { return score("laneline").at("20"); }
+};
+
+TEST_F(EvaluateLater, MapsADriveAndRatesItByWhatIsSeenLater) {
+  record(kMoments);
+  ASSERT_EQ(later({"--in", file("drive.mcap")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("3 frames rated"));
+  EXPECT_EQ(at_20_m().at("seen_later"), 3);
+  EXPECT_EQ(at_20_m().at("single").at("recall"), 1.0);
+  EXPECT_EQ(at_20_m().at("map").at("recall"), 1.0);
+  EXPECT_NEAR(at_20_m().at("map").at("lateral_rms_m"), 0.0, 1e-3);
+}
+
+TEST_F(EvaluateLater, RatesTheMapsOfARecording) {
+  record(kMoments);
+  ASSERT_EQ(later({"--frames", file("drive.mcap"), "--map", file("drive.mcap")}), 0) << output();
+  EXPECT_NEAR(at_20_m().at("map").at("lateral_rms_m"), 0.1, 1e-6);
+}
+
+TEST_F(EvaluateLater, SaysWhenADriveIsTooShort) {
+  record(30);
+  EXPECT_EQ(later({"--in", file("drive.mcap")}), 1);
+  EXPECT_THAT(output(), HasSubstr("drive.mcap: too short to be rated"));
+}
+
+TEST_F(EvaluateLater, NeedsADriveOrMaps) {
+  record(kMoments);
+  EXPECT_EQ(later({"--frames", file("drive.mcap")}), 64);
+  EXPECT_THAT(output(), HasSubstr("--later: --in, or --frames and --map"));
+  EXPECT_EQ(later({"--in", file("drive.mcap"), "--truth", file("truth.json")}), 64);
+}
+
 }  // namespace
 }  // namespace laneloom
