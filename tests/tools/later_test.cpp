@@ -27,6 +27,7 @@ double off_afar(double ahead_m) { return ahead_m > 11.0 ? 0.2 : 0.0; }
 /// A straight drive at 10 m/s, a frame a metre, between two lanelines. What a test changes is what is wrong.
 struct StraightDrive {
   int frames = 101;
+  double step_m = 1.0;
   Error single_error = exact, map_error = exact;
   std::vector<double> single{kLeft_m, kRight_m}, map{kLeft_m, kRight_m};
   std::function<ElementId(int)> own_lane = [](int) { return 1; };
@@ -53,7 +54,7 @@ struct StraightDrive {
   LaterMeter rate() const {
     LaterMeter meter(0.3);
     Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
-    for (int i = 0; i < frames; ++i, T_map_body.translation().x() += 1.0) {
+    for (int i = 0; i < frames; ++i, T_map_body.translation().x() += step_m) {
       DetectionFrame frame{.stamp_ns = i * kStep_ns};
       for (const double y : single)
         frame.detections.push_back({.confidence = 0.9, .points = beside(y, single_error)});
@@ -121,6 +122,15 @@ TEST(Later, WhereNothingIsSeenFromCloseByNoLineIsWrong) {
   drive.map.push_back(kLeft_m + 3.5);
   const LaterScore score = lanelines(drive.rate(), k20m);
   EXPECT_EQ(score.map.lines, 2 * 53u);
+}
+
+TEST(Later, PlacesThatFewFramesPassOverAreNotAsked) {
+  StraightDrive drive;
+  drive.step_m = 9.0;  // 12 m ahead is 3 m ahead next time; 28 m ahead is 10 m ahead two frames later
+  const LaterMeter meter = drive.rate();
+  EXPECT_EQ(lanelines(meter, k12m).map.lines, 0u);
+  EXPECT_GT(lanelines(meter, k28m).map.lines, 100u);
+  EXPECT_EQ(lanelines(meter, k28m).map.right, lanelines(meter, k28m).map.lines);
 }
 
 TEST(Later, CountsTheOwnLanesIds) {

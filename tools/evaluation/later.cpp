@@ -146,6 +146,15 @@ std::vector<double> LaterMeter::seen_later(MarkingType type, double distance_m,
   return offsets;
 }
 
+/// Whether a later frame is of close by. Frames of a few a second pass over places.
+bool LaterMeter::looked_at(double distance_m) const {
+  const double there_m = moments_.front().driven_m + distance_m;
+  return std::any_of(std::next(moments_.begin()), moments_.end(), [&](const Moment& moment) {
+    const double ahead_m = there_m - moment.driven_m;
+    return ahead_m >= kNearest_m && ahead_m <= kFarthest_m;
+  });
+}
+
 LaterMeter::Sides LaterMeter::sides_seen() const {
   Sides sides;
   for (const Moment& moment : moments_) {
@@ -157,6 +166,7 @@ LaterMeter::Sides LaterMeter::sides_seen() const {
 
 void LaterMeter::rate_lines(std::size_t distance, const Sides& sides) {
   const double distance_m = kLaterDistances_m[distance];
+  if (!looked_at(distance_m)) return;
   const Eigen::Isometry3d T_there_map = pose_ahead(distance_m).inverse();
   const auto add_precision = [&](const std::vector<double>& lines, const std::vector<double>& points,
                                  LaterScore::Subject& subject) {

@@ -13,16 +13,15 @@
 
 /// How good single detections and maps are, told without truth: by what the vehicle sees later from close by.
 ///
-/// A place ahead is on the way that the vehicle drove afterwards. Across the road there, lines are told by
-/// where they cross, as their lateral offset from the vehicle's way.
+/// A place ahead is on the way that the vehicle drove afterwards, where a later frame has it 6 to 10 m ahead.
+/// Lines are told by where they cross the road there, as their lateral offset from the vehicle's way.
 /// - Seen later: the points of later detections that lay 6 to 10 m ahead of the vehicle, and lie within 2 m
 ///   along the road of the place. At least six of them, without a gap of 0.6 m, on less than 1 m, are a line;
 ///   its offset is their median.
 /// - Recall: of the lines seen later, the share for which there is a line of the same type within 0.5 m.
-/// - Precision: of the lines, the share within 0.5 m of which at least two points are seen later. Lines
-/// further
-///   to a side than anything was seen from close by, over the 28 m ahead, are not asked: a camera never sees
-///   them again.
+/// - Precision: of the lines, the share within 0.5 m of which at least two points are seen later. A line that
+///   is further to a side than anything was seen from close by, over the 28 m ahead, is not asked: a camera
+///   may never see it again.
 /// - Lateral errors: of the lines seen later that both a single detection and a map line find, the offset of
 ///   the nearest one. These are pairs: both are asked of the same places.
 /// - Own lane: a lane whose sides run left and right of the vehicle's way, 8 m ahead. Its id changes where it
@@ -94,6 +93,7 @@ class LaterMeter {
   Eigen::Isometry3d pose_ahead(double distance_m) const;
   std::vector<double> seen_later(MarkingType type, double distance_m,
                                  const Eigen::Isometry3d& T_there_map) const;
+  bool looked_at(double distance_m) const;
   Sides sides_seen() const;
   void rate_first();
   void rate_lines(std::size_t distance, const Sides& sides);
