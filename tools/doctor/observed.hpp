@@ -44,7 +44,7 @@ struct SharedMemoryFile {
 
 struct Observed {
   DdsConfig dds;  ///< as it was asked for; the map frame is the service's own where it told
-  std::uint32_t largest_datagram = 65500;  ///< bytes that these settings receive whole
+  std::uint32_t largest_datagram = 65500;      ///< bytes that these settings receive whole
   std::vector<std::string> discovery_servers;  ///< whom these settings ask for the others
   double duration_s = 0.0;
   std::vector<dds::Peer> participants;  ///< all but those of doctors

@@ -33,8 +33,8 @@ DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& 
 
 enum class PointAxes : std::uint8_t { forward_left, right_forward };
 
-/// Of any other data set: poses as read_pose_table() reads them, and a table of samples with the columns token
-/// and timestamp_ns. Points are in the vehicle's frame, but for the names of its axes.
+/// Of any other data set: poses as read_pose_table() reads them, and a table of samples with the columns
+/// token and timestamp_ns. Points are in the vehicle's frame, but for the names of its axes.
 DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
                      PointAxes axes);
 
