@@ -68,15 +68,32 @@ TEST(Mapper, ATrueLineAppearsWithinItsFirstDetectionsAsTentative) {
     EXPECT_EQ(boundary.status, ElementStatus::confirmed);
 }
 
-TEST(Mapper, AStandingCarConfirmsNothing) {
+TEST(Mapper, AStandingCarPublishesWhatItSeesAndConfirmsNothing) {
   Drive drive;
   drive.step();
   for (int i = 2; i < 200; ++i) drive.mapper.update(frame_at(drive.x, road(), i), test::at(drive.x));
+  EXPECT_EQ(drive.mapper.map().boundaries.size(), 3U);
   for (const Marking& boundary : drive.mapper.map().boundaries)
     EXPECT_EQ(boundary.status, ElementStatus::tentative);
   drive.number = 200;
   for (const Marking& boundary : drive.steps(10).boundaries)
     EXPECT_EQ(boundary.status, ElementStatus::confirmed);
+}
+
+TEST(Mapper, AGhostThatOnlyAStandingCarSawGoesAgain) {
+  Drive drive;
+  drive.steps(20);
+  auto with_ghost = road();
+  with_ghost.push_back(
+      test::detection(MarkingType::laneline, straight({drive.x + 5, 8, 0.1}, {drive.x + 15, 9, 0.1})));
+  const auto stand = [&](const std::vector<Detection>& detections, int frames) {
+    for (int i = 0; i < frames; ++i)
+      drive.mapper.update(frame_at(drive.x, detections, ++drive.number), test::at(drive.x));
+    return drive.mapper.map().boundaries.size();
+  };
+  ASSERT_EQ(stand(with_ghost, 20), 4U);
+  EXPECT_EQ(stand(road(), 60), 3U);
+  EXPECT_EQ(stand({}, 300), 3U) << "standing forgets nothing that was driven along";
 }
 
 TEST(Mapper, AGhostGoesAgain) {

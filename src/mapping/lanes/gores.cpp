@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <iterator>
 #include <span>
 
 #include "mapping/markings/markings.hpp"
@@ -23,26 +23,28 @@ bool may_be_crossed(const LaneBorder& border, double arc_m) {
   return dashed_excess_m(border.marking(), around) >= 0.0;
 }
 
-/// Whether the borders meet at the run's first cross-section, or not far before it.
-bool begins_at_meeting(std::ranges::random_access_range auto& run) {
-  const CrossSection& first = run.front();
+/// Whether the borders meet at the first of these cross-sections, or not far before it.
+template <class Iterator>
+bool begins_at_meeting(Iterator begin, Iterator end) {
+  const CrossSection& first = *begin;
   if (first.width_m < kMeeting_m) return true;
   const auto distance_m = [&](const CrossSection& section) {
     return std::abs(section.right_arc_m - first.right_arc_m);
   };
   const auto beyond =
-      std::ranges::find_if(run, [&](const CrossSection& s) { return distance_m(s) > kGrowthFrom_m; });
+      std::find_if(begin, end, [&](const CrossSection& s) { return distance_m(s) > kGrowthFrom_m; });
   const CrossSection& last = *std::prev(beyond);
-  const CrossSection& middle = *(run.begin() + (beyond - run.begin()) / 2);
+  const CrossSection& middle = *(begin + (beyond - begin) / 2);
   const double growth_m = last.width_m - first.width_m;
   if (middle.width_m - first.width_m < kMinEarlyGrowth * growth_m) return false;
   return first.width_m * distance_m(last) < kMaxAhead_m * growth_m;
 }
 
-void remove_from_meeting(const LaneBorder& left, const LaneBorder& right,
-                         std::ranges::random_access_range auto run) {
-  if (run.empty() || !run.front().valid || !begins_at_meeting(run)) return;
-  for (CrossSection& section : run) {
+template <class Iterator>
+void remove_from_meeting(const LaneBorder& left, const LaneBorder& right, Iterator begin, Iterator end) {
+  if (begin == end || !begin->valid || !begins_at_meeting(begin, end)) return;
+  for (; begin != end; ++begin) {
+    CrossSection& section = *begin;
     const bool open = may_be_crossed(left, section.left_arc_m) || may_be_crossed(right, section.right_arc_m);
     if (open && section.width_m > kMinEntry_m) return;
     section.valid = false;
@@ -64,8 +66,8 @@ void remove_gores(const LaneBorder& left, const LaneBorder& right, const Point& 
     const auto end = std::find_if(begin, sections.end(), [](const CrossSection& s) { return !s.valid; });
     const std::span<CrossSection> run(begin, end);
     if (!is_driven_in(run, vehicle)) {
-      remove_from_meeting(left, right, run);
-      remove_from_meeting(left, right, std::views::reverse(run));
+      remove_from_meeting(left, right, run.begin(), run.end());
+      remove_from_meeting(left, right, run.rbegin(), run.rend());
     }
     begin = end;
   }

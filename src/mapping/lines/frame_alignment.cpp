@@ -94,7 +94,7 @@ FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, double 
                        LineMatcher& matcher, std::vector<SampledDetection>& detections, FrameError& lasting) {
   const FrameError error = estimate_error(matcher.match(detections, kStride), detections, matcher.lines(),
                                           T_map_body, min_log_odds);
-  const FrameError passing = (error - lasting).cwiseMin(kLimit).cwiseMax(-kLimit);
+  FrameError passing = (error - lasting).cwiseMin(kLimit).cwiseMax(-kLimit);
   lasting += kLasting * (error - lasting);
   for (SampledDetection& detection : detections)
     for (Point& point : detection.samples) point.head<2>() -= shifted_by(gain * passing, point, T_map_body);

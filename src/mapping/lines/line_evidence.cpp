@@ -9,6 +9,7 @@ namespace laneloom {
 namespace {
 
 constexpr std::size_t kMaxLines = 256;  // a flood of ghosts must not make frames slow
+constexpr double kStandingShare = 0.3;  // of a view's evidence, for and against what is not confirmed
 constexpr std::array kMilestones{8.0, 16.0, 32.0, 64.0};
 
 /// By crossings of a ray (even-odd).
@@ -63,8 +64,14 @@ double hit(const SampledDetection& detection, const FusionConfig& config) {
   return config.hit_log_odds * 4.0 * detection.confidence * detection.confidence;
 }
 
+/// How far standing raises the evidence: a line may come to be published, but not confirmed.
+double standing_limit(const FusionConfig& config) {
+  return 0.5 * (config.publish_log_odds + config.confirm_log_odds);
+}
+
 /// Raises the stations that the match observed.
-void credit_stations(const LineMatch& match, double log_odds, const FusionConfig& config, Line& line) {
+void credit_stations(const LineMatch& match, double log_odds, double news, const FusionConfig& config,
+                     Line& line) {
   const auto [lowest, highest] =
       std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });
   const auto last = static_cast<double>(line.stations.size() - 1);
@@ -72,8 +79,9 @@ void credit_stations(const LineMatch& match, double log_odds, const FusionConfig
   const auto end = static_cast<std::size_t>(std::lround(std::clamp(highest.foot.index, 0.0, last)));
   for (std::size_t k = begin; k <= end; ++k) {
     Station& station = line.stations[k];
-    if (station.sight == Sight::observed)
-      station.log_odds = std::min(station.log_odds + log_odds, config.max_log_odds);
+    if (station.sight != Sight::observed) continue;
+    const double standing = std::min(station.log_odds + kStandingShare * log_odds, standing_limit(config));
+    station.log_odds = std::max(std::min(station.log_odds + news * log_odds, config.max_log_odds), standing);
   }
 }
 
@@ -100,7 +108,7 @@ void credit_observed(const View& view, const std::vector<LineMatch>& matches,
     const SampledDetection& detection = detections[match.detection];
     Line& line = lines[match.line];
     line.last_seen_ns = std::max(line.last_seen_ns, view.frame->stamp_ns);
-    credit_stations(match, view.news * hit(detection, config), config, line);
+    credit_stations(match, hit(detection, config), view.news, config, line);
     if (view.is_independent() && is_established(line, config)) {
       model.learn_confidence(line.type(), mean_range_m(detection, origin), detection.confidence);
       if (reaches_milestone(line.confidences.count, view.news)) model.learn_right(line.confidences);
@@ -123,7 +131,9 @@ void discount_unobserved(const View& view, const LocalRange& range, const Fusion
         model.learn_rate(type, place, seen);
       if (seen || !could_see) continue;
       if (in_view) station.sight = Sight::missed;
-      station.log_odds += view.news * config.miss_log_odds * std::log(1.0 - model.rate(type, place));
+      const bool confirmed = station.log_odds >= config.confirm_log_odds;
+      const double news = confirmed ? view.news : std::max(view.news, kStandingShare);
+      station.log_odds += news * config.miss_log_odds * std::log(1.0 - model.rate(type, place));
     }
   }
 }

@@ -93,6 +93,7 @@ void NetworkModel::learn(const FarView& one, const FarView& other, double near_m
 
 std::vector<std::pair<std::string, double>> NetworkModel::learned() const {
   std::vector<std::pair<std::string, double>> values;
+  values.reserve(kNodes_m.size() + 3);
   for (const double range_m : kNodes_m)
     values.emplace_back("stddev_at_" + std::to_string(std::lround(range_m)) + "_m", stddev_m(range_m));
   values.emplace_back("correlation_m", correlation_m());
