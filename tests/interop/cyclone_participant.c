@@ -120,7 +120,7 @@ static void write_frame(dds_entity_t writer, int64_t time_ms) {
   if (padding_lines == 0) print_detections(&frame);
 }
 
-/// The CRC-64/XZ that Header.crc is: of all bytes behind it, which Cyclone fills up to a multiple of four.
+/// The CRC-64/XZ that Header.crc is: of all bytes behind it, filled up with zeros to a multiple of four.
 static uint64_t crc64(const unsigned char* bytes, size_t size) {
   uint64_t crc = ~UINT64_C(0);
   for (size_t i = 0; i < size; ++i) {
@@ -134,13 +134,14 @@ static uint64_t crc64(const unsigned char* bytes, size_t size) {
 static bool is_protected(const struct ddsi_serdata* message, uint32_t data_id) {
   enum { kCrc = 4, kDataId = 12, kBehind = 16 };
   const uint32_t size = ddsi_serdata_size(message);
-  unsigned char* bytes = dds_alloc(size);
+  const uint32_t filled_up = (size + 3) / 4 * 4;
+  unsigned char* bytes = dds_alloc(filled_up);  // zeros
   ddsi_serdata_to_ser(message, 0, size, bytes);
   uint64_t crc = 0;
   uint32_t id = 0;
   memcpy(&crc, bytes + kCrc, sizeof crc);
   memcpy(&id, bytes + kDataId, sizeof id);
-  const bool holds = size >= kBehind && id == data_id && crc == crc64(bytes + kDataId, size - kDataId);
+  const bool holds = size >= kBehind && id == data_id && crc == crc64(bytes + kDataId, filled_up - kDataId);
   dds_free(bytes);
   return holds;
 }
