@@ -14,28 +14,37 @@ namespace {
 
 constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
 constexpr std::size_t kStride = 3;  // between the stations that look for neighbours
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
-/// Pairs of lines that come near each other somewhere, each once, in order.
+/// Pairs of lines of which the shorter one is near the other along enough of it to lie beside it, in order.
 std::vector<IndexPair> neighbours(const std::vector<Line>& lines, const FusionConfig& config) {
   std::vector<IndexPair> pairs;
   const StationGrid along(lines, false), across(lines, true);
   // What lies beside a line has one of its stations this near, unless these are twice as far apart as wanted.
   const double reach_m = std::sqrt(config.merge_distance_m * config.merge_distance_m +
                                    config.station_spacing_m * config.station_spacing_m);
-  std::vector<bool> near(lines.size());
+  std::vector<std::size_t> near(lines.size()), counted_at(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    near.assign(lines.size(), false);
+    near.assign(lines.size(), 0);
+    counted_at.assign(lines.size(), kNone);
     const StationGrid& grid = is_stopline(lines[i].type()) ? across : along;
-    for (std::size_t k = 0; k < lines[i].stations.size(); k += kStride) {
+    const std::size_t count = lines[i].stations.size();
+    for (std::size_t k = 0; k < count; k += kStride) {
       const Point& point = lines[i].stations[k].position;
       grid.around(point, reach_m, [&](const StationGrid::Entry& entry) {
-        if ((entry.position - point).head<2>().squaredNorm() < reach_m * reach_m) near[entry.line] = true;
+        if ((entry.position - point).head<2>().squaredNorm() >= reach_m * reach_m) return;
+        if (std::exchange(counted_at[entry.line], k) != k) ++near[entry.line];
       });
     }
-    for (std::size_t j = 0; j < lines.size(); ++j)
-      if (near[j] && j != i) pairs.emplace_back(std::min(i, j), std::max(i, j));
+    // Of the stations that were looked at, one more may be beside than is seen here.
+    const double needed = kMinBeside * static_cast<double>(count) / kStride - 1.0;
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      if (j != i && near[j] > 0 && count <= lines[j].stations.size() &&
+          static_cast<double>(near[j]) >= needed)
+        pairs.emplace_back(std::min(i, j), std::max(i, j));
+    }
   }
   std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
