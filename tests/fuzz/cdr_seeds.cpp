@@ -26,7 +26,7 @@ void write_all(const std::string& folder, const FrameRecord& seen, const LocalMa
   write(folder + "/detections", 0, seen.frame);
   write(folder + "/pose", 1, seen.pose);
   write(folder + "/map", 2, PublishedMap{.frame_id = "map", .fused_frames = {{}}, .map = map});
-  write(folder + "/markings", 3, RoadMarkings{.frame_id = "map", .instances = map.boundaries});
+  write(folder + "/markings", 3, RoadMarkings{.frame_id = "map", .markings = map.boundaries});
   write(folder + "/status", 4,
         ServiceStatus{.counters = {{"ticks", 1}}, .sources = {{.source = "camera"}}, .version = "1"});
 }

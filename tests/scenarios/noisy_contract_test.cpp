@@ -48,11 +48,11 @@ TEST_P(NoisyContract, IsKept) {
 INSTANTIATE_TEST_SUITE_P(
     Drives, NoisyContract,
     ::testing::Values(Noisy{"town", "inhouse", "voxels", 1}, Noisy{"town", "inhouse", "lines", 2},
-                      Noisy{"town", "av2", "lines", 3}, Noisy{"intersection", "inhouse", "lines", 4},
-                      Noisy{"street", "inhouse", "lines", 7}, Noisy{"country_road", "av2", "lines", 8},
-                      Noisy{"motorway", "inhouse", "lines", 9}, Noisy{"exit", "inhouse", "lines", 10},
-                      Noisy{"entry", "av2", "lines", 11}, Noisy{"curve", "av2", "lines", 5},
-                      Noisy{"overpass", "inhouse", "voxels", 6}));
+                      Noisy{"town", "av2", "lines", 3}, Noisy{"town", "inhouse", "lines", 101},
+                      Noisy{"intersection", "inhouse", "lines", 4}, Noisy{"street", "inhouse", "lines", 7},
+                      Noisy{"country_road", "av2", "lines", 8}, Noisy{"motorway", "inhouse", "lines", 9},
+                      Noisy{"exit", "inhouse", "lines", 10}, Noisy{"entry", "av2", "lines", 11},
+                      Noisy{"curve", "av2", "lines", 5}, Noisy{"overpass", "inhouse", "voxels", 6}));
 
 }  // namespace
 }  // namespace laneloom

@@ -54,10 +54,10 @@ void check_boundary(const Lane& lane, ElementId id, const Range& range, const Bo
                 findings);
 }
 
-/// Whether two lanes run the same way where they are side by side.
-bool same_way(const Lane& a, const Lane& b) {
+/// Whether two lanes run the same way where the one lies `beside` the other: elsewhere both may bend.
+bool same_way(const Lane& a, const Range& beside, const Lane& b) {
   const MeasuredPolyline line_a(a.centerline), line_b(b.centerline);
-  const double middle_m = line_a.length() / 2;
+  const double middle_m = 0.5 * (beside.from_m + beside.to_m);
   const Projection foot = line_b.project(line_a.at(middle_m));
   return line_a.direction(middle_m).dot(line_b.direction(foot.arc_m)) > 0.0;
 }
@@ -88,7 +88,7 @@ void check_neighbour(const Lane& lane, const Neighbour& neighbour, bool on_left,
   const Lane& other = *found->second;
   if (!is_measurable(lane.centerline) || !is_measurable(other.centerline)) return;  // recorded already
   check_stretches(neighbour, lane, what, findings);
-  const bool faces_left = same_way(lane, other) ? !on_left : on_left;
+  const bool faces_left = same_way(lane, neighbour.range, other) ? !on_left : on_left;
   const auto& facing = neighbours_of(other, faces_left);
   findings.require(std::ranges::find(facing, lane.id, &Neighbour::lane) != facing.end(),
                    ContractRule::neighbours_across_boundary, what + " does not name it in return");
