@@ -2,6 +2,7 @@
 
 #include "contract/contract.hpp"
 #include "laneloom/mapper.hpp"
+#include "published.hpp"
 #include "simulation/perception.hpp"
 #include "simulation/scenarios.hpp"
 
@@ -32,11 +33,8 @@ TEST_P(NoisyContract, IsKept) {
   std::size_t lanes = 0;
   for (int i = 1; i < static_cast<int>(road.drive.duration_s() * 10.0); ++i) {
     const VehiclePose pose = road.drive.pose_at(0.1 * i);
-    PublishedMap published;
-    published.sequence = static_cast<std::uint64_t>(i);
-    published.age_s = 0.0;
-    published.state = MapState::ok;
-    published.map = mapper.update(perception.observe(pose), transform(pose));
+    const PublishedMap published = test::published(mapper.update(perception.observe(pose), transform(pose)),
+                                                   static_cast<std::uint64_t>(i));
     lanes += published.map.lanes.size();
     for (const Violation& violation : check_contract(published, nullptr)) {
       ADD_FAILURE() << "frame " << i << ": " << name(violation.rule) << ": " << violation.detail;

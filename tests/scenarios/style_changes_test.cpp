@@ -5,6 +5,7 @@
 #include "contract/contract.hpp"
 #include "laneloom/mapper.hpp"
 #include "laneloom/polyline.hpp"
+#include "published.hpp"
 #include "simulation/perception.hpp"
 #include "simulation/road_builder.hpp"
 
@@ -36,11 +37,8 @@ TEST(StyleChanges, CutNoLaneAndNeighboursAreWhatMayBeCrossedInto) {
   int frames = 0;
   for (int i = 1; i < static_cast<int>(road.drive.duration_s() * 10.0); ++i) {
     const VehiclePose pose = road.drive.pose_at(0.1 * i);
-    PublishedMap published;
-    published.sequence = static_cast<std::uint64_t>(i);
-    published.age_s = 0.0;
-    published.state = MapState::ok;
-    published.map = mapper.update(perception.observe(pose), transform(pose));
+    const PublishedMap published = test::published(mapper.update(perception.observe(pose), transform(pose)),
+                                                   static_cast<std::uint64_t>(i));
     EXPECT_TRUE(check_contract(published, nullptr).empty()) << "frame " << i;
     if (pose.position.x() < 85.0 || pose.position.x() > 110.0) continue;
     ++frames;

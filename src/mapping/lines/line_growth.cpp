@@ -71,10 +71,9 @@ void extend_line(const LineMatch& match, bool at_back, const Point& origin, cons
       outermost.sample == match.samples.front().sample ? match.samples.back() : match.samples.front();
   const auto ahead = take_following(range, outermost.sample, outermost.sample > other.sample, detection);
   if (ahead.empty()) return;
-  const Eigen::Vector2d direction = direction_at(line, end);
   const double lateral_m = foot_at(line, end, detection.samples[outermost.sample]).lateral_m;
   Point step = Point::Zero();
-  step.head<2>() = lateral_m * Eigen::Vector2d(-direction.y(), direction.x());
+  step.head<2>() = lateral_m * left_of(direction_at(line, end));
   if (!at_back) std::ranges::reverse(line.stations);
   extend_back(ahead, step, origin, detection, config, line);
   if (!at_back) std::ranges::reverse(line.stations);

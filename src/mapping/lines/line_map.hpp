@@ -84,6 +84,8 @@ StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point);
 /// Horizontal unit direction of the line at a station.
 Eigen::Vector2d direction_at(const Line& line, std::size_t station);
 
+inline Eigen::Vector2d left_of(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
+
 /// Finds stations by place: a uniform grid over the stations of one instant.
 class StationGrid {
  public:

@@ -19,8 +19,6 @@ std::size_t ring(double range_m) {
                                   nodes_m.begin() - 1);
 }
 
-Eigen::Vector2d left_of(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
-
 }  // namespace
 
 void weigh(const NetworkModel& network, const Point& origin, std::vector<SampledDetection>& detections) {
