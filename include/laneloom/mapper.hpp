@@ -64,8 +64,8 @@ class Mapper {
   /// The map after the last update.
   const LocalMap& map() const;
 
-  /// What was learned of the network behind a source of detections, by name: standard deviations by range and
-  /// the like. Empty: nothing is known of that source.
+  /// Returns, by name, the values that the mapper has learned of one source's network, as standard deviations
+  /// by range. The list is empty where the mapper does not know the source.
   std::vector<std::pair<std::string, double>> learned(const std::string& source) const;
 
   /// Forgets everything but the ids that were given out and what was learned of the networks.

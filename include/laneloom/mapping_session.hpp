@@ -15,7 +15,7 @@
 
 namespace laneloom {
 
-/// What became of one source of detections, since it began.
+/// The progress of one source of detections since its session began.
 struct SourceProgress {
   std::string source;
   std::uint64_t session_id = 0;

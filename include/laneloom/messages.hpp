@@ -63,7 +63,7 @@ struct TimeSummary {
   double max_ms = 0.0;
 };
 
-/// What became of one session of a source of detections.
+/// The progress of one session of a source of detections.
 struct SourceStatus {
   std::string source;
   std::uint64_t session_id = 0;

@@ -19,8 +19,8 @@ void check_files(const DdsConfig& config);
 /// longer ones without a word. Throws as check_files().
 std::uint32_t largest_datagram(const DdsConfig& config);
 
-/// Where the servers are, as "address:port", that such a participant asks for the others; none where it finds
-/// them by itself. Throws as check_files().
+/// Returns the addresses ("address:port") of the discovery servers that such a participant asks for the
+/// others. The list is empty where the participant finds them by itself. Throws as check_files().
 std::vector<std::string> discovery_servers(const DdsConfig& config);
 
 /// DDS does not believe the files of security, or they do not permit what is wanted.
