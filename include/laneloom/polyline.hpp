@@ -55,9 +55,11 @@ class MeasuredPolyline {
   /// `after` is the first vertex beyond the arc length.
   Point at(double arc_m, std::size_t after) const;
   struct Nearest;
+  void bound_blocks();
   void consider(std::size_t segment, const Point& point, Nearest& nearest) const;
+  void consider_block(std::size_t block, const Point& point, Nearest& nearest) const;
   void search_along_course(const Point& point, Nearest& nearest) const;
-  void search_everywhere(const Point& point, Nearest& nearest) const;
+  void search_blocks(const Point& point, Nearest& nearest) const;
   Eigen::Vector2d segment_direction(std::size_t end) const;
 
   Polyline points_;
@@ -66,6 +68,7 @@ class MeasuredPolyline {
   Eigen::Vector2d course_ = Eigen::Vector2d::UnitX();  ///< from the first point to the last
   Eigen::AlignedBox2d bounds_;                         ///< along the course, and to the left of it
   double cosine_ = 1.0, sine_ = 0.0;                   ///< of the largest angle of a segment to the course
+  std::vector<Eigen::AlignedBox2d> blocks_;  ///< bounds of a few segments each, where the line turns far
 };
 
 /// Horizontal direction in which `line` leaves its end (`at_back`) or its start, over its last `reach_m`.

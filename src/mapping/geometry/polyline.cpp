@@ -9,12 +9,12 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kStride = 8;  // between the vertices that are looked at first
+constexpr std::size_t kBlock = 8;  // segments that are bounded together
 
 constexpr double kCoincident_m = 1e-9;
 
 constexpr double kMargin_m = 1e-6;       // far above rounding: what is as near is compared to the last bit
-constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away further is searched as a whole
+constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away further is searched by blocks
 
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
 
@@ -58,6 +58,15 @@ MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
   }
   cosine_ -= 1e-9;
   sine_ = std::sqrt(1.0 - cosine_ * cosine_);
+  if (cosine_ <= kMinAlongCourse) bound_blocks();
+}
+
+void MeasuredPolyline::bound_blocks() {
+  blocks_.resize((points_.size() - 1 + kBlock - 1) / kBlock);
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    Eigen::AlignedBox2d& block = blocks_[i / kBlock];
+    block.extend(points_[i].head<2>()).extend(points_[i + 1].head<2>());
+  }
 }
 
 Point MeasuredPolyline::at(double arc_m) const {
@@ -134,18 +143,26 @@ void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest)
   for (std::size_t i = middle; i > 0 && !is_behind(points_[i], -1.0); --i) consider(i - 1, point, nearest);
 }
 
-/// Along the line, the distance changes no faster than the arc length: what must be farther than a few of the
-/// vertices is passed over.
-void MeasuredPolyline::search_everywhere(const Point& point, Nearest& nearest) const {
-  double squared_m2 = nearest.bound_m2;
-  for (std::size_t i = 0; i < points_.size(); i += kStride)
-    squared_m2 = std::min(squared_m2, (point - points_[i]).head<2>().squaredNorm());
-  const double bound_m = std::sqrt(squared_m2) + kMargin_m;
-  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-    const double slack_m = horizontal_distance(point, points_[i]) - bound_m;
-    const double from_m = arc_[i];
-    while (i + 1 < points_.size() && arc_[i + 1] - from_m < slack_m) ++i;
-    if (i + 1 < points_.size()) consider(i, point, nearest);
+void MeasuredPolyline::consider_block(std::size_t block, const Point& point, Nearest& nearest) const {
+  const std::size_t end = std::min((block + 1) * kBlock, points_.size() - 1);
+  for (std::size_t i = block * kBlock; i < end; ++i) consider(i, point, nearest);
+}
+
+/// The block that is nearest mostly holds the foot. Few of the others are as near as that foot.
+void MeasuredPolyline::search_blocks(const Point& point, Nearest& nearest) const {
+  const Eigen::Vector2d place = point.head<2>();
+  std::size_t first = 0;
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const double squared_m2 = blocks_[k].squaredExteriorDistance(place);
+    if (squared_m2 >= least_m2) continue;
+    least_m2 = squared_m2;
+    first = k;
+  }
+  consider_block(first, point, nearest);
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (k != first && blocks_[k].squaredExteriorDistance(place) <= nearest.bound_m2)
+      consider_block(k, point, nearest);
   }
 }
 
@@ -161,7 +178,7 @@ Projection MeasuredPolyline::project(const Point& point, double within_m) const 
     result.distance_m = horizontal_distance(point, result.foot);
     return result;
   }
-  cosine_ > kMinAlongCourse ? search_along_course(point, nearest) : search_everywhere(point, nearest);
+  cosine_ > kMinAlongCourse ? search_along_course(point, nearest) : search_blocks(point, nearest);
   if (nearest.distance_m > within_m) return result;
   const auto& [bound, distance_m, i, share] = nearest;
   const double clamped = std::clamp(share, 0.0, 1.0);
