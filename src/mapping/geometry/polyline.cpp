@@ -159,6 +159,7 @@ void MeasuredPolyline::search_blocks(const Point& point, Nearest& nearest) const
     least_m2 = squared_m2;
     first = k;
   }
+  if (least_m2 > nearest.bound_m2) return;
   consider_block(first, point, nearest);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (k != first && blocks_[k].squaredExteriorDistance(place) <= nearest.bound_m2)
