@@ -25,18 +25,27 @@ std::vector<Views> views_of_ends(const std::vector<LineMatch>& matches, const st
   return views;
 }
 
-/// What says whether two lines meet: their ends, seen from above.
-struct Ends {
-  std::array<Eigen::Vector2d, 2> at;
-  bool of_stopline = false;
+/// An end of a line that may meet another one's, seen from above.
+struct End {
+  ElementId line = kNoElement;
+  bool at_back = false;
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  const std::vector<std::size_t>* views = nullptr;
+
+  ElementId id() const { return end_id(line, at_back); }
 };
 
-std::vector<Ends> ends_of(const std::vector<Line>& lines) {
-  std::vector<Ends> ends;
-  ends.reserve(lines.size());
-  for (const Line& line : lines)
-    ends.push_back({{line.stations.front().position.head<2>(), line.stations.back().position.head<2>()},
-                    is_stopline(line.type())});
+/// In the order of their ids. Stoplines do not go on, so that they have none.
+std::vector<End> ends_of(const std::vector<Line>& lines, const std::vector<Views>& views) {
+  std::vector<End> ends;
+  ends.reserve(2 * lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& line = lines[i];
+    if (is_stopline(line.type())) continue;
+    ends.push_back({line.id, false, line.stations.front().position.head<2>(), &views[i][0]});
+    ends.push_back({line.id, true, line.stations.back().position.head<2>(), &views[i][1]});
+  }
+  std::ranges::sort(ends, {}, &End::id);
   return ends;
 }
 
@@ -49,23 +58,17 @@ bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
                   PairHistories& joints) {
   const std::vector<Views> views = views_of_ends(matches, lines);
-  const std::vector<Ends> ends = ends_of(lines);
-  PairHistories counted;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (ends[i].of_stopline) continue;
-    for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      if (ends[j].of_stopline) continue;
-      for (const auto& [end_i, end_j] : {std::pair(0U, 0U), {0U, 1U}, {1U, 0U}, {1U, 1U}}) {
-        if ((ends[i].at[end_i] - ends[j].at[end_j]).squaredNorm() > max_gap_m * max_gap_m) continue;
-        const bool one = shared(views[i][end_i], views[j][end_j]);
-        const bool two = !one && !views[i][end_i].empty() && !views[j][end_j].empty();
-        counted.push_back(
-            continued(joints, end_id(lines[i].id, end_i == 1), end_id(lines[j].id, end_j == 1), one, two));
-      }
+  const std::vector<End> ends = ends_of(lines, views);
+  std::vector<PairSighting> near;
+  for (auto a = ends.begin(); a != ends.end(); ++a) {
+    for (auto b = a + 1; b != ends.end(); ++b) {
+      if (a->line == b->line || (a->place - b->place).squaredNorm() > max_gap_m * max_gap_m) continue;
+      const bool together = shared(*a->views, *b->views);
+      const bool apart = !together && !a->views->empty() && !b->views->empty();
+      near.push_back({a->id(), b->id(), together, apart});
     }
   }
-  sort(counted);
-  joints = std::move(counted);
+  joints = continued(joints, near);
 }
 
 }  // namespace laneloom

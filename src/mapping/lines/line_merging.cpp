@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
-#include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
 #include "mapping/lines/line_evidence.hpp"
 
@@ -13,83 +13,98 @@ namespace laneloom {
 namespace {
 
 constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
-constexpr std::size_t kStride = 3;  // between the stations that look for neighbours
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
-/// Pairs of lines of which the shorter one is near the other along enough of it to lie beside it, in order.
-std::vector<IndexPair> neighbours(const std::vector<Line>& lines, const FusionConfig& config) {
-  std::vector<IndexPair> pairs;
-  const StationGrid along(lines, false), across(lines, true);
-  // What lies beside a line has one of its stations this near, unless these are twice as far apart as wanted.
-  const double reach_m = std::sqrt(config.merge_distance_m * config.merge_distance_m +
-                                   config.station_spacing_m * config.station_spacing_m);
-  std::vector<std::size_t> near(lines.size()), counted_at(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    near.assign(lines.size(), 0);
-    counted_at.assign(lines.size(), kNone);
-    const StationGrid& grid = is_stopline(lines[i].type()) ? across : along;
-    const std::size_t count = lines[i].stations.size();
-    for (std::size_t k = 0; k < count; k += kStride) {
-      const Point& point = lines[i].stations[k].position;
-      grid.around(point, reach_m, [&](const StationGrid::Entry& entry) {
-        if ((entry.position - point).head<2>().squaredNorm() >= reach_m * reach_m) return;
-        if (std::exchange(counted_at[entry.line], k) != k) ++near[entry.line];
-      });
-    }
-    // Of the stations that were looked at, one more may be beside than is seen here.
-    const double needed = kMinBeside * static_cast<double>(count) / kStride - 1.0;
-    for (std::size_t j = 0; j < lines.size(); ++j) {
-      if (j != i && near[j] > 0 && count <= lines[j].stations.size() &&
-          static_cast<double>(near[j]) >= needed)
-        pairs.emplace_back(std::min(i, j), std::max(i, j));
-    }
+/// The lines' stations, one after the other without what else is known of them.
+std::vector<Polyline> courses_of(const std::vector<Line>& lines) {
+  std::vector<Polyline> courses;
+  courses.reserve(lines.size());
+  for (const Line& line : lines) {
+    Polyline& course = courses.emplace_back();
+    course.reserve(line.stations.size());
+    for (const Station& station : line.stations) course.push_back(station.position);
   }
-  std::ranges::sort(pairs);
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
+  return courses;
 }
 
-/// The lines' courses, measured when they are first asked for.
-class Courses {
- public:
-  explicit Courses(const std::vector<Line>& lines) : lines_(lines), measured_(lines.size()) {}
+/// Whether a line passes within `distance_m` of a point, at one of its stations or between that and the next.
+bool passes(const Polyline& course, std::size_t station, const Point& point, double distance_m) {
+  const auto is_near = [&](const Point& place) {
+    return (place - point).head<2>().squaredNorm() < distance_m * distance_m && same_level(place, point);
+  };
+  if (is_near(course[station])) return true;
+  const auto is_near_between = [&](const Point& from, const Point& to) {
+    const Point segment = to - from;
+    const double ahead = (point - from).head<2>().dot(segment.head<2>());
+    const double length_m2 = segment.head<2>().squaredNorm();
+    return ahead > 0.0 && ahead < length_m2 && is_near(from + ahead / length_m2 * segment);
+  };
+  return (station > 0 && is_near_between(course[station - 1], course[station])) ||
+         (station + 1 < course.size() && is_near_between(course[station], course[station + 1]));
+}
 
-  const MeasuredPolyline& operator[](std::size_t line) {
-    auto& measured = measured_[line];
-    if (!measured) {
-      Polyline points;
-      points.reserve(lines_[line].stations.size());
-      for (const Station& station : lines_[line].stations) points.push_back(station.position);
-      measured.emplace(points);
+/// Finds for a line the longer ones that it lies beside.
+class BesideSearch {
+ public:
+  BesideSearch(const std::vector<Line>& lines, const FusionConfig& config)
+      : along_(lines, false),
+        across_(lines, true),
+        courses_(courses_of(lines)),
+        others_(lines.size()),
+        distance_m_(config.merge_distance_m),
+        // A line that passes this near has a station within reach, unless its stations are more than twice
+        // as far apart as wanted.
+        reach_m_(std::hypot(config.merge_distance_m, config.station_spacing_m)) {}
+
+  /// Calls `found(other)`. Of equally long ones, the first ones count as longer.
+  template <class Found>
+  void beside(std::size_t line, bool is_stopline, Found&& found) {
+    const Polyline& course = courses_[line];
+    const auto needed = static_cast<std::size_t>(std::ceil(kMinBeside * static_cast<double>(course.size())));
+    for (std::size_t j = 0; j < others_.size(); ++j) {
+      const bool is_longer = std::pair(courses_[j].size(), line) > std::pair(course.size(), j);
+      others_[j] = {.needed = needed, .next = is_longer ? 0 : kNever};
     }
-    return *measured;
+    for (std::size_t k = 0; k < course.size(); ++k) {
+      const Point& point = course[k];
+      (is_stopline ? across_ : along_).around(point, reach_m_, [&](const StationGrid::Entry& entry) {
+        Other& other = others_[entry.line];
+        if (other.next > k || (entry.position - point).head<2>().squaredNorm() >= reach_m_ * reach_m_) return;
+        if (other.needed > course.size() - k) {
+          other.next = kNever;
+          return;
+        }
+        if (!passes(courses_[entry.line], entry.station, point, distance_m_)) return;
+        other.next = --other.needed == 0 ? kNever : k + 1;
+        if (other.needed == 0) found(entry.line);
+      });
+    }
   }
 
  private:
-  const std::vector<Line>& lines_;
-  std::vector<std::optional<MeasuredPolyline>> measured_;
+  static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
+  /// What is open about one of the other lines.
+  struct Other {
+    std::size_t needed = 0;     ///< stations that have to be beside it yet
+    std::size_t next = kNever;  ///< station that has to be looked at next
+  };
+
+  StationGrid along_, across_;
+  std::vector<Polyline> courses_;
+  std::vector<Other> others_;
+  double distance_m_, reach_m_;
 };
 
-bool lies_beside(const Line& line, const MeasuredPolyline& other, double distance_m) {
-  const auto count = line.stations.size();
-  const double needed = kMinBeside * static_cast<double>(count);
-  std::size_t beside = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (static_cast<double>(beside + (count - k)) < needed) return false;
-    const Point& point = line.stations[k].position;
-    const Projection foot = other.project(point, distance_m);
-    if (foot.distance_m >= distance_m || !same_level(foot.foot, point)) continue;
-    if (static_cast<double>(++beside) >= needed) return true;
-  }
-  return false;
-}
-
-bool side_by_side(const std::vector<Line>& lines, std::size_t a, std::size_t b, double distance_m,
-                  Courses& courses) {
-  if (lines[b].stations.size() <= lines[a].stations.size()) std::swap(a, b);
-  return lies_beside(lines[a], courses[b], distance_m);
+/// Pairs of lines of which the shorter one lies beside the other along enough of it, in order.
+std::vector<IndexPair> side_by_side(const std::vector<Line>& lines, const FusionConfig& config) {
+  BesideSearch search(lines, config);
+  std::vector<IndexPair> pairs;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    search.beside(i, is_stopline(lines[i].type()),
+                  [&](std::size_t j) { pairs.emplace_back(std::minmax(i, j)); });
+  std::ranges::sort(pairs);
+  return pairs;
 }
 
 /// As far as it is in view.
@@ -110,12 +125,11 @@ std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line
   PairHistories kept;
   std::vector<Relative> merged;
   std::vector<bool> gone(lines.size(), false);
-  Courses courses(lines);
-  for (const auto& [i, j] : neighbours(lines, config)) {
-    if (gone[i] || gone[j] || !side_by_side(lines, i, j, config.merge_distance_m, courses)) continue;
+  for (const auto& [i, j] : side_by_side(lines, config)) {
+    if (gone[i] || gone[j]) continue;
     const bool i_seen = mostly_observed(lines[i]), j_seen = mostly_observed(lines[j]);
-    const PairHistory history =
-        continued(doubles, lines[i].id, lines[j].id, i_seen && j_seen, i_seen != j_seen);
+    const auto [a, b] = std::minmax(lines[i].id, lines[j].id);
+    const PairHistory history = continued(doubles, PairSighting{a, b, i_seen && j_seen, i_seen != j_seen});
     if (!seen_apart(history)) {
       kept.push_back(history);
       continue;

@@ -13,6 +13,12 @@ constexpr double kMaxTogether = 0.25;  // share of the frames
 
 std::pair<ElementId, ElementId> key_of(const PairHistory& history) { return {history.a, history.b}; }
 
+PairHistory advanced(PairHistory history, const PairSighting& sighting) {
+  history.together = kMemory * history.together + (sighting.together ? 1.0 : 0.0);
+  history.apart = kMemory * history.apart + (sighting.apart ? 1.0 : 0.0);
+  return history;
+}
+
 }  // namespace
 
 void sort(PairHistories& histories) { std::ranges::sort(histories, {}, key_of); }
@@ -23,12 +29,22 @@ const PairHistory* find(const PairHistories& histories, ElementId a, ElementId b
   return found == histories.end() || key_of(*found) != key ? nullptr : &*found;
 }
 
-PairHistory continued(const PairHistories& histories, ElementId a, ElementId b, bool together, bool apart) {
-  const PairHistory* known = find(histories, a, b);
-  PairHistory history = known != nullptr ? *known : PairHistory{std::min(a, b), std::max(a, b)};
-  history.together = kMemory * history.together + (together ? 1.0 : 0.0);
-  history.apart = kMemory * history.apart + (apart ? 1.0 : 0.0);
-  return history;
+PairHistory continued(const PairHistories& histories, const PairSighting& sighting) {
+  const PairHistory* known = find(histories, sighting.a, sighting.b);
+  return advanced(known != nullptr ? *known : PairHistory{sighting.a, sighting.b}, sighting);
+}
+
+PairHistories continued(const PairHistories& histories, const std::vector<PairSighting>& sightings) {
+  PairHistories result;
+  result.reserve(sightings.size());
+  auto known = histories.begin();
+  for (const PairSighting& sighting : sightings) {
+    const std::pair key(sighting.a, sighting.b);
+    while (known != histories.end() && key_of(*known) < key) ++known;
+    const bool is_known = known != histories.end() && key_of(*known) == key;
+    result.push_back(advanced(is_known ? *known : PairHistory{sighting.a, sighting.b}, sighting));
+  }
+  return result;
 }
 
 bool seen_apart(const PairHistory& history) {

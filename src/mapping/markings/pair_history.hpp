@@ -30,8 +30,20 @@ void sort(PairHistories& histories);
 /// Null: the two have none.
 const PairHistory* find(const PairHistories& histories, ElementId a, ElementId b);
 
+/// How a frame shows two lines; neither, where it does not show both.
+struct PairSighting {
+  ElementId a = kNoElement;  ///< the smaller id
+  ElementId b = kNoElement;
+  bool together = false;
+  bool apart = false;
+};
+
 /// What is known of the two, with one more frame.
-PairHistory continued(const PairHistories& histories, ElementId a, ElementId b, bool together, bool apart);
+PairHistory continued(const PairHistories& histories, const PairSighting& sighting);
+
+/// The same of every pair that is in `sightings`, which are in the order of their ids; the others are
+/// forgotten.
+PairHistories continued(const PairHistories& histories, const std::vector<PairSighting>& sightings);
 
 /// Whether they were seen long enough, and too seldom together.
 bool seen_apart(const PairHistory& history);
