@@ -1,9 +1,9 @@
-# Three Debian packages, one per component: laneloomd, laneloom, laneloom-dev.
+# Four Debian packages, one per component: laneloomd, laneloom, laneloom-lab, laneloom-dev.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "laneloom maintainers <maintainers@laneloom.invalid>")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL service tools development)
+set(CPACK_COMPONENTS_ALL service tools lab development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -25,6 +25,11 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION misc)
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION "The command that publishes, follows, records, replays, draws and rates.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS laneloomd)
+
+set(CPACK_DEBIAN_LAB_PACKAGE_NAME laneloom-lab)
+set(CPACK_DEBIAN_LAB_PACKAGE_SECTION misc)
+set(CPACK_COMPONENT_LAB_DESCRIPTION "The command that measures laneloom itself, on simulated drives and under faults.")
+set(CPACK_DEBIAN_LAB_PACKAGE_RECOMMENDS "laneloom, laneloomd")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME laneloom-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

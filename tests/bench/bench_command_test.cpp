@@ -15,11 +15,11 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Runs the real `laneloom bench`.
+/// Runs the real `laneloom-lab bench`.
 class BenchCommand : public testing::Test {
  protected:
   int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "bench"});
+    arguments.insert(arguments.begin(), {LANELOOM_LAB, "bench"});
     return Process(arguments, file_).wait();
   }
   std::string output() const { return content(file_); }

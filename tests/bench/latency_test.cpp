@@ -7,8 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "bench/publication_log.hpp"
 #include "own_domain.hpp"
+#include "support/publication_log.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {

@@ -14,11 +14,11 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Runs the real `laneloom drive`.
+/// Runs the real `laneloom-lab drive`.
 class DriveCommand : public testing::Test {
  protected:
   int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "drive"});
+    arguments.insert(arguments.begin(), {LANELOOM_LAB, "drive"});
     return Process(arguments, file_).wait();
   }
   std::string output() const { return content(file_); }
@@ -63,8 +63,8 @@ TEST_F(DriveCommand, WrongInputIsNamed) {
   EXPECT_NE(run({"--scenario", "hill", "--dds", "--preset", "av2"}), 0);
   EXPECT_NE(run({"--scenario", "hill", "--duration", "1", "--vehicle-id", "mine"}), 0) << "without --dds";
   EXPECT_THAT(output(), HasSubstr("--dds"));
-  EXPECT_EQ(run({"--lanelet2", LANELOOM_COMMAND}), 1);
-  EXPECT_THAT(output(), HasSubstr(LANELOOM_COMMAND));
+  EXPECT_EQ(run({"--lanelet2", LANELOOM_LAB}), 1);
+  EXPECT_THAT(output(), HasSubstr(LANELOOM_LAB));
   EXPECT_EQ(run({"--scenario", "hill", "--scenario", "curve", "--dds"}), 1);
   EXPECT_THAT(output(), HasSubstr("one road"));
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "io/work_folder.hpp"
+#include "own_domain.hpp"
 
 // What a soak finds wrong with real processes; that it finds nothing wrong with healthy ones is the test
 // `soak`.
@@ -22,7 +23,7 @@ SoakSpec healthy() {
   SoakSpec spec;
   spec.fleet.service = LANELOOMD;
   spec.fleet.command = LANELOOM;
-  spec.fleet.dds.domain = 91;
+  spec.fleet.dds.domain = own_domain();
   spec.fleet.dds.vehicle_id = "soak_test_" + std::to_string(getpid());
   spec.patience = std::chrono::seconds(30);
   return spec;

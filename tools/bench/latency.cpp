@@ -15,11 +15,11 @@
 
 #include "bench/child_process.hpp"
 #include "bench/process_usage.hpp"
-#include "bench/publication_log.hpp"
-#include "bench/stage_timer.hpp"
-#include "bench/system_clock.hpp"
 #include "io/work_folder.hpp"
 #include "laneloom/dds/reader.hpp"
+#include "support/publication_log.hpp"
+#include "support/stage_timer.hpp"
+#include "support/system_clock.hpp"
 
 namespace laneloom {
 namespace {
@@ -35,7 +35,7 @@ double milliseconds(std::int64_t duration_ns) { return static_cast<double>(durat
 class MapListener {
  public:
   explicit MapListener(const DdsConfig& dds)
-      : participant_(dds, "laneloom bench"),
+      : participant_(dds, "laneloom-lab bench"),
         reader_(participant_, {.sample = [this](PublishedMap&& map) { take(map); }}) {}
 
   std::vector<ReceivedMap> maps() const {

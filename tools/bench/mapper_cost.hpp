@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "bench/allocations.hpp"
-#include "bench/stage_timer.hpp"
 #include "experiment/drive_simulation.hpp"
 #include "laneloom/config.hpp"
+#include "support/stage_timer.hpp"
 
 namespace laneloom {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "bench/stage_timer.hpp"
 #include "laneloom/mapping_session.hpp"
+#include "support/stage_timer.hpp"
 
 namespace laneloom {
 namespace {

@@ -13,7 +13,7 @@
 #include "bench/mapper_cost.hpp"
 #include "bench/process_usage.hpp"
 #include "commands/bench_drive.hpp"
-#include "commands/commands.hpp"
+#include "commands/lab_commands.hpp"
 #include "commands/time_table.hpp"
 #include "experiment/peer.hpp"
 

@@ -6,7 +6,7 @@ class App;
 
 namespace laneloom {
 
-/// Subcommands of `laneloom bench`, registered as those in commands.hpp.
+/// Subcommands of `laneloom-lab bench`, registered as those in commands.hpp.
 void add_bench_latency(CLI::App& bench);
 void add_bench_scale(CLI::App& bench);
 void add_bench_worst(CLI::App& bench);

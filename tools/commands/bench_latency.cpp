@@ -24,9 +24,9 @@ struct Options {
 };
 
 LatencySpec latency_spec(const Options& options) {
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
-  LatencySpec spec{.service = self.parent_path() / "laneloomd",
-                   .publisher = self,
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  LatencySpec spec{.service = folder / "laneloomd",
+                   .publisher = folder / "laneloom",
                    .dds = options.dds,
                    .identities = options.identities,
                    .scenario = options.drive.scenario,

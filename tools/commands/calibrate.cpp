@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "commands/commands.hpp"
+#include "commands/lab_commands.hpp"
 #include "commands/road_list.hpp"
 #include "laneloom/config_file.hpp"
 

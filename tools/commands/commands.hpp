@@ -5,8 +5,8 @@ class App;
 }
 
 /// The subcommands of `laneloom`, one file each. Each function registers its command; the command's work is
-/// done while the command line is parsed. It throws what main() reports: std::exception where it failed, and
-/// what end_with() throws (exit_codes.hpp) for any other exit code.
+/// done while the command line is parsed. It throws what run_program() reports: std::exception where it
+/// failed, and what end_with() throws (exit_codes.hpp) for any other exit code.
 namespace laneloom {
 
 void add_publish(CLI::App& app);
@@ -16,13 +16,10 @@ void add_doctor(CLI::App& app);
 void add_render(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
-void add_calibrate(CLI::App& app);
-void add_experiment(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_record(CLI::App& app);
+void add_export(CLI::App& app);
 void add_import(CLI::App& app);
-void add_drive(CLI::App& app);
-void add_bench(CLI::App& app);
-void add_soak(CLI::App& app);
+void add_view(CLI::App& app);
 
 }  // namespace laneloom

@@ -7,9 +7,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "commands/commands.hpp"
 #include "commands/drive_tables.hpp"
 #include "commands/exit_codes.hpp"
+#include "commands/lab_commands.hpp"
 #include "commands/options.hpp"
 #include "commands/road_list.hpp"
 #include "commands/stop_signal.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "commands/commands.hpp"
+#include "commands/lab_commands.hpp"
 #include "commands/road_list.hpp"
 #include "experiment/results_table.hpp"
 #include "laneloom/config_file.hpp"

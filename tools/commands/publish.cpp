@@ -10,8 +10,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "bench/publication_log.hpp"
-#include "bench/system_clock.hpp"
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "commands/road_source.hpp"
@@ -21,6 +19,8 @@
 #include "simulation/noise_profile.hpp"
 #include "simulation/random.hpp"
 #include "simulation/scenarios.hpp"
+#include "support/publication_log.hpp"
+#include "support/system_clock.hpp"
 
 namespace laneloom {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/stage_timer.hpp"
 #include "evaluation/evaluation.hpp"
 #include "replay/replay.hpp"
+#include "support/stage_timer.hpp"
 
 namespace laneloom {
 

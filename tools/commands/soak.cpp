@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
+#include "commands/lab_commands.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
 #include "endurance/soak.hpp"
@@ -48,8 +48,9 @@ void run(Options& options) {
   spec.duration = std::chrono::duration<double>(60.0 * options.minutes);
   spec.fleet.perceptions.assign(options.perceptions.begin(), options.perceptions.end());
   spec.recovery = std::chrono::duration<double>(options.recovery_s);
-  spec.fleet.command = std::filesystem::read_symlink("/proc/self/exe");
-  spec.fleet.service = spec.fleet.command.parent_path() / "laneloomd";
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  spec.fleet.command = folder / "laneloom";
+  spec.fleet.service = folder / "laneloomd";
   spec.fleet.dds.vehicle_id = fmt::format("soak_{}", getpid());  // apart from every other vehicle
   const SoakResult result = soak(spec, [] { return !stop_requested(); });
   print(result);

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "bench/stage_timer.hpp"
+#include "support/stage_timer.hpp"
 
 namespace laneloom {
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "commands/program.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -33,7 +35,11 @@ std::string complaint(const CLI::App& app, const std::string& word) {
 
 }  // namespace
 
-std::string unknown_command(const CLI::App& app, const std::vector<std::string>& words) {
+std::string unknown_command(const CLI::App& app, const Program& program,
+                            const std::vector<std::string>& words) {
+  if (!words.empty() && std::ranges::count(program.other_commands, words.front()) > 0)
+    return fmt::format("'{}' is a command of {}: {} {}", words.front(), program.other, program.other,
+                       words.front());
   const CLI::App* within = &app;
   for (const std::string& word : words) {
     if (word.starts_with('-') || within->get_require_subcommand_min() == 0) return {};

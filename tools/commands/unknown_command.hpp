@@ -9,8 +9,11 @@ class App;
 
 namespace laneloom {
 
-/// Where these words name a command that there is not: a complaint that names it, and the nearest that there
-/// is. Else empty.
-std::string unknown_command(const CLI::App& app, const std::vector<std::string>& words);
+struct Program;
+
+/// Where these words name a command that there is not: a complaint that names it, and the program that has
+/// it, or the nearest that there is. Else empty.
+std::string unknown_command(const CLI::App& app, const Program& program,
+                            const std::vector<std::string>& words);
 
 }  // namespace laneloom

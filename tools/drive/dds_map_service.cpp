@@ -5,7 +5,7 @@
 namespace laneloom {
 
 DdsMapService::DdsMapService(const DdsConfig& dds)
-    : participant_(dds, "laneloom drive"),
+    : participant_(dds, "laneloom-lab drive"),
       detections_(participant_),
       poses_(participant_),
       maps_(participant_, {.sample = [this](PublishedMap&& map) { take(std::move(map)); },

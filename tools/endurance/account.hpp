@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
-#include "bench/publication_log.hpp"
 #include "laneloom/messages.hpp"
+#include "support/publication_log.hpp"
 
 namespace laneloom {
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "bench/child_process.hpp"
-#include "bench/publication_log.hpp"
 #include "endurance/planner_output.hpp"
 #include "io/work_folder.hpp"
 #include "laneloom/config.hpp"
+#include "support/publication_log.hpp"
 
 namespace laneloom {
 

@@ -24,7 +24,7 @@ bool wait_until_it_rises(Rises count, std::chrono::seconds patience) {
 }  // namespace
 
 Watch::Watch(const DdsConfig& dds)
-    : participant_(dds, "laneloom soak"),
+    : participant_(dds, "laneloom-lab soak"),
       map_reader_(participant_, {.sample = [this](PublishedMap&& map) { take(std::move(map)); },
                                  .refused =
                                      [this](std::string_view reason) {

@@ -1,4 +1,4 @@
-#include "bench/stage_timer.hpp"
+#include "support/stage_timer.hpp"
 
 #include <algorithm>
 #include <cmath>

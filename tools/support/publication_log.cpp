@@ -1,4 +1,4 @@
-#include "bench/publication_log.hpp"
+#include "support/publication_log.hpp"
 
 #include <stdexcept>
 
