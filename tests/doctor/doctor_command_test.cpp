@@ -108,8 +108,9 @@ TEST_F(Doctor, FindsAServiceOfAnotherVehicle) {
 
 TEST_F(Doctor, FindsAWrongDomain) {
   const Process running(service(), file("service.log"));
+  const DomainLease empty;
   const auto words =
-      command({LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"}, domain_ + 45, vehicle_);
+      command({LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"}, empty.number(), vehicle_);
   EXPECT_TRUE(run_until(words, [&](int code) {
     return code == 2 && found("empty_domain").find(" " + std::to_string(domain_)) != std::string::npos;
   })) << output();

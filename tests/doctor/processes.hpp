@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "own_domain.hpp"
 #include "temporary_folder.hpp"
 #include "tools/process.hpp"
 
@@ -18,7 +19,7 @@ namespace laneloom {
 /// Real processes over real DDS, in a domain and for a vehicle of this test's own.
 class Processes : public testing::Test {
  protected:
-  const int domain_ = 1 + getpid() % 45;
+  const int domain_ = own_domain();
   const std::string vehicle_ = "car" + std::to_string(getpid());
 
   std::string file(const std::string& name) const { return folder_.file(name); }

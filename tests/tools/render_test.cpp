@@ -9,8 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "drawing/map_elements.hpp"
+#include "drawing/truth.hpp"
 #include "render/figure.hpp"
-#include "render/panel.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {
@@ -33,13 +34,18 @@ Figure small_figure() {
     for (Point& point : line) point = T_map_body * point;
     return line;
   };
-  Panel panel{"map", {}, {in_map({{0, 10, 0}, {20, 10, 0}})}};
-  panel.map.boundaries = {
+  Road truth;
+  truth.markings = {{.id = 1, .points = in_map({{0, 10, 0}, {20, 10, 0}})}};
+  LocalMap map;
+  map.boundaries = {
       marking(MarkingType::laneline, in_map({{0, 2, 0}, {20, 2, 0}}), MarkingStyle::solid, 20.0),
       marking(MarkingType::roadedge, in_map({{0, -2, 0}, {20, -2, 0}}), MarkingStyle::unknown, 20.0)};
-  panel.map.stoplines.resize(1);
-  panel.map.stoplines[0].marking =
+  map.stoplines.resize(1);
+  map.stoplines[0].marking =
       marking(MarkingType::stopline, in_map({{15, -8, 0}, {15, -4, 0}}), MarkingStyle::unknown, 4.0);
+  Panel panel{"map", {}};
+  add_truth(truth, panel.drawing);
+  add_map(map, panel.drawing);
   return {"figure", {}, {{"t = 0 s", T_map_body, {panel}}}};
 }
 
@@ -117,36 +123,13 @@ TEST_F(Render, RefusesOtherExtensionsAndUnwritablePlaces) {
 }
 
 TEST_F(Render, DrawsDegenerateElementsWithoutFailing) {
-  Figure figure = small_figure();
-  LocalMap& map = figure.moments[0].panels[0].map;
-  map.boundaries.emplace_back();
-  map.boundaries[0].points.resize(1);
+  LocalMap map;
+  map.boundaries.emplace_back().points.resize(1, Point::Zero());
   map.lanes.emplace_back();
   map.linkages.emplace_back();
+  Figure figure = small_figure();
+  add_map(map, figure.moments[0].panels[0].drawing);
   EXPECT_NO_THROW(draw_figure(figure, file("odd.png")));
-}
-
-TEST(LinkagePath, LeadsFromEndToBeginWhateverWayTrafficRuns) {
-  Lane from, to;
-  from.centerline = {{0, 0, 0}, {10, 0, 0}};
-  to.centerline = {{12, 0, 0}, {20, 0, 0}};
-  const Polyline expected{{6.5, 0, 0}, {10, 0, 0}, {11, 1, 0}, {12, 0, 0}, {15.5, 0, 0}};
-  for (const auto direction : {Lane::Direction::along_centerline, Lane::Direction::against_centerline}) {
-    from.direction = to.direction = direction;
-    EXPECT_EQ(linkage_path({.path = {{11, 1, 0}}}, from, to), expected);
-  }
-}
-
-TEST(MapOf, TakesDetectionsToTheMapFrame) {
-  DetectionFrame frame;
-  frame.detections = {{MarkingType::roadedge, MarkingStyle::solid, 0.7, {{1, 2, 3}, {4, 2, 3}}, {}}};
-  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
-  T_map_body.translate(Point(10, 20, 30));
-  const LocalMap map = map_of(frame, T_map_body);
-  ASSERT_EQ(map.boundaries.size(), 1u);
-  EXPECT_EQ(map.boundaries[0].type, MarkingType::roadedge);
-  EXPECT_TRUE(map.boundaries[0].points[0].isApprox(Point(11, 22, 33)));
-  EXPECT_DOUBLE_EQ(map.boundaries[0].styles[0].range.to_m, 3.0);
 }
 
 }  // namespace

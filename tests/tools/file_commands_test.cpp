@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "io/feather_writer.hpp"
+#include "io/json_lines.hpp"
+#include "laneloom/recording.hpp"
+#include "tools/commands.hpp"
+
+// The commands that read and write files, as processes.
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Frames and their poses as they would have been recorded.
+void record(const std::string& frames, const std::string& recording) {
+  RecordingWriter out(recording);
+  JsonLinesReader in(frames);
+  while (const auto record = in.next_frame()) {
+    out.write(record->pose, record->pose.stamp_ns);
+    out.write(record->frame, record->frame.stamp_ns);
+  }
+  out.close();
+}
+
+TEST_F(Commands, DetectionsWithoutNoiseScorePerfectly) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--json",
+                 file("score.json")}),
+            0)
+      << output();
+  const json score = json::parse(content(file("score.json"))).at("raw");
+  EXPECT_EQ(score.at("frames"), 80);
+  EXPECT_GT(score.at("total").at("truth"), 80);
+  EXPECT_EQ(score.at("total").at("precision"), 1.0);
+  EXPECT_EQ(score.at("total").at("recall"), 1.0);
+  EXPECT_LT(score.at("total").at("acd_m"), 0.02);
+}
+
+TEST_F(Commands, EveryLogInADirectoryIsSimulated) {
+  for (const std::string log : {"log_a", "log_b"}) {
+    std::filesystem::create_directories(file("data/val/" + log + "/map"));
+    write_bytes(file("data/val/" + log + "/city_SE3_egovehicle.feather"),
+                FeatherWriter(pose_columns(1'000'000'000, 11)).write());
+    std::ofstream(file("data/val/" + log + "/map/log_map_archive_x.json"))
+        << R"({"lane_segments":{},"drivable_areas":{}})";
+  }
+  ASSERT_EQ(
+      run({"simulate", "--argoverse2", file("data"), "--frames", file("frames"), "--truth", file("truth")}),
+      0)
+      << output();
+  for (const std::string log : {"log_a", "log_b"}) {
+    EXPECT_GT(content(file("frames/" + log + ".frames.jsonl")).size(), 100u);
+    EXPECT_THAT(content(file("truth/" + log + ".truth.json")), HasSubstr(log));
+  }
+  EXPECT_EQ(run({"publish", "--argoverse2", file("data"), "--duration", "1"}), 1);
+  EXPECT_THAT(output(), HasSubstr("holds 2 logs; name one"));
+}
+
+TEST_F(Commands, FusedMapsAreEvaluatedAtTheStampsThatDetectionsHaveToo) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
+  std::string shorter = content(file("map.jsonl"));
+  shorter.erase(0, shorter.find('\n') + 1);
+  std::ofstream(file("shorter.jsonl")) << shorter;
+  ASSERT_EQ(run({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--map",
+                 file("shorter.jsonl"), "--json", file("score.json")}),
+            0)
+      << output();
+  const json score = json::parse(content(file("score.json")));
+  EXPECT_EQ(score.at("raw").at("frames"), 79);
+  EXPECT_EQ(score.at("fused").at("frames"), 79);
+  EXPECT_GT(score.at("fused").at("lane").at("matched"), 0);
+}
+
+TEST_F(Commands, RenderDrawsEveryInput) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
+  ASSERT_EQ(run({"render", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--map",
+                 file("map.jsonl"), "--sequence", "2", "--out", file("map.png")}),
+            0)
+      << output();
+  EXPECT_EQ(content(file("map.png")).substr(1, 3), "PNG");
+  ASSERT_EQ(run({"render", "--truth", file("truth.json"), "--at", "3", "--out", file("truth.svg")}), 0)
+      << output();
+  EXPECT_THAT(content(file("truth.svg")), HasSubstr("</svg>"));
+}
+
+TEST_F(Commands, EveryCommandTakesRecordingsAndLines) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.mcap")}), 0) << output();
+  record(file("in.frames.jsonl"), file("in.mcap"));
+  std::vector<std::string> pictures;
+  for (const char* const frames : {"in.frames.jsonl", "in.mcap"}) {
+    for (const char* const map : {"map.jsonl", "map.mcap"}) {
+      ASSERT_EQ(
+          run({"render", "--frames", file(frames), "--map", file(map), "--at", "3", "--out", file("x.svg")}),
+          0)
+          << output();
+      pictures.push_back(content(file("x.svg")));
+      ASSERT_EQ(
+          run({"evaluate", "--truth", file("truth.json"), "--frames", file(frames), "--map", file(map)}), 0)
+          << output();
+    }
+    ASSERT_EQ(run({"replay", "--in", file(frames)}), 0) << output();
+  }
+  EXPECT_THAT(pictures, testing::Each(pictures.front()));
+}
+
+TEST_F(Commands, PublishListsItsRoads) {
+  EXPECT_EQ(run({"publish", "--list"}), 0);
+  EXPECT_THAT(output(), HasSubstr("town"));
+}
+
+}  // namespace
+}  // namespace laneloom
