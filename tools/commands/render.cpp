@@ -10,8 +10,10 @@
 #include "commands/commands.hpp"
 #include "commands/evaluation_inputs.hpp"
 #include "commands/options.hpp"
+#include "drawing/frame_elements.hpp"
+#include "drawing/map_elements.hpp"
+#include "drawing/truth.hpp"
 #include "render/figure.hpp"
-#include "render/truth_map.hpp"
 
 namespace laneloom {
 namespace {
@@ -89,26 +91,37 @@ std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) 
   return stamps_ns;
 }
 
-Moment draw_moment(const Inputs& inputs, std::int64_t stamp_ns, std::int64_t first_ns) {
-  std::vector<Polyline> truth_lines;
-  if (inputs.truth)
-    for (const RoadMarking& marking : inputs.truth->markings) truth_lines.push_back(marking.points);
+/// What every panel of a moment shows.
+Drawing surroundings(const Options& options, const Eigen::Isometry3d& T_map_body) {
+  Drawing drawing;
+  add_range(options.range, T_map_body, drawing);
+  add_vehicle(T_map_body, drawing);
+  return drawing;
+}
 
+Eigen::Isometry3d pose_at(const Inputs& inputs, std::int64_t stamp_ns) {
+  if (!inputs.maps.empty()) return nearest(inputs.maps, stamp_ns).T_map_body;
+  if (!inputs.frames.empty()) return nearest(inputs.frames, stamp_ns).T_map_body;
+  return transform(inputs.truth->drive.pose_at(static_cast<double>(stamp_ns) * 1e-9));
+}
+
+Moment draw_moment(const Options& options, const Inputs& inputs, std::int64_t stamp_ns) {
   Moment moment;
-  moment.label = fmt::format("t = {:.1f} s", static_cast<double>(stamp_ns - first_ns) * 1e-9);
+  moment.T_map_body = pose_at(inputs, stamp_ns);
+  moment.label = fmt::format("t = {:.1f} s", static_cast<double>(stamp_ns - time_span(inputs).first) * 1e-9);
+  const Drawing around = surroundings(options, moment.T_map_body);
+  Drawing over_truth = around;
+  if (inputs.truth) add_truth(*inputs.truth, over_truth);
   if (!inputs.frames.empty()) {
     const SeenFrame& seen = nearest(inputs.frames, stamp_ns);
-    moment.T_map_body = seen.T_map_body;
-    moment.panels.push_back({"Detections (one frame)", map_of(seen.frame, moment.T_map_body), truth_lines});
+    add_detections(seen.frame, seen.T_map_body,
+                   moment.panels.emplace_back(Panel{"Detections (one frame)", over_truth}).drawing);
   }
-  if (!inputs.maps.empty()) {
-    const LocalMap& map = nearest(inputs.maps, stamp_ns);
-    moment.T_map_body = map.T_map_body;
-    moment.panels.push_back({"Fused map", map, truth_lines});
-  }
-  if (moment.panels.empty())
-    moment.T_map_body = transform(inputs.truth->drive.pose_at(static_cast<double>(stamp_ns) * 1e-9));
-  if (inputs.truth) moment.panels.push_back({"Ground truth", map_of(*inputs.truth), {}});
+  if (!inputs.maps.empty())
+    add_map(nearest(inputs.maps, stamp_ns),
+            moment.panels.emplace_back(Panel{"Fused map", over_truth}).drawing);
+  if (inputs.truth)
+    add_map(map_of(*inputs.truth), moment.panels.emplace_back(Panel{"Ground truth", around}).drawing);
   return moment;
 }
 
@@ -117,7 +130,7 @@ void render(const Options& options) {
   Figure figure{options.title, options.range, {}};
   if (figure.title.empty()) figure.title = inputs.truth ? inputs.truth->name : "laneloom";
   for (const std::int64_t stamp_ns : moments(options, inputs))
-    figure.moments.push_back(draw_moment(inputs, stamp_ns, time_span(inputs).first));
+    figure.moments.push_back(draw_moment(options, inputs, stamp_ns));
   draw_figure(figure, options.out);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <map>
 
+#include "io/element_names.hpp"
 #include "io/json_fields.hpp"
 #include "io/json_lines.hpp"
 #include "io/stamp_and_pose.hpp"
@@ -10,17 +11,6 @@ namespace laneloom {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array kStatusNames{"tentative", "confirmed", "inferred"};
-constexpr std::array kDirectionNames{"unknown", "along", "against"};
-constexpr std::array kLinkageNames{"shared_boundary", "geometric_alignment", "intersection", "sd_map",
-                                   "ego_track"};
-constexpr std::array kTurnNames{"unknown", "straight", "left", "right", "u_turn"};
-
-template <typename Enum, std::size_t N>
-const char* named(Enum value, const std::array<const char*, N>& names) {
-  return names.at(static_cast<std::size_t>(value));
-}
 
 // Reads one of the names.
 template <typename Enum, std::size_t N>
@@ -56,7 +46,7 @@ json to_json(const Marking& marking) {
           {"type", name(marking.type)},
           {"points", polyline_json(marking.points)},
           {"styles", std::move(styles)},
-          {"status", named(marking.status, kStatusNames)},
+          {"status", name(marking.status)},
           {"existence", marking.existence_probability},
           {"observations", marking.observations},
           {"first_seen_ns", marking.first_seen_ns},
@@ -82,8 +72,8 @@ json to_json(const Lane& lane, const LocalMap& map) {
           {"right_neighbours", to_json(lane.right_neighbours)},
           {"width", lane.width_m},
           {"section", lane.section},
-          {"direction", named(lane.direction, kDirectionNames)},
-          {"status", named(lane.status, kStatusNames)},
+          {"direction", name(lane.direction)},
+          {"status", name(lane.status)},
           {"existence", lane.existence_probability},
           {"inferred_ranges", to_json(lane.inferred_ranges)}};
 }
@@ -91,8 +81,8 @@ json to_json(const Lane& lane, const LocalMap& map) {
 json to_json(const Linkage& linkage) {
   return {{"from", linkage.from},
           {"to", linkage.to},
-          {"kind", named(linkage.kind, kLinkageNames)},
-          {"turn", named(linkage.turn, kTurnNames)},
+          {"kind", name(linkage.kind)},
+          {"turn", name(linkage.turn)},
           {"confidence", linkage.confidence},
           {"path", polyline_json(linkage.path)}};
 }

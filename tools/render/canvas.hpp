@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/colour.hpp"
+#include "drawing/colour.hpp"
 
 namespace laneloom {
 

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "laneloom/polyline.hpp"
-#include "render/palette.hpp"
+#include "drawing/palette.hpp"
 #include "render/panel.hpp"
 
 namespace laneloom {
@@ -24,13 +23,13 @@ void draw_scale(Canvas& canvas, const Pixel& bottom_left) {
 }
 
 void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range, const Pixel& top_left) {
-  const Pixel size = PanelView::size(range);
+  const Pixel size = PanelView::size_of(range);
   Pixel at = top_left;
   for (const Panel& panel : moment.panels) {
     const PanelView view(range, moment.T_map_body, at + Pixel(0.0, kPanelTitleHeight));
     canvas.text(at + Pixel(1.0, 15.0), panel.title, 13.0, palette::kText, Align::left, true);
     canvas.text(at + Pixel(size.x() - 1.0, 15.0), moment.label, 12.0, palette::kFaint, Align::right);
-    draw_panel(canvas, view, range, panel);
+    draw_panel(canvas, view, panel.drawing);
     draw_scale(canvas, view.top_left() + Pixel(0.0, size.y()));
     at.x() += size.x() + kGap;
   }
@@ -39,7 +38,7 @@ void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range,
 }  // namespace
 
 void draw_figure(const Figure& figure, const std::string& path) {
-  const Pixel panel = PanelView::size(figure.range);
+  const Pixel panel = PanelView::size_of(figure.range);
   std::size_t columns = 1;
   for (const Moment& moment : figure.moments) columns = std::max(columns, moment.panels.size());
   const double row_height = kPanelTitleHeight + panel.y() + kGap;
@@ -57,19 +56,6 @@ void draw_figure(const Figure& figure, const std::string& path) {
   }
   draw_legend(canvas, at, inner_width);
   canvas.finish();
-}
-
-LocalMap map_of(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-  LocalMap map;
-  for (const Detection& detection : frame.detections) {
-    Marking marking;
-    marking.type = detection.type;
-    marking.existence_probability = detection.confidence;
-    for (const Point& point : detection.points) marking.points.push_back(T_map_body * point);
-    marking.styles = {{{0.0, length(marking.points)}, detection.style}};
-    map.boundaries.push_back(marking);
-  }
-  return map;
 }
 
 }  // namespace laneloom

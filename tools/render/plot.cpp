@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "drawing/palette.hpp"
 #include "render/canvas.hpp"
-#include "render/palette.hpp"
 
 namespace laneloom {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/colour.hpp"
+#include "drawing/colour.hpp"
 
 /// Curves over a common axis.
 namespace laneloom {

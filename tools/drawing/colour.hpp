@@ -7,7 +7,7 @@ struct Colour {
   double green = 0.0;
   double blue = 0.0;
   double alpha = 1.0;
-  Colour faded(double factor) const { return {red, green, blue, alpha * factor}; }
+  constexpr Colour faded(double factor) const { return {red, green, blue, alpha * factor}; }
 };
 
 }  // namespace laneloom

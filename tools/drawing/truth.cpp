@@ -1,5 +1,7 @@
-#include "render/truth_map.hpp"
+#include "drawing/truth.hpp"
 
+#include "drawing/marking_shapes.hpp"
+#include "io/json_fields.hpp"
 #include "laneloom/polyline.hpp"
 
 namespace laneloom {
@@ -25,6 +27,19 @@ Lane drawn(const RoadLane& lane) {
 }
 
 }  // namespace
+
+void add_truth(const Road& truth, Drawing& drawing) {
+  for (const RoadMarking& marking : truth.markings) {
+    if (!drawable(marking.points)) continue;
+    drawing.add({.layer = Layer::truth,
+                 .key = key_of(Layer::truth, marking.id),
+                 .id = marking.id,
+                 .type = name(marking.type),
+                 .status = {},
+                 .properties = {{"style", name(marking.style)}},
+                 .shapes = {{DrawnLine{marking.points}, Style::truth}}});
+  }
+}
 
 LocalMap map_of(const Road& truth) {
   LocalMap map;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "drawing/drawing.hpp"
+
+/// A drawing as JSON, for a viewer seen from above: points have no z, and are rounded to a centimetre.
+///
+///     {"stamp_ns": "1", "pose": [x, y, heading],
+///      "elements": [{"layer": "boundaries", "key": "boundaries/12", "id": 12, "type": "laneline",
+///                    "status": "confirmed", "properties": {…},
+///                    "shapes": [{"line": [x, y, x, y, …], "style": "laneline_dashed", "opacity": 0.8},
+///                               {"area": [x, y, …], …}, {"arrow": [x, y, direction], …},
+///                               {"text": "12", "at": [x, y], …}]}, …],
+///      "lineage": [{"kind": "merged_into", "id": 12, "other": 5}, …]}
+///
+/// Metres and radians in the map frame; elements in the order of painting. stamp_ns is text, as a number of
+/// JavaScript does not hold it; ids are counted up, and stay exact below 2^53. Left out where there is none:
+/// id, status, properties, opacity (1), lineage.
+namespace laneloom {
+
+nlohmann::json to_json(const Drawing& drawing);
+
+/// How everything looks:
+///
+///     {"layers": [{"name": "lanes", "title": "lanes", "shown": true, "overlay": 1.0}, …],
+///      "styles": {"linkage": {"light": "#cc00bfff", "dark": "#rrggbbaa", "width": 1.8, "dash": [9, 7],
+///                             "head": 9, "text": 11}, …},
+///      "light": {"ground": "#…", "text": "#…", "faint": "#…"}, "dark": {…}}
+///
+/// Layers in the order of painting; widths, dashes, heads and texts in pixels, left out where there is none.
+nlohmann::json palette_json();
+
+}  // namespace laneloom

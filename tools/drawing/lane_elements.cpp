@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "drawing/map_elements.hpp"
+#include "drawing/marking_shapes.hpp"
+#include "drawing/properties.hpp"
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kArrowSpacing_m = 9.0;
+constexpr double kLinkageReach_m = 3.5;  ///< of its arrow into either lane
+constexpr double kCenterlineOpacity = 0.6;
+constexpr double kUnknownDirection = 0.6;  ///< opacity where it is not known which way traffic runs
+
+Point as_point(const Eigen::Vector2d& direction) { return {direction.x(), direction.y(), 0.0}; }
+
+/// The centerline, in driving direction where it is known, and arrows along it.
+void add_course(const Lane& lane, std::vector<Shape>& shapes) {
+  if (!drawable(lane.centerline)) return;
+  Polyline centerline = lane.centerline;
+  if (lane.direction == Lane::Direction::against_centerline)
+    std::reverse(centerline.begin(), centerline.end());
+  const double opacity = lane.direction == Lane::Direction::unknown ? kUnknownDirection : 1.0;
+  const Style style = palette::course_style(lane.id);
+  const MeasuredPolyline line(centerline);
+  shapes.push_back({DrawnLine{std::move(centerline)}, style, kCenterlineOpacity * opacity});
+  const auto arrows = std::max(1.0, std::floor(line.length() / kArrowSpacing_m));
+  for (double i = 0.5; i < arrows; i += 1.0) {
+    const double tip_m = line.length() * i / arrows;
+    shapes.push_back({DrawnArrow{line.at(tip_m), as_point(line.direction(tip_m))}, style, opacity});
+  }
+}
+
+Element element_of(const Lane& lane, const LocalMap& map) {
+  Element element{.layer = Layer::lanes,
+                  .key = key_of(Layer::lanes, lane.id),
+                  .id = lane.id,
+                  .type = "lane",
+                  .status = lane.status,
+                  .properties = properties_of(lane, map),
+                  .shapes = {}};
+  if (drawable(lane.left) && drawable(lane.right))
+    element.shapes.push_back({DrawnArea{lane.left, lane.right}, palette::lane_style(lane.id)});
+  add_course(lane, element.shapes);
+  return element;
+}
+
+Element element_of(const Linkage& linkage, const Polyline& path) {
+  const Point along = (path.back() - path[path.size() - 2]).normalized();
+  return {
+      .layer = Layer::linkages,
+      .key = key_of(Layer::linkages, linkage.from) + "-" + std::to_string(linkage.to),
+      .id = kNoElement,
+      .type = "linkage",
+      .status = {},
+      .properties = properties_of(linkage),
+      .shapes = {{DrawnLine{path}, Style::linkage, 0.85}, {DrawnArrow{path.back(), along}, Style::linkage}}};
+}
+
+}  // namespace
+
+Polyline linkage_path(const Linkage& linkage, const Lane& from, const Lane& to) {
+  const MeasuredPolyline out(from.centerline), in(to.centerline);
+  Polyline path = out.slice({std::max(0.0, out.length() - kLinkageReach_m), out.length()});
+  path.insert(path.end(), linkage.path.begin(), linkage.path.end());
+  const Polyline into = in.slice({0.0, std::min(kLinkageReach_m, in.length())});
+  path.insert(path.end(), into.begin(), into.end());
+  return path;
+}
+
+void add_lanes(const LocalMap& map, Drawing& drawing) {
+  for (const Lane& lane : map.lanes) drawing.add(element_of(lane, map));
+}
+
+void add_linkages(const LocalMap& map, Drawing& drawing) {
+  std::map<ElementId, const Lane*> lanes;
+  for (const Lane& lane : map.lanes)
+    if (drawable(lane.centerline)) lanes.emplace(lane.id, &lane);
+  for (const Linkage& linkage : map.linkages) {
+    const auto from = lanes.find(linkage.from), to = lanes.find(linkage.to);
+    if (from != lanes.end() && to != lanes.end())
+      drawing.add(element_of(linkage, linkage_path(linkage, *from->second, *to->second)));
+  }
+}
+
+}  // namespace laneloom

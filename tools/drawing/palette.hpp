@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "drawing/colour.hpp"
+#include "laneloom/types.hpp"
+
+/// How everything looks, for pictures, the viewer and other programs' scenes: the only place with colours.
+/// The hues are the paper's: red lanelines, green roadedges, blue stoplines, magenta linkages.
+namespace laneloom {
+
+/// What a drawn shape looks like. Pictures draw it on a light ground; viewers may have a dark one.
+enum class Style : std::uint8_t {
+  laneline_solid,
+  laneline_dashed,
+  laneline_unknown,
+  roadedge,
+  stopline,
+  lane_a,  ///< neighbouring lanes get different ones of four
+  lane_b,
+  lane_c,
+  lane_d,
+  course_a,  ///< centerline and arrows of a lane_a
+  course_b,
+  course_c,
+  course_d,
+  linkage,
+  truth,
+  field_of_view,
+  occlusion,
+  uncertainty,
+  range,
+  vehicle,
+  window,  ///< of the vehicle
+  id
+};
+inline constexpr std::size_t kStyleCount = 22;
+inline constexpr std::size_t kLaneStyles = 4;
+
+/// What can be shown or hidden as one, in the order of painting: what is first lies lowest.
+enum class Layer : std::uint8_t {
+  field_of_view,
+  occlusions,
+  lanes,
+  truth,
+  range,
+  uncertainty,
+  markings,
+  boundaries,
+  stoplines,
+  linkages,
+  detections,
+  ids,
+  vehicle
+};
+inline constexpr std::size_t kLayerCount = 13;
+
+namespace palette {
+
+inline constexpr Colour kText{0.15, 0.15, 0.18};
+inline constexpr Colour kFaint{0.45, 0.45, 0.50};
+inline constexpr Colour kGround{0.975, 0.975, 0.965};
+inline constexpr Colour kBox{0.55, 0.58, 0.66};
+inline constexpr Colour kDarkText{0.90, 0.90, 0.92};
+inline constexpr Colour kDarkFaint{0.62, 0.63, 0.68};
+inline constexpr Colour kDarkGround{0.09, 0.10, 0.12};
+
+/// Pixels of a screen.
+struct StyleSpec {
+  const char* name;
+  Colour light;           ///< on a light ground
+  Colour dark;            ///< on a dark ground
+  double width = 0.0;     ///< of a line; 0: it is none
+  double dash_on = 0.0;   ///< 0: solid
+  double dash_off = 0.0;  ///< between two dashes
+  double head = 0.0;      ///< length of an arrow's head; 0: it is none
+  double text = 0.0;      ///< height of a text; 0: it is none
+};
+
+struct LayerSpec {
+  const char* name;
+  const char* title;     ///< for people
+  bool shown = true;     ///< at first, in a viewer
+  double overlay = 1.0;  ///< factor on widths of lines where the layer lies over the fused map
+};
+
+const StyleSpec& of(Style style);
+const LayerSpec& of(Layer layer);
+
+/// Dashed as painted; where the style is unknown: thin.
+Style marking_style(MarkingType type, MarkingStyle style);
+/// The same lane has the same one as long as it keeps its id.
+Style lane_style(ElementId lane);
+/// Of the lane's centerline and arrows.
+Style course_style(ElementId lane);
+
+}  // namespace palette
+}  // namespace laneloom

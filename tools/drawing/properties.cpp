@@ -1,0 +1,122 @@
+#include "drawing/properties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "io/element_names.hpp"
+#include "io/json_fields.hpp"
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+json to_json(const Range& range) { return {rounded(range.from_m), rounded(range.to_m)}; }
+
+json to_json(const std::vector<Range>& ranges) {
+  json list = json::array();
+  for (const Range& range : ranges) list.push_back(to_json(range));
+  return list;
+}
+
+double seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns - from_ns) * 1e-9;
+}
+
+void put_lateral_stddev(const std::vector<double>& stddev_m, json& out) {
+  if (stddev_m.empty()) return;
+  const double sum_m = std::accumulate(stddev_m.begin(), stddev_m.end(), 0.0);
+  out["lateral_stddev_mean_m"] = rounded(sum_m / static_cast<double>(stddev_m.size()));
+  out["lateral_stddev_max_m"] = rounded(*std::max_element(stddev_m.begin(), stddev_m.end()));
+}
+
+void put_existence(double probability, json& out) {
+  if (probability >= 0.0) out["existence_probability"] = rounded(probability);
+}
+
+void put_lineage(ElementId id, const LocalMap& map, json& out) {
+  for (const LineageEvent& event : map.lineage)
+    if (event.id == id || event.other == id) out["lineage"].push_back(properties_of(event));
+}
+
+/// Of the lanes that `is_beside` holds for.
+template <typename IsBeside>
+void put_lanes(const char* key, const LocalMap& map, json& out, IsBeside is_beside) {
+  for (const Lane& lane : map.lanes)
+    if (is_beside(lane)) out[key].push_back(lane.id);
+}
+
+json to_json(const std::vector<Neighbour>& neighbours) {
+  json list = json::array();
+  for (const Neighbour& beside : neighbours)
+    list.push_back({{"lane", beside.lane},
+                    {"range_m", to_json(beside.range)},
+                    {"crossable_m", to_json(beside.crossable)}});
+  return list;
+}
+
+}  // namespace
+
+double rounded(double value) { return std::round(value * 1e3) / 1e3; }
+
+json properties_of(const LineageEvent& event) {
+  json out{{"kind", name(event.kind)}, {"id", event.id}};
+  if (event.other != kNoElement) out["other"] = event.other;
+  return out;
+}
+
+json properties_of(const Marking& marking, const LocalMap& map) {
+  json out{{"length_m", rounded(length(marking.points))}, {"observations", marking.observations}};
+  for (const StyleRange& style : marking.styles)
+    out["styles"].push_back({rounded(style.range.from_m), rounded(style.range.to_m), name(style.style)});
+  put_existence(marking.existence_probability, out);
+  put_lateral_stddev(marking.lateral_stddev_m, out);
+  if (marking.first_seen_ns > 0) out["age_s"] = rounded(seconds(marking.first_seen_ns, map.stamp_ns));
+  if (marking.last_seen_ns > 0) out["unseen_s"] = rounded(seconds(marking.last_seen_ns, map.stamp_ns));
+  put_lanes("left_boundary_of", map, out, [&](const Lane& lane) { return lane.left_boundary == marking.id; });
+  put_lanes("right_boundary_of", map, out,
+            [&](const Lane& lane) { return lane.right_boundary == marking.id; });
+  put_lineage(marking.id, map, out);
+  return out;
+}
+
+json properties_of(const Stopline& stopline, const LocalMap& map) {
+  json out = properties_of(stopline.marking, map);
+  out["lanes"] = stopline.lanes;
+  if (!stopline.heading.isZero())
+    out["heading"] = {rounded(stopline.heading.x()), rounded(stopline.heading.y())};
+  return out;
+}
+
+json properties_of(const Lane& lane, const LocalMap& map) {
+  json out{{"left_boundary", lane.left_boundary},
+           {"right_boundary", lane.right_boundary},
+           {"width_m", rounded(lane.width_m)},
+           {"length_m", rounded(length(lane.centerline))},
+           {"direction", name(lane.direction)},
+           {"section", lane.section},
+           {"left_neighbours", to_json(lane.left_neighbours)},
+           {"right_neighbours", to_json(lane.right_neighbours)}};
+  put_existence(lane.existence_probability, out);
+  if (!lane.inferred_ranges.empty()) out["inferred_m"] = to_json(lane.inferred_ranges);
+  for (const Linkage& linkage : map.linkages) {
+    if (linkage.from == lane.id) out["successors"].push_back(linkage.to);
+    if (linkage.to == lane.id) out["predecessors"].push_back(linkage.from);
+  }
+  for (const Stopline& stopline : map.stoplines)
+    if (std::find(stopline.lanes.begin(), stopline.lanes.end(), lane.id) != stopline.lanes.end())
+      out["stoplines"].push_back(stopline.marking.id);
+  return out;
+}
+
+json properties_of(const Linkage& linkage) {
+  return {{"from", linkage.from},
+          {"to", linkage.to},
+          {"kind", name(linkage.kind)},
+          {"turn", name(linkage.turn)},
+          {"confidence", rounded(linkage.confidence)}};
+}
+
+}  // namespace laneloom
