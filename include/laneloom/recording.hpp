@@ -19,12 +19,28 @@ namespace laneloom {
 
 enum class Compression : std::uint8_t { none, lz4, zstd };
 
+/// A topic that is not laneloom's own, with messages in CDR. RecordingReader passes over those whose type is
+/// Foxglove's, as they are made from the others.
+struct ExtraTopic {
+  std::string name;
+  std::string type;
+  std::string idl;  ///< of the type, as one text
+};
+
+/// A message as it was recorded, which need not be well formed.
+struct RawMessage {
+  std::int64_t log_time_ns = 0;
+  std::size_t topic = 0;  ///< index of its type in AnyMessage
+  std::vector<std::uint8_t> bytes;
+};
+
 struct RecordingOptions {
   Compression compression = Compression::zstd;
   std::size_t chunk_bytes = 1U << 20U;  ///< messages that are compressed together, before compression
   std::uint64_t max_file_bytes = 0;     ///< about; a new file is begun then. 0: never
   double max_file_s = 0.0;              ///< by log time; likewise
   std::string map_frame_id = "map";     ///< of the poses
+  std::vector<ExtraTopic> extra_topics;
 };
 
 /// Writes a recording. What flush() or a full chunk put on disk stays readable whatever happens later: the
@@ -47,6 +63,10 @@ class RecordingWriter {
   /// A message of T's topic as CDR (laneloom/dds/cdr.hpp), which need not be well formed.
   template <class T>
   void write_cdr(std::span<const std::uint8_t> message, std::int64_t log_time_ns);
+  /// Of any topic, as write_cdr().
+  void write_raw(const RawMessage& message);
+  /// A message of `extra_topics[topic]`, as CDR.
+  void write_extra(std::size_t topic, std::span<const std::uint8_t> message, std::int64_t log_time_ns);
 
   /// Puts what was written on disk.
   void flush();
@@ -75,13 +95,6 @@ struct RecordedMessage {
   std::int64_t log_time_ns = 0;
   std::int64_t publish_time_ns = 0;
   AnyMessage message;
-};
-
-/// A message as it was recorded, which need not be well formed.
-struct RawMessage {
-  std::int64_t log_time_ns = 0;
-  std::size_t topic = 0;  ///< index of its type in AnyMessage
-  std::vector<std::uint8_t> bytes;
 };
 
 /// Whether the file begins as MCAP does. Not so one that cannot be read: whoever opens it says why.

@@ -14,6 +14,8 @@ namespace laneloom {
 namespace {
 
 constexpr std::string_view kForeignTopic = "not a topic of laneloom";
+/// What is only for viewers: made from laneloom's topics, so that passing over it loses nothing.
+constexpr std::string_view kViewersTypes = "foxglove::";
 constexpr std::uint64_t kMaxLogTime_ns = std::uint64_t{1} << 62U;  // differences do not overflow
 
 template <class T>
@@ -79,6 +81,7 @@ class RecordingReader::Impl {
   /// Whether the message is one of laneloom's, and `take`, called with its type, names no reason against it.
   template <class Take>
   bool accept(const McapMessage& message, const Take& take) {
+    if (message.channel->schema && message.channel->schema->name.starts_with(kViewersTypes)) return false;
     const auto reason =
         take_if_of<Take, DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus>(message,
                                                                                                  take);

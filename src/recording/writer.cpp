@@ -20,7 +20,8 @@ std::string without_extension(std::string path) {
   return path;
 }
 
-McapChannel channel_of(const RecordedTopic& topic) {
+template <class Topic>
+McapChannel channel_of(const Topic& topic) {
   return {topic.name, kCdr, std::make_shared<McapSchema>(McapSchema{topic.type, kOmgIdl, topic.idl})};
 }
 
@@ -54,12 +55,20 @@ class RecordingWriter::Impl {
 
   template <class T>
   void write_cdr(ByteView message, std::int64_t log_time_ns) {
-    if (!file_) throw std::runtime_error(path_ + ": the recording is closed");
-    roll_over(log_time_ns);
+    write_cdr(AnyMessage(std::in_place_type<T>).index(), message, log_time_ns);
+  }
+
+  void write_cdr(std::size_t topic, ByteView message, std::int64_t log_time_ns) {
+    prepare(log_time_ns);
     const auto header = dds::header_of(message);
-    file_->write(channels_.at(index_of<T>()), mcap_time(log_time_ns),
+    file_->write(channels_.at(topic), mcap_time(log_time_ns),
                  mcap_time(header ? header->stamp_ns : log_time_ns),
                  header ? static_cast<std::uint32_t>(header->sequence) : 0U, message);
+  }
+
+  void write_extra(std::size_t topic, ByteView message, std::int64_t log_time_ns) {
+    prepare(log_time_ns);
+    file_->write(extra_channels_.at(topic), mcap_time(log_time_ns), mcap_time(log_time_ns), 0U, message);
   }
 
   void flush() {
@@ -78,9 +87,9 @@ class RecordingWriter::Impl {
   static constexpr std::size_t kTopics = std::variant_size_v<AnyMessage>;
   using Channels = std::array<std::uint16_t, kTopics>;
 
-  template <class T>
-  static std::size_t index_of() {
-    return AnyMessage(std::in_place_type<T>).index();
+  void prepare(std::int64_t log_time_ns) {
+    if (!file_) throw std::runtime_error(path_ + ": the recording is closed");
+    roll_over(log_time_ns);
   }
 
   bool limited() const { return options_.max_file_bytes > 0 || options_.max_file_s > 0.0; }
@@ -101,6 +110,9 @@ class RecordingWriter::Impl {
     file_path_ = next_path();
     auto file = std::make_unique<McapWriter>(file_path_, options_.compression, options_.chunk_bytes);
     channels_ = add_channels(*file, std::make_index_sequence<kTopics>());
+    extra_channels_.clear();
+    for (const ExtraTopic& topic : options_.extra_topics)
+      extra_channels_.push_back(file->add_channel(channel_of(topic)));
     file_ = std::move(file);
     start_ns_.reset();
   }
@@ -121,7 +133,8 @@ class RecordingWriter::Impl {
   std::string file_path_;
   std::unique_ptr<McapWriter> file_;
   Channels channels_{};
-  std::optional<std::int64_t> start_ns_;  ///< log time of the file's first message
+  std::vector<std::uint16_t> extra_channels_;  ///< in the order of options_.extra_topics
+  std::optional<std::int64_t> start_ns_;       ///< log time of the file's first message
   int files_ = 0;
   Bytes cdr_;  // kept, so that its memory is used again
   std::uint64_t left_out_ = 0;
@@ -140,6 +153,13 @@ void RecordingWriter::write(const T& message, std::int64_t log_time_ns) {
 template <class T>
 void RecordingWriter::write_cdr(std::span<const std::uint8_t> message, std::int64_t log_time_ns) {
   impl_->write_cdr<T>(message, log_time_ns);
+}
+void RecordingWriter::write_raw(const RawMessage& message) {
+  impl_->write_cdr(message.topic, message.bytes, message.log_time_ns);
+}
+void RecordingWriter::write_extra(std::size_t topic, std::span<const std::uint8_t> message,
+                                  std::int64_t log_time_ns) {
+  impl_->write_extra(topic, message, log_time_ns);
 }
 void RecordingWriter::flush() { impl_->flush(); }
 void RecordingWriter::close() { impl_->close(); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -11,6 +12,7 @@
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/recording.hpp"
 #include "own_domain.hpp"
+#include "recording/mcap_reader.hpp"
 #include "temporary_folder.hpp"
 #include "tools/process.hpp"
 
@@ -106,6 +108,20 @@ TEST_F(RecordCommand, EveryTopicIsRecorded) {
       EXPECT_LT(std::abs(message->log_time_ns - pose->stamp_ns), 60'000'000'000);
     }
   }
+}
+
+TEST_F(RecordCommand, ScenesAreMadeOfWhatIsRecorded) {
+  start_vehicle();
+  Process recorder = record({"--out", file("drive.mcap"), "--scene"});
+  ASSERT_TRUE(wait_for_every_topic("drive.mcap")) << output();
+  recorder.signal(SIGTERM);
+  EXPECT_EQ(recorder.wait(), 0) << output();
+  std::map<std::string, int> counts;
+  McapReader reader(file("drive.mcap"));
+  while (const auto message = reader.next()) ++counts[message->channel->topic];
+  EXPECT_EQ(counts["/laneloom/scene"], counts[dds::kLaneMapTopic]);
+  EXPECT_EQ(counts["/tf"], counts[dds::kVehiclePoseTopic]);
+  EXPECT_GT(counts["/laneloom/scene/detections"], 0);
 }
 
 TEST_F(RecordCommand, AKilledRecorderLeavesAReadableFile) {

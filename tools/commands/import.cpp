@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "commands/import_scene.hpp"
 #include "commands/log_files.hpp"
 #include "import/drive_log.hpp"
 #include "import/drive_recording.hpp"
@@ -111,6 +112,7 @@ void add_import(CLI::App& app) {
   command->require_subcommand(1);
   add_argoverse2(*command);
   add_maptr(*command);
+  add_import_scene(*command);
 }
 
 }  // namespace laneloom

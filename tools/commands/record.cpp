@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@
 #include "laneloom/dds/raw_reader.hpp"
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/recording.hpp"
+#include "scene/scene_maker.hpp"
+#include "scene/scene_recording.hpp"
 
 namespace laneloom {
 namespace {
@@ -41,24 +44,12 @@ struct Options {
   std::string compression = "zstd";
   double duration_s = 0.0;
   double max_size_mb = 0.0;
+  bool scene = false;
 };
 
-/// What a topic is called, and how its messages are written.
-struct Topic {
-  const char* name;
-  void (RecordingWriter::*write)(std::span<const std::uint8_t>, std::int64_t);
-};
-constexpr std::array kTopics{Topic{dds::kDetectionsTopic, &RecordingWriter::write_cdr<DetectionFrame>},
-                             Topic{dds::kVehiclePoseTopic, &RecordingWriter::write_cdr<VehiclePose>},
-                             Topic{dds::kLaneMapTopic, &RecordingWriter::write_cdr<PublishedMap>},
-                             Topic{dds::kRoadMarkingsTopic, &RecordingWriter::write_cdr<RoadMarkings>},
-                             Topic{dds::kStatusTopic, &RecordingWriter::write_cdr<ServiceStatus>}};
-
-struct Arrival {
-  std::size_t topic = 0;  ///< of kTopics
-  std::int64_t log_time_ns = 0;
-  std::vector<std::uint8_t> message;
-};
+/// In the order of AnyMessage.
+constexpr std::array kTopics{dds::kDetectionsTopic, dds::kVehiclePoseTopic, dds::kLaneMapTopic,
+                             dds::kRoadMarkingsTopic, dds::kStatusTopic};
 
 /// From DDS's threads to ours, so that none of them ever waits for the disk. When it is full, what arrives is
 /// dropped and counted.
@@ -75,12 +66,12 @@ class Inbox {
       return;
     }
     bytes_ += message.size();
-    arrivals_.push_back({topic, log_time_ns_, std::move(message)});
+    arrivals_.push_back({log_time_ns_, topic, std::move(message)});
     arrived_.notify_one();
   }
 
   /// All that has arrived; waits for it no longer than `patience`.
-  std::deque<Arrival> take(std::chrono::milliseconds patience) {
+  std::deque<RawMessage> take(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, patience, [&] { return !arrivals_.empty(); });
     bytes_ = 0;
@@ -95,7 +86,7 @@ class Inbox {
  private:
   std::mutex mutex_;
   std::condition_variable arrived_;
-  std::deque<Arrival> arrivals_;
+  std::deque<RawMessage> arrivals_;
   std::size_t bytes_ = 0;
   std::int64_t log_time_ns_ = 0;
   std::array<std::uint64_t, kTopics.size()> dropped_{};
@@ -106,6 +97,7 @@ class Recorder {
  public:
   explicit Recorder(const Options& options)
       : writer_(options.out, options.recording),
+        scene_(options.scene ? std::optional<SceneMaker>(options.dds.map_frame_id) : std::nullopt),
         participant_(options.dds, "laneloom record"),
         detections_(participant_, into_inbox(0)),
         poses_(participant_, into_inbox(1)),
@@ -118,8 +110,9 @@ class Recorder {
 
   /// Writes what has arrived; waits for it no longer than `patience`.
   void step(std::chrono::milliseconds patience) {
-    for (const Arrival& arrival : inbox_.take(patience)) {
-      (writer_.*kTopics.at(arrival.topic).write)(arrival.message, arrival.log_time_ns);
+    for (const RawMessage& arrival : inbox_.take(patience)) {
+      writer_.write_raw(arrival);
+      if (scene_) write_scene(scene_->take(arrival), arrival.log_time_ns, writer_);
       ++written_.at(arrival.topic);
     }
     if (const auto now = SteadyClock::now(); now >= next_flush_) {
@@ -133,10 +126,10 @@ class Recorder {
     writer_.close();
     const auto dropped = inbox_.dropped();
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
-      fmt::print("{:<26} {:>8} messages\n", kTopics.at(i).name, written_.at(i));
+      fmt::print("{:<26} {:>8} messages\n", kTopics.at(i), written_.at(i));
       if (dropped.at(i) > 0)
         fmt::print(stderr, "laneloom: the disk was too slow: {} of {} were dropped\n", dropped.at(i),
-                   kTopics.at(i).name);
+                   kTopics.at(i));
     }
   }
 
@@ -146,6 +139,7 @@ class Recorder {
   }
 
   RecordingWriter writer_;
+  std::optional<SceneMaker> scene_;
   Inbox inbox_;
   std::array<std::uint64_t, kTopics.size()> written_{};
   SteadyClock::time_point next_flush_ = SteadyClock::now() + kFlushPeriod;
@@ -168,6 +162,7 @@ void record(Options options) {
   if (std::filesystem::is_directory(options.out)) options.out += "/" + default_name();
   options.recording.compression = kCompressions.at(options.compression);
   options.recording.max_file_bytes = static_cast<std::uint64_t>(options.max_size_mb * kBytesPerMB);
+  if (options.scene) options.recording.extra_topics = scene_topics();
 
   Recorder recorder(options);
   const auto start = SteadyClock::now();
@@ -194,6 +189,11 @@ void add_record(CLI::App& app) {
       ->check(positive_seconds());
   command->add_option("--duration", options->duration_s, "Seconds; default: until it is stopped")
       ->check(positive_seconds());
+  CLI::Option* scene =
+      command->add_flag("--scene", options->scene,
+                        "With /laneloom/scene and /tf, for the 3D panels of Foxglove and Lichtblick");
+  command->add_option("--map-frame-id", options->dds.map_frame_id, "With --scene: of the poses; default: map")
+      ->needs(scene);
   command->callback([options] { record(*options); });
 }
 

@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "commands/evaluation_inputs.hpp"
+#include "commands/import_scene.hpp"
+#include "scene/scene_recording.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  std::string in, out;
+  std::string map_frame_id = "map";
+};
+
+void import_scene(const Options& options) {
+  const SceneRecordingReport report = add_scene(options.in, options.out, options.map_frame_id);
+  warn_of(options.in, report.refused, report.cut_off);
+  fmt::print("{}: {} messages, {} of scenes\n", options.out, report.messages + report.scenes, report.scenes);
+}
+
+}  // namespace
+
+void add_import_scene(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("scene", "A recording, with what the 3D panels of Foxglove and Lichtblick show");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--in", options->in, "Recording (.mcap)")->required()->check(CLI::ExistingFile);
+  command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  command->add_option("--map-frame-id", options->map_frame_id, "That the poses are in; default: map");
+  command->callback([options] { import_scene(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drawing/colour.hpp"
+#include "laneloom/types.hpp"
+
+/// What of Foxglove's schemas (docs.foxglove.dev/docs/sdk/schemas) is written here, as plain data and as
+/// bytes that the 3D panels of Foxglove and Lichtblick show. Metres; right-handed frames.
+namespace laneloom::foxglove {
+
+inline constexpr const char* kSceneUpdateType = "foxglove::SceneUpdate";
+inline constexpr const char* kFrameTransformType = "foxglove::FrameTransform";
+/// OMG IDL of both types as one text, without a line for a preprocessor.
+extern const char* const kIdl;
+
+enum class LineType : std::uint8_t { strip, loop, list };
+
+struct LinePrimitive {
+  LineType type = LineType::strip;
+  Point origin = Point::Zero();  ///< that the points are relative to
+  double thickness_px = 1.0;
+  Polyline points;  ///< of a list: two of each segment
+  Colour colour;
+};
+
+struct TrianglePrimitive {
+  Point origin = Point::Zero();
+  Polyline points;
+  Colour colour;
+  std::vector<std::uint32_t> indices;  ///< three of each triangle
+};
+
+struct TextPrimitive {
+  Point position = Point::Zero();  ///< of its middle
+  double height_px = 12.0;
+  Colour colour;
+  std::string text;
+};
+
+/// Replaces the one of the same id on the same topic.
+struct SceneEntity {
+  std::string frame_id;
+  std::string id;
+  bool frame_locked = false;  ///< moves with its frame
+  std::vector<std::pair<std::string, std::string>> metadata;
+  std::vector<LinePrimitive> lines;
+  std::vector<TrianglePrimitive> triangles;
+  std::vector<TextPrimitive> texts;
+};
+
+struct SceneUpdate {
+  std::int64_t time_ns = 0;          ///< by the clock of log times, as is what a panel shows
+  double lifetime_s = 0.0;           ///< of the entities; 0: until they are deleted
+  std::vector<std::string> deleted;  ///< ids
+  std::vector<SceneEntity> entities;
+};
+
+struct FrameTransform {
+  std::int64_t time_ns = 0;
+  std::string parent, child;
+  Eigen::Isometry3d T_parent_child = Eigen::Isometry3d::Identity();
+};
+
+/// Plain CDR behind its encapsulation header. Times before 1970 and after 2106 are written as the nearest
+/// that there is. Pure functions.
+std::vector<std::uint8_t> to_cdr(const SceneUpdate& update);
+std::vector<std::uint8_t> to_cdr(const FrameTransform& transform);
+
+}  // namespace laneloom::foxglove

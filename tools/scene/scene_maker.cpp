@@ -1,0 +1,111 @@
+#include "scene/scene_maker.hpp"
+
+#include <utility>
+
+#include "drawing/frame_elements.hpp"
+#include "drawing/map_elements.hpp"
+#include "laneloom/dds/cdr.hpp"
+#include "scene/scene_entities.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr const char* kBodyFrame = "body";
+/// A scene that is not updated goes, rather than being taken for a live one.
+constexpr double kLifetime_s = 2.0;
+constexpr std::size_t kMaxWaiting = 32;
+
+SceneMessage message_of(SceneTopic topic, const foxglove::SceneUpdate& update) {
+  return {topic, foxglove::to_cdr(update)};
+}
+
+Drawing ids_of(const LocalMap& map) {
+  Drawing drawing;
+  drawing.T_map_body = map.T_map_body;
+  add_ids(map, drawing);
+  return drawing;
+}
+
+}  // namespace
+
+const std::vector<ExtraTopic>& scene_topics() {
+  using foxglove::kFrameTransformType, foxglove::kIdl, foxglove::kSceneUpdateType;
+  static const std::vector<ExtraTopic> topics{{"/laneloom/scene", kSceneUpdateType, kIdl},
+                                              {"/laneloom/scene/detections", kSceneUpdateType, kIdl},
+                                              {"/laneloom/scene/ids", kSceneUpdateType, kIdl},
+                                              {"/tf", kFrameTransformType, kIdl}};
+  return topics;
+}
+
+foxglove::SceneUpdate SceneStream::update(std::vector<foxglove::SceneEntity> entities, std::int64_t time_ns) {
+  std::set<std::string> ids;
+  for (const foxglove::SceneEntity& entity : entities) ids.insert(entity.id);
+  foxglove::SceneUpdate update{time_ns, kLifetime_s, {}, std::move(entities)};
+  for (const std::string& id : ids_)
+    if (!ids.contains(id)) update.deleted.push_back(id);
+  ids_ = std::move(ids);
+  return update;
+}
+
+std::vector<SceneMessage> SceneMaker::take(const RawMessage& message) {
+  std::vector<SceneMessage> out;
+  if (message.topic == AnyMessage(PublishedMap{}).index()) take_as<PublishedMap>(message, out);
+  if (message.topic == AnyMessage(VehiclePose{}).index()) take_as<VehiclePose>(message, out);
+  if (message.topic == AnyMessage(DetectionFrame{}).index()) take_as<DetectionFrame>(message, out);
+  return out;
+}
+
+template <class T>
+void SceneMaker::take_as(const RawMessage& message, std::vector<SceneMessage>& to) {
+  T taken;
+  if (dds::from_cdr(message.bytes, map_frame_id_, taken).empty()) draw(taken, message.log_time_ns, to);
+}
+
+void SceneMaker::draw(const PublishedMap& published, std::int64_t time_ns, std::vector<SceneMessage>& to) {
+  Drawing map, vehicle;
+  add_map(published.map, map);
+  add_uncertainty(published.map, map);
+  add_vehicle(Eigen::Isometry3d::Identity(), vehicle);
+  std::vector<foxglove::SceneEntity> entities, ids;
+  append_entities(map, {published.frame_id}, entities);
+  append_entities(vehicle, {kBodyFrame, true}, entities);
+  append_entities(ids_of(published.map), {published.frame_id}, ids);
+  to.push_back(message_of(SceneTopic::map, map_.update(std::move(entities), time_ns)));
+  to.push_back(message_of(SceneTopic::ids, ids_.update(std::move(ids), time_ns)));
+}
+
+void SceneMaker::draw(const VehiclePose& pose, std::int64_t time_ns, std::vector<SceneMessage>& to) {
+  const bool begins_anew = pose.session_id != std::exchange(pose_session_, pose.session_id);
+  if (begins_anew) poses_.clear();
+  if (!begins_anew && pose.stamp_ns <= newest_pose_ns_) return;  // the service refuses it, too
+  newest_pose_ns_ = pose.stamp_ns;
+  poses_.add(pose);
+  to.push_back({SceneTopic::transforms, foxglove::to_cdr(foxglove::FrameTransform{
+                                            time_ns, map_frame_id_, kBodyFrame, transform(pose)})});
+  draw_located_frames(time_ns, to);
+}
+
+void SceneMaker::draw(const DetectionFrame& frame, std::int64_t time_ns, std::vector<SceneMessage>& to) {
+  waiting_.push_back(frame);
+  if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
+  draw_located_frames(time_ns, to);
+}
+
+void SceneMaker::draw_located_frames(std::int64_t time_ns, std::vector<SceneMessage>& to) {
+  while (!waiting_.empty()) {
+    const DetectionFrame& frame = waiting_.front();
+    Drawing drawing;
+    const PoseBuffer::Answer answer = poses_.at(frame.stamp_ns, drawing.T_map_body);
+    if (answer == PoseBuffer::Answer::not_yet) return;
+    if (answer == PoseBuffer::Answer::found) {
+      add_detections(frame, drawing.T_map_body, drawing);
+      add_view(frame, drawing.T_map_body, drawing);
+      std::vector<foxglove::SceneEntity> entities;
+      append_entities(drawing, {map_frame_id_}, entities);
+      to.push_back(message_of(SceneTopic::detections, detections_.update(std::move(entities), time_ns)));
+    }
+    waiting_.pop_front();
+  }
+}
+
+}  // namespace laneloom

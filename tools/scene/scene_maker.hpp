@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "laneloom/messages.hpp"
+#include "laneloom/recording.hpp"
+#include "scene/foxglove.hpp"
+#include "session/pose_buffer.hpp"
+
+namespace laneloom {
+
+enum class SceneTopic : std::uint8_t { map, detections, ids, transforms };
+
+/// In the order of SceneTopic: what a recording or a server has to announce.
+const std::vector<ExtraTopic>& scene_topics();
+
+/// A message of a scene topic, as CDR.
+struct SceneMessage {
+  SceneTopic topic = SceneTopic::map;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// What is drawn on one topic. Each update is complete, so that a panel may begin with any of them; what the
+/// update before had and this one has not is deleted. Not thread-safe.
+class SceneStream {
+ public:
+  foxglove::SceneUpdate update(std::vector<foxglove::SceneEntity> entities, std::int64_t time_ns);
+
+ private:
+  std::set<std::string> ids_;
+};
+
+/// Makes scenes from the messages of a vehicle. Times in them are log times, as these are what a panel plays
+/// by, whatever clock the stamps are of. Not thread-safe.
+class SceneMaker {
+ public:
+  /// `map_frame_id`: the frame that poses are in.
+  explicit SceneMaker(std::string map_frame_id) : map_frame_id_(std::move(map_frame_id)) {}
+
+  /// What the message, in the order of log times, has changed. One that is refused, or of which nothing is
+  /// drawn, changes nothing. Detections are drawn when the pose at their stamp is known.
+  std::vector<SceneMessage> take(const RawMessage& message);
+
+ private:
+  template <class T>
+  void take_as(const RawMessage& message, std::vector<SceneMessage>& to);
+  void draw(const PublishedMap& published, std::int64_t time_ns, std::vector<SceneMessage>& to);
+  void draw(const VehiclePose& pose, std::int64_t time_ns, std::vector<SceneMessage>& to);
+  void draw(const DetectionFrame& frame, std::int64_t time_ns, std::vector<SceneMessage>& to);
+  void draw_located_frames(std::int64_t time_ns, std::vector<SceneMessage>& to);
+
+  std::string map_frame_id_;
+  SceneStream map_, detections_, ids_;
+  PoseBuffer poses_{SyncConfig{}};
+  std::uint64_t pose_session_ = 0;
+  std::int64_t newest_pose_ns_ = 0;
+  std::deque<DetectionFrame> waiting_;  ///< for the pose at their stamp
+};
+
+}  // namespace laneloom

@@ -1,0 +1,29 @@
+#include "scene/scene_recording.hpp"
+
+namespace laneloom {
+
+void write_scene(const std::vector<SceneMessage>& messages, std::int64_t log_time_ns, RecordingWriter& to) {
+  for (const SceneMessage& message : messages)
+    to.write_extra(static_cast<std::size_t>(message.topic), message.bytes, log_time_ns);
+}
+
+SceneRecordingReport add_scene(const std::string& from, const std::string& to,
+                               const std::string& map_frame_id) {
+  RecordingReader in(from, map_frame_id);
+  RecordingWriter out(to, {.map_frame_id = map_frame_id, .extra_topics = scene_topics()});
+  SceneMaker maker(map_frame_id);
+  SceneRecordingReport report;
+  while (const auto message = in.next_raw()) {
+    out.write_raw(*message);
+    const std::vector<SceneMessage> scenes = maker.take(*message);
+    write_scene(scenes, message->log_time_ns, out);
+    ++report.messages;
+    report.scenes += scenes.size();
+  }
+  out.close();
+  report.refused = in.refused();
+  report.cut_off = in.cut_off();
+  return report;
+}
+
+}  // namespace laneloom
