@@ -1,0 +1,187 @@
+#include "view/web_server.hpp"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <thread>
+
+#include "client.hpp"
+
+namespace laneloom {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+WebAnswer echo(std::string_view target) {
+  if (target == "/missing") return {404, "text/plain", "no"};
+  return {200, "text/plain", "you asked for " + std::string(target)};
+}
+
+std::string get(const std::string& target, const std::string& more = "") {
+  return "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + more + "\r\n";
+}
+
+std::string upgrade(const std::string& more = "") {
+  return get("/live",
+             "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+             "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n" +
+                 more);
+}
+
+class Server : public testing::Test {
+ protected:
+  void start(WebServerConfig config = {}) { server_ = std::make_unique<WebServer>(config, echo); }
+  Client client() const { return Client(server_->port()); }
+  /// What the server says to the bytes until it ends the connection.
+  std::string answer_to(const std::string& bytes) const {
+    Client one = client();
+    one.send(bytes);
+    return one.receive_all();
+  }
+
+  std::unique_ptr<WebServer> server_;
+};
+
+TEST_F(Server, AnswersGets) {
+  start();
+  Client one = client();
+  for (const char* target : {"/a", "/b?c=d"}) {  // over one connection
+    one.send(get(target));
+    const std::string answer = one.receive_until("you asked for " + std::string(target));
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 200 OK\r\n"));
+    EXPECT_THAT(answer, HasSubstr("Content-Security-Policy: default-src 'none';"));
+    EXPECT_THAT(answer, HasSubstr("X-Content-Type-Options: nosniff"));
+    EXPECT_THAT(answer, Not(HasSubstr("Access-Control")));
+  }
+  one.send(get("/missing"));
+  EXPECT_THAT(one.receive_until("no"), StartsWith("HTTP/1.1 404 Not Found\r\n"));
+}
+
+TEST_F(Server, RefusesWhatItMust) {
+  start();
+  EXPECT_THAT(answer_to("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n"), StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer_to("GET / HTTP/1.1\r\n\r\n"), StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer_to(get("/", "Origin: http://evil.example\r\n")), StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer_to(upgrade("Origin: http://evil.example\r\n")), StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer_to("POST / HTTP/1.1\r\nHost: localhost\r\n\r\n"), StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(answer_to("BREW / HTTP/1.1\r\nHost: localhost\r\n\r\n"), StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(answer_to(get("/live")), StartsWith("HTTP/1.1 426"));
+}
+
+TEST_F(Server, RefusesMalformedAndOversizedRequests) {
+  start();
+  EXPECT_THAT(answer_to("\r\n\r\n\x01\x02\x03\r\n\r\n"), StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(answer_to("GET / HTTP/9.9\r\nHost: localhost\r\n\r\n"), StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(answer_to(get("/", "X: " + std::string(9000, 'x') + "\r\n")), StartsWith("HTTP/1.1 431"));
+  EXPECT_THAT(answer_to(get("/" + std::string(9000, 'x'))), StartsWith("HTTP/1.1 431"));
+  EXPECT_THAT(answer_to(get("/", "Content-Length: 5\r\n") + "hello"), StartsWith("HTTP/1.1 413"));
+  client().send(get("/a"));  // and leaves without the answer
+  Client one = client();
+  one.send(get("/still there"));
+  one.send(get("/b"));
+  EXPECT_THAT(one.receive_all(), StartsWith("HTTP/1.1 400"));  // of the space in its target
+  EXPECT_THAT(answer_to(get("/b", "Connection: close\r\n")), HasSubstr("you asked for /b"));
+}
+
+TEST_F(Server, CutsOffWhoSendsNoWholeRequest) {
+  start({.patience_s = 0.2});
+  Client silent = client(), slow = client();
+  slow.send("GET / HTTP/1.1\r\nHost: loc");
+  EXPECT_EQ(silent.receive_all(), "");
+  EXPECT_EQ(slow.receive_all(), "");
+}
+
+TEST_F(Server, AsksForTheTokenAndRemembersIt) {
+  start({.token = "secret"});
+  EXPECT_THAT(answer_to(get("/")), StartsWith("HTTP/1.1 401"));
+  EXPECT_THAT(answer_to(upgrade()), StartsWith("HTTP/1.1 401"));
+  EXPECT_THAT(answer_to(get("/?token=secret", "Connection: close\r\n")),
+              HasSubstr("Set-Cookie: laneloom_view=secret; Path=/; HttpOnly; SameSite=Strict"));
+  EXPECT_THAT(answer_to(get("/", "Connection: close\r\nCookie: laneloom_view=secret\r\n")),
+              StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(Server, SendsFramesToAllAndTheNewestToLateComers) {
+  start();
+  Client early = client();
+  early.send(upgrade("Origin: http://localhost\r\n"));
+  EXPECT_THAT(early.receive_until("\r\n\r\n"), StartsWith("HTTP/1.1 101"));
+  server_->publish("first frame");
+  early.receive_until("first frame");
+  server_->publish("second frame");
+  early.receive_until("second frame");
+  Client late = client();
+  late.send(upgrade());
+  const std::string heard = late.receive_until("second frame");
+  EXPECT_THAT(heard, Not(HasSubstr("first frame")));
+}
+
+TEST_F(Server, ASlowViewerLosesFramesAndSlowsNobody) {
+  start();
+  Client slow = client(), quick = client();
+  for (Client* viewer : {&slow, &quick}) {
+    viewer->send(upgrade());
+    viewer->receive_until("\r\n\r\n");
+  }
+  constexpr int kFrames = 400;
+  for (int i = 0; i < kFrames; ++i) {  // 40 MB: more than any kernel keeps for who does not read
+    server_->publish(std::string(100'000, '.') + "#" + std::to_string(i) + "#");
+    quick.receive_until("#" + std::to_string(i) + "#");
+  }
+  const std::string last = "#" + std::to_string(kFrames - 1) + "#";
+  const std::string heard = slow.receive_until(last);
+  EXPECT_LT(std::count(heard.begin(), heard.end(), '#'), kFrames);
+}
+
+TEST_F(Server, EndsViewersThatSendTooMuch) {
+  start();
+  Client loud = client();
+  loud.send(upgrade());
+  loud.receive_until("\r\n\r\n");
+  // A text of 2000 bytes, with an empty mask.
+  loud.send(std::string("\x81\xfe\x07\xd0\0\0\0\0", 8) + std::string(2000, 'x'));
+  loud.receive_all();
+  Client other = client();
+  other.send(get("/b"));
+  other.receive_until("you asked for /b");
+}
+
+TEST_F(Server, LimitsViewersAndConnections) {
+  start({.max_viewers = 1, .max_connections = 3});
+  Client first = client();
+  first.send(upgrade());
+  first.receive_until("\r\n\r\n");
+  EXPECT_THAT(answer_to(upgrade()), StartsWith("HTTP/1.1 503"));
+  Client second = client(), third = client();
+  for (Client* one : {&second, &third}) {
+    one->send(get("/a"));
+    one->receive_until("you asked");
+  }
+  EXPECT_EQ(client().receive_all(), "");
+}
+
+TEST_F(Server, SaysWhereItCannotListen) {
+  start();
+  try {
+    const WebServer second({.port = server_->port()}, echo);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cannot listen on 127.0.0.1, port "));
+  }
+  EXPECT_THROW(WebServer({.address = "no address"}, echo), std::runtime_error);
+}
+
+TEST_F(Server, EndsWhileClientsAreConnected) {
+  start();
+  Client viewer = client(), idle = client();
+  viewer.send(upgrade());
+  viewer.receive_until("\r\n\r\n");
+  server_.reset();
+  viewer.receive_all();
+  idle.receive_all();
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/moment.hpp"
+
+namespace laneloom {
+
+/// Something that happened between two moments.
+struct ViewEvent {
+  std::string kind;  ///< state, service, reset, or counter
+  std::string text;  ///< for people
+};
+
+/// Finds what happened, moment by moment. Not thread-safe.
+class EventFinder {
+ public:
+  /// What happened since the moment before; nothing at the first.
+  std::vector<ViewEvent> next(const ViewMoment& moment);
+
+ private:
+  /// What a moment is compared by.
+  struct Seen {
+    bool alive = true;
+    std::uint64_t session_id = 0, map_id = 0;
+    std::string state;
+    std::optional<ServiceStatus> status;
+  };
+
+  std::optional<Seen> before_;
+};
+
+}  // namespace laneloom

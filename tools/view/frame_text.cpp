@@ -1,0 +1,99 @@
+#include "view/frame_text.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "drawing/drawing_json.hpp"
+#include "drawing/frame_elements.hpp"
+#include "drawing/map_elements.hpp"
+#include "drawing/properties.hpp"
+#include "laneloom/state_names.hpp"
+#include "status/report.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+double seconds(std::int64_t stamp_ns) { return rounded(static_cast<double>(stamp_ns) * 1e-9); }
+json known(double value) { return value < 0.0 ? json() : json(rounded(value)); }
+
+std::uint64_t refusals(const ServiceStatus& status) {
+  std::uint64_t sum = 0;
+  for (const auto& [counter, count] : status.counters)
+    if (counter.find("_refused_") != std::string::npos) sum += count;
+  return sum;
+}
+
+void put_status(json& summary, const ServiceStatus& status) {
+  summary["tick_ms"] = rounded(status.tick.mean_ms);
+  summary["tick_max_ms"] = rounded(status.tick.max_ms);
+  summary["refused"] = refusals(status);
+}
+
+json summary_json(const ViewMoment& moment, const FramePlace& place) {
+  const PublishedMap& map = moment.map;
+  json summary{{"number", place.number}, {"time_s", seconds(moment.seen_ns)}, {"alive", moment.alive}};
+  for (const LineageEvent& event : map.map.lineage) summary["lineage"].push_back(properties_of(event));
+  for (const ViewEvent& event : place.events) summary["events"].push_back({event.kind, event.text});
+  if (!moment.has_state) return summary;
+  summary["state"] = name(map.state);
+  for (const StateReason reason : map.reasons) summary["reasons"].push_back(name(reason));
+  summary["age_s"] = known(map.age_s);
+  summary["lag_s"] = known(map.lag_s);
+  summary["latency_ms"] = static_cast<double>(moment.seen_ns - map.published_ns) * 1e-6;
+  if (moment.status) put_status(summary, *moment.status);
+  return summary;
+}
+
+double setting(const ServiceStatus& status, std::string_view key, double otherwise) {
+  for (const auto& [name, value] : status.configuration)
+    if (name == key) return std::strtod(value.c_str(), nullptr);
+  return otherwise;
+}
+
+/// As the service has it, where its status tells.
+RangeConfig range_of(const ViewMoment& moment, RangeConfig range) {
+  if (!moment.status) return range;
+  range.forward_min_m = setting(*moment.status, "mapper.range.forward_min_m", range.forward_min_m);
+  range.forward_max_m = setting(*moment.status, "mapper.range.forward_max_m", range.forward_max_m);
+  range.side_max_m = setting(*moment.status, "mapper.range.side_max_m", range.side_max_m);
+  return range;
+}
+
+Drawing drawing_of(const ViewMoment& moment, const RangeConfig& range) {
+  const LocalMap& map = moment.map.map;
+  Drawing drawing;
+  add_map(map, drawing);
+  add_markings(map, drawing);
+  add_uncertainty(map, drawing);
+  add_ids(map, drawing);
+  if (moment.detections) {
+    add_detections(*moment.detections, map.T_map_body, drawing);
+    add_view(*moment.detections, map.T_map_body, drawing);
+  }
+  add_range(range_of(moment, range), map.T_map_body, drawing);
+  add_vehicle(moment.pose ? transform(*moment.pose) : map.T_map_body, drawing);
+  return drawing;
+}
+
+std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string summary_text(const ViewMoment& moment, const FramePlace& place) {
+  return dump(summary_json(moment, place));
+}
+
+std::string frame_text(const ViewMoment& moment, const FramePlace& place, const RangeConfig& range) {
+  json frame = summary_json(moment, place);
+  frame.update(to_json(drawing_of(moment, range)));
+  frame["sequence"] = moment.map.sequence;
+  frame["session_id"] = std::to_string(moment.map.session_id);
+  frame["map_id"] = std::to_string(moment.map.map_id);
+  if (moment.status) frame["status"] = to_json(*moment.status, nullptr);
+  return dump(frame);
+}
+
+}  // namespace laneloom

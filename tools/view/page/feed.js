@@ -1,0 +1,137 @@
+// Where frames come from: the live stream with a ring of the last minutes, or a recording.
+// A feed has `summaries` in the order of time, whose `index` counts up by one, and gives the frame of each.
+
+const RING_S = 300;
+const RING_CHARACTERS = 120e6;
+const RECONNECT_MS = 500;
+
+class Feed extends EventTarget {
+  summaries = [];
+
+  get first() { return this.summaries[0]; }
+  get last() { return this.summaries.at(-1); }
+
+  at(index) { return this.summaries[index - (this.first?.index ?? 0)]; }
+
+  /** The last one that is not later than `time_s`; the first, if all are. */
+  atTime(time_s) {
+    let low = 0, high = this.summaries.length;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.summaries[middle].time_s <= time_s) low = middle; else high = middle;
+    }
+    return this.summaries[low];
+  }
+
+  tell(type) { this.dispatchEvent(new Event(type)); }
+}
+
+/** Events: frame (a new one is the last), connection. */
+export class LiveFeed extends Feed {
+  live = true;
+  connected = false;
+  lost = 0;          // frames that this tab was too slow for
+  arrival_ms = null; // of the newest frame, by performance.now()
+  #texts = new Map();
+  #characters = 0;
+  #next = 0;
+  #number = null;
+
+  connect() {
+    const socket = new WebSocket(`ws://${location.host}/live`);
+    socket.onopen = () => {
+      this.connected = true;
+      this.#number = null;
+      this.tell('connection');
+    };
+    socket.onmessage = ({data}) => this.#add(data);
+    socket.onclose = () => {
+      this.connected = false;
+      this.tell('connection');
+      setTimeout(() => this.connect(), RECONNECT_MS);
+    };
+  }
+
+  frame(index) {
+    const text = this.#texts.get(index);
+    return Promise.resolve(text ? JSON.parse(text) : null);
+  }
+
+  #add(text) {
+    const frame = JSON.parse(text);
+    if (this.#number !== null) this.lost += Math.max(0, frame.number - this.#number - 1);
+    // After a reconnection comes what was there before, until there is news.
+    const known = this.#number === null && this.last?.time_s === frame.time_s && this.last.alive === frame.alive;
+    this.#number = frame.number;
+    if (known) return;
+    this.arrival_ms = performance.now();
+    const {elements, status, ...summary} = frame;
+    summary.index = this.#next++;
+    // Of one that is shown again, as the service went, the time is now.
+    if (summary.time_s <= this.last?.time_s) summary.time_s = this.last.time_s + 1e-3;
+    this.summaries.push(summary);
+    this.#texts.set(summary.index, text);
+    this.#characters += text.length;
+    this.#drop();
+    this.newest = frame;
+    this.tell('frame');
+  }
+
+  #drop() {
+    while (this.summaries.length > 1 &&
+           (this.last.time_s - this.first.time_s > RING_S || this.#characters > RING_CHARACTERS)) {
+      const {index} = this.summaries.shift();
+      this.#characters -= this.#texts.get(index).length;
+      this.#texts.delete(index);
+    }
+  }
+}
+
+const CACHED = 60;
+const AHEAD = 6;
+const POLL_MS = 300;
+
+/** Events: frame (more are known), error. */
+export class RecordedFeed extends Feed {
+  live = false;
+  connected = true;
+  lost = 0;
+  complete = false;
+  #cache = new Map();  // of promises, by index, the latest used last
+
+  /** Learns of the frames, which may still be loaded by the server. */
+  async connect() {
+    try {
+      const answer = await (await fetch(`/recording?from=${this.summaries.length}`)).json();
+      for (const summary of answer.frames) this.summaries.push({...summary, index: this.summaries.length});
+      this.complete = answer.complete;
+      this.error = answer.error;
+      this.connected = true;
+    } catch {
+      this.connected = false;
+    }
+    this.tell('frame');
+    if (!this.complete) setTimeout(() => this.connect(), this.connected ? POLL_MS : RECONNECT_MS);
+  }
+
+  frame(index) {
+    for (let i = index + 1; i <= Math.min(index + AHEAD, this.summaries.length - 1); ++i) this.#fetch(i);
+    return this.#fetch(index);
+  }
+
+  #fetch(index) {
+    const found = this.#cache.get(index) ??
+      fetch(`/frame?number=${index}`).then((answer) => (answer.ok ? answer.json() : null)).then((frame) => {
+        this.connected = true;
+        return frame;
+      }, () => {
+        this.#cache.delete(index);
+        this.connected = false;
+        return null;
+      });
+    this.#cache.delete(index);
+    this.#cache.set(index, found);
+    if (this.#cache.size > CACHED) this.#cache.delete(this.#cache.keys().next().value);
+    return found;
+  }
+}

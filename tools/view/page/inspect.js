@@ -1,0 +1,119 @@
+// What is known of the selected element, in words, and what became of it.
+
+const NAMES = {existence_probability: 'existence', lateral_stddev_mean_m: 'σ lateral (mean)', lateral_stddev_max_m: 'σ lateral (max)',
+  age_s: 'age', unseen_s: 'last seen before', inferred_m: 'inferred at', observations: 'observations'};
+const UNITS = {m: ' m', s: ' s', deg: '°'};
+const REFERENCES = new Set(['left_boundary', 'right_boundary', 'left_boundary_of', 'right_boundary_of', 'from', 'to', 'lane', 'lanes',
+  'left_neighbours', 'right_neighbours', 'predecessors', 'successors']);
+
+export const titleOf = (element) => [element.type, element.id].filter((part) => part !== undefined).join(' ');
+
+function make(tag, properties = {}, ...children) {
+  const node = Object.assign(document.createElement(tag), properties);
+  node.append(...children);
+  return node;
+}
+
+function words(key) {
+  return NAMES[key] ?? key.replace(/_(m|s|deg)$/, '').replaceAll('_', ' ');
+}
+
+function number(value) {
+  return Number.isInteger(value) ? String(value) : String(+value.toFixed(3));
+}
+
+function plain(value, unit) {
+  if (typeof value === 'number') return number(value) + unit;
+  if (!Array.isArray(value)) return typeof value === 'object' && value ? Object.entries(value).map(([k, v]) => `${words(k)} ${plain(v, '')}`).join(', ') : String(value);
+  if (value.length === 2 && value.every((v) => typeof v === 'number')) return `${number(value[0])} to ${number(value[1])}${unit}`;
+  return value.length ? value.map((item) => plain(item, unit)).join('; ') : 'none';
+}
+
+export class Inspector {
+  /** `select(id, type)` selects another element; `go(summary)` goes to a time. */
+  constructor(node, {select, go}) {
+    Object.assign(this, {node, select, go});
+    this.clear();
+  }
+
+  clear() {
+    this.node.replaceChildren(make('p', {textContent: 'Click something on the map, or find it by its id.'}));
+  }
+
+  /** `element` is null where the selected one is not in this frame. */
+  show(selected, element, history) {
+    const parts = [make('h2', {id: 'selected', textContent: titleOf(selected)})];
+    if (!element) parts.push(make('p', {textContent: 'It is not in this frame.'}));
+    else {
+      const list = make('dl');
+      if (element.status) this.#row(list, 'status', element.status);
+      for (const [key, value] of Object.entries(element.properties ?? {})) if (key !== 'lineage') this.#row(list, key, value);
+      parts.push(list);
+      const why = this.#why(element);
+      if (why) parts.push(make('p', {textContent: why}));
+    }
+    if (history.length) parts.push(make('h2', {textContent: 'History'}), this.#history(history));
+    if (!this.node.contains(document.activeElement)) this.node.replaceChildren(...parts);
+  }
+
+  #row(list, key, value) {
+    const unit = UNITS[/_(m|s|deg)$/.exec(key)?.[1]] ?? '';
+    const cell = make('dd', {}, ...(REFERENCES.has(key) ? this.#chips(key, value) : [plain(value, unit)]));
+    cell.dataset.key = key;
+    list.append(make('dt', {textContent: words(key)}), cell);
+  }
+
+  #chips(key, value) {
+    const items = Array.isArray(value) ? value : [value];
+    if (!items.length) return ['none'];
+    const type = key.endsWith('boundary') ? 'boundary' : 'lane';
+    return items.map((item) => {
+      const id = typeof item === 'object' ? item.lane : item;
+      const detail = typeof item === 'object' ? plain(Object.fromEntries(Object.entries(item).filter(([k]) => k !== 'lane')), ' m') : '';
+      return make('button', {className: 'chip', textContent: id, title: detail, onclick: () => this.select(id, type)});
+    });
+  }
+
+  #why({status, properties = {}}) {
+    const evidence = properties.existence_probability === undefined ? '' : `, existence ${number(properties.existence_probability)}`;
+    const seen = properties.observations === undefined ? '' : `seen ${properties.observations} times`;
+    if (status === 'tentative') return `Tentative: ${seen || 'one of its boundaries is'}${evidence}, not enough to rely on.`;
+    if (status === 'inferred') return 'Inferred: nothing was seen there; it was concluded from what lies beside it.';
+    return '';
+  }
+
+  #history(history) {
+    return make('ol', {className: 'history'}, ...history.map(({summary, text, when}) =>
+      make('li', {}, make('button', {onclick: () => this.go(summary)}, make('time', {textContent: when}), text))));
+  }
+}
+
+/** Remembers of each element when its status changed, from the frames that were seen. */
+export class Memory {
+  #tracks = new Map();
+
+  add(frame, summary) {
+    for (const {key, id, status} of frame.elements) {
+      if (id === undefined || !status) continue;
+      const track = this.#tracks.get(key) ?? [];
+      if (!track.length || (track.at(-1).status !== status && track.at(-1).summary.index < summary.index)) track.push({status, summary});
+      this.#tracks.set(key, track);
+    }
+  }
+
+  forget(before) {
+    for (const [key, track] of this.#tracks)
+      if (track.at(-1).summary.index < before) this.#tracks.delete(key);
+  }
+
+  /** What happened to the element, in the order of time. */
+  history(element, summaries, first) {
+    const found = (this.#tracks.get(element.key) ?? []).map(({status, summary}) => ({summary, text: `is ${status}`}));
+    if (element.type !== 'lane')
+      for (const summary of summaries)
+        for (const {kind, id, other} of summary.lineage ?? [])
+          if (id === element.id || other === element.id)
+            found.push({summary, text: `${id === element.id ? '' : `${id} `}${kind.replaceAll('_', ' ')}${other ? ` ${other}` : ''}`});
+    return found.filter(({summary}) => summary.index >= first.index).sort((a, b) => a.summary.index - b.summary.index);
+  }
+}

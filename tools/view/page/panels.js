@@ -1,0 +1,95 @@
+// The lists beside the map: layers, events, and what the service says of itself.
+
+const EVENTS = 200;
+
+/** Checkboxes; `shown` is a map of the layers that are shown, by name. */
+export class Layers {
+  constructor(node, palette, painter, changed) {
+    Object.assign(this, {node, palette, painter, changed});
+    this.shown = new Map(palette.layers.filter(({shown}) => shown).map((layer) => [layer.name, layer]));
+  }
+
+  set(names) {
+    this.shown = new Map(this.palette.layers.filter(({name}) => names.includes(name)).map((layer) => [layer.name, layer]));
+    this.show();
+  }
+
+  toggle(name) {
+    const names = [...this.shown.keys()];
+    this.set(names.includes(name) ? names.filter((other) => other !== name) : [...names, name]);
+    this.changed();
+  }
+
+  show() {
+    this.node.replaceChildren(...this.palette.layers.map(({name, title}, i) => {
+      const box = Object.assign(document.createElement('input'), {type: 'checkbox', checked: this.shown.has(name), onchange: () => this.toggle(name)});
+      box.dataset.layer = name;
+      const label = document.createElement('label');
+      label.append(box, this.#sample(name), title + (i < 9 ? ` (${i + 1})` : ''));
+      return label;
+    }));
+  }
+
+  /** A stroke in the colour of the layer. */
+  #sample(name) {
+    const style = {lanes: 'lane_a', boundaries: 'laneline_solid', markings: 'laneline_dashed', stoplines: 'stopline', linkages: 'linkage',
+      detections: 'laneline_unknown', occlusions: 'occlusion', ids: 'id', vehicle: 'vehicle'}[name] ?? name;
+    const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), line = document.createElementNS(svg.namespaceURI, 'line');
+    const {light, dark, width, dash} = this.palette.styles[style];
+    const attributes = {x1: 0, x2: 28, y1: 6, y2: 6, stroke: this.painter.dark ? dark : light, 'stroke-width': width ?? 10, 'stroke-dasharray': dash ?? ''};
+    for (const [key, value] of Object.entries(attributes)) line.setAttribute(key, value);
+    svg.append(line);
+    return svg;
+  }
+}
+
+/** What happened, newest first; a click goes there. */
+export class Events {
+  #index = -1;
+
+  constructor(node, {go, when}) {
+    Object.assign(this, {node, go, when});
+  }
+
+  update(feed) {
+    for (let i = Math.max(this.#index + 1, feed.first?.index ?? 0); i <= (feed.last?.index ?? -1); ++i) this.#add(feed.at(i));
+    this.#index = feed.last?.index ?? -1;
+    while (this.node.children.length > EVENTS) this.node.lastChild.remove();
+  }
+
+  #add(summary) {
+    for (const [kind, text] of summary.events ?? []) this.#put(summary, kind, text);
+    const changes = (summary.lineage ?? []).filter(({kind}) => kind !== 'born');
+    if (changes.length) this.#put(summary, 'lineage', changes.map(({kind, id, other}) => `${id} ${kind.replaceAll('_', ' ')} ${other ?? ''}`.trim()).join(', '));
+  }
+
+  #put(summary, kind, text) {
+    const item = document.createElement('li'), button = document.createElement('button'), time = document.createElement('time');
+    time.textContent = this.when(summary);
+    button.append(time, text);
+    button.dataset.kind = kind;
+    button.onclick = () => this.go(summary);
+    item.append(button);
+    this.node.prepend(item);
+  }
+}
+
+/** The newest status, as it is. */
+export function showService(node, status) {
+  const rows = [];
+  const put = (key, value) => {
+    const term = document.createElement('dt'), text = document.createElement('dd');
+    term.textContent = key.replaceAll('_', ' ');
+    text.textContent = typeof value === 'number' ? +value.toFixed(3) : value;
+    rows.push(term, text);
+  };
+  for (const [key, value] of Object.entries(status)) {
+    if (value === null || key === 'event') continue;
+    if (key === 'counters') Object.entries(value).filter(([, count]) => count).forEach(([counter, count]) => put(counter, count));
+    else if (key === 'sources') value.forEach((source) => put(`source ${source.source}`, `${source.frames} frames`));
+    else if (Array.isArray(value)) put(key, value.join(', ') || 'none');
+    else if (typeof value === 'object') put(key, Object.entries(value).map(([k, v]) => `${k} ${+v.toFixed(2)}`).join(', '));
+    else put(key, value);
+  }
+  node.replaceChildren(...rows);
+}

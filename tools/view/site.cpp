@@ -1,0 +1,71 @@
+#include "view/site.hpp"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "drawing/drawing_json.hpp"
+#include "view/door.hpp"
+#include "view/metrics.hpp"
+#include "view/page.hpp"
+
+namespace laneloom {
+namespace {
+
+/// A status comes every second; metrics of a service that is gone must not look alive.
+constexpr std::chrono::seconds kStatusLasts{5};
+
+WebAnswer not_found() { return {404, "text/plain", "not found\n"}; }
+
+std::optional<std::size_t> number_of(std::string_view text) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+Site::Site(std::string title, std::string truth, const FrameStore* recording)
+    : title_(std::move(title)), truth_(std::move(truth)), recording_(recording) {}
+
+WebAnswer Site::answer(std::string_view asked) const {
+  const Target target(asked);
+  if (target.path == "/info") return {.body = info()};
+  if (target.path == "/palette") return {.body = palette_json().dump()};
+  if (target.path == "/truth") return {.body = truth_};
+  if (target.path == "/metrics" && recording_ == nullptr) return metrics_answer();
+  if (target.path == "/recording") return recorded(target.path, target.value("from"));
+  if (target.path == "/frame") return recorded(target.path, target.value("number"));
+  const auto file = page_files().find(target.path == "/" ? "/index.html" : target.path);
+  if (file == page_files().end()) return not_found();
+  return {.type = file->second.type, .body = file->second.text};
+}
+
+std::string Site::info() const {
+  return nlohmann::json{{"title", title_}, {"live", recording_ == nullptr}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+WebAnswer Site::recorded(std::string_view path, std::string_view number) const {
+  const auto value = number_of(number);
+  if (recording_ == nullptr || !value) return not_found();
+  if (path == "/recording") return {.body = recording_->summaries(*value)};
+  auto frame = recording_->frame(*value);
+  return frame ? WebAnswer{.body = *std::move(frame)} : not_found();
+}
+
+WebAnswer Site::metrics_answer() const {
+  const std::lock_guard lock(mutex_);
+  if (!status_ || SteadyClock::now() - status_time_ > kStatusLasts)
+    return {503, "text/plain", "no status of the service in the last 5 s\n"};
+  return {.type = "text/plain; version=0.0.4", .body = metrics(*status_)};
+}
+
+void Site::set_status(const ServiceStatus& status) {
+  const std::lock_guard lock(mutex_);
+  status_ = status;
+  status_time_ = SteadyClock::now();
+}
+
+}  // namespace laneloom

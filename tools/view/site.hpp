@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "laneloom/messages.hpp"
+#include "view/frame_store.hpp"
+#include "view/web_server.hpp"
+
+namespace laneloom {
+
+/// What a viewer asks for by HTTP, live and of a recording alike: the page with its modules, `/info`,
+/// `/palette`, `/truth`, `/metrics`, and of a recording `/recording?from=` and `/frame?number=`. Thread-safe.
+class Site {
+ public:
+  /// `title` names the vehicle or the recording. `recording` is null for a live view, and else outlives this.
+  /// `truth` are elements to draw in every frame, as JSON.
+  Site(std::string title, std::string truth, const FrameStore* recording);
+
+  WebAnswer answer(std::string_view target) const;
+  /// The newest status of the service, for `/metrics`.
+  void set_status(const ServiceStatus& status);
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+
+  std::string info() const;
+  WebAnswer recorded(std::string_view path, std::string_view number) const;
+  WebAnswer metrics_answer() const;
+
+  std::string title_, truth_;
+  const FrameStore* recording_;
+  mutable std::mutex mutex_;
+  std::optional<ServiceStatus> status_;
+  SteadyClock::time_point status_time_;
+};
+
+}  // namespace laneloom
