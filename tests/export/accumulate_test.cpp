@@ -1,0 +1,82 @@
+#include "export/accumulate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::SizeIs;
+
+/// A map at x, whose line reaches 40 m back and ahead, at a lateral position.
+LocalMap map_at(double x, double y) {
+  LocalMap map;
+  map.stamp_ns = static_cast<std::int64_t>(1e9 + 1e8 * x);
+  map.T_map_body.translation() = Point(x, 0, 0);
+  map.boundaries = {{.id = 1,
+                     .points = {{x - 30, y, 0}, {x + 40, y, 0}},
+                     .styles = {{{0.0, 70.0}, MarkingStyle::dashed}},
+                     .existence_probability = 0.9,
+                     .observations = 50}};
+  return map;
+}
+
+DriveAccumulator::Drive drive_of(const std::vector<LocalMap>& maps) {
+  DriveAccumulator accumulator(RangeConfig{});
+  for (const LocalMap& map : maps) accumulator.add(map);
+  return accumulator.finish();
+}
+
+TEST(DriveAccumulator, KeepsWhatTheVehicleLeftBehind) {
+  std::vector<LocalMap> maps;
+  for (int i = 0; i <= 200; ++i) maps.push_back(map_at(i, 2.0));
+  const auto drive = drive_of(maps);
+  ASSERT_THAT(drive.markings, SizeIs(1));
+  EXPECT_NEAR(length(drive.markings[0].points), 270.0, 1.0);
+  EXPECT_NEAR(static_cast<double>(drive.poses.size()), 100.0, 2.0);
+}
+
+TEST(DriveAccumulator, APlaceIsAsItWasLastInTheMap) {
+  std::vector<LocalMap> maps;
+  for (int i = 0; i <= 100; ++i) maps.push_back(map_at(i, i < 20 ? 2.5 : 2.0));
+  const auto drive = drive_of(maps);
+  ASSERT_THAT(drive.markings, SizeIs(1));
+  const MeasuredPolyline line(drive.markings[0].points);
+  EXPECT_NEAR(line.project(Point(30, 2, 0)).foot.y(), 2.0, 1e-3) << "what was better known later";
+}
+
+TEST(DriveAccumulator, WhatTheMapWithdrewIsLeftOut) {
+  std::vector<LocalMap> maps;
+  for (int i = 0; i <= 100; ++i) {
+    maps.push_back(map_at(i, 2.0));
+    if (i < 10) maps.back().boundaries.push_back(map_at(10, -6.0).boundaries[0]);
+  }
+  for (LocalMap& map : maps)
+    if (map.boundaries.size() > 1) map.boundaries[1].id = 2;
+  EXPECT_THAT(drive_of(maps).markings, SizeIs(1));
+}
+
+TEST(DriveAccumulator, ARestartKeepsWhatWasKnown) {
+  DriveAccumulator accumulator(RangeConfig{});
+  for (int i = 0; i <= 50; ++i) accumulator.add(map_at(i, 2.0));
+  accumulator.begin_anew();
+  for (int i = 51; i <= 100; ++i) {
+    LocalMap empty = map_at(i, 2.0);
+    empty.boundaries.clear();
+    accumulator.add(empty);
+  }
+  const auto drive = accumulator.finish();
+  ASSERT_THAT(drive.markings, SizeIs(1));
+  EXPECT_NEAR(length(drive.markings[0].points), 120.0, 1.0);
+}
+
+TEST(DriveAccumulator, InferredBoundariesAreLeftOut) {
+  LocalMap map = map_at(0, 2.0);
+  map.boundaries[0].status = ElementStatus::inferred;
+  EXPECT_THAT(drive_of({map}).markings, SizeIs(0));
+}
+
+}  // namespace
+}  // namespace laneloom

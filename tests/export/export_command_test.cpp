@@ -1,0 +1,106 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "simulation/lanelet2.hpp"
+#include "temporary_folder.hpp"
+#include "tools/process.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::HasSubstr;
+
+/// Runs the real `laneloom`.
+class ExportCommand : public testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return folder_.file(name); }
+  int run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), LANELOOM_COMMAND);
+    return Process(arguments, file("output")).wait();
+  }
+  std::string output() const { return content(file("output")); }
+  void simulate(const std::string& scenario) {
+    ASSERT_EQ(
+        run({"simulate", "--scenario", scenario, "--frames", file("drive.frames.jsonl"), "--duration", "20"}),
+        0)
+        << output();
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(ExportCommand, FramesRecordingsAndMapsGiveTheSameMap) {
+  simulate("intersection");
+  const auto exported = [&](const std::string& in) {
+    EXPECT_EQ(run({"export", "--in", file(in), "--lanelet2", file("map.osm")}), 0) << output();
+    return content(file("map.osm"));
+  };
+  const std::string of_frames = exported("drive.frames.jsonl");
+  EXPECT_THAT(output(), HasSubstr("made of the detections"));
+  EXPECT_GT(load_lanelet2(file("map.osm")).lanes.size(), 8u);
+  for (const std::string maps : {"maps.mcap", "maps.jsonl"}) {
+    ASSERT_EQ(run({"replay", "--in", file("drive.frames.jsonl"), "--out", file(maps)}), 0) << output();
+    const std::string of_maps = exported(maps);
+    EXPECT_THAT(output(), HasSubstr("maps read"));
+    EXPECT_TRUE(maps != "maps.mcap" || of_maps == of_frames);
+  }
+}
+
+TEST_F(ExportCommand, OsmiumFindsEveryReference) {
+  simulate("intersection");
+  ASSERT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--lanelet2", file("map.osm")}), 0)
+      << output();
+  EXPECT_EQ(Process({"/usr/bin/osmium", "check-refs", "-r", file("map.osm")}, file("output")).wait(), 0)
+      << output();
+  EXPECT_THAT(output(), HasSubstr("Ways      in relations missing: 0"));
+}
+
+TEST_F(ExportCommand, PlainLanelet2HasStopLinesAsWaysOnly) {
+  simulate("intersection");
+  for (const bool plain : {false, true}) {
+    std::vector<std::string> arguments{"export", "--in", file("drive.frames.jsonl"), "--lanelet2",
+                                       file("map.osm")};
+    if (plain) arguments.emplace_back("--plain");
+    ASSERT_EQ(run(arguments), 0) << output();
+    EXPECT_EQ(content(file("map.osm")).find("regulatory_element") == std::string::npos, plain);
+    EXPECT_THAT(content(file("map.osm")), HasSubstr("stop_line"));
+  }
+}
+
+TEST_F(ExportCommand, GeoJsonNeedsAnOrigin) {
+  simulate("straight");
+  EXPECT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--geojson", file("map.json")}), 64);
+  EXPECT_THAT(output(), HasSubstr("--origin"));
+  EXPECT_EQ(
+      run({"export", "--in", file("drive.frames.jsonl"), "--geojson", file("map.json"), "--origin", "91,0"}),
+      64);
+  EXPECT_THAT(output(), HasSubstr("LAT,LON"));
+  ASSERT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--geojson", file("map.json"), "--origin",
+                 "48.137,11.575"}),
+            0)
+      << output();
+  std::ifstream in(file("map.json"));
+  EXPECT_FALSE(nlohmann::json::parse(in).at("features").empty());
+}
+
+TEST_F(ExportCommand, WrongUseAndInputAreNamed) {
+  EXPECT_EQ(run({"export", "--in", file("x.mcap")}), 64) << "nothing to write";
+  EXPECT_EQ(run({"export", "--in", file("missing.mcap"), "--lanelet2", file("map.osm")}), 1);
+  EXPECT_THAT(output(), HasSubstr("missing.mcap"));
+  std::ofstream(file("broken.jsonl")) << "{\"instances\": 7}\n";
+  EXPECT_EQ(run({"export", "--in", file("broken.jsonl"), "--lanelet2", file("map.osm")}), 1);
+  EXPECT_THAT(output(), HasSubstr("broken.jsonl"));
+  std::ofstream(file("empty.jsonl")) << "";
+  EXPECT_EQ(run({"export", "--in", file("empty.jsonl"), "--lanelet2", file("map.osm")}), 1);
+  EXPECT_THAT(output(), HasSubstr("has no maps"));
+  EXPECT_EQ(run({"export", "--in", file("empty.jsonl"), "--lanelet2", file("empty.jsonl")}), 1);
+  EXPECT_THAT(output(), HasSubstr("written over"));
+  EXPECT_FALSE(std::filesystem::exists(file("map.osm")));
+}
+
+}  // namespace
+}  // namespace laneloom

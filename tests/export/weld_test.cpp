@@ -1,0 +1,166 @@
+#include "export/weld.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "drives.hpp"
+#include "export/strays.hpp"
+#include "export/weave.hpp"
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+using Lanes = std::pair<ElementId, ElementId>;
+
+Polyline points_of(const RoadNetwork& network, const RoadNetwork::Side& side) {
+  Polyline points;
+  for (const std::size_t node : network.ways[side.way].nodes) points.push_back(network.nodes[node]);
+  if (side.reversed) std::ranges::reverse(points);
+  return points;
+}
+
+/// From which lane one comes into which, by nodes alone; across the lanelets of linkages. Lanelets of no
+/// direction also count as they are not drawn.
+std::set<Lanes> driveable(const RoadNetwork& network) {
+  std::map<DirectedLanelet, std::set<DirectedLanelet>> next;
+  for (const auto& [from, to] : followers(network)) next[from].insert(to);
+  const auto lane = [&](const DirectedLanelet& directed) { return network.lanelets[directed.lanelet].lane; };
+  std::set<Lanes> pairs;
+  for (const auto& [from, tos] : next) {
+    if (lane(from) == kNoElement) continue;
+    for (const DirectedLanelet& to : tos) {
+      if (lane(to) != kNoElement) pairs.emplace(lane(from), lane(to));
+      if (lane(to) == kNoElement && next.contains(to))
+        for (const DirectedLanelet& beyond : next.at(to)) pairs.emplace(lane(from), lane(beyond));
+    }
+  }
+  std::erase_if(pairs, [](const Lanes& pair) { return pair.first == pair.second; });
+  return pairs;
+}
+
+std::set<Lanes> linked(const LocalMap& map) {
+  const auto is_two_way = [&](ElementId id) {
+    return std::ranges::find(map.lanes, id, &Lane::id)->direction == Lane::Direction::unknown;
+  };
+  std::set<Lanes> pairs;
+  for (const Linkage& linkage : map.linkages) {
+    pairs.emplace(linkage.from, linkage.to);
+    if (is_two_way(linkage.from) && is_two_way(linkage.to)) pairs.emplace(linkage.to, linkage.from);
+  }
+  return pairs;
+}
+
+void expect_sound(const RoadNetwork& network) {
+  for (const RoadNetwork::Way& way : network.ways) {
+    ASSERT_GE(way.nodes.size(), 2u);
+    for (std::size_t i = 1; i < way.nodes.size(); ++i) EXPECT_NE(way.nodes[i - 1], way.nodes[i]);
+  }
+  for (const RoadNetwork::Lanelet& lanelet : network.lanelets) {
+    for (const RoadNetwork::Side& side : {lanelet.left, lanelet.right})
+      EXPECT_NE(end_node(network, side, false), end_node(network, side, true));
+    const Polyline left = points_of(network, lanelet.left);
+    const MeasuredPolyline right(points_of(network, lanelet.right));
+    EXPECT_GT(right.project(left[left.size() / 2]).lateral_m, 0.0)
+        << "lanelet of lane " << lanelet.lane << " of " << left.size() << " nodes at " << left[0].transpose();
+  }
+}
+
+/// The neighbours that lie beside a lane for so long that both have a lanelet there.
+std::set<Lanes> neighbours(const LocalMap& map) {
+  constexpr double kLong_m = 6.0;
+  std::set<Lanes> pairs;
+  for (const Lane& lane : map.lanes)
+    for (const auto* side : {&lane.left_neighbours, &lane.right_neighbours})
+      for (const Neighbour& neighbour : *side)
+        if (neighbour.range.length() > kLong_m) pairs.insert(std::minmax(lane.id, neighbour.lane));
+  return pairs;
+}
+
+std::set<Lanes> sharing_ways(const RoadNetwork& network) {
+  std::map<std::size_t, std::set<ElementId>> lanes_of_way;
+  for (const RoadNetwork::Lanelet& lanelet : network.lanelets)
+    if (lanelet.lane != kNoElement)
+      for (const RoadNetwork::Side& side : {lanelet.left, lanelet.right})
+        lanes_of_way[side.way].insert(lanelet.lane);
+  std::set<Lanes> pairs;
+  for (const auto& [way, lanes] : lanes_of_way)
+    for (const ElementId a : lanes)
+      for (const ElementId b : lanes)
+        if (a < b) pairs.emplace(a, b);
+  return pairs;
+}
+
+class Welded : public testing::TestWithParam<std::string> {};
+
+TEST_P(Welded, TheTopologyIsInTheNodesAndWays) {
+  const test::MappedDrive drive = test::map_drive(GetParam(), "inhouse");
+  const LocalMap map = weave(test::accumulated(drive), drive.config);
+  ASSERT_FALSE(map.lanes.empty());
+  const RoadNetwork network = weld(map);
+  expect_sound(network);
+  EXPECT_EQ(driveable(network), linked(map));
+  const std::set<Lanes> shared = sharing_ways(network);
+  for (const Lanes& pair : neighbours(map))
+    EXPECT_TRUE(shared.contains(pair)) << pair.first << " and " << pair.second << " share no way";
+  for (const Lane& lane : map.lanes)
+    EXPECT_TRUE(std::ranges::count(network.lanelets, lane.id, &RoadNetwork::Lanelet::lane) > 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Roads, Welded, testing::ValuesIn(scenario_names()),
+                         [](const auto& road) { return road.param; });
+
+/// Two lanes, one behind the other, and a third beside both of them.
+LocalMap three_lanes() {
+  LocalMap map;
+  for (const ElementId id : {1U, 2U, 3U}) {
+    const double y = 3.5 * (2.0 - static_cast<double>(id));
+    map.boundaries.push_back(
+        {.id = id, .points = {{0, y, 0}, {40, y, 0}}, .styles = {{{0, 40}, MarkingStyle::dashed}}});
+  }
+  const auto add = [&](ElementId id, ElementId left, const Range& range) {
+    const double y = 3.5 * (2.0 - static_cast<double>(left));
+    const auto line = [&](double at) { return Polyline{{range.from_m, at, 0}, {range.to_m, at, 0}}; };
+    map.lanes.push_back({.id = id,
+                         .left_boundary = left,
+                         .right_boundary = left + 1,
+                         .left_range = range,
+                         .right_range = range,
+                         .left = line(y),
+                         .right = line(y - 3.5),
+                         .centerline = line(y - 1.75),
+                         .width_m = 3.5,
+                         .direction = Lane::Direction::along_centerline});
+  };
+  add(11, 1, {0, 20});
+  add(12, 1, {20.5, 40});
+  add(13, 2, {0, 40});
+  return map;
+}
+
+TEST(Weld, LanesThatMeetAreNotDrivenFromOneIntoTheOtherUnlessTheyAreLinked) {
+  LocalMap map = three_lanes();
+  EXPECT_THAT(driveable(weld(map)), testing::IsEmpty());
+  map.linkages = {{.from = 11, .to = 12}};
+  EXPECT_THAT(driveable(weld(map)), testing::ElementsAre(Lanes(11, 12)));
+}
+
+TEST(Weld, WhatEndsBesideALaneCutsItSoThatTheyShareWays) {
+  const RoadNetwork network = weld(three_lanes());
+  expect_sound(network);
+  EXPECT_EQ(network.lanelets.size(), 4u);
+  EXPECT_THAT(sharing_ways(network), testing::ElementsAre(Lanes(11, 13), Lanes(12, 13)));
+}
+
+TEST(Weld, AnEmptyMapIsAnEmptyNetwork) {
+  const RoadNetwork network = weld(LocalMap{});
+  EXPECT_TRUE(network.lanelets.empty());
+  EXPECT_TRUE(network.nodes.empty());
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "commands/commands.hpp"
+#include "commands/evaluation_inputs.hpp"
+#include "commands/options.hpp"
+#include "export/accumulate.hpp"
+#include "export/geojson_file.hpp"
+#include "export/lanelet2_file.hpp"
+#include "export/weave.hpp"
+#include "export/weld.hpp"
+#include "laneloom/config_file.hpp"
+#include "replay/message_source.hpp"
+#include "replay/replay.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  std::string in, config, preset, lanelet2, geojson;
+  std::optional<Origin> origin;
+  bool plain = false;
+};
+
+/// Puts published maps together.
+class DriveReader {
+ public:
+  explicit DriveReader(const RangeConfig& range) : accumulator_(range) {}
+
+  void take(const PublishedMap& published) {
+    if (published.map.stamp_ns == 0 || published.map.stamp_ns < stamp_ns_) return;
+    if (maps_ > 0 && published.map_id != map_id_) accumulator_.begin_anew();
+    map_id_ = published.map_id;
+    stamp_ns_ = published.map.stamp_ns;
+    accumulator_.add(published.map);
+    ++maps_;
+  }
+  std::size_t maps() const { return maps_; }
+  DriveAccumulator::Drive finish() { return accumulator_.finish(); }
+
+ private:
+  DriveAccumulator accumulator_;
+  std::size_t maps_ = 0;
+  std::uint64_t map_id_ = 0;
+  std::int64_t stamp_ns_ = 0;
+};
+
+/// Whether the first line of JSON lines is a map.
+bool holds_json_maps(const std::string& path) {
+  std::ifstream in(path);
+  std::string line;
+  while (line.empty() && std::getline(in, line)) {
+  }
+  const auto json = nlohmann::json::parse(line, nullptr, false);
+  return json.is_object() && json.contains("instances");
+}
+
+void take_json_maps(const std::string& path, DriveReader& taker) {
+  const InputAccount account = for_each_map(path, [&](const LocalMap& map) {
+    PublishedMap published;
+    published.map = map;
+    taker.take(published);
+  });
+  warn_of(path, account.refused, account.cut_off);
+}
+
+void take_recorded_maps(const std::string& path, DriveReader& taker) {
+  RecordingReader reader(path);
+  while (const auto recorded = reader.next())
+    if (const auto* published = std::get_if<PublishedMap>(&recorded->message)) taker.take(*published);
+  if (taker.maps() > 0) warn_of(path, reader.refused(), reader.cut_off());
+}
+
+void map_frames(const std::string& path, const Config& config, DriveReader& taker) {
+  const auto source = open_messages(path, config.dds.map_frame_id);
+  Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { taker.take(map); });
+  while (std::optional<RecordedMessage> message = source->next_input()) replay.add(std::move(*message));
+  warn_of(path, source->refused(), source->cut_off());
+}
+
+DriveAccumulator::Drive read_drive(const Options& options, const Config& config) {
+  DriveReader taker(config.mapper.range);
+  const bool recorded = is_recording(options.in);
+  if (recorded) take_recorded_maps(options.in, taker);
+  if (!recorded && holds_json_maps(options.in)) take_json_maps(options.in, taker);
+  const bool has_maps = taker.maps() > 0;
+  if (!has_maps) map_frames(options.in, config, taker);
+  if (taker.maps() == 0)
+    throw std::runtime_error(options.in + ": has no maps, and no detections with poses to make them of");
+  fmt::print("{} maps {}\n", taker.maps(), has_maps ? "read" : "made of the detections");
+  return taker.finish();
+}
+
+Origin origin(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const auto degrees = [&](const std::string& number, double limit) {
+    double value = 0.0;
+    if (!CLI::detail::lexical_cast(number, value) || !(std::abs(value) <= limit))
+      throw CLI::ValidationError("--origin", text + ": needs LAT,LON in degrees, such as 48.137,11.575");
+    return value;
+  };
+  if (comma == std::string::npos) degrees("", 0.0);
+  return {degrees(text.substr(0, comma), 90.0), degrees(text.substr(comma + 1), 180.0)};
+}
+
+void check_files(const Options& options) {
+  std::error_code error;
+  for (const std::string& out : {options.lanelet2, options.geojson})
+    if (!out.empty() && std::filesystem::equivalent(out, options.in, error))
+      throw std::runtime_error(out + ": is the input, and would be written over");
+  if (options.lanelet2 == options.geojson) throw std::runtime_error(options.geojson + ": is given twice");
+}
+
+void export_drive(const Options& options) {
+  check_files(options);
+  Config config = options.config.empty() ? Config{} : load_config(options.config);
+  if (!options.preset.empty()) apply_preset(config, options.preset);
+  const LocalMap map = weave(read_drive(options, config), config.mapper);
+  if (map.lanes.empty()) throw std::runtime_error(options.in + ": has no lanes to export");
+  RoadNetwork network = weld(map);
+  if (options.plain) network.stops.clear();  // their ways stay
+  if (!options.lanelet2.empty()) write_lanelet2(options.lanelet2, network, options.origin.value_or(Origin{}));
+  if (!options.geojson.empty()) write_geojson(options.geojson, network, *options.origin);
+  fmt::print("{} lanes and {} linkages as {} lanelets, {} stop lines\n", map.lanes.size(),
+             map.linkages.size(), network.lanelets.size(), map.stoplines.size());
+}
+
+}  // namespace
+
+void add_export(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("export", "Makes one map of a drive, for other programs");
+  const auto options = std::make_shared<Options>();
+  command
+      ->add_option("--in", options->in,
+                   "Maps (.mcap or .jsonl), or detections and poses to map (.mcap or .frames.jsonl)")
+      ->required();
+  command->add_option("--config", options->config, "Configuration that the maps are made with (.yaml)");
+  command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
+      ->check(CLI::IsMember({"inhouse", "av2"}));
+  CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
+  CLI::Option* lanelet2 =
+      outputs->add_option("--lanelet2", options->lanelet2, "Lanelet2 map to write (.osm)");
+  CLI::Option* geojson =
+      outputs->add_option("--geojson", options->geojson, "GeoJSON (RFC 7946) to write; needs --origin");
+  outputs->require_option(1, 2);
+  command
+      ->add_flag("--plain", options->plain,
+                 "Without the stop lines' regulatory elements, which Autoware's extension of Lanelet2 knows")
+      ->needs(lanelet2);
+  CLI::Option* place = command->add_option_function<std::string>(
+      "--origin", [options](const std::string& text) { options->origin = origin(text); },
+      "Where the map frame's origin is, in degrees (WGS84); x points east, y north");
+  place->type_name("LAT,LON");
+  geojson->needs(place);
+  command->callback([options] { export_drive(*options); });
+}
+
+}  // namespace laneloom

@@ -1,0 +1,111 @@
+#include "export/accumulate.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/local_range.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kStep_m = 2.0;      // between the maps that are looked at
+constexpr double kMinCosine = 0.98;  // of a turn that is no step
+constexpr double kOverlap_m = 3.0;   // of what left the map with what is still in it, to join them by
+constexpr double kSampleStep_m = 0.5;
+
+/// The lines of a map that were seen.
+std::vector<Marking> seen_lines(const LocalMap& map) {
+  std::vector<Marking> lines;
+  for (const Marking& boundary : map.boundaries)
+    if (boundary.status != ElementStatus::inferred && length(boundary.points) > 0.0)
+      lines.push_back(boundary);
+  for (const Stopline& stopline : map.stoplines)
+    if (length(stopline.marking.points) > 0.0) lines.push_back(stopline.marking);
+  return lines;
+}
+
+bool is_step(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  return (to.translation() - from.translation()).norm() >= kStep_m ||
+         from.linear().col(0).dot(to.linear().col(0)) < kMinCosine;
+}
+
+/// The stretches of a line outside of the range, each with a bit of what is inside.
+std::vector<Range> stretches_outside(const MeasuredPolyline& line, const LocalRange& range) {
+  std::vector<Range> stretches;
+  const Polyline samples = line.resample(kSampleStep_m);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (range.keeps(samples[i])) continue;
+    const double arc_m = line.length() * static_cast<double>(i) / static_cast<double>(samples.size() - 1);
+    const Range around{std::max(0.0, arc_m - kOverlap_m), std::min(line.length(), arc_m + kOverlap_m)};
+    if (!stretches.empty() && around.from_m <= stretches.back().to_m) {
+      stretches.back().to_m = around.to_m;
+    } else {
+      stretches.push_back(around);
+    }
+  }
+  return stretches;
+}
+
+/// The other lines of its type that run within kSameLine_m of a line.
+std::vector<ElementId> lines_beside(const Marking& line, const std::vector<Marking>& lines) {
+  const MeasuredPolyline course(line.points);
+  const auto is_near = [&](const Point& point) {
+    const Projection foot = course.project(point, kSameLine_m);
+    return foot.inside && foot.distance_m < kSameLine_m;
+  };
+  std::vector<ElementId> beside;
+  for (const Marking& other : lines)
+    if (other.id != line.id && other.type == line.type &&
+        std::ranges::any_of(MeasuredPolyline(other.points).resample(1.0), is_near))
+      beside.push_back(other.id);
+  return beside;
+}
+
+}  // namespace
+
+void DriveAccumulator::archive_what_left(const LocalMap& before, const LocalMap& now) {
+  const LocalRange range(range_, now.T_map_body);
+  const std::vector<Marking> lines = seen_lines(before);
+  for (const Marking& line : lines) {
+    const std::vector<Range> left = stretches_outside(MeasuredPolyline(line.points), range);
+    if (left.empty()) continue;
+    if (line.type == MarkingType::stopline) {
+      archive_.add({.marking = line});
+      continue;
+    }
+    const std::vector<ElementId> beside = lines_beside(line, lines);
+    for (const Range& stretch : left) archive_.add({slice(line, stretch), pass_, beside});
+  }
+}
+
+void DriveAccumulator::archive_all(const LocalMap& map) {
+  const std::vector<Marking> lines = seen_lines(map);
+  for (const Marking& line : lines) archive_.add({line, pass_, lines_beside(line, lines)});
+}
+
+void DriveAccumulator::add(const LocalMap& map) {
+  if (before_ && !is_step(before_->T_map_body, map.T_map_body)) {
+    newest_ = map;
+    return;
+  }
+  if (before_) archive_what_left(*before_, map);
+  poses_.push_back(map.T_map_body);
+  before_ = map;
+  newest_.reset();
+}
+
+void DriveAccumulator::begin_anew() {
+  if (const auto last = newest_ ? newest_ : before_) archive_all(*last);
+  newest_.reset();
+  before_.reset();
+  ++pass_;
+}
+
+DriveAccumulator::Drive DriveAccumulator::finish() {
+  begin_anew();
+  return {archive_.markings(), std::move(poses_)};
+}
+
+}  // namespace laneloom

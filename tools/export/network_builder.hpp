@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "export/gates.hpp"
+#include "export/node_groups.hpp"
+#include "export/road_network.hpp"
+
+namespace laneloom {
+
+/// Makes the nodes and ways of a network out of cuts: each node and each way once, however many lanelets
+/// share it. What it is given outlives it.
+class NetworkBuilder {
+ public:
+  using Side = RoadNetwork::Side;
+
+  NetworkBuilder(const LocalMap& map, const Gates& gates, NodeGroups& groups);
+
+  /// The boundary between two cuts on it, which differ, as a side from the one to the other.
+  Side stretch(std::size_t from, std::size_t to);
+  /// The sides of a lanelet from gate to gate beside a path (empty: straight): the boundary where both cuts
+  /// are on one and it leads there, else a virtual line.
+  std::pair<Side, Side> sides_between(const Gates::Gate& from, const Gates::Gate& to, const Polyline& path);
+  /// A marking of its own, as a way.
+  std::size_t free_way(const Marking& marking);
+  /// The last lanelet of a lane; it has one.
+  std::size_t last_of(ElementId lane) const { return last_.at(lane); }
+
+  void add(const RoadNetwork::Lanelet& lanelet);
+  void add(RoadNetwork::StopElement stop) { network_.stops.push_back(std::move(stop)); }
+  /// What was seen of boundaries, and bounds no lane.
+  void add_rest();
+  RoadNetwork take() { return std::move(network_); }
+
+ private:
+  std::size_t node_of(std::size_t cut);
+  std::size_t add_node(const Point& point);
+  RoadNetwork::Way way_on(std::size_t boundary, const Range& range) const;
+  std::size_t way_between(std::size_t from, std::size_t to);
+  Side virtual_side(std::size_t from, std::size_t to, const Polyline& middle, double from_m, double to_m);
+  void add_end(std::size_t boundary, const Range& range, std::size_t cut);
+
+  const LocalMap& map_;
+  const Gates& gates_;
+  NodeGroups& groups_;
+  RoadNetwork network_;
+  std::map<std::size_t, std::size_t> nodes_;                         // by group of cuts
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> ways_;  // by cuts, in the order of their arcs
+  std::map<ElementId, std::size_t> last_;
+};
+
+}  // namespace laneloom

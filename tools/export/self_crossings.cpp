@@ -1,0 +1,53 @@
+#include "export/self_crossings.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kNear_m = 15.0;  // seen from above: as far as lanes reach
+constexpr std::size_t kStep = 4;  // of the vertices that are looked at
+
+/// Half the way from where the boundary first is above or below itself to the nearest such place on it.
+std::optional<double> cut_at(const Polyline& points) {
+  const std::vector<double> arcs_m = arc_lengths(points);
+  for (std::size_t i = 0; i < points.size(); i += kStep)
+    for (std::size_t j = i + 1; j < points.size(); j += kStep)
+      if ((points[i] - points[j]).head<2>().norm() < kNear_m && !same_level(points[i], points[j]))
+        return 0.5 * (arcs_m[i] + arcs_m[j]);
+  return std::nullopt;
+}
+
+LaneBoundary part_of(const LaneBoundary& boundary, const Range& stretch) {
+  LaneBoundary part{.marking = slice(boundary.marking, stretch), .members = boundary.members};
+  for (const Range& gap : boundary.bridged) {
+    const Range within{std::max(gap.from_m, stretch.from_m) - stretch.from_m,
+                       std::min(gap.to_m, stretch.to_m) - stretch.from_m};
+    if (within.length() > 0.0) part.bridged.push_back(within);
+  }
+  return part;
+}
+
+}  // namespace
+
+void cut_self_crossings(std::vector<LaneBoundary>& boundaries, ElementId& next_id) {
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    const std::optional<double> at_m = cut_at(boundaries[i].marking.points);
+    if (!at_m) continue;
+    const double length_m = length(boundaries[i].marking.points);
+    LaneBoundary rest = part_of(boundaries[i], {*at_m, length_m});
+    boundaries[i] = part_of(boundaries[i], {0.0, *at_m});
+    rest.marking.id = next_id++;
+    boundaries.push_back(std::move(rest));
+    --i;  // what is left may cross itself again
+  }
+}
+
+}  // namespace laneloom
