@@ -213,6 +213,18 @@ struct SdMapConfig {
   double origin_longitude_deg = 0.0;
 };
 
+/// What nodes of ROS 2 see of the service, on a participant of its own. Names without a leading '/' are below
+/// the namespace.
+struct Ros2Config {
+  bool enabled = false;
+  std::string ros_namespace;            ///< of this vehicle, "/car_1"; empty: none
+  std::string distro = "jazzy";         ///< humble or jazzy; only `announce` depends on it
+  bool announce = false;                ///< show a node in `ros2 node list`
+  std::string odometry_topic = "odom";  ///< nav_msgs/Odometry
+  std::string road_segments_topic =
+      "laneloom/road_segments";  ///< autoware_mapless_planning_msgs/RoadSegments
+};
+
 struct Config {
   MapperConfig mapper;
   SdMapConfig sd_map;
@@ -220,6 +232,7 @@ struct Config {
   GateConfig gate;
   ServiceConfig service;
   DdsConfig dds;
+  Ros2Config ros2;
 };
 
 }  // namespace laneloom

@@ -228,14 +228,25 @@ void visit(auto& v, Is<SdMapConfig> auto& c) {
   v.number("origin_longitude_deg", origin_longitude_deg, "deg", -180, 180);
 }
 
+void visit(auto& v, Is<Ros2Config> auto& c) {
+  auto& [enabled, ros_namespace, distro, announce, odometry_topic, road_segments_topic] = c;
+  v.flag("enabled", enabled);
+  v.path("namespace", ros_namespace);
+  v.choice("distro", distro, "humble|jazzy");
+  v.flag("announce", announce);
+  v.path("odometry_topic", odometry_topic);
+  v.path("road_segments_topic", road_segments_topic);
+}
+
 void visit(auto& v, Is<Config> auto& c) {
-  auto& [mapper, sd_map, sync, gate, service, dds] = c;
+  auto& [mapper, sd_map, sync, gate, service, dds, ros2] = c;
   v.section("mapper", mapper);
   v.section("sd_map", sd_map);
   v.section("sync", sync);
   v.section("gate", gate);
   v.section("service", service);
   v.section("dds", dds);
+  v.section("ros2", ros2);
 }
 
 }  // namespace laneloom::config

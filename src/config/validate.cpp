@@ -74,6 +74,33 @@ std::optional<Problem> find_too_many_points(const MapperConfig& mapper) {
   return std::nullopt;
 }
 
+/// Of a name in ROS 2: tokens of letters, digits and '_', none of which begins with a digit, divided by '/'.
+bool is_ros_name(std::string_view name) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  if (name.starts_with('/')) name.remove_prefix(1);
+  bool begins = true;  // a token
+  for (const char c : name) {
+    const bool fits = is_letter(c) || (!begins && ((c >= '0' && c <= '9') || c == '/'));
+    if (!fits) return false;
+    begins = c == '/';
+  }
+  return !begins;
+}
+
+std::optional<Problem> find_wrong_name(const Ros2Config& ros2) {
+  constexpr std::size_t kMaxLength = 100;  // of either part: DDS takes 255 characters in all
+  const auto problem = [](const char* key, const std::string& name) {
+    return Problem{std::string("ros2.") + key,
+                   "\"" + name + "\" is no name of ROS 2, or has more than 100 characters"};
+  };
+  const auto fits = [](const std::string& name) { return name.size() <= kMaxLength && is_ros_name(name); };
+  if (!ros2.ros_namespace.empty() && !fits(ros2.ros_namespace))
+    return problem("namespace", ros2.ros_namespace);
+  if (!fits(ros2.odometry_topic)) return problem("odometry_topic", ros2.odometry_topic);
+  if (!fits(ros2.road_segments_topic)) return problem("road_segments_topic", ros2.road_segments_topic);
+  return std::nullopt;
+}
+
 std::optional<Problem> find_contradiction(const Config& c) {
   const auto& mapper = c.mapper;
   if (mapper.range.forward_min_m >= mapper.range.forward_max_m) {
@@ -107,7 +134,7 @@ std::optional<Problem> find_contradiction(const Config& c) {
   if (c.dds.profile_file.empty() != c.dds.profile_name.empty()) {
     return Problem{"dds.profile_file", "profile_file and profile_name are given together or not at all"};
   }
-  return std::nullopt;
+  return find_wrong_name(c.ros2);
 }
 
 }  // namespace

@@ -18,9 +18,11 @@ void check_files(const DdsConfig& config) { participant_qos(config, ""); }
 Participant::Participant(const DdsConfig& config, const std::string& name, Presence presence)
     : impl_(std::make_shared<Impl>(config, name, presence)) {}
 
-Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presence presence)
+Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presence presence,
+                        const std::string& user_data)
     : map_frame_id_(config.map_frame_id), security_directory_(config.security_directory) {
   auto qos = participant_qos(config, name);
+  set_user_data(user_data, qos);
   if (presence == Presence::hidden)
     qos.wire_protocol().builtin.discovery_config.discoveryProtocol = DiscoveryProtocol_t::NONE;
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
@@ -28,10 +30,10 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presen
   if (!participant_) refuse("participant in domain " + std::to_string(config.domain));
 
   PublisherQos publisher_qos = PUBLISHER_QOS_DEFAULT;
-  publisher_qos.partition().push_back(config.vehicle_id.c_str());
+  if (!config.vehicle_id.empty()) publisher_qos.partition().push_back(config.vehicle_id.c_str());
   publisher_ = participant_->create_publisher(publisher_qos);
   SubscriberQos subscriber_qos = SUBSCRIBER_QOS_DEFAULT;
-  subscriber_qos.partition().push_back(config.vehicle_id.c_str());
+  if (!config.vehicle_id.empty()) subscriber_qos.partition().push_back(config.vehicle_id.c_str());
   subscriber_ = participant_->create_subscriber(subscriber_qos);
   if (!publisher_ || !subscriber_) {
     close();

@@ -13,7 +13,9 @@ namespace laneloom::dds {
 
 class Participant::Impl {
  public:
-  Impl(const DdsConfig& config, const std::string& name, Presence presence);
+  /// An empty vehicle id gives no partition. `user_data` is announced with the participant.
+  Impl(const DdsConfig& config, const std::string& name, Presence presence,
+       const std::string& user_data = {});
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;

@@ -130,6 +130,7 @@ int depth(TopicKind kind) {
       return 512;
     case TopicKind::map:
     case TopicKind::status:
+    case TopicKind::view:
       return 1;
   }
   return 1;
@@ -221,6 +222,7 @@ std::vector<ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind) {
       return {BEST_EFFORT_RELIABILITY_QOS};  // a pose that has to be sent again comes after the next one
     case TopicKind::map:
     case TopicKind::status:
+    case TopicKind::view:
       break;
   }
   return {RELIABLE_RELIABILITY_QOS};

@@ -16,7 +16,8 @@ enum class TopicKind {
   detections,  ///< to the service, some a second, large
   poses,       ///< to the service, many a second, small
   map,         ///< from the service, at every tick; a late joiner gets the newest
-  status       ///< from the service, now and then; a late joiner gets the newest
+  status,      ///< from the service, now and then; a late joiner gets the newest
+  view         ///< from the service, at every tick or not; a late joiner gets the next
 };
 
 /// Throws ConfigError when the configured profile is missing or invalid, or a file of security is unreadable.

@@ -11,10 +11,11 @@ template <class T>
 class RawReader<T>::Impl {
  public:
   Impl(std::shared_ptr<Participant::Impl> participant, Callback callback)
-      : callback_(std::move(callback)), reader_(std::move(participant), take(), {}) {}
+      : callback_(std::move(callback)),
+        reader_(std::move(participant), topic_of<T, RawType<typename TopicTraits<T>::Type>>(), take(), {}) {}
 
  private:
-  using Readers = TopicReader<T, RawType<typename TopicTraits<T>::Type>, Bytes>;
+  using Readers = TopicReader<Bytes>;
 
   typename Readers::Take take() {
     return [this](const WriterId& /*writer*/, std::uint64_t /*number*/, Bytes* message) {

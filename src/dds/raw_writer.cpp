@@ -10,7 +10,8 @@ namespace laneloom::dds {
 template <class T>
 class RawWriter<T>::Impl {
  public:
-  explicit Impl(std::shared_ptr<Participant::Impl> participant) : writer_(std::move(participant)) {}
+  explicit Impl(std::shared_ptr<Participant::Impl> participant)
+      : writer_(std::move(participant), topic_of<T, RawType<typename TopicTraits<T>::Type>>()) {}
 
   bool write(const Bytes& message) {
     sample_ = message;
@@ -19,7 +20,7 @@ class RawWriter<T>::Impl {
   int matched() const { return writer_.matched(); }
 
  private:
-  TopicWriter<T, RawType<typename TopicTraits<T>::Type>> writer_;
+  TopicWriter writer_;
   Bytes sample_;
 };
 

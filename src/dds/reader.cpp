@@ -14,13 +14,13 @@ class Reader<T>::Impl {
   Impl(std::shared_ptr<Participant::Impl> participant, ReaderCallbacks<T> callbacks)
       : callbacks_(std::move(callbacks)),
         frame_id_(participant->map_frame_id()),
-        reader_(std::move(participant), take(), events()) {}
+        reader_(std::move(participant), topic_of<T, typename TopicTraits<T>::Type>(), take(), events()) {}
 
   int matched() const { return matched_; }
 
  private:
   using Received = Sample<MessageOf<T>>;
-  using Readers = TopicReader<T, typename TopicTraits<T>::Type, Received>;
+  using Readers = TopicReader<Received>;
 
   typename Readers::Take take() {
     return [this](const WriterId& writer, std::uint64_t number, const Received* sample) {

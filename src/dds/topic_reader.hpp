@@ -28,9 +28,9 @@ void call(const std::function<void(Arguments...)>& callback, Values&&... values)
   }
 }
 
-/// The DDS readers of the topic of T, whose samples are as `Type` supports them; one for each reliability
-/// that reader_reliabilities() names. A sample that several of them receive is handed on once, one at a time.
-template <class T, class Type, class Sample>
+/// The DDS readers of one topic; one for each reliability that reader_reliabilities() names. A sample that
+/// several of them receive is handed on once, one at a time.
+template <class Sample>
 class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
  public:
   using DataReader = eprosima::fastdds::dds::DataReader;
@@ -41,16 +41,20 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
     std::function<void(std::uint64_t)> deadline_missed;
   };
 
-  TopicReader(std::shared_ptr<Participant::Impl> participant, Take take, Events events)
-      : participant_(std::move(participant)), take_(std::move(take)), events_(std::move(events)) {
-    using Traits = TopicTraits<T>;
-    auto* topic = participant_->topic(Traits::kName, eprosima::fastdds::dds::TypeSupport(new Type));
-    for (const auto reliability : reader_reliabilities(Traits::kKind)) {
-      auto* reader =
-          participant_->subscriber().create_datareader(topic, reader_qos(Traits::kKind, reliability), this);
+  TopicReader(std::shared_ptr<Participant::Impl> participant, const TopicDescription& description, Take take,
+              Events events)
+      : participant_(std::move(participant)),
+        kind_(description.kind),
+        take_(std::move(take)),
+        events_(std::move(events)) {
+    auto* topic = participant_->topic(description.name, description.type);
+    for (const auto reliability : reader_reliabilities(kind_)) {
+      auto qos = reader_qos(kind_, reliability);
+      set_user_data(description.user_data, qos);
+      auto* reader = participant_->subscriber().create_datareader(topic, qos, this);
       if (reader == nullptr) {
         end();
-        participant_->refuse(std::string("reader of ") + Traits::kName);
+        participant_->refuse("reader of " + description.name);
       }
       readers_.push_back(reader);
     }
@@ -88,13 +92,14 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
   using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
   /// The first reader matches every writer that another one matches.
-  static bool tells(const DataReader* reader) {
-    return reader->get_qos().reliability().kind == reader_reliabilities(TopicTraits<T>::kKind).front();
+  bool tells(const DataReader* reader) const {
+    return reader->get_qos().reliability().kind == reader_reliabilities(kind_).front();
   }
   static WriterId id_of(const eprosima::fastrtps::rtps::GUID_t& guid) {
     WriterId writer;
-    const auto entity = std::copy_n(guid.guidPrefix.value, guid.guidPrefix.size, writer.begin());
-    std::copy_n(guid.entityId.value, guid.entityId.size, entity);
+    auto* const entity =
+        std::copy_n(guid.guidPrefix.value, eprosima::fastrtps::rtps::GuidPrefix_t::size, writer.begin());
+    std::copy_n(guid.entityId.value, eprosima::fastrtps::rtps::EntityId_t::size, entity);
     return writer;
   }
   void end() {
@@ -103,6 +108,7 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
   }
 
   std::shared_ptr<Participant::Impl> participant_;
+  TopicKind kind_;
   Take take_;
   Events events_;
   std::mutex mutex_;

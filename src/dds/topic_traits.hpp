@@ -1,5 +1,9 @@
 #pragma once
 
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include <string>
+
 #include "DetectionsPubSubTypes.h"
 #include "LaneMapPubSubTypes.h"
 #include "RoadMarkingsPubSubTypes.h"
@@ -10,9 +14,17 @@
 #include "dds/qos.hpp"
 #include "laneloom/dds/topics.hpp"
 
-/// The topic of each plain type.
 namespace laneloom::dds {
 
+/// What a reader or a writer needs to know of its topic.
+struct TopicDescription {
+  std::string name;
+  TopicKind kind;
+  eprosima::fastdds::dds::TypeSupport type;
+  std::string user_data;  ///< announced with the endpoint; ROS 2 has the hash of the type there
+};
+
+/// The topic of each plain type.
 template <class T>
 struct TopicTraits;
 
@@ -50,5 +62,17 @@ struct TopicTraits<ServiceStatus> {
   static constexpr auto kName = kStatusTopic;
   static constexpr auto kKind = TopicKind::status;
 };
+
+/// The topic of T, whose samples are as `Type` supports them.
+template <class T, class Type>
+TopicDescription topic_of() {
+  return {TopicTraits<T>::kName, TopicTraits<T>::kKind, eprosima::fastdds::dds::TypeSupport(new Type), {}};
+}
+
+/// An endpoint's user data of these bytes.
+template <class Qos>
+void set_user_data(const std::string& bytes, Qos& qos) {
+  qos.user_data().data_vec({bytes.begin(), bytes.end()});
+}
 
 }  // namespace laneloom::dds

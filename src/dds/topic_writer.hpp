@@ -11,16 +11,16 @@
 
 namespace laneloom::dds {
 
-/// A DDS writer of the topic of T, whose samples are as `Type` supports them.
-template <class T, class Type>
+/// A DDS writer of one topic.
 class TopicWriter {
  public:
-  explicit TopicWriter(std::shared_ptr<Participant::Impl> participant)
+  TopicWriter(std::shared_ptr<Participant::Impl> participant, const TopicDescription& description)
       : participant_(std::move(participant)) {
-    using Traits = TopicTraits<T>;
-    auto* topic = participant_->topic(Traits::kName, eprosima::fastdds::dds::TypeSupport(new Type));
-    writer_ = participant_->publisher().create_datawriter(topic, writer_qos(Traits::kKind));
-    if (!writer_) participant_->refuse(std::string("writer of ") + Traits::kName);
+    auto* topic = participant_->topic(description.name, description.type);
+    auto qos = writer_qos(description.kind);
+    set_user_data(description.user_data, qos);
+    writer_ = participant_->publisher().create_datawriter(topic, qos);
+    if (!writer_) participant_->refuse("writer of " + description.name);
   }
   ~TopicWriter() { participant_->publisher().delete_datawriter(writer_); }
   TopicWriter(const TopicWriter&) = delete;

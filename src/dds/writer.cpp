@@ -10,7 +10,8 @@ namespace laneloom::dds {
 template <class T>
 class Writer<T>::Impl {
  public:
-  explicit Impl(std::shared_ptr<Participant::Impl> participant) : writer_(std::move(participant)) {}
+  explicit Impl(std::shared_ptr<Participant::Impl> participant)
+      : writer_(std::move(participant), topic_of<T, typename TopicTraits<T>::Type>()) {}
 
   bool write(const T& message) {
     left_out_ += to_msg(message, writer_.participant().map_frame_id(), sample_.message);
@@ -20,7 +21,7 @@ class Writer<T>::Impl {
   int matched() const { return writer_.matched(); }
 
  private:
-  TopicWriter<T, typename TopicTraits<T>::Type> writer_;
+  TopicWriter writer_;
   Sample<MessageOf<T>> sample_;  // kept, so that its memory is used again
   std::uint64_t left_out_ = 0;
 };

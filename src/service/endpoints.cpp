@@ -38,14 +38,18 @@ dds::ReaderCallbacks<ServiceStatus> look_for_others(std::uint64_t session_id, In
 
 }  // namespace
 
-Endpoints::Endpoints(const DdsConfig& config, std::uint64_t session_id, IngestionQueue& queue,
+Endpoints::Endpoints(const Config& config, std::uint64_t session_id, IngestionQueue& queue,
                      const std::function<std::int64_t()>& now_ns, dds::Participant::Presence presence)
-    : participant_(config, "laneloomd", presence),
+    : participant_(config.dds, "laneloomd", presence),
       map(participant_),
       road_markings(participant_),
       status(participant_),
       detections_(participant_, take_detections(queue, now_ns)),
       poses_(participant_, take_poses(queue, now_ns)),
-      services_(participant_, look_for_others(session_id, queue, now_ns)) {}
+      services_(participant_, look_for_others(session_id, queue, now_ns)) {
+  if (!config.ros2.enabled) return;
+  ros2 = std::make_unique<ros2::Endpoints>(
+      config, ros2::Endpoints::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns)}, presence);
+}
 
 }  // namespace laneloom

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include "laneloom/config.hpp"
 #include "laneloom/dds/participant.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
 #include "laneloom/messages.hpp"
+#include "ros2/endpoints.hpp"
 #include "service/ingestion_queue.hpp"
 
 namespace laneloom {
@@ -17,7 +19,7 @@ class Endpoints {
  public:
   /// What arrives goes into `queue`, which must outlive this; so does that another service than that of
   /// `session_id` has the same vehicle. Throws as dds::Participant().
-  Endpoints(const DdsConfig& config, std::uint64_t session_id, IngestionQueue& queue,
+  Endpoints(const Config& config, std::uint64_t session_id, IngestionQueue& queue,
             const std::function<std::int64_t()>& now_ns,
             dds::Participant::Presence presence = dds::Participant::Presence::shown);
 
@@ -28,6 +30,7 @@ class Endpoints {
   dds::Writer<PublishedMap> map;
   dds::Writer<RoadMarkings> road_markings;
   dds::Writer<ServiceStatus> status;
+  std::unique_ptr<ros2::Endpoints> ros2;  ///< null: not enabled
 
  private:
   dds::Reader<DetectionFrame> detections_;

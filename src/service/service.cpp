@@ -78,6 +78,7 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
 SnapshotStamp Service::snapshot_stamp() const {
   Config of_the_map = config_;
   of_the_map.service = {};
+  of_the_map.ros2 = {};
   return {std::string(version()) + " " + config_hash(of_the_map), now_ns_(), system_now_ns()};
 }
 
@@ -111,7 +112,7 @@ void Service::check_reopening() {
   dds::check_files(config_.dds);
   if (!endpoints_ || config_.dds.security_directory.empty()) return;
   try {
-    const Endpoints trial(config_.dds, session_id_, queue_, now_ns_, dds::Participant::Presence::hidden);
+    const Endpoints trial(config_, session_id_, queue_, now_ns_, dds::Participant::Presence::hidden);
   } catch (const dds::NotPermitted& error) {
     throw ConfigError(error.what());
   }
@@ -120,7 +121,7 @@ void Service::check_reopening() {
 void Service::reopen() {
   check_reopening();
   endpoints_.reset();  // before the new ones, or two services on one vehicle id would be seen
-  endpoints_ = std::make_unique<Endpoints>(config_.dds, session_id_, queue_, now_ns_);
+  endpoints_ = std::make_unique<Endpoints>(config_, session_id_, queue_, now_ns_);
 }
 
 void Service::tick(const Tick& tick) {
@@ -215,6 +216,7 @@ void Service::publish_map(MappingSession::Progress&& progress) {
   map.map = session_.map();
   map.map.lineage = std::move(progress.lineage);
   write(endpoints_->map, map);
+  if (endpoints_->ros2) counters_.add("writes_failed", endpoints_->ros2->write(map));
   write(endpoints_->road_markings, RoadMarkings{map.map.stamp_ns, map.sequence, map.session_id, map.frame_id,
                                                 std::move(map.map.markings)});
 }
@@ -223,6 +225,7 @@ void Service::publish_status(std::int64_t now_ns) {
   auto message = status();
   message.sequence = status_sequence_++;
   write(endpoints_->status, message);
+  if (endpoints_->ros2) counters_.add("writes_failed", endpoints_->ros2->write(message));
   if (now_ns >= next_status_ns_) {
     next_status_ns_ = now_ns + static_cast<std::int64_t>(config_.service.status_period_s * 1e9);
     log_incidents(all_counters(queue_.snapshot()));

@@ -138,6 +138,21 @@ TEST_F(ConfigFile, LinesOfMorePointsThanAMessageHoldsAreAContradiction) {
   EXPECT_THAT(idl.str(), HasSubstr("MAX_POINTS = 1024;"));
 }
 
+TEST_F(ConfigFile, ANameThatRos2RefusesIsNamedWithItsLine) {
+  for (const std::string name : {"/car_1", "car_1", "/fleet/car_1", "_c", ""})
+    EXPECT_EQ(error_of("ros2:\n  namespace: '" + name + "'\n"), "no error") << name;
+  for (const std::string name : {"/", "car-1", "/car_1/", "//car", "a//b", "1car", "/a/1", "a b", "rt/ö"})
+    EXPECT_THAT(error_of("ros2:\n  namespace: '" + name + "'\n"), StartsWith(":2: ros2.namespace: \"" + name))
+        << name;
+  for (const std::string key : {"odometry_topic", "road_segments_topic"}) {
+    EXPECT_THAT(error_of("ros2:\n  " + key + ": ''\n"), StartsWith(":2: ros2." + key + ": \"\" is no name"));
+    EXPECT_EQ(error_of("ros2:\n  " + key + ": " + std::string(100, 'a') + "\n"), "no error");
+    EXPECT_THAT(error_of("ros2:\n  " + key + ": " + std::string(101, 'a') + "\n"),
+                StartsWith(":2: ros2." + key));
+  }
+  EXPECT_THAT(error_of("ros2:\n  distro: foxy\n"), HasSubstr("\"foxy\" is none of humble|jazzy"));
+}
+
 TEST_F(ConfigFile, BadYamlIsNamedWithItsLine) {
   EXPECT_THAT(error_of("sync:\n  max_wait_s: [1\n"), ::testing::MatchesRegex(":[0-9]+: bad YAML: .*"));
   EXPECT_THAT(error_of("sync:\n\tmax_wait_s: 1\n"), HasSubstr("bad YAML"));

@@ -15,6 +15,7 @@ Findings findings(const Observed& seen) {
   };
   if (!seen.participants.empty()) {
     add(topic_findings(seen));
+    add(ros_findings(seen));
     add(qos_findings(seen));
     add(stream_findings(seen));
     add(incident_findings(seen));

@@ -21,6 +21,8 @@ using Findings = std::vector<Finding>;
 Findings presence_findings(const Observed& seen);
 /// Who writes or reads under another name, type or partition than the service, and what nobody writes.
 Findings topic_findings(const Observed& seen);
+/// Nodes of ROS 2 that write detections or odometry where the service does not read them.
+Findings ros_findings(const Observed& seen);
 /// Which writers and readers of the vehicle would match, but for their quality of service.
 Findings qos_findings(const Observed& seen);
 /// Whether the inputs come, how often, by which clocks, and with what is useful in them.

@@ -9,6 +9,7 @@
 
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
+#include "doctor/ros2.hpp"
 
 namespace laneloom {
 namespace {
@@ -20,12 +21,14 @@ struct Topic {
   const char* what;
   const char* name;
   const char* type;
-  bool input;  ///< of the service
+  bool input;                                     ///< of the service
+  bool (*ros_writes)(const Observed&) = nullptr;  ///< whether nodes of ROS 2 write it
 };
 
 constexpr std::array kTopics{
-    Topic{"detections", "detections", dds::kDetectionsTopic, dds::kDetectionsType, true},
-    Topic{"poses", "poses", dds::kVehiclePoseTopic, dds::kVehiclePoseType, true},
+    Topic{"detections", "detections", dds::kDetectionsTopic, dds::kDetectionsType, true,
+          ros_writes_detections},
+    Topic{"poses", "poses", dds::kVehiclePoseTopic, dds::kVehiclePoseType, true, ros_writes_poses},
     Topic{"lane_map", "the lane map", dds::kLaneMapTopic, dds::kLaneMapType, false},
     Topic{"road_markings", "the road markings", dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, false}};
 
@@ -100,8 +103,10 @@ bool is_served(const Observed& seen, const Endpoint& endpoint) {
 
 void judge(const Observed& seen, const Topic& topic, Findings& found) {
   const std::string& vehicle_id = seen.dds.vehicle_id;
-  const bool connected = std::ranges::any_of(
-      seen.endpoints, [&](const Endpoint& endpoint) { return is_right(endpoint, topic, vehicle_id); });
+  const bool connected =
+      std::ranges::any_of(seen.endpoints,
+                          [&](const Endpoint& endpoint) { return is_right(endpoint, topic, vehicle_id); }) ||
+      (topic.ros_writes != nullptr && topic.ros_writes(seen));
   if (topic.input && !connected) found.push_back(nobody_writes(seen, topic));
   for (const Endpoint& endpoint : seen.endpoints) {
     const bool of_vehicle = is_of_vehicle(endpoint, vehicle_id);
@@ -111,7 +116,8 @@ void judge(const Observed& seen, const Topic& topic, Findings& found) {
           (topic.input || !is_served(seen, endpoint))) {
         found.push_back(wrong_partition(seen, endpoint, topic));
       }
-    } else if (!connected && is_at_far_end(endpoint, topic) && heart(endpoint.topic) == heart(topic.name)) {
+    } else if (!connected && !is_of_ros(endpoint) && is_at_far_end(endpoint, topic) &&
+               heart(endpoint.topic) == heart(topic.name)) {
       found.push_back(similar_name(endpoint, topic));
     }
   }

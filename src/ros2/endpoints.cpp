@@ -1,0 +1,118 @@
+#include "ros2/endpoints.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "AutowareMaplessPlanningMsgsPubSubTypes.h"
+#include "DiagnosticMsgsPubSubTypes.h"
+#include "VisualizationMsgsPubSubTypes.h"
+#include "cdr/convert.hpp"
+#include "dds/topic_writer.hpp"
+#include "ros2/announcement.hpp"
+#include "ros2/diagnostics.hpp"
+#include "ros2/input.hpp"
+#include "ros2/markers.hpp"
+#include "ros2/road_segments.hpp"
+#include "ros2/topic.hpp"
+
+namespace laneloom::ros2 {
+namespace {
+
+using autoware_mapless_planning_msgs::msg::dds_::RoadSegments_PubSubType;
+using dds::TopicKind;
+using diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType;
+using nav_msgs::msg::dds_::Odometry_;
+using visualization_msgs::msg::dds_::MarkerArray_PubSubType;
+
+bool is_to_drive_on(const PublishedMap& map) {
+  return map.state != MapState::stale &&
+         std::ranges::find(map.reasons, StateReason::another_service) == map.reasons.end();
+}
+
+/// Nodes of ROS are in no partition.
+std::shared_ptr<dds::Participant::Impl> make_participant(const Config& config,
+                                                         dds::Participant::Presence presence) {
+  DdsConfig dds = config.dds;
+  dds.vehicle_id.clear();
+  return std::make_shared<dds::Participant::Impl>(dds, "laneloomd for ROS 2", presence, kParticipantUserData);
+}
+
+}  // namespace
+
+class Endpoints::Impl {
+ public:
+  Impl(const Config& config, Inputs inputs, dds::Participant::Presence presence)
+      : config_(config),
+        participant_(make_participant(config, presence)),
+        map_(participant_, relative<dds::CheckedType<msg::LaneMapPubSubType>>(
+                               "laneloom/lane_map", "laneloom_msgs/msg/LaneMap", TopicKind::map)),
+        markers_writer_(participant_,
+                        relative<MarkerArray_PubSubType>(
+                            "laneloom/markers", "visualization_msgs/msg/MarkerArray", TopicKind::view)),
+        segments_(participant_, relative<RoadSegments_PubSubType>(
+                                    config.ros2.road_segments_topic,
+                                    "autoware_mapless_planning_msgs/msg/RoadSegments", TopicKind::view)),
+        diagnostics_(participant_,
+                     relative<DiagnosticArray_PubSubType>(
+                         "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", TopicKind::status)),
+        detections_(participant_,
+                    relative<dds::CheckedType<msg::DetectionsPubSubType>>(
+                        kDetectionsTopic, kDetectionsType, TopicKind::detections),
+                    std::move(inputs.detections),
+                    in_map_frame<msg::Detections, DetectionFrame>(dds::from_msg)),
+        odometry_(
+            participant_,
+            relative<OdometryType>(config.ros2.odometry_topic, kOdometryType, TopicKind::poses),
+            std::move(inputs.poses), in_map_frame<Odometry_, VehiclePose>(from_ros)) {
+    if (config.ros2.announce) announcement_ = announce(participant_, config.ros2);
+  }
+
+  std::size_t write(const PublishedMap& map) {
+    dds::to_msg(map, config_.dds.map_frame_id, map_sample_.message);
+    auto markers = markers_.update(map);
+    std::size_t failed = (map_.write(&map_sample_) ? 0U : 1U) + (markers_writer_.write(&markers) ? 0U : 1U);
+    // The message has no room for the state.
+    if (!is_to_drive_on(map)) return failed;
+    auto segments = to_road_segments(map);
+    failed += segments_.write(&segments) ? 0U : 1U;
+    return failed;
+  }
+  std::size_t write(const ServiceStatus& status) {
+    auto diagnostics = to_diagnostics(status, full_node_name(config_.ros2), config_.dds.vehicle_id);
+    return diagnostics_.write(&diagnostics) ? 0 : 1;
+  }
+
+ private:
+  template <class Type>
+  dds::TopicDescription relative(const std::string& name, std::string_view ros_type, TopicKind kind) const {
+    return topic<Type>(dds_topic(config_.ros2, name), ros_type, kind);
+  }
+  template <class Message, class T>
+  typename Input<Message, T>::Convert in_map_frame(std::string_view (*convert)(const Message&,
+                                                                               const std::string&,
+                                                                               T&)) const {
+    return [convert, frame = config_.dds.map_frame_id](const Message& from, T& to) {
+      return convert(from, frame, to);
+    };
+  }
+
+  Config config_;
+  std::shared_ptr<dds::Participant::Impl> participant_;
+  Markers markers_;
+  dds::Sample<msg::LaneMap> map_sample_;  // kept, so that its memory is used again
+  dds::TopicWriter map_, markers_writer_, segments_, diagnostics_;
+  Input<msg::Detections, DetectionFrame> detections_;
+  Input<Odometry_, VehiclePose> odometry_;
+  std::unique_ptr<dds::TopicWriter> announcement_;  ///< null: none
+};
+
+Endpoints::Endpoints(const Config& config, Inputs inputs, dds::Participant::Presence presence)
+    : impl_(std::make_unique<Impl>(config, std::move(inputs), presence)) {}
+Endpoints::~Endpoints() = default;
+
+std::size_t Endpoints::write(const PublishedMap& map) { return impl_->write(map); }
+std::size_t Endpoints::write(const ServiceStatus& status) { return impl_->write(status); }
+
+}  // namespace laneloom::ros2

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <utility>
+
+#include "NavMsgsPubSubTypes.h"
+#include "dds/checked_type.hpp"
+#include "dds/topic_reader.hpp"
+#include "ros2/names.hpp"
+#include "ros2/odometry.hpp"
+
+namespace laneloom::ros2 {
+
+/// The generated type support of an odometry, made safe as dds::CheckedType.
+class OdometryType : public nav_msgs::msg::dds_::Odometry_PubSubType {
+ public:
+  using Base = nav_msgs::msg::dds_::Odometry_PubSubType;
+  using Sample = dds::Sample<nav_msgs::msg::dds_::Odometry_>;
+  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+
+  bool deserialize(Payload* payload, void* data) override {
+    auto* sample = static_cast<Sample*>(data);
+    sample->refusal = {};
+    try {
+      const bool whole =
+          is_odometry({payload->data, payload->length}) && Base::deserialize(payload, &sample->message);
+      if (!whole) sample->refusal = "malformed";
+    } catch (...) {
+      sample->refusal = "malformed";
+    }
+    return true;
+  }
+  void* createData() override { return new Sample; }
+  void deleteData(void* data) override { delete static_cast<Sample*>(data); }
+};
+
+/// Reads messages of ROS as plain types.
+template <class Message, class T>
+class Input {
+ public:
+  /// Returns why the message is refused; empty: it is not.
+  using Convert = std::function<std::string_view(const Message&, T&)>;
+
+  Input(std::shared_ptr<dds::Participant::Impl> participant, const dds::TopicDescription& topic,
+        dds::ReaderCallbacks<T> callbacks, Convert convert)
+      : callbacks_(std::move(callbacks)),
+        convert_(std::move(convert)),
+        reader_(std::move(participant), topic, take(), {}) {}
+
+ private:
+  using Received = dds::Sample<Message>;
+  using Readers = dds::TopicReader<Received>;
+
+  typename Readers::Take take() {
+    return [this](const dds::WriterId& writer, std::uint64_t number, const Received* sample) {
+      dds::call(callbacks_.numbered, writer, number);
+      if (sample != nullptr) receive(writer, number, *sample);
+    };
+  }
+  void receive(const dds::WriterId& writer, std::uint64_t number, const Received& sample) noexcept {
+    try {
+      T message;
+      const auto refusal = sample.refusal.empty() ? convert_(sample.message, message) : sample.refusal;
+      if (!refusal.empty()) return dds::call(callbacks_.refused, refusal);
+      if (message.session_id == 0) {
+        message.session_id = session_of(writer);
+        message.sequence = number;
+      }
+      dds::call(callbacks_.sample, std::move(message));
+    } catch (const std::bad_alloc&) {
+      dds::call(callbacks_.refused, "malformed");
+    }
+  }
+
+  dds::ReaderCallbacks<T> callbacks_;
+  Convert convert_;
+  Readers reader_;  // last: nothing calls into what is already gone
+};
+
+}  // namespace laneloom::ros2

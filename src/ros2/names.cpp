@@ -1,0 +1,50 @@
+#include "ros2/names.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "ros2_type_hashes.hpp"
+
+namespace laneloom::ros2 {
+namespace {
+
+constexpr std::string_view kInfix = "/msg/";
+
+std::string below(const Ros2Config& config, const std::string& name) {
+  if (name.starts_with('/')) return name;
+  const std::string outer = full_namespace(config);
+  return (outer == "/" ? outer : outer + "/") + name;
+}
+
+}  // namespace
+
+std::string full_namespace(const Ros2Config& config) {
+  return (config.ros_namespace.starts_with('/') ? "" : "/") + config.ros_namespace;
+}
+
+std::string full_node_name(const Ros2Config& config) { return below(config, kNodeName); }
+
+std::string dds_topic(const Ros2Config& config, const std::string& name) {
+  return "rt" + below(config, name);
+}
+
+std::string dds_type(std::string_view ros_type) {
+  const auto infix = ros_type.find(kInfix);
+  return std::string(ros_type.substr(0, infix)) +
+         "::msg::dds_::" + std::string(ros_type.substr(infix + kInfix.size())) + "_";
+}
+
+std::string user_data(std::string_view ros_type) {
+  const auto* const found =
+      std::ranges::find(kTypeHashes, ros_type, [](const auto& entry) { return entry.first; });
+  if (found == kTypeHashes.end()) throw std::out_of_range("no hash of " + std::string(ros_type));
+  return "typehash=" + std::string(found->second) + ";";
+}
+
+std::uint64_t session_of(const dds::WriterId& writer) {
+  std::uint64_t hash = 14695981039346656037U;  // FNV-1a
+  for (const std::uint8_t byte : writer) hash = (hash ^ byte) * 1099511628211U;
+  return std::max<std::uint64_t>(hash, 1);
+}
+
+}  // namespace laneloom::ros2

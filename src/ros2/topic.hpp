@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "dds/topic_traits.hpp"
+#include "ros2/names.hpp"
+
+namespace laneloom::ros2 {
+
+/// The topic `name` of a node, of a type that ROS knows by `ros_type`, and whose samples are as `Type`
+/// supports them.
+template <class Type>
+dds::TopicDescription topic(const std::string& name, std::string_view ros_type, dds::TopicKind kind) {
+  auto* type = new Type;
+  type->setName(dds_type(ros_type).c_str());
+  // ROS announces no description of its types either.
+  type->auto_fill_type_object(false);
+  type->auto_fill_type_information(false);
+  return {name, kind, eprosima::fastdds::dds::TypeSupport(type), user_data(ros_type)};
+}
+
+}  // namespace laneloom::ros2
