@@ -31,4 +31,10 @@ eprosima::fastdds::dds::DataReaderQos reader_qos(
 /// writer.
 std::vector<eprosima::fastdds::dds::ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind);
 
+/// Announces these bytes with a participant or an endpoint.
+template <class Qos>
+void set_user_data(const std::string& bytes, Qos& qos) {
+  qos.user_data().data_vec({bytes.begin(), bytes.end()});
+}
+
 }  // namespace laneloom::dds

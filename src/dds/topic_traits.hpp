@@ -69,10 +69,4 @@ TopicDescription topic_of() {
   return {TopicTraits<T>::kName, TopicTraits<T>::kKind, eprosima::fastdds::dds::TypeSupport(new Type), {}};
 }
 
-/// An endpoint's user data of these bytes.
-template <class Qos>
-void set_user_data(const std::string& bytes, Qos& qos) {
-  qos.user_data().data_vec({bytes.begin(), bytes.end()});
-}
-
 }  // namespace laneloom::dds
