@@ -36,4 +36,15 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "IDL of the topics, and readers and writers of them for C++.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfastcdr-dev, libfastrtps-dev")
 
+# Each package has its licence and its history, where Debian looks for them.
+set(changelog ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
+find_program(GZIP gzip REQUIRED)
+execute_process(COMMAND ${GZIP} -9n INPUT_FILE ${control}/changelog OUTPUT_FILE ${changelog} COMMAND_ERROR_IS_FATAL ANY)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${control}/changelog)
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+  string(TOUPPER ${component} name)
+  install(FILES ${control}/copyright ${changelog}
+          DESTINATION share/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME} COMPONENT ${component})
+endforeach()
+
 include(CPack)
