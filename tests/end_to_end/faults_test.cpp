@@ -5,8 +5,8 @@
 
 #include "faults.hpp"
 
-// What the planner sees of wrong, late and missing messages, and which counter tells; README, "When things go
-// wrong".
+// What the planner sees of wrong, late and missing messages, and which counter tells; deploy/README.md,
+// "When things go wrong".
 namespace laneloom {
 namespace {
 

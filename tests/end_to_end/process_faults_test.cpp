@@ -8,8 +8,8 @@
 
 #include "faults.hpp"
 
-// What the planner sees of processes that are killed, hang or are there twice; README, "When things go
-// wrong".
+// What the planner sees of processes that are killed, hang or are there twice; deploy/README.md,
+// "When things go wrong".
 namespace laneloom {
 namespace {
 

@@ -6,7 +6,7 @@
 #include "faults.hpp"
 #include "temporary_folder.hpp"
 
-// A service whose files lie where it may not write; README, "When things go wrong".
+// A service whose files lie where it may not write; deploy/README.md, "When things go wrong".
 namespace laneloom {
 namespace {
 

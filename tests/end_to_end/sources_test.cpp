@@ -7,8 +7,7 @@
 
 #include "faults.hpp"
 
-// Several cameras, frames that come late, and frames that are far too heavy; README, "Connect your perception
-// and planner".
+// Several cameras, frames that come late, and frames that are far too heavy; idl/README.md, "Detections".
 namespace laneloom {
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "faults.hpp"
 
-// What a service that was killed goes on with; README, "When things go wrong".
+// What a service that was killed goes on with; deploy/README.md, "After a crash".
 namespace laneloom {
 namespace {
 

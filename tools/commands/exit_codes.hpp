@@ -4,7 +4,7 @@
 
 namespace laneloom {
 
-/// What `laneloom` ends with, whatever the command; README.md has the same table.
+/// What `laneloom` ends with, whatever the command; tools/README.md has the same table.
 enum ExitCode : int {
   kDone = 0,
   kFailed = 1,            ///< the command could not do its work: a file, DDS, memory

@@ -94,7 +94,7 @@ Findings qos_findings(const Observed& seen) {
                        "A writer and a reader only match if the writer offers at least what the reader asks "
                        "for; else nothing is sent. Their listeners may be told, but nobody else.",
                        "Let the reader ask for less, or the writer offer more. The service's own QoS is in "
-                       "the README's table of topics."});
+                       "the table of topics of idl/README.md."});
     }
   }
   return found;

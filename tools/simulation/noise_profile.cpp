@@ -5,10 +5,11 @@
 namespace laneloom {
 namespace {
 
-// Missed shares, ghost rates, error factors and flutter come from `laneloom-lab calibrate` (README), which
-// fits them to the paper's MapTR rows. The rest was chosen after what real networks were seen to do: lateral
-// errors of median and 90 % 0.09 and 0.43 m at 0-10 m, 0.13 and 0.65 m at 10-20 m, 0.16 and 0.86 m at 20-30
-// m, that last as long as a line is seen; ends that swing, near-duplicates, swapped classes.
+// Missed shares, ghost rates, error factors and flutter come from `laneloom-lab calibrate`, which fits them
+// to the paper's MapTR rows (tools/evaluation/README.md). The rest was chosen after what real networks were
+// seen to do: lateral errors of median and 90 % 0.09 and 0.43 m at 0-10 m, 0.13 and 0.65 m at 10-20 m, 0.16
+// and 0.86 m at 20-30 m, that last as long as a line is seen; ends that swing, near-duplicates, swapped
+// classes.
 NoiseProfile inhouse() {
   return {.name = "inhouse",
           .offset_stddev_m = 0.12,
