@@ -102,9 +102,13 @@ struct LinkageConfig {
   double min_turn_radius_m = 3.0;
 };
 
+/// Of the road, that traffic keeps to.
+enum class DrivingSide : std::uint8_t { right, left, unknown };
+inline constexpr const char* kDrivingSides = "right|left|unknown";
+
 /// Which way the traffic of a lane runs. Ours.
 struct DirectionConfig {
-  std::string driving_side = "right";  ///< of the road: right, left, or unknown
+  DrivingSide driving_side = DrivingSide::right;
 };
 
 /// Which lanes a stopline ends. Ours.
@@ -146,8 +150,14 @@ struct FusionConfig {
   double merge_distance_m = 1.0;  ///< lines closer than this that are not seen together are one
 };
 
+enum class FusionMethod : std::uint8_t {
+  lines,  ///< ours
+  voxels  ///< the paper's
+};
+inline constexpr const char* kFusionMethods = "lines|voxels";
+
 struct MapperConfig {
-  std::string method = "lines";  ///< lines: ours; voxels: the paper's
+  FusionMethod method = FusionMethod::lines;
   RangeConfig range;
   PreprocessConfig preprocess;
   VoxelMapConfig voxel_map;

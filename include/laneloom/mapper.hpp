@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,40 +7,12 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/sd_map.hpp"
+#include "laneloom/stages.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom {
 
 struct MapperState;
-
-/// The stages of one update, in order. Of those between preprocess and polylines, only the configured
-/// method's run.
-enum class Stage : std::uint8_t {
-  preprocess,
-  voxel_update,
-  reliable_voxels,
-  clustering,
-  local_range,
-  association,
-  line_update,
-  line_set,
-  polylines,
-  lane_boundaries,
-  road_sections,
-  lanes,
-  linkages
-};
-inline constexpr std::size_t kStageCount = 13;
-const char* name(Stage stage);
-
-/// Told of every update's begin and of its stages' ends. Whoever implements it owns the clock; the mapper has
-/// none.
-class StageObserver {
- public:
-  virtual ~StageObserver() = default;
-  virtual void update_begins() = 0;
-  virtual void stage_done(Stage stage) = 0;
-};
 
 /// Fuses detections over time into the local lane map (paper, Sec. III).
 ///

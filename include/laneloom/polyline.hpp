@@ -47,7 +47,7 @@ class MeasuredPolyline {
   /// `within_m`, `distance_m` is infinite and the foot not `inside`.
   Projection project(const Point& point, double within_m = std::numeric_limits<double>::infinity()) const;
   /// The stretch between two arc lengths (from < to, both clamped), with its inner vertices.
-  Polyline slice(const Range& range) const;
+  Polyline slice(const Stretch& range) const;
   /// Points every `step_m` (slightly less, so that both ends are met), at least two.
   Polyline resample(double step_m) const;
 
@@ -71,9 +71,9 @@ class MeasuredPolyline {
   std::vector<Eigen::AlignedBox2d> blocks_;  ///< bounds of a few segments each, where the line turns far
 };
 
-/// Horizontal direction in which `line` leaves its end (`at_back`) or its start, over its last `reach_m`.
-/// Unit length; zero for a line without horizontal extent.
-Eigen::Vector2d end_direction(const Polyline& line, bool at_back, double reach_m = 3.0);
+/// Horizontal direction in which `line` is left at one of its ends, over its last `reach_m`. Unit length;
+/// zero for a line without horizontal extent.
+Eigen::Vector2d end_direction(const Polyline& line, End end, double reach_m = 3.0);
 
 /// Whether two polylines have a point in common, seen from above, at most `max_height_m` over one another.
 /// Stretches that run within one another in parallel do not count.

@@ -22,6 +22,18 @@ using Polyline = std::vector<Point>;
 using ElementId = std::uint64_t;
 inline constexpr ElementId kNoElement = 0;
 
+/// Of something that has a direction: a lane, a line.
+enum class Side : std::uint8_t { left, right };
+inline constexpr std::array kSides{Side::left, Side::right};
+constexpr Side opposite(Side side) { return side == Side::left ? Side::right : Side::left; }
+/// The same side, as what runs the other way has it.
+constexpr Side as_seen(Side side, bool reversed) { return reversed ? opposite(side) : side; }
+
+/// Of a polyline: at its first point, at its last one.
+enum class End : std::uint8_t { front, back };
+inline constexpr std::array kEnds{End::front, End::back};
+constexpr End opposite(End end) { return end == End::front ? End::back : End::front; }
+
 enum class MarkingType : std::uint8_t { laneline, roadedge, stopline };
 inline constexpr std::size_t kMarkingTypeCount = 3;
 inline constexpr std::array<MarkingType, kMarkingTypeCount> kMarkingTypes{
@@ -32,6 +44,8 @@ inline constexpr std::size_t kMarkingStyleCount = 3;
 
 constexpr std::size_t index(MarkingType type) { return static_cast<std::size_t>(type); }
 constexpr std::size_t index(MarkingStyle style) { return static_cast<std::size_t>(style); }
+constexpr std::size_t index(Side side) { return static_cast<std::size_t>(side); }
+constexpr std::size_t index(End end) { return static_cast<std::size_t>(end); }
 
 /// One polyline that the network saw in one frame (paper, eq. 1).
 struct Detection {
@@ -69,7 +83,7 @@ inline Eigen::Isometry3d transform(const VehiclePose& pose) {
 }
 
 /// A stretch of a polyline, by arc length from its first point.
-struct Range {
+struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;
   double length() const { return to_m - from_m; }
@@ -82,7 +96,7 @@ enum class ElementStatus : std::uint8_t {
 };
 
 struct StyleRange {
-  Range range;
+  Stretch range;
   MarkingStyle style = MarkingStyle::unknown;
 };
 
@@ -111,8 +125,8 @@ struct Marking {
 /// A lane on the other side of a boundary, along a stretch. Each of two neighbours names the other.
 struct Neighbour {
   ElementId lane = kNoElement;
-  Range range;                   ///< on the centerline of the lane that names it
-  std::vector<Range> crossable;  ///< within the range: where the line between the two is dashed
+  Stretch range;                   ///< on the centerline of the lane that names it
+  std::vector<Stretch> crossable;  ///< within the range: where the line between the two is dashed
 };
 
 /// A lane between two boundaries (paper, Sec. III-D).
@@ -121,8 +135,8 @@ struct Lane {
   ElementId id = kNoElement;
   ElementId left_boundary = kNoElement;
   ElementId right_boundary = kNoElement;
-  Range left_range;            ///< on the left boundary
-  Range right_range;           ///< on the right boundary
+  Stretch left_range;          ///< on the left boundary
+  Stretch right_range;         ///< on the right boundary
   bool left_reversed = false;  ///< the left boundary runs against the lane; not published
   bool right_reversed = false;
   Polyline left, right, centerline;        ///< map frame, all in the same direction
@@ -132,8 +146,8 @@ struct Lane {
   Direction direction = Direction::unknown;
   std::uint32_t section = 0;  ///< lanes of one road section share it, within one map
   ElementStatus status = ElementStatus::confirmed;
-  double existence_probability = -1.0;  ///< 0..1; -1: not estimated
-  std::vector<Range> inferred_ranges;   ///< stretches of the centerline beside what was not seen
+  double existence_probability = -1.0;   ///< 0..1; -1: not estimated
+  std::vector<Stretch> inferred_ranges;  ///< stretches of the centerline beside what was not seen
 };
 
 struct Stopline {

@@ -8,12 +8,12 @@ namespace {
 using dds::from_msg;  // beside the overloads here
 using dds::to_msg;
 
-std::vector<msg::Range> to_msg(const std::vector<laneloom::Range>& from) {
-  return convert_all<msg::Range>(from, [](const laneloom::Range& range) { return to_msg(range); });
+std::vector<msg::Range> to_msg(const std::vector<laneloom::Stretch>& from) {
+  return convert_all<msg::Range>(from, [](const laneloom::Stretch& range) { return to_msg(range); });
 }
 
-std::vector<laneloom::Range> from_msg(const std::vector<msg::Range>& from, Intake& intake) {
-  return convert_all<laneloom::Range>(from, [&](const msg::Range& range) { return intake.range(range); });
+std::vector<laneloom::Stretch> from_msg(const std::vector<msg::Range>& from, Intake& intake) {
+  return convert_all<laneloom::Stretch>(from, [&](const msg::Range& range) { return intake.range(range); });
 }
 
 std::vector<msg::Neighbour> to_msg(const std::vector<Neighbour>& from) {

@@ -47,7 +47,7 @@ std::vector<msg::Point> to_msg(const Polyline& from) {
   return convert_all<msg::Point>(from, [](const Point& p) { return to_msg(p); });
 }
 
-msg::Range to_msg(const laneloom::Range& from) {
+msg::Range to_msg(const laneloom::Stretch& from) {
   msg::Range to;
   to.from_m(from.from_m);
   to.to_m(from.to_m);

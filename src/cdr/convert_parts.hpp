@@ -12,7 +12,7 @@ namespace laneloom::dds {
 
 msg::Point to_msg(const Point& from);
 std::vector<msg::Point> to_msg(const Polyline& from);
-msg::Range to_msg(const laneloom::Range& from);
+msg::Range to_msg(const laneloom::Stretch& from);
 msg::Pose pose_to_msg(const Point& position, const Eigen::Quaterniond& orientation);
 msg::Header header_to_msg(std::int64_t stamp_ns, std::uint64_t sequence, std::uint64_t session_id,
                           const std::string& frame_id);

@@ -38,7 +38,7 @@ class Intake {
   Polyline polyline(const std::vector<msg::Point>& from);
   /// Normalised; refused when it is far from unit length.
   Eigen::Quaterniond rotation(const msg::Quaternion& from);
-  laneloom::Range range(const msg::Range& from) { return {number(from.from_m()), number(from.to_m())}; }
+  laneloom::Stretch range(const msg::Range& from) { return {number(from.from_m()), number(from.to_m())}; }
 
   void refuse(std::string_view reason) {
     if (refusal_.empty()) refusal_ = reason;

@@ -58,6 +58,8 @@ class Parser {
   void flag(const char* key, bool& value) { read(key, value, "true or false"); }
   void choice(const char* key, std::string& value, const char* choices) {
     read(key, value, std::string("one of ") + choices);
+    if (!is_choice(choices, value))
+      fail(line_at(key), prefix_ + key, "\"" + value + "\" is none of " + choices);
   }
   void identifier(const char* key, std::string& value) { read(key, value, "a name"); }
   void path(const char* key, std::string& value) { read(key, value, "a text"); }
@@ -72,6 +74,12 @@ class Parser {
  private:
   [[noreturn]] static void fail(int line, const std::string& key, const std::string& what) {
     throw LocatedProblem{line, {key.ends_with('.') ? key.substr(0, key.size() - 1) : key, what}};
+  }
+
+  /// 0: the key is missing.
+  int line_at(const std::string& key) const {
+    const auto line = lines_.find(prefix_ + key);
+    return line == lines_.end() ? 0 : line->second;
   }
 
   /// Undefined where the key is missing.

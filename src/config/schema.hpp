@@ -1,10 +1,13 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
 #include "laneloom/config.hpp"
+#include "text.hpp"
 
 /// Every key with its unit and its valid range. One table per struct; whatever reads, checks, or writes a
 /// configuration is a visitor of these tables. The structured bindings make a member that is missing here an
@@ -14,13 +17,22 @@
 ///   section(key, config)                     another table
 ///   number(key, value, unit, min, max)       double or int
 ///   flag(key, value)                         bool
-///   choice(key, value, choices)              string; the choices are separated by '|'
+///   choice(key, value, choices)              string, one of the choices, which are separated by '|'
 ///   identifier(key, value)                   string of 1 to 64 letters, digits, '_', '-', '.', '/'
 ///   path(key, value)                         any string
 namespace laneloom::config {
 
 template <class C, class T>
 concept Is = std::same_as<std::remove_const_t<C>, T>;
+
+/// An enum, as a choice among the names of its values, in the order of their numbers.
+template <class Enum>
+requires std::is_enum_v<std::remove_const_t<Enum>>
+void choice(auto& v, const char* key, Enum& value, const char* choices) {
+  std::string text = choice_at(choices, static_cast<std::size_t>(value));
+  v.choice(key, text, choices);
+  if constexpr (!std::is_const_v<Enum>) value = static_cast<Enum>(choice_index(choices, text));
+}
 
 void visit(auto& v, Is<RangeConfig> auto& c) {
   auto& [forward_min_m, forward_max_m, side_max_m, margin_forward_m, margin_side_m] = c;
@@ -146,7 +158,7 @@ void visit(auto& v, Is<LinkageConfig> auto& c) {
 
 void visit(auto& v, Is<DirectionConfig> auto& c) {
   auto& [driving_side] = c;
-  v.choice("driving_side", driving_side, "right|left|unknown");
+  choice(v, "driving_side", driving_side, kDrivingSides);
 }
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {
@@ -158,7 +170,7 @@ void visit(auto& v, Is<StoplineConfig> auto& c) {
 void visit(auto& v, Is<MapperConfig> auto& c) {
   auto& [method, range, preprocess, voxel_map, clustering, polyline, fusion, style, boundary, section, lane,
          linkage, direction, stopline] = c;
-  v.choice("method", method, "lines|voxels");
+  choice(v, "method", method, kFusionMethods);
   v.section("range", range);
   v.section("preprocess", preprocess);
   v.section("voxel_map", voxel_map);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace laneloom::config {
 
@@ -14,5 +17,27 @@ inline std::string to_text(double value) {
 }
 
 inline std::string range_text(double min, double max) { return to_text(min) + " .. " + to_text(max); }
+
+/// The text at a position among those that '|' separates; empty beyond the last one.
+inline std::string choice_at(std::string_view choices, std::size_t index) {
+  for (; index > 0; --index) {
+    const auto bar = choices.find('|');
+    if (bar == std::string_view::npos) return "";
+    choices.remove_prefix(bar + 1);
+  }
+  return std::string(choices.substr(0, choices.find('|')));
+}
+
+/// Where a text stands among those that '|' separates; their number where it is none of them.
+inline std::size_t choice_index(std::string_view choices, std::string_view text) {
+  const auto count = static_cast<std::size_t>(std::ranges::count(choices, '|')) + 1;
+  for (std::size_t index = 0; index < count; ++index)
+    if (choice_at(choices, index) == text) return index;
+  return count;
+}
+
+inline bool is_choice(std::string_view choices, std::string_view text) {
+  return choice_index(choices, text) <= static_cast<std::size_t>(std::ranges::count(choices, '|'));
+}
 
 }  // namespace laneloom::config

@@ -26,10 +26,7 @@ class RangeCheck {
   }
   void flag(const char* /*key*/, bool /*value*/) {}
   void choice(const char* key, const std::string& value, const char* choices) {
-    const std::string all = "|" + std::string(choices) + "|";
-    const bool known =
-        value.find('|') == std::string::npos && all.find("|" + value + "|") != std::string::npos;
-    if (!known) report(key, "\"" + value + "\" is none of " + choices);
+    if (!is_choice(choices, value)) report(key, "\"" + value + "\" is none of " + choices);
   }
   void identifier(const char* key, const std::string& value) {
     // '*' and '?' would be wildcards in the name of a DDS partition.
@@ -68,7 +65,7 @@ std::optional<Problem> find_too_many_points(const MapperConfig& mapper) {
   const std::string what =
       "must exceed " + to_text(least_m) + " m at this range, or messages cannot hold the lines";
   if (mapper.lane.step_m <= least_m) return Problem{"mapper.lane.step_m", what};
-  if (mapper.method == "lines" && mapper.fusion.station_spacing_m <= least_m) {
+  if (mapper.method == FusionMethod::lines && mapper.fusion.station_spacing_m <= least_m) {
     return Problem{"mapper.fusion.station_spacing_m", what};
   }
   return std::nullopt;

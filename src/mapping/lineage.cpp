@@ -32,7 +32,7 @@ std::set<ElementId> elements(const Membership& membership) {
 
 }  // namespace
 
-Membership membership(const std::vector<LaneBoundary>& boundaries, const std::vector<Stopline>& stoplines) {
+Membership membership(const Boundaries& boundaries, const std::vector<Stopline>& stoplines) {
   Membership result;
   for (const LaneBoundary& boundary : boundaries) {
     for (const ElementId member : boundary.members) result.emplace_back(member, boundary.marking.id);

@@ -13,7 +13,7 @@ namespace laneloom {
 using Membership = std::vector<std::pair<ElementId, ElementId>>;
 
 /// Boundaries with their members, and stoplines, each of which is its own.
-Membership membership(const std::vector<LaneBoundary>& boundaries, const std::vector<Stopline>& stoplines);
+Membership membership(const Boundaries& boundaries, const std::vector<Stopline>& stoplines);
 
 /// What happened to the published ids from one map to the next, by ascending id. `relatives` are of the lines
 /// that came or went in between.

@@ -1,48 +1,66 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <stdexcept>
+#include <utility>
+#include <variant>
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/lanes/inferred_boundaries.hpp"
-#include "mapping/lanes/lane_identity.hpp"
+#include "mapping/lanes/lane_memory.hpp"
 #include "mapping/lineage.hpp"
-#include "mapping/lines/frame_alignment.hpp"
-#include "mapping/lines/line_map.hpp"
-#include "mapping/lines/networks.hpp"
-#include "mapping/markings/pair_history.hpp"
+#include "mapping/lines/line_mapper.hpp"
+#include "mapping/markings/id_source.hpp"
 #include "mapping/topology/ego_track.hpp"
-#include "mapping/voxels/co_observation.hpp"
-#include "mapping/voxels/instances.hpp"
-#include "mapping/voxels/voxel_map.hpp"
+#include "mapping/voxels/voxel_mapper.hpp"
 
 namespace laneloom {
 
+/// What markings are fused by: one method for a mapper's life.
+class Fusion {
+ public:
+  explicit Fusion(const MapperConfig& config) {
+    if (config.method == FusionMethod::voxels) method_.emplace<VoxelMapper>(config.voxel_map);
+  }
+
+  FusedMarkings update(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
+                       IdSource& ids, const StageLog& log) {
+    return std::visit([&](auto& method) { return method.fuse(observed, scene, config, ids, log); }, method_);
+  }
+
+  /// Null: the method is the other one.
+  const LineMapper* lines() const { return std::get_if<LineMapper>(&method_); }
+  LineMapper* lines() { return std::get_if<LineMapper>(&method_); }
+  const VoxelMapper* voxels() const { return std::get_if<VoxelMapper>(&method_); }
+
+  /// Throws std::runtime_error where the archive holds the other method.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    auto index = static_cast<std::uint8_t>(method_.index());
+    archive(index);
+    if (index != method_.index()) throw std::runtime_error("of another method of fusion");
+    std::visit([&](auto& method) { archive(method); }, method_);
+  }
+
+ private:
+  std::variant<LineMapper, VoxelMapper> method_;
+};
+
 /// Everything that a mapper knows: a value without pointers, to be copied, saved and loaded.
 struct MapperState {
-  explicit MapperState(const VoxelMapConfig& config) : voxels(config) {}
+  explicit MapperState(const MapperConfig& config) : fusion(config) {}
 
   std::uint64_t frame = 0;  ///< how many were fused
-  VoxelMap voxels;
-  CoObservation co_observation;
-  Instances instances;
-  std::vector<Line> lines;
-  PairHistories doubles;  ///< of lines that lie side by side
-  PairHistories joints;   ///< of ends of lines that lie near each other
-  FrameError lasting_error = FrameError::Zero();
-  Networks networks;  ///< what was learned of the sources
-  std::vector<KnownInferred> known_inferred;
-  std::vector<KnownLane> known_lanes;
+  Fusion fusion;
+  LaneMemory lane_memory;
   EgoTrack ego_track;
-  Membership published;   ///< of the last map
-  ElementId next_id = 1;  ///< never used before
-  LocalMap map;           ///< the last one
+  Membership published;  ///< of the last map
+  IdSource ids;
+  LocalMap map;  ///< the last one
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, voxels, co_observation, instances, lines, doubles, joints, lasting_error, networks,
-            known_inferred, known_lanes, ego_track, published, next_id, map);
+    archive(frame, fusion, lane_memory, ego_track, published, ids, map);
   }
 };
 

@@ -87,8 +87,7 @@ void Service::resume() {
   std::error_code unknown;
   if (!std::filesystem::exists(file, unknown) && !unknown) return;
   try {
-    auto snapshot =
-        read_snapshot(file, snapshot_stamp(), config_.service.snapshot_max_age_s, config_.mapper.voxel_map);
+    auto snapshot = read_snapshot(file, snapshot_stamp(), config_.service.snapshot_max_age_s, config_.mapper);
     session_.resume(snapshot.checkpoint, std::move(snapshot.state));
     map_id_ = snapshot.map_id;
     counters_.add("snapshots_resumed");

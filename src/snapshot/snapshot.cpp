@@ -29,7 +29,7 @@ namespace laneloom {
 // The structured bindings make a member that is forgotten here an error of the compiler.
 
 template <class Archive>
-void serialize(Archive& archive, Range& range) {
+void serialize(Archive& archive, Stretch& range) {
   auto& [from_m, to_m] = range;
   archive(from_m, to_m);
 }
@@ -90,7 +90,7 @@ void serialize(Archive& archive, LocalMap& map) {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x35'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x36'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 
@@ -101,7 +101,7 @@ std::string to_bytes(const MapperState& state) {
   return std::move(out).str();
 }
 
-MapperState from_bytes(const std::string& bytes, const VoxelMapConfig& config) {
+MapperState from_bytes(const std::string& bytes, const MapperConfig& config) {
   std::istringstream in(bytes);
   cereal::PortableBinaryInputArchive archive(in);
   std::uint64_t magic = 0;

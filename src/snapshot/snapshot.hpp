@@ -12,6 +12,6 @@ std::string to_bytes(const MapperState& state);
 
 /// The state that to_bytes() was given, for a mapper of the same configuration.
 /// Throws std::runtime_error where the bytes end too early or are none of ours.
-MapperState from_bytes(const std::string& bytes, const VoxelMapConfig& config);
+MapperState from_bytes(const std::string& bytes, const MapperConfig& config);
 
 }  // namespace laneloom

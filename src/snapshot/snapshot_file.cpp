@@ -53,7 +53,7 @@ void write_snapshot(const std::string& file, const Snapshot& snapshot) {
 }
 
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
-                       const VoxelMapConfig& config) {
+                       const MapperConfig& config) {
   const std::string bytes = read_private_file(file);
   // Lengths are only believed in what is as it was written.
   if (bytes.size() < kDigestBytes || digest(std::string_view(bytes).substr(kDigestBytes)) !=

@@ -30,6 +30,6 @@ void write_snapshot(const std::string& file, const Snapshot& snapshot);
 /// The snapshot, if its file is one of this user's or root's, undamaged, of the same maker as `now`, and by
 /// both clocks at most `max_age_s` older. Throws std::runtime_error that says why it is refused.
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
-                       const VoxelMapConfig& config);
+                       const MapperConfig& config);
 
 }  // namespace laneloom

@@ -179,7 +179,7 @@ TEST(SetValue, ChangesOneValueOfAny) {
   set_value(config, "mapper.method=voxels");
   set_value(config, "dds.vehicle_id=car7");
   EXPECT_EQ(config.mapper.range.side_max_m, 20.5);
-  EXPECT_EQ(config.mapper.method, "voxels");
+  EXPECT_EQ(config.mapper.method, FusionMethod::voxels);
   EXPECT_EQ(config.dds.vehicle_id, "car7");
   EXPECT_EQ(config.mapper.range.forward_max_m, Config{}.mapper.range.forward_max_m);
 }
@@ -270,14 +270,14 @@ TEST(ShippedFiles, PaperYamlPinsThePapersParameters) {
 
 TEST(ShippedFiles, PaperYamlHasNothingBeyondThePaper) {
   const MapperConfig mapper = load_config(kConfigDir / "paper.yaml").mapper;
-  EXPECT_EQ(mapper.method, "voxels");
+  EXPECT_EQ(mapper.method, FusionMethod::voxels);
   EXPECT_EQ(mapper.lane.max_kerb_width_m, mapper.lane.max_width_m);
   EXPECT_EQ(mapper.lane.max_shoulder_width_m, 0.0);
   EXPECT_EQ(mapper.lane.min_divided_width_m, 0.0);
   EXPECT_EQ(mapper.lane.assumed_width_m, 0.0);
   EXPECT_EQ(mapper.linkage.max_crossing_gap_m, 0.0);
   EXPECT_EQ(mapper.linkage.max_turn_gap_m, 0.0);
-  EXPECT_EQ(mapper.direction.driving_side, "unknown");
+  EXPECT_EQ(mapper.direction.driving_side, DrivingSide::unknown);
 }
 
 }  // namespace

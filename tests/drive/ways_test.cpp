@@ -78,7 +78,7 @@ TEST(Ways, OncomingTrafficIsKnownByTheDirection) {
 }
 
 /// Lane 1 narrows to 2.5 m and ends at x = 40; lane 2 on its left goes on.
-LocalMap ending_lane(std::vector<Range> crossable) {
+LocalMap ending_lane(std::vector<Stretch> crossable) {
   LocalMap map;
   map.lanes = {lane_of(1, straight_line({0, 0, 0}, {40, 0, 0})),
                lane_of(2, straight_line({0, 3.5, 0}, {80, 3.5, 0}))};
@@ -97,7 +97,7 @@ TEST(Ways, ALaneThatEndsLeadsToTheOneBeside) {
 }
 
 TEST(Ways, NoneIsChangedToAcrossASolidLineNorWhereOnlyTheViewEnds) {
-  for (const auto& crossable : {std::vector<Range>{}, std::vector<Range>{{0.0, 10.0}}}) {
+  for (const auto& crossable : {std::vector<Stretch>{}, std::vector<Stretch>{{0.0, 10.0}}}) {
     const LocalMap solid = ending_lane(crossable);
     EXPECT_EQ(beside(solid, {solid.lanes.data(), false}).lane, nullptr);
   }

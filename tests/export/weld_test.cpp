@@ -122,7 +122,7 @@ LocalMap three_lanes() {
     map.boundaries.push_back(
         {.id = id, .points = {{0, y, 0}, {40, y, 0}}, .styles = {{{0, 40}, MarkingStyle::dashed}}});
   }
-  const auto add = [&](ElementId id, ElementId left, const Range& range) {
+  const auto add = [&](ElementId id, ElementId left, const Stretch& range) {
     const double y = 3.5 * (2.0 - static_cast<double>(left));
     const auto line = [&](double at) { return Polyline{{range.from_m, at, 0}, {range.to_m, at, 0}}; };
     map.lanes.push_back({.id = id,

@@ -63,7 +63,7 @@ DetectionFrame frame(Values& values, std::int64_t stamp_ns) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Values values(data, size);
   Config config;
-  config.mapper.method = values.next<std::uint8_t>() % 2 == 0 ? "lines" : "voxels";
+  config.mapper.method = values.next<std::uint8_t>() % 2 == 0 ? FusionMethod::lines : FusionMethod::voxels;
   config.mapper.voxel_map.min_detections = 1;
   MappingSession session(config);
   std::int64_t stamp_ns = 1'000'000'000;

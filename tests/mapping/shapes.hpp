@@ -7,6 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/geometry/scene.hpp"
 #include "mapping/lines/line_map.hpp"
 
 /// Lines and frames with known geometry.
@@ -53,12 +54,6 @@ inline Line line(ElementId id, const Polyline& points, MarkingType type = Markin
   return result;
 }
 
-inline std::vector<MeasuredPolyline> measure(const std::vector<LaneBoundary>& boundaries) {
-  std::vector<MeasuredPolyline> measured;
-  for (const LaneBoundary& b : boundaries) measured.emplace_back(b.marking.points);
-  return measured;
-}
-
 /// The largest distance of the vertices of `line` from `truth`.
 inline double max_distance(const Polyline& line, const Polyline& truth) {
   const MeasuredPolyline measured(truth);
@@ -69,6 +64,11 @@ inline double max_distance(const Polyline& line, const Polyline& truth) {
 
 inline Eigen::Isometry3d at(double x, double y = 0.0, double yaw_rad = 0.0) {
   return Eigen::Translation3d(x, y, 0.0) * Eigen::AngleAxisd(yaw_rad, Point::UnitZ());
+}
+
+/// About a vehicle at the origin; the stamp is the number of the frame.
+inline Scene scene(std::uint64_t frame) {
+  return {.box = MapBox({}, at(0)), .stamp_ns = static_cast<std::int64_t>(frame), .frame = frame};
 }
 
 }  // namespace laneloom::test

@@ -52,7 +52,7 @@ class Directions : public ::testing::TestWithParam<Drive> {};
 TEST_P(Directions, AreToldAndRightAndStayKnown) {
   const Road& road = GetParam().road;
   MapperConfig config;
-  config.direction.driving_side = road.right_hand_traffic ? "right" : "left";
+  config.direction.driving_side = road.right_hand_traffic ? DrivingSide::right : DrivingSide::left;
   Mapper mapper(config);
   Perception perception(road, noise_profile("none"), SensorView{}, 1);
   MapEvaluation evaluation(road, config.range, Subject::maps);

@@ -45,7 +45,7 @@ TEST_P(NoLaneInAGore, IsPublished) {
         truth, [&](const MeasuredPolyline& lane) { return lane.project(point).distance_m < kOnLane_m; });
   };
   MapperConfig config;
-  config.direction.driving_side = road.right_hand_traffic ? "right" : "left";
+  config.direction.driving_side = road.right_hand_traffic ? DrivingSide::right : DrivingSide::left;
   Mapper mapper(config);
   Perception perception(road, noise_profile("none"), SensorView{}, 1);
   std::size_t lanes_beside_gore = 0;

@@ -56,7 +56,7 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
  protected:
   static MapperConfig with_method(const std::string& method) {
     MapperConfig config;
-    config.method = method;
+    config.method = method == "voxels" ? FusionMethod::voxels : FusionMethod::lines;
     return config;
   }
 

@@ -13,12 +13,13 @@ namespace {
 struct Noisy {
   const char* scenario;
   const char* noise;
-  const char* method;
+  FusionMethod method;
   std::uint64_t seed;
 };
 
 void PrintTo(const Noisy& noisy, std::ostream* out) {
-  *out << noisy.scenario << " " << noisy.noise << " " << noisy.method << " " << noisy.seed;
+  *out << noisy.scenario << " " << noisy.noise << " "
+       << (noisy.method == FusionMethod::lines ? "lines" : "voxels") << " " << noisy.seed;
 }
 
 class NoisyContract : public ::testing::TestWithParam<Noisy> {};
@@ -43,14 +44,19 @@ TEST_P(NoisyContract, IsKept) {
   EXPECT_GT(lanes, 50U);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Drives, NoisyContract,
-    ::testing::Values(Noisy{"town", "inhouse", "voxels", 1}, Noisy{"town", "inhouse", "lines", 2},
-                      Noisy{"town", "av2", "lines", 3}, Noisy{"town", "inhouse", "lines", 101},
-                      Noisy{"intersection", "inhouse", "lines", 4}, Noisy{"street", "inhouse", "lines", 7},
-                      Noisy{"country_road", "av2", "lines", 8}, Noisy{"motorway", "inhouse", "lines", 9},
-                      Noisy{"exit", "inhouse", "lines", 10}, Noisy{"entry", "av2", "lines", 11},
-                      Noisy{"curve", "av2", "lines", 5}, Noisy{"overpass", "inhouse", "voxels", 6}));
+INSTANTIATE_TEST_SUITE_P(Drives, NoisyContract,
+                         ::testing::Values(Noisy{"town", "inhouse", FusionMethod::voxels, 1},
+                                           Noisy{"town", "inhouse", FusionMethod::lines, 2},
+                                           Noisy{"town", "av2", FusionMethod::lines, 3},
+                                           Noisy{"town", "inhouse", FusionMethod::lines, 101},
+                                           Noisy{"intersection", "inhouse", FusionMethod::lines, 4},
+                                           Noisy{"street", "inhouse", FusionMethod::lines, 7},
+                                           Noisy{"country_road", "av2", FusionMethod::lines, 8},
+                                           Noisy{"motorway", "inhouse", FusionMethod::lines, 9},
+                                           Noisy{"exit", "inhouse", FusionMethod::lines, 10},
+                                           Noisy{"entry", "av2", FusionMethod::lines, 11},
+                                           Noisy{"curve", "av2", FusionMethod::lines, 5},
+                                           Noisy{"overpass", "inhouse", FusionMethod::voxels, 6}));
 
 }  // namespace
 }  // namespace laneloom

@@ -24,17 +24,15 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 class SnapshotFileTest : public ::testing::Test {
  protected:
   static Snapshot snapshot() {
-    Snapshot result{{"1.0 abc", 100 * kSecond, 500 * kSecond},
-                    77,
-                    {1, 2, 3, 4, {5, 6, 7}},
-                    MapperState(VoxelMapConfig{})};
+    Snapshot result{
+        {"1.0 abc", 100 * kSecond, 500 * kSecond}, 77, {1, 2, 3, 4, {5, 6, 7}}, MapperState(MapperConfig{})};
     result.state.next_id = 42;
     result.state.map.boundaries.push_back(Marking{.id = 7, .points = {{1, 2, 3}, {4, 5, 6}}});
     result.state.map.lanes.push_back(Lane{.id = 8, .left_reversed = true});
     result.state.map.lanes.push_back(Lane{.id = 9, .right_reversed = true});
     return result;
   }
-  Snapshot read(const SnapshotStamp& now) const { return read_snapshot(file_, now, 5.0, VoxelMapConfig{}); }
+  Snapshot read(const SnapshotStamp& now) const { return read_snapshot(file_, now, 5.0, MapperConfig{}); }
   /// Why it is not read; empty: it is.
   std::string refusal(const SnapshotStamp& now) const {
     try {

@@ -116,7 +116,7 @@ void map_to_json_line(benchmark::State& state) {
 }
 
 /// Those of the method's stages that its updates reach.
-void register_stages(const std::string& method) {
+void register_stages(FusionMethod method, const std::string& method_name) {
   MapperConfig config;
   config.method = method;
   class Reached : public StageObserver {
@@ -127,15 +127,16 @@ void register_stages(const std::string& method) {
   } reached;
   Mapper(config).update(DetectionFrame{}, Eigen::Isometry3d::Identity(), &reached);
   for (const Stage one : reached.stages)
-    benchmark::RegisterBenchmark((method + "/" + name(one)).c_str(), stage, one, config)->UseManualTime();
+    benchmark::RegisterBenchmark((method_name + "/" + name(one)).c_str(), stage, one, config)
+        ->UseManualTime();
 }
 
 }  // namespace
 }  // namespace laneloom
 
 int main(int argc, char** argv) {
-  laneloom::register_stages("lines");
-  laneloom::register_stages("voxels");
+  laneloom::register_stages(laneloom::FusionMethod::lines, "lines");
+  laneloom::register_stages(laneloom::FusionMethod::voxels, "voxels");
   benchmark::RegisterBenchmark("map_to_cdr", laneloom::map_to_cdr);
   benchmark::RegisterBenchmark("map_from_cdr", laneloom::map_from_cdr);
   benchmark::RegisterBenchmark("detections_from_cdr", laneloom::detections_from_cdr);

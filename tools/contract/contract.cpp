@@ -157,7 +157,7 @@ bool check_line(const Polyline& line, const std::string& what, Findings& finding
                           what + " has no length (" + std::to_string(line.size()) + " points)");
 }
 
-void check_range(const Range& range, double length_m, const std::string& what, Findings& findings) {
+void check_range(const Stretch& range, double length_m, const std::string& what, Findings& findings) {
   const auto [low_m, high_m] = std::minmax(range.from_m, range.to_m);
   // Written so that a NaN fails.
   findings.require(low_m >= -kRangeTolerance_m && high_m <= length_m + kRangeTolerance_m && high_m > low_m,

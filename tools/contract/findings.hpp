@@ -30,7 +30,7 @@ bool is_measurable(const Polyline& line);
 bool check_line(const Polyline& line, const std::string& what, Findings& findings);
 
 /// That `range` is a forward or backward stretch of a line of `length_m`.
-void check_range(const Range& range, double length_m, const std::string& what, Findings& findings);
+void check_range(const Stretch& range, double length_m, const std::string& what, Findings& findings);
 
 /// That a probability is in 0..1, or -1 for "not estimated".
 void check_probability(double value, const std::string& what, Findings& findings);

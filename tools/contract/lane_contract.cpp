@@ -40,11 +40,11 @@ void check_shape(const Lane& lane, Findings& findings) {
   findings.require(stays_on_side(lane.centerline, right, 1.0, -kSideTolerance_m) &&
                        stays_on_side(lane.centerline, left, -1.0, -kSideTolerance_m),
                    ContractRule::centered_line, label(lane) + " has a centerline outside of it");
-  for (const Range& range : lane.inferred_ranges)
+  for (const Stretch& range : lane.inferred_ranges)
     check_range(range, length(lane.centerline), label(lane) + " inferred", findings);
 }
 
-void check_boundary(const Lane& lane, ElementId id, const Range& range, const BoundariesById& boundaries,
+void check_boundary(const Lane& lane, ElementId id, const Stretch& range, const BoundariesById& boundaries,
                     Findings& findings) {
   const auto found = boundaries.find(id);
   const bool known = findings.require(found != boundaries.end(), ContractRule::known_ids,
@@ -55,7 +55,7 @@ void check_boundary(const Lane& lane, ElementId id, const Range& range, const Bo
 }
 
 /// Whether two lanes run the same way where the one lies `beside` the other: elsewhere both may bend.
-bool same_way(const Lane& a, const Range& beside, const Lane& b) {
+bool same_way(const Lane& a, const Stretch& beside, const Lane& b) {
   const MeasuredPolyline line_a(a.centerline), line_b(b.centerline);
   const double middle_m = 0.5 * (beside.from_m + beside.to_m);
   const Projection foot = line_b.project(line_a.at(middle_m));
@@ -70,7 +70,7 @@ const std::vector<Neighbour>& neighbours_of(const Lane& lane, bool on_left) {
 void check_stretches(const Neighbour& neighbour, const Lane& lane, const std::string& what,
                      Findings& findings) {
   check_range(neighbour.range, length(lane.centerline), what, findings);
-  for (const Range& crossable : neighbour.crossable) {
+  for (const Stretch& crossable : neighbour.crossable) {
     const bool within =
         crossable.from_m >= neighbour.range.from_m - 1e-6 && crossable.to_m <= neighbour.range.to_m + 1e-6;
     findings.require(within, ContractRule::range_in_boundary, what + " may be crossed where it does not lie");

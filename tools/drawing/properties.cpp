@@ -13,11 +13,11 @@ namespace {
 
 using nlohmann::json;
 
-json to_json(const Range& range) { return {rounded(range.from_m), rounded(range.to_m)}; }
+json to_json(const Stretch& range) { return {rounded(range.from_m), rounded(range.to_m)}; }
 
-json to_json(const std::vector<Range>& ranges) {
+json to_json(const std::vector<Stretch>& ranges) {
   json list = json::array();
-  for (const Range& range : ranges) list.push_back(to_json(range));
+  for (const Stretch& range : ranges) list.push_back(to_json(range));
   return list;
 }
 

@@ -64,7 +64,7 @@ void prolong(Polyline& line, double by_m, double step_m) {
   const double curvature =
       std::clamp(curvature_at(measured, measured.length() - kCurvatureReach_m, kCurvatureReach_m),
                  -kMaxCurvature_per_m, kMaxCurvature_per_m);
-  const Eigen::Vector2d end = end_direction(line, true, kEndReach_m);
+  const Eigen::Vector2d end = end_direction(line, End::back, kEndReach_m);
   double heading_rad = std::atan2(end.y(), end.x()) + 0.5 * kEndReach_m * curvature;
   for (double s_m = step_m; s_m <= by_m; s_m += step_m) {
     heading_rad += step_m * curvature * std::max(0.0, 1.0 - s_m / kFade_m);
@@ -90,7 +90,7 @@ Polyline bend_between(const Point& from, const Eigen::Vector2d& leaving, const P
 }
 
 Polyline bridge(const Polyline& from, const Polyline& to) {
-  const Eigen::Vector2d leaving = end_direction(from, true), entering = -end_direction(to, false);
+  const Eigen::Vector2d leaving = end_direction(from, End::back), entering = -end_direction(to, End::front);
   const Eigen::Vector2d gap = (to.front() - from.back()).head<2>();
   if (gap.norm() < kMinBridge_m || gap.dot(leaving) < 0.0) return {};
   return bend_between(from.back(), leaving, to.front(), entering);

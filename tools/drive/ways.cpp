@@ -25,11 +25,11 @@ Linkage::Turn walked(Linkage::Turn turn, bool against) {
   return turn;
 }
 
-Eigen::Vector2d first_direction(const Polyline& line) { return -end_direction(line, false); }
+Eigen::Vector2d first_direction(const Polyline& line) { return -end_direction(line, End::front); }
 
 /// By the directions in which a lane is left and the next one is entered.
 Linkage::Turn turn_between(const Polyline& from, const Polyline& to) {
-  const Eigen::Vector2d leaving = end_direction(from, true), entering = first_direction(to);
+  const Eigen::Vector2d leaving = end_direction(from, End::back), entering = first_direction(to);
   const double turn_rad = std::atan2(cross(leaving, entering), leaving.dot(entering));
   if (std::abs(turn_rad) < kTurn_rad) return Linkage::Turn::straight;
   if (std::abs(turn_rad) > kTurnBack_rad) return Linkage::Turn::u_turn;
@@ -44,7 +44,7 @@ const Lane* find(const LocalMap& map, ElementId id) {
 /// Whether most of the line between both may be crossed.
 bool is_crossable(const Neighbour& neighbour) {
   double crossable_m = 0.0;
-  for (const Range& range : neighbour.crossable) crossable_m += range.length();
+  for (const Stretch& range : neighbour.crossable) crossable_m += range.length();
   return crossable_m > 0.5 * neighbour.range.length();
 }
 

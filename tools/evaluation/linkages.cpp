@@ -22,7 +22,7 @@ double ratio(std::size_t part, std::size_t whole) {
 }
 
 Polyline prolonged(Polyline line) {
-  const Eigen::Vector2d leaving = kStoplineGap_m * end_direction(line, true);
+  const Eigen::Vector2d leaving = kStoplineGap_m * end_direction(line, End::back);
   line.push_back(line.back() + Point(leaving.x(), leaving.y(), 0.0));
   return line;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
-#include "mapping/geometry/local_range.hpp"
+#include "mapping/geometry/map_box.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom {
@@ -32,13 +32,13 @@ bool is_step(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 }
 
 /// The stretches of a line outside of the range, each with a bit of what is inside.
-std::vector<Range> stretches_outside(const MeasuredPolyline& line, const LocalRange& range) {
-  std::vector<Range> stretches;
+std::vector<Stretch> stretches_outside(const MeasuredPolyline& line, const MapBox& range) {
+  std::vector<Stretch> stretches;
   const Polyline samples = line.resample(kSampleStep_m);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (range.keeps(samples[i])) continue;
     const double arc_m = line.length() * static_cast<double>(i) / static_cast<double>(samples.size() - 1);
-    const Range around{std::max(0.0, arc_m - kOverlap_m), std::min(line.length(), arc_m + kOverlap_m)};
+    const Stretch around{std::max(0.0, arc_m - kOverlap_m), std::min(line.length(), arc_m + kOverlap_m)};
     if (!stretches.empty() && around.from_m <= stretches.back().to_m) {
       stretches.back().to_m = around.to_m;
     } else {
@@ -66,17 +66,17 @@ std::vector<ElementId> lines_beside(const Marking& line, const std::vector<Marki
 }  // namespace
 
 void DriveAccumulator::archive_what_left(const LocalMap& before, const LocalMap& now) {
-  const LocalRange range(range_, now.T_map_body);
+  const MapBox range(range_, now.T_map_body);
   const std::vector<Marking> lines = seen_lines(before);
   for (const Marking& line : lines) {
-    const std::vector<Range> left = stretches_outside(MeasuredPolyline(line.points), range);
+    const std::vector<Stretch> left = stretches_outside(MeasuredPolyline(line.points), range);
     if (left.empty()) continue;
     if (line.type == MarkingType::stopline) {
       archive_.add({.marking = line});
       continue;
     }
     const std::vector<ElementId> beside = lines_beside(line, lines);
-    for (const Range& stretch : left) archive_.add({slice(line, stretch), pass_, beside});
+    for (const Stretch& stretch : left) archive_.add({slice(line, stretch), pass_, beside});
   }
 }
 

@@ -22,9 +22,9 @@ std::map<ElementId, std::size_t> indices(const std::vector<Marking>& boundaries)
   return indices;
 }
 
-Range sorted(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+Stretch sorted(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
 
-bool inside(double arc_m, const Range& range) { return range.from_m < arc_m && arc_m < range.to_m; }
+bool inside(double arc_m, const Stretch& range) { return range.from_m < arc_m && arc_m < range.to_m; }
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Gates::Gates(const LocalMap& map)
   for (const Marking& boundary : map.boundaries) courses_.emplace_back(boundary.points);
   for (std::size_t i = 0; i < map.lanes.size(); ++i) {
     const Lane& lane = map.lanes[i];
-    const auto side = [&](ElementId boundary, const Range& range, bool reversed) {
+    const auto side = [&](ElementId boundary, const Stretch& range, bool reversed) {
       return SideOfLane{.boundary = index.at(boundary),
                         .reversed = reversed,
                         .begin_m = reversed ? range.to_m : range.from_m,
@@ -50,7 +50,7 @@ Gates::Gates(const LocalMap& map)
       const SideOfLane& side = sides_[i][left ? 0 : 1];
       (left ? begin.left : begin.right) = snap(side.boundary, side.begin_m, {-kUnbounded, kUnbounded});
       const double begin_m = arc(begin, left);
-      const Range behind = side.reversed ? Range{-kUnbounded, begin_m} : Range{begin_m, kUnbounded};
+      const Stretch behind = side.reversed ? Stretch{-kUnbounded, begin_m} : Stretch{begin_m, kUnbounded};
       (left ? end.left : end.right) = snap(side.boundary, side.end_m, behind);
     }
     gates_[i] = {begin, end};
@@ -64,7 +64,7 @@ std::size_t Gates::create(std::size_t boundary, double arc_m) {
   return cuts_.size() - 1;
 }
 
-std::size_t Gates::snap(std::size_t boundary, double arc_m, const Range& between) {
+std::size_t Gates::snap(std::size_t boundary, double arc_m, const Stretch& between) {
   const std::map<double, std::size_t>& order = order_[boundary];
   std::optional<std::size_t> nearest;
   double nearest_m = kSnap_m;
@@ -83,7 +83,8 @@ std::size_t Gates::snap(std::size_t boundary, double arc_m, const Range& between
   return create(boundary, at_m);
 }
 
-double Gates::across(std::size_t lane, bool left, std::size_t cut, const Range& between, double share) const {
+double Gates::across(std::size_t lane, bool left, std::size_t cut, const Stretch& between,
+                     double share) const {
   const Projection foot = courses_[boundary_of(lane, !left)].project(position(cut));
   const double width_m = map_.lanes[lane].width_m;
   if (inside(foot.arc_m, between) && foot.distance_m < width_m + kMaxSkew_m) return foot.arc_m;
@@ -100,7 +101,7 @@ const Gates::Gate* Gates::pass(std::size_t lane, bool left, std::size_t cut) {
     const double other_from_m = arc(gates[i], !left), other_to_m = arc(gates[i + 1], !left);
     double share = (arc_m - from_m) / (to_m - from_m);
     if (other_to_m < other_from_m) share = 1.0 - share;
-    const Range between = sorted(other_from_m, other_to_m);
+    const Stretch between = sorted(other_from_m, other_to_m);
     const std::size_t other =
         snap(boundary_of(lane, !left), across(lane, left, cut, between, share), between);
     const Gate gate = left ? Gate{cut, other} : Gate{other, cut};

@@ -55,10 +55,10 @@ class Gates {
   double arc(const Gate& gate, bool left) const { return cuts_[cut_of(gate, left)].arc_m; }
   std::size_t create(std::size_t boundary, double arc_m);
   /// The nearest cut within kSnap_m, strictly between two arcs; else a new one.
-  std::size_t snap(std::size_t boundary, double arc_m, const Range& between);
+  std::size_t snap(std::size_t boundary, double arc_m, const Stretch& between);
   /// Lets a lane have a gate at a cut on one of its sides; the gate, if the cut lies within the lane.
   const Gate* pass(std::size_t lane, bool left, std::size_t cut);
-  double across(std::size_t lane, bool left, std::size_t cut, const Range& between, double share) const;
+  double across(std::size_t lane, bool left, std::size_t cut, const Stretch& between, double share) const;
 
   const LocalMap& map_;
   std::vector<MeasuredPolyline> courses_;

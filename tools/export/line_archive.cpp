@@ -135,7 +135,7 @@ bool LineArchive::extend(const Match& beside, const Vertices& beyond) {
   const bool at_back = line.course.length() - beside.arc_m <= kAtEnd_m;
   if (!at_back && beside.arc_m > kAtEnd_m) return false;
   const Point& end = at_back ? line.vertices.back().position : line.vertices.front().position;
-  const Eigen::Vector2d leaving = end_direction(line.course.points(), at_back);
+  const Eigen::Vector2d leaving = end_direction(line.course.points(), at_back ? End::back : End::front);
   Vertices added = beyond;
   std::erase_if(added, [&](const Vertex& vertex) {
     const Eigen::Vector2d from_end = (vertex.position - end).head<2>();

@@ -21,13 +21,13 @@ Way::Kind kind_of(const Marking& marking) {
   return marking.type == MarkingType::stopline ? Way::Kind::stopline : Way::Kind::laneline;
 }
 
-MarkingStyle style_of(const Marking& marking, const Range& range) {
+MarkingStyle style_of(const Marking& marking, const Stretch& range) {
   const double excess_m = dashed_excess_m(marking, range);
   if (excess_m == 0.0) return MarkingStyle::unknown;
   return excess_m > 0.0 ? MarkingStyle::dashed : MarkingStyle::solid;
 }
 
-double mean_stddev_m(const Marking& marking, const Range& range) {
+double mean_stddev_m(const Marking& marking, const Stretch& range) {
   if (marking.lateral_stddev_m.empty() || marking.lateral_stddev_m.size() != marking.points.size())
     return -1.0;
   const std::vector<double> arcs_m = arc_lengths(marking.points);
@@ -67,7 +67,7 @@ std::size_t NetworkBuilder::add_node(const Point& point) {
 
 std::size_t NetworkBuilder::node_of(std::size_t cut) { return nodes_.at(groups_.group(cut)); }
 
-Way NetworkBuilder::way_on(std::size_t boundary, const Range& range) const {
+Way NetworkBuilder::way_on(std::size_t boundary, const Stretch& range) const {
   const Marking& marking = map_.boundaries[boundary];
   return {.kind = kind_of(marking),
           .style = style_of(marking, range),
@@ -80,7 +80,7 @@ std::size_t NetworkBuilder::way_between(std::size_t from, std::size_t to) {
   const auto known = ways_.find({from, to});
   if (known != ways_.end()) return known->second;
   const std::size_t boundary = gates_.cuts()[from].boundary;
-  const Range range{gates_.cuts()[from].arc_m, gates_.cuts()[to].arc_m};
+  const Stretch range{gates_.cuts()[from].arc_m, gates_.cuts()[to].arc_m};
   Way way = way_on(boundary, range);
   way.nodes.push_back(node_of(from));
   const std::map<double, std::size_t>& order = gates_.on_boundary(boundary);
@@ -158,7 +158,7 @@ void NetworkBuilder::add(const RoadNetwork::Lanelet& lanelet) {
   if (lanelet.lane != kNoElement) last_[lanelet.lane] = network_.lanelets.size() - 1;
 }
 
-void NetworkBuilder::add_end(std::size_t boundary, const Range& range, std::size_t cut) {
+void NetworkBuilder::add_end(std::size_t boundary, const Stretch& range, std::size_t cut) {
   if (range.length() < kMinEnd_m) return;
   Way way = way_on(boundary, range);
   const bool cut_first = gates_.cuts()[cut].arc_m == range.from_m;

@@ -38,10 +38,10 @@ class NetworkBuilder {
  private:
   std::size_t node_of(std::size_t cut);
   std::size_t add_node(const Point& point);
-  RoadNetwork::Way way_on(std::size_t boundary, const Range& range) const;
+  RoadNetwork::Way way_on(std::size_t boundary, const Stretch& range) const;
   std::size_t way_between(std::size_t from, std::size_t to);
   Side virtual_side(std::size_t from, std::size_t to, const Polyline& middle, double from_m, double to_m);
-  void add_end(std::size_t boundary, const Range& range, std::size_t cut);
+  void add_end(std::size_t boundary, const Stretch& range, std::size_t cut);
 
   const LocalMap& map_;
   const Gates& gates_;

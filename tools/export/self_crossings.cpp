@@ -25,11 +25,11 @@ std::optional<double> cut_at(const Polyline& points) {
   return std::nullopt;
 }
 
-LaneBoundary part_of(const LaneBoundary& boundary, const Range& stretch) {
+LaneBoundary part_of(const LaneBoundary& boundary, const Stretch& stretch) {
   LaneBoundary part{.marking = slice(boundary.marking, stretch), .members = boundary.members};
-  for (const Range& gap : boundary.bridged) {
-    const Range within{std::max(gap.from_m, stretch.from_m) - stretch.from_m,
-                       std::min(gap.to_m, stretch.to_m) - stretch.from_m};
+  for (const Stretch& gap : boundary.bridged) {
+    const Stretch within{std::max(gap.from_m, stretch.from_m) - stretch.from_m,
+                         std::min(gap.to_m, stretch.to_m) - stretch.from_m};
     if (within.length() > 0.0) part.bridged.push_back(within);
   }
   return part;
@@ -37,17 +37,19 @@ LaneBoundary part_of(const LaneBoundary& boundary, const Range& stretch) {
 
 }  // namespace
 
-void cut_self_crossings(std::vector<LaneBoundary>& boundaries, ElementId& next_id) {
+Boundaries cut_self_crossings(Boundaries all, IdSource& ids) {
+  std::vector<LaneBoundary> boundaries = std::move(all).take();
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     const std::optional<double> at_m = cut_at(boundaries[i].marking.points);
     if (!at_m) continue;
     const double length_m = length(boundaries[i].marking.points);
     LaneBoundary rest = part_of(boundaries[i], {*at_m, length_m});
     boundaries[i] = part_of(boundaries[i], {0.0, *at_m});
-    rest.marking.id = next_id++;
+    rest.marking.id = ids.next();
     boundaries.push_back(std::move(rest));
     --i;  // what is left may cross itself again
   }
+  return boundaries;
 }
 
 }  // namespace laneloom

@@ -7,7 +7,7 @@
 namespace laneloom {
 namespace {
 
-using Side = RoadNetwork::Side;
+using NetworkSide = RoadNetwork::Side;
 using NodePair = std::pair<std::size_t, std::size_t>;  // left, right
 
 NodePair nodes_at(const RoadNetwork& network, const DirectedLanelet& directed, bool at_back) {
@@ -40,7 +40,7 @@ class Allowed {
 };
 
 /// The same way with an end of its own.
-void own_end(RoadNetwork& network, Side& side, bool at_back) {
+void own_end(RoadNetwork& network, NetworkSide& side, bool at_back) {
   RoadNetwork::Way way = network.ways[side.way];
   std::size_t& node = at_back != side.reversed ? way.nodes.back() : way.nodes.front();
   const Point position = network.nodes[node];

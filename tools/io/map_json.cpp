@@ -22,11 +22,11 @@ auto one_of(const std::array<const char*, N>& names) {
   };
 }
 
-json to_json(const Range& range) { return {range.from_m, range.to_m}; }
+json to_json(const Stretch& range) { return {range.from_m, range.to_m}; }
 
-json to_json(const std::vector<Range>& ranges) {
+json to_json(const std::vector<Stretch>& ranges) {
   json list = json::array();
-  for (const Range& range : ranges) list.push_back(to_json(range));
+  for (const Stretch& range : ranges) list.push_back(to_json(range));
   return list;
 }
 
@@ -95,7 +95,7 @@ double existence(const json& value) {
   return probability;
 }
 
-Range range(const json& value) {
+Stretch range(const json& value) {
   if (!value.is_array() || value.size() != 2) throw JsonError("must be [from, to]");
   return {number(value[0]), number(value[1])};
 }
@@ -144,8 +144,8 @@ Lane lane(const json& value) {
   const auto ranges = [](const json& items) { return list(items, range); };
   out.left_boundary = optional(value, "left_boundary", count).value_or(kNoElement);
   out.right_boundary = optional(value, "right_boundary", count).value_or(kNoElement);
-  out.left_range = optional(value, "left_range", range).value_or(Range{});
-  out.right_range = optional(value, "right_range", range).value_or(Range{});
+  out.left_range = optional(value, "left_range", range).value_or(Stretch{});
+  out.right_range = optional(value, "right_range", range).value_or(Stretch{});
   const auto neighbours = [](const json& items) { return list(items, neighbour); };
   out.left_neighbours = optional(value, "left_neighbours", neighbours).value_or(out.left_neighbours);
   out.right_neighbours = optional(value, "right_neighbours", neighbours).value_or(out.right_neighbours);

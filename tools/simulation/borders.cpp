@@ -14,12 +14,12 @@ constexpr double kMinAlignment = 0.9;  // cosine between the directions of lines
 
 constexpr double kRepeated_m = 0.05;  // a joint's point, given by both lines
 
-struct End {
+struct MarkingEnd {
   std::size_t marking = 0;
   bool at_back = false;
 };
 
-const Point& point_at(const std::vector<RoadMarking>& markings, const End& end) {
+const Point& point_at(const std::vector<RoadMarking>& markings, const MarkingEnd& end) {
   const Polyline& points = markings[end.marking].points;
   return end.at_back ? points.back() : points.front();
 }
@@ -29,8 +29,8 @@ bool is_ring(const Polyline& points) {
 }
 
 // The only other end at `end`, which must continue it; else `end` itself.
-End continuation(const std::vector<RoadMarking>& markings, const End& end, double tolerance_m) {
-  End partner = end;
+MarkingEnd continuation(const std::vector<RoadMarking>& markings, const MarkingEnd& end, double tolerance_m) {
+  MarkingEnd partner = end;
   int others = 0;
   for (std::size_t i = 0; i < markings.size(); ++i) {
     if (markings[i].type != markings[end.marking].type || markings[i].style != markings[end.marking].style ||
@@ -38,21 +38,21 @@ End continuation(const std::vector<RoadMarking>& markings, const End& end, doubl
       continue;
     for (const bool at_back : {false, true}) {
       if (i == end.marking && at_back == end.at_back) continue;
-      const End other{i, at_back};
+      const MarkingEnd other{i, at_back};
       if ((point_at(markings, other) - point_at(markings, end)).norm() > tolerance_m) continue;
       partner = other;
       ++others;
     }
   }
   if (others != 1) return end;
-  const auto outward = [&](const End& e) {
-    return end_direction(markings[e.marking].points, e.at_back, 1.0);
+  const auto outward = [&](const MarkingEnd& e) {
+    return end_direction(markings[e.marking].points, e.at_back ? End::back : End::front, 1.0);
   };
   return outward(end).dot(outward(partner)) < -kMinAlignment ? partner : end;
 }
 
 // Appends the marking of `next` to that of `end`, which both end there.
-void append(std::vector<RoadMarking>& markings, const End& end, const End& next) {
+void append(std::vector<RoadMarking>& markings, const MarkingEnd& end, const MarkingEnd& next) {
   Polyline& points = markings[end.marking].points;
   if (next.marking == end.marking) {
     if ((points.back() - points.front()).norm() < kRepeated_m)
@@ -102,8 +102,8 @@ void join_markings(Road& road, double tolerance_m) {
   for (std::size_t i = 0; i < markings.size(); ++i) {
     for (const bool at_back : {true, false}) {
       while (!markings[i].points.empty() && !is_ring(markings[i].points)) {
-        const End end{i, at_back};
-        const End next = continuation(markings, end, tolerance_m);
+        const MarkingEnd end{i, at_back};
+        const MarkingEnd next = continuation(markings, end, tolerance_m);
         if (next.marking == i && next.at_back == at_back) break;
         joined_into[markings[next.marking].id] = markings[i].id;
         append(markings, end, next);

@@ -18,7 +18,7 @@ class SideBorders {
   SideBorders(const Section& section, bool right, double length_m)
       : section_(section), sign_(right ? -1.0 : 1.0), length_m_(length_m) {}
 
-  std::vector<Border> collect(const Side& side) {
+  std::vector<Border> collect(const RoadHalf& side) {
     open_lines(0, side.lanes, 0.0);
     int lanes = side.lanes;
     knots_ = {{0.0, offset_m(lanes)}};
@@ -137,7 +137,7 @@ double half_width_m(int lanes, CentreLine centre, double lane_width_m) {
 
 std::vector<Border> borders(const Section& section, double length_m) {
   std::vector<Border> all = middle_borders(section, length_m);
-  const auto append = [&](bool right, const Side& side) {
+  const auto append = [&](bool right, const RoadHalf& side) {
     if (side.lanes == 0) return;
     for (Border& border : SideBorders(section, right, length_m).collect(side))
       all.push_back(std::move(border));

@@ -56,11 +56,11 @@ bool covered_by_others(const std::vector<Area>& areas, std::size_t self, const P
 }
 
 // The stretches of an outline, by arc length, that no other area covers.
-std::vector<Range> free_stretches(const std::vector<Area>& areas, std::size_t self) {
+std::vector<Stretch> free_stretches(const std::vector<Area>& areas, std::size_t self) {
   const MeasuredPolyline& outline = areas[self].outline;
   const int pieces = std::max(1, static_cast<int>(std::ceil(outline.length() / kPiece_m)));
   const double piece_m = outline.length() / pieces;
-  std::vector<Range> stretches;
+  std::vector<Stretch> stretches;
   bool free_before = false;
   for (int i = 0; i < pieces; ++i) {
     const bool free = !covered_by_others(areas, self, outline.at((i + 0.5) * piece_m));
@@ -80,7 +80,7 @@ std::vector<Polyline> outer_edges(const std::vector<Polyline>& areas) {
   std::vector<Polyline> edges;
   for (std::size_t i = 0; i < closed.size(); ++i) {
     // A stretch over the ring's seam comes as two, which are joined as markings.
-    for (const Range& stretch : free_stretches(closed, i)) {
+    for (const Stretch& stretch : free_stretches(closed, i)) {
       if (stretch.length() >= kMinLength_m) edges.push_back(closed[i].outline.slice(stretch));
     }
   }

@@ -47,7 +47,7 @@ std::size_t nearest_to_body(const Polyline& line) {
 }
 
 Point beyond(const Polyline& line, bool at_back, double by_m) {
-  const Eigen::Vector2d direction = end_direction(line, at_back);
+  const Eigen::Vector2d direction = end_direction(line, at_back ? End::back : End::front);
   return (at_back ? line.back() : line.front()) + by_m * Point(direction.x(), direction.y(), 0.0);
 }
 

@@ -26,7 +26,7 @@ double distance_m(const Polyline& line) {
 }
 
 // Of pieces of a line; `period_m` is a ring's length, else 0.
-double overlap_m(const Range& a, const Range& b, double period_m) {
+double overlap_m(const Stretch& a, const Stretch& b, double period_m) {
   double most_m = -1.0;
   for (const double shift_m : {-period_m, 0.0, period_m})
     most_m = std::max(most_m, std::min(a.to_m, b.to_m + shift_m) - std::max(a.from_m, b.from_m + shift_m));

@@ -31,7 +31,7 @@ class Perception {
   // A piece of a marking, for as long as it stays in view.
   struct Track {
     std::size_t marking;
-    Range arc;
+    Stretch arc;
     LineNoise noise;
   };
   // A line that is not there; it stays in its place on the map.

@@ -22,7 +22,9 @@ double offset_m(const Mouth& mouth, int lanes) {
   return half_width_m(lanes, mouth.centre, mouth.lane_width_m);
 }
 
-int lanes_at_end(const Side& side) { return side.changes.empty() ? side.lanes : side.changes.back().lanes; }
+int lanes_at_end(const RoadHalf& side) {
+  return side.changes.empty() ? side.lanes : side.changes.back().lanes;
+}
 
 bool coincide(const Point& a, const Point& b) { return (a - b).norm() < kCoincident_m; }
 
@@ -34,7 +36,8 @@ bool continues(const RoadLane& from, const RoadLane& to) {
 bool adjoins(const RoadLane& from, const RoadLane& to) {
   const bool touches =
       coincide(from.left.back(), to.right.front()) || coincide(from.right.back(), to.left.front());
-  return touches && end_direction(from.centerline, true).dot(end_direction(to.centerline, false)) < -0.5;
+  return touches &&
+         end_direction(from.centerline, End::back).dot(end_direction(to.centerline, End::front)) < -0.5;
 }
 
 void add_successors(Road& road) {

@@ -23,7 +23,7 @@ struct LaneChange {
 
 /// The lanes of one direction, and how their number changes along the reference line (whichever direction is
 /// driven), in ascending order of `at_m`.
-struct Side {
+struct RoadHalf {
   int lanes = 1;
   std::vector<LaneChange> changes{};
 };
@@ -33,8 +33,8 @@ enum class CentreLine { none, dashed, solid, double_solid };
 /// Cross-section of a street: its reference line is between the directions. Edges are roadedges, and borders
 /// between lanes of one direction are dashed unless said to be solid.
 struct Section {
-  Side forward{};
-  Side backward{.lanes = 0, .changes = {}};  ///< 0: one-way, and the reference line is the left edge
+  RoadHalf forward{};
+  RoadHalf backward{.lanes = 0, .changes = {}};  ///< 0: one-way, and the reference line is the left edge
   CentreLine centre = CentreLine::solid;
   double lane_width_m = 3.5;
   int solid_after = 0;        ///< so many lanes from the reference line, the border is solid; 0: none is

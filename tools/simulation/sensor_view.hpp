@@ -37,7 +37,7 @@ struct ViewedLine {
 
 /// A piece of a line in view.
 struct VisiblePiece {
-  Range arc;        ///< on the line; of a ring, a piece over its seam begins below 0
+  Stretch arc;      ///< on the line; of a ring, a piece over its seam begins below 0
   Polyline points;  ///< body frame
 };
 

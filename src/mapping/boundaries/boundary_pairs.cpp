@@ -19,69 +19,77 @@ struct CountBetween {
   std::size_t lasting = 0;  ///< those that are beside both over much of the stretch
 };
 
-CountBetween between(const SectionGraph& graph, std::size_t one, const SideBySide& other) {
+CountBetween count_between(const SectionGraph& graph, std::size_t one, const SideBySide& other) {
   const auto& beyond = graph.beside[other.other];
-  const bool one_on_left = other.opposed == other.on_left();  // of the other
+  const Side of_one = other.opposed ? other.side() : opposite(other.side());  // as the other runs
   CountBetween count;
   for (const SideBySide& middle : graph.beside[one]) {
     if (count.lasting >= kTooManyBetween) break;
-    if (middle.on_left() != other.on_left()) continue;
+    if (middle.side() != other.side()) continue;
     const auto found = std::ranges::find(beyond, middle.other, &SideBySide::other);
-    if (found == beyond.end() || found->on_left() != one_on_left) continue;
+    if (found == beyond.end() || found->side() != of_one) continue;
     ++count.all;
     if (std::min(middle.length_m, found->length_m) >= kMinBetween * other.length_m) ++count.lasting;
   }
   return count;
 }
 
-/// Whether the road ends at a boundary's right side, at its left side: it is an edge, or has one along it
-/// there.
-std::vector<std::array<bool, 2>> kerb_sides(const SectionGraph& graph,
-                                            const std::vector<LaneBoundary>& boundaries,
-                                            const std::vector<MeasuredPolyline>& measured) {
-  const auto is_edge = [&](std::size_t i) { return boundaries[i].marking.type == MarkingType::roadedge; };
-  std::vector<std::array<bool, 2>> kerbs(boundaries.size());
-  for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    for (const bool left : {false, true}) {
-      kerbs[i][left] = is_edge(i) || std::ranges::any_of(graph.beside[i], [&](const SideBySide& beside) {
-                         return is_edge(beside.other) && beside.on_left() == left &&
-                                std::abs(beside.lateral_m) < kAlongEdge_m &&
-                                beside.length_m >= kMinBesideEdge * measured[i].length();
-                       });
-    }
+/// At which sides of the boundaries the road ends: they are edges, or have one along them there.
+class KerbSides {
+ public:
+  explicit KerbSides(const SectionGraph& graph) : kerbs_(graph.boundaries.size()) {
+    for (std::size_t i = 0; i < kerbs_.size(); ++i)
+      for (const Side side : kSides) kerbs_[i][index(side)] = is_kerb(graph, i, side);
   }
-  return kerbs;
+  bool at(std::size_t boundary, Side side) const { return kerbs_[boundary][index(side)]; }
+
+ private:
+  static bool is_kerb(const SectionGraph& graph, std::size_t i, Side side) {
+    return graph.boundaries[i].is_edge() ||
+           std::ranges::any_of(graph.beside[i], [&](const SideBySide& beside) {
+             return graph.boundaries[beside.other].is_edge() && beside.side() == side &&
+                    std::abs(beside.lateral_m) < kAlongEdge_m &&
+                    beside.length_m >= kMinBesideEdge * graph.boundaries[i].course.length();
+           });
+  }
+
+  std::vector<std::array<bool, 2>> kerbs_;
+};
+
+BoundaryPair pair_of(std::size_t one, const SideBySide& other, const SectionGraph& graph,
+                     const KerbSides& kerbs) {
+  BoundaryPair pair{.left = one, .right = other.other, .right_reversed = other.opposed};
+  if (other.side() == Side::left) {
+    std::swap(pair.left, pair.right);
+    std::swap(pair.left_reversed, pair.right_reversed);
+  }
+  const auto is_kerb = [&](Side border, Side side) {
+    return kerbs.at(pair.index(border), as_seen(side, pair.reversed(border)));
+  };
+  const auto is_line = [&](std::size_t i) { return !graph.boundaries[i].is_edge(); };
+  pair.left_kerb = is_kerb(Side::left, Side::left);
+  pair.right_kerb = is_kerb(Side::right, Side::right);
+  pair.crosses_kerb = (is_line(pair.left) && is_kerb(Side::left, Side::right)) ||
+                      (is_line(pair.right) && is_kerb(Side::right, Side::left));
+  return pair;
 }
 
 }  // namespace
 
-std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph,
-                                         const std::vector<LaneBoundary>& boundaries,
-                                         const std::vector<MeasuredPolyline>& measured) {
-  const auto is_line = [&](std::size_t i) { return boundaries[i].marking.type != MarkingType::roadedge; };
-  const auto kerbs = kerb_sides(graph, boundaries, measured);
+std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph) {
+  const KerbSides kerbs(graph);
   // Those with nothing between, then those with what only touches either.
   std::array<std::vector<BoundaryPair>, 3> by_rank;
   for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
     for (const std::size_t one : graph.sections[section].boundaries) {
       for (const SideBySide& other : graph.beside[one]) {
-        if (other.opposed ? other.other < one : other.on_left()) continue;
-        const auto [all, lasting] = between(graph, one, other);
+        if (other.opposed ? other.other < one : other.side() == Side::left) continue;
+        const auto [all, lasting] = count_between(graph, one, other);
         if (lasting >= kTooManyBetween) continue;
-        BoundaryPair pair{.left = one,
-                          .right = other.other,
-                          .right_reversed = other.opposed,
-                          .adjacent = lasting == 0,
-                          .near = lasting <= kMaxBetween,
-                          .section = section};
-        if (other.on_left()) {
-          std::swap(pair.left, pair.right);
-          std::swap(pair.left_reversed, pair.right_reversed);
-        }
-        pair.left_kerb = kerbs[pair.left][!pair.left_reversed];
-        pair.right_kerb = kerbs[pair.right][pair.right_reversed];
-        pair.crosses_kerb = (is_line(pair.left) && kerbs[pair.left][pair.left_reversed]) ||
-                            (is_line(pair.right) && kerbs[pair.right][!pair.right_reversed]);
+        BoundaryPair pair = pair_of(one, other, graph, kerbs);
+        pair.adjacent = lasting == 0;
+        pair.near = lasting <= kMaxBetween;
+        pair.section = section;
         by_rank[lasting > 0 ? 2 : std::min<std::size_t>(all, 1)].push_back(pair);
       }
     }

@@ -19,40 +19,53 @@ constexpr double kMaxBend_deg = 40.0;  // and there a line may bend as it does r
 constexpr double kChange_m = 0.5;      // over which the one changes to the other where they overlap
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// One end of a marking.
-struct End {
+/// One end of a marking, by the marking's index.
+struct MarkingEnd {
   std::size_t marking = kNone;
-  bool at_back = false;
+  End end = End::front;
 };
 
 struct Join {
   double gap_m = 0.0;
-  End a, b;
+  MarkingEnd a, b;
 };
 
-const Point& end_point(const Marking& marking, bool at_back) {
-  return at_back ? marking.points.back() : marking.points.front();
-}
+/// One end of a marking, as it looks.
+struct Tip {
+  const Marking& marking;
+  End end;
+
+  const Point& point() const { return end == End::back ? marking.points.back() : marking.points.front(); }
+  Eigen::Vector2d outwards() const { return end_direction(marking.points, end); }
+  MarkingStyle style() const {
+    if (marking.styles.empty()) return MarkingStyle::unknown;
+    return end == End::back ? marking.styles.back().style : marking.styles.front().style;
+  }
+  ElementId id() const { return end_id(marking.id, end); }
+};
 
 /// Whether the two ends face each other.
-bool are_aligned(const Marking& a, bool a_back, const Marking& b, bool b_back, const BoundaryConfig& config) {
-  const Eigen::Vector2d gap = (end_point(b, b_back) - end_point(a, a_back)).head<2>();
-  const Eigen::Vector2d leaving = end_direction(a.points, a_back);
-  const Eigen::Vector2d entering = -end_direction(b.points, b_back);
+bool are_aligned(const Tip& a, const Tip& b, const BoundaryConfig& config) {
+  const Eigen::Vector2d gap = (b.point() - a.point()).head<2>();
+  const Eigen::Vector2d leaving = a.outwards(), entering = -b.outwards();
   const double max_angle_deg = gap.norm() < kMeeting_m ? kMaxBend_deg : config.max_angle_deg;
   if (leaving.dot(entering) < cos_degrees(max_angle_deg)) return false;
   return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
 }
 
-MarkingStyle end_style(const Marking& marking, bool at_back) {
-  if (marking.styles.empty()) return MarkingStyle::unknown;
-  return at_back ? marking.styles.back().style : marking.styles.front().style;
+/// Whether one line changes its style there: a network sees it as two.
+bool is_style_change(const Tip& a, const Tip& b) {
+  const MarkingStyle one = a.style(), other = b.style();
+  return one != other && one != MarkingStyle::unknown && other != MarkingStyle::unknown;
 }
 
-/// Whether one line changes its style there: a network sees it as two.
-bool is_style_change(const Marking& a, bool a_back, const Marking& b, bool b_back) {
-  const MarkingStyle one = end_style(a, a_back), other = end_style(b, b_back);
-  return one != other && one != MarkingStyle::unknown && other != MarkingStyle::unknown;
+/// Whether two ends with a small gap between them are one place of one boundary.
+bool may_join(const Tip& a, const Tip& b, double gap_m, const PairHistories& joints,
+              const BoundaryConfig& config) {
+  const PairHistory* joint = find(joints, a.id(), b.id());
+  const bool is_change = gap_m < kMeeting_m && is_style_change(a, b);
+  if (joint != nullptr && seen_apart(*joint) && !is_change) return false;
+  return (joint != nullptr && seen_together(*joint)) || are_aligned(a, b, config);
 }
 
 std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHistories& joints,
@@ -61,17 +74,12 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHi
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       if (lines[i].type != lines[j].type) continue;
-      for (const bool i_back : {false, true}) {
-        for (const bool j_back : {false, true}) {
-          const Point &a = end_point(lines[i], i_back), &b = end_point(lines[j], j_back);
-          const double gap_m = (b - a).head<2>().norm();
-          if (gap_m > config.max_gap_m || !same_level(a, b)) continue;
-          const PairHistory* joint = find(joints, end_id(lines[i].id, i_back), end_id(lines[j].id, j_back));
-          const bool is_change = gap_m < kMeeting_m && is_style_change(lines[i], i_back, lines[j], j_back);
-          if (joint != nullptr && seen_apart(*joint) && !is_change) continue;
-          const bool one = joint != nullptr && seen_together(*joint);
-          if (one || are_aligned(lines[i], i_back, lines[j], j_back, config))
-            joins.push_back({gap_m, {i, i_back}, {j, j_back}});
+      for (const End i_end : kEnds) {
+        for (const End j_end : kEnds) {
+          const Tip a{lines[i], i_end}, b{lines[j], j_end};
+          const double gap_m = (b.point() - a.point()).head<2>().norm();
+          if (gap_m > config.max_gap_m || !same_level(a.point(), b.point())) continue;
+          if (may_join(a, b, gap_m, joints, config)) joins.push_back({gap_m, {i, i_end}, {j, j_end}});
         }
       }
     }
@@ -80,17 +88,27 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHi
   return joins;
 }
 
-/// For every end the end that it is joined to; no chain closes on itself.
-std::vector<std::array<End, 2>> choose_joins(const std::vector<Join>& joins, std::size_t count) {
-  std::vector<std::array<End, 2>> joined(count);
+/// For every end of every marking the end that it is joined to.
+class Joined {
+ public:
+  explicit Joined(std::size_t count) : ends_(count) {}
+  const MarkingEnd& operator[](const MarkingEnd& at) const { return ends_[at.marking][index(at.end)]; }
+  MarkingEnd& operator[](const MarkingEnd& at) { return ends_[at.marking][index(at.end)]; }
+
+ private:
+  std::vector<std::array<MarkingEnd, 2>> ends_;
+};
+
+/// No chain closes on itself.
+Joined choose_joins(const std::vector<Join>& joins, std::size_t count) {
+  Joined joined(count);
   std::vector<std::size_t> group(count);
   std::iota(group.begin(), group.end(), 0U);
   for (const auto& [gap_m, a, b] : joins) {
-    const bool taken =
-        joined[a.marking][a.at_back].marking != kNone || joined[b.marking][b.at_back].marking != kNone;
+    const bool taken = joined[a].marking != kNone || joined[b].marking != kNone;
     if (taken || group[a.marking] == group[b.marking]) continue;
-    joined[a.marking][a.at_back] = b;
-    joined[b.marking][b.at_back] = a;
+    joined[a] = b;
+    joined[b] = a;
     const std::size_t from = group[b.marking], to = group[a.marking];
     std::ranges::replace(group, from, to);
   }
@@ -115,20 +133,19 @@ void continue_with(const Marking& ahead, LaneBoundary& boundary) {
 }
 
 /// Follows the joins from one free end of a chain to the other.
-LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::array<End, 2>>& joined,
-                      End start) {
+LaneBoundary assemble(const std::vector<Marking>& lines, const Joined& joined, const MarkingEnd& start) {
   LaneBoundary boundary;
-  End entered = start;
+  MarkingEnd entered = start;
   while (entered.marking != kNone) {
     Marking next = lines[entered.marking];
-    if (entered.at_back) reverse(next);
+    if (entered.end == End::back) reverse(next);
     boundary.members.push_back(next.id);
     if (boundary.marking.points.empty()) {
       boundary.marking = std::move(next);
     } else if (const auto ahead = ahead_of(boundary.marking, next)) {
       continue_with(*ahead, boundary);
     }
-    entered = joined[entered.marking][!entered.at_back];
+    entered = joined[{entered.marking, opposite(entered.end)}];
   }
   std::ranges::sort(boundary.members);
   boundary.marking.id = boundary.members.front();
@@ -137,46 +154,28 @@ LaneBoundary assemble(const std::vector<Marking>& lines, const std::vector<std::
 
 }  // namespace
 
-std::size_t index_of(const std::vector<LaneBoundary>& boundaries, ElementId id) {
-  const auto found = std::ranges::lower_bound(
-      boundaries, id, {}, [](const LaneBoundary& boundary) { return boundary.marking.id; });
-  return static_cast<std::size_t>(found - boundaries.begin());
-}
-
-const LaneBoundary& boundary_of(const std::vector<LaneBoundary>& boundaries, ElementId id) {
-  return boundaries[index_of(boundaries, id)];
-}
-
-void reverse(LaneBoundary& boundary) {
-  const double total_m = length(boundary.marking.points);
-  reverse(boundary.marking);
-  std::ranges::reverse(boundary.bridged);
-  for (Range& range : boundary.bridged) range = {total_m - range.to_m, total_m - range.from_m};
-}
-
-std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
-                                          const BoundaryConfig& config) {
+Boundaries lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
+                           const BoundaryConfig& config) {
   std::vector<Marking> lines;
   std::ranges::copy_if(markings, std::back_inserter(lines),
                        [](const Marking& m) { return m.type != MarkingType::stopline; });
-  const auto joined = choose_joins(possible_joins(lines, joints, config), lines.size());
+  const Joined joined = choose_joins(possible_joins(lines, joints, config), lines.size());
 
   std::vector<LaneBoundary> boundaries;
   std::vector<bool> used(lines.size(), false);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (used[i]) continue;
     // Back to the chain's first line, so that the boundary runs as its oldest member does.
-    End start{i, false};
-    while (joined[start.marking][start.at_back].marking != kNone) {
-      const End before = joined[start.marking][start.at_back];
-      start = {before.marking, !before.at_back};
+    MarkingEnd start{i, End::front};
+    while (joined[start].marking != kNone) {
+      const MarkingEnd before = joined[start];
+      start = {before.marking, opposite(before.end)};
     }
     boundaries.push_back(assemble(lines, joined, start));
     for (std::size_t k = 0; k < lines.size(); ++k) {
       if (std::ranges::binary_search(boundaries.back().members, lines[k].id)) used[k] = true;
     }
   }
-  std::ranges::sort(boundaries, {}, [](const LaneBoundary& b) { return b.marking.id; });
   return boundaries;
 }
 

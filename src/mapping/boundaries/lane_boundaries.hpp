@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/markings/pair_history.hpp"
 
@@ -13,22 +14,43 @@ namespace laneloom {
 struct LaneBoundary {
   Marking marking;                 ///< has the id of its oldest member
   std::vector<ElementId> members;  ///< ids of the markings that it is made of, ascending
-  std::vector<Range> bridged{};    ///< the gaps between them, along the marking
+  std::vector<Stretch> bridged{};  ///< the gaps between them, along the marking
   bool two_way = false;            ///< inferred, on a road from kerb to kerb: there traffic is taken to meet
+  MeasuredPolyline course{};       ///< through the marking's points; Boundaries measures it
+
+  bool is_edge() const { return marking.type == MarkingType::roadedge; }
+  bool is_confirmed() const { return marking.status == ElementStatus::confirmed; }
 };
 
-/// Where it is among boundaries in the order of their ids; it has to be there.
-std::size_t index_of(const std::vector<LaneBoundary>& boundaries, ElementId id);
-const LaneBoundary& boundary_of(const std::vector<LaneBoundary>& boundaries, ElementId id);
+/// The boundaries of one map, by ascending id, each with its measured course.
+class Boundaries {
+ public:
+  Boundaries() = default;
+  Boundaries(std::vector<LaneBoundary> boundaries);  // NOLINT(google-explicit-constructor): they are the same
 
-/// The same boundary, run through in the other direction.
-void reverse(LaneBoundary& boundary);
+  std::size_t size() const { return all_.size(); }
+  bool empty() const { return all_.empty(); }
+  auto begin() const { return all_.begin(); }
+  auto end() const { return all_.end(); }
+  const LaneBoundary& operator[](std::size_t index) const { return all_[index]; }
+  /// Where a boundary is. There has to be one of that id.
+  std::size_t index_of(ElementId id) const;
+  const LaneBoundary& of(ElementId id) const { return all_[index_of(id)]; }
+
+  /// Lets one run in the other direction.
+  void reverse(std::size_t index);
+  void insert(std::vector<LaneBoundary> boundaries);
+  std::vector<LaneBoundary> take() && { return std::move(all_); }
+
+ private:
+  std::vector<LaneBoundary> all_;
+};
 
 /// Groups lanelines and roadedges, respectively, whose end points are close and aligned into continuous
 /// boundaries (paper, Sec. III-D-1), but those that are known to be separate. Close ends that detections ran
 /// through are joined at any angle: round a hairpin or the tip of an island. The nearest ends are joined
-/// first, each end once. By ascending id; stoplines are left out.
-std::vector<LaneBoundary> lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
-                                          const BoundaryConfig& config);
+/// first, each end once. Stoplines are left out.
+Boundaries lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
+                           const BoundaryConfig& config);
 
 }  // namespace laneloom

@@ -63,25 +63,23 @@ SideBySide seen_from_other(const SideBySide& beside, std::size_t self) {
           .opposed = beside.opposed};
 }
 
-using Graph = std::vector<std::vector<SideBySide>>;
-
-Graph side_by_side(const std::vector<MeasuredPolyline>& lines, const SectionConfig& config) {
+std::vector<std::vector<SideBySide>> side_by_side(const Boundaries& boundaries, const SectionConfig& config) {
   std::vector<Samples> samples;
-  samples.reserve(lines.size());
-  for (const MeasuredPolyline& line : lines) samples.push_back(sample(line));
-  Graph graph(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      const bool i_is_longer = lines[i].length() >= lines[j].length();
+  samples.reserve(boundaries.size());
+  for (const LaneBoundary& boundary : boundaries) samples.push_back(sample(boundary.course));
+  std::vector<std::vector<SideBySide>> pairs(boundaries.size());
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    for (std::size_t j = i + 1; j < boundaries.size(); ++j) {
+      const bool i_is_longer = samples[i].length_m >= samples[j].length_m;
       const std::size_t longer = i_is_longer ? i : j, shorter = i_is_longer ? j : i;
-      auto beside = side_by_side(samples[shorter], lines[longer], config);
+      auto beside = side_by_side(samples[shorter], boundaries[longer].course, config);
       if (!beside) continue;
       beside->other = longer;
-      graph[shorter].push_back(*beside);
-      graph[longer].push_back(seen_from_other(*beside, shorter));
+      pairs[shorter].push_back(*beside);
+      pairs[longer].push_back(seen_from_other(*beside, shorter));
     }
   }
-  return graph;
+  return pairs;
 }
 
 /// Cosine between a line and the vehicle's heading, where the line passes it.
@@ -91,73 +89,88 @@ double along_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_ma
 }
 
 /// What is nearer to the vehicle is joined first.
-OrientedGroups join_sections(const Graph& graph, const std::vector<double>& distance_m) {
+OrientedGroups join_sections(const SectionGraph& graph, const Point& vehicle) {
   struct Pair {
     std::size_t a, b;
     bool opposed;
   };
+  std::vector<double> distance_m;
+  distance_m.reserve(graph.boundaries.size());
+  for (const LaneBoundary& boundary : graph.boundaries)
+    distance_m.push_back(boundary.course.project(vehicle).distance_m);
   std::vector<Pair> pairs;
-  for (std::size_t a = 0; a < graph.size(); ++a)
-    for (const SideBySide& beside : graph[a])
+  for (std::size_t a = 0; a < graph.beside.size(); ++a)
+    for (const SideBySide& beside : graph.beside[a])
       if (a < beside.other) pairs.push_back({a, beside.other, beside.opposed});
   std::ranges::stable_sort(pairs, {},
                            [&](const Pair& p) { return std::max(distance_m[p.a], distance_m[p.b]); });
-  OrientedGroups sections(graph.size());
-  for (const auto& [a, b, opposed] : pairs) sections.join(a, b, opposed);
+  OrientedGroups groups(graph.boundaries.size());
+  for (const auto& [a, b, opposed] : pairs) groups.join(a, b, opposed);
+  return groups;
+}
+
+std::vector<RoadSection> sections_of(const OrientedGroups& groups, std::size_t count) {
+  std::vector<RoadSection> sections;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (groups.group(i) != i) continue;
+    RoadSection& section = sections.emplace_back();
+    for (std::size_t k = i; k < count; ++k)
+      if (groups.group(k) == i) section.boundaries.push_back(k);
+  }
   return sections;
 }
 
 /// Whether a section runs against the vehicle in the direction of one of its boundaries. All have a say, by
 /// their lengths, as one alone may turn off into another road.
-bool against_heading(const std::vector<std::size_t>& section, std::size_t boundary,
-                     const std::vector<MeasuredPolyline>& measured, const OrientedGroups& sections,
-                     const Eigen::Isometry3d& T_map_body) {
+bool against_heading(const RoadSection& section, std::size_t boundary, const Boundaries& boundaries,
+                     const OrientedGroups& groups, const Eigen::Isometry3d& T_map_body) {
   double sum_m = 0.0, total_m = 0.0;
-  for (const std::size_t k : section) {
-    const double length_m = measured[k].length();
-    const double sense = sections.opposed(k, boundary) ? -1.0 : 1.0;
-    sum_m += sense * length_m * along_heading(measured[k], T_map_body);
+  for (const std::size_t k : section.boundaries) {
+    const MeasuredPolyline& course = boundaries[k].course;
+    const double length_m = course.length();
+    const double sense = groups.opposed(k, boundary) ? -1.0 : 1.0;
+    sum_m += sense * length_m * along_heading(course, T_map_body);
     total_m += length_m;
   }
   return sum_m < -kAlignedCosine * total_m;
 }
 
-}  // namespace
-
-SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d& T_map_body,
-                           std::vector<LaneBoundary>& boundaries, std::vector<MeasuredPolyline>& measured) {
-  SectionGraph result{.sections = {}, .beside = side_by_side(measured, config)};
-  std::vector<double> distance_m;
-  distance_m.reserve(measured.size());
-  for (const MeasuredPolyline& line : measured)
-    distance_m.push_back(line.project(T_map_body.translation()).distance_m);
-  const OrientedGroups sections = join_sections(result.beside, distance_m);
-  std::vector<bool> turned(boundaries.size(), false);
-  for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    if (sections.group(i) != i) continue;
-    RoadSection section;
-    for (std::size_t k = i; k < boundaries.size(); ++k)
-      if (sections.group(k) == i) section.boundaries.push_back(k);
+/// Per boundary, whether it has to be turned to run as its section does.
+std::vector<bool> wrong_ways(const SectionGraph& graph, const OrientedGroups& groups,
+                             const Eigen::Isometry3d& T_map_body) {
+  std::vector<bool> wrong(graph.boundaries.size(), false);
+  for (const RoadSection& section : graph.sections) {
     const std::size_t longest = *std::ranges::max_element(
-        section.boundaries, {}, [&](std::size_t k) { return measured[k].length(); });
-    const bool turn_longest = against_heading(section.boundaries, longest, measured, sections, T_map_body);
-    for (const std::size_t k : section.boundaries) {
-      turned[k] = sections.opposed(k, longest) != turn_longest;
-      if (!turned[k]) continue;
-      reverse(boundaries[k]);
-      measured[k] = MeasuredPolyline(boundaries[k].marking.points);
-    }
-    result.sections.push_back(std::move(section));
+        section.boundaries, {}, [&](std::size_t k) { return graph.boundaries[k].course.length(); });
+    const bool turn_longest = against_heading(section, longest, graph.boundaries, groups, T_map_body);
+    for (const std::size_t k : section.boundaries) wrong[k] = groups.opposed(k, longest) != turn_longest;
   }
-  for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    for (SideBySide& beside : result.beside[i]) {
+  return wrong;
+}
+
+void turn(const std::vector<bool>& turned, SectionGraph& graph) {
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (turned[i]) graph.boundaries.reverse(i);
+    for (SideBySide& beside : graph.beside[i]) {
       if (turned[i]) beside.lateral_m = -beside.lateral_m;
       beside.opposed = beside.opposed != (turned[i] != turned[beside.other]);
     }
-    std::ranges::stable_sort(result.beside[i], {},
-                             [](const SideBySide& beside) { return std::abs(beside.lateral_m); });
   }
-  return result;
+}
+
+}  // namespace
+
+SectionGraph road_sections(Boundaries boundaries, const Eigen::Isometry3d& T_map_body,
+                           const SectionConfig& config) {
+  auto beside = side_by_side(boundaries, config);
+  SectionGraph graph{.boundaries = std::move(boundaries), .sections = {}, .beside = std::move(beside)};
+  const OrientedGroups groups = join_sections(graph, T_map_body.translation());
+  graph.sections = sections_of(groups, graph.boundaries.size());
+  turn(wrong_ways(graph, groups, T_map_body), graph);
+  for (std::vector<SideBySide>& beside_one : graph.beside)
+    std::ranges::stable_sort(beside_one, {},
+                             [](const SideBySide& other) { return std::abs(other.lateral_m); });
+  return graph;
 }
 
 }  // namespace laneloom

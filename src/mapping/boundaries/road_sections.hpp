@@ -16,7 +16,7 @@ struct SideBySide {
   double length_m = 0.0;   ///< of that stretch
   bool opposed = false;    ///< the two run against each other
 
-  bool on_left() const { return lateral_m > 0.0; }
+  Side side() const { return lateral_m > 0.0 ? Side::left : Side::right; }
 };
 
 /// Lane boundaries that run side by side (paper, Sec. III-D-2).
@@ -25,6 +25,7 @@ struct RoadSection {
 };
 
 struct SectionGraph {
+  Boundaries boundaries;
   std::vector<RoadSection> sections;
   /// Per boundary: those that it overlaps with, the nearest first. What the paper's left-to-right order
   /// gives, but also where boundaries of one section begin and end at different places.
@@ -35,8 +36,8 @@ struct SectionGraph {
 /// similar direction that overlap. The boundaries of a section are turned to run in one direction: the
 /// vehicle's heading where the section passes it, or else the longest boundary's own. Round the corners of an
 /// intersection that may have no answer: then what is nearest to the vehicle decides, and further off
-/// boundaries stay opposed. `measured` is kept parallel.
-SectionGraph road_sections(const SectionConfig& config, const Eigen::Isometry3d& T_map_body,
-                           std::vector<LaneBoundary>& boundaries, std::vector<MeasuredPolyline>& measured);
+/// boundaries stay opposed.
+SectionGraph road_sections(Boundaries boundaries, const Eigen::Isometry3d& T_map_body,
+                           const SectionConfig& config);
 
 }  // namespace laneloom

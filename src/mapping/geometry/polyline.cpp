@@ -196,7 +196,7 @@ Projection MeasuredPolyline::project(const Point& point, double within_m) const 
           .foot = points_[i] + clamped * (points_[i + 1] - points_[i])};
 }
 
-Polyline MeasuredPolyline::slice(const Range& range) const {
+Polyline MeasuredPolyline::slice(const Stretch& range) const {
   Polyline out;
   out.reserve(points_.size() + 2);
   out.push_back(at(range.from_m));
@@ -221,9 +221,9 @@ Polyline MeasuredPolyline::resample(double step_m) const {
   return out;
 }
 
-Eigen::Vector2d end_direction(const Polyline& line, bool at_back, double reach_m) {
+Eigen::Vector2d end_direction(const Polyline& line, End end, double reach_m) {
   const std::size_t last = line.size() - 1;
-  const auto vertex = [&](std::size_t k) -> const Point& { return line[at_back ? last - k : k]; };
+  const auto vertex = [&](std::size_t k) -> const Point& { return line[end == End::back ? last - k : k]; };
   double reached_m = 0.0;
   std::size_t k = 0;
   while (k < last && reached_m < reach_m) {

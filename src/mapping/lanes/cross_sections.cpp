@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mapping/geometry/levels.hpp"
+#include "mapping/geometry/stretches.hpp"
 
 namespace laneloom {
 namespace {
@@ -13,13 +14,9 @@ constexpr double kNarrow_m = 2.5;  // narrower are lanes that are so from end to
 constexpr double kMinAlong = 0.9;  // cosine between a line and the boundaries that it runs along
 constexpr double kTaper_m = 0.3;   // by which what is not so grows beyond that
 
-bool contains(const std::vector<Range>& ranges, double arc_m) {
-  return std::ranges::any_of(ranges, [&](const Range& r) { return r.from_m < arc_m && arc_m < r.to_m; });
-}
-
 /// The end of the longest run from `begin` in which the width varies little and the left boundary is
 /// followed.
-std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin, const LaneConfig& config) {
+std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin, double max_variation_m) {
   double narrowest = std::numeric_limits<double>::infinity(), widest = 0.0;
   std::size_t end = begin;
   while (end < sections.size() && sections[end].valid) {
@@ -27,14 +24,14 @@ std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin
     if (sections[end].wide != sections[begin].wide) break;
     narrowest = std::min(narrowest, sections[end].width_m);
     widest = std::max(widest, sections[end].width_m);
-    if (widest - narrowest > config.max_width_variation_m) break;
+    if (widest - narrowest > max_variation_m) break;
     ++end;
   }
   return end;
 }
 
 /// The last range grows by the stretch, if that follows it.
-void append(std::vector<Range>& ranges, const Range& stretch) {
+void append(std::vector<Stretch>& ranges, const Stretch& stretch) {
   if (!ranges.empty() && ranges.back().to_m == stretch.from_m) {
     ranges.back().to_m = stretch.to_m;
   } else {
@@ -53,10 +50,10 @@ void set_trust(const Marking& left, const Marking& right, Lane& lane) {
 
 }  // namespace
 
-LaneBorder::LaneBorder(const LaneBoundary& boundary, const MeasuredPolyline& measured, bool reversed,
-                       const Occupied& occupied)
-    : boundary_(boundary), measured_(measured), reversed_(reversed), occupied_(occupied) {
-  if (reversed) turned_ = MeasuredPolyline(Polyline(measured.points().rbegin(), measured.points().rend()));
+LaneBorder::LaneBorder(const LaneBoundary& boundary, bool reversed, const Occupied& occupied)
+    : boundary_(boundary), reversed_(reversed), occupied_(occupied) {
+  const Polyline& points = boundary.course.points();
+  if (reversed) turned_ = MeasuredPolyline(Polyline(points.rbegin(), points.rend()));
 }
 
 bool LaneBorder::is_free(double arc_m) const { return !contains(occupied_, own(arc_m)); }
@@ -64,36 +61,35 @@ bool LaneBorder::is_free(double arc_m) const { return !contains(occupied_, own(a
 bool LaneBorder::is_bridged(double arc_m) const { return contains(boundary_.bridged, own(arc_m)); }
 
 std::optional<Between> find_between(const CrossSection& section, const BoundaryPair& pair,
-                                    const std::vector<LaneBoundary>& boundaries,
-                                    const std::vector<MeasuredPolyline>& measured) {
+                                    const Boundaries& boundaries) {
   const Point middle = section.middle();
   const Eigen::Vector2d across = (section.right - section.left).head<2>();
   const double width_m = across.norm(), reach_m = 0.5 * width_m - kAlongEdge_m;
   std::optional<Between> line;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
     if (i == pair.left || i == pair.right) continue;
-    const bool is_edge = boundaries[i].marking.type == MarkingType::roadedge;
-    if (!is_edge && boundaries[i].marking.status != ElementStatus::confirmed) continue;
-    const Projection foot = measured[i].project(middle, reach_m);
+    const LaneBoundary& boundary = boundaries[i];
+    if (!boundary.is_edge() && !boundary.is_confirmed()) continue;
+    const Projection foot = boundary.course.project(middle, reach_m);
     if (!foot.inside || foot.distance_m >= reach_m || !same_level(foot.foot, middle)) continue;
     const double share = (foot.foot - section.left).head<2>().dot(across) / (width_m * width_m);
-    if (is_edge) return Between{true, share};
-    if (std::abs(cross(measured[i].direction(foot), across)) > kMinAlong * width_m)
+    if (boundary.is_edge()) return Between{true, share};
+    if (std::abs(cross(boundary.course.direction(foot), across)) > kMinAlong * width_m)
       line = Between{false, share};
   }
   return line;
 }
 
-std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorder& right, double min_width_m,
-                                         double max_width_m, const LaneConfig& config) {
+std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorder& right,
+                                         const WidthLimits& limits, const LaneConfig& config) {
   const Polyline points = right.line().resample(config.step_m);
   std::vector<CrossSection> sections(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double arc_m =
         right.line().length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
     if (!right.is_free(arc_m)) continue;
-    const Projection foot = left.line().project(points[i], max_width_m);
-    if (!foot.inside || foot.distance_m < min_width_m || foot.lateral_m >= 0.0) continue;
+    const Projection foot = left.line().project(points[i], limits.max_m);
+    if (!foot.inside || foot.distance_m < limits.min_m || foot.lateral_m >= 0.0) continue;
     if (!left.is_free(foot.arc_m)) continue;
     sections[i] = {.left_arc_m = foot.arc_m,
                    .right_arc_m = arc_m,
@@ -107,10 +103,11 @@ std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorde
 }
 
 std::span<const CrossSection> next_run(const std::vector<CrossSection>& sections, std::size_t& begin,
-                                       const LaneConfig& config) {
+                                       double max_variation_m) {
   const auto is_narrow = [](const CrossSection& section) { return section.width_m < kNarrow_m; };
   const auto run_from = [&](std::size_t first) {
-    return std::span(sections).subspan(first, std::max(run_end(sections, first, config), first + 1) - first);
+    return std::span(sections).subspan(
+        first, std::max(run_end(sections, first, max_variation_m), first + 1) - first);
   };
   auto run = run_from(begin);
   if (std::ranges::max_element(run, {}, &CrossSection::width_m)->width_m >= kNarrow_m + kTaper_m) {
@@ -149,7 +146,7 @@ Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const 
   }
   lane.left = MeasuredPolyline(lane.left).points();
   lane.width_m = width_sum_m / static_cast<double>(run.size());
-  std::erase_if(lane.inferred_ranges, [](const Range& range) { return range.length() <= 0.0; });
+  std::erase_if(lane.inferred_ranges, [](const Stretch& range) { return range.length() <= 0.0; });
   return lane;
 }
 

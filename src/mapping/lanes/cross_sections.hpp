@@ -13,28 +13,26 @@
 namespace laneloom {
 
 /// Which stretches of a boundary's one side belong to a lane already.
-using Occupied = std::vector<Range>;
+using Occupied = std::vector<Stretch>;
 
 /// A boundary, as a lane beside it runs. Refers to what it is made of.
 class LaneBorder {
  public:
-  LaneBorder(const LaneBoundary& boundary, const MeasuredPolyline& measured, bool reversed,
-             const Occupied& occupied);
-  const MeasuredPolyline& line() const { return reversed_ ? turned_ : measured_; }
+  LaneBorder(const LaneBoundary& boundary, bool reversed, const Occupied& occupied);
+  const MeasuredPolyline& line() const { return reversed_ ? turned_ : boundary_.course; }
   const Marking& marking() const { return boundary_.marking; }
   bool reversed() const { return reversed_; }
   bool is_free(double arc_m) const;
   bool is_bridged(double arc_m) const;
   /// On the boundary as it runs itself.
-  Range own(const Range& range) const {
-    return reversed_ ? Range{own(range.to_m), own(range.from_m)} : range;
+  Stretch own(const Stretch& range) const {
+    return reversed_ ? Stretch{own(range.to_m), own(range.from_m)} : range;
   }
 
  private:
-  double own(double arc_m) const { return reversed_ ? measured_.length() - arc_m : arc_m; }
+  double own(double arc_m) const { return reversed_ ? boundary_.course.length() - arc_m : arc_m; }
 
   const LaneBoundary& boundary_;
-  const MeasuredPolyline& measured_;
   bool reversed_;
   MeasuredPolyline turned_;
   const Occupied& occupied_;
@@ -62,19 +60,22 @@ struct Between {
 /// An edge, however sure, or else a confirmed line that runs along the pair's boundaries: between them, but
 /// beside neither. Empty: there is none.
 std::optional<Between> find_between(const CrossSection& section, const BoundaryPair& pair,
-                                    const std::vector<LaneBoundary>& boundaries,
-                                    const std::vector<MeasuredPolyline>& measured);
+                                    const Boundaries& boundaries);
+
+struct WidthLimits {
+  double min_m = 0.0, max_m = 0.0;
+};
 
 /// Along the right border, where both are free and their distance lies within the limits; elsewhere not
 /// valid.
-std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorder& right, double min_width_m,
-                                         double max_width_m, const LaneConfig& config);
+std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorder& right,
+                                         const WidthLimits& limits, const LaneConfig& config);
 
-/// The next run from `begin` on, which is moved behind it: the width varies little, and the left boundary is
-/// followed. Without its narrow ends where it is wider elsewhere: there a lane opens or closes beside
-/// another.
+/// The next run from `begin` on, which is moved behind it: the width varies by no more than is said, and the
+/// left boundary is followed. Without its narrow ends where it is wider elsewhere: there a lane opens or
+/// closes beside another.
 std::span<const CrossSection> next_run(const std::vector<CrossSection>& sections, std::size_t& begin,
-                                       const LaneConfig& config);
+                                       double max_variation_m);
 
 /// Along the left boundary.
 inline double length_of(std::span<const CrossSection> run) {

@@ -19,7 +19,7 @@ constexpr double kStyleReach_m = 5.0;    // either way; shorter patches of anoth
 
 bool may_be_crossed(const LaneBorder& border, double arc_m) {
   if (border.marking().type == MarkingType::roadedge) return false;
-  const Range around = border.own({arc_m - kStyleReach_m, arc_m + kStyleReach_m});
+  const Stretch around = border.own({arc_m - kStyleReach_m, arc_m + kStyleReach_m});
   return dashed_excess_m(border.marking(), around) >= 0.0;
 }
 

@@ -9,9 +9,9 @@
 #include "laneloom/config.hpp"
 #include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/boundaries/lane_boundaries.hpp"
 #include "mapping/lanes/cross_sections.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
+#include "mapping/lanes/lane_layout.hpp"
 
 /// Boundaries that nobody saw, with the lanes beside them: ours.
 namespace laneloom {
@@ -58,27 +58,15 @@ class TakenSpace {
   std::vector<Strip> strips_;
 };
 
-/// One that was published, for recognising it.
-struct KnownInferred {
-  ElementId id = kNoElement;
-  std::int64_t first_seen_ns = 0;
-  Polyline points;
-  std::uint64_t last_frame = 0;
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(id, first_seen_ns, points, last_frame);
-  }
+/// Lanes that were found, and what is inferred beside them. The inferred boundaries are without ids, and the
+/// lanes beside them are not yet among the lanes.
+struct FoundLanes {
+  Boundaries boundaries;
+  std::vector<Lane> lanes;
+  std::vector<InferredBoundary> inferred;
 };
 
-/// Gives every one the id of the known one that it covers most of, else a new one. What was not seen for a
-/// while is forgotten.
-void identify_inferred(std::uint64_t frame, std::int64_t stamp_ns, const LaneConfig& config,
-                       std::vector<InferredBoundary>& inferred, std::vector<KnownInferred>& known,
-                       ElementId& next_id);
-
-/// Adds them to the boundaries, which stay in the order of their ids, and to what is measured of those, and
-/// the lanes beside them to the lanes.
-void add_inferred(std::vector<InferredBoundary> inferred, std::vector<LaneBoundary>& boundaries,
-                  std::vector<MeasuredPolyline>& measured, std::vector<Lane>& lanes);
+/// Adds the inferred boundaries, which have ids now, to the others, and the lanes beside them to the lanes.
+LaneLayout laid_out(FoundLanes found);
 
 }  // namespace laneloom

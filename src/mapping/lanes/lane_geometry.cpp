@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "mapping/geometry/levels.hpp"
+#include "mapping/geometry/stretches.hpp"
 
 namespace laneloom {
 namespace {
@@ -30,10 +30,6 @@ Polyline straight_path(const Lane& from, const Lane& to) {
     path.push_back(point);
   }
   return path;
-}
-
-double common_length(const Range& a, const Range& b) {
-  return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m);
 }
 
 Point moved(const Point& point, const Eigen::Vector2d& by) { return point + Point(by.x(), by.y(), 0.0); }
@@ -73,27 +69,32 @@ std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, d
   }));
 }
 
-LaneSide lane_side(const Lane& lane, bool left) {
-  return left ? LaneSide{{lane.left_boundary, lane.left_reversed}, lane.left_range, lane.left_reversed}
-              : LaneSide{{lane.right_boundary, !lane.right_reversed}, lane.right_range, lane.right_reversed};
+LaneSide lane_side(const Lane& lane, Side side) {
+  // A lane lies on the right of its left boundary, and the other way round.
+  const auto along = [&](ElementId boundary, const Stretch& range, bool reversed) {
+    return LaneSide{{boundary, as_seen(opposite(side), reversed)}, range, reversed};
+  };
+  return side == Side::left ? along(lane.left_boundary, lane.left_range, lane.left_reversed)
+                            : along(lane.right_boundary, lane.right_range, lane.right_reversed);
 }
 
 const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {
   const Lane* across = nullptr;
   double longest_m = 0.0;
   for (const Lane& lane : lanes) {
-    for (const bool left : {true, false}) {
-      const LaneSide beyond = lane_side(lane, left);
-      if (beyond.of != side.of.other()) continue;
-      const double common_m = common_length(beyond.range, side.range);
-      if (common_m > longest_m) across = &lane, longest_m = common_m;
+    for (const Side its_side : kSides) {
+      const LaneSide beyond = lane_side(lane, its_side);
+      const double common_m = common(beyond.range, side.range).length();
+      if (beyond.of != side.of.other() || common_m <= longest_m) continue;
+      across = &lane;
+      longest_m = common_m;
     }
   }
   return across;
 }
 
-Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, true); }
-Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, false); }
+Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, End::back); }
+Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, End::front); }
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {
   return (to.centerline.front() - from.centerline.back()).head<2>();
 }
@@ -113,11 +114,6 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to) {
   return cross(a, b) > 0.0 ? Turn::left : Turn::right;
 }
 
-void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages) {
-  const auto lane = [&](ElementId id) -> const Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
-  for (Linkage& linkage : linkages) linkage.turn = turn_between(lane(linkage.from), lane(linkage.to));
-}
-
 bool are_neighbours(const Lane& a, const Lane& b) {
   const auto names = [](const std::vector<Neighbour>& neighbours, ElementId id) {
     return std::ranges::find(neighbours, id, &Neighbour::lane) != neighbours.end();
@@ -126,7 +122,9 @@ bool are_neighbours(const Lane& a, const Lane& b) {
          names(b.left_neighbours, a.id) || names(b.right_neighbours, a.id);
 }
 
-ElementId main_neighbour(const std::vector<Neighbour>& neighbours) {
+ElementId main_neighbour(const Lane& lane, Side side) {
+  const std::vector<Neighbour>& neighbours =
+      side == Side::left ? lane.left_neighbours : lane.right_neighbours;
   const auto longest = std::ranges::max_element(
       neighbours, {}, [](const Neighbour& neighbour) { return neighbour.range.length(); });
   return longest == neighbours.end() ? kNoElement : longest->lane;
@@ -152,10 +150,6 @@ Polyline path_between(const Lane& from, const Lane& to) {
 
 Polyline path_ahead(const Lane& from, const Lane& to) {
   return gap_between(from, to).dot(leaving(from)) < kMinGap_m ? Polyline{} : path_between(from, to);
-}
-
-void sort(std::vector<Linkage>& linkages) {
-  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
 }
 
 }  // namespace laneloom

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "laneloom/polyline.hpp"
@@ -18,25 +18,22 @@ std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, d
 /// One side of a boundary.
 struct BoundarySide {
   ElementId boundary = kNoElement;
-  bool on_left = false;  ///< as the boundary runs
+  Side side = Side::right;  ///< as the boundary runs
 
-  BoundarySide other() const { return {boundary, !on_left}; }
-  bool operator==(const BoundarySide&) const = default;
-  bool operator<(const BoundarySide& side) const {
-    return std::pair(boundary, on_left) < std::pair(side.boundary, side.on_left);
-  }
+  BoundarySide other() const { return {boundary, opposite(side)}; }
+  auto operator<=>(const BoundarySide&) const = default;
 };
 
 /// The left or the right side of a lane, along the boundary there.
 struct LaneSide {
   BoundarySide of;  ///< where the lane lies
-  Range range;
+  Stretch range;
   bool reversed = false;  ///< the boundary runs against the lane
 
   double begin_m() const { return reversed ? range.to_m : range.from_m; }
   double end_m() const { return reversed ? range.from_m : range.to_m; }
 };
-LaneSide lane_side(const Lane& lane, bool left);
+LaneSide lane_side(const Lane& lane, Side side);
 
 /// The lane that lies the longest along the same stretch of the boundary, on its other side; null: there is
 /// none.
@@ -44,8 +41,8 @@ const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes);
 
 bool are_neighbours(const Lane& a, const Lane& b);
 
-/// The neighbour of the longest stretch; kNoElement: there is none.
-ElementId main_neighbour(const std::vector<Neighbour>& neighbours);
+/// The neighbour of the longest stretch on a side; kNoElement: there is none.
+ElementId main_neighbour(const Lane& lane, Side side);
 
 /// 1: the vehicle drives along the lane, -1: against it, 0: it is elsewhere or crosses it.
 double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body);
@@ -71,16 +68,10 @@ std::optional<Corner> corner_between(const Lane& from, const Lane& to);
 /// Which way `to` turns off from `from`.
 Linkage::Turn turn_between(const Lane& from, const Lane& to);
 
-/// Says of every linkage which way it turns. The lanes have unique ids, which the linkages refer to.
-void find_turns(const std::vector<Lane>& lanes, std::vector<Linkage>& linkages);
-
 /// Between vertices of a path, in metres.
 inline constexpr double kPathStep_m = 1.0;
 /// A shorter gap, in metres, is no more than the distance between vertices: the ends meet.
 inline constexpr double kMinGap_m = 1.0;
-
-/// By the ids of the lanes, then by kind.
-void sort(std::vector<Linkage>& linkages);
 
 /// From the end of one lane to the start of another: straight on a cubic that leaves and enters in their
 /// directions, round a corner on an arc.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lanes/cross_sections.hpp"
@@ -34,57 +35,98 @@ Occupied joined(Occupied a, const Occupied& b) {
   return a;
 }
 
-}  // namespace
+/// Per boundary, what of its sides belongs to lanes.
+class UsedSides {
+ public:
+  explicit UsedSides(std::size_t boundaries) : used_(boundaries) {}
+  /// On the side of a pair's boundary where the pair lies.
+  Occupied& within(const BoundaryPair& pair, Side border) {
+    return used_[pair.index(border)][index(pair.inner(border))];
+  }
+  /// On the other side of that boundary.
+  const Occupied& beyond(const BoundaryPair& pair, Side border) const {
+    return used_[pair.index(border)][index(opposite(pair.inner(border)))];
+  }
 
-std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
-                                 const std::vector<LaneBoundary>& boundaries,
-                                 const std::vector<MeasuredPolyline>& measured, const Point& vehicle,
-                                 const LaneConfig& config) {
-  std::vector<Lane> lanes;
-  // Per boundary: its right side, its left side.
-  std::vector<std::array<Occupied, 2>> used(boundaries.size());
-  const auto is_edge = [&](std::size_t i) { return boundaries[i].marking.type == MarkingType::roadedge; };
-  const auto pair_lanes = [&](const BoundaryPair& pair, const Occupied& left_used,
-                              const Occupied& right_used) {
-    const LaneBorder left(boundaries[pair.left], measured[pair.left], pair.left_reversed, left_used);
-    const LaneBorder right(boundaries[pair.right], measured[pair.right], pair.right_reversed, right_used);
+ private:
+  std::vector<std::array<Occupied, 2>> used_;
+};
+
+/// Finds the lanes, pair by pair of boundaries.
+class LaneFinder {
+ public:
+  LaneFinder(const Boundaries& boundaries, const Point& vehicle, const LaneConfig& config)
+      : boundaries_(boundaries), vehicle_(vehicle), config_(config), used_(boundaries.size()) {}
+
+  void add(const BoundaryPair& pair) {
+    add(pair, used_.within(pair, Side::left), used_.within(pair, Side::right));
+  }
+
+  /// What lies beyond the edge of a road with lanes is a verge, a pavement or a cycle track: nothing between
+  /// edges is a lane where lanes lie on the other side of one.
+  void add_between_edges(const std::vector<BoundaryPair>& pairs) {
+    const UsedSides roads = used_;
+    for (const BoundaryPair& pair : pairs)
+      add(pair, joined(used_.within(pair, Side::left), roads.beyond(pair, Side::left)),
+          joined(used_.within(pair, Side::right), roads.beyond(pair, Side::right)));
+  }
+
+  std::vector<Lane> take() { return std::move(lanes_); }
+
+ private:
+  void add(const BoundaryPair& pair, const Occupied& left_used, const Occupied& right_used) {
+    const LaneBorder left(boundaries_[pair.left], pair.left_reversed, left_used);
+    const LaneBorder right(boundaries_[pair.right], pair.right_reversed, right_used);
+    const std::vector<CrossSection> sections = sections_between(pair, left, right);
+    for (std::size_t begin = 0; begin < sections.size();) {
+      const auto run = next_run(sections, begin, config_.max_width_variation_m);
+      if (length_of(run) < (run.front().wide ? kMinKerbLaneLength_m : config_.min_length_m)) continue;
+      Lane lane = make_lane(run, left, right);
+      lane.section = pair.section;
+      used_.within(pair, Side::left).push_back(lane.left_range);
+      used_.within(pair, Side::right).push_back(lane.right_range);
+      lanes_.push_back(std::move(lane));
+    }
+  }
+
+  std::vector<CrossSection> sections_between(const BoundaryPair& pair, const LaneBorder& left,
+                                             const LaneBorder& right) const {
     // Between two edges so far apart, there rather is a verge.
     const bool kerb = pair.adjacent && pair.left_kerb != pair.right_kerb;
-    const LaneConfig limits = limits_between(left.marking(), right.marking(), config);
-    auto sections =
-        cross_sections(left, right, 0.0, kerb ? limits.max_kerb_width_m : limits.max_width_m, limits);
-    remove_gores(left, right, vehicle, sections);
+    const LaneConfig limits = limits_between(left.marking(), right.marking(), config_);
+    const double max_width_m = kerb ? limits.max_kerb_width_m : limits.max_width_m;
+    auto sections = cross_sections(left, right, {.max_m = max_width_m}, limits);
+    remove_gores(left, right, vehicle_, sections);
     for (CrossSection& section : sections) {
       if (section.width_m < limits.min_width_m) section.valid = false;
-      if (section.wide && find_between(section, pair, boundaries, measured)) section.valid = false;
+      if (section.wide && find_between(section, pair, boundaries_)) section.valid = false;
     }
-    for (std::size_t begin = 0; begin < sections.size();) {
-      const auto run = next_run(sections, begin, config);
-      const double min_length_m = run.front().wide ? kMinKerbLaneLength_m : config.min_length_m;
-      if (length_of(run) >= min_length_m) {
-        lanes.push_back(make_lane(run, left, right));
-        lanes.back().section = pair.section;
-        used[pair.left][pair.left_reversed].push_back(lanes.back().left_range);
-        used[pair.right][!pair.right_reversed].push_back(lanes.back().right_range);
-      }
-    }
-  };
+    return sections;
+  }
+
+  const Boundaries& boundaries_;
+  const Point& vehicle_;
+  const LaneConfig& config_;
+  UsedSides used_;
+  std::vector<Lane> lanes_;
+};
+
+}  // namespace
+
+std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs, const Boundaries& boundaries,
+                                 const Point& vehicle, const LaneConfig& config) {
+  LaneFinder finder(boundaries, vehicle, config);
   std::vector<BoundaryPair> between_edges;
   for (const BoundaryPair& pair : pairs) {
     if (!pair.near) continue;
-    if (is_edge(pair.left) && is_edge(pair.right)) {
+    if (boundaries[pair.left].is_edge() && boundaries[pair.right].is_edge()) {
       between_edges.push_back(pair);
     } else {
-      pair_lanes(pair, used[pair.left][pair.left_reversed], used[pair.right][!pair.right_reversed]);
+      finder.add(pair);
     }
   }
-  // What lies beyond the edge of a road with lanes is a verge, a pavement or a cycle track.
-  const auto roads = used;
-  for (const BoundaryPair& pair : between_edges) {
-    pair_lanes(pair, joined(used[pair.left][pair.left_reversed], roads[pair.left][!pair.left_reversed]),
-               joined(used[pair.right][!pair.right_reversed], roads[pair.right][pair.right_reversed]));
-  }
-  return lanes;
+  finder.add_between_edges(between_edges);
+  return finder.take();
 }
 
 }  // namespace laneloom

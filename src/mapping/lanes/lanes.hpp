@@ -13,9 +13,7 @@ namespace laneloom {
 /// The nearer boundary comes first, so that lanes do not overlap; where an edge bounds the lanes of a road,
 /// what lies beyond it up to another edge is none; nor is a gore. A lane runs as its boundaries do; of two
 /// that are opposed, as the older one. Without ids and neighbours, in a deterministic order.
-std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs,
-                                 const std::vector<LaneBoundary>& boundaries,
-                                 const std::vector<MeasuredPolyline>& measured, const Point& vehicle,
-                                 const LaneConfig& config);
+std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs, const Boundaries& boundaries,
+                                 const Point& vehicle, const LaneConfig& config);
 
 }  // namespace laneloom

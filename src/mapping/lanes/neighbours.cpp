@@ -3,16 +3,13 @@
 #include <algorithm>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/stretches.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 
 namespace laneloom {
 namespace {
 
 constexpr double kMinBeside_m = 1.0;  // a shorter stretch is where one lane ends and the next begins
-
-Range common(const Range& a, const Range& b) {
-  return {std::max(a.from_m, b.from_m), std::min(a.to_m, b.to_m)};
-}
 
 /// Takes stretches of one side of a lane to its centerline, which runs as far in the same time.
 class SideToCenterline {
@@ -22,7 +19,7 @@ class SideToCenterline {
         scale_(centerline_m / (side.end_m() - side.begin_m())),
         end_m_(centerline_m) {}
 
-  Range operator()(const Range& on_boundary) const {
+  Stretch operator()(const Stretch& on_boundary) const {
     const double a = at(on_boundary.from_m), b = at(on_boundary.to_m);
     return {std::min(a, b), std::max(a, b)};
   }
@@ -33,29 +30,27 @@ class SideToCenterline {
   double begin_m_, scale_, end_m_;
 };
 
-std::vector<Range> dashed_within(const Marking& boundary, const Range& stretch,
-                                 const SideToCenterline& to_centerline) {
-  std::vector<Range> dashed;
+std::vector<Stretch> dashed_within(const Marking& boundary, const Stretch& stretch,
+                                   const SideToCenterline& to_centerline) {
+  std::vector<Stretch> dashed;
   for (const StyleRange& part : boundary.styles) {
-    const Range range = common(part.range, stretch);
+    const Stretch range = common(part.range, stretch);
     if (part.style == MarkingStyle::dashed && range.length() > 0.0) dashed.push_back(to_centerline(range));
   }
-  std::ranges::sort(dashed, {}, &Range::from_m);
+  std::ranges::sort(dashed, {}, &Stretch::from_m);
   return dashed;
 }
 
-std::vector<Neighbour> neighbours_beyond(const Lane& lane, bool left,
-                                         const std::vector<LaneBoundary>& boundaries,
-                                         const std::vector<Lane>& lanes) {
-  const LaneSide side = lane_side(lane, left);
+std::vector<Neighbour> neighbours_beyond(const Lane& lane, Side its_side, const LaneLayout& layout) {
+  const LaneSide side = lane_side(lane, its_side);
   const SideToCenterline to_centerline(side, length(lane.centerline));
   std::vector<Neighbour> neighbours;
-  for (const Lane& other : lanes) {
-    for (const bool its_left : {true, false}) {
-      const LaneSide beyond = lane_side(other, its_left);
-      const Range stretch = common(beyond.range, side.range);
+  for (const Lane& other : layout.lanes) {
+    for (const Side other_side : kSides) {
+      const LaneSide beyond = lane_side(other, other_side);
+      const Stretch stretch = common(beyond.range, side.range);
       if (beyond.of != side.of.other() || stretch.length() < kMinBeside_m) continue;
-      const Marking& boundary = boundary_of(boundaries, side.of.boundary).marking;
+      const Marking& boundary = layout.boundaries.of(side.of.boundary).marking;
       neighbours.push_back(
           {other.id, to_centerline(stretch), dashed_within(boundary, stretch, to_centerline)});
     }
@@ -66,10 +61,10 @@ std::vector<Neighbour> neighbours_beyond(const Lane& lane, bool left,
 
 }  // namespace
 
-void find_neighbours(const std::vector<LaneBoundary>& boundaries, std::vector<Lane>& lanes) {
-  for (Lane& lane : lanes) {
-    lane.left_neighbours = neighbours_beyond(lane, true, boundaries, lanes);
-    lane.right_neighbours = neighbours_beyond(lane, false, boundaries, lanes);
+void find_neighbours(LaneLayout& layout) {
+  for (Lane& lane : layout.lanes) {
+    lane.left_neighbours = neighbours_beyond(lane, Side::left, layout);
+    lane.right_neighbours = neighbours_beyond(lane, Side::right, layout);
   }
 }
 

@@ -25,11 +25,12 @@ constexpr double kOwn = 0.8;      // of the room's half, which the line itself m
 
 /// One side of a line.
 struct OpenSide {
-  std::size_t line = 0;  ///< index of the boundary
-  bool left = false;     ///< as that runs
+  std::size_t line = 0;     ///< index of the boundary
+  Side side = Side::right;  ///< as that runs
 
-  const Point& border(const CrossSection& section) const { return left ? section.left : section.right; }
-  const Point& at_line(const CrossSection& section) const { return left ? section.right : section.left; }
+  bool is_left() const { return side == Side::left; }
+  const Point& border(const CrossSection& section) const { return is_left() ? section.left : section.right; }
+  const Point& at_line(const CrossSection& section) const { return is_left() ? section.right : section.left; }
 };
 
 /// A strip on a side of a line; both arcs are the line's. Not valid where it would fold.
@@ -43,12 +44,12 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
     const Eigen::Vector2d along =
         (line.at(arc_m + kChord_m) - line.at(arc_m - kChord_m)).head<2>().normalized();
     const Point left(-along.y(), along.x(), 0.0);
-    const Point border = point + (side.left ? width_m : -width_m) * left;
+    const Point border = point + (side.is_left() ? width_m : -width_m) * left;
     CrossSection section{.left_arc_m = arc_m,
                          .right_arc_m = arc_m,
                          .width_m = width_m,
-                         .left = side.left ? border : point,
-                         .right = side.left ? point : border,
+                         .left = side.is_left() ? border : point,
+                         .right = side.is_left() ? point : border,
                          .valid = true};
     if (!strip.empty())
       section.valid = (border - side.border(strip.back())).head<2>().dot(along) > kMinAdvance * step_m;
@@ -60,20 +61,20 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
 /// Finds the lanes, side by side of the lines.
 class OneSidedLanes {
  public:
-  OneSidedLanes(const std::vector<LaneBoundary>& boundaries, const std::vector<MeasuredPolyline>& measured,
-                const LocalRange& range, const LaneConfig& config, TakenSpace& taken)
-      : boundaries_(boundaries), measured_(measured), range_(range), config_(config), taken_(taken) {
-    boxes_.reserve(measured.size());
-    for (const MeasuredPolyline& line : measured) boxes_.push_back(box_around(line.points()));
+  OneSidedLanes(const Boundaries& boundaries, const MapBox& map_box, const LaneConfig& config,
+                TakenSpace& taken)
+      : boundaries_(boundaries), map_box_(map_box), config_(config), taken_(taken) {
+    boxes_.reserve(boundaries.size());
+    for (const LaneBoundary& boundary : boundaries) boxes_.push_back(box_around(boundary.course.points()));
   }
 
   void add(const OpenSide& side, std::uint32_t road_section) {
-    const Marking& marking = boundaries_[side.line].marking;
-    if (marking.type != MarkingType::laneline || marking.status != ElementStatus::confirmed) return;
+    const LaneBoundary& line = boundaries_[side.line];
+    if (line.marking.type != MarkingType::laneline || !line.is_confirmed()) return;
     const std::vector<std::size_t> others = others_near(side.line);
     const std::vector<CrossSection> sections = open_sections(side, others);
     for (std::size_t begin = 0; begin < sections.size();) {
-      const auto run = next_run(sections, begin, config_);
+      const auto run = next_run(sections, begin, config_.max_width_variation_m);
       if (length_of(run) < kMinInferredLength_m) continue;
       if (length_of(run) < kMinBetween_m && is_gap(side, others, sections, run)) continue;
       Polyline border, middle;
@@ -83,7 +84,7 @@ class OneSidedLanes {
       }
       taken_.add(middle, 0.5 * config_.assumed_width_m);
       InferredBoundary found{.marking = inferred_marking(border), .section = road_section};
-      (side.left ? found.on_right : found.on_left)
+      (side.is_left() ? found.on_right : found.on_left)
           .emplace(InferredBoundary::Beside{.boundary = side.line, .sections = {run.begin(), run.end()}});
       found_.push_back(std::move(found));
     }
@@ -109,10 +110,11 @@ class OneSidedLanes {
     const auto is_dashed = [&](double arc_m) {
       return dashed_excess_m(marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) > 0.0;
     };
-    auto sections = strip_beside(measured_[side.line], side, config_.assumed_width_m, config_.step_m);
+    auto sections =
+        strip_beside(boundaries_[side.line].course, side, config_.assumed_width_m, config_.step_m);
     for (CrossSection& section : sections) {
       const Point &from = side.at_line(section), &border = side.border(section);
-      section.valid = section.valid && (driven || is_dashed(section.left_arc_m)) && range_.shows(border) &&
+      section.valid = section.valid && (driven || is_dashed(section.left_arc_m)) && map_box_.shows(border) &&
                       !taken_.contains(section.middle()) &&
                       !taken_.contains(from + kSpared * (border - from)) &&
                       has_nothing_else(side, others, section);
@@ -122,10 +124,10 @@ class OneSidedLanes {
 
   /// The vehicle is on that side, as in the lane.
   bool is_driven_along(const OpenSide& side) const {
-    const MeasuredPolyline& line = measured_[side.line];
-    const Eigen::Isometry3d& vehicle = range_.T_map_body();
+    const MeasuredPolyline& line = boundaries_[side.line].course;
+    const Eigen::Isometry3d& vehicle = map_box_.T_map_body();
     const Projection foot = line.project(vehicle.translation());
-    const double share = (side.left ? foot.lateral_m : -foot.lateral_m) / config_.assumed_width_m;
+    const double share = (side.is_left() ? foot.lateral_m : -foot.lateral_m) / config_.assumed_width_m;
     if (share < kDrivenFrom || share > kDrivenTo) return false;
     const double beyond_end_m2 = foot.distance_m * foot.distance_m - foot.lateral_m * foot.lateral_m;
     if (beyond_end_m2 > kBeyondEnd_m * kBeyondEnd_m) return false;
@@ -136,7 +138,7 @@ class OneSidedLanes {
 
   /// The boundaries that could be in the room beside a line; also itself.
   std::vector<std::size_t> others_near(std::size_t line) const {
-    const Box reach = box_around(measured_[line].points(), config_.max_kerb_width_m);
+    const Box reach = box_around(boundaries_[line].course.points(), config_.max_kerb_width_m);
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < boxes_.size(); ++i)
       if (reach.intersects(boxes_[i])) others.push_back(i);
@@ -151,14 +153,13 @@ class OneSidedLanes {
     return std::ranges::none_of(others, [&](std::size_t i) {
       // The line itself may come back.
       const double reach_m = i == side.line ? kOwn * room_m : room_m;
-      const Projection foot = measured_[i].project(middle, reach_m);
+      const Projection foot = boundaries_[i].course.project(middle, reach_m);
       return foot.inside && foot.distance_m < reach_m && same_level(foot.foot, middle);
     });
   }
 
-  const std::vector<LaneBoundary>& boundaries_;
-  const std::vector<MeasuredPolyline>& measured_;
-  const LocalRange& range_;
+  const Boundaries& boundaries_;
+  const MapBox& map_box_;
   const LaneConfig& config_;
   TakenSpace& taken_;
   std::vector<Box> boxes_;  ///< of the boundaries
@@ -167,17 +168,14 @@ class OneSidedLanes {
 
 }  // namespace
 
-std::vector<InferredBoundary> one_sided_lanes(const std::vector<RoadSection>& sections,
-                                              const std::vector<LaneBoundary>& boundaries,
-                                              const std::vector<MeasuredPolyline>& measured,
-                                              const LocalRange& range, const LaneConfig& config,
-                                              TakenSpace& taken) {
+std::vector<InferredBoundary> one_sided_lanes(const SectionGraph& road, const MapBox& box,
+                                              const LaneConfig& config, TakenSpace& taken) {
   if (config.assumed_width_m <= 0.0) return {};
-  OneSidedLanes lanes(boundaries, measured, range, config, taken);
-  for (std::uint32_t section = 0; section < sections.size(); ++section) {
-    for (const std::size_t line : sections[section].boundaries) {
-      lanes.add({line, false}, section);
-      lanes.add({line, true}, section);
+  OneSidedLanes lanes(road.boundaries, box, config, taken);
+  for (std::uint32_t section = 0; section < road.sections.size(); ++section) {
+    for (const std::size_t line : road.sections[section].boundaries) {
+      lanes.add({line, Side::right}, section);
+      lanes.add({line, Side::left}, section);
     }
   }
   return lanes.take();

@@ -4,7 +4,7 @@
 
 #include "laneloom/config.hpp"
 #include "mapping/boundaries/road_sections.hpp"
-#include "mapping/geometry/local_range.hpp"
+#include "mapping/geometry/map_box.hpp"
 #include "mapping/lanes/inferred_boundaries.hpp"
 
 namespace laneloom {
@@ -14,10 +14,7 @@ namespace laneloom {
 /// lane. The lane's other boundary is inferred, at the assumed width and within the range. A lane is 8 m long
 /// at least; between two stretches where there is something, 20 m: what is shorter is a gap in that. The
 /// space is `taken` then. Without ids.
-std::vector<InferredBoundary> one_sided_lanes(const std::vector<RoadSection>& sections,
-                                              const std::vector<LaneBoundary>& boundaries,
-                                              const std::vector<MeasuredPolyline>& measured,
-                                              const LocalRange& range, const LaneConfig& config,
-                                              TakenSpace& taken);
+std::vector<InferredBoundary> one_sided_lanes(const SectionGraph& road, const MapBox& box,
+                                              const LaneConfig& config, TakenSpace& taken);
 
 }  // namespace laneloom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
@@ -12,46 +13,69 @@ namespace {
 constexpr double kMaxWidth = 0.95;  // of the lane beside it; more is a difference by chance
 
 bool share_a_side(const Lane& a, const Lane& b) {
-  for (const bool left_a : {true, false})
-    for (const bool left_b : {true, false})
-      if (lane_side(a, left_a).of == lane_side(b, left_b).of) return true;
+  for (const Side side_a : kSides)
+    for (const Side side_b : kSides)
+      if (lane_side(a, side_a).of == lane_side(b, side_b).of) return true;
   return false;
 }
 
-}  // namespace
+/// Tells shoulders among lanes.
+class Shoulders {
+ public:
+  Shoulders(const std::vector<Lane>& lanes, const std::vector<BoundaryPair>& pairs,
+            const Boundaries& boundaries)
+      : lanes_(lanes), pairs_(pairs), boundaries_(boundaries) {}
 
-void remove_shoulders(const std::vector<BoundaryPair>& pairs, const std::vector<LaneBoundary>& boundaries,
-                      const Eigen::Isometry3d& T_map_body, const LaneConfig& config,
-                      std::vector<Lane>& lanes) {
-  const auto marking = [&](ElementId id) -> const Marking& { return boundary_of(boundaries, id).marking; };
-  const auto is_edge = [&](ElementId id) { return marking(id).type == MarkingType::roadedge; };
-  const auto road_ends_at = [&](const Lane& lane, bool left) {
-    const std::size_t a = index_of(boundaries, lane.left_boundary);
-    const std::size_t b = index_of(boundaries, lane.right_boundary);
-    return std::ranges::any_of(pairs, [&](const BoundaryPair& pair) {
-      return pair.left == a && pair.right == b && (left ? pair.left_kerb : pair.right_kerb);
-    });
-  };
-  const auto is_outside_a_lane = [&](const Lane& lane, bool edge_on_left) {
-    const LaneSide line = lane_side(lane, !edge_on_left);
-    if (!is_edge(lane_side(lane, edge_on_left).of.boundary) || is_edge(line.of.boundary)) return false;
-    if (dashed_excess_m(marking(line.of.boundary), line.range) >= 0.0) return false;
-    const Lane* beside = lane_across(line, lanes);
+  /// Whether the lane lies between an edge on that side and the solid line of a wider lane.
+  bool is_outside_a_lane(const Lane& lane, Side edge_side) const {
+    const LaneSide line = lane_side(lane, opposite(edge_side));
+    if (!is_edge(lane_side(lane, edge_side)) || is_edge(line)) return false;
+    if (dashed_excess_m(boundary_of(line).marking, line.range) >= 0.0) return false;
+    const Lane* beside = lane_across(line, lanes_);
     if (beside == nullptr || lane.width_m >= kMaxWidth * beside->width_m) return false;
-    return !road_ends_at(*beside, beside->left_boundary != line.of.boundary);
-  };
-  const auto is_driven_along = [&](const Lane& lane) {
-    return std::ranges::any_of(lanes, [&](const Lane& other) {
+    const Side shared = beside->left_boundary == line.of.boundary ? Side::left : Side::right;
+    return !road_ends_at(*beside, opposite(shared));
+  }
+
+  bool is_driven_along(const Lane& lane, const Eigen::Isometry3d& T_map_body) const {
+    return std::ranges::any_of(lanes_, [&](const Lane& other) {
       return share_a_side(lane, other) && ego_sense(other, T_map_body) != 0.0;
     });
-  };
-  std::vector<std::ptrdiff_t> shoulders;
-  for (std::size_t i = 0; i < lanes.size(); ++i)
-    if (lanes[i].width_m < config.max_shoulder_width_m &&
-        (is_outside_a_lane(lanes[i], true) || is_outside_a_lane(lanes[i], false)) &&
-        !is_driven_along(lanes[i]))
-      shoulders.push_back(static_cast<std::ptrdiff_t>(i));
-  for (auto i = shoulders.rbegin(); i != shoulders.rend(); ++i) lanes.erase(lanes.begin() + *i);
+  }
+
+ private:
+  const LaneBoundary& boundary_of(const LaneSide& side) const { return boundaries_.of(side.of.boundary); }
+  bool is_edge(const LaneSide& side) const { return boundary_of(side).is_edge(); }
+
+  bool road_ends_at(const Lane& lane, Side side) const {
+    const std::size_t left = boundaries_.index_of(lane.left_boundary);
+    const std::size_t right = boundaries_.index_of(lane.right_boundary);
+    return std::ranges::any_of(pairs_, [&](const BoundaryPair& pair) {
+      return pair.left == left && pair.right == right &&
+             (side == Side::left ? pair.left_kerb : pair.right_kerb);
+    });
+  }
+
+  const std::vector<Lane>& lanes_;
+  const std::vector<BoundaryPair>& pairs_;
+  const Boundaries& boundaries_;
+};
+
+}  // namespace
+
+std::vector<Lane> without_shoulders(const std::vector<Lane>& lanes, const std::vector<BoundaryPair>& pairs,
+                                    const Boundaries& boundaries, const Eigen::Isometry3d& T_map_body,
+                                    const LaneConfig& config) {
+  const Shoulders shoulders(lanes, pairs, boundaries);
+  std::vector<Lane> kept;
+  std::ranges::copy_if(lanes, std::back_inserter(kept), [&](const Lane& lane) {
+    const bool is_shoulder =
+        lane.width_m < config.max_shoulder_width_m &&
+        (shoulders.is_outside_a_lane(lane, Side::left) || shoulders.is_outside_a_lane(lane, Side::right)) &&
+        !shoulders.is_driven_along(lane, T_map_body);
+    return !is_shoulder;
+  });
+  return kept;
 }
 
 }  // namespace laneloom

@@ -17,14 +17,13 @@ constexpr double kBeyondEdge_m = kAlongEdge_m + 1.2;  // where half a lane is, b
 
 /// The share of the width at which a line begins or ends beyond the last cross-section of a run.
 std::optional<double> line_beyond(const CrossSection& last, const CrossSection& before,
-                                  const BoundaryPair& pair, const std::vector<LaneBoundary>& boundaries,
-                                  const std::vector<MeasuredPolyline>& measured) {
+                                  const BoundaryPair& pair, const Boundaries& boundaries) {
   const Point onwards = (last.middle() - before.middle()).normalized();
   for (double ahead_m = kReachStep_m; ahead_m <= kReach_m; ahead_m += kReachStep_m) {
     CrossSection section = last;
     section.left += ahead_m * onwards;
     section.right += ahead_m * onwards;
-    const auto between = find_between(section, pair, boundaries, measured);
+    const auto between = find_between(section, pair, boundaries);
     if (between) return between->is_edge ? std::nullopt : std::optional(between->share);
   }
   return std::nullopt;
@@ -76,22 +75,20 @@ std::optional<Halves> divide(std::span<const CrossSection> run, double share_at_
 /// Finds what can be divided, pair by pair of boundaries.
 class Divisions {
  public:
-  Divisions(const std::vector<LaneBoundary>& boundaries, const std::vector<MeasuredPolyline>& measured,
-            const LaneConfig& config, TakenSpace& taken)
-      : boundaries_(boundaries), measured_(measured), config_(config), lanes_(taken), taken_(taken) {}
+  Divisions(const Boundaries& boundaries, const LaneConfig& config, TakenSpace& taken)
+      : boundaries_(boundaries), config_(config), lanes_(taken), taken_(taken) {}
 
   void add(const BoundaryPair& pair) {
     if ((!pair.left_kerb && !pair.right_kerb) || pair.crosses_kerb) return;
-    if (!is_confirmed(pair.left) || !is_confirmed(pair.right)) return;
-    Occupied& left_taken = taken_.beside({boundaries_[pair.left].marking.id, pair.left_reversed});
-    Occupied& right_taken = taken_.beside({boundaries_[pair.right].marking.id, !pair.right_reversed});
-    const LaneBorder left(boundaries_[pair.left], measured_[pair.left], pair.left_reversed, left_taken);
-    const LaneBorder right(boundaries_[pair.right], measured_[pair.right], pair.right_reversed, right_taken);
+    if (!boundaries_[pair.left].is_confirmed() || !boundaries_[pair.right].is_confirmed()) return;
+    Occupied& left_taken = taken_.beside({boundaries_[pair.left].marking.id, pair.inner(Side::left)});
+    Occupied& right_taken = taken_.beside({boundaries_[pair.right].marking.id, pair.inner(Side::right)});
+    const LaneBorder left(boundaries_[pair.left], pair.left_reversed, left_taken);
+    const LaneBorder right(boundaries_[pair.right], pair.right_reversed, right_taken);
     const std::vector<CrossSection> sections = unmarked(pair, left, right);
-    LaneConfig both_lanes = config_;
-    both_lanes.max_width_variation_m *= 2.0;
+    const double max_variation_m = 2.0 * config_.max_width_variation_m;  // of both lanes
     for (std::size_t begin = 0; begin < sections.size();) {
-      auto run = next_run(sections, begin, both_lanes);
+      auto run = next_run(sections, begin, max_variation_m);
       if (length_of(run) < kMinInferredLength_m) continue;
       run = without_flares(run);
       if (length_of(run) < kMinInferredLength_m) continue;
@@ -111,16 +108,14 @@ class Divisions {
   std::vector<InferredBoundary> take() { return std::move(found_); }
 
  private:
-  bool is_confirmed(std::size_t i) const { return boundaries_[i].marking.status == ElementStatus::confirmed; }
-
   /// Sections without an edge, a confirmed line or a lane in them, that are not a median.
   std::vector<CrossSection> unmarked(const BoundaryPair& pair, const LaneBorder& left,
                                      const LaneBorder& right) const {
     const bool two_kerbs = pair.left_kerb && pair.right_kerb;
     const double max_width_m = 2.0 * (two_kerbs ? config_.max_kerb_width_m : config_.max_width_m);
-    auto sections = cross_sections(left, right, config_.min_divided_width_m, max_width_m, config_);
+    auto sections = cross_sections(left, right, {config_.min_divided_width_m, max_width_m}, config_);
     for (CrossSection& section : sections) {
-      section.valid = section.valid && !find_between(section, pair, boundaries_, measured_) &&
+      section.valid = section.valid && !find_between(section, pair, boundaries_) &&
                       !taken_.contains(section.middle()) && !(two_kerbs && is_beside_lanes(section));
     }
     return sections;
@@ -134,16 +129,15 @@ class Divisions {
 
   /// At the lines that it continues, or in the middle.
   std::optional<Halves> divide(std::span<const CrossSection> run, const BoundaryPair& pair) const {
-    const auto before = line_beyond(run.front(), run[1], pair, boundaries_, measured_);
-    const auto after = line_beyond(run.back(), run[run.size() - 2], pair, boundaries_, measured_);
+    const auto before = line_beyond(run.front(), run[1], pair, boundaries_);
+    const auto after = line_beyond(run.back(), run[run.size() - 2], pair, boundaries_);
     const double at_begin = before ? *before : after.value_or(0.5);
     const auto max_width_m = [&](bool kerb) { return kerb ? config_.max_kerb_width_m : config_.max_width_m; };
     return laneloom::divide(run, at_begin, after.value_or(at_begin), config_.min_width_m,
                             {max_width_m(pair.left_kerb), max_width_m(pair.right_kerb)});
   }
 
-  const std::vector<LaneBoundary>& boundaries_;
-  const std::vector<MeasuredPolyline>& measured_;
+  const Boundaries& boundaries_;
   const LaneConfig& config_;
   const TakenSpace lanes_;  ///< that were seen
   TakenSpace& taken_;
@@ -153,11 +147,10 @@ class Divisions {
 }  // namespace
 
 std::vector<InferredBoundary> divide_unmarked(const std::vector<BoundaryPair>& pairs,
-                                              const std::vector<LaneBoundary>& boundaries,
-                                              const std::vector<MeasuredPolyline>& measured,
-                                              const LaneConfig& config, TakenSpace& taken) {
+                                              const Boundaries& boundaries, const LaneConfig& config,
+                                              TakenSpace& taken) {
   if (config.min_divided_width_m <= 0.0) return {};
-  Divisions divisions(boundaries, measured, config, taken);
+  Divisions divisions(boundaries, config, taken);
   for (const BoundaryPair& pair : pairs) divisions.add(pair);
   return divisions.take();
 }

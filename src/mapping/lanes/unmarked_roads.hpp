@@ -13,8 +13,7 @@ namespace laneloom {
 /// between the two is inferred. It continues a line that begins or ends there; else it lies in the middle.
 /// What lies between roads with lanes is none. The space is `taken` then. Without ids.
 std::vector<InferredBoundary> divide_unmarked(const std::vector<BoundaryPair>& pairs,
-                                              const std::vector<LaneBoundary>& boundaries,
-                                              const std::vector<MeasuredPolyline>& measured,
-                                              const LaneConfig& config, TakenSpace& taken);
+                                              const Boundaries& boundaries, const LaneConfig& config,
+                                              TakenSpace& taken);
 
 }  // namespace laneloom

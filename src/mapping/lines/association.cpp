@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/markings/markings.hpp"
@@ -26,6 +27,43 @@ Eigen::Vector2d direction_of(const Polyline& samples, std::size_t i) {
   const std::size_t after = std::min(i + 1, samples.size() - 1);
   return (samples[after] - samples[before]).head<2>().normalized();
 }
+
+/// The station that a sample observes; of two equally near ones the former.
+std::size_t observed_station(const SampleMatch& s) {
+  constexpr double kTie = 1e-6;
+  return static_cast<std::size_t>(std::lround(std::max(0.0, s.foot.index - kTie)));
+}
+
+/// Which samples of the detections are matched, and which stations of the lines are observed.
+class Claims {
+ public:
+  Claims(const std::vector<SampledDetection>& detections, const std::vector<Line>& lines)
+      : matched_(detections.size()), observed_(lines.size()) {
+    for (std::size_t i = 0; i < detections.size(); ++i) matched_[i].resize(detections[i].samples.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) observed_[i].resize(lines[i].stations.size());
+  }
+
+  void remove_claimed(LineMatch& match) const {
+    std::erase_if(match.samples, [&](const SampleMatch& s) {
+      return matched_[match.detection][s.sample] || observed_[match.line][observed_station(s)];
+    });
+  }
+
+  /// Also the stations between two samples that follow one another.
+  void claim(const LineMatch& match) {
+    for (std::size_t i = 0; i < match.samples.size(); ++i) {
+      const SampleMatch& s = match.samples[i];
+      matched_[match.detection][s.sample] = true;
+      const bool led = i > 0 && is_led_through(match.samples[i - 1], s);
+      const auto [low, high] =
+          std::minmax({observed_station(s), observed_station(led ? match.samples[i - 1] : s)});
+      for (std::size_t k = low; k <= high; ++k) observed_[match.line][k] = true;
+    }
+  }
+
+ private:
+  std::vector<std::vector<bool>> matched_, observed_;
+};
 
 }  // namespace
 
@@ -104,36 +142,27 @@ std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& d
   for (std::size_t i = 0; i < detections.size(); ++i) find_candidates(i, detections[i], stride, candidates);
   std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::score);
 
-  std::vector<std::vector<bool>> explained(detections.size()), observed(lines_.size());
-  for (std::size_t i = 0; i < detections.size(); ++i) explained[i].resize(detections[i].samples.size());
-  for (std::size_t i = 0; i < lines_.size(); ++i) observed[i].resize(lines_[i].stations.size());
+  Claims claims(detections, lines_);
   std::vector<LineMatch> matches;
   matches.reserve(candidates.size());
   for (auto& [score, match] : candidates) {
-    auto& used = explained[match.detection];
-    auto& taken = observed[match.line];
-    const auto station = [](const SampleMatch& s) {
-      return static_cast<std::size_t>(std::lround(std::max(0.0, s.foot.index - 1e-6)));
-    };
-    std::erase_if(match.samples, [&](const SampleMatch& s) { return used[s.sample] || taken[station(s)]; });
+    claims.remove_claimed(match);
     double overlap_m = 0.0;
     for (const SampleMatch& s : match.samples) overlap_m += detections[match.detection].share_m(s.sample);
     if (match.samples.size() < 2 || overlap_m * static_cast<double>(stride) < config_.min_overlap_m) continue;
-    for (std::size_t i = 0; i < match.samples.size(); ++i) {
-      const SampleMatch& s = match.samples[i];
-      used[s.sample] = true;
-      const bool led = i > 0 && is_led_through(match.samples[i - 1], s);
-      const auto [low, high] = std::minmax({station(s), station(led ? match.samples[i - 1] : s)});
-      for (std::size_t k = low; k <= high; ++k) taken[k] = true;
-    }
+    claims.claim(match);
     matches.push_back(std::move(match));
   }
   return matches;
 }
 
-void mark_explained(const std::vector<LineMatch>& matches, std::vector<SampledDetection>& detections) {
-  for (const LineMatch& match : matches)
-    for (const SampleMatch& s : match.samples) detections[match.detection].explained[s.sample] = true;
+Association associate(LineMatcher& matcher, std::vector<SampledDetection> detections) {
+  Association association{.detections = std::move(detections), .matches = {}};
+  association.matches = matcher.match(association.detections);
+  for (const LineMatch& match : association.matches)
+    for (const SampleMatch& s : match.samples)
+      association.detections[match.detection].explained[s.sample] = true;
+  return association;
 }
 
 }  // namespace laneloom

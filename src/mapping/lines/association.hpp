@@ -46,6 +46,12 @@ struct SampledDetection {
 std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,
                                                 const FusionConfig& config);
 
+/// What one frame says of the lines.
+struct Association {
+  std::vector<SampledDetection> detections;
+  std::vector<LineMatch> matches;
+};
+
 /// Tells which detection observes which of the lines of one instant. Not thread-safe.
 class LineMatcher {
  public:
@@ -58,6 +64,7 @@ class LineMatcher {
   std::vector<LineMatch> match(const std::vector<SampledDetection>& detections, std::size_t stride = 1);
 
   const std::vector<Line>& lines() const { return lines_; }
+  const FusionConfig& config() const { return config_; }
 
  private:
   struct Candidate;
@@ -70,7 +77,7 @@ class LineMatcher {
   NearestStations along_, across_;
 };
 
-/// Marks the samples that were matched.
-void mark_explained(const std::vector<LineMatch>& matches, std::vector<SampledDetection>& detections);
+/// Matches the detections, and marks the samples that were matched.
+Association associate(LineMatcher& matcher, std::vector<SampledDetection> detections);
 
 }  // namespace laneloom

@@ -90,10 +90,10 @@ Eigen::Vector2d shifted_by(const FrameError& error, const Point& point, const Ei
   return heading_of(T_map_body) * error.head<2>() + error.z() * Eigen::Vector2d(-arm.y(), arm.x());
 }
 
-FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, double min_log_odds,
-                       LineMatcher& matcher, std::vector<SampledDetection>& detections, FrameError& lasting) {
+FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMatcher& matcher,
+                       std::vector<SampledDetection>& detections, FrameError& lasting) {
   const FrameError error = estimate_error(matcher.match(detections, kStride), detections, matcher.lines(),
-                                          T_map_body, min_log_odds);
+                                          T_map_body, matcher.config().confirm_log_odds);
   FrameError passing = (error - lasting).cwiseMin(kLimit).cwiseMax(-kLimit);
   lasting += kLasting * (error - lasting);
   for (SampledDetection& detection : detections)

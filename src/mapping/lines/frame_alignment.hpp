@@ -25,7 +25,7 @@ Eigen::Vector2d shifted_by(const FrameError& error, const Point& point, const Ei
 /// Takes the share `gain` of a frame's error out of its detections, but for what lasts: that is a drift of
 /// the poses, with which the map has to go. `lasting` is its running mean. Returns the error without it.
 /// `matcher` is of the map's lines. Ours.
-FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, double min_log_odds,
-                       LineMatcher& matcher, std::vector<SampledDetection>& detections, FrameError& lasting);
+FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMatcher& matcher,
+                       std::vector<SampledDetection>& detections, FrameError& lasting);
 
 }  // namespace laneloom

@@ -26,26 +26,26 @@ std::vector<Views> views_of_ends(const std::vector<LineMatch>& matches, const st
 }
 
 /// An end of a line that may meet another one's, seen from above.
-struct End {
+struct LineEnd {
   ElementId line = kNoElement;
-  bool at_back = false;
+  End end = End::front;
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   const std::vector<std::size_t>* views = nullptr;
 
-  ElementId id() const { return end_id(line, at_back); }
+  ElementId id() const { return end_id(line, end); }
 };
 
 /// In the order of their ids. Stoplines do not go on, so that they have none.
-std::vector<End> ends_of(const std::vector<Line>& lines, const std::vector<Views>& views) {
-  std::vector<End> ends;
+std::vector<LineEnd> ends_of(const std::vector<Line>& lines, const std::vector<Views>& views) {
+  std::vector<LineEnd> ends;
   ends.reserve(2 * lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     if (is_stopline(line.type())) continue;
-    ends.push_back({line.id, false, line.stations.front().position.head<2>(), &views[i][0]});
-    ends.push_back({line.id, true, line.stations.back().position.head<2>(), &views[i][1]});
+    ends.push_back({line.id, End::front, line.stations.front().position.head<2>(), &views[i][0]});
+    ends.push_back({line.id, End::back, line.stations.back().position.head<2>(), &views[i][1]});
   }
-  std::ranges::sort(ends, {}, &End::id);
+  std::ranges::sort(ends, {}, &LineEnd::id);
   return ends;
 }
 
@@ -58,7 +58,7 @@ bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
                   PairHistories& joints) {
   const std::vector<Views> views = views_of_ends(matches, lines);
-  const std::vector<End> ends = ends_of(lines, views);
+  const std::vector<LineEnd> ends = ends_of(lines, views);
   std::vector<PairSighting> near;
   for (auto a = ends.begin(); a != ends.end(); ++a) {
     for (auto b = a + 1; b != ends.end(); ++b) {

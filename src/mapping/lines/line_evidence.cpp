@@ -32,7 +32,7 @@ bool View::detects(MarkingType type) const {
 
 bool View::unlimited() const { return frame->field_of_view.empty() && frame->occluded_areas.empty(); }
 
-bool View::sees(const Point& point_map, MarkingType type, const LocalRange& range) const {
+bool View::sees(const Point& point_map, MarkingType type, const MapBox& range) const {
   if (!detects(type)) return false;
   const Point point = T_body_map * point_map;
   const bool in_view =
@@ -100,12 +100,11 @@ void add_confidence(const SampledDetection& detection, const Point& origin, doub
   line.confidences.log_odds = model.log_odds(line.type(), line.confidences);
 }
 
-void credit_observed(const View& view, const std::vector<LineMatch>& matches,
-                     const std::vector<SampledDetection>& detections, const FusionConfig& config,
+void credit_observed(const View& view, const Association& association, const FusionConfig& config,
                      DetectionModel& model, std::vector<Line>& lines) {
   const Point origin = view.T_body_map.inverse().translation();
-  for (const LineMatch& match : matches) {
-    const SampledDetection& detection = detections[match.detection];
+  for (const LineMatch& match : association.matches) {
+    const SampledDetection& detection = association.detections[match.detection];
     Line& line = lines[match.line];
     line.last_seen_ns = std::max(line.last_seen_ns, view.frame->stamp_ns);
     credit_stations(match, hit(detection, config), view.news, config, line);
@@ -117,7 +116,7 @@ void credit_observed(const View& view, const std::vector<LineMatch>& matches,
   }
 }
 
-void discount_unobserved(const View& view, const LocalRange& range, const FusionConfig& config,
+void discount_unobserved(const View& view, const MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines) {
   for (Line& line : lines) {
     const MarkingType type = line.type();
@@ -141,7 +140,7 @@ void discount_unobserved(const View& view, const LocalRange& range, const Fusion
 namespace {
 
 /// What is left of a line, in order.
-std::vector<Line> living_pieces(Line& line, const LocalRange& range, const FusionConfig& config) {
+std::vector<Line> living_pieces(Line& line, const MapBox& range, const FusionConfig& config) {
   const auto dead = [&](const Station& s) {
     return s.log_odds < config.min_log_odds || !range.keeps(s.position);
   };
@@ -173,8 +172,8 @@ void forget_least_believed(std::vector<Line>& lines) {
 
 }  // namespace
 
-std::vector<Relative> prune_lines(const LocalRange& range, const FusionConfig& config, DetectionModel& model,
-                                  std::vector<Line>& lines, ElementId& next_id) {
+std::vector<Relative> prune_lines(const MapBox& range, const FusionConfig& config, DetectionModel& model,
+                                  std::vector<Line>& lines, IdSource& ids) {
   std::vector<Line> kept, cut_off;
   std::vector<Relative> relatives;
   for (Line& line : lines) {
@@ -189,7 +188,7 @@ std::vector<Relative> prune_lines(const LocalRange& range, const FusionConfig& c
         std::ranges::max_element(pieces, {}, [](const Line& piece) { return piece.stations.size(); });
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
       if (piece == longest) continue;
-      piece->id = next_id++;
+      piece->id = ids.next();
       relatives.push_back({piece->id, line.id});
       cut_off.push_back(std::move(*piece));
     }

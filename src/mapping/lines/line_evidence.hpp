@@ -5,10 +5,11 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/geometry/local_range.hpp"
+#include "mapping/geometry/map_box.hpp"
 #include "mapping/lines/association.hpp"
 #include "mapping/lines/detection_model.hpp"
 #include "mapping/lines/line_map.hpp"
+#include "mapping/markings/id_source.hpp"
 #include "mapping/markings/relatives.hpp"
 
 namespace laneloom {
@@ -26,7 +27,7 @@ struct View {
   bool unlimited() const;
 
   /// Whether a marking of `type` at a point of the map would have been seen.
-  bool sees(const Point& point_map, MarkingType type, const LocalRange& range) const;
+  bool sees(const Point& point_map, MarkingType type, const MapBox& range) const;
 };
 
 /// Log odds that a line exists: what its stations say on average, and what its confidences say.
@@ -37,19 +38,18 @@ void add_confidence(const SampledDetection& detection, const Point& origin, doub
                     const DetectionModel& model, Line& line);
 
 /// Raises the evidence of what was observed. The model learns the confidences of established lines.
-void credit_observed(const View& view, const std::vector<LineMatch>& matches,
-                     const std::vector<SampledDetection>& detections, const FusionConfig& config,
+void credit_observed(const View& view, const Association& association, const FusionConfig& config,
                      DetectionModel& model, std::vector<Line>& lines);
 
 /// Lowers the evidence of the stations that were in view and not observed, as far as the network sees what is
 /// there. The model learns how often it sees established lines, within the range and its margin.
-void discount_unobserved(const View& view, const LocalRange& range, const FusionConfig& config,
+void discount_unobserved(const View& view, const MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines);
 
 /// Takes away what has lost its evidence or left the range: ends are cut, a line that is lost in between is
 /// split. Its longest piece keeps the id; returns the others, each with the line that it was cut off from.
 /// The model learns which lines were wrong. Of more than 256 lines, those that are believed least go.
-std::vector<Relative> prune_lines(const LocalRange& range, const FusionConfig& config, DetectionModel& model,
-                                  std::vector<Line>& lines, ElementId& next_id);
+std::vector<Relative> prune_lines(const MapBox& range, const FusionConfig& config, DetectionModel& model,
+                                  std::vector<Line>& lines, IdSource& ids);
 
 }  // namespace laneloom

@@ -61,30 +61,31 @@ class Observations {
   std::vector<Observation> all_;
 };
 
-void fuse(const LineMatch& match, const SampledDetection& detection, const Viewpoint& from,
-          const FusionConfig& config, Networks& networks, Line& line) {
-  Observations seen(detection, line);
-  seen.gather(match.samples);
-  for (const Observation& observation : seen.all()) {
-    Station& station = line.stations[observation.station];
-    if (config.learn) learn(observation, from, station, networks);
-    observe(observation, from, station);
-    station.style_votes[index(detection.style)] += 1.0;
-  }
+void vote(const SampledDetection& detection, double samples, Line& line) {
   for (double& votes : line.type_votes) votes *= kTypeMemory;
-  line.type_votes[index(detection.type)] += static_cast<double>(match.samples.size());
+  line.type_votes[index(detection.type)] += samples;
   ++line.observations;
 }
 
 }  // namespace
 
-void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
-                  const Viewpoint& from, const FusionConfig& config, Networks& networks,
-                  std::vector<Line>& lines) {
+void fuse_matches(const Association& association, const Viewpoint& from, const FusionConfig& config,
+                  Networks& networks, std::vector<Line>& lines) {
   for (Line& line : lines)
     for (Station& station : line.stations) station.sight = Sight::out_of_view;
-  for (const LineMatch& match : matches)
-    fuse(match, detections[match.detection], from, config, networks, lines[match.line]);
+  for (const LineMatch& match : association.matches) {
+    const SampledDetection& detection = association.detections[match.detection];
+    Line& line = lines[match.line];
+    Observations seen(detection, line);
+    seen.gather(match.samples);
+    for (const Observation& observation : seen.all()) {
+      Station& station = line.stations[observation.station];
+      if (config.learn) learn(observation, from, station, networks);
+      observe(observation, from, station);
+      station.style_votes[index(detection.style)] += 1.0;
+    }
+    vote(detection, static_cast<double>(match.samples.size()), line);
+  }
 }
 
 }  // namespace laneloom

@@ -13,8 +13,7 @@ namespace laneloom {
 
 /// Moves the observed stations towards what was seen, weighing each observation by its deviation, and raises
 /// their evidence. Teaches the networks.
-void fuse_matches(const std::vector<LineMatch>& matches, const std::vector<SampledDetection>& detections,
-                  const Viewpoint& from, const FusionConfig& config, Networks& networks,
-                  std::vector<Line>& lines);
+void fuse_matches(const Association& association, const Viewpoint& from, const FusionConfig& config,
+                  Networks& networks, std::vector<Line>& lines);
 
 }  // namespace laneloom

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/stretches.hpp"
 
 namespace laneloom {
 namespace {
@@ -40,11 +41,10 @@ double deviation_at(const std::vector<double>& arc_m, const std::vector<double>&
   return deviations_m[after - 1] + share * (deviations_m[after] - deviations_m[after - 1]);
 }
 
-double dashed_excess_m(const Marking& marking, const Range& range) {
+double dashed_excess_m(const Marking& marking, const Stretch& range) {
   double excess_m = 0.0;
   for (const StyleRange& style : marking.styles) {
-    const double common_m =
-        std::min(style.range.to_m, range.to_m) - std::max(style.range.from_m, range.from_m);
+    const double common_m = common(style.range, range).length();
     if (common_m <= 0.0) continue;
     if (style.style == MarkingStyle::dashed) excess_m += common_m;
     if (style.style == MarkingStyle::solid) excess_m -= common_m;
@@ -52,7 +52,7 @@ double dashed_excess_m(const Marking& marking, const Range& range) {
   return excess_m;
 }
 
-Marking slice(const Marking& marking, const Range& stretch) {
+Marking slice(const Marking& marking, const Stretch& stretch) {
   Marking part = marking;
   part.points = MeasuredPolyline(marking.points).slice(stretch);
   if (!marking.lateral_stddev_m.empty()) {
@@ -76,7 +76,7 @@ void reverse(Marking& marking) {
   std::ranges::reverse(marking.points);
   std::ranges::reverse(marking.lateral_stddev_m);
   std::ranges::reverse(marking.styles);
-  for (auto& [range, style] : marking.styles) range = {total_m - range.to_m, total_m - range.from_m};
+  for (auto& [range, style] : marking.styles) range = reversed(range, total_m);
 }
 
 void append(Marking& marking, const Marking& next) {

@@ -21,10 +21,10 @@ MarkingStyle voted(const StyleVotes& votes, const StyleConfig& config);
 void append_style(std::vector<StyleRange>& styles, const StyleRange& next);
 
 /// How much longer the dashed stretches of a marking are than the solid ones, within a range.
-double dashed_excess_m(const Marking& marking, const Range& range);
+double dashed_excess_m(const Marking& marking, const Stretch& range);
 
 /// The stretch of a marking between two arc lengths, with its styles and deviations.
-Marking slice(const Marking& marking, const Range& stretch);
+Marking slice(const Marking& marking, const Stretch& stretch);
 
 /// The same marking, run through in the other direction.
 void reverse(Marking& marking);

@@ -21,7 +21,7 @@ struct PairHistory {
 };
 
 /// Names an end of a line.
-constexpr ElementId end_id(ElementId line, bool at_back) { return 2 * line + (at_back ? 1 : 0); }
+constexpr ElementId end_id(ElementId line, End end) { return 2 * line + index(end); }
 
 /// In the order of their ids.
 using PairHistories = std::vector<PairHistory>;

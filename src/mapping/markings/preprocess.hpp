@@ -16,6 +16,13 @@ struct ObservedMarking {
   std::vector<double> stddev_m{};  ///< per point, lateral; empty: not given
 };
 
+/// A frame that passed the filters. Refers to the frame as it came.
+struct ObservedFrame {
+  const DetectionFrame& frame;
+  Eigen::Isometry3d T_map_body;  ///< from where it was seen
+  std::vector<ObservedMarking> markings;
+};
+
 /// Rejects what is likely wrong, by confidence and zigzag, and transforms the rest (paper, Sec. III-A).
 std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                                         const PreprocessConfig& config);

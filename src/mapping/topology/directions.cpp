@@ -35,14 +35,15 @@ double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, co
   double sense = 0.0;
   for (const Marking& marking : markings) {
     if (marking.type != MarkingType::stopline) continue;
-    if (crosses_end(marking, lane, true, config)) sense += 1.0;
-    if (crosses_end(marking, lane, false, config)) sense -= 1.0;
+    if (crosses_end(marking, lane, End::back, config)) sense += 1.0;
+    if (crosses_end(marking, lane, End::front, config)) sense -= 1.0;
   }
   return std::clamp(sense, -1.0, 1.0);
 }
 
 /// Lanes that continue one another, or lie along the same side of one boundary: one variable of the model.
-OrientedGroups group(const std::vector<Lane>& lanes, const std::vector<Linkage>& linkages) {
+OrientedGroups group(const RoadGraph& road) {
+  const std::vector<Lane>& lanes = road.lanes;
   struct First {
     std::size_t lane;
     bool reversed;  ///< the boundary runs against it
@@ -52,13 +53,14 @@ OrientedGroups group(const std::vector<Lane>& lanes, const std::vector<Linkage>&
   std::map<BoundarySide, First> beside;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     index.emplace(lanes[i].id, i);
-    for (const bool left : {true, false}) {
-      const LaneSide side = lane_side(lanes[i], left);
+    for (const Side one : kSides) {
+      const LaneSide side = lane_side(lanes[i], one);
       const First& first = beside.emplace(side.of, First{i, side.reversed}).first->second;
       groups.join(first.lane, i, side.reversed != first.reversed);
     }
   }
-  for (const Linkage& linkage : linkages) groups.join(index.at(linkage.from), index.at(linkage.to), false);
+  for (const Linkage& linkage : road.linkages)
+    groups.join(index.at(linkage.from), index.at(linkage.to), false);
   return groups;
 }
 
@@ -70,7 +72,10 @@ bool is_opposed(const OrientedGroups& groups, std::size_t lane) {
 struct Mean {
   double sum = 0.0;
   int count = 0;
-  void add(double value) { sum += value, ++count; }
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
   double value() const { return count == 0 ? 0.0 : sum / count; }
 };
 
@@ -89,24 +94,23 @@ struct Model {
 
 /// 1 where traffic keeps right, -1 where it keeps left, 0 where that is not said.
 double driving_side(const DirectionConfig& config) {
-  if (config.driving_side == "unknown") return 0.0;
-  return config.driving_side == "right" ? 1.0 : -1.0;
+  if (config.driving_side == DrivingSide::unknown) return 0.0;
+  return config.driving_side == DrivingSide::right ? 1.0 : -1.0;
 }
 
 /// What the outer border of a road says of the lane at it, where traffic keeps to that side.
-double border_evidence(const Marking& border, const Range& range) {
+double border_evidence(const Marking& border, const Stretch& range) {
   if (border.status == ElementStatus::inferred) return 0.0;
   if (border.type == MarkingType::roadedge) return kEdgeEvidence;
   return dashed_excess_m(border, range) < 0.0 ? kEdgeLineEvidence : 0.0;
 }
 
 /// Per lane, what the borders of the road say of its direction, where traffic keeps right.
-std::vector<double> outermost_evidence(const std::vector<Lane>& lanes,
-                                       const std::vector<SideBySideLanes>& pairs,
-                                       const std::vector<LaneBoundary>& boundaries) {
+std::vector<double> outermost_evidence(const LaneLayout& layout, const std::vector<SideBySideLanes>& pairs) {
+  const std::vector<Lane>& lanes = layout.lanes;
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
   for (const SideBySideLanes& pair : pairs) open_right[pair.left] = open_left[pair.right] = false;
-  const auto marking = [&](ElementId id) -> const Marking& { return boundary_of(boundaries, id).marking; };
+  const auto marking = [&](ElementId id) -> const Marking& { return layout.boundaries.of(id).marking; };
   std::vector<double> evidence(lanes.size(), 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane& lane = lanes[i];
@@ -120,12 +124,12 @@ std::vector<double> outermost_evidence(const std::vector<Lane>& lanes,
 
 /// What is remembered of each group: what was observed of its lanes, and which way they were said to run.
 std::vector<double> remembered_evidence(const std::vector<Lane>& lanes, const OrientedGroups& groups,
-                                        const std::vector<KnownLane>& known) {
+                                        const LaneMemory& memory) {
   std::vector<double> observed(lanes.size(), 0.0);
   std::vector<int> kept(lanes.size(), 0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const auto remembered = std::ranges::find(known, lanes[i].id, &KnownLane::id);
-    if (remembered == known.end()) continue;
+    const KnownLane* remembered = memory.find(lanes[i].id);
+    if (remembered == nullptr) continue;
     const int sense = is_opposed(groups, i) ? -1 : 1;
     observed[groups.group(i)] += sense * remembered->direction_log_odds;
     kept[groups.group(i)] += sense * remembered->kept_direction;
@@ -159,12 +163,12 @@ std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLa
   return pairs;
 }
 
-Model build_model(const std::vector<Lane>& lanes, const OrientedGroups& groups,
-                  const std::vector<LaneBoundary>& boundaries, const std::vector<KnownLane>& known,
+Model build_model(const LaneLayout& layout, const OrientedGroups& groups, const LaneMemory& memory,
                   double side) {
-  const std::vector<SideBySideLanes> beside = side_by_side(lanes, boundaries);
-  const std::vector<double> outermost = outermost_evidence(lanes, beside, boundaries);
-  Model model{.evidence = remembered_evidence(lanes, groups, known),
+  const std::vector<Lane>& lanes = layout.lanes;
+  const std::vector<SideBySideLanes> beside = side_by_side(layout);
+  const std::vector<double> outermost = outermost_evidence(layout, beside);
+  Model model{.evidence = remembered_evidence(lanes, groups, memory),
               .pairs = side_by_side_groups(beside, groups)};
   std::vector<Mean> borders(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
@@ -196,50 +200,24 @@ std::vector<double> beliefs(Model model, double side) {
 }
 
 /// Keeps which way a lane runs, once that is sure, until it is no longer known.
-void keep_direction(double log_odds, ElementId lane, std::vector<KnownLane>& known) {
-  const auto remembered = std::ranges::find(known, lane, &KnownLane::id);
-  if (remembered == known.end()) return;
+void keep_direction(double log_odds, ElementId lane, LaneMemory& memory) {
+  KnownLane* remembered = memory.find(lane);
+  if (remembered == nullptr) return;
   const int sense = log_odds < 0.0 ? -1 : 1;
   const bool kept = std::abs(log_odds) >= (remembered->kept_direction == sense ? kKnown : kSure);
   remembered->kept_direction = kept ? sense : 0;
-}
-
-Range reversed(const Range& range, double total_m) { return {total_m - range.to_m, total_m - range.from_m}; }
-
-void reverse(std::vector<Range>& ranges, double total_m) {
-  std::ranges::reverse(ranges);
-  for (Range& range : ranges) range = reversed(range, total_m);
-}
-
-void turn(Lane& lane) {
-  for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) std::ranges::reverse(*line);
-  std::swap(lane.left, lane.right);
-  std::swap(lane.left_boundary, lane.right_boundary);
-  std::swap(lane.left_range, lane.right_range);
-  std::swap(lane.left_reversed, lane.right_reversed);
-  lane.left_reversed = !lane.left_reversed;
-  lane.right_reversed = !lane.right_reversed;
-  const double total_m = length(lane.centerline);
-  reverse(lane.inferred_ranges, total_m);
-  std::swap(lane.left_neighbours, lane.right_neighbours);
-  for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {
-    std::ranges::reverse(*neighbours);
-    for (Neighbour& neighbour : *neighbours) {
-      neighbour.range = reversed(neighbour.range, total_m);
-      reverse(neighbour.crossable, total_m);
-    }
-  }
 }
 
 }  // namespace
 
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
-                        std::vector<KnownLane>& known) {
+                        LaneMemory& memory) {
   const auto driven =
       std::ranges::find_if(lanes, [&](const Lane& lane) { return ego_sense(lane, T_map_body) != 0.0; });
   for (const Lane& lane : lanes) {
-    const auto remembered = std::ranges::find(known, lane.id, &KnownLane::id);
+    KnownLane* remembered = memory.find(lane.id);
+    if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
     if (driven != lanes.end() && are_neighbours(*driven, lane)) log_odds *= kMemory;
     log_odds += kEgoEvidence * ego_sense(lane, T_map_body) +
@@ -248,35 +226,22 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
   }
 }
 
-void find_directions(const std::vector<LaneBoundary>& boundaries, const DirectionConfig& config,
-                     std::vector<KnownLane>& known, std::vector<Lane>& lanes,
-                     std::vector<Linkage>& linkages) {
-  const OrientedGroups groups = group(lanes, linkages);
+void find_directions(const DirectionConfig& config, LaneMemory& memory, RoadGraph& road) {
+  const OrientedGroups groups = group(road);
   const double side = driving_side(config);
-  const std::vector<double> belief = beliefs(build_model(lanes, groups, boundaries, known, side), side);
+  const std::vector<double> belief = beliefs(build_model(road, groups, memory, side), side);
   std::vector<ElementId> against;
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
+  for (std::size_t i = 0; i < road.lanes.size(); ++i) {
+    Lane& lane = road.lanes[i];
     const double log_odds = (is_opposed(groups, i) ? -1.0 : 1.0) * belief[groups.group(i)];
-    keep_direction(log_odds, lanes[i].id, known);
+    keep_direction(log_odds, lane.id, memory);
     if (std::abs(log_odds) < kKnown) continue;
-    lanes[i].direction = Lane::Direction::along_centerline;
-    if (log_odds < 0.0) against.push_back(lanes[i].id);
+    lane.direction = Lane::Direction::along_centerline;
+    if (log_odds < 0.0) against.push_back(lane.id);
   }
-  turn_lanes(against, lanes, linkages);
-}
-
-void turn_lanes(const std::vector<ElementId>& ids, std::vector<Lane>& lanes, std::vector<Linkage>& linkages) {
-  const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
-  for (Lane& lane : lanes)
-    if (turned(lane.id)) turn(lane);
-  // Where directions contradict one another, one of two linked lanes may be turned alone: it is not entered
-  // so.
-  std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
-  for (Linkage& linkage : linkages) {
-    if (!turned(linkage.from)) continue;
-    std::swap(linkage.from, linkage.to);
-    std::ranges::reverse(linkage.path);
-  }
+  road.turn(against);
+  for (Linkage& linkage : road.linkages)
+    linkage.turn = turn_between(road.lane(linkage.from), road.lane(linkage.to));
 }
 
 }  // namespace laneloom

@@ -32,15 +32,14 @@ void follow(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
 
 }  // namespace
 
-void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track,
-                    std::vector<Linkage>& linkages) {
-  follow(lanes, T_map_body, track);
+void link_ego_track(const Eigen::Isometry3d& T_map_body, EgoTrack& track, RoadGraph& road) {
+  std::vector<Linkage>& linkages = road.linkages;
+  follow(road.lanes, T_map_body, track);
   for (const EgoTrack::Step& step : track.steps) {
     const auto known = std::ranges::find_if(
         linkages, [&](const Linkage& linkage) { return EgoTrack::Step(linkage.from, linkage.to) == step; });
     if (known == linkages.end()) {
-      const Lane& from = *std::ranges::find(lanes, step.first, &Lane::id);
-      const Lane& to = *std::ranges::find(lanes, step.second, &Lane::id);
+      const Lane &from = road.lane(step.first), &to = road.lane(step.second);
       const Linkage::Turn turn = turn_between(from, to);
       const bool straight = turn == Linkage::Turn::straight;
       linkages.push_back({.from = from.id,
@@ -54,7 +53,7 @@ void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_m
       known->confidence = kConfidence;
     }
   }
-  sort(linkages);
+  road.sort_linkages();
 }
 
 }  // namespace laneloom

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "laneloom/types.hpp"
+#include "mapping/topology/road_graph.hpp"
 
 namespace laneloom {
 
@@ -22,7 +22,6 @@ struct EgoTrack {
 /// Follows the vehicle. Where it left one lane and came into another that is neither beside it nor linked by
 /// markings, that is a linkage: it has been driven. One across an intersection that was a hypothesis is
 /// confirmed. Ours, beyond the paper.
-void link_ego_track(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track,
-                    std::vector<Linkage>& linkages);
+void link_ego_track(const Eigen::Isometry3d& T_map_body, EgoTrack& track, RoadGraph& road);
 
 }  // namespace laneloom

@@ -1,7 +1,6 @@
 #include "mapping/topology/intersections.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -12,7 +11,6 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
-#include "mapping/topology/directions.hpp"
 
 namespace laneloom {
 namespace {
@@ -85,35 +83,35 @@ class Taken {
   std::set<std::pair<ElementId, Turn>> left_, entered_;
 };
 
-/// Whether no lane that runs alike lies beside it, on the side that is turned to: none that is known to, and
-/// none of unknown direction across dashes.
-bool is_outermost(const Lane& lane, Turn turn, const std::vector<Lane>& lanes,
-                  const std::vector<LaneBoundary>& boundaries) {
-  const bool left = turn == Turn::left;
-  const auto beside = std::ranges::find(
-      lanes, main_neighbour(left ? lane.left_neighbours : lane.right_neighbours), &Lane::id);
-  if (beside == lanes.end()) return true;
-  if (beside->direction == Lane::Direction::unknown) {
-    const LaneSide side = lane_side(lane, left);
-    return dashed_excess_m(boundary_of(boundaries, side.of.boundary).marking, side.range) <= 0.0;
-  }
-  // Of lanes that run against each other, each has the other on the same side.
-  return main_neighbour(left ? beside->left_neighbours : beside->right_neighbours) == lane.id;
+/// How much more of the line along a lane's side is dashed than solid.
+double dashed_excess_m(const LaneSide& side, const RoadGraph& road) {
+  return laneloom::dashed_excess_m(road.boundaries.of(side.of.boundary).marking, side.range);
 }
 
-bool can_turn(const Lane& from, const Lane& to, Turn turn, const std::vector<Lane>& lanes,
-              const std::vector<LaneBoundary>& boundaries) {
+/// Whether no lane that runs alike lies beside it, on the side that is turned to: none that is known to, and
+/// none of unknown direction across dashes.
+bool is_outermost(const Lane& lane, Turn turn, const RoadGraph& road) {
+  const Side side = turn == Turn::left ? Side::left : Side::right;
+  const Lane* beside = road.find(main_neighbour(lane, side));
+  if (beside == nullptr) return true;
+  if (beside->direction == Lane::Direction::unknown)
+    return dashed_excess_m(lane_side(lane, side), road) <= 0.0;
+  // Of lanes that run against each other, each has the other on the same side.
+  return main_neighbour(*beside, side) == lane.id;
+}
+
+bool can_turn(const Lane& from, const Lane& to, Turn turn, const RoadGraph& road) {
   const bool known = from.direction != Lane::Direction::unknown && to.direction != Lane::Direction::unknown;
-  return known && is_outermost(from, turn, lanes, boundaries) && is_outermost(to, turn, lanes, boundaries);
+  return known && is_outermost(from, turn, road) && is_outermost(to, turn, road);
 }
 
 /// How `to` may follow `from` by what they look like, if at all. What does not fit takes an SD map's word.
-std::optional<Crossing> crossing(const Lane& from, const Lane& to, const std::vector<Lane>& lanes,
-                                 const std::vector<LaneBoundary>& boundaries, const LinkageConfig& config) {
+std::optional<Crossing> crossing(const Lane& from, const Lane& to, const RoadGraph& road,
+                                 const LinkageConfig& config) {
   if (const auto straight = straight_misfit(from, to, config))
     return Crossing{.misfit = *straight, .turn = Turn::straight};
   const Turn side = cross(leaving(from), entering(to)) > 0.0 ? Turn::left : Turn::right;
-  if (!can_turn(from, to, side, lanes, boundaries)) return std::nullopt;
+  if (!can_turn(from, to, side, road)) return std::nullopt;
   if (const auto turn = turn_misfit(from, to, config)) return Crossing{.misfit = *turn, .turn = side};
   const double gap_m = gap_between(from, to).norm();
   const bool ahead = gap_between(from, to).dot(leaving(from)) > 0.0;
@@ -121,14 +119,14 @@ std::optional<Crossing> crossing(const Lane& from, const Lane& to, const std::ve
   return Crossing{.misfit = kMisfit + gap_m, .turn = turn_between(from, to)};
 }
 
-std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes,
-                                         const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
+std::vector<Crossing> possible_crossings(const RoadGraph& road, const SdMap& sd_map,
                                          const LinkageConfig& config) {
+  const std::vector<Lane>& lanes = road.lanes;
   std::vector<Crossing> crossings;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     for (std::size_t j = 0; j < lanes.size(); ++j) {
       if (i == j || gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
-      auto found = crossing(lanes[i], lanes[j], lanes, boundaries, config);
+      auto found = crossing(lanes[i], lanes[j], road, config);
       if (!found) continue;
       const auto verdict = sd_map.verdict(lanes[i].centerline, lanes[j].centerline);
       found->confirmed = verdict == SdMap::Verdict::connected;
@@ -143,29 +141,26 @@ std::vector<Crossing> possible_crossings(const std::vector<Lane>& lanes,
   return crossings;
 }
 
-bool crosses_edge(const Polyline& path, const std::vector<LaneBoundary>& boundaries) {
+bool crosses_edge(const Polyline& path, const Boundaries& boundaries) {
   return std::ranges::any_of(boundaries, [&](const LaneBoundary& boundary) {
-    return boundary.marking.type == MarkingType::roadedge &&
-           intersect(path, boundary.marking.points, kLevel_m);
+    return boundary.is_edge() && intersect(path, boundary.marking.points, kLevel_m);
   });
 }
 
 /// Whether it lies between solid lines with lanes beyond: in the middle of a road, as lanes for turning do.
 /// What lies ahead of one may be that of the other direction.
-bool is_enclosed(const Lane& lane, const std::vector<LaneBoundary>& boundaries) {
+bool is_enclosed(const Lane& lane, const RoadGraph& road) {
   if (lane.left_neighbours.empty() || lane.right_neighbours.empty()) return false;
-  return std::ranges::all_of(std::array{true, false}, [&](bool left) {
-    const LaneSide side = lane_side(lane, left);
-    return dashed_excess_m(boundary_of(boundaries, side.of.boundary).marking, side.range) < 0.0;
-  });
+  return std::ranges::all_of(kSides,
+                             [&](Side side) { return dashed_excess_m(lane_side(lane, side), road) < 0.0; });
 }
 
 /// Lanes that lead into each other straight on run the same way.
-void agree_on_direction(Lane& from, Lane& to, const std::vector<LaneBoundary>& boundaries) {
+void agree_on_direction(Lane& from, Lane& to, const RoadGraph& road) {
   using Direction = Lane::Direction;
   if (from.direction == Direction::unknown && to.direction == Direction::unknown) return;
   for (Lane* lane : {&from, &to})
-    if (lane->direction == Direction::unknown && !is_enclosed(*lane, boundaries))
+    if (lane->direction == Direction::unknown && !is_enclosed(*lane, road))
       lane->direction = Direction::along_centerline;
 }
 
@@ -194,51 +189,48 @@ std::vector<ElementId> linked_with(ElementId lane, const std::vector<Linkage>& l
 
 /// Beyond an intersection, a lane of unknown direction may run towards the one that leads into it: it is
 /// turned with those that it is linked with.
-void turn_unknown_ahead(const LinkageConfig& config, std::vector<Lane>& lanes,
-                        std::vector<Linkage>& linkages) {
+void turn_unknown_ahead(const LinkageConfig& config, RoadGraph& road) {
   const auto is_unknown = [](const Lane& lane) { return lane.direction == Lane::Direction::unknown; };
   const auto leads_into = [&](const Lane& to) {
-    return std::ranges::any_of(lanes, [&](const Lane& from) {
+    return std::ranges::any_of(road.lanes, [&](const Lane& from) {
       return !is_unknown(from) && gap_between(from, to).norm() <= max_gap_m(config) &&
              straight_misfit(from, to, config).has_value();
     });
   };
-  for (const Lane& lane : lanes) {
+  for (const Lane& lane : road.lanes) {
     if (!is_unknown(lane) || leads_into(lane) || !leads_into(reversed(lane))) continue;
-    const std::vector<ElementId> chain = linked_with(lane.id, linkages);
-    const bool all_unknown = std::ranges::all_of(
-        chain, [&](ElementId id) { return is_unknown(*std::ranges::find(lanes, id, &Lane::id)); });
-    if (all_unknown) turn_lanes(chain, lanes, linkages);
+    const std::vector<ElementId> chain = linked_with(lane.id, road.linkages);
+    const bool all_unknown =
+        std::ranges::all_of(chain, [&](ElementId id) { return is_unknown(road.lane(id)); });
+    if (all_unknown) road.turn(chain);
   }
 }
 
 }  // namespace
 
-void link_across_intersections(const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
-                               const LinkageConfig& config, std::vector<Lane>& lanes,
-                               std::vector<Linkage>& linkages) {
-  turn_unknown_ahead(config, lanes, linkages);
-  Taken taken(linkages);
+void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config, RoadGraph& road) {
+  turn_unknown_ahead(config, road);
+  Taken taken(road.linkages);
   const auto link = [&](const Crossing& crossing) {
-    Lane &from = lanes[crossing.from], &to = lanes[crossing.to];
+    Lane &from = road.lanes[crossing.from], &to = road.lanes[crossing.to];
     if (taken.contains(from.id, to.id, crossing.turn)) return;
     Polyline path = path_between(from, to);
-    if (crosses_edge(path, boundaries)) return;
+    if (crosses_edge(path, road.boundaries)) return;
     taken.take(from.id, to.id, crossing.turn);
-    if (crossing.turn == Turn::straight) agree_on_direction(from, to, boundaries);
-    linkages.push_back({.from = from.id,
-                        .to = to.id,
-                        .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,
-                        .turn = crossing.turn,
-                        .confidence = confidence(crossing),
-                        .path = std::move(path)});
+    if (crossing.turn == Turn::straight) agree_on_direction(from, to, road);
+    road.linkages.push_back({.from = from.id,
+                             .to = to.id,
+                             .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,
+                             .turn = crossing.turn,
+                             .confidence = confidence(crossing),
+                             .path = std::move(path)});
   };
   // Straight on first: what that tells of directions, turns depend on.
-  for (const Crossing& crossing : possible_crossings(lanes, boundaries, sd_map, config))
+  for (const Crossing& crossing : possible_crossings(road, sd_map, config))
     if (crossing.turn == Turn::straight) link(crossing);
-  for (const Crossing& crossing : possible_crossings(lanes, boundaries, sd_map, config))
+  for (const Crossing& crossing : possible_crossings(road, sd_map, config))
     if (crossing.turn != Turn::straight) link(crossing);
-  sort(linkages);
+  road.sort_linkages();
 }
 
 }  // namespace laneloom

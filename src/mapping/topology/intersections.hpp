@@ -1,11 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include "laneloom/config.hpp"
 #include "laneloom/sd_map.hpp"
-#include "laneloom/types.hpp"
-#include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/topology/road_graph.hpp"
 
 namespace laneloom {
 
@@ -18,8 +15,6 @@ namespace laneloom {
 ///
 /// Where both lanes lie on streets of `sd_map` (paper, Sec. III-D-4), that decides: it confirms or forbids
 /// the way, or supplies one between lanes that lie less regularly.
-void link_across_intersections(const std::vector<LaneBoundary>& boundaries, const SdMap& sd_map,
-                               const LinkageConfig& config, std::vector<Lane>& lanes,
-                               std::vector<Linkage>& linkages);
+void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config, RoadGraph& road);
 
 }  // namespace laneloom

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
@@ -42,28 +43,29 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
   return path;
 }
 
-/// The lane that comes next along one side of `from`. `course` gives that of a boundary by its id.
-void link_along(const Lane& from, bool left, const std::vector<Lane>& lanes, const auto& course,
-                const LinkageConfig& config, std::vector<Linkage>& linkages) {
-  const LaneSide begun = lane_side(from, left);
+/// The way to the lane that comes next along one side of `from`.
+std::optional<Linkage> link_along(const Lane& from, Side side, const LaneLayout& layout,
+                                  const LinkageConfig& config) {
+  const LaneSide begun = lane_side(from, side);
   const Lane* next = nullptr;
   double next_gap_m = std::numeric_limits<double>::infinity();
-  for (const Lane& to : lanes) {
+  for (const Lane& to : layout.lanes) {
     if (to.id == from.id) continue;
-    const auto gap_m = shared_gap(begun, lane_side(to, left), config.max_shared_gap_m);
+    const auto gap_m = shared_gap(begun, lane_side(to, side), config.max_shared_gap_m);
     if (!gap_m || *gap_m >= next_gap_m) continue;
     next = &to;
     next_gap_m = *gap_m;
   }
-  if (next == nullptr) return;
-  linkages.push_back({.from = from.id,
-                      .to = next->id,
-                      .kind = Linkage::Kind::shared_boundary,
-                      .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
-                      .path = next_gap_m < kMinGap_m
-                                  ? Polyline{}
-                                  : path_along(course(begun.of.boundary), begun.end_m(),
-                                               lane_side(*next, left).begin_m(), from, *next)});
+  if (next == nullptr) return std::nullopt;
+  Linkage linkage{.from = from.id,
+                  .to = next->id,
+                  .kind = Linkage::Kind::shared_boundary,
+                  .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
+                  .path = {}};
+  if (next_gap_m >= kMinGap_m)
+    linkage.path = path_along(layout.boundaries.of(begun.of.boundary).course, begun.end_m(),
+                              lane_side(*next, side).begin_m(), from, *next);
+  return linkage;
 }
 
 /// Confidence that `to` continues `from` by the geometry of their centerlines; empty: it does not.
@@ -80,17 +82,13 @@ std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageC
 
 }  // namespace
 
-std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes,
-                                       const std::vector<LaneBoundary>& boundaries,
-                                       const std::vector<MeasuredPolyline>& measured,
-                                       const LinkageConfig& config) {
-  const auto course = [&](ElementId boundary) -> const MeasuredPolyline& {
-    return measured[index_of(boundaries, boundary)];
-  };
-  std::vector<Linkage> linkages;
-  for (const Lane& from : lanes) {
-    for (const bool left : {true, false}) link_along(from, left, lanes, course, config, linkages);
-    for (const Lane& to : lanes) {
+RoadGraph link_lanes(LaneLayout layout, const LinkageConfig& config) {
+  RoadGraph road{std::move(layout), {}};
+  std::vector<Linkage>& linkages = road.linkages;
+  for (const Lane& from : road.lanes) {
+    for (const Side side : kSides)
+      if (auto linkage = link_along(from, side, road, config)) linkages.push_back(std::move(*linkage));
+    for (const Lane& to : road.lanes) {
       if (to.id == from.id) continue;
       const auto confidence = alignment(from, to, config);
       if (!confidence) continue;
@@ -101,10 +99,10 @@ std::vector<Linkage> generate_linkages(const std::vector<Lane>& lanes,
                           .path = path_ahead(from, to)});
     }
   }
-  sort(linkages);
+  road.sort_linkages();
   const auto same = [](const Linkage& a, const Linkage& b) { return a.from == b.from && a.to == b.to; };
   linkages.erase(std::unique(linkages.begin(), linkages.end(), same), linkages.end());
-  return linkages;
+  return road;
 }
 
 }  // namespace laneloom

@@ -102,8 +102,8 @@ bool SdMap::may_follow(const Segment& segment, const Segment& next) const {
 
 SdMap::Verdict SdMap::verdict(const Polyline& from, const Polyline& to) const {
   const Eigen::Vector2d end = from.back().head<2>(), begin = to.front().head<2>();
-  const Segment* left = nearest(end, end_direction(from, true));
-  const Segment* entered = nearest(begin, -end_direction(to, false));
+  const Segment* left = nearest(end, end_direction(from, End::back));
+  const Segment* entered = nearest(begin, -end_direction(to, End::front));
   if (left == nullptr || entered == nullptr) return Verdict::unknown;
   const double left_at_m = foot_on(left->from, left->to, end).along_m;
   const double entered_at_m = foot_on(entered->from, entered->to, begin).along_m;

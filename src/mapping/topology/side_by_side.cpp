@@ -40,12 +40,12 @@ struct Median {
   double width_m = std::numeric_limits<double>::infinity();
 };
 
-bool may_be_crossed(const Marking& border, const Range& range) {
+bool may_be_crossed(const Marking& border, const Stretch& range) {
   return border.type != MarkingType::roadedge && dashed_excess_m(border, range) >= 0.0;
 }
 
 /// What the boundary that two lanes share says.
-double boundary_evidence(const LaneBoundary& boundary, const Range& range, bool in_middle) {
+double boundary_evidence(const LaneBoundary& boundary, const Stretch& range, bool in_middle) {
   const Marking& marking = boundary.marking;
   if (marking.status == ElementStatus::inferred)
     return boundary.two_way ? kTwoWayEvidence : kUnmarkedEvidence;
@@ -58,20 +58,18 @@ double boundary_evidence(const LaneBoundary& boundary, const Range& range, bool 
 
 class SideBySide {
  public:
-  SideBySide(const std::vector<Lane>& lanes, const std::vector<LaneBoundary>& boundaries)
-      : lanes_(lanes), boundaries_(boundaries) {
-    for (const Lane& lane : lanes) left_sides_.emplace_back(lane.left);
+  explicit SideBySide(const LaneLayout& layout) : lanes_(layout.lanes), boundaries_(layout.boundaries) {
+    for (const Lane& lane : lanes_) left_sides_.emplace_back(lane.left);
   }
 
   std::vector<SideBySideLanes> pairs() const {
     std::vector<SideBySideLanes> pairs;
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
-      if (const auto right = across(i, false)) {
+      if (const auto right = across(i, Side::right)) {
         const Lane& lane = lanes_[i];
-        const bool in_middle = is_middle(lanes_on(i, true) + 1, lanes_on(*right, false) + 1);
+        const bool in_middle = is_middle(lanes_on(i, Side::left) + 1, lanes_on(*right, Side::right) + 1);
         pairs.push_back(
-            {i, *right,
-             boundary_evidence(boundary_of(boundaries_, lane.right_boundary), lane.right_range, in_middle)});
+            {i, *right, boundary_evidence(boundaries_.of(lane.right_boundary), lane.right_range, in_middle)});
       } else if (lanes_[i].right_neighbours.empty()) {
         if (const auto median = median_right_of(i)) pairs.push_back(across_median(i, *median));
       }
@@ -81,20 +79,19 @@ class SideBySide {
 
  private:
   /// The lane that runs alike across the boundary on that side.
-  std::optional<std::size_t> across(std::size_t i, bool left) const {
+  std::optional<std::size_t> across(std::size_t i, Side side) const {
     const Lane& lane = lanes_[i];
-    const auto other = std::ranges::find(
-        lanes_, main_neighbour(left ? lane.left_neighbours : lane.right_neighbours), &Lane::id);
+    const auto other = std::ranges::find(lanes_, main_neighbour(lane, side), &Lane::id);
     if (other == lanes_.end()) return std::nullopt;
-    const bool alike =
-        left ? other->right_boundary == lane.left_boundary : other->left_boundary == lane.right_boundary;
+    const bool alike = side == Side::left ? other->right_boundary == lane.left_boundary
+                                          : other->left_boundary == lane.right_boundary;
     return alike ? std::optional(static_cast<std::size_t>(other - lanes_.begin())) : std::nullopt;
   }
 
   /// How many lanes there are beside one, to the end of the road.
-  std::size_t lanes_on(std::size_t i, bool left) const {
+  std::size_t lanes_on(std::size_t i, Side side) const {
     std::size_t count = 0;
-    for (auto next = across(i, left); next && count < lanes_.size(); next = across(*next, left)) ++count;
+    for (auto next = across(i, side); next && count < lanes_.size(); next = across(*next, side)) ++count;
     return count;
   }
 
@@ -131,24 +128,20 @@ class SideBySide {
 
   SideBySideLanes across_median(std::size_t i, const Median& median) const {
     const Lane &left = lanes_[i], &right = lanes_[median.right];
-    const LaneBoundary& border = boundary_of(boundaries_, left.right_boundary);
-    const bool closed =
-        !may_be_crossed(border.marking, left.right_range) &&
-        !may_be_crossed(boundary_of(boundaries_, right.left_boundary).marking, right.left_range);
+    const LaneBoundary& border = boundaries_.of(left.right_boundary);
+    const bool closed = !may_be_crossed(border.marking, left.right_range) &&
+                        !may_be_crossed(boundaries_.of(right.left_boundary).marking, right.left_range);
     return {i, median.right, closed ? kMedianEvidence : boundary_evidence(border, left.right_range, false),
             median.width_m > kNarrow_m};
   }
 
   const std::vector<Lane>& lanes_;
-  const std::vector<LaneBoundary>& boundaries_;
+  const Boundaries& boundaries_;
   std::vector<MeasuredPolyline> left_sides_;
 };
 
 }  // namespace
 
-std::vector<SideBySideLanes> side_by_side(const std::vector<Lane>& lanes,
-                                          const std::vector<LaneBoundary>& boundaries) {
-  return SideBySide(lanes, boundaries).pairs();
-}
+std::vector<SideBySideLanes> side_by_side(const LaneLayout& layout) { return SideBySide(layout).pairs(); }
 
 }  // namespace laneloom

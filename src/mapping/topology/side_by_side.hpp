@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "laneloom/types.hpp"
-#include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/lanes/lane_layout.hpp"
 
 namespace laneloom {
 
@@ -19,8 +18,7 @@ struct SideBySideLanes {
 /// speaks for opposite ones, most of all in the middle of the road (elsewhere it may divide off lanes for
 /// buses or for turning); a dashed line speaks against them, an edge for them. So do two solid lines or edges
 /// with nothing but a median between them, which run parallel: what diverges are the roads of an exit. Beyond
-/// a wide median there may also be another road. Ours. `boundaries` are in the order of their ids.
-std::vector<SideBySideLanes> side_by_side(const std::vector<Lane>& lanes,
-                                          const std::vector<LaneBoundary>& boundaries);
+/// a wide median there may also be another road. Ours.
+std::vector<SideBySideLanes> side_by_side(const LaneLayout& layout);
 
 }  // namespace laneloom

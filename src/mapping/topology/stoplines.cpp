@@ -6,11 +6,11 @@
 #include "mapping/geometry/levels.hpp"
 
 namespace laneloom {
-bool crosses_end(const Marking& stopline, const Lane& lane, bool at_back, const StoplineConfig& config) {
-  const Point& at = at_back ? lane.centerline.back() : lane.centerline.front();
+bool crosses_end(const Marking& stopline, const Lane& lane, End lane_end, const StoplineConfig& config) {
+  const Point& at = lane_end == End::back ? lane.centerline.back() : lane.centerline.front();
   if (!same_level(at, stopline.points.front())) return false;
   const Eigen::Vector2d end = at.head<2>();
-  const Eigen::Vector2d leaving = end_direction(lane.centerline, at_back);
+  const Eigen::Vector2d leaving = end_direction(lane.centerline, lane_end);
   const Eigen::Vector2d start = stopline.points.front().head<2>();
   const Eigen::Vector2d along = stopline.points.back().head<2>() - start;
   const double sine = cross(leaving, along) / along.norm();
@@ -29,11 +29,11 @@ std::vector<Stopline> tie_stoplines(const std::vector<Marking>& markings, const 
     Stopline stopline{.marking = marking, .lanes = {}};
     Eigen::Vector2d heading = Eigen::Vector2d::Zero();
     for (const Lane& lane : lanes) {
-      for (const bool at_back : {true, false}) {
-        if (!at_back && lane.direction != Lane::Direction::unknown) continue;
-        if (!crosses_end(marking, lane, at_back, config)) continue;
+      for (const End end : {End::back, End::front}) {
+        if (end == End::front && lane.direction != Lane::Direction::unknown) continue;
+        if (!crosses_end(marking, lane, end, config)) continue;
         stopline.lanes.push_back(lane.id);
-        heading += end_direction(lane.centerline, at_back);
+        heading += end_direction(lane.centerline, end);
         break;
       }
     }

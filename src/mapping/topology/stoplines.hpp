@@ -7,8 +7,8 @@
 
 namespace laneloom {
 
-/// Whether a stopline lies across the lane's end (`at_back`) or its start, or close beyond.
-bool crosses_end(const Marking& stopline, const Lane& lane, bool at_back, const StoplineConfig& config);
+/// Whether a stopline lies across that end of the lane, or close beyond.
+bool crosses_end(const Marking& stopline, const Lane& lane, End end, const StoplineConfig& config);
 
 /// The stoplines among `markings`, each with the lanes that it ends: those that it crosses at their end, or
 /// where the driving direction is not known at either end. Its heading is that of the lanes.

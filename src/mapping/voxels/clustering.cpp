@@ -60,14 +60,15 @@ Instance* nearest_match(VoxelId id, const VoxelMap& map, CoObservation& co_obser
 }  // namespace
 
 void cluster(const std::vector<VoxelId>& reliable, const ClusteringConfig& config, std::int64_t stamp_ns,
-             VoxelMap& map, CoObservation& co_observation, Instances& instances, ElementId& next_id) {
+             SemanticMap& semantic_map, IdSource& ids) {
+  auto& [map, co_observation, instances] = semantic_map;
   for (const VoxelId id : reliable) {
     if (map[id].instance != kNoElement) instances.remove(id, map);
     Instance* instance =
         config.nearest_instance
             ? nearest_match(id, map, co_observation, instances)
             : best_match(count_likely(id, config, map, co_observation, instances), config, instances);
-    if (instance == nullptr) instance = &instances.create(next_id++, map[id].likely_type(), stamp_ns);
+    if (instance == nullptr) instance = &instances.create(ids.next(), map[id].likely_type(), stamp_ns);
     instances.add(*instance, id, map);
   }
   instances.erase_empty();

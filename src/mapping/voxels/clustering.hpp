@@ -4,17 +4,15 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
-#include "mapping/voxels/co_observation.hpp"
-#include "mapping/voxels/instances.hpp"
-#include "mapping/voxels/voxel_map.hpp"
+#include "mapping/markings/id_source.hpp"
+#include "mapping/voxels/semantic_map.hpp"
 
 namespace laneloom {
 
 /// Gives every newly reliable voxel to the instance of its type that it was most often seen with, or to a new
-/// one (paper, Sec. III-C-1). A voxel whose likely type has changed leaves its former instance. `next_id`
-/// names the next instance and is counted up.
+/// one (paper, Sec. III-C-1). A voxel whose likely type has changed leaves its former instance.
 void cluster(const std::vector<VoxelId>& reliable, const ClusteringConfig& config, std::int64_t stamp_ns,
-             VoxelMap& map, CoObservation& co_observation, Instances& instances, ElementId& next_id);
+             SemanticMap& semantic_map, IdSource& ids);
 
 /// Counts one observation for every instance that a detection touched.
 void count_observations(const std::vector<std::vector<VoxelId>>& touched_by_detection, const VoxelMap& map,

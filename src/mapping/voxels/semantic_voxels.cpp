@@ -19,7 +19,7 @@ void sample(const Polyline& line, double step_m, Visit&& visit) {
 
 }  // namespace
 
-TouchedVoxels update_voxels(const std::vector<ObservedMarking>& markings, const LocalRange& range,
+TouchedVoxels update_voxels(const std::vector<ObservedMarking>& markings, const MapBox& range,
                             const VoxelMapConfig& config, VoxelMap& map, CoObservation& co_observation) {
   co_observation.begin_frame(config.remembered_frames, map);
   const std::uint64_t frame = co_observation.frame();

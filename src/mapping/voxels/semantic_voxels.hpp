@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mapping/geometry/local_range.hpp"
+#include "mapping/geometry/map_box.hpp"
 #include "mapping/markings/preprocess.hpp"
 #include "mapping/voxels/co_observation.hpp"
 #include "mapping/voxels/instances.hpp"
@@ -18,7 +18,7 @@ struct TouchedVoxels {
 
 /// Integrates the road markings of one frame: samples each polyline, allocates the voxels that it meets
 /// within `range`, and counts detections and co-observations (paper, Sec. III-B-2).
-TouchedVoxels update_voxels(const std::vector<ObservedMarking>& markings, const LocalRange& range,
+TouchedVoxels update_voxels(const std::vector<ObservedMarking>& markings, const MapBox& range,
                             const VoxelMapConfig& config, VoxelMap& map, CoObservation& co_observation);
 
 /// Of the touched voxels those with n* > alpha_n (paper, eq. 4) that are not yet in an instance of type l*.

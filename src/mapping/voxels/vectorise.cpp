@@ -68,8 +68,8 @@ void update_polylines(const PolylineConfig& config, const StyleConfig& style_con
   }
 }
 
-std::vector<Marking> markings_in_range(const LocalRange& range, double min_length_m, Instances& instances,
-                                       ElementId& next_id) {
+std::vector<Marking> markings_in_range(const MapBox& range, double min_length_m, Instances& instances,
+                                       IdSource& ids) {
   std::vector<Marking> markings;
   for (Instance& instance : instances.all()) {
     if (instance.points.empty()) continue;
@@ -80,10 +80,10 @@ std::vector<Marking> markings_in_range(const LocalRange& range, double min_lengt
                         .observations = instance.observations,
                         .first_seen_ns = instance.first_seen_ns};
     std::size_t count = 0;
-    for (const Range& stretch : range.inside(instance.points)) {
+    for (const Stretch& stretch : range.inside(instance.points)) {
       if (stretch.length() <= 0.0 || stretch.length() < size_share(instance.type) * min_length_m) continue;
       Marking part = slice(whole, stretch);
-      if (count > instance.extra_ids.size()) instance.extra_ids.push_back(next_id++);
+      if (count > instance.extra_ids.size()) instance.extra_ids.push_back(ids.next());
       if (count > 0) part.id = instance.extra_ids[count - 1];
       ++count;
       markings.push_back(std::move(part));

@@ -4,7 +4,8 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/geometry/local_range.hpp"
+#include "mapping/geometry/map_box.hpp"
+#include "mapping/markings/id_source.hpp"
 #include "mapping/voxels/instances.hpp"
 #include "mapping/voxels/voxel_map.hpp"
 
@@ -15,10 +16,10 @@ namespace laneloom {
 void update_polylines(const PolylineConfig& config, const StyleConfig& style_config, const VoxelMap& map,
                       const Eigen::Vector2d& forward, Instances& instances);
 
-/// The instances' polylines within the local range, as markings; `next_id` names the further stretches of a
-/// line that leaves the range and comes back.
-std::vector<Marking> markings_in_range(const LocalRange& range, double min_length_m, Instances& instances,
-                                       ElementId& next_id);
+/// The instances' polylines within the local range, as markings. The further stretches of a line that leaves
+/// the range and comes back have ids of their own.
+std::vector<Marking> markings_in_range(const MapBox& range, double min_length_m, Instances& instances,
+                                       IdSource& ids);
 
 /// The styles along `line`, from the votes of the voxels nearest to each stretch (paper, Sec. IV-E). Covers
 /// the line.

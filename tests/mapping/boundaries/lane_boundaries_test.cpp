@@ -47,7 +47,7 @@ TEST(LaneBoundaries, EndsThatDetectionsRanThroughAreOneAtAnyAngle) {
   const std::vector<Marking> sides{marking(1, straight({0, 0, 0}, {10, 0, 0}), MarkingType::roadedge),
                                    marking(2, straight({0, 1.5, 0}, {10, 1.5, 0}), MarkingType::roadedge)};
   const auto count = [&](double together, double apart) {
-    const PairHistory tip{end_id(1, true), end_id(2, true), together, apart};
+    const PairHistory tip{end_id(1, End::back), end_id(2, End::back), together, apart};
     return lane_boundaries(sides, {tip}, {}).size();
   };
   EXPECT_EQ(count(0.0, 0.0), 2U);
@@ -74,11 +74,15 @@ TEST(LaneBoundaries, WhatIsKnownToBeSeparateStaysApart) {
   const std::vector<Marking> pieces{marking(4, straight({12, 0, 0}, {20, 0, 0})),
                                     marking(7, straight({0, 0, 0}, {10, 0, 0}))};
   EXPECT_EQ(
-      lane_boundaries(pieces, {{.a = end_id(4, false), .b = end_id(7, true), .apart = 10.0}}, {}).size(), 2U);
-  EXPECT_EQ(lane_boundaries(
-                pieces, {{.a = end_id(4, false), .b = end_id(7, true), .together = 10.0, .apart = 10.0}}, {})
-                .size(),
-            1U);
+      lane_boundaries(pieces, {{.a = end_id(4, End::front), .b = end_id(7, End::back), .apart = 10.0}}, {})
+          .size(),
+      2U);
+  EXPECT_EQ(
+      lane_boundaries(
+          pieces, {{.a = end_id(4, End::front), .b = end_id(7, End::back), .together = 10.0, .apart = 10.0}},
+          {})
+          .size(),
+      1U);
 }
 
 TEST(LaneBoundaries, KnowTheGapsThatTheyBridge) {
@@ -90,7 +94,7 @@ TEST(LaneBoundaries, KnowTheGapsThatTheyBridge) {
   ASSERT_EQ(boundaries[0].bridged.size(), 1U);
   EXPECT_NEAR(boundaries[0].bridged[0].from_m, 10.0, 1e-9);
   EXPECT_NEAR(boundaries[0].bridged[0].to_m, 12.0, 1e-9);
-  reverse(boundaries[0]);
+  boundaries.reverse(0);
   EXPECT_NEAR(boundaries[0].bridged[0].from_m, 18.0, 1e-9);
   EXPECT_NEAR(boundaries[0].bridged[0].to_m, 20.0, 1e-9);
 }

@@ -11,10 +11,9 @@ using test::boundary;
 using test::straight;
 using ::testing::ElementsAre;
 
-SectionGraph sections_of(std::vector<LaneBoundary>& boundaries,
+SectionGraph sections_of(const std::vector<LaneBoundary>& boundaries,
                          const Eigen::Isometry3d& T_map_body = test::at(0)) {
-  auto measured = test::measure(boundaries);
-  return road_sections({}, T_map_body, boundaries, measured);
+  return road_sections(boundaries, T_map_body, {});
 }
 
 // Paper, Fig. 5 (a): an intersection parts the boundaries into road sections.
@@ -40,9 +39,9 @@ TEST(RoadSections, ALongBoundaryJoinsThoseThatDoNotOverlapEachOther) {
 TEST(RoadSections, AllRunWithTheVehicle) {
   std::vector<LaneBoundary> boundaries{boundary(1, straight({30, 0, 0}, {0, 0, 0})),
                                        boundary(2, straight({0, 3.5, 0}, {30, 3.5, 0}))};
-  sections_of(boundaries, test::at(5));
-  EXPECT_LT(boundaries[0].marking.points.front().x(), boundaries[0].marking.points.back().x());
-  EXPECT_LT(boundaries[1].marking.points.front().x(), boundaries[1].marking.points.back().x());
+  const Boundaries turned = sections_of(boundaries, test::at(5)).boundaries;
+  for (const LaneBoundary& line : turned)
+    EXPECT_LT(line.marking.points.front().x(), line.marking.points.back().x());
 }
 
 TEST(RoadSections, AnEdgeThatTurnsOffDoesNotTurnTheRest) {
@@ -52,8 +51,8 @@ TEST(RoadSections, AnEdgeThatTurnsOffDoesNotTurnTheRest) {
   for (const Point& point : straight({24, -6, 0}, {24, -21, 0})) edge.push_back(point);
   std::vector<LaneBoundary> boundaries{boundary(1, edge), boundary(2, straight({45, 0, 0}, {25, 0, 0})),
                                        boundary(3, straight({45, 3.5, 0}, {25, 3.5, 0}))};
-  sections_of(boundaries);
-  for (const LaneBoundary& line : boundaries)
+  const Boundaries turned = sections_of(boundaries).boundaries;
+  for (const LaneBoundary& line : turned)
     EXPECT_LT(line.marking.points.front().x(), line.marking.points.back().x());
 }
 
@@ -65,7 +64,7 @@ TEST(RoadSections, TheRightOnesComeByTheirDistance) {
   const auto right_of = [&](std::size_t i) {
     std::vector<std::size_t> order;
     for (const SideBySide& beside : graph.beside[i])
-      if (!beside.on_left()) order.push_back(beside.other);
+      if (beside.side() == Side::right) order.push_back(beside.other);
     return order;
   };
   EXPECT_THAT(right_of(3), ElementsAre(1, 2, 0));
@@ -92,18 +91,18 @@ TEST(RoadSections, OfTwoThatLieSideBySideOneIsOnTheRight) {
     if (turned) std::ranges::reverse(boundaries[1].marking.points);
     const auto graph = sections_of(boundaries);
     ASSERT_EQ(graph.beside[1].size(), 1U);
-    EXPECT_FALSE(graph.beside[1][0].on_left());
+    EXPECT_EQ(graph.beside[1][0].side(), Side::right);
     ASSERT_EQ(graph.beside[0].size(), 1U);
-    EXPECT_TRUE(graph.beside[0][0].on_left());
+    EXPECT_EQ(graph.beside[0][0].side(), Side::left);
   }
 }
 
 TEST(RoadSections, ARoadThatCrossesTheVehiclesKeepsItsOwnDirection) {
   std::vector<LaneBoundary> boundaries{boundary(1, straight({20, 15, 0}, {20, -15, 0})),
                                        boundary(2, straight({23.5, -15, 0}, {23.5, 10, 0}))};
-  sections_of(boundaries);
-  EXPECT_GT(boundaries[0].marking.points.front().y(), boundaries[0].marking.points.back().y());
-  EXPECT_GT(boundaries[1].marking.points.front().y(), boundaries[1].marking.points.back().y());
+  const Boundaries turned = sections_of(boundaries).boundaries;
+  for (const LaneBoundary& line : turned)
+    EXPECT_GT(line.marking.points.front().y(), line.marking.points.back().y());
 }
 
 }  // namespace

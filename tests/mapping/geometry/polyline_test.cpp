@@ -71,9 +71,9 @@ TEST(MeasuredPolyline, ResamplesBothEnds) {
 }
 
 TEST(Polyline, EndDirectionsPointOutwards) {
-  EXPECT_TRUE(end_direction(kCorner, true).isApprox(Eigen::Vector2d(0, 1)));
-  EXPECT_TRUE(end_direction(kCorner, false).isApprox(Eigen::Vector2d(-1, 0)));
-  EXPECT_EQ(end_direction({{1, 1, 0}}, true), Eigen::Vector2d(0, 0));
+  EXPECT_TRUE(end_direction(kCorner, End::back).isApprox(Eigen::Vector2d(0, 1)));
+  EXPECT_TRUE(end_direction(kCorner, End::front).isApprox(Eigen::Vector2d(-1, 0)));
+  EXPECT_EQ(end_direction({{1, 1, 0}}, End::back), Eigen::Vector2d(0, 0));
 }
 
 TEST(Polyline, CosineAgreesWithTheMathematicalOne) {

@@ -25,11 +25,9 @@ class Gores : public ::testing::Test {
   }
 
   double lanes_m(const Point& vehicle = {-20.0, 0.0, 0.0}) {
-    auto measured = test::measure(boundaries_);
-    const auto graph = road_sections({}, test::at(0), boundaries_, measured);
+    const auto graph = road_sections(boundaries_, test::at(0), {});
     double sum_m = 0.0;
-    for (const Lane& lane :
-         generate_lanes(boundary_pairs(graph, boundaries_, measured), boundaries_, measured, vehicle, {}))
+    for (const Lane& lane : generate_lanes(boundary_pairs(graph), graph.boundaries, vehicle, {}))
       sum_m += length(lane.centerline);
     return sum_m;
   }

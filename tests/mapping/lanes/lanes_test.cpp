@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "mapping/lanes/lane_geometry.hpp"
-#include "mapping/lanes/lane_identity.hpp"
-#include "mapping/lanes/neighbours.hpp"
+#include "mapping/lanes/lane_memory.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
@@ -15,15 +14,12 @@ using test::straight;
 
 /// Lanes of boundaries that run forward, with ids and neighbours.
 std::vector<Lane> lanes_of(std::vector<LaneBoundary> boundaries) {
-  auto measured = test::measure(boundaries);
-  const auto graph = road_sections({}, test::at(0), boundaries, measured);
-  auto lanes =
-      generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, Point::Zero(), {});
-  std::vector<KnownLane> known;
-  ElementId next_id = 100;
-  identify_lanes(1, {}, lanes, known, next_id);
-  find_neighbours(boundaries, lanes);
-  return lanes;
+  SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
+  auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
+  IdSource ids(100);
+  return LaneMemory()
+      .recognise({std::move(graph.boundaries), std::move(lanes), {}}, test::scene(1), {}, ids)
+      .lanes;
 }
 
 const Lane* between(const std::vector<Lane>& lanes, ElementId left, ElementId right) {
@@ -55,8 +51,8 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   const Lane* left = between(lanes, 1, 2);
   const Lane* right = between(lanes, 2, 3);
   ASSERT_TRUE(left && right);
-  EXPECT_EQ(main_neighbour(left->right_neighbours), right->id);
-  EXPECT_EQ(main_neighbour(right->left_neighbours), left->id);
+  EXPECT_EQ(main_neighbour(*left, Side::right), right->id);
+  EXPECT_EQ(main_neighbour(*right, Side::left), left->id);
   EXPECT_TRUE(left->left_neighbours.empty());
   EXPECT_EQ(left->section, right->section);
 }
@@ -123,13 +119,11 @@ TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
 
 TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
   // Both boundaries have the other on their left, whatever way they run.
-  std::vector<LaneBoundary> boundaries{boundary(1, straight({0, 0, 0}, {30, 0, 0})),
-                                       boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))};
-  const SectionGraph graph{.sections = {{{0, 1}}},
+  const SectionGraph graph{.boundaries = std::vector{boundary(1, straight({0, 0, 0}, {30, 0, 0})),
+                                                     boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))},
+                           .sections = {{{0, 1}}},
                            .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
-  const auto measured = test::measure(boundaries);
-  const auto lanes =
-      generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, Point::Zero(), {});
+  const auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
   ASSERT_EQ(lanes.size(), 1U);
   EXPECT_EQ(lanes[0].right_boundary, 1U);
   EXPECT_EQ(lanes[0].left_boundary, 2U);
@@ -156,7 +150,7 @@ TEST(Lanes, AWideOneEndsWhereALineLiesInIt) {
                            boundary(2, straight({0, 0, 0}, {60, 0, 0}), MarkingType::roadedge),
                            boundary(3, straight({-20, 3, 0}, {line_to_x, 3, 0}))});
     const Lane* lane = between(lanes, 1, 2);
-    return lane == nullptr ? Range{} : lane->right_range;
+    return lane == nullptr ? Stretch{} : lane->right_range;
   };
   // What only touches it at the end does not take it away.
   EXPECT_NEAR(lane_beside(4.0).from_m, 4.5, 1.0);
@@ -201,19 +195,17 @@ TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
 }
 
 TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
-  std::vector<KnownLane> known{{.id = 7,
-                                .boundary_a = 1,
-                                .boundary_b = 2,
-                                .centerline = straight({0, 0, 0}, {20, 0, 0}, 21),
-                                .last_frame = 1,
-                                .direction_log_odds = 2.0}};
-  Lane lane{.left_boundary = 2, .right_boundary = 1, .centerline = straight({20, 0, 0}, {0, 0, 0}, 21)};
-  std::vector<Lane> lanes{lane};
-  ElementId next_id = 100;
-  identify_lanes(2, {}, lanes, known, next_id);
+  LaneMemory memory;
+  IdSource ids(7);
+  std::vector<Lane> lanes{
+      {.left_boundary = 1, .right_boundary = 2, .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
+  memory.identify(lanes, test::scene(1), {}, ids);
+  memory.find(7)->direction_log_odds = 2.0;
+  lanes = {{.left_boundary = 2, .right_boundary = 1, .centerline = straight({20, 0, 0}, {0, 0, 0}, 21)}};
+  memory.identify(lanes, test::scene(2), {}, ids);
   ASSERT_EQ(lanes[0].id, 7U);
-  ASSERT_EQ(known.size(), 1U);
-  EXPECT_EQ(known[0].direction_log_odds, -2.0);
+  ASSERT_EQ(memory.lanes().size(), 1U);
+  EXPECT_EQ(memory.find(7)->direction_log_odds, -2.0);
 }
 
 TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
@@ -312,16 +304,14 @@ TEST(Lanes, InABendOfTwelveMetres) {
 }
 
 TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
-  std::vector<KnownLane> known;
-  ElementId next_id = 100;
+  LaneMemory memory;
+  IdSource ids(100);
   const auto window = [&](double from_m, std::uint64_t frame) {
     std::vector<LaneBoundary> boundaries{boundary(1, straight({from_m, 3.5, 0}, {from_m + 35, 3.5, 0})),
                                          boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
-    auto measured = test::measure(boundaries);
-    const auto graph = road_sections({}, test::at(from_m), boundaries, measured);
-    auto lanes =
-        generate_lanes(boundary_pairs(graph, boundaries, measured), boundaries, measured, Point::Zero(), {});
-    identify_lanes(frame, {}, lanes, known, next_id);
+    const auto graph = road_sections(boundaries, test::at(from_m), {});
+    auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
+    memory.identify(lanes, test::scene(frame), {}, ids);
     return lanes;
   };
   for (std::uint64_t frame = 0; frame < 50; ++frame) {
@@ -329,7 +319,7 @@ TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
     ASSERT_EQ(lanes.size(), 1U);
     EXPECT_EQ(lanes[0].id, 100U);
   }
-  EXPECT_EQ(known.size(), 1U);
+  EXPECT_EQ(memory.lanes().size(), 1U);
 }
 
 TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
@@ -337,17 +327,17 @@ TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
     return Lane{.left_boundary = left, .right_boundary = right, .centerline = centerline};
   };
   const Lane through = lane_between(1, 2, straight({0, 0, 0}, {20, 0, 0}, 21));
-  std::vector<KnownLane> known;
-  ElementId next_id = 100;
+  LaneMemory memory;
+  IdSource ids(100);
   std::vector<Lane> first{through};
-  identify_lanes(1, {}, first, known, next_id);
+  memory.identify(first, test::scene(1), {}, ids);
   // The one is missed in a frame in which another that merges into it is new.
   std::vector<Lane> merging{lane_between(3, 2, straight({0, -8, 0}, {20, -0.5, 0}, 21))};
-  identify_lanes(2, {}, merging, known, next_id);
+  memory.identify(merging, test::scene(2), {}, ids);
   EXPECT_EQ(merging[0].id, 101U);
   std::vector<Lane> both{through, merging[0]};
   both[1].id = kNoElement;
-  identify_lanes(3, {}, both, known, next_id);
+  memory.identify(both, test::scene(3), {}, ids);
   EXPECT_EQ(both[0].id, 100U);
   EXPECT_EQ(both[1].id, 101U);
 }
@@ -357,19 +347,19 @@ TEST(LaneIds, ComeBackAfterAShortGapOnly) {
   lane.left_boundary = 1;
   lane.right_boundary = 2;
   lane.centerline = straight({0, 0, 0}, {20, 0, 0}, 21);
-  std::vector<KnownLane> known;
-  ElementId next_id = 100;
+  LaneMemory memory;
+  IdSource ids(100);
   const auto id_at = [&](std::uint64_t frame) {
     std::vector<Lane> lanes{lane};
-    identify_lanes(frame, {}, lanes, known, next_id);
+    memory.identify(lanes, test::scene(frame), {}, ids);
     return lanes[0].id;
   };
   EXPECT_EQ(id_at(1), 100U);
   std::vector<Lane> none;
-  for (std::uint64_t frame = 2; frame < 40; ++frame) identify_lanes(frame, {}, none, known, next_id);
+  for (std::uint64_t frame = 2; frame < 40; ++frame) memory.identify(none, test::scene(frame), {}, ids);
   EXPECT_EQ(id_at(40), 100U);
-  for (std::uint64_t frame = 41; frame < 95; ++frame) identify_lanes(frame, {}, none, known, next_id);
-  EXPECT_TRUE(known.empty());
+  for (std::uint64_t frame = 41; frame < 95; ++frame) memory.identify(none, test::scene(frame), {}, ids);
+  EXPECT_TRUE(memory.lanes().empty());
   EXPECT_EQ(id_at(95), 101U);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mapping/lanes/lane_memory.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom {
@@ -30,17 +31,15 @@ LaneBoundary edge(ElementId id, double y, double from_x = 0.0, double to_x = 40.
 class OneSidedLanes : public ::testing::Test {
  protected:
   void map(std::vector<LaneBoundary> boundaries, const Eigen::Isometry3d& vehicle = test::at(10, 9)) {
-    boundaries_ = std::move(boundaries);
-    measured_ = test::measure(boundaries_);
-    lanes_ = known_lanes_;
     RoadSection all;
-    for (std::size_t i = 0; i < boundaries_.size(); ++i) all.boundaries.push_back(i);
-    TakenSpace taken(lanes_);
-    auto inferred =
-        one_sided_lanes({all}, boundaries_, measured_, LocalRange(range_, vehicle), config_, taken);
-    ++frame_;
-    identify_inferred(frame_, static_cast<std::int64_t>(frame_), config_, inferred, known_, next_id_);
-    add_inferred(std::move(inferred), boundaries_, measured_, lanes_);
+    for (std::size_t i = 0; i < boundaries.size(); ++i) all.boundaries.push_back(i);
+    SectionGraph road{.boundaries = std::move(boundaries), .sections = {all}, .beside = {}};
+    TakenSpace taken(known_lanes_);
+    auto inferred = one_sided_lanes(road, MapBox(range_, vehicle), config_, taken);
+    memory_.identify(inferred, test::scene(++frame_), config_, ids_);
+    LaneLayout layout = laid_out({std::move(road.boundaries), known_lanes_, std::move(inferred)});
+    boundaries_ = std::move(layout.boundaries);
+    lanes_ = std::move(layout.lanes);
     lanes_.erase(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(known_lanes_.size()));
   }
   std::size_t lanes_with(std::vector<LaneBoundary> boundaries,
@@ -53,11 +52,10 @@ class OneSidedLanes : public ::testing::Test {
   RangeConfig range_{.forward_min_m = -60.0, .forward_max_m = 60.0, .side_max_m = 20.0};
   std::vector<Lane> known_lanes_;
   std::vector<Lane> lanes_;  ///< those beside one line
-  std::vector<LaneBoundary> boundaries_;
-  std::vector<MeasuredPolyline> measured_;
-  std::vector<KnownInferred> known_;
+  Boundaries boundaries_;
+  LaneMemory memory_;
   std::uint64_t frame_ = 0;
-  ElementId next_id_ = 100;
+  IdSource ids_{100};
 };
 
 TEST_F(OneSidedLanes, LieOnBothSidesOfADashedLine) {
@@ -222,7 +220,7 @@ TEST_F(OneSidedLanes, KeepTheirBoundariesIdsAsTheWindowMoves) {
   map({dashed(1, 0.2, 10, 50)});
   EXPECT_EQ(lanes_[0].right_boundary, right);
   EXPECT_EQ(lanes_[1].left_boundary, left);
-  EXPECT_EQ(boundaries_.back().marking.first_seen_ns, 1);
+  EXPECT_EQ(boundaries_[boundaries_.size() - 1].marking.first_seen_ns, 1);
 }
 
 TEST_F(OneSidedLanes, CanBeTurnedOff) {

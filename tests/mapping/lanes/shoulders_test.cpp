@@ -33,13 +33,12 @@ std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConf
     boundaries.back().marking.styles = {{{0, 40}, strip.style}};
     y -= strip.width_m;
   }
-  auto measured = test::measure(boundaries);
-  const auto graph = road_sections({}, test::at(0), boundaries, measured);
-  const auto pairs = boundary_pairs(graph, boundaries, measured);
-  auto lanes = generate_lanes(pairs, boundaries, measured, Point::Zero(), config);
-  remove_shoulders(pairs, boundaries, T_map_body, config, lanes);
+  const auto graph = road_sections(boundaries, test::at(0), {});
+  const auto pairs = boundary_pairs(graph);
+  const auto lanes = generate_lanes(pairs, graph.boundaries, Point::Zero(), config);
   std::vector<double> widths;
-  for (const Lane& lane : lanes) widths.push_back(lane.width_m);
+  for (const Lane& lane : without_shoulders(lanes, pairs, graph.boundaries, T_map_body, config))
+    widths.push_back(lane.width_m);
   return widths;
 }
 
@@ -86,12 +85,11 @@ TEST(Shoulders, AreNotAheadOfWhereTheVehicleDrives) {
       boundary(3, {{0, 0, 0}, {16, 0, 0}, {18, -6, 0}, {22, -6, 0}, {24, 0, 0}, {40, 0, 0}},
                MarkingType::roadedge)};
   boundaries[1].marking.styles = {{{0, 40}, MarkingStyle::solid}};
-  auto measured = test::measure(boundaries);
-  const auto pairs =
-      boundary_pairs(road_sections({}, test::at(0), boundaries, measured), boundaries, measured);
+  const auto graph = road_sections(boundaries, test::at(0), {});
+  const auto pairs = boundary_pairs(graph);
   const auto pieces = [&](const Eigen::Isometry3d& T_map_body) {
-    auto lanes = generate_lanes(pairs, boundaries, measured, Point::Zero(), {});
-    remove_shoulders(pairs, boundaries, T_map_body, {}, lanes);
+    const auto lanes = without_shoulders(generate_lanes(pairs, graph.boundaries, Point::Zero(), {}), pairs,
+                                         graph.boundaries, T_map_body, {});
     return std::ranges::count(lanes, 3U, &Lane::right_boundary);
   };
   EXPECT_EQ(pieces(test::at(5, 1.3)), 2);

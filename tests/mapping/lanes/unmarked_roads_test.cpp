@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "mapping/lanes/lane_memory.hpp"
 #include "mapping/lanes/lanes.hpp"
 #include "mapping/shapes.hpp"
 
@@ -25,18 +26,19 @@ class Dividers : public ::testing::Test {
   /// Boundaries that run forward.
   void map(std::vector<LaneBoundary> boundaries) {
     ++frame_;
-    boundaries_ = std::move(boundaries);
-    measured_ = test::measure(boundaries_);
-    const auto graph = road_sections({}, test::at(0), boundaries_, measured_);
-    const auto pairs = boundary_pairs(graph, boundaries_, measured_);
-    lanes_ = generate_lanes(pairs, boundaries_, measured_, Point::Zero(), config_);
-    TakenSpace taken(lanes_);
-    add(divide_unmarked(pairs, boundaries_, measured_, config_, taken));
+    SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
+    const auto pairs = boundary_pairs(graph);
+    auto lanes = generate_lanes(pairs, graph.boundaries, Point::Zero(), config_);
+    TakenSpace taken(lanes);
+    auto inferred = divide_unmarked(pairs, graph.boundaries, config_, taken);
+    lay_out({std::move(graph.boundaries), std::move(lanes), std::move(inferred)});
   }
 
-  void add(std::vector<InferredBoundary> inferred) {
-    identify_inferred(frame_, static_cast<std::int64_t>(frame_), config_, inferred, known_, next_id_);
-    add_inferred(std::move(inferred), boundaries_, measured_, lanes_);
+  void lay_out(FoundLanes found) {
+    memory_.identify(found.inferred, test::scene(frame_), config_, ids_);
+    LaneLayout layout = laid_out(std::move(found));
+    boundaries_ = std::move(layout.boundaries);
+    lanes_ = std::move(layout.lanes);
   }
 
   std::vector<Lane> inferred() const {
@@ -56,10 +58,9 @@ class Dividers : public ::testing::Test {
 
   LaneConfig config_;
   std::uint64_t frame_ = 0;
-  ElementId next_id_ = 100;
-  std::vector<KnownInferred> known_;
-  std::vector<LaneBoundary> boundaries_;
-  std::vector<MeasuredPolyline> measured_;
+  IdSource ids_{100};
+  LaneMemory memory_;
+  Boundaries boundaries_;
   std::vector<Lane> lanes_;
 };
 
@@ -89,7 +90,6 @@ TEST_F(Dividers, SayThatNothingIsPaintedThere) {
   ASSERT_EQ(divider().styles.size(), 1U);
   EXPECT_EQ(divider().styles[0].style, MarkingStyle::unknown);
   EXPECT_NEAR(divider().styles[0].range.to_m, 60.0, 1e-6);
-  EXPECT_EQ(measured_.size(), boundaries_.size());
 }
 
 TEST_F(Dividers, AreNotSaidToBeLikely) {
@@ -163,17 +163,14 @@ TEST_F(Dividers, DoNotCrossAKerb) {
 }
 
 TEST_F(Dividers, LieBetweenBoundariesThatRunAgainstEachOther) {
-  std::vector<LaneBoundary> boundaries{edge(1, 9), edge(2, 0)};
-  reverse(boundaries[0]);
-  measured_ = test::measure(boundaries);
-  const SectionGraph graph{.sections = {{{0, 1}}},
-                           .beside = {{{1, 9.0, 60.0, true}}, {{0, 9.0, 60.0, true}}}};
-  const auto pairs = boundary_pairs(graph, boundaries, measured_);
-  boundaries_ = boundaries;
+  SectionGraph graph{.boundaries = std::vector{edge(1, 9), edge(2, 0)},
+                     .sections = {{{0, 1}}},
+                     .beside = {{{1, 9.0, 60.0, true}}, {{0, 9.0, 60.0, true}}}};
+  graph.boundaries.reverse(0);
   TakenSpace taken(lanes_);
-  auto dividers = divide_unmarked(pairs, boundaries_, measured_, config_, taken);
+  auto dividers = divide_unmarked(boundary_pairs(graph), graph.boundaries, config_, taken);
   ASSERT_EQ(dividers.size(), 1U);
-  add(std::move(dividers));
+  lay_out({std::move(graph.boundaries), {}, std::move(dividers)});
   ASSERT_EQ(lanes_.size(), 2U);
   for (const Lane& lane : lanes_) {
     EXPECT_NEAR(lane.width_m, 4.5, 1e-9);
@@ -291,8 +288,8 @@ TEST_F(Dividers, AreAmongTheBoundariesByTheirId) {
   std::vector<ElementId> ids;
   for (const LaneBoundary& boundary : boundaries_) ids.push_back(boundary.marking.id);
   EXPECT_THAT(ids, testing::ElementsAre(1U, 100U, 200U));
-  for (std::size_t i = 0; i < measured_.size(); ++i)
-    EXPECT_EQ(measured_[i].points().front(), boundaries_[i].marking.points.front());
+  for (const LaneBoundary& boundary : boundaries_)
+    EXPECT_EQ(boundary.course.points().front(), boundary.marking.points.front());
 }
 
 }  // namespace

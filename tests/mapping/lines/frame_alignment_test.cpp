@@ -42,7 +42,7 @@ class Alignment : public ::testing::Test {
 
   void align(std::vector<SampledDetection>& frame) {
     LineMatcher matcher(lines_, config_.fusion);
-    align_frame(T_map_body_, gain_, config_.fusion.confirm_log_odds, matcher, frame, lasting_);
+    align_frame(T_map_body_, gain_, matcher, frame, lasting_);
   }
 
   /// How far the detections lie beside their lines after aligning them.

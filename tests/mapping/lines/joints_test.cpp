@@ -25,7 +25,7 @@ class Joints : public ::testing::Test {
   std::vector<Line> lines_{line(1, first_), line(2, second_)};
   PairHistories joints_;
 
-  const PairHistory* joint() const { return find(joints_, end_id(1, true), end_id(2, false)); }
+  const PairHistory* joint() const { return find(joints_, end_id(1, End::back), end_id(2, End::front)); }
   bool separate() const { return joint() != nullptr && seen_apart(*joint()); }
 };
 
@@ -54,8 +54,8 @@ TEST_F(Joints, BothTipsOfAnIslandAreJoints) {
   const Polyline near = straight({0, 0, 0}, {10, 0, 0}, 11);
   lines_ = {line(1, near), line(2, straight({0, 2, 0}, {10, 2, 0}, 11))};
   frame({near, straight({0, 2, 0}, {10, 2, 0}, 11)});
-  EXPECT_NE(find(joints_, end_id(1, false), end_id(2, false)), nullptr);
-  EXPECT_NE(find(joints_, end_id(1, true), end_id(2, true)), nullptr);
+  EXPECT_NE(find(joints_, end_id(1, End::front), end_id(2, End::front)), nullptr);
+  EXPECT_NE(find(joints_, end_id(1, End::back), end_id(2, End::back)), nullptr);
 }
 
 TEST_F(Joints, SeeingOnlyOneOfThemSaysNothing) {

@@ -26,26 +26,33 @@ class LineFusion : public ::testing::Test {
   }
 
   void see_markings(const std::vector<ObservedMarking>& markings) {
-    auto detections = sample_detections(markings, config_);
-    const auto matches = LineMatcher(lines_, config_).match(detections);
-    mark_explained(matches, detections);
-    weigh(NetworkModel(config_), Point::Zero(), detections);
-    fuse_matches(matches, detections, {}, config_, networks_, lines_);
+    Association association = associated(markings);
+    fuse_matches(association, {}, config_, networks_, lines_);
     const View view{Eigen::Isometry3d::Identity(), &frame_};
-    credit_observed(view, matches, detections, config_, model_, lines_);
+    credit_observed(view, association, config_, model_, lines_);
     discount_unobserved(view, range_, config_, model_, lines_);
-    extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
-    create_lines(detections, Point::Zero(), 7, range_, config_, model_, lines_, next_id_);
-    std::ranges::copy(prune_lines(range_, config_, model_, lines_, next_id_), std::back_inserter(cut_off_));
+    extend_lines(Point::Zero(), range_, config_, association, lines_);
+    for (Line& line : new_lines(association.detections, Point::Zero(), range_, config_, model_)) {
+      line.id = ids_.next();
+      lines_.push_back(std::move(line));
+    }
+    std::ranges::copy(prune_lines(range_, config_, model_, lines_, ids_), std::back_inserter(cut_off_));
+  }
+
+  Association associated(const std::vector<ObservedMarking>& markings) {
+    auto detections = sample_detections(markings, config_);
+    weigh(NetworkModel(config_), Point::Zero(), detections);
+    LineMatcher matcher(lines_, config_);
+    return associate(matcher, std::move(detections));
   }
 
   FusionConfig config_;
-  LocalRange range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
+  MapBox range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
   DetectionFrame frame_;
   DetectionModel model_;
   std::vector<Line> lines_;
   Networks networks_;
-  ElementId next_id_ = 1;
+  IdSource ids_;
   std::vector<Relative> cut_off_;
 };
 
@@ -55,7 +62,6 @@ TEST_F(LineFusion, ALineIsBornWithAStationAboutEveryMetre) {
   EXPECT_NEAR(static_cast<double>(lines_[0].stations.size()), 21.0, 1.0);
   EXPECT_EQ(lines_[0].stations.front().position, Point(0, 0, 0));
   EXPECT_EQ(lines_[0].stations.back().position, Point(20, 0, 0));
-  EXPECT_EQ(lines_[0].first_seen_ns, 7);
   EXPECT_EQ(lines_[0].type(), MarkingType::laneline);
 }
 
@@ -67,7 +73,6 @@ TEST_F(LineFusion, ALineKnowsWhenItWasLastSeen) {
   frame_.stamp_ns = 11;
   see({});
   EXPECT_EQ(lines_[0].last_seen_ns, 9);
-  EXPECT_EQ(lines_[0].first_seen_ns, 7);
 }
 
 TEST_F(LineFusion, ManyObservationsAverageBelowTheirNoise) {
@@ -162,12 +167,9 @@ TEST_F(LineFusion, ALineGrowsAtBothEndsInOneFrame) {
 
 TEST_F(LineFusion, ALineGrowsNoFurtherThanTheRange) {
   see({straight({0, 0, 0}, {20, 0, 0})});
-  auto detections = sample_detections(
-      {{MarkingType::laneline, MarkingStyle::solid, 0.8, {{0, 0, 0}, {20, 0, 0}, {9000, 900, 0}}}}, config_);
-  const auto matches = LineMatcher(lines_, config_).match(detections);
-  mark_explained(matches, detections);
-  weigh(NetworkModel(config_), Point::Zero(), detections);
-  extend_lines(matches, Point::Zero(), range_, config_, detections, lines_);
+  Association association = associated(
+      {{MarkingType::laneline, MarkingStyle::solid, 0.8, {{0, 0, 0}, {20, 0, 0}, {9000, 900, 0}}}});
+  extend_lines(Point::Zero(), range_, config_, association, lines_);
   EXPECT_GT(lines_[0].stations.back().position.x(), 50.0);
   for (const Station& station : lines_[0].stations) EXPECT_TRUE(range_.keeps(station.position));
 }

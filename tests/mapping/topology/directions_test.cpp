@@ -63,19 +63,22 @@ class Directions : public ::testing::Test {
       for (Point& point : *line) point.y() += width_m;
     lanes_[1] = lane(12, 2, 0, 40);
     lanes_[1].left_boundary = 4;
-    known_.clear();
+    memory_ = {};
   }
 
   void observe(const Eigen::Isometry3d& T_map_body, const std::vector<Marking>& markings = {}) {
-    for (const Lane& lane : lanes_) {
-      if (std::ranges::find(known_, lane.id, &KnownLane::id) == known_.end())
-        known_.push_back({.id = lane.id, .centerline = lane.centerline});
-    }
-    observe_directions(lanes_, T_map_body, markings, {}, known_);
+    std::vector<KnownLane> known = memory_.lanes();
+    for (const Lane& lane : lanes_)
+      if (memory_.find(lane.id) == nullptr) known.push_back({.id = lane.id, .centerline = lane.centerline});
+    memory_ = LaneMemory(std::move(known));
+    observe_directions(lanes_, T_map_body, markings, {}, memory_);
   }
 
-  void find(const std::string& driving_side = "right") {
-    find_directions(boundaries_, {.driving_side = driving_side}, known_, lanes_, linkages_);
+  void find(DrivingSide driving_side = DrivingSide::right) {
+    RoadGraph road{{boundaries_, lanes_}, linkages_};
+    find_directions({.driving_side = driving_side}, memory_, road);
+    lanes_ = std::move(road.lanes);
+    linkages_ = std::move(road.linkages);
   }
 
   const Lane& get(ElementId id) const { return *std::ranges::find(lanes_, id, &Lane::id); }
@@ -87,7 +90,7 @@ class Directions : public ::testing::Test {
   std::vector<LaneBoundary> boundaries_;
   std::vector<Lane> lanes_;
   std::vector<Linkage> linkages_;
-  std::vector<KnownLane> known_;
+  LaneMemory memory_;
 };
 
 TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
@@ -98,15 +101,15 @@ TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
   EXPECT_TRUE(runs_forward(12));
   // The turned lane's sides are its own; both see the other across their left side.
   EXPECT_EQ(get(11).left_boundary, 2U);
-  EXPECT_EQ(main_neighbour(get(11).left_neighbours), 12U);
+  EXPECT_EQ(main_neighbour(get(11), Side::left), 12U);
   EXPECT_TRUE(get(11).right_neighbours.empty());
   EXPECT_LT(MeasuredPolyline(get(11).left).project(get(11).right.front()).lateral_m, 0.0);
-  EXPECT_EQ(main_neighbour(get(12).left_neighbours), 11U);
+  EXPECT_EQ(main_neighbour(get(12), Side::left), 11U);
 }
 
 TEST_F(Directions, InLeftHandTrafficTheOtherWayRound) {
   divider(MarkingStyle::solid);
-  find("left");
+  find(DrivingSide::left);
   EXPECT_TRUE(known(11) && known(12));
   EXPECT_TRUE(runs_forward(11));
   EXPECT_FALSE(runs_forward(12));
@@ -226,7 +229,7 @@ TEST_F(Directions, ASolidLineAtTheSideSpeaksAsAnEdgeDoesButLess) {
   find();
   EXPECT_FALSE(known(12));
   divider(MarkingStyle::solid);
-  known_.clear();
+  memory_ = {};
   find();
   EXPECT_TRUE(known(11) && known(12));
   EXPECT_FALSE(runs_forward(11));
@@ -264,7 +267,7 @@ TEST_F(Directions, ADashedOrAnInferredLineAtTheSideDoesNotTell) {
 
 TEST_F(Directions, WithoutADrivingSideOnlyObservationsTell) {
   divider(MarkingStyle::solid);
-  find("unknown");
+  find(DrivingSide::unknown);
   EXPECT_FALSE(known(11) || known(12));
 }
 
@@ -323,10 +326,10 @@ TEST_F(Directions, CrossingTheLaneSaysNothing) {
 TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
   lanes_ = {lane(12, 2, 0, 10), lane(13, 2, 30, 40)};  // along the edge, on both sides of an intersection
   observe(test::at(5, 1.75));
-  find("unknown");
+  find(DrivingSide::unknown);
   EXPECT_TRUE(known(12) || !known(13));
   for (int i = 0; i < 5; ++i) observe(test::at(5, 1.75));
-  find("unknown");
+  find(DrivingSide::unknown);
   EXPECT_TRUE(known(12) && known(13));
   EXPECT_TRUE(runs_forward(13));
 }
@@ -340,7 +343,7 @@ TEST_F(Directions, ALaneThatRunsAgainstOthersBesideItsBoundaryIsTurned) {
   std::swap(turned.left_boundary, turned.right_boundary);
   turned.left_reversed = turned.right_reversed = true;
   for (int i = 0; i < 5; ++i) observe(test::at(10, 5.25));
-  find("unknown");
+  find(DrivingSide::unknown);
   EXPECT_TRUE(known(11) && known(13));
   EXPECT_TRUE(runs_forward(11) && runs_forward(13));
   EXPECT_EQ(get(13).left_boundary, 1U);
@@ -351,16 +354,16 @@ TEST_F(Directions, AWayIsTurnedWithItsLanes) {
   lanes_ = {lane(11, 1, 0, 10), lane(12, 1, 20, 40)};
   linkages_ = {{.from = 11, .to = 12, .path = {{10, 5.25, 0}, {20, 5.25, 0}}}};
   for (int i = 0; i < 5; ++i) observe(test::at(5, 5.25, std::numbers::pi));
-  find("unknown");
+  find(DrivingSide::unknown);
   ASSERT_FALSE(runs_forward(11));
   EXPECT_EQ(linkages_[0].from, 12U);
   EXPECT_EQ(linkages_[0].path.front().x(), 20.0);
 }
 
 TEST_F(Directions, NoWayLeadsFromATurnedLaneIntoOneThatIsNot) {
-  linkages_ = {{.from = 11, .to = 12}, {.from = 12, .to = 11}};
-  turn_lanes({11}, lanes_, linkages_);
-  EXPECT_TRUE(linkages_.empty());
+  RoadGraph road{{{}, lanes_}, {{.from = 11, .to = 12}, {.from = 12, .to = 11}}};
+  road.turn({11});
+  EXPECT_TRUE(road.linkages.empty());
 }
 
 TEST_F(Directions, LanesThatContinueOneAnotherRunTheSameWay) {

@@ -25,8 +25,9 @@ class EgoTrackTest : public ::testing::Test {
     lanes_[0].left_neighbours = {{.lane = 4, .range = {0.0, 20.0}}};
   }
   std::vector<Linkage> drive(double x, double y, double yaw_rad = 0.0, std::vector<Linkage> known = {}) {
-    link_ego_track(lanes_, test::at(x, y, yaw_rad), track_, known);
-    return known;
+    RoadGraph road{{{}, lanes_}, std::move(known)};
+    link_ego_track(test::at(x, y, yaw_rad), track_, road);
+    return road.linkages;
   }
   std::vector<Lane> lanes_;
   EgoTrack track_;

@@ -25,9 +25,11 @@ Lane lane(ElementId id, Polyline centerline) {
 std::vector<Linkage> crossings(std::vector<Lane> lanes, std::vector<Linkage> known = {},
                                const LinkageConfig& config = {},
                                const std::vector<LaneBoundary>& boundaries = {}, const SdMap& sd_map = {}) {
-  find_turns(lanes, known);
-  link_across_intersections(boundaries, sd_map, config, lanes, known);
-  return known;
+  RoadGraph road{{boundaries, std::move(lanes)}, std::move(known)};
+  for (Linkage& linkage : road.linkages)
+    linkage.turn = turn_between(road.lane(linkage.from), road.lane(linkage.to));
+  link_across_intersections(sd_map, config, road);
+  return road.linkages;
 }
 
 /// Whose driving direction is known.
@@ -88,7 +90,7 @@ TEST(Crossings, ThePathLeadsFromEndToBeginWithoutAKink) {
   const Polyline& path = linkages[0].path;
   EXPECT_TRUE(path.front().isApprox(Point(10, 0, 1)));
   EXPECT_TRUE(path.back().isApprox(Point(30, 1, 2)));
-  EXPECT_GT(end_direction(path, false, 1.0).dot(Eigen::Vector2d(-1, 0)), 0.995);
+  EXPECT_GT(end_direction(path, End::front, 1.0).dot(Eigen::Vector2d(-1, 0)), 0.995);
   for (std::size_t i = 2; i < path.size(); ++i) {
     const Eigen::Vector2d before = (path[i - 1] - path[i - 2]).head<2>().normalized();
     const Eigen::Vector2d after = (path[i] - path[i - 1]).head<2>().normalized();
@@ -201,10 +203,10 @@ TEST(Crossings, TurnsAskForKnownDirections) {
 TEST(Crossings, StraightOnTheDirectionIsKept) {
   std::vector<Lane> lanes{driven(1, {0, 0, 0}, {10, 0, 0}), lane(2, straight({30, 0, 0}, {40, 0, 0})),
                           lane(3, straight({30, 20, 0}, {40, 20, 0}))};
-  std::vector<Linkage> linkages;
-  link_across_intersections({}, {}, {}, lanes, linkages);
-  EXPECT_EQ(lanes[1].direction, Lane::Direction::along_centerline);
-  EXPECT_EQ(lanes[2].direction, Lane::Direction::unknown);
+  RoadGraph road{{{}, lanes}, {}};
+  link_across_intersections({}, {}, road);
+  EXPECT_EQ(road.lanes[1].direction, Lane::Direction::along_centerline);
+  EXPECT_EQ(road.lanes[2].direction, Lane::Direction::unknown);
 }
 
 TEST(Crossings, ALaneBetweenSolidLinesTakesNoDirectionFromStraightOn) {
@@ -218,22 +220,22 @@ TEST(Crossings, ALaneBetweenSolidLinesTakesNoDirectionFromStraightOn) {
   lanes[1].left_boundary = 21, lanes[1].right_boundary = 22;
   lanes[1].left_range = lanes[1].right_range = {0.0, 10.0};
   lanes[1].left_neighbours = lanes[1].right_neighbours = {{.lane = 9, .range = {0.0, 10.0}}};
-  std::vector<Linkage> linkages;
-  link_across_intersections(boundaries, {}, {}, lanes, linkages);
-  EXPECT_EQ(linkages.size(), 1U);
-  EXPECT_EQ(lanes[1].direction, Lane::Direction::unknown);
+  RoadGraph road{{boundaries, lanes}, {}};
+  link_across_intersections({}, {}, road);
+  EXPECT_EQ(road.linkages.size(), 1U);
+  EXPECT_EQ(road.lanes[1].direction, Lane::Direction::unknown);
 }
 
 TEST(Crossings, AheadOfAKnownLaneAnUnknownOneIsTurnedWithWhatItIsLinkedTo) {
   std::vector<Lane> lanes{driven(1, {-30, 0, 0}, {-10, 0, 0}), lane(2, straight({30, 0, 0}, {10, 0, 0})),
                           lane(3, straight({50, 0, 0}, {30, 0, 0}))};
-  std::vector<Linkage> linkages{{.from = 3, .to = 2}};
-  link_across_intersections({}, {}, {}, lanes, linkages);
-  EXPECT_THAT(pairs_of(linkages, Linkage::Turn::straight), ElementsAre(Pair(1, 2)));
-  EXPECT_EQ(lanes[1].centerline.front().x(), 10.0);
-  EXPECT_EQ(lanes[2].centerline.front().x(), 30.0);
-  EXPECT_EQ(std::ranges::count(linkages, 2U, &Linkage::from), 1);  // on into 3
-  EXPECT_EQ(lanes[1].direction, Lane::Direction::along_centerline);
+  RoadGraph road{{{}, lanes}, {{.from = 3, .to = 2}}};
+  link_across_intersections({}, {}, road);
+  EXPECT_THAT(pairs_of(road.linkages, Linkage::Turn::straight), ElementsAre(Pair(1, 2)));
+  EXPECT_EQ(road.lanes[1].centerline.front().x(), 10.0);
+  EXPECT_EQ(road.lanes[2].centerline.front().x(), 30.0);
+  EXPECT_EQ(std::ranges::count(road.linkages, 2U, &Linkage::from), 1);  // on into 3
+  EXPECT_EQ(road.lanes[1].direction, Lane::Direction::along_centerline);
 }
 
 TEST(Crossings, TurnsLeadFromTheOutermostLane) {

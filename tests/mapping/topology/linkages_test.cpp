@@ -12,7 +12,7 @@ namespace {
 
 using Kind = Linkage::Kind;
 
-Lane lane(ElementId id, std::pair<ElementId, Range> left, std::pair<ElementId, Range> right,
+Lane lane(ElementId id, std::pair<ElementId, Stretch> left, std::pair<ElementId, Stretch> right,
           Polyline centerline) {
   Lane l;
   l.id = id;
@@ -28,7 +28,7 @@ std::vector<Linkage> linkages_of(const std::vector<Lane>& lanes) {
   std::vector<LaneBoundary> boundaries;
   for (const ElementId id : {10U, 11U, 20U, 21U, 22U, 30U, 40U})
     boundaries.push_back(test::boundary(id, test::straight({0, 0, 0}, {60, 0, 0})));
-  return generate_linkages(lanes, boundaries, test::measure(boundaries), {});
+  return link_lanes({std::move(boundaries), lanes}, {}).linkages;
 }
 
 std::vector<std::tuple<ElementId, ElementId, Kind>> links(const std::vector<Lane>& lanes) {
@@ -119,15 +119,14 @@ TEST(Linkages, RoundACornerTheWayKeepsBesideTheSharedEdge) {
   const Lane from = lane(1, {10, {0, 20}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0}));
   const Lane to = lane(2, {11, {0, 20}}, {20, {20 + arc_m, 40 + arc_m}},
                        test::straight({29.75, -9.75, 0}, {29.75, -29.75, 0}));
-  auto linkages = generate_linkages({from, to}, boundaries, test::measure(boundaries), {});
+  const auto linkages = link_lanes({boundaries, {from, to}}, {}).linkages;
   ASSERT_EQ(linkages.size(), 1U);
   const Polyline& path = linkages[0].path;
   ASSERT_GT(path.size(), 10U);
   EXPECT_TRUE(path.front().isApprox(from.centerline.back()));
   EXPECT_TRUE(path.back().isApprox(to.centerline.front()));
   for (const Point& point : path) EXPECT_NEAR((point - Point(20, -9.75, 0)).norm(), 9.75, 0.25);
-  find_turns({from, to}, linkages);
-  EXPECT_EQ(linkages[0].turn, Linkage::Turn::right);
+  EXPECT_EQ(turn_between(from, to), Linkage::Turn::right);
 }
 
 TEST(Linkages, LanesThatMeetNeedNoPath) {

@@ -13,7 +13,7 @@ class Clustering : public ::testing::Test {
     co_observation_.record(type, MarkingStyle::unknown, voxels, map_);
   }
   void cluster_now(const std::vector<VoxelId>& reliable) {
-    cluster(reliable, config_, 5, map_, co_observation_, instances_, next_id_);
+    cluster(reliable, config_, 5, semantic_map_, ids_);
   }
   std::vector<VoxelId> row(int y, int count) {
     std::vector<VoxelId> voxels;
@@ -22,10 +22,11 @@ class Clustering : public ::testing::Test {
   }
 
   ClusteringConfig config_;
-  VoxelMap map_{VoxelMapConfig{}};
-  CoObservation co_observation_;
-  Instances instances_;
-  ElementId next_id_ = 1;
+  SemanticMap semantic_map_{VoxelMap(VoxelMapConfig{})};
+  VoxelMap& map_ = semantic_map_.voxels;
+  CoObservation& co_observation_ = semantic_map_.co_observation;
+  Instances& instances_ = semantic_map_.instances;
+  IdSource ids_;
 };
 
 TEST_F(Clustering, VoxelsOfOneDetectionBecomeOneInstance) {

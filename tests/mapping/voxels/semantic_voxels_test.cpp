@@ -13,7 +13,7 @@ class SemanticVoxels : public ::testing::Test {
  protected:
   TouchedVoxels see(const std::vector<ObservedMarking>& markings,
                     const Eigen::Isometry3d& T_map_body = test::at(0)) {
-    return update_voxels(markings, LocalRange({}, T_map_body), config_, map_, co_observation_);
+    return update_voxels(markings, MapBox({}, T_map_body), config_, map_, co_observation_);
   }
   VoxelId at(double x, double y) const { return map_.find(map_.index_of({x, y, 0.1})); }
 

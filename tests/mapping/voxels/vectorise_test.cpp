@@ -12,7 +12,7 @@ using test::straight;
 class Vectorise : public ::testing::Test {
  protected:
   Instance& instance_along(const Polyline& line, MarkingType type = MarkingType::laneline) {
-    Instance& instance = instances_.create(next_id_++, type, 0);
+    Instance& instance = instances_.create(ids_.next(), type, 0);
     for (const Point& p : MeasuredPolyline(line).resample(0.2)) {
       const VoxelId id = map_.find_or_allocate(map_.index_of(p));
       map_[id].detections[index(type)] = 20;
@@ -26,7 +26,7 @@ class Vectorise : public ::testing::Test {
 
   VoxelMap map_{VoxelMapConfig{}};
   Instances instances_;
-  ElementId next_id_ = 1;
+  IdSource ids_;
 };
 
 TEST_F(Vectorise, ANewLineRunsForwardAndKeepsItsDirection) {
@@ -83,7 +83,7 @@ TEST_F(Vectorise, AContestedStyleIsUnknown) {
 TEST_F(Vectorise, MarkingsAreCutAtTheRange) {
   instance_along(straight({-12, 0.1, 0}, {38, 0.1, 0}));
   update();
-  const auto markings = markings_in_range(LocalRange({}, test::at(0)), 3.0, instances_, next_id_);
+  const auto markings = markings_in_range(MapBox({}, test::at(0)), 3.0, instances_, ids_);
   ASSERT_EQ(markings.size(), 1U);
   EXPECT_EQ(markings[0].id, 1U);
   EXPECT_NEAR(markings[0].points.front().x(), -5.0, 1e-6);
@@ -95,9 +95,9 @@ TEST_F(Vectorise, StretchesOfOneLineHaveLastingIdsOfTheirOwn) {
   Instance& instance = instance_along(straight({0, 0, 0}, {1, 0, 0}));
   instance.points = {{0, 0, 0}, {0, 20, 0}, {10, 20, 0}, {10, 0, 0}};
   instance.styles = {{{0, 50}, MarkingStyle::solid}};
-  const LocalRange range({}, test::at(0));
-  const auto first = markings_in_range(range, 3.0, instances_, next_id_);
-  const auto second = markings_in_range(range, 3.0, instances_, next_id_);
+  const MapBox range({}, test::at(0));
+  const auto first = markings_in_range(range, 3.0, instances_, ids_);
+  const auto second = markings_in_range(range, 3.0, instances_, ids_);
   ASSERT_EQ(first.size(), 2U);
   ASSERT_EQ(second.size(), 2U);
   EXPECT_EQ(first[0].id, 1U);

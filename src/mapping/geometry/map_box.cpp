@@ -1,4 +1,4 @@
-#include "mapping/geometry/local_range.hpp"
+#include "mapping/geometry/map_box.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -9,8 +9,8 @@ namespace laneloom {
 namespace {
 
 /// The part of the segment a..b that lies in the box, as shares of the segment (Liang and Barsky's clipping).
-std::optional<Range> clip(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                          const Eigen::AlignedBox2d& box) {
+std::optional<Stretch> clip(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                            const Eigen::AlignedBox2d& box) {
   double from = 0.0, to = 1.0;
   for (int axis = 0; axis < 2; ++axis) {
     const double delta = b[axis] - a[axis];
@@ -24,12 +24,12 @@ std::optional<Range> clip(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
     to = std::min(to, std::max(at_min, at_max));
   }
   if (from >= to) return std::nullopt;
-  return Range{from, to};
+  return Stretch{from, to};
 }
 
 }  // namespace
 
-LocalRange::LocalRange(const RangeConfig& config, const Eigen::Isometry3d& T_map_body)
+MapBox::MapBox(const RangeConfig& config, const Eigen::Isometry3d& T_map_body)
     : T_map_body_(T_map_body),
       T_body_map_(T_map_body.inverse()),
       box_(Eigen::Vector2d(config.forward_min_m, -config.side_max_m),
@@ -38,25 +38,25 @@ LocalRange::LocalRange(const RangeConfig& config, const Eigen::Isometry3d& T_map
   kept_ = Eigen::AlignedBox2d(box_.min() - margin, box_.max() + margin);
 }
 
-bool LocalRange::keeps(const Point& point_map) const {
+bool MapBox::keeps(const Point& point_map) const {
   return kept_.contains((T_body_map_ * point_map).head<2>());
 }
 
-bool LocalRange::shows(const Point& point_map) const {
+bool MapBox::shows(const Point& point_map) const {
   return box_.contains((T_body_map_ * point_map).head<2>());
 }
 
-std::vector<Range> LocalRange::inside(const Polyline& line_map) const {
-  std::vector<Range> stretches;
+std::vector<Stretch> MapBox::inside(const Polyline& line_map) const {
+  std::vector<Stretch> stretches;
   const std::vector<double> arc = arc_lengths(line_map);
   Eigen::Vector2d previous = (T_body_map_ * line_map.front()).head<2>();
   for (std::size_t i = 1; i < line_map.size(); ++i) {
     const Eigen::Vector2d current = (T_body_map_ * line_map[i]).head<2>();
-    const std::optional<Range> part = clip(previous, current, box_);
+    const std::optional<Stretch> part = clip(previous, current, box_);
     previous = current;
     if (!part) continue;
     const double segment_m = arc[i] - arc[i - 1];
-    const Range stretch{arc[i - 1] + part->from_m * segment_m, arc[i - 1] + part->to_m * segment_m};
+    const Stretch stretch{arc[i - 1] + part->from_m * segment_m, arc[i - 1] + part->to_m * segment_m};
     const bool continues = part->from_m == 0.0 && !stretches.empty() && stretches.back().to_m == arc[i - 1];
     if (continues) {
       stretches.back().to_m = stretch.to_m;

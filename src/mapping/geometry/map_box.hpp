@@ -8,9 +8,9 @@
 namespace laneloom {
 
 /// The box around the vehicle that is mapped (paper, Sec. IV-C). Any height is inside.
-class LocalRange {
+class MapBox {
  public:
-  LocalRange(const RangeConfig& config, const Eigen::Isometry3d& T_map_body);
+  MapBox(const RangeConfig& config, const Eigen::Isometry3d& T_map_body);
 
   /// Within the box plus its margin, where voxels gather evidence.
   bool keeps(const Point& point_map) const;
@@ -22,7 +22,7 @@ class LocalRange {
 
   /// The stretches of a polyline that lie in the box, by arc length, in order. The line has at least two
   /// points.
-  std::vector<Range> inside(const Polyline& line_map) const;
+  std::vector<Stretch> inside(const Polyline& line_map) const;
 
  private:
   Eigen::Isometry3d T_map_body_, T_body_map_;

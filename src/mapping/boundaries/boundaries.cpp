@@ -1,0 +1,43 @@
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
+#include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/geometry/stretches.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom {
+namespace {
+
+ElementId id_of(const LaneBoundary& boundary) { return boundary.marking.id; }
+
+void measure(LaneBoundary& boundary) { boundary.course = MeasuredPolyline(boundary.marking.points); }
+
+}  // namespace
+
+Boundaries::Boundaries(std::vector<LaneBoundary> boundaries) : all_(std::move(boundaries)) {
+  std::ranges::for_each(all_, measure);
+  std::ranges::sort(all_, {}, id_of);
+}
+
+std::size_t Boundaries::index_of(ElementId id) const {
+  const auto found = std::ranges::lower_bound(all_, id, {}, id_of);
+  assert(found != all_.end() && id_of(*found) == id);
+  return static_cast<std::size_t>(found - all_.begin());
+}
+
+void Boundaries::reverse(std::size_t index) {
+  LaneBoundary& boundary = all_[index];
+  const double total_m = length(boundary.marking.points);
+  laneloom::reverse(boundary.marking);
+  laneloom::reverse(boundary.bridged, total_m);
+  measure(boundary);
+}
+
+void Boundaries::insert(std::vector<LaneBoundary> boundaries) {
+  std::ranges::for_each(boundaries, measure);
+  std::ranges::move(boundaries, std::back_inserter(all_));
+  std::ranges::stable_sort(all_, {}, id_of);
+}
+
+}  // namespace laneloom

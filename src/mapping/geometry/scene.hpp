@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "mapping/geometry/map_box.hpp"
+
+namespace laneloom {
+
+/// Where and when the map is made: at the newest pose so far, which may be newer than the frame that is
+/// fused.
+struct Scene {
+  MapBox box;                 ///< about the vehicle
+  std::int64_t stamp_ns = 0;  ///< of the newest frame
+  std::uint64_t frame = 0;    ///< counts the fused frames
+
+  const Eigen::Isometry3d& T_map_body() const { return box.T_map_body(); }
+};
+
+}  // namespace laneloom

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+#include "laneloom/types.hpp"
+#include "mapping/boundaries/lane_boundaries.hpp"
+
+namespace laneloom {
+
+/// The lanes of a map with the boundaries that they name.
+struct LaneLayout {
+  Boundaries boundaries;
+  std::vector<Lane> lanes;
+
+  /// Null: there is no lane of that id.
+  const Lane* find(ElementId id) const {
+    const auto found = std::ranges::find(lanes, id, &Lane::id);
+    return found == lanes.end() ? nullptr : &*found;
+  }
+  /// There has to be a lane of that id.
+  const Lane& lane(ElementId id) const {
+    const auto found = std::ranges::find(lanes, id, &Lane::id);
+    assert(found != lanes.end());
+    return *found;
+  }
+};
+
+}  // namespace laneloom

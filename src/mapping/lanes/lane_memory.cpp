@@ -1,0 +1,184 @@
+#include "mapping/lanes/lane_memory.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
+#include "mapping/lanes/neighbours.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kSameInferred_m = 1.5;  // from where an inferred boundary was
+
+/// How much of a known element a found one covers.
+struct Cover {
+  std::size_t points = 0, found = 0, known = 0;
+};
+
+/// Takes each found element for at most one known element, and the other way round.
+class Recognition {
+ public:
+  Recognition(std::size_t found, std::size_t known) : known_of_(found), taken_(known, false) {}
+
+  bool is_open(std::size_t found, std::size_t known) const { return !known_of_[found] && !taken_[known]; }
+  /// Those that cover most come first.
+  void settle(std::vector<Cover> covers) {
+    std::ranges::stable_sort(covers, std::greater{}, &Cover::points);
+    for (const Cover& cover : covers) {
+      if (!is_open(cover.found, cover.known)) continue;
+      known_of_[cover.found] = cover.known;
+      taken_[cover.known] = true;
+    }
+  }
+  std::optional<std::size_t> known_of(std::size_t found) const { return known_of_[found]; }
+  bool is_taken(std::size_t known) const { return taken_[known]; }
+
+ private:
+  std::vector<std::optional<std::size_t>> known_of_;
+  std::vector<bool> taken_;
+};
+
+bool covers_enough(std::size_t covered, const Polyline& one, const Polyline& other) {
+  return 2 * covered >= std::min(one.size(), other.size());
+}
+
+Recognition recognised(const std::vector<InferredBoundary>& inferred,
+                       const std::vector<KnownInferred>& known) {
+  std::vector<Box> boxes;
+  boxes.reserve(inferred.size());
+  for (const InferredBoundary& one : inferred) boxes.push_back(box_around(one.marking.points));
+  std::vector<Cover> covers;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const MeasuredPolyline line(known[k].points);
+    const Box near = box_around(known[k].points, kSameInferred_m);
+    for (std::size_t i = 0; i < inferred.size(); ++i) {
+      if (!near.intersects(boxes[i])) continue;
+      const Polyline& points = inferred[i].marking.points;
+      const std::size_t covered = points_beside(points, line, kSameInferred_m);
+      if (covers_enough(covered, points, known[k].points)) covers.push_back({covered, i, k});
+    }
+  }
+  Recognition recognition(inferred.size(), known.size());
+  recognition.settle(std::move(covers));
+  return recognition;
+}
+
+std::pair<ElementId, ElementId> boundary_pair(const Lane& lane) {
+  return std::minmax(lane.left_boundary, lane.right_boundary);
+}
+
+bool has_same_boundaries(const Lane& lane, const KnownLane& known) {
+  return boundary_pair(lane) == std::pair(known.boundary_a, known.boundary_b);
+}
+
+/// What is open yet of the lanes between the same boundaries, or of all others.
+std::vector<Cover> covers_of(const std::vector<Lane>& lanes, const std::vector<KnownLane>& known,
+                             const Recognition& recognition, double max_distance_m, bool same_boundaries) {
+  std::vector<Cover> covers;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    std::optional<MeasuredPolyline> line;
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+      if (!recognition.is_open(i, k) || has_same_boundaries(lanes[i], known[k]) != same_boundaries) continue;
+      if (!line) line.emplace(known[k].centerline);
+      const Polyline& centerline = lanes[i].centerline;
+      const std::size_t covered = points_beside(centerline, *line, max_distance_m);
+      const bool is_same =
+          same_boundaries ? covered > 0 : covers_enough(covered, centerline, known[k].centerline);
+      if (is_same) covers.push_back({covered, i, k});
+    }
+  }
+  return covers;
+}
+
+/// Between the same boundaries first, then wherever a lane has been.
+Recognition recognised(const std::vector<Lane>& lanes, const std::vector<KnownLane>& known,
+                       const LaneConfig& config) {
+  Recognition recognition(lanes.size(), known.size());
+  for (const bool same_boundaries : {true, false})
+    recognition.settle(covers_of(lanes, known, recognition, 0.5 * config.min_width_m, same_boundaries));
+  return recognition;
+}
+
+/// Whether the first line runs as the second does, in the middle of the first.
+bool same_way(const Polyline& line, const Polyline& other) {
+  const MeasuredPolyline measured(line), measured_other(other);
+  const double middle_m = 0.5 * measured.length();
+  const Projection foot = measured_other.project(measured.at(middle_m));
+  return measured.direction(middle_m).dot(measured_other.direction(foot)) >= 0.0;
+}
+
+bool is_expired(std::uint64_t last_frame, const Scene& scene, const LaneConfig& config) {
+  return last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < scene.frame;
+}
+
+}  // namespace
+
+void LaneMemory::identify(std::vector<InferredBoundary>& inferred, const Scene& scene,
+                          const LaneConfig& config, IdSource& ids) {
+  const Recognition recognition = recognised(inferred, inferred_);
+  for (std::size_t i = 0; i < inferred.size(); ++i) {
+    const auto same = recognition.known_of(i);
+    if (!same) inferred_.push_back({.id = ids.next(), .first_seen_ns = scene.stamp_ns, .points = {}});
+    KnownInferred& known = same ? inferred_[*same] : inferred_.back();
+    Marking& marking = inferred[i].marking;
+    marking.id = known.id;
+    marking.first_seen_ns = known.first_seen_ns;
+    known.points = marking.points;
+    known.last_frame = scene.frame;
+  }
+  std::erase_if(inferred_, [&](const KnownInferred& k) { return is_expired(k.last_frame, scene, config); });
+}
+
+void LaneMemory::identify(std::vector<Lane>& lanes, const Scene& scene, const LaneConfig& config,
+                          IdSource& ids) {
+  const Recognition recognition = recognised(lanes, lanes_, config);
+  std::vector<KnownLane> now;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    Lane& lane = lanes[i];
+    const auto [a, b] = boundary_pair(lane);
+    KnownLane known{
+        .boundary_a = a, .boundary_b = b, .centerline = lane.centerline, .last_frame = scene.frame};
+    if (const auto same = recognition.known_of(i)) {
+      const KnownLane& before = lanes_[*same];
+      const int sense = same_way(lane.centerline, before.centerline) ? 1 : -1;
+      known.id = before.id;
+      known.direction_log_odds = sense * before.direction_log_odds;
+      known.kept_direction = sense * before.kept_direction;
+    } else {
+      known.id = ids.next();
+    }
+    lane.id = known.id;
+    now.push_back(std::move(known));
+  }
+  std::size_t k = 0;
+  std::erase_if(lanes_, [&](const KnownLane& known) {
+    return recognition.is_taken(k++) || is_expired(known.last_frame, scene, config);
+  });
+  std::ranges::move(now, std::back_inserter(lanes_));
+  std::ranges::sort(lanes, {}, &Lane::id);
+}
+
+LaneLayout LaneMemory::recognise(FoundLanes found, const Scene& scene, const LaneConfig& config,
+                                 IdSource& ids) {
+  identify(found.inferred, scene, config, ids);
+  LaneLayout layout = laid_out(std::move(found));
+  identify(layout.lanes, scene, config, ids);
+  find_neighbours(layout);
+  return layout;
+}
+
+const KnownLane* LaneMemory::find(ElementId lane) const {
+  const auto found = std::ranges::find(lanes_, lane, &KnownLane::id);
+  return found == lanes_.end() ? nullptr : &*found;
+}
+
+KnownLane* LaneMemory::find(ElementId lane) {
+  return const_cast<KnownLane*>(std::as_const(*this).find(lane));  // NOLINT: of this memory
+}
+
+}  // namespace laneloom

@@ -1,0 +1,79 @@
+#include "mapping/lines/line_mapper.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "mapping/lines/frame_pitch.hpp"
+#include "mapping/lines/joints.hpp"
+#include "mapping/lines/line_evidence.hpp"
+#include "mapping/lines/line_fusion.hpp"
+#include "mapping/lines/line_growth.hpp"
+#include "mapping/lines/line_merging.hpp"
+#include "mapping/lines/line_publishing.hpp"
+
+namespace laneloom {
+namespace {
+
+Viewpoint viewpoint(const ObservedFrame& observed, std::size_t source, const NetworkModel& network) {
+  return {.T_map_body = observed.T_map_body,
+          .source = static_cast<std::uint32_t>(source),
+          .correlation_m = network.correlation_m(),
+          .pitch_gain = network.pitch_gain(),
+          .alignment_gain = network.alignment_gain()};
+}
+
+}  // namespace
+
+FusedMarkings LineMapper::fuse(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
+                               IdSource& ids, const StageLog& log) {
+  const FusionConfig& fusion = config.fusion;
+  const Point origin = observed.T_map_body.translation();
+  const std::size_t source = networks_.number(observed.frame.source, scene.frame, fusion);
+  Network& network = networks_[source];
+  Viewpoint from = viewpoint(observed, source, network.lateral);
+  Association association = associated(observed, network, fusion, from);
+  count_joints(association.matches, lines_, config.boundary.max_gap_m, joints_);
+  log.done(Stage::association);
+
+  fuse_matches(association, from, fusion, networks_, lines_);
+  const View view{observed.T_map_body.inverse(), &observed.frame, network.standpoint.news(origin)};
+  credit_observed(view, association, fusion, network.detection, lines_);
+  discount_unobserved(view, scene.box, fusion, network.detection, lines_);
+  log.done(Stage::line_update);
+
+  extend_lines(origin, scene.box, fusion, association, lines_);
+  for (Line& line : new_lines(association.detections, origin, scene.box, fusion, network.detection)) {
+    line.id = ids.next();
+    line.first_seen_ns = line.last_seen_ns = observed.frame.stamp_ns;
+    lines_.push_back(std::move(line));
+  }
+  std::vector<Relative> relatives = merge_doubles(fusion, lines_, doubles_);
+  std::ranges::copy(prune_lines(scene.box, fusion, network.detection, lines_, ids),
+                    std::back_inserter(relatives));
+  log.done(Stage::line_set);
+
+  return log.done(Stage::polylines,
+                  FusedMarkings{publish_lines(lines_, doubles_, config), joints_, std::move(relatives)});
+}
+
+/// Takes out what the frame as a whole is suspected of, and notes it in `from`.
+Association LineMapper::associated(const ObservedFrame& observed, const Network& network,
+                                   const FusionConfig& config, Viewpoint& from) {
+  const Eigen::Isometry3d& T_map_body = observed.T_map_body;
+  auto detections = sample_detections(observed.markings, config);
+  from.stretch_per_m = estimate_stretch_per_m(detections, T_map_body);
+  unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
+  LineMatcher matcher(lines_, config);
+  from.error = align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);
+  weigh(network.lateral, T_map_body.translation(), detections);
+  return associate(matcher, std::move(detections));
+}
+
+void LineMapper::reset() {
+  Networks networks = std::move(networks_);
+  *this = {};
+  networks_ = std::move(networks);
+}
+
+}  // namespace laneloom

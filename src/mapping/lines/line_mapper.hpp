@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "mapping/geometry/scene.hpp"
+#include "mapping/lines/association.hpp"
+#include "mapping/lines/frame_alignment.hpp"
+#include "mapping/lines/line_map.hpp"
+#include "mapping/lines/networks.hpp"
+#include "mapping/lines/station_update.hpp"
+#include "mapping/markings/fused_markings.hpp"
+#include "mapping/markings/id_source.hpp"
+#include "mapping/markings/preprocess.hpp"
+#include "mapping/markings/stage_log.hpp"
+
+namespace laneloom {
+
+/// Our method of fusion: lines that are followed over time, each station of a line with its own position and
+/// evidence. A value.
+class LineMapper {
+ public:
+  FusedMarkings fuse(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
+                     IdSource& ids, const StageLog& log);
+
+  /// Forgets all but what was learned of the networks.
+  void reset();
+
+  const std::vector<Line>& lines() const { return lines_; }
+  const Networks& networks() const { return networks_; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(lines_, doubles_, joints_, lasting_error_, networks_);
+  }
+
+ private:
+  Association associated(const ObservedFrame& observed, const Network& network, const FusionConfig& config,
+                         Viewpoint& from);
+
+  std::vector<Line> lines_;
+  PairHistories doubles_;  ///< of lines that lie side by side
+  PairHistories joints_;   ///< of ends of lines that lie near each other
+  FrameError lasting_error_ = FrameError::Zero();
+  Networks networks_;  ///< what was learned of the sources
+};
+
+}  // namespace laneloom

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// Gives out ids, each once, in ascending order.
+class IdSource {
+ public:
+  explicit IdSource(ElementId first = kNoElement + 1) : next_(first) {}
+
+  ElementId next() { return next_++; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(next_);
+  }
+
+ private:
+  ElementId next_;
+};
+
+}  // namespace laneloom

@@ -1,0 +1,53 @@
+#include "mapping/topology/road_graph.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/stretches.hpp"
+
+namespace laneloom {
+namespace {
+
+void turn(Lane& lane) {
+  for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) std::ranges::reverse(*line);
+  std::swap(lane.left, lane.right);
+  std::swap(lane.left_boundary, lane.right_boundary);
+  std::swap(lane.left_range, lane.right_range);
+  std::swap(lane.left_reversed, lane.right_reversed);
+  lane.left_reversed = !lane.left_reversed;
+  lane.right_reversed = !lane.right_reversed;
+  const double total_m = length(lane.centerline);
+  reverse(lane.inferred_ranges, total_m);
+  std::swap(lane.left_neighbours, lane.right_neighbours);
+  for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {
+    std::ranges::reverse(*neighbours);
+    for (Neighbour& neighbour : *neighbours) {
+      neighbour.range = reversed(neighbour.range, total_m);
+      reverse(neighbour.crossable, total_m);
+    }
+  }
+}
+
+}  // namespace
+
+void RoadGraph::sort_linkages() {
+  std::ranges::stable_sort(linkages, {}, [](const Linkage& l) { return std::tuple(l.from, l.to, l.kind); });
+}
+
+void RoadGraph::turn(const std::vector<ElementId>& ids) {
+  const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
+  for (Lane& lane : lanes)
+    if (turned(lane.id)) laneloom::turn(lane);
+  // Where directions contradict one another, one of two linked lanes may be turned alone: it is not entered
+  // so.
+  std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
+  for (Linkage& linkage : linkages) {
+    if (!turned(linkage.from)) continue;
+    std::swap(linkage.from, linkage.to);
+    std::ranges::reverse(linkage.path);
+  }
+}
+
+}  // namespace laneloom
