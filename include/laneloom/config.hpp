@@ -79,9 +79,12 @@ struct LaneConfig {
   double min_width_m = 2.1;
   double max_width_m = 4.5;
   double max_kerb_width_m = 6.5;      ///< beside a roadedge: room to park; also the room beside one line
-  double max_shoulder_width_m = 3.0;  ///< between an edge and a lane's solid line; 0: that is a lane
-  double min_divided_width_m = 6.5;   ///< from which a road without lines is two lanes; 0: never
-  double assumed_width_m = 3.3;       ///< beside a line with nothing else on that side; 0: no lane there
+  bool find_shoulders = true;         ///< tells shoulders from lanes
+  double max_shoulder_width_m = 3.0;  ///< between an edge and a lane's solid line
+  bool unmarked_roads = true;         ///< divides roads without lines into two lanes
+  double min_divided_width_m = 6.5;   ///< from which it does
+  bool one_sided_lanes = true;        ///< assumes lanes beside a line with nothing else on that side
+  double assumed_width_m = 3.3;       ///< of these
   double max_width_variation_m = 0.8;
   double min_length_m = 4.0;
   double step_m = 1.0;        ///< between cross-sections, and so between the points of a centerline
@@ -94,10 +97,12 @@ struct LinkageConfig {
   double max_gap_m = 5.0;          ///< between centerlines that are aligned
   double max_lateral_m = 1.2;
   double max_angle_deg = 20.0;
-  // Straight on across an intersection, where no marking leads. Beyond the paper; a gap of 0: never.
+  // Straight on across an intersection, where no marking leads. Beyond the paper.
+  bool straight_across = true;
   double max_crossing_gap_m = 35.0;
   double max_crossing_lateral_m = 1.5;
-  // Left and right turns there: from either lane's end to where their extensions meet. A gap of 0: never.
+  // Left and right turns there: from either lane's end to where their extensions meet.
+  bool turns = true;
   double max_turn_gap_m = 25.0;
   double min_turn_radius_m = 3.0;
 };

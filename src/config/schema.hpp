@@ -129,14 +129,18 @@ void visit(auto& v, Is<SectionConfig> auto& c) {
 }
 
 void visit(auto& v, Is<LaneConfig> auto& c) {
-  auto& [min_width_m, max_width_m, max_kerb_width_m, max_shoulder_width_m, min_divided_width_m,
-         assumed_width_m, max_width_variation_m, min_length_m, step_m, id_memory_frames] = c;
+  auto& [min_width_m, max_width_m, max_kerb_width_m, find_shoulders, max_shoulder_width_m, unmarked_roads,
+         min_divided_width_m, one_sided_lanes, assumed_width_m, max_width_variation_m, min_length_m, step_m,
+         id_memory_frames] = c;
   v.number("min_width_m", min_width_m, "m", 0.5, 20);
   v.number("max_width_m", max_width_m, "m", 0.5, 20);
   v.number("max_kerb_width_m", max_kerb_width_m, "m", 0.5, 20);
-  v.number("max_shoulder_width_m", max_shoulder_width_m, "m", 0, 20);
-  v.number("min_divided_width_m", min_divided_width_m, "m", 0, 40);
-  v.number("assumed_width_m", assumed_width_m, "m", 0, 20);
+  v.flag("find_shoulders", find_shoulders);
+  v.number("max_shoulder_width_m", max_shoulder_width_m, "m", 0.5, 20);
+  v.flag("unmarked_roads", unmarked_roads);
+  v.number("min_divided_width_m", min_divided_width_m, "m", 1, 40);
+  v.flag("one_sided_lanes", one_sided_lanes);
+  v.number("assumed_width_m", assumed_width_m, "m", 0.5, 20);
   v.number("max_width_variation_m", max_width_variation_m, "m", 0, 10);
   v.number("min_length_m", min_length_m, "m", 0.5, 100);
   v.number("step_m", step_m, "m", 0.1, 10);
@@ -144,15 +148,17 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
 }
 
 void visit(auto& v, Is<LinkageConfig> auto& c) {
-  auto& [max_shared_gap_m, max_gap_m, max_lateral_m, max_angle_deg, max_crossing_gap_m,
-         max_crossing_lateral_m, max_turn_gap_m, min_turn_radius_m] = c;
+  auto& [max_shared_gap_m, max_gap_m, max_lateral_m, max_angle_deg, straight_across, max_crossing_gap_m,
+         max_crossing_lateral_m, turns, max_turn_gap_m, min_turn_radius_m] = c;
   v.number("max_shared_gap_m", max_shared_gap_m, "m", 1, 200);
   v.number("max_gap_m", max_gap_m, "m", 2, 200);
   v.number("max_lateral_m", max_lateral_m, "m", 0.1, 10);
   v.number("max_angle_deg", max_angle_deg, "deg", 1, 90);
-  v.number("max_crossing_gap_m", max_crossing_gap_m, "m", 0, 200);
+  v.flag("straight_across", straight_across);
+  v.number("max_crossing_gap_m", max_crossing_gap_m, "m", 1, 200);
   v.number("max_crossing_lateral_m", max_crossing_lateral_m, "m", 0.1, 10);
-  v.number("max_turn_gap_m", max_turn_gap_m, "m", 0, 200);
+  v.flag("turns", turns);
+  v.number("max_turn_gap_m", max_turn_gap_m, "m", 1, 200);
   v.number("min_turn_radius_m", min_turn_radius_m, "m", 0.5, 50);
 }
 

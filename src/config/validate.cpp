@@ -114,9 +114,9 @@ std::optional<Problem> find_contradiction(const Config& c) {
     return Problem{"mapper.lane.min_width_m", "must be less than max_width_m"};
   }
   if (const LaneConfig& lane = mapper.lane;
-      lane.assumed_width_m != 0.0 &&
+      lane.one_sided_lanes &&
       (lane.assumed_width_m < lane.min_width_m || lane.assumed_width_m > lane.max_kerb_width_m)) {
-    return Problem{"mapper.lane.assumed_width_m", "must be 0, or from min_width_m to max_kerb_width_m"};
+    return Problem{"mapper.lane.assumed_width_m", "must be from min_width_m to max_kerb_width_m, or one_sided_lanes false"};
   }
   if (auto problem = find_too_many_points(mapper)) return problem;
   if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {

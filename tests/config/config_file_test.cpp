@@ -112,7 +112,7 @@ TEST_F(ConfigFile, AContradictionIsNamedWithItsLine) {
   EXPECT_EQ(error_of("mapper:\n  lane:\n    min_width_m: 4.5\n"),
             ":3: mapper.lane.min_width_m: must be less than max_width_m");
   EXPECT_EQ(error_of("mapper:\n  lane:\n    assumed_width_m: 2\n"),
-            ":3: mapper.lane.assumed_width_m: must be 0, or from min_width_m to max_kerb_width_m");
+            ":3: mapper.lane.assumed_width_m: must be from min_width_m to max_kerb_width_m, or one_sided_lanes false");
   EXPECT_EQ(error_of("service:\n  degraded_after_s: 0.5\n"),
             ":2: service.degraded_after_s: must not exceed stale_after_s");
   EXPECT_EQ(error_of("dds:\n  profile_file: x.xml\n"),
@@ -272,11 +272,11 @@ TEST(ShippedFiles, PaperYamlHasNothingBeyondThePaper) {
   const MapperConfig mapper = load_config(kConfigDir / "paper.yaml").mapper;
   EXPECT_EQ(mapper.method, FusionMethod::voxels);
   EXPECT_EQ(mapper.lane.max_kerb_width_m, mapper.lane.max_width_m);
-  EXPECT_EQ(mapper.lane.max_shoulder_width_m, 0.0);
-  EXPECT_EQ(mapper.lane.min_divided_width_m, 0.0);
-  EXPECT_EQ(mapper.lane.assumed_width_m, 0.0);
-  EXPECT_EQ(mapper.linkage.max_crossing_gap_m, 0.0);
-  EXPECT_EQ(mapper.linkage.max_turn_gap_m, 0.0);
+  EXPECT_FALSE(mapper.lane.find_shoulders);
+  EXPECT_FALSE(mapper.lane.unmarked_roads);
+  EXPECT_FALSE(mapper.lane.one_sided_lanes);
+  EXPECT_FALSE(mapper.linkage.straight_across);
+  EXPECT_FALSE(mapper.linkage.turns);
   EXPECT_EQ(mapper.direction.driving_side, DrivingSide::unknown);
 }
 

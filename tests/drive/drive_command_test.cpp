@@ -45,7 +45,7 @@ TEST_F(DriveCommand, FailsOnRequestWhenTheLaneIsLeft) {
   // Lanes of this width are none for the map, and straight on leads out of the bend.
   const std::string config = folder_.file("laneloom.yaml");
   std::ofstream(config) << "mapper:\n  lane:\n    min_width_m: 1.0\n    max_width_m: 1.5\n    "
-                           "max_kerb_width_m: 1.5\n    assumed_width_m: 0\n";
+                           "max_kerb_width_m: 1.5\n    one_sided_lanes: false\n";
   const std::vector<std::string> words{"--scenario", "overpass", "--duration", "200", "--config", config};
   EXPECT_EQ(run(words), 0) << output();
   EXPECT_THAT(output(), HasSubstr("overpass, seed 1: "));

@@ -170,7 +170,7 @@ class OneSidedLanes {
 
 std::vector<InferredBoundary> one_sided_lanes(const SectionGraph& road, const MapBox& box,
                                               const LaneConfig& config, TakenSpace& taken) {
-  if (config.assumed_width_m <= 0.0) return {};
+  if (!config.one_sided_lanes) return {};
   OneSidedLanes lanes(road.boundaries, box, config, taken);
   for (std::uint32_t section = 0; section < road.sections.size(); ++section) {
     for (const std::size_t line : road.sections[section].boundaries) {

@@ -66,6 +66,7 @@ class Shoulders {
 std::vector<Lane> without_shoulders(const std::vector<Lane>& lanes, const std::vector<BoundaryPair>& pairs,
                                     const Boundaries& boundaries, const Eigen::Isometry3d& T_map_body,
                                     const LaneConfig& config) {
+  if (!config.find_shoulders) return lanes;
   const Shoulders shoulders(lanes, pairs, boundaries);
   std::vector<Lane> kept;
   std::ranges::copy_if(lanes, std::back_inserter(kept), [&](const Lane& lane) {

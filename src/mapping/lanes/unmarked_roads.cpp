@@ -149,7 +149,7 @@ class Divisions {
 std::vector<InferredBoundary> divide_unmarked(const std::vector<BoundaryPair>& pairs,
                                               const Boundaries& boundaries, const LaneConfig& config,
                                               TakenSpace& taken) {
-  if (config.min_divided_width_m <= 0.0) return {};
+  if (!config.unmarked_roads) return {};
   Divisions divisions(boundaries, config, taken);
   for (const BoundaryPair& pair : pairs) divisions.add(pair);
   return divisions.take();

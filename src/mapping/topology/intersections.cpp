@@ -33,6 +33,7 @@ double max_gap_m(const LinkageConfig& config) {
 
 /// How badly `to` lies ahead of `from`; empty: it does not.
 std::optional<double> straight_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
+  if (!config.straight_across) return std::nullopt;
   const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
   const double angle = std::abs(cross(a, b));
   const double max_angle =
@@ -110,6 +111,7 @@ std::optional<Crossing> crossing(const Lane& from, const Lane& to, const RoadGra
                                  const LinkageConfig& config) {
   if (const auto straight = straight_misfit(from, to, config))
     return Crossing{.misfit = *straight, .turn = Turn::straight};
+  if (!config.turns) return std::nullopt;
   const Turn side = cross(leaving(from), entering(to)) > 0.0 ? Turn::left : Turn::right;
   if (!can_turn(from, to, side, road)) return std::nullopt;
   if (const auto turn = turn_misfit(from, to, config)) return Crossing{.misfit = *turn, .turn = side};

@@ -224,7 +224,7 @@ TEST_F(OneSidedLanes, KeepTheirBoundariesIdsAsTheWindowMoves) {
 }
 
 TEST_F(OneSidedLanes, CanBeTurnedOff) {
-  config_.assumed_width_m = 0.0;
+  config_.one_sided_lanes = false;
   EXPECT_EQ(lanes_with({dashed(1, 0)}), 0U);
 }
 

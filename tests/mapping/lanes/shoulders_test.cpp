@@ -97,7 +97,7 @@ TEST(Shoulders, AreNotAheadOfWhereTheVehicleDrives) {
 }
 
 TEST(Shoulders, AreLanesWhereThatIsConfigured) {
-  EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {.max_shoulder_width_m = 0.0}), are({3.5, 2.6}));
+  EXPECT_THAT(lane_widths({solid(3.5), solid(2.6), edge(0)}, {.find_shoulders = false}), are({3.5, 2.6}));
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST_F(Dividers, NeedRoomForTwoLanes) {
   EXPECT_EQ(lanes_between(line(1, 9.1), edge(2, 0)), 0U) << "beside a line, three lanes";
   EXPECT_EQ(lanes_between(line(1, 8), line(2, 0)), 0U) << "between lines, a median";
   EXPECT_EQ(lanes_between(edge(1, 9, 0, 7.5), edge(2, 0)), 0U) << "too short";
-  config_.min_divided_width_m = 0.0;
+  config_.unmarked_roads = false;
   EXPECT_EQ(lanes_between(edge(1, 9), edge(2, 0)), 0U) << "turned off";
 }
 

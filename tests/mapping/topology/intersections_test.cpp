@@ -105,7 +105,7 @@ TEST(Crossings, NotTooFarAsideOrAround) {
   EXPECT_THAT(crossings({from, lane(2, straight({30, 0, 0}, {40, 6, 0}))}), IsEmpty());
   EXPECT_THAT(crossings({from, lane(2, straight({40, 0, 0}, {30, 0, 0}))}), IsEmpty());
   LinkageConfig never;
-  never.max_crossing_gap_m = 0.0;
+  never.straight_across = false;
   EXPECT_THAT(crossings({from, lane(2, straight({30, 0, 0}, {40, 0, 0}))}, {}, never), IsEmpty());
 }
 
