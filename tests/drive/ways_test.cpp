@@ -22,8 +22,8 @@ LocalMap crossing() {
 }
 
 ElementId chosen(const LocalMap& map, Linkage::Turn wanted) {
-  const std::vector<Passage> all = passages(map, {map.lanes.data(), false});
-  const Passage* passage = choose(all, wanted);
+  const std::vector<Passage> all = passages(LaneGraph(map), {map.lanes.data(), false});
+  const Passage* passage = best_passage(all, wanted);
   return passage == nullptr ? kNoElement : passage->to.lane->id;
 }
 
@@ -58,7 +58,8 @@ TEST(Ways, AmongEqualsTheLikelierIsTaken) {
 
 TEST(Ways, AreWalkedAgainstTheLanesToo) {
   const LocalMap map = crossing();
-  const std::vector<Passage> back = passages(map, {&map.lanes[2], true});  // out of lane 3, southwards
+  const std::vector<Passage> back =
+      passages(LaneGraph(map), {&map.lanes[2], true});  // out of lane 3, southwards
   ASSERT_EQ(back.size(), 1U);
   EXPECT_EQ(back[0].to.lane->id, 1U);
   EXPECT_TRUE(back[0].to.against);
@@ -69,12 +70,12 @@ TEST(Ways, AreWalkedAgainstTheLanesToo) {
 
 TEST(Ways, OncomingTrafficIsKnownByTheDirection) {
   Lane lane = lane_of(1, straight_line({0, 0, 0}, {10, 0, 0}));
-  EXPECT_FALSE((Way{&lane, false}.oncoming()));
+  EXPECT_FALSE((DirectedLane{&lane, false}.oncoming()));
   lane.direction = Lane::Direction::along_centerline;
-  EXPECT_FALSE((Way{&lane, false}.oncoming()));
-  EXPECT_TRUE((Way{&lane, true}.oncoming()));
+  EXPECT_FALSE((DirectedLane{&lane, false}.oncoming()));
+  EXPECT_TRUE((DirectedLane{&lane, true}.oncoming()));
   lane.direction = Lane::Direction::against_centerline;
-  EXPECT_TRUE((Way{&lane, false}.oncoming()));
+  EXPECT_TRUE((DirectedLane{&lane, false}.oncoming()));
 }
 
 /// Lane 1 narrows to 2.5 m and ends at x = 40; lane 2 on its left goes on.
@@ -89,21 +90,21 @@ LocalMap ending_lane(std::vector<Stretch> crossable) {
 
 TEST(Ways, ALaneThatEndsLeadsToTheOneBeside) {
   LocalMap map = ending_lane({{0.0, 40.0}});
-  const Way way{map.lanes.data(), false};
-  ASSERT_NE(beside(map, way).lane, nullptr);
-  EXPECT_EQ(beside(map, way).lane->id, 2U);
+  const DirectedLane way{map.lanes.data(), false};
+  ASSERT_NE(lane_to_change_to(LaneGraph(map), way).lane, nullptr);
+  EXPECT_EQ(lane_to_change_to(LaneGraph(map), way).lane->id, 2U);
   map.lanes[1].direction = Lane::Direction::against_centerline;
-  EXPECT_EQ(beside(map, way).lane, nullptr);
+  EXPECT_EQ(lane_to_change_to(LaneGraph(map), way).lane, nullptr);
 }
 
 TEST(Ways, NoneIsChangedToAcrossASolidLineNorWhereOnlyTheViewEnds) {
   for (const auto& crossable : {std::vector<Stretch>{}, std::vector<Stretch>{{0.0, 10.0}}}) {
     const LocalMap solid = ending_lane(crossable);
-    EXPECT_EQ(beside(solid, {solid.lanes.data(), false}).lane, nullptr);
+    EXPECT_EQ(lane_to_change_to(LaneGraph(solid), {solid.lanes.data(), false}).lane, nullptr);
   }
   LocalMap wide = ending_lane({{0.0, 40.0}});
   for (Point& point : wide.lanes[0].right) point.y() = -1.75;
-  EXPECT_EQ(beside(wide, {wide.lanes.data(), false}).lane, nullptr);
+  EXPECT_EQ(lane_to_change_to(LaneGraph(wide), {wide.lanes.data(), false}).lane, nullptr);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ Lane lane(ElementId id, double from_x, double to_x, double right_y, double width
   l.right = {{from_x, right_y, 0}, {to_x, right_y, 0}};
   l.left = {{from_x, right_y + width_from, 0}, {to_x, right_y + width_to, 0}};
   l.centerline = {{from_x, right_y + width_from / 2, 0}, {to_x, right_y + width_to / 2, 0}};
+  l.width_m = (width_from + width_to) / 2;
   return l;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "contract/findings.hpp"
+#include "laneloom/lane_graph.hpp"
 
 namespace laneloom {
 namespace {
@@ -10,7 +11,6 @@ namespace {
 /// A lane's sides are fitted to noisy boundaries: this much may they and the centerline cross each other.
 constexpr double kSideTolerance_m = 0.05;
 
-using LanesById = std::map<ElementId, const Lane*>;
 using BoundariesById = std::map<ElementId, const Marking*>;
 
 std::string label(const Lane& lane) { return "lane " + std::to_string(lane.id); }
@@ -62,9 +62,8 @@ bool same_way(const Lane& a, const Stretch& beside, const Lane& b) {
   return line_a.direction(middle_m).dot(line_b.direction(foot.arc_m)) > 0.0;
 }
 
-/// The neighbours of a lane on its left or right side.
-const std::vector<Neighbour>& neighbours_of(const Lane& lane, bool on_left) {
-  return on_left ? lane.left_neighbours : lane.right_neighbours;
+ElementId boundary_of(const Lane& lane, Side side) {
+  return side == Side::left ? lane.left_boundary : lane.right_boundary;
 }
 
 void check_stretches(const Neighbour& neighbour, const Lane& lane, const std::string& what,
@@ -77,40 +76,38 @@ void check_stretches(const Neighbour& neighbour, const Lane& lane, const std::st
   }
 }
 
-void check_neighbour(const Lane& lane, const Neighbour& neighbour, bool on_left, const LanesById& lanes,
+void check_neighbour(const Lane& lane, const Neighbour& neighbour, Side side, const LaneGraph& lanes,
                      Findings& findings) {
-  const std::string what =
-      label(lane) + (on_left ? " left" : " right") + " neighbour " + std::to_string(neighbour.lane);
-  const auto found = lanes.find(neighbour.lane);
-  if (!findings.require(found != lanes.end() && neighbour.lane != lane.id, ContractRule::known_ids,
+  const std::string what = label(lane) + (side == Side::left ? " left" : " right") + " neighbour " +
+                           std::to_string(neighbour.lane);
+  const Lane* found = lanes.find(neighbour.lane);
+  if (!findings.require(found != nullptr && neighbour.lane != lane.id, ContractRule::known_ids,
                         what + " is not another lane of the map"))
     return;
-  const Lane& other = *found->second;
+  const Lane& other = *found;
   if (!is_measurable(lane.centerline) || !is_measurable(other.centerline)) return;  // recorded already
   check_stretches(neighbour, lane, what, findings);
-  const bool faces_left = same_way(lane, neighbour.range, other) ? !on_left : on_left;
-  const auto& facing = neighbours_of(other, faces_left);
+  const Side facing_side = same_way(lane, neighbour.range, other) ? opposite(side) : side;
+  const auto& facing = neighbours(other, facing_side);
   findings.require(std::ranges::find(facing, lane.id, &Neighbour::lane) != facing.end(),
                    ContractRule::neighbours_across_boundary, what + " does not name it in return");
-  const ElementId boundary = on_left ? lane.left_boundary : lane.right_boundary;
-  findings.require((faces_left ? other.left_boundary : other.right_boundary) == boundary,
+  findings.require(boundary_of(other, facing_side) == boundary_of(lane, side),
                    ContractRule::neighbours_across_boundary, what + " is not across the boundary");
 }
 
 }  // namespace
 
 void check_lanes(const LocalMap& map, Findings& findings) {
-  LanesById lanes;
+  const LaneGraph lanes(map);
   BoundariesById boundaries;
-  for (const Lane& lane : map.lanes) lanes.emplace(lane.id, &lane);
   for (const Marking& boundary : map.boundaries) boundaries.emplace(boundary.id, &boundary);
   for (const Lane& lane : map.lanes) {
     check_shape(lane, findings);
     check_boundary(lane, lane.left_boundary, lane.left_range, boundaries, findings);
     check_boundary(lane, lane.right_boundary, lane.right_range, boundaries, findings);
-    for (const bool on_left : {true, false})
-      for (const Neighbour& neighbour : neighbours_of(lane, on_left))
-        check_neighbour(lane, neighbour, on_left, lanes, findings);
+    for (const Side side : kSides)
+      for (const Neighbour& neighbour : neighbours(lane, side))
+        check_neighbour(lane, neighbour, side, lanes, findings);
     check_probability(lane.existence_probability, label(lane), findings);
     findings.require(std::isfinite(lane.width_m) && lane.width_m > 0.0, ContractRule::valid_values,
                      label(lane) + " has width " + std::to_string(lane.width_m));

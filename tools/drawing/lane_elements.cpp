@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "drawing/map_elements.hpp"
 #include "drawing/marking_shapes.hpp"
 #include "drawing/properties.hpp"
+#include "laneloom/lane_graph.hpp"
 #include "laneloom/polyline.hpp"
 
 namespace laneloom {
@@ -76,13 +76,11 @@ void add_lanes(const LocalMap& map, Drawing& drawing) {
 }
 
 void add_linkages(const LocalMap& map, Drawing& drawing) {
-  std::map<ElementId, const Lane*> lanes;
-  for (const Lane& lane : map.lanes)
-    if (drawable(lane.centerline)) lanes.emplace(lane.id, &lane);
+  const LaneGraph lanes(map);
+  const auto is_drawn = [](const Lane* lane) { return lane != nullptr && drawable(lane->centerline); };
   for (const Linkage& linkage : map.linkages) {
-    const auto from = lanes.find(linkage.from), to = lanes.find(linkage.to);
-    if (from != lanes.end() && to != lanes.end())
-      drawing.add(element_of(linkage, linkage_path(linkage, *from->second, *to->second)));
+    const Lane *from = lanes.find(linkage.from), *to = lanes.find(linkage.to);
+    if (is_drawn(from) && is_drawn(to)) drawing.add(element_of(linkage, linkage_path(linkage, *from, *to)));
   }
 }
 

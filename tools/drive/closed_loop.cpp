@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "drive/steering.hpp"
+#include "laneloom/lane_graph.hpp"
 
 namespace laneloom {
 namespace {
@@ -22,17 +22,11 @@ constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
 constexpr int kMaxVainRestarts = 100;  // some may be: a drive goes on behind a lane that leads nowhere
 
-/// Whether the lane at a place, if there is one, is not between lines that were seen.
-bool is_inferred(const std::vector<Lane>& lanes, const Point& place) {
-  const Lane* nearest = nullptr;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const Lane& lane : lanes) {
-    const Projection foot = MeasuredPolyline(lane.centerline).project(place);
-    if (!foot.inside || foot.distance_m >= std::min(nearest_m, 0.5 * lane.width_m)) continue;
-    nearest = &lane;
-    nearest_m = foot.distance_m;
-  }
-  return nearest != nullptr && nearest->status == ElementStatus::inferred;
+/// Whether the lane at a place on the road, if there is one, is not between lines that were seen.
+bool is_inferred(const LocalMap& map, Point place) {
+  place.z() = map.T_map_body.translation().z();
+  const Lane* lane = LaneGraph(map).at(place);
+  return lane != nullptr && lane->status == ElementStatus::inferred;
 }
 
 }  // namespace
@@ -117,7 +111,7 @@ void ClosedLoop::plan() {
   const LocalMap& map = newest.stamp_ns >= begun_ns_ ? newest : none;
   Plan next = next_plan(map, told_, plan_, navigator_.wanted_turn());
   cause_ = cause_of_guess(map);
-  in_inferred_lane_ = is_inferred(map.lanes, on_ground(told_.rear_axle));
+  in_inferred_lane_ = is_inferred(map, on_ground(told_.rear_axle));
   if (!started_) {
     const bool has_lane = next.support_at(on_ground(told_.rear_axle)) == Support::mapped;
     const bool impatient = static_cast<double>(now_ns() - begun_ns_) * 1e-9 > kPatience_s;

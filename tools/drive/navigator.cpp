@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "laneloom/lane_graph.hpp"
 #include "simulation/route.hpp"
 
 namespace laneloom {
@@ -16,8 +17,6 @@ constexpr double kMaxLateral_m = 2.0;
 constexpr double kMinAlignment = 0.9;   // cosine
 constexpr std::size_t kPassed = 3;      // lanes that may be passed in one step
 constexpr std::size_t kLookahead = 12;  // lanes
-constexpr double kTurn_rad = 0.6;
-constexpr double kTurnBack_rad = 2.6;
 constexpr double kAfterIntersection_m = 3.0;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -174,11 +173,7 @@ Linkage::Turn Navigator::wanted_turn() const {
   while (first > 0 && crosses(first - 1)) --first;
   while (last + 1 < route_.size() && crosses(last + 1)) ++last;
   const MeasuredPolyline &in = lanes_.centerline(route_[first]), &out = lanes_.centerline(route_[last]);
-  const Eigen::Vector2d before = in.direction(0.0), after = out.direction(out.length());
-  const double turn_rad = std::atan2(cross(before, after), before.dot(after));
-  if (std::abs(turn_rad) < kTurn_rad) return Linkage::Turn::straight;
-  if (std::abs(turn_rad) > kTurnBack_rad) return Linkage::Turn::u_turn;
-  return turn_rad > 0.0 ? Linkage::Turn::left : Linkage::Turn::right;
+  return turn_between(in.direction(0.0), out.direction(out.length()));
 }
 
 }  // namespace laneloom

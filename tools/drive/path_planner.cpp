@@ -52,7 +52,7 @@ Plan carried_on(const Bicycle& vehicle, Plan plan) {
 
 /// Where a plan comes onto a lane of the map.
 struct Entry {
-  Way way;
+  DirectedLane way;
   double arc_m = 0.0;    ///< on the way
   double ahead_m = 0.0;  ///< of the vehicle
   double cost_m = 0.0;
@@ -87,11 +87,11 @@ const Passage* find(const std::vector<Passage>& all, ElementId into) {
 }
 
 /// Onto the passage that the vehicle has begun, where the map still has it and it is there.
-std::optional<Entry> on_passage(const LocalMap& map, const Passing& passing, const Point& vehicle) {
-  const auto from = std::ranges::find(map.lanes, passing.from, &Lane::id);
-  if (from == map.lanes.end()) return std::nullopt;
-  const Way way{&*from, passing.against};
-  const std::vector<Passage> all = passages(map, way);
+std::optional<Entry> on_passage(const LaneGraph& graph, const Passing& passing, const Point& vehicle) {
+  const Lane* const from = graph.find(passing.from);
+  if (from == nullptr) return std::nullopt;
+  const DirectedLane way{from, passing.against};
+  const std::vector<Passage> all = passages(graph, way);
   const Passage* const begun = find(all, passing.into);
   if (begun == nullptr || begun->path.empty()) return std::nullopt;
   const Projection foot = MeasuredPolyline(begun->path).project(vehicle);
@@ -101,17 +101,17 @@ std::optional<Entry> on_passage(const LocalMap& map, const Passing& passing, con
 
 /// Onto the lane that the track runs on, or the nearest ahead; in between, the passage that was begun, or the
 /// lane that it led into.
-std::optional<Entry> find_entry(const LocalMap& map, const MeasuredPolyline& track, double vehicle_m,
+std::optional<Entry> find_entry(const LaneGraph& graph, const MeasuredPolyline& track, double vehicle_m,
                                 const Passing& passing) {
   std::optional<Entry> best, after;
-  for (const Lane& lane : map.lanes) {
+  for (const Lane& lane : graph.map().lanes) {
     const std::optional<Entry> entry = entry_into(lane, track, vehicle_m);
     if (entry && (!best || entry->cost_m < best->cost_m)) best = entry;
     if (entry && lane.id == passing.from && entry->ahead_m == 0.0) return entry;
     if (entry && lane.id == passing.into) after = entry;
   }
   if (after && after->ahead_m == 0.0) return after;
-  if (const auto between = on_passage(map, passing, track.at(vehicle_m))) return between;
+  if (const auto between = on_passage(graph, passing, track.at(vehicle_m))) return between;
   return after && passing.between ? after : best;
 }
 
@@ -126,7 +126,7 @@ bool can_take(const Passage& passage, const Bicycle& vehicle) {
 /// The passage for the wanted turn, where that can be taken still; null where none leads on.
 const Passage* next_passage(const std::vector<Passage>& all, ElementId begun, const Bicycle& vehicle,
                             Linkage::Turn wanted) {
-  const Passage* const wished = choose(all, wanted);
+  const Passage* const wished = best_passage(all, wanted);
   const Passage* const kept = find(all, begun);
   return kept == nullptr || can_take(*wished, vehicle) ? wished : kept;
 }
@@ -134,9 +134,9 @@ const Passage* next_passage(const std::vector<Passage>& all, ElementId begun, co
 bool is_bend(Linkage::Turn turn) { return turn == Linkage::Turn::left || turn == Linkage::Turn::right; }
 
 /// The centerlines and paths from an entry on, from a little behind it.
-Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehicle, Linkage::Turn wanted,
+Polyline way_ahead(const LaneGraph& graph, const Entry& entry, const Bicycle& vehicle, Linkage::Turn wanted,
                    Plan& plan) {
-  Way way = entry.way;
+  DirectedLane way = entry.way;
   const MeasuredPolyline first(way.centerline());
   Polyline line = first.slice({std::max(0.0, entry.arc_m - kBehind_m), first.length()});
   const double end_m = entry.ahead_m + first.length() - entry.arc_m;
@@ -145,7 +145,7 @@ Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehic
   if (!arrives) plan.passing = {};
   std::set<ElementId> walked;
   while (length(line) < kHorizon_m + kBehind_m && walked.insert(way.lane->id).second) {
-    const std::vector<Passage> all = passages(map, way);
+    const std::vector<Passage> all = passages(graph, way);
     const Passage* const passage =
         next_passage(all, walked.size() == 1 ? begun : kNoElement, vehicle, wanted);
     if (walked.size() == 1) {
@@ -159,7 +159,7 @@ Polyline way_ahead(const LocalMap& map, const Entry& entry, const Bicycle& vehic
       append(line, passage->to.centerline());
       if (passage->turn == wanted) wanted = Linkage::Turn::straight;  // the intersection is behind
       way = passage->to;
-    } else if (const Way other = beside(map, way); other.lane != nullptr) {
+    } else if (const DirectedLane other = lane_to_change_to(graph, way); other.lane != nullptr) {
       line = change_over(line, other.centerline());
       way = other;
     } else {
@@ -185,10 +185,10 @@ void remember(const Plan& earlier, const MeasuredPolyline& track, Plan& way) {
 }
 
 /// The way on the map: from `entry` on, if not from a little behind it, to the horizon.
-Plan way_of(const LocalMap& map, const Entry& entry, const Bicycle& vehicle, const Plan& earlier,
+Plan way_of(const LaneGraph& graph, const Entry& entry, const Bicycle& vehicle, const Plan& earlier,
             const MeasuredPolyline& track, Linkage::Turn wanted) {
   Plan way{.passing = earlier.passing};
-  way.path = smoothed(MeasuredPolyline(way_ahead(map, entry, vehicle, wanted, way)).resample(kStep_m));
+  way.path = smoothed(MeasuredPolyline(way_ahead(graph, entry, vehicle, wanted, way)).resample(kStep_m));
   way.support.assign(way.path.size(), Support::mapped);
   remember(earlier, track, way);
   prolong(way.path, kHorizon_m + kBehind_m - length(way.path), kStep_m);
@@ -258,9 +258,10 @@ Plan next_plan(const LocalMap& map, const Bicycle& vehicle, const Plan& previous
   Plan earlier = carried_on(vehicle, previous);
   const MeasuredPolyline track(earlier.path);
   const double vehicle_m = track.project(on_ground(vehicle.rear_axle)).arc_m;
-  const std::optional<Entry> entry = find_entry(map, track, vehicle_m, previous.passing);
+  const LaneGraph graph(map);
+  const std::optional<Entry> entry = find_entry(graph, track, vehicle_m, previous.passing);
   if (!entry) return earlier;
-  const Plan way = way_of(map, *entry, vehicle, earlier, track, wanted);
+  const Plan way = way_of(graph, *entry, vehicle, earlier, track, wanted);
   const double blend_m = std::max(kMinBlend_m, kBlend_s * vehicle.speed_mps);
   // Up to shortly before the entry, the plan stays as it is.
   const double from_m = vehicle_m + std::max(0.0, entry->ahead_m - blend_m);

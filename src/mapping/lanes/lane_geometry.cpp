@@ -10,10 +10,6 @@ namespace laneloom {
 namespace {
 
 constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter
-constexpr double kMinAlongLane = 0.7;   // cosine between the vehicle's heading and a lane that it drives in
-constexpr double kMinTurnSine = 0.77;   // of the angle between the lanes: a turn is one of 50 to 130 degrees
-
-using Turn = Linkage::Turn;
 
 /// A cubic that leaves and enters in the lanes' directions.
 Polyline straight_path(const Lane& from, const Lane& to) {
@@ -101,17 +97,11 @@ Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {
 
 std::optional<Corner> corner_between(const Lane& from, const Lane& to) {
   const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
+  const Linkage::Turn turn = turn_between(a, b);
+  if (turn != Linkage::Turn::left && turn != Linkage::Turn::right) return std::nullopt;
   const double sine = cross(a, b);
-  if (std::abs(sine) < kMinTurnSine) return std::nullopt;
   // from + before * a = to - after * b
   return Corner{cross(gap, b) / sine, cross(a, gap) / sine};
-}
-
-Linkage::Turn turn_between(const Lane& from, const Lane& to) {
-  const Eigen::Vector2d a = leaving(from), b = entering(to);
-  if (a.dot(b) < -kMinTurnSine) return Turn::u_turn;
-  if (std::abs(cross(a, b)) < kMinTurnSine) return Turn::straight;
-  return cross(a, b) > 0.0 ? Turn::left : Turn::right;
 }
 
 bool are_neighbours(const Lane& a, const Lane& b) {
@@ -123,23 +113,15 @@ bool are_neighbours(const Lane& a, const Lane& b) {
 }
 
 ElementId main_neighbour(const Lane& lane, Side side) {
-  const std::vector<Neighbour>& neighbours =
-      side == Side::left ? lane.left_neighbours : lane.right_neighbours;
+  const std::vector<Neighbour>& beside = neighbours(lane, side);
   const auto longest = std::ranges::max_element(
-      neighbours, {}, [](const Neighbour& neighbour) { return neighbour.range.length(); });
-  return longest == neighbours.end() ? kNoElement : longest->lane;
+      beside, {}, [](const Neighbour& neighbour) { return neighbour.range.length(); });
+  return longest == beside.end() ? kNoElement : longest->lane;
 }
 
 double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
-  const MeasuredPolyline line(lane.centerline);
-  const Point vehicle = T_map_body.translation();
-  const Projection foot = line.project(vehicle);
-  if (!foot.inside || foot.distance_m > 0.5 * lane.width_m) return 0.0;
-  if (!same_level(foot.foot, vehicle)) return 0.0;
-  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
-  const double cosine = line.direction(foot.arc_m).dot(heading);
-  if (std::abs(cosine) < kMinAlongLane * heading.norm()) return 0.0;
-  return cosine > 0.0 ? 1.0 : -1.0;
+  const double along = ego_alignment(lane, T_map_body);
+  return along == 0.0 ? 0.0 : std::copysign(1.0, along);
 }
 
 Polyline path_between(const Lane& from, const Lane& to) {

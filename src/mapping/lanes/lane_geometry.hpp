@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "laneloom/lane_graph.hpp"
 #include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
 
@@ -64,9 +65,6 @@ struct Corner {
 
 /// Empty where the lanes do not turn.
 std::optional<Corner> corner_between(const Lane& from, const Lane& to);
-
-/// Which way `to` turns off from `from`.
-Linkage::Turn turn_between(const Lane& from, const Lane& to);
 
 /// Between vertices of a path, in metres.
 inline constexpr double kPathStep_m = 1.0;

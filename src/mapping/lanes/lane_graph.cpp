@@ -1,0 +1,156 @@
+#include "laneloom/lane_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "mapping/geometry/levels.hpp"
+
+namespace laneloom {
+namespace {
+
+using Turn = Linkage::Turn;
+
+constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
+constexpr double kMinTurnSine = 0.77;  // of the angle between the lanes: a turn is one of 50 to 130 degrees
+
+Polyline walked(Polyline line, bool against) {
+  if (against) std::ranges::reverse(line);
+  return line;
+}
+
+Turn walked(Turn turn, bool against) {
+  if (against && turn == Turn::left) return Turn::right;
+  if (against && turn == Turn::right) return Turn::left;
+  return turn;
+}
+
+Turn turn_onto(const DirectedLane& from, const DirectedLane& to) {
+  return laneloom::turn_between(end_direction(from.centerline(), End::back),
+                                -end_direction(to.centerline(), End::front));
+}
+
+}  // namespace
+
+Polyline DirectedLane::centerline() const { return walked(lane->centerline, against); }
+
+bool DirectedLane::oncoming() const {
+  return lane->direction ==
+         (against ? Lane::Direction::along_centerline : Lane::Direction::against_centerline);
+}
+
+Linkage::Turn turn_between(const Eigen::Vector2d& leaving, const Eigen::Vector2d& entering) {
+  if (leaving.dot(entering) < -kMinTurnSine) return Turn::u_turn;
+  if (std::abs(cross(leaving, entering)) < kMinTurnSine) return Turn::straight;
+  return cross(leaving, entering) > 0.0 ? Turn::left : Turn::right;
+}
+
+Linkage::Turn turn_between(const Lane& from, const Lane& to) {
+  return turn_between(end_direction(from.centerline, End::back), -end_direction(to.centerline, End::front));
+}
+
+std::optional<Projection> foot_in(const Lane& lane, const Point& place) {
+  const Projection foot = MeasuredPolyline(lane.centerline).project(place);
+  const bool inside = foot.inside && foot.distance_m <= 0.5 * lane.width_m && same_level(foot.foot, place);
+  return inside ? std::optional(foot) : std::nullopt;
+}
+
+double ego_alignment(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
+  const auto foot = foot_in(lane, T_map_body.translation());
+  if (!foot) return 0.0;
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
+  const double along = MeasuredPolyline(lane.centerline).direction(foot->arc_m).dot(heading);
+  return std::abs(along) < kMinAlongLane * heading.norm() ? 0.0 : along / heading.norm();
+}
+
+const std::vector<Neighbour>& neighbours(const Lane& lane, Side side) {
+  return side == Side::left ? lane.left_neighbours : lane.right_neighbours;
+}
+
+LaneGraph::LaneGraph(const LocalMap& map) : map_(map) {
+  for (const Lane& lane : map.lanes) lanes_.emplace(lane.id, &lane);
+}
+
+const Lane* LaneGraph::find(ElementId id) const {
+  const auto found = lanes_.find(id);
+  return found == lanes_.end() ? nullptr : found->second;
+}
+
+const Lane* LaneGraph::at(const Point& place) const {
+  const Lane* nearest = nullptr;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Lane& lane : map_.lanes) {
+    const auto foot = foot_in(lane, place);
+    if (!foot || foot->distance_m >= nearest_m) continue;
+    nearest = &lane;
+    nearest_m = foot->distance_m;
+  }
+  return nearest;
+}
+
+std::optional<LanePosition> LaneGraph::own_lane(const Eigen::Isometry3d& T_map_body) const {
+  const Lane* own = nullptr;
+  double best = 0.0;
+  for (const Lane& lane : map_.lanes) {
+    const double along = ego_alignment(lane, T_map_body);
+    if (std::abs(along) <= std::abs(best)) continue;
+    own = &lane;
+    best = along;
+  }
+  if (own == nullptr) return std::nullopt;
+  const DirectedLane lane{own, best < 0.0};
+  const Projection foot = MeasuredPolyline(lane.centerline()).project(T_map_body.translation());
+  return LanePosition{lane, foot.arc_m, foot.lateral_m};
+}
+
+std::vector<Passage> LaneGraph::successors(const DirectedLane& lane) const {
+  std::vector<Passage> passages;
+  for (const Linkage& linkage : map_.linkages) {
+    if ((lane.against ? linkage.to : linkage.from) != lane.lane->id) continue;
+    const DirectedLane to{find(lane.against ? linkage.from : linkage.to), lane.against};
+    if (to.lane == nullptr) continue;
+    Passage passage{to, walked(linkage.path, lane.against), walked(linkage.turn, lane.against),
+                    linkage.confidence};
+    if (passage.turn == Turn::unknown) passage.turn = turn_onto(lane, to);
+    passages.push_back(std::move(passage));
+  }
+  return passages;
+}
+
+std::vector<Passage> LaneGraph::ahead(const DirectedLane& lane, Linkage::Turn wished, double reach_m) const {
+  std::vector<Passage> way;
+  std::set<ElementId> walked_lanes{lane.lane->id};
+  DirectedLane last = lane;
+  for (double length_m = length(lane.lane->centerline); length_m < reach_m;) {
+    std::vector<Passage> next = successors(last);
+    std::erase_if(next, [&](const Passage& passage) { return walked_lanes.contains(passage.to.lane->id); });
+    const Passage* best = best_passage(next, wished);
+    if (best == nullptr) break;
+    if (best->turn == wished) wished = Turn::straight;
+    last = best->to;
+    walked_lanes.insert(last.lane->id);
+    length_m += length(best->path) + length(last.lane->centerline);
+    way.push_back(*best);
+  }
+  return way;
+}
+
+const Lane* LaneGraph::beside(const DirectedLane& lane, Side side, double arc_m) const {
+  const double at_m = lane.against ? length(lane.lane->centerline) - arc_m : arc_m;
+  for (const Neighbour& neighbour : neighbours(*lane.lane, as_seen(side, lane.against)))
+    if (neighbour.range.from_m <= at_m && at_m <= neighbour.range.to_m) return find(neighbour.lane);
+  return nullptr;
+}
+
+const Passage* best_passage(const std::vector<Passage>& passages, Linkage::Turn wished) {
+  const auto worth = [wished](const Passage& passage) {
+    const double fit = passage.turn == wished ? 2.0 : (passage.turn == Turn::straight ? 1.0 : 0.0);
+    return fit + 0.9 * passage.confidence - (passage.to.oncoming() ? 1.0 : 0.0);
+  };
+  const auto best = std::ranges::max_element(passages, {}, worth);
+  return best == passages.end() ? nullptr : &*best;
+}
+
+}  // namespace laneloom
