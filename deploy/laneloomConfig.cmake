@@ -1,6 +1,19 @@
-# find_package(laneloom) gives laneloom::dds: readers and writers of laneloom's topics (laneloom/dds/*.hpp).
+# find_package(laneloom) gives two libraries, and either alone by COMPONENTS:
+#   laneloom::mapping   the mapper (laneloom/mapper.hpp) and the graph of its lanes (laneloom/lane_graph.hpp), without DDS
+#   laneloom::dds       readers and writers of laneloom's topics (laneloom/dds/*.hpp)
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
-find_dependency(fastcdr)
-find_dependency(fastrtps)
-include(${CMAKE_CURRENT_LIST_DIR}/laneloomTargets.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/laneloom_mapping.cmake)
+set(laneloom_mapping_FOUND TRUE)
+if(NOT laneloom_FIND_COMPONENTS OR "dds" IN_LIST laneloom_FIND_COMPONENTS)
+  find_dependency(fastcdr)
+  find_dependency(fastrtps)
+  include(${CMAKE_CURRENT_LIST_DIR}/laneloom_dds.cmake)
+  set(laneloom_dds_FOUND TRUE)
+endif()
+foreach(component ${laneloom_FIND_COMPONENTS})
+  if(laneloom_FIND_REQUIRED_${component} AND NOT laneloom_${component}_FOUND)
+    set(laneloom_FOUND FALSE)
+    set(laneloom_NOT_FOUND_MESSAGE "laneloom has no component ${component}; it has mapping and dds.")
+  endif()
+endforeach()

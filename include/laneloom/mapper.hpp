@@ -20,7 +20,7 @@ struct MapperState;
 /// Not thread-safe: one thread at a time.
 class Mapper {
  public:
-  /// `config` must be valid (see validate() in laneloom/config_file.hpp). `sd_map` is in the map frame.
+  /// `config` must be valid (see validate() in config/config_file.hpp). `sd_map` is in the map frame.
   explicit Mapper(const MapperConfig& config, SdMap sd_map = {});
   ~Mapper();
   Mapper(Mapper&&) noexcept;
@@ -42,9 +42,16 @@ class Mapper {
   /// Forgets everything but the ids that were given out and what was learned of the networks.
   void reset();
 
-  /// The whole state, as one value. Loading it into a mapper of the same configuration continues exactly.
+  /// The whole state, as bytes that are the same on every host.
+  std::string save() const;
+  /// Goes on from a state that was saved by a mapper of the same configuration: the maps that follow are the
+  /// same to the last bit. Throws std::runtime_error where the bytes end too early, or are of another version
+  /// or of another method; the mapper then is as it was.
+  void load(const std::string& bytes);
+
+  /// The same as a value, for laneloom's own sessions: the type is complete in src/mapping/state.hpp.
   const MapperState& state() const;
-  void load(MapperState state);
+  void set_state(MapperState state);
 
  private:
   MapperConfig config_;

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom {
@@ -62,11 +61,5 @@ class SdMap {
   std::map<std::int64_t, std::vector<std::size_t>> leaving_;  ///< segments by the node that they begin at
   std::map<Cell, std::vector<std::size_t>> cells_;            ///< segments by place
 };
-
-/// Reads an OpenStreetMap extract (XML): its highways for motor vehicles, one-way streets and turn
-/// restrictions, with the map frame's origin as configured: x east, y north. An empty file name gives an
-/// empty map. Throws ConfigError (config_file.hpp) naming the file and, where it can, the element, if it
-/// cannot be read, is larger than 512 MB, or holds no street, or more than 20000 km of them.
-SdMap load_sd_map(const SdMapConfig& config);
 
 }  // namespace laneloom

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "schema.hpp"
 #include "text.hpp"
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "schema.hpp"
 #include "validate.hpp"
 

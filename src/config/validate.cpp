@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "schema.hpp"
 #include "text.hpp"
 
@@ -116,7 +116,8 @@ std::optional<Problem> find_contradiction(const Config& c) {
   if (const LaneConfig& lane = mapper.lane;
       lane.one_sided_lanes &&
       (lane.assumed_width_m < lane.min_width_m || lane.assumed_width_m > lane.max_kerb_width_m)) {
-    return Problem{"mapper.lane.assumed_width_m", "must be from min_width_m to max_kerb_width_m, or one_sided_lanes false"};
+    return Problem{"mapper.lane.assumed_width_m",
+                   "must be from min_width_m to max_kerb_width_m, or one_sided_lanes false"};
   }
   if (auto problem = find_too_many_points(mapper)) return problem;
   if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {

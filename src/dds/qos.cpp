@@ -14,8 +14,8 @@
 #include <set>
 #include <string>
 
-#include "laneloom/config_file.hpp"
 #include "laneloom/dds/participant.hpp"
+#include "laneloom/error.hpp"
 
 namespace laneloom::dds {
 namespace {

@@ -11,6 +11,7 @@
 #include "mapping/markings/preprocess.hpp"
 #include "mapping/markings/stage_log.hpp"
 #include "mapping/state.hpp"
+#include "mapping/state_bytes.hpp"
 #include "mapping/topology/directions.hpp"
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/topology/intersections.hpp"
@@ -105,8 +106,12 @@ void Mapper::reset() {
   *state_ = std::move(fresh);
 }
 
+std::string Mapper::save() const { return to_bytes(*state_); }
+
+void Mapper::load(const std::string& bytes) { *state_ = from_bytes(bytes, config_); }
+
 const MapperState& Mapper::state() const { return *state_; }
 
-void Mapper::load(MapperState state) { *state_ = std::move(state); }
+void Mapper::set_state(MapperState state) { *state_ = std::move(state); }
 
 }  // namespace laneloom

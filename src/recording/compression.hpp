@@ -3,8 +3,8 @@
 #include <memory>
 #include <string_view>
 
-#include "laneloom/recording.hpp"
 #include "recording/bytes.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 

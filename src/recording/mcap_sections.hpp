@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "laneloom/recording.hpp"
 #include "recording/files.hpp"
 #include "recording/mcap_catalogue.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 

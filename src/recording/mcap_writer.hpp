@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "laneloom/recording.hpp"
 #include "recording/files.hpp"
 #include "recording/mcap_format.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "laneloom/dds/cdr.hpp"
-#include "laneloom/recording.hpp"
 #include "recording/mcap_format.hpp"
 #include "recording/mcap_reader.hpp"
+#include "recording/recording.hpp"
 #include "recording/topics.hpp"
 
 namespace laneloom {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "laneloom/dds/cdr.hpp"
-#include "laneloom/recording.hpp"
 #include "recording/mcap_writer.hpp"
+#include "recording/recording.hpp"
 #include "recording/topics.hpp"
 
 namespace laneloom {

@@ -13,8 +13,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "laneloom/config_file.hpp"
-#include "laneloom/sd_map.hpp"
+#include "sd_map/osm.hpp"
 
 namespace laneloom {
 namespace {

@@ -14,9 +14,9 @@
 #include <system_error>
 #include <utility>
 
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "laneloom/dds/participant.hpp"
-#include "laneloom/sd_map.hpp"
+#include "sd_map/osm.hpp"
 #include "service/executor.hpp"
 #include "service/log.hpp"
 #include "service/service.hpp"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <variant>
 
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "laneloom/state_names.hpp"
 
 namespace laneloom {

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "laneloom/config.hpp"
-#include "laneloom/mapping_session.hpp"
 #include "laneloom/messages.hpp"
 #include "service/endpoints.hpp"
 #include "service/executor.hpp"
 #include "service/health.hpp"
 #include "service/ingestion_queue.hpp"
 #include "service/time_window.hpp"
+#include "session/mapping_session.hpp"
 #include "snapshot/snapshot_writer.hpp"
 
 namespace laneloom {

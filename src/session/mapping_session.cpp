@@ -1,4 +1,4 @@
-#include "laneloom/mapping_session.hpp"
+#include "session/mapping_session.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mapping/state.hpp"
+#include "sd_map/osm.hpp"
 #include "session/admission.hpp"
 #include "session/gate.hpp"
 #include "session/sources.hpp"
@@ -192,7 +193,7 @@ std::optional<MappingSession::Checkpoint> MappingSession::checkpoint() const {
 }
 
 void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
-  state_->mapper.load(std::move(state));
+  state_->mapper.set_state(std::move(state));
   state_->newest_stamp_ns = checkpoint.frame_stamp_ns;
   state_->newest_arrival_ns = checkpoint.frame_arrival_ns;
   state_->resumed = checkpoint;

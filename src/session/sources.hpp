@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
-#include "laneloom/mapping_session.hpp"
 #include "laneloom/types.hpp"
 #include "session/gate.hpp"
+#include "session/mapping_session.hpp"
 
 namespace laneloom {
 

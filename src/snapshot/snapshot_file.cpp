@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "mapping/state_bytes.hpp"
 #include "snapshot/private_file.hpp"
-#include "snapshot/snapshot.hpp"
 
 namespace laneloom {
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "laneloom/config.hpp"
-#include "laneloom/mapping_session.hpp"
 #include "mapping/state.hpp"
+#include "session/mapping_session.hpp"
 
 namespace laneloom {
 

@@ -1,4 +1,4 @@
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -112,7 +112,8 @@ TEST_F(ConfigFile, AContradictionIsNamedWithItsLine) {
   EXPECT_EQ(error_of("mapper:\n  lane:\n    min_width_m: 4.5\n"),
             ":3: mapper.lane.min_width_m: must be less than max_width_m");
   EXPECT_EQ(error_of("mapper:\n  lane:\n    assumed_width_m: 2\n"),
-            ":3: mapper.lane.assumed_width_m: must be from min_width_m to max_kerb_width_m, or one_sided_lanes false");
+            ":3: mapper.lane.assumed_width_m: must be from min_width_m to max_kerb_width_m, or "
+            "one_sided_lanes false");
   EXPECT_EQ(error_of("service:\n  degraded_after_s: 0.5\n"),
             ":2: service.degraded_after_s: must not exceed stale_after_s");
   EXPECT_EQ(error_of("dds:\n  profile_file: x.xml\n"),

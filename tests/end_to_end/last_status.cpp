@@ -2,7 +2,7 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 // last_status RECORDING: the counters of the last status in it, as one JSON object.
 int main(int argc, char** argv) try {

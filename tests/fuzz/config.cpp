@@ -1,4 +1,4 @@
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "memory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
+#include "sd_map/osm.hpp"
 #include "laneloom/config.hpp"
-#include "laneloom/sd_map.hpp"
 #include "memory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

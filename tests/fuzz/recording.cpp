@@ -1,4 +1,4 @@
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "memory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "laneloom/mapping_session.hpp"
 #include "memory_file.hpp"
+#include "session/mapping_session.hpp"
 
 namespace {
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "laneloom/mapping_session.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
+#include "session/mapping_session.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <variant>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "simulation/road.hpp"
 #include "temporary_folder.hpp"
 #include "tools/process.hpp"

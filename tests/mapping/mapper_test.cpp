@@ -5,7 +5,7 @@
 #include <random>
 
 #include "mapping/shapes.hpp"
-#include "snapshot/snapshot.hpp"
+#include "mapping/state.hpp"
 
 namespace laneloom {
 namespace {
@@ -290,29 +290,32 @@ TEST_P(EitherMapper, SavedLoadedAndContinuedIsTheSameToTheLastBit) {
   Drive one(GetParam());
   std::mt19937 random(11);
   for (int i = 0; i < 80; ++i) one.step(noisy(random));
-  const std::string saved = to_bytes(one.mapper.state());
+  const std::string saved = one.mapper.save();
 
   Drive two(GetParam());
-  two.mapper.load(from_bytes(saved, with_method(GetParam())));
+  two.mapper.load(saved);
   two.x = one.x;
   two.number = one.number;
-  EXPECT_EQ(to_bytes(two.mapper.state()), saved);
+  EXPECT_EQ(two.mapper.save(), saved);
   for (int i = 0; i < 120; ++i) {
     const auto detections = noisy(random);
     one.step(detections);
     two.step(detections);
   }
   EXPECT_FALSE(one.mapper.map().lanes.empty());
-  EXPECT_EQ(to_bytes(one.mapper.state()), to_bytes(two.mapper.state()));
+  EXPECT_EQ(one.mapper.save(), two.mapper.save());
 }
 
 TEST(MapperState, DamagedBytesAreRefused) {
   Drive drive;
   drive.steps(20);
-  const std::string saved = to_bytes(drive.mapper.state());
-  EXPECT_THROW(from_bytes("", MapperConfig{}), std::runtime_error);
-  EXPECT_THROW(from_bytes("something else, long enough", MapperConfig{}), std::runtime_error);
-  EXPECT_THROW(from_bytes(saved.substr(0, saved.size() / 2), MapperConfig{}), std::runtime_error);
+  const std::string saved = drive.mapper.save();
+  Drive other("voxels");
+  EXPECT_THROW(other.mapper.load(saved), std::runtime_error) << "of another method";
+  EXPECT_THROW(drive.mapper.load(""), std::runtime_error);
+  EXPECT_THROW(drive.mapper.load("something else, long enough"), std::runtime_error);
+  EXPECT_THROW(drive.mapper.load(saved.substr(0, saved.size() / 2)), std::runtime_error);
+  EXPECT_EQ(drive.mapper.save(), saved) << "the mapper is as it was";
 }
 
 TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
@@ -321,7 +324,7 @@ TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
   const VoxelMapper* voxels = drive.mapper.state().fusion.voxels();
   const auto slots_now = [&] { return voxels != nullptr ? voxels->map().voxels.slots() : 0; };
   const VoxelId slots = slots_now();
-  const std::size_t bytes = to_bytes(drive.mapper.state()).size();
+  const std::size_t bytes = drive.mapper.save().size();
   drive.steps(150);
   const VoxelId slots_before_stand = slots_now();
   const auto detections = road();
@@ -332,7 +335,7 @@ TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
     EXPECT_LE(slots_before_stand, slots + slots / 10);
     EXPECT_LE(voxels->map().co_observation.stored_entries(), 5'000'000U);
   } else {
-    EXPECT_LE(to_bytes(drive.mapper.state()).size(), bytes + bytes / 10);
+    EXPECT_LE(drive.mapper.save().size(), bytes + bytes / 10);
   }
 }
 

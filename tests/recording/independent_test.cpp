@@ -9,9 +9,9 @@
 #include "cdr/message_of.hpp"
 #include "cdr/random_messages.hpp"
 #include "cdr/serialise.hpp"
-#include "laneloom/recording.hpp"
 #include "message_json.hpp"
 #include "recording/mcap_reader.hpp"
+#include "recording/recording.hpp"
 #include "recording/topics.hpp"
 #include "temporary_folder.hpp"
 

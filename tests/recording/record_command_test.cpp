@@ -10,9 +10,9 @@
 
 #include "file_size_limit.hpp"
 #include "laneloom/dds/topics.hpp"
-#include "laneloom/recording.hpp"
 #include "own_domain.hpp"
 #include "recording/mcap_reader.hpp"
+#include "recording/recording.hpp"
 #include "temporary_folder.hpp"
 #include "tools/process.hpp"
 

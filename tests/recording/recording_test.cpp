@@ -1,4 +1,4 @@
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 #include <gtest/gtest.h>
 

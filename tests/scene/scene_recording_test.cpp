@@ -8,7 +8,7 @@
 #include "drawing/map_elements.hpp"
 #include "io/element_names.hpp"
 #include "io/json_lines.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "scene/scene_recording.hpp"
 #include "temporary_folder.hpp"
 #include "tools/process.hpp"

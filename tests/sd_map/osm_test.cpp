@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "laneloom/config_file.hpp"
-#include "laneloom/sd_map.hpp"
+#include "config/config_file.hpp"
 #include "mapping/shapes.hpp"
 #include "recording/allocations.hpp"
+#include "sd_map/osm.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {

@@ -1,4 +1,4 @@
-#include "laneloom/mapping_session.hpp"
+#include "session/mapping_session.hpp"
 
 #include <gtest/gtest.h>
 

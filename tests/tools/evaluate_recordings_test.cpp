@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/json_lines.hpp"
-#include "laneloom/recording.hpp"
 #include "process.hpp"
+#include "recording/recording.hpp"
 #include "simulation/road.hpp"
 #include "temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "io/feather_writer.hpp"
 #include "io/json_lines.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "tools/commands.hpp"
 
 // The commands that read and write files, as processes.

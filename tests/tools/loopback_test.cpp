@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "laneloom/recording.hpp"
 #include "own_domain.hpp"
+#include "recording/recording.hpp"
 #include "tools/commands.hpp"
 
 // The commands and the service, as processes that meet over DDS.

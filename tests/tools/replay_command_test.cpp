@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "tools/commands.hpp"
 
 // `laneloom replay`, as a process.

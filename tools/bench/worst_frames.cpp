@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "laneloom/mapping_session.hpp"
+#include "session/mapping_session.hpp"
 #include "support/stage_timer.hpp"
 
 namespace laneloom {

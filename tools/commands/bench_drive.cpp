@@ -1,7 +1,7 @@
 #include "commands/bench_drive.hpp"
 
 #include "commands/options.hpp"
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "simulation/scenarios.hpp"
 
 namespace laneloom {

@@ -8,7 +8,7 @@
 #include "bench/worst_frames.hpp"
 #include "commands/bench.hpp"
 #include "commands/time_table.hpp"
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 
 namespace laneloom {
 namespace {

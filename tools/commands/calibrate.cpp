@@ -8,7 +8,7 @@
 
 #include "commands/lab_commands.hpp"
 #include "commands/road_list.hpp"
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 
 namespace laneloom {
 namespace {

@@ -13,9 +13,9 @@
 #include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
+#include "config/config_file.hpp"
 #include "doctor/observer.hpp"
 #include "doctor/report.hpp"
-#include "laneloom/config_file.hpp"
 
 namespace laneloom {
 namespace {

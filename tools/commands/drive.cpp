@@ -13,10 +13,10 @@
 #include "commands/options.hpp"
 #include "commands/road_list.hpp"
 #include "commands/stop_signal.hpp"
+#include "config/config_file.hpp"
 #include "drive/closed_loop.hpp"
 #include "drive/dds_map_service.hpp"
 #include "experiment/parallel.hpp"
-#include "laneloom/config_file.hpp"
 
 namespace laneloom {
 namespace {

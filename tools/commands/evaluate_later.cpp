@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "commands/evaluation_inputs.hpp"
-#include "laneloom/config_file.hpp"
+#include "config/config_file.hpp"
 #include "replay/message_source.hpp"
 #include "replay/replay.hpp"
 

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "io/json_lines.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "session/gate.hpp"
 #include "session/synchroniser.hpp"
 

@@ -7,7 +7,7 @@
 #include "laneloom/types.hpp"
 
 /// What is evaluated, from files of either kind: JSON lines (io/json_lines.hpp) or a recording
-/// (laneloom/recording.hpp), told apart by their first bytes. Both throw std::runtime_error naming the file
+/// (recording/recording.hpp), told apart by their first bytes. Both throw std::runtime_error naming the file
 /// and the place in it where it cannot be read or is malformed.
 namespace laneloom {
 

@@ -8,8 +8,8 @@
 
 #include "commands/lab_commands.hpp"
 #include "commands/road_list.hpp"
+#include "config/config_file.hpp"
 #include "experiment/results_table.hpp"
-#include "laneloom/config_file.hpp"
 
 namespace laneloom {
 namespace {

@@ -14,12 +14,12 @@
 #include "commands/commands.hpp"
 #include "commands/evaluation_inputs.hpp"
 #include "commands/options.hpp"
+#include "config/config_file.hpp"
 #include "export/accumulate.hpp"
 #include "export/geojson_file.hpp"
 #include "export/lanelet2_file.hpp"
 #include "export/weave.hpp"
 #include "export/weld.hpp"
-#include "laneloom/config_file.hpp"
 #include "replay/message_source.hpp"
 #include "replay/replay.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 /// Options that several commands share.
 namespace laneloom {

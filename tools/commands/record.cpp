@@ -23,7 +23,7 @@
 #include "commands/stop_signal.hpp"
 #include "laneloom/dds/raw_reader.hpp"
 #include "laneloom/dds/topics.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "scene/scene_maker.hpp"
 #include "scene/scene_recording.hpp"
 

@@ -10,7 +10,7 @@
 #include "commands/stop_signal.hpp"
 #include "drawing/drawing_json.hpp"
 #include "drawing/truth.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "view/frame_text.hpp"
 
 namespace laneloom {

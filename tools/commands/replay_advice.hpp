@@ -5,7 +5,7 @@
 
 #include "commands/replay_report.hpp"
 #include "laneloom/config.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 

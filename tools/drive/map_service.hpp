@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "laneloom/mapping_session.hpp"
+#include "session/mapping_session.hpp"
 
 namespace laneloom {
 

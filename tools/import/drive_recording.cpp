@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "session/pose_buffer.hpp"
 
 namespace laneloom {

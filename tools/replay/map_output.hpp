@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "laneloom/messages.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 

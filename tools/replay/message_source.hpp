@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "laneloom/dds/raw_writer.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 

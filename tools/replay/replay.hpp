@@ -7,9 +7,9 @@
 #include <string>
 
 #include "laneloom/config.hpp"
-#include "laneloom/mapping_session.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "replay/map_output.hpp"
+#include "session/mapping_session.hpp"
 
 namespace laneloom {
 

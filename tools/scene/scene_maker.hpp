@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "laneloom/messages.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "scene/foxglove.hpp"
 #include "session/pose_buffer.hpp"
 

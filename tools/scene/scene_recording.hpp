@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "scene/scene_maker.hpp"
 
 namespace laneloom {

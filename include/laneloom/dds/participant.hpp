@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/error.hpp"
 
 namespace laneloom::dds {
 
-/// Opens the files that the configuration names, as a participant would. Throws ConfigError (config_file.hpp)
-/// when the profile is missing or invalid, or a file of security is unreadable; whether DDS believes what is
-/// in the latter only shows when there is a participant. Thread-safe.
+/// Opens the files that the configuration names, as a participant would. Throws ConfigError
+/// (laneloom/error.hpp) when the profile is missing or invalid, or a file of security is unreadable; whether
+/// DDS believes what is in the latter only shows when there is a participant. Thread-safe.
 void check_files(const DdsConfig& config);
 
 /// The longest datagram, in bytes, that a participant with this configuration receives whole. Fast DDS cuts

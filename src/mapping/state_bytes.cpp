@@ -1,4 +1,4 @@
-#include "snapshot/snapshot.hpp"
+#include "mapping/state_bytes.hpp"
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
@@ -106,7 +106,7 @@ MapperState from_bytes(const std::string& bytes, const MapperConfig& config) {
   cereal::PortableBinaryInputArchive archive(in);
   std::uint64_t magic = 0;
   archive(magic);
-  if (magic != kMagic) throw std::runtime_error("not a snapshot of this version of laneloom");
+  if (magic != kMagic) throw std::runtime_error("not the state of a mapper of this version of laneloom");
   MapperState state(config);
   archive(state);
   return state;

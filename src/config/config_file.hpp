@@ -1,23 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/error.hpp"
 
 /// Configuration files: YAML, one map per section, the keys named as the members of Config.
 /// All functions are pure but for the file that is read, and may be called from any thread.
 namespace laneloom {
-
-/// What is wrong with a configuration, in the form "file:line: key: what" (as much of it as is known).
-class ConfigError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// The configuration in a file; a key that is missing keeps its default.
 /// Throws ConfigError for an unreadable file, bad YAML, an unknown or repeated key, a wrong type, and

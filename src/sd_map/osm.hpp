@@ -1,0 +1,15 @@
+#pragma once
+
+#include "laneloom/config.hpp"
+#include "laneloom/error.hpp"
+#include "laneloom/sd_map.hpp"
+
+namespace laneloom {
+
+/// Reads an OpenStreetMap extract (XML): its highways for motor vehicles, one-way streets and turn
+/// restrictions, with the map frame's origin as configured: x east, y north. An empty file name gives an
+/// empty map. Throws ConfigError naming the file and, where it can, the element, if it cannot be read, is
+/// larger than 512 MB, or holds no street, or more than 20000 km of them.
+SdMap load_sd_map(const SdMapConfig& config);
+
+}  // namespace laneloom
