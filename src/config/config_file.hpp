@@ -29,7 +29,8 @@ void validate(const Config& config);
 /// names.
 void apply_preset(Config& config, std::string_view preset);
 
-/// The whole configuration as a file that load_config() reads back unchanged, with units and ranges.
+/// The whole configuration as a file that load_config() reads back unchanged, each key with its unit,
+/// range and meaning.
 std::string dump(const Config& config);
 
 /// Every key ("section.key") with its value as set_value() takes it, in the order of the file.

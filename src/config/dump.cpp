@@ -13,24 +13,45 @@ namespace laneloom {
 namespace config {
 namespace {
 
-/// Writes the tables as YAML.
+/// A text as lines of a comment.
+std::string comment(const std::string& text, std::size_t indent) {
+  constexpr std::size_t kColumns = 110;
+  const std::string begin = std::string(indent, ' ') + "#";
+  std::string lines, line = begin;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > kColumns) lines += std::exchange(line, begin) + "\n";
+    line += " " + word;
+  }
+  return lines + line + "\n";
+}
+
+/// Writes the tables as YAML, each key below its meaning.
 class Dump {
  public:
   template <class C>
-  void section(const char* key, const C& child) {
-    text += std::string(indent_, ' ') + key + ":\n";
+  void section(const char* key, const C& child, const char* meaning) {
+    text += "\n" + comment(meaning, indent_) + std::string(indent_, ' ') + key + ":\n";
     indent_ += 2;
     visit(*this, child);
     indent_ -= 2;
   }
-  void number(const char* key, double value, const char* unit, double min, double max) {
-    const std::string unit_text = *unit ? std::string(unit) + ", " : "";
-    line(key, to_text(value), unit_text + range_text(min, max));
+  void number(const char* key, double value, const Limits& limits, const char* meaning) {
+    const std::string unit = *limits.unit ? std::string(limits.unit) + ", " : "";
+    line(key, to_text(value), unit + range_text(limits.min, limits.max), meaning);
   }
-  void flag(const char* key, bool value) { line(key, value ? "true" : "false", "true or false"); }
-  void choice(const char* key, const std::string& value, const char* choices) { line(key, value, choices); }
-  void identifier(const char* key, const std::string& value) { line(key, quoted(value), "a name"); }
-  void path(const char* key, const std::string& value) { line(key, quoted(value), "may be empty"); }
+  void flag(const char* key, bool value, const char* meaning) {
+    line(key, value ? "true" : "false", "true or false", meaning);
+  }
+  void choice(const char* key, const std::string& value, const char* choices, const char* meaning) {
+    line(key, value, choices, meaning);
+  }
+  void identifier(const char* key, const std::string& value, const char* meaning) {
+    line(key, quoted(value), "a name", meaning);
+  }
+  void path(const char* key, const std::string& value, const char* meaning) {
+    line(key, quoted(value), "may be empty", meaning);
+  }
 
   std::string text;
 
@@ -40,8 +61,9 @@ class Dump {
     for (const char c : value) result += c == '\'' ? std::string("''") : std::string(1, c);
     return result + "'";
   }
-  void line(const char* key, const std::string& value, const std::string& comment) {
-    text += std::string(indent_, ' ') + key + ": " + value + "  # " + comment + "\n";
+  void line(const char* key, const std::string& value, const std::string& limits, const char* meaning) {
+    text += comment(meaning, indent_);
+    text += std::string(indent_, ' ') + key + ": " + value + "  # " + limits + "\n";
   }
 
   std::size_t indent_ = 0;
@@ -51,17 +73,21 @@ class Dump {
 class Hash {
  public:
   template <class C>
-  void section(const char* key, const C& child) {
+  void section(const char* key, const C& child, const char* /*meaning*/) {
     add(key);
     visit(*this, child);
   }
-  void number(const char* key, double number, const char* /*unit*/, double /*min*/, double /*max*/) {
+  void number(const char* key, double number, const Limits& /*limits*/, const char* /*meaning*/) {
     text(key, to_text(number));
   }
-  void flag(const char* key, bool flag) { text(key, flag ? "true" : "false"); }
-  void choice(const char* key, const std::string& content, const char* /*choices*/) { text(key, content); }
-  void identifier(const char* key, const std::string& content) { text(key, content); }
-  void path(const char* key, const std::string& content) { text(key, content); }
+  void flag(const char* key, bool flag, const char* /*meaning*/) { text(key, flag ? "true" : "false"); }
+  void choice(const char* key, const std::string& content, const char* /*choices*/, const char* /*meaning*/) {
+    text(key, content);
+  }
+  void identifier(const char* key, const std::string& content, const char* /*meaning*/) {
+    text(key, content);
+  }
+  void path(const char* key, const std::string& content, const char* /*meaning*/) { text(key, content); }
 
   std::uint64_t value = 14695981039346656037U;
 
@@ -81,18 +107,20 @@ class Hash {
 class List {
  public:
   template <class C>
-  void section(const char* key, const C& child) {
+  void section(const char* key, const C& child, const char* /*meaning*/) {
     const auto outer = std::exchange(prefix_, prefix_ + key + ".");
     visit(*this, child);
     prefix_ = outer;
   }
-  void number(const char* key, double number, const char* /*unit*/, double /*min*/, double /*max*/) {
+  void number(const char* key, double number, const Limits& /*limits*/, const char* /*meaning*/) {
     add(key, to_text(number));
   }
-  void flag(const char* key, bool flag) { add(key, flag ? "true" : "false"); }
-  void choice(const char* key, const std::string& content, const char* /*choices*/) { add(key, content); }
-  void identifier(const char* key, const std::string& content) { add(key, content); }
-  void path(const char* key, const std::string& content) { add(key, content); }
+  void flag(const char* key, bool flag, const char* /*meaning*/) { add(key, flag ? "true" : "false"); }
+  void choice(const char* key, const std::string& content, const char* /*choices*/, const char* /*meaning*/) {
+    add(key, content);
+  }
+  void identifier(const char* key, const std::string& content, const char* /*meaning*/) { add(key, content); }
+  void path(const char* key, const std::string& content, const char* /*meaning*/) { add(key, content); }
 
   std::vector<std::pair<std::string, std::string>> values;
 

@@ -42,7 +42,7 @@ class Parser {
   }
 
   template <class C>
-  void section(const char* key, C& child) {
+  void section(const char* key, C& child, const char* /*meaning*/) {
     if (const auto value = take(key)) {
       Parser inner(value, prefix_ + key + ".", lines_);
       visit(inner, child);
@@ -50,19 +50,22 @@ class Parser {
     }
   }
   template <class T>
-  void number(const char* key, T& value, const char* unit, double /*min*/, double /*max*/) {
+  void number(const char* key, T& value, const Limits& limits, const char* /*meaning*/) {
     const bool whole = std::same_as<T, int>;
     read(key, value,
-         std::string(whole ? "a whole number" : "a number") + (*unit ? std::string(" in ") + unit : ""));
+         std::string(whole ? "a whole number" : "a number") +
+             (*limits.unit ? std::string(" in ") + limits.unit : ""));
   }
-  void flag(const char* key, bool& value) { read(key, value, "true or false"); }
-  void choice(const char* key, std::string& value, const char* choices) {
+  void flag(const char* key, bool& value, const char* /*meaning*/) { read(key, value, "true or false"); }
+  void choice(const char* key, std::string& value, const char* choices, const char* /*meaning*/) {
     read(key, value, std::string("one of ") + choices);
     if (!is_choice(choices, value))
       fail(line_at(key), prefix_ + key, "\"" + value + "\" is none of " + choices);
   }
-  void identifier(const char* key, std::string& value) { read(key, value, "a name"); }
-  void path(const char* key, std::string& value) { read(key, value, "a text"); }
+  void identifier(const char* key, std::string& value, const char* /*meaning*/) {
+    read(key, value, "a name");
+  }
+  void path(const char* key, std::string& value, const char* /*meaning*/) { read(key, value, "a text"); }
 
   /// To be called when every key that is known was asked for.
   void finish() const {

@@ -18,6 +18,12 @@ inline std::string to_text(double value) {
 
 inline std::string range_text(double min, double max) { return to_text(min) + " .. " + to_text(max); }
 
+/// Of a number.
+struct Limits {
+  const char* unit;
+  double min, max;
+};
+
 /// The text at a position among those that '|' separates; empty beyond the last one.
 inline std::string choice_at(std::string_view choices, std::size_t index) {
   for (; index > 0; --index) {

@@ -14,21 +14,21 @@ namespace {
 class RangeCheck {
  public:
   template <class C>
-  void section(const char* key, const C& child) {
+  void section(const char* key, const C& child, const char* /*meaning*/) {
     const std::string outer = prefix_;
     prefix_ += std::string(key) + ".";
     visit(*this, child);
     prefix_ = outer;
   }
-  void number(const char* key, double value, const char* /*unit*/, double min, double max) {
-    const bool inside = value >= min && value <= max;  // false for NaN
-    if (!inside) report(key, to_text(value) + " is not in " + range_text(min, max));
+  void number(const char* key, double value, const Limits& limits, const char* /*meaning*/) {
+    const bool inside = value >= limits.min && value <= limits.max;  // false for NaN
+    if (!inside) report(key, to_text(value) + " is not in " + range_text(limits.min, limits.max));
   }
-  void flag(const char* /*key*/, bool /*value*/) {}
-  void choice(const char* key, const std::string& value, const char* choices) {
+  void flag(const char* /*key*/, bool /*value*/, const char* /*meaning*/) {}
+  void choice(const char* key, const std::string& value, const char* choices, const char* /*meaning*/) {
     if (!is_choice(choices, value)) report(key, "\"" + value + "\" is none of " + choices);
   }
-  void identifier(const char* key, const std::string& value) {
+  void identifier(const char* key, const std::string& value, const char* /*meaning*/) {
     // '*' and '?' would be wildcards in the name of a DDS partition.
     const auto allowed = [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -38,7 +38,7 @@ class RangeCheck {
       report(key, "\"" + value + "\" is not 1 to 64 letters, digits, '_', '-', '.' or '/'");
     }
   }
-  void path(const char* /*key*/, const std::string& /*value*/) {}
+  void path(const char* /*key*/, const std::string& /*value*/, const char* /*meaning*/) {}
 
   std::optional<Problem> problem;
 

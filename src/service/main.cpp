@@ -32,6 +32,7 @@ struct Options {
   std::optional<int> domain;
   std::optional<std::string> snapshot_file;
   bool check_only = false;
+  bool dump_only = false;
 };
 
 /// The file, then the preset, then what else the command line says.
@@ -123,6 +124,10 @@ void run(const Config& config, const Options& options) {
 
 int start(const Options& options) {
   const Config config = configure(options);
+  if (options.dump_only) {
+    std::printf("%s", dump(config).c_str());
+    return EX_OK;
+  }
   if (options.check_only) {
     load_sd_map(config.sd_map);
     dds::check_files(config.dds);
@@ -149,6 +154,8 @@ int main(int argc, char** argv) try {
   app.add_option("--snapshot", options.snapshot_file,
                  "File that keeps the map for a restart, instead of the configured one");
   app.add_flag("--check-config", options.check_only, "Check the configuration and exit");
+  app.add_flag("--dump-config", options.dump_only,
+               "Print every key of the configuration with its value, unit, range and meaning, and exit");
   app.set_version_flag("--version", laneloom::version());
   try {
     app.parse(argc, argv);
