@@ -1,16 +1,21 @@
 #include "commands/recorded_view.hpp"
 
+#include <deque>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <variant>
 
 #include "commands/evaluation_inputs.hpp"
 #include "commands/stop_signal.hpp"
+#include "config/config_file.hpp"
 #include "drawing/drawing_json.hpp"
 #include "drawing/truth.hpp"
 #include "recording/recording.hpp"
+#include "replay/message_source.hpp"
+#include "replay/replay.hpp"
 #include "view/frame_text.hpp"
 
 namespace laneloom {
@@ -49,6 +54,64 @@ void load_recording(const std::string& path, Storer& storer) {
   warn_of(path, reader.refused(), reader.cut_off());
 }
 
+/// One drive by several configurations, in step.
+class Comparison {
+ public:
+  explicit Comparison(const std::vector<std::string>& configs) : maps_(configs.size()) {
+    for (std::size_t i = 0; i < configs.size(); ++i)
+      replays_.emplace_back(load_config(configs[i]),
+                            [this, i](const PublishedMap& map, std::int64_t) { maps_[i].push_back(map); });
+  }
+  Comparison(const Comparison&) = delete;
+  Comparison& operator=(const Comparison&) = delete;
+
+  void add(const RecordedMessage& message, Storer& storer) {
+    for (Replay& replay : replays_) replay.add(message);
+    if (const auto* pose = std::get_if<VehiclePose>(&message.message))
+      builder_.add(VehiclePose(*pose), message.log_time_ns);
+    if (const auto* frame = std::get_if<DetectionFrame>(&message.message))
+      builder_.add(DetectionFrame(*frame), message.log_time_ns);
+    for (PublishedMap& map : std::exchange(maps_.front(), {}))
+      storer.add(moment_of(std::move(map), message.log_time_ns));
+  }
+
+ private:
+  /// With the newest map of each other that is not later.
+  ViewMoment moment_of(PublishedMap&& map, std::int64_t now_ns) {
+    const std::int64_t stamp_ns = map.map.stamp_ns;
+    RoadMarkings markings = road_markings(map);
+    builder_.add(std::move(map), now_ns);
+    builder_.add(std::move(markings), now_ns);
+    ViewMoment moment = builder_.take();
+    moment.has_state = false;
+    for (auto other = std::next(maps_.begin()); other != maps_.end(); ++other) {
+      while (other->size() > 1 && (*other)[1].map.stamp_ns <= stamp_ns) other->pop_front();
+      const bool is_there = !other->empty() && other->front().map.stamp_ns <= stamp_ns;
+      moment.others.push_back(is_there ? other->front().map
+                                       : LocalMap{.T_map_body = moment.map.map.T_map_body});
+    }
+    return moment;
+  }
+
+  std::vector<std::deque<PublishedMap>> maps_;  ///< of each configuration; of the others, the last stays
+  std::deque<Replay> replays_;
+  MomentBuilder builder_;
+};
+
+void load_comparison(const RecordedInputs& inputs, Storer& storer) {
+  Comparison comparison(inputs.configs);
+  const auto source = open_messages(inputs.recording, load_config(inputs.configs.front()).dds.map_frame_id);
+  while (const auto message = source->next_input()) comparison.add(*message, storer);
+  warn_of(inputs.recording, source->refused(), source->cut_off());
+}
+
+/// Maps by their stamps.
+std::map<std::int64_t, LocalMap> read_maps(const std::string& file) {
+  std::map<std::int64_t, LocalMap> maps;
+  for_each_map(file, [&](const LocalMap& map) { maps[map.stamp_ns] = map; });
+  return maps;
+}
+
 /// Frames and maps by their stamps; what one of the files lacks stays empty.
 void load_files(const RecordedInputs& inputs, Storer& storer) {
   std::map<std::int64_t, ViewMoment> moments;
@@ -65,15 +128,28 @@ void load_files(const RecordedInputs& inputs, Storer& storer) {
       moment.map.map.T_map_body = T_map_body;
     });
   if (!inputs.maps.empty())
-    for_each_map(inputs.maps, [&](const LocalMap& map) { at(map.stamp_ns).map.map = map; });
+    for (auto& [stamp_ns, map] : read_maps(inputs.maps.front())) at(stamp_ns).map.map = std::move(map);
+  for (std::size_t i = 1; i < inputs.maps.size(); ++i) {
+    const auto others = read_maps(inputs.maps[i]);
+    for (auto& [stamp_ns, moment] : moments) {
+      const auto later = others.upper_bound(stamp_ns);
+      moment.others.push_back(later == others.begin() ? LocalMap{.T_map_body = moment.map.map.T_map_body}
+                                                      : std::prev(later)->second);
+    }
+  }
   for (const auto& [stamp_ns, moment] : moments) storer.add(moment);
 }
 
 }  // namespace
 
 std::string RecordedInputs::title() const {
-  const std::string& path = !recording.empty() ? recording : !maps.empty() ? maps : frames;
+  const std::string& path = !recording.empty() ? recording : !maps.empty() ? maps.front() : frames;
   return std::filesystem::path(path).filename().string();
+}
+
+std::vector<std::string> RecordedInputs::names() const {
+  const std::vector<std::string>& compared = configs.empty() ? maps : configs;
+  return compared.size() > 1 ? compared : std::vector<std::string>();
 }
 
 std::string truth_elements(const RecordedInputs& inputs) {
@@ -85,7 +161,9 @@ std::string truth_elements(const RecordedInputs& inputs) {
 void load(const RecordedInputs& inputs, const RangeConfig& range, FrameStore& store) {
   try {
     Storer storer(range, store);
-    if (inputs.recording.empty())
+    if (!inputs.configs.empty())
+      load_comparison(inputs, storer);
+    else if (inputs.recording.empty())
       load_files(inputs, storer);
     else
       load_recording(inputs.recording, storer);

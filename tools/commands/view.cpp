@@ -135,7 +135,8 @@ void view_live(const Options& options) {
 
 void view_recording(const Options& options) {
   FrameStore store;
-  const Site site(options.recorded.title(), truth_elements(options.recorded), &store);
+  const Site site(options.recorded.title(), truth_elements(options.recorded), &store,
+                  options.recorded.names());
   std::thread loader([&] { load(options.recorded, options.range, store); });
   try {
     const WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
@@ -172,7 +173,15 @@ void add_view(CLI::App& app) {
   CLI::Option* in = command->add_option("--in", options->recorded.recording, "Recording to show (.mcap)");
   command->add_option("--frames", options->recorded.frames, "Detections to show (.frames.jsonl or .mcap)")
       ->excludes(in);
-  command->add_option("--map", options->recorded.maps, "Maps to show (.jsonl or .mcap)")->excludes(in);
+  command
+      ->add_option("--map", options->recorded.maps,
+                   "Maps to show (.jsonl or .mcap); several of one drive are compared")
+      ->excludes(in);
+  command
+      ->add_option("--config", options->recorded.configs,
+                   "Map the detections of --in (.mcap or .frames.jsonl) anew by this configuration (.yaml); "
+                   "several are compared")
+      ->needs(in);
   command->add_option("--truth", options->recorded.truth, "Truth of the road to show (.json)");
   add_range(*command, options->range);
   command->callback([options] { view(*options); });

@@ -62,8 +62,7 @@ RangeConfig range_of(const ViewMoment& moment, RangeConfig range) {
   return range;
 }
 
-Drawing drawing_of(const ViewMoment& moment, const RangeConfig& range) {
-  const LocalMap& map = moment.map.map;
+Drawing drawing_of(const LocalMap& map, const ViewMoment& moment, const RangeConfig& range) {
   Drawing drawing;
   add_map(map, drawing);
   add_markings(map, drawing);
@@ -88,7 +87,10 @@ std::string summary_text(const ViewMoment& moment, const FramePlace& place) {
 
 std::string frame_text(const ViewMoment& moment, const FramePlace& place, const RangeConfig& range) {
   json frame = summary_json(moment, place);
-  frame.update(to_json(drawing_of(moment, range)));
+  frame.update(to_json(drawing_of(moment.map.map, moment, range)));
+  for (const LocalMap& other : moment.others)
+    frame["others"].push_back(
+        {{"elements", std::move(to_json(drawing_of(other, moment, range))["elements"])}});
   frame["sequence"] = moment.map.sequence;
   frame["session_id"] = std::to_string(moment.map.session_id);
   frame["map_id"] = std::to_string(moment.map.map_id);

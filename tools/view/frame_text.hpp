@@ -20,8 +20,8 @@ struct FramePlace {
 /// One object with what the strips and the list of events need: stamps, state, times, lineage.
 std::string summary_text(const ViewMoment& moment, const FramePlace& place);
 
-/// The summary with the elements to draw and the status. `range` is the map's range box, for where the status
-/// does not tell it.
+/// The summary with the elements to draw, of the maps to compare with likewise, and the status. `range` is
+/// the map's range box, for where the status does not tell it.
 std::string frame_text(const ViewMoment& moment, const FramePlace& place, const RangeConfig& range);
 
 }  // namespace laneloom

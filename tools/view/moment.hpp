@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "laneloom/messages.hpp"
 
@@ -18,6 +19,7 @@ struct ViewMoment {
   std::optional<DetectionFrame> detections;  ///< the frame that was fused last, seen from the map's pose
   std::optional<VehiclePose> pose;           ///< the newest
   std::optional<ServiceStatus> status;       ///< the newest
+  std::vector<LocalMap> others;              ///< of the same time, to compare with; always as many
 };
 
 /// Puts moments together from messages, in the order of their arrival. A map and its markings come one after

@@ -26,8 +26,8 @@ std::optional<std::size_t> number_of(std::string_view text) {
 
 }  // namespace
 
-Site::Site(std::string title, std::string truth, const FrameStore* recording)
-    : title_(std::move(title)), truth_(std::move(truth)), recording_(recording) {}
+Site::Site(std::string title, std::string truth, const FrameStore* recording, std::vector<std::string> names)
+    : title_(std::move(title)), truth_(std::move(truth)), recording_(recording), names_(std::move(names)) {}
 
 WebAnswer Site::answer(std::string_view asked) const {
   const Target target(asked);
@@ -43,7 +43,7 @@ WebAnswer Site::answer(std::string_view asked) const {
 }
 
 std::string Site::info() const {
-  return nlohmann::json{{"title", title_}, {"live", recording_ == nullptr}}.dump(
+  return nlohmann::json{{"title", title_}, {"live", recording_ == nullptr}, {"names", names_}}.dump(
       -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

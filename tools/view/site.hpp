@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "laneloom/messages.hpp"
 #include "view/frame_store.hpp"
@@ -17,8 +18,10 @@ namespace laneloom {
 class Site {
  public:
   /// `title` names the vehicle or the recording. `recording` is null for a live view, and else outlives this.
-  /// `truth` are elements to draw in every frame, as JSON.
-  Site(std::string title, std::string truth, const FrameStore* recording);
+  /// `truth` are elements to draw in every frame, as JSON. `names` are those of the maps that are compared;
+  /// none: there is one map.
+  Site(std::string title, std::string truth, const FrameStore* recording,
+       std::vector<std::string> names = {});
 
   WebAnswer answer(std::string_view target) const;
   /// The newest status of the service, for `/metrics`.
@@ -33,6 +36,7 @@ class Site {
 
   std::string title_, truth_;
   const FrameStore* recording_;
+  std::vector<std::string> names_;
   mutable std::mutex mutex_;
   std::optional<ServiceStatus> status_;
   SteadyClock::time_point status_time_;

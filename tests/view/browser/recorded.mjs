@@ -1,44 +1,23 @@
-// Drives a headless Chromium through a recording: node recorded.mjs LANELOOM RECORDING [PICTURE]
+// Drives a headless Chromium through a recording, and through its frames by two configurations side by side:
+//   node recorded.mjs LANELOOM RECORDING FRAMES CONFIG CONFIG [PICTURE]
 // Exits with 1 where something is not as a person would find it.
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
-import {once} from 'node:events';
-import puppeteer from 'puppeteer-core';
+import {mkdtempSync, readFileSync, existsSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {clickALane, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
 
-const [laneloom, recording, picture] = process.argv.slice(2);
+const [laneloom, recording, frames, configA, configB, picture] = process.argv.slice(2);
+const MOST_BYTES = 150_000;  // of the page and its modules
+const screenshot = (page, name) => picture && page.screenshot({path: picture.replace('.png', `${name}.png`)});
 
-/** Starts the viewer; its URL is the first line that it prints. */
-async function startViewer() {
-  const viewer = spawn(laneloom, ['view', '--in', recording, '--port', '0'], {stdio: ['ignore', 'pipe', 'inherit']});
-  const [line] = await once(viewer.stdout, 'data');
-  return {viewer, url: String(line).trim()};
-}
-
-const until = (page, condition, ...values) => page.waitForFunction(condition, {timeout: 20000}, ...values);
-
-/** A place on the screen at which a click finds a lane: halfway between its left and its right side. */
-const laneOnScreen = (page) => page.evaluate(() => {
-  const {camera, canvas, elements} = window.laneloom, box = canvas.getBoundingClientRect();
-  const places = elements.filter(({layer, type}) => layer === 'lanes' && type === 'lane').flatMap(({id, shapes}) => {
-    const outline = shapes.find(({area}) => area).area, last = outline.length - 2;
-    return Array.from({length: Math.floor(last / 4)}, (_, k) =>
-      ({id, at: camera.project((outline[2 * k] + outline[last - 2 * k]) / 2, (outline[2 * k + 1] + outline[last - 2 * k + 1]) / 2)}));
-  });
-  const found = places.find(({id, at: [x, y]}) =>
-    x > 0 && y > 0 && x < box.width && y < box.height && window.laneloom.pick([x, y])?.id === id);
-  return found ? {id: found.id, x: box.x + found.at[0], y: box.y + found.at[1]} : null;
-});
-
-async function clickALane(page) {
-  const lane = await laneOnScreen(page);
-  assert.ok(lane, 'a lane can be clicked');
-  await page.mouse.click(lane.x, lane.y);
-  await until(page, (title) => document.getElementById('selected')?.textContent === title, `lane ${lane.id}`);
+async function findsALaneByItsId(page) {
+  const id = await clickALane(page);
   await page.keyboard.press('Escape');
   await until(page, () => !document.getElementById('selected'));
-  await page.type('#findId', String(lane.id));
+  await page.type('#findId', String(id));
   await page.keyboard.press('Enter');
-  await until(page, (id) => document.getElementById('selected')?.textContent.endsWith(` ${id}`), lane.id);
+  await until(page, (wanted) => document.getElementById('selected')?.textContent.endsWith(` ${wanted}`), id);
 }
 
 async function pauseStepAndSeek(page) {
@@ -68,26 +47,170 @@ async function lookAround(page) {
   await page.click('[data-do="reset"]');
 }
 
-const {viewer, url} = await startViewer();
-const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
-try {
-  const page = await browser.newPage(), complaints = [];
+async function isSmall(page) {
+  const sizes = await page.evaluate(() => performance.getEntries().filter(({name}) => name === location.href.split('#')[0] || /\.(js|css)$/.test(name))
+    .map(({name, decodedBodySize}) => [name, decodedBodySize]));
+  const sum = sizes.reduce((total, [, size]) => total + size, 0);
+  console.log(`page and modules: ${sizes.length} files, ${sum} bytes`);
+  assert.ok(sizes.length > 10 && sizes.every(([, size]) => size > 0));
+  assert.ok(sum <= MOST_BYTES);
+}
+
+/** Only keys: layers, elements one after the other, measuring, and a link that keeps view, time and what is chosen. */
+async function isUsableByKeys(page) {
+  await page.focus('#map');
+  const shown = () => page.evaluate(() => [...window.laneloom.layers.shown.keys()].join());
+  const before = await shown();
+  await page.keyboard.press('1');
+  assert.notEqual(await shown(), before);
+  await page.keyboard.press('1');
+  assert.equal(await shown(), before);
+  await page.keyboard.press(']');
+  await until(page, () => document.getElementById('selected'));
+  const first = await page.$eval('#selected', ({textContent}) => textContent);
+  await page.keyboard.press(']');
+  await until(page, (title) => document.getElementById('selected').textContent !== title, first);
+  await page.keyboard.press('?');
+  await until(page, () => document.getElementById('help').open);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('n');
+  await page.keyboard.press('w');
+  await page.keyboard.press('c');
+  await until(page, () => location.hash.includes('t=') && location.hash.includes('select='));
+}
+
+async function aLinkOpensTheSame(browser, page) {
+  const look = (tab) => tab.evaluate(() => {
+    const {camera: {mode, x, y, scale}, player, selection} = window.laneloom;
+    return JSON.stringify([mode, x.toFixed(2), y.toFixed(2), scale.toFixed(2), player.summary.index, selection.element?.key]);
+  });
+  const link = await page.evaluate(() => location.href), wanted = await look(page), other = await openTab(browser, link);
+  await until(other, () => window.laneloom?.feed.complete && window.laneloom.selection.element && window.laneloom.player.summary);
+  await until(other, (index) => window.laneloom.player.summary.index === index, JSON.parse(wanted)[4]);
+  assert.equal(await look(other), wanted);
+  assert.deepEqual(other.complaints, []);
+  await other.close();
+  await page.bringToFront();
+}
+
+async function measures(page) {
+  await page.keyboard.press('m');
+  const box = await (await page.$('#map')).boundingBox(), at = (x) => [box.x + x, box.y + box.height / 2];
+  await page.mouse.click(...at(200));
+  await page.mouse.click(...at(300));
+  const [[ax, ay], [bx, by]] = await page.evaluate(() => window.laneloom.measuring);
+  assert.ok(Math.abs(Math.hypot(bx - ax, by - ay) - 100 / await page.evaluate(() => window.laneloom.camera.scale)) < 1e-6);
+  await screenshot(page, '_measured');
+  await page.keyboard.press('Escape');
+  assert.equal(await page.evaluate(() => window.laneloom.measuring), null);
+}
+
+/** PNG and SVG of what is seen, as files. */
+async function savesPictures(page) {
+  const folder = mkdtempSync(join(tmpdir(), 'laneloom-view-')), debug = await page.createCDPSession();
+  await debug.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder, eventsEnabled: true});
+  for (const [key, name] of [['p', 'laneloom.png'], ['g', 'laneloom.svg']]) {
+    const done = new Promise((resolve) => debug.on('Browser.downloadProgress', ({state}) => state === 'completed' && resolve()));
+    await page.keyboard.press(key);
+    await done;
+    assert.ok(existsSync(join(folder, name)), name);
+  }
+  assert.equal(readFileSync(join(folder, 'laneloom.png')).subarray(1, 4).toString(), 'PNG');
+  const drawn = await page.evaluate((text) => {
+    const picture = new DOMParser().parseFromString(text, 'image/svg+xml');
+    return [picture.querySelectorAll('parsererror').length, picture.querySelectorAll('path').length, picture.querySelectorAll('text').length];
+  }, readFileSync(join(folder, 'laneloom.svg'), 'utf8'));
+  assert.equal(drawn[0], 0);
+  assert.ok(drawn[1] > 20 && drawn[2] > 2, `the SVG has ${drawn}`);
+  rmSync(folder, {recursive: true});
+}
+
+/** Everything is in reach on a tablet, and in both themes. */
+async function fitsOnATablet(page) {
+  for (const [width, height, name] of [[1024, 768, '_tablet'], [768, 1024, '_upright']]) {
+    await page.setViewport({width, height});
+    await until(page, (w) => window.laneloom.canvas.clientWidth > 0.5 * w, width);
+    const outside = await page.$$eval('button, #find, #timeline', (nodes) => nodes
+      .filter((node) => node.offsetParent && !node.closest('aside, dialog'))
+      .map((node) => node.getBoundingClientRect()).filter(({left, right, bottom}) => left < 0 || right > innerWidth || bottom > innerHeight).length);
+    assert.equal(outside, 0, `at ${width} x ${height} all buttons are on the screen`);
+    await screenshot(page, name);
+  }
   await page.setViewport({width: 1280, height: 720});
-  page.on('pageerror', ({message}) => complaints.push(message));
-  page.on('console', (message) => ['error', 'warn'].includes(message.type()) && complaints.push(message.text()));
-  await page.goto(url);
+}
+
+async function goesToEvents(page) {
+  await page.evaluate(() => window.laneloom.player.seek(window.laneloom.feed.last));
+  await until(page, () => document.querySelector('#events button'));
+  const time = await page.$eval('#events button', (button) => {
+    button.click();
+    return button.querySelector('time').textContent;
+  });
+  await until(page, (wanted) => window.laneloom.when(window.laneloom.player.summary) === wanted, time);
+}
+
+const hasLanesAt = async (page, seconds) => {
+  await page.evaluate((s) => window.laneloom.player.seekTime(window.laneloom.feed.first.time_s + s), seconds);
+  await until(page, () => window.laneloom.elements.some(({type}) => type === 'lane'));
+};
+
+async function showsOneMap(browser) {
+  const {program: viewer, lines: [url]} = await start(laneloom, ['view', '--in', recording, '--port', '0'], 1);
+  const page = await openTab(browser, url);
   await until(page, () => window.laneloom?.feed.complete && window.laneloom.elements.length > 0);
-  await page.evaluate(() => window.laneloom.player.seekTime(window.laneloom.feed.first.time_s + 8));
-  await until(page, () => window.laneloom.elements.some(({type}) => type === 'lane'));
+  await isSmall(page);
+  await hasLanesAt(page, 8);
   await pauseStepAndSeek(page);
-  await page.evaluate(() => window.laneloom.player.seekTime(window.laneloom.feed.first.time_s + 8));
-  await until(page, () => window.laneloom.elements.some(({type}) => type === 'lane'));
-  if (picture) await page.screenshot({path: picture});
-  await clickALane(page);
+  await hasLanesAt(page, 8);
+  await screenshot(page, '');
+  await findsALaneByItsId(page);
   await lookAround(page);
-  assert.deepEqual(complaints, []);
+  await isUsableByKeys(page);
+  await aLinkOpensTheSame(browser, page);
+  await measures(page);
+  await savesPictures(page);
+  await fitsOnATablet(page);
+  await goesToEvents(page);
+  const {ms, worst_ms, frames: count} = await page.evaluate(() => window.laneloom.drawn);
+  console.log(`drawing: ${ms.toFixed(2)} ms a frame, at most ${worst_ms.toFixed(2)} ms, ${count} frames`);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+  assert.deepEqual(await stop(viewer), [0, null]);
+}
+
+/** Two configurations of one drive, which move together. */
+async function comparesTwo(browser) {
+  const {program: viewer, lines: [url]} = await start(laneloom, ['view', '--in', frames, '--config', configA, '--config', configB, '--port', '0'], 1);
+  const page = await openTab(browser, url);
+  await until(page, () => window.laneloom?.feed.complete && window.laneloom.elements.length > 0);
+  await hasLanesAt(page, 8);
+  const state = () => page.evaluate(() => {
+    const {panes, camera, canvas} = window.laneloom;
+    return {names: panes.names, columns: panes.columns, width: camera.width, whole: canvas.clientWidth,
+      lines: panes.lists.map((list) => JSON.stringify(list.filter(({layer}) => layer === 'boundaries').map(({shapes}) => shapes)))};
+  });
+  const beside = await state();
+  assert.deepEqual(beside.names, [configA, configB]);
+  assert.deepEqual([beside.columns, beside.width], [2, beside.whole / 2]);
+  assert.notEqual(beside.lines[0], beside.lines[1], 'the maps differ');
+  const lane = await clickALane(page, 1);
+  assert.equal(await page.evaluate(() => window.laneloom.selection.element.pane), 1, `lane ${lane} is of the second map`);
+  await screenshot(page, '_beside');
+  await savesPictures(page);
+  await page.keyboard.press('v');
+  const over = await state();
+  assert.deepEqual([over.columns, over.width], [1, over.whole]);
+  await screenshot(page, '_over');
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+  assert.deepEqual(await stop(viewer), [0, null]);
+}
+
+const browser = await launch();
+try {
+  await showsOneMap(browser);
+  await comparesTwo(browser);
 } finally {
   await browser.close();
-  viewer.kill('SIGTERM');
+  await stopAll();
 }
-assert.deepEqual(await once(viewer, 'exit'), [0, null]);

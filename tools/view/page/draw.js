@@ -4,20 +4,24 @@ export class Painter {
   constructor(palette) {
     this.palette = palette;
     this.dark = false;
+    this.tint = null;  // a colour in place of all others: then lines are drawn, and no areas
   }
 
   colour(style) {
-    return this.dark ? style.dark : style.light;
+    return this.tint ?? (this.dark ? style.dark : style.light);
   }
 
   theme() {
     return this.palette[this.dark ? 'dark' : 'light'];
   }
 
-  /** The elements, which are in the order of painting, of the layers that are shown. */
-  draw(pen, camera, elements, shown) {
+  ground(pen, camera) {
     pen.fillStyle = this.theme().ground;
     pen.fillRect(0, 0, camera.width, camera.height);
+  }
+
+  /** The elements, which are in the order of painting, of the layers that are shown. */
+  draw(pen, camera, elements, shown) {
     for (const element of elements) {
       const layer = shown.get(element.layer);
       if (layer) for (const shape of element.shapes) this.shape(pen, camera, shape, layer.overlay);
@@ -30,7 +34,7 @@ export class Painter {
     const colour = this.colour(style);
     pen.globalAlpha = shape.opacity ?? 1;
     if (shape.line) this.line(pen, camera, shape.line, {colour, width: style.width * overlay, dash: style.dash});
-    else if (shape.area) this.area(pen, camera, shape.area, colour);
+    else if (shape.area) this.tint ?? this.area(pen, camera, shape.area, colour);
     else if (shape.arrow) this.head(pen, camera, shape.arrow, {colour, size: style.head});
     else this.write(pen, shape.text, camera.project(shape.at[0], shape.at[1]), {colour, size: style.text});
   }
@@ -107,6 +111,11 @@ export class Painter {
     pen.lineWidth = 1.5;
     pen.stroke();
     this.write(pen, `${metres} m`, [(x + end) / 2, y - 8]);
+  }
+
+  /** What a column, or each of the maps that lie over one another, is called. */
+  names(pen, camera, names, tint) {
+    names.forEach((name, i) => this.write(pen, name, [camera.width / 2, 20 + 17 * i], {size: 13, colour: i ? tint : undefined}));
   }
 
   north(pen, camera) {

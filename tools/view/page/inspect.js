@@ -25,6 +25,7 @@ function number(value) {
 function plain(value, unit) {
   if (typeof value === 'number') return number(value) + unit;
   if (!Array.isArray(value)) return typeof value === 'object' && value ? Object.entries(value).map(([k, v]) => `${words(k)} ${plain(v, '')}`).join(', ') : String(value);
+  if (value.length === 3 && typeof value[2] === 'string') return `${number(value[0])} to ${number(value[1])} m ${value[2]}`;  // a style's stretch
   if (value.length === 2 && value.every((v) => typeof v === 'number')) return `${number(value[0])} to ${number(value[1])}${unit}`;
   return value.length ? value.map((item) => plain(item, unit)).join('; ') : 'none';
 }
@@ -108,12 +109,12 @@ export class Memory {
 
   /** What happened to the element, in the order of time. */
   history(element, summaries, first) {
-    const found = (this.#tracks.get(element.key) ?? []).map(({status, summary}) => ({summary, text: `is ${status}`}));
+    const found = [], statuses = (this.#tracks.get(element.key) ?? []).map(({status, summary}) => ({summary, text: `is ${status}`}));
     if (element.type !== 'lane')
       for (const summary of summaries)
         for (const {kind, id, other} of summary.lineage ?? [])
           if (id === element.id || other === element.id)
             found.push({summary, text: `${id === element.id ? '' : `${id} `}${kind.replaceAll('_', ' ')}${other ? ` ${other}` : ''}`});
-    return found.filter(({summary}) => summary.index >= first.index).sort((a, b) => a.summary.index - b.summary.index);
+    return [...found, ...statuses].filter(({summary}) => summary.index >= first.index).sort((a, b) => a.summary.index - b.summary.index);
   }
 }

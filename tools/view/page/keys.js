@@ -2,7 +2,7 @@
 
 const ACTIONS = {
   ' ': 'play', l: 'live', Home: 'begin', h: 'heading', n: 'north', f: 'free', '+': 'zoomIn', '=': 'zoomIn', '-': 'zoomOut', r: 'reset',
-  '[': 'previous', ']': 'next', Escape: 'escape', '/': 'find', m: 'measure', c: 'link', p: 'png', g: 'svg', d: 'theme', '?': 'help',
+  '[': 'previous', ']': 'next', Escape: 'escape', '/': 'find', m: 'measure', c: 'link', p: 'png', g: 'svg', d: 'theme', v: 'compare', '?': 'help',
   w: 'up', z: 'down', a: 'left', s: 'right',
 };
 

@@ -3,27 +3,24 @@ import {Banner} from './banner.js';
 import {Camera} from './camera.js';
 import {Painter} from './draw.js';
 import {LiveFeed, RecordedFeed} from './feed.js';
-import {Inspector, Memory, titleOf} from './inspect.js';
 import {listen} from './keys.js';
 import {Events, Layers, showService} from './panels.js';
-import {middle, pick, pickable} from './pick.js';
+import {Panes} from './panes.js';
 import {Player} from './player.js';
 import {Pointer} from './pointer.js';
-import {copyLink, downloadPng, downloadSvg, remember, restore} from './share.js';
+import {Selection} from './selection.js';
+import {applyState, copyLink, downloadPng, downloadSvg, remember, restore, stateOf} from './share.js';
 import {Timeline} from './timeline.js';
 
-const REACH = 9;          // pixels from a line that is still on it
 const PAN = 60;           // pixels a key moves the map
+const OTHER = {light: '#c2410c', dark: '#ffa14a'};  // of a map that lies over another
+const OVERLAID = new Set(['lanes', 'markings', 'boundaries', 'stoplines', 'linkages']);  // of it; the rest is the same
 const SLOW_MS = 200;      // between updates of what need not be quick
 const byId = (id) => document.getElementById(id);
 
 class App {
   camera = new Camera();
-  memory = new Memory();
-  elements = [];
   truth = [];
-  selected = null;  // the element as it was last seen
-  hovered = null;
   measuring = null; // points
   drawn = {frames: 0, ms: 0, worst_ms: 0, rate: 0};
   #dirty = true;
@@ -34,6 +31,8 @@ class App {
     this.order = new Map(palette.layers.map(({name}, i) => [name, i]));
     this.truth = truth;
     this.canvas = byId('map');
+    this.panes = new Panes(info.names);
+    byId('compare').hidden = !this.panes.several;
     this.painter = new Painter(palette);
     this.feed = info.live ? new LiveFeed() : new RecordedFeed();
     this.player = new Player(this.feed);
@@ -42,10 +41,13 @@ class App {
     this.layers = new Layers(byId('layers'), palette, this.painter, () => this.#changed());
     const go = (summary) => this.player.seek(summary);
     this.events = new Events(byId('events'), {go, when: (summary) => this.when(summary)});
-    this.inspector = new Inspector(byId('inspector'), {go, select: (id, type) => this.select(this.find(id, type))});
-    this.#restore(restore());
+    const {panes, layers, camera, feed, order} = this;
+    this.selection = new Selection({panes, layers, camera, feed, order, go, when: (summary) => this.when(summary), changed: () => (this.#dirty = true)});
     this.#listen();
+    applyState(this, restore());
   }
+
+  get elements() { return this.panes.lists[0]; }
 
   start() {
     this.feed.connect();
@@ -66,12 +68,12 @@ class App {
     this.player.addEventListener('frame', () => this.#newFrame());
     this.player.addEventListener('mode', () => this.#showMode());
     this.feed.addEventListener('connection', () => this.banner.update());
-    const at = ([x, y]) => this.camera.unproject(x, y);
+    const inColumn = (pixel) => this.panes.at(pixel, this.camera).pixel, at = (pixel) => this.camera.unproject(...inColumn(pixel));
     new Pointer(this.canvas, {
       pan: (dx, dy) => this.#moved(() => this.camera.pan(dx, dy)),
-      zoom: (factor, pixel) => this.#moved(() => this.camera.zoom(factor, pixel)),
-      hover: (pixel) => this.#hover(pixel),
-      click: (pixel) => (this.measuring ? this.#moved(() => this.measuring.push(at(pixel))) : this.select(this.pick(pixel))),
+      zoom: (factor, pixel) => this.#moved(() => this.camera.zoom(factor, inColumn(pixel))),
+      hover: (pixel) => this.selection.hover(this.measuring ? null : pixel),
+      click: (pixel) => (this.measuring ? this.#moved(() => this.measuring.push(at(pixel))) : this.selection.select(this.selection.pick(pixel))),
     });
     this.actions = this.#actions();
     listen(this.actions);
@@ -81,7 +83,7 @@ class App {
       event.preventDefault();
       this.#find(Number(byId('findId').value));
     };
-    matchMedia('(prefers-color-scheme: dark)').onchange = () => this.theme === 'auto' && this.#setTheme('auto');
+    matchMedia('(prefers-color-scheme: dark)').onchange = () => this.theme === 'auto' && this.setTheme('auto');
   }
 
   #actions() {
@@ -95,13 +97,14 @@ class App {
       play: () => player.toggle(), live: () => player.toLive(), begin: () => player.seek(this.feed.first),
       back: () => player.step(-1), forward: () => player.step(1), step: (frames) => player.step(frames),
       skip: (seconds) => player.summary && player.seekTime(player.summary.time_s + seconds),
-      previous: () => this.#cycle(-1), next: () => this.#cycle(1),
-      escape: () => (this.measuring ? this.#measure(null) : this.select(null)),
+      previous: () => this.selection.cycle(-1), next: () => this.selection.cycle(1),
+      escape: () => (this.measuring ? this.#measure(null) : this.selection.select(null)),
       find: () => byId('findId').focus(), layer: (i) => this.layers.toggle(this.painter.palette.layers[i].name),
       measure: () => this.#measure(this.measuring ? null : []),
-      link: async () => this.#toast(await copyLink(this.state(true))),
-      png: () => downloadPng(this.canvas), svg: () => downloadSvg(camera, (pen) => this.#paint(pen)),
-      theme: () => this.#setTheme(this.painter.dark ? 'light' : 'dark'), help: () => byId('help').showModal(),
+      compare: () => this.#compare(),
+      link: async () => this.#toast(await copyLink(stateOf(this, true))),
+      png: () => downloadPng(this.canvas), svg: () => downloadSvg(this.canvas, (pen) => this.#paint(pen)),
+      theme: () => this.setTheme(this.painter.dark ? 'light' : 'dark'), help: () => byId('help').showModal(),
     };
   }
 
@@ -109,21 +112,31 @@ class App {
 
   #newFrame() {
     const {frame, summary} = this.player;
-    this.elements = this.truth.length
-      ? [...frame.elements, ...this.truth].sort((a, b) => this.order.get(a.layer) - this.order.get(b.layer)) : frame.elements;
-    this.memory.add(frame, summary);
-    const seen = this.selected && this.elements.find(({key}) => key === this.selected.key);
-    if (seen) this.selected = seen;
-    this.selectedSeen = Boolean(seen);
+    this.panes.set([frame, ...(frame.others ?? [])].map(({elements}) => (this.truth.length
+      ? [...elements, ...this.truth].sort((a, b) => this.order.get(a.layer) - this.order.get(b.layer)) : elements)));
+    this.selection.newFrame(frame, summary);
     this.camera.follow(frame.pose);
     this.#dirty = true;
   }
 
   #paint(pen) {
-    const {painter, camera, elements, layers} = this;
-    painter.draw(pen, camera, elements, layers.shown);
-    if (this.hovered && this.hovered.key !== this.selected?.key) painter.highlight(pen, camera, this.hovered, false);
-    if (this.selected && this.selectedSeen) painter.highlight(pen, camera, this.selected, true);
+    const {painter, camera, layers, panes} = this, tint = painter.dark ? OTHER.dark : OTHER.light;
+    panes.paint(pen, camera, (lists, column) => {
+      painter.ground(pen, camera);
+      lists.forEach((elements, i) => {
+        painter.tint = i ? tint : null;
+        painter.draw(pen, camera, i ? elements.filter(({layer}) => OVERLAID.has(layer)) : elements, layers.shown);
+      });
+      painter.tint = null;
+      this.#mark(pen, (element) => panes.over || (element.pane ?? 0) === column);
+      painter.names(pen, camera, panes.over ? panes.names : panes.names.slice(column, column + 1), tint);
+    });
+  }
+
+  /** What lies over the map, in a column that `has` elements. */
+  #mark(pen, has) {
+    const {painter, camera} = this;
+    this.selection.paint(pen, painter, has);
     if (this.measuring) painter.measure(pen, camera, this.measuring);
     painter.scaleBar(pen, camera);
     painter.north(pen, camera);
@@ -147,8 +160,7 @@ class App {
     this.#slow = {at: now, frames: drawn.frames};
     this.timeline.draw();
     this.events.update(feed);
-    if (feed.first) this.memory.forget(feed.first.index);
-    this.#inspect();
+    this.selection.tell();
     if (player.frame?.status && byId('service').closest('details').open) showService(byId('service'), player.frame.status);
     byId('rate').textContent = `${drawn.rate.toFixed(0)} fps${feed.lost ? `, ${feed.lost} lost` : ''}`;
     byId('rate').classList.toggle('losing', feed.lost > 0);
@@ -164,64 +176,24 @@ class App {
   #resize() {
     const {canvas, camera} = this;
     this.ratio = devicePixelRatio || 1;
-    camera.width = canvas.clientWidth;
+    camera.width = canvas.clientWidth / this.panes.columns;
     camera.height = canvas.clientHeight;
-    canvas.width = Math.round(camera.width * this.ratio);
+    canvas.width = Math.round(canvas.clientWidth * this.ratio);
     canvas.height = Math.round(camera.height * this.ratio);
     this.#changed();
   }
 
-  // What is chosen.
-
-  pick([x, y]) { return pick(this.elements, this.layers.shown, this.camera.unproject(x, y), REACH / this.camera.scale); }
-
-  find(id, type) {
-    const fits = {lane: ({type: t}) => t === 'lane', boundary: ({layer}) => layer === 'boundaries'}[type] ?? (() => true);
-    return pickable(this.elements, this.order).find((element) => element.id === id && fits(element)) ?? null;
-  }
-
-  select(element) {
-    this.selected = element;
-    this.selectedSeen = Boolean(element);
-    this.#dirty = true;
-    this.inspected = null;
-    this.#inspect();
-  }
-
   #find(id) {
-    const found = this.find(id);
-    if (!found) return this.#toast(`Nothing here has the id ${id}.`);
-    this.select(found);
-    const at = middle(found);
+    const at = this.selection.selectById(id);
     if (at) this.#moved(() => this.camera.centre(...at));
+    else this.#toast(`Nothing here has the id ${id}.`);
   }
 
-  #inspect() {
-    const {selected, inspector, feed} = this;
-    if (!selected) return this.inspected !== null || inspector.clear();
-    const history = this.memory.history(selected, feed.summaries, feed.first).map((entry) => ({...entry, when: this.when(entry.summary)}));
-    const content = JSON.stringify([selected.key, selected.status, selected.properties, this.selectedSeen, history.length]);
-    if (content === this.inspected) return;
-    this.inspected = content;
-    inspector.show(selected, this.selectedSeen ? selected : null, history);
-  }
-
-  #cycle(by) {
-    const all = pickable(this.elements, this.layers.shown).filter(({id}) => id !== undefined);
-    const now = all.findIndex(({key}) => key === this.selected?.key);
-    if (all.length) this.select(all[(Math.max(now, by > 0 ? -1 : 0) + by + all.length) % all.length]);
-  }
-
-  #hover(pixel) {
-    this.hovered = pixel && !this.measuring ? this.pick(pixel) : null;
-    const tip = byId('tip');
-    tip.hidden = !this.hovered;
-    if (this.hovered) {
-      tip.textContent = [titleOf(this.hovered), this.hovered.status].filter(Boolean).join(', ');
-      tip.style.left = `${Math.min(pixel[0] + 14, this.camera.width - 150)}px`;
-      tip.style.top = `${Math.max(4, pixel[1] - 30)}px`;
-    }
-    this.#dirty = true;
+  /** Side by side, or over one another. */
+  #compare() {
+    this.panes.over = this.panes.several && !this.panes.over;
+    this.selection.hover(null);
+    this.#resize();
   }
 
   #measure(points) {
@@ -240,60 +212,25 @@ class App {
     if (this.player.frame) this.camera.follow(this.player.frame.pose);
     this.#dirty = true;
     this.#showMode();
-    remember(this.state(false));
+    remember(stateOf(this, false));
   }
 
   #showMode() {
     const pressed = {heading: this.camera.mode === 'heading', north: this.camera.mode === 'north', free: this.camera.mode === 'free',
-      measure: Boolean(this.measuring), live: this.player.following};
+      measure: Boolean(this.measuring), compare: this.panes.over, live: this.player.following};
     for (const [name, on] of Object.entries(pressed)) document.querySelector(`[data-do="${name}"]`).setAttribute('aria-pressed', on);
     byId('play').textContent = this.player.playing ? '❚❚' : '▶';
     byId('live').hidden = !this.info.live;
     document.body.dataset.mode = this.player.following ? 'live' : this.player.playing ? 'playing' : 'paused';
   }
 
-  // What is remembered.
-
-  state(linked) {
-    const {camera, layers, player, selected} = this;
-    const state = {mode: camera.mode, scale: camera.scale.toFixed(2), layers: [...layers.shown.keys()].join(), theme: this.theme};
-    if (!linked) return state;
-    if (camera.mode === 'free') Object.assign(state, {x: camera.x.toFixed(2), y: camera.y.toFixed(2), up: camera.up.toFixed(4)});
-    if (!player.following && player.summary) state.t = player.summary.time_s;
-    if (selected) state.select = selected.key;
-    return state;
-  }
-
-  #restore({mode, scale, layers, theme, x, y, up, t, select}) {
-    const {camera} = this;
-    if (['heading', 'north'].includes(mode) || (mode === 'free' && x)) camera.mode = mode;
-    for (const [key, value] of Object.entries({scale, x, y, up})) if (Number.isFinite(parseFloat(value))) camera[key] = parseFloat(value);
-    camera.zoom(1);
-    this.#setTheme(theme ?? 'auto');
-    if (layers !== undefined) this.layers.set(layers.split(','));
-    if (t) this.#goOnceKnown(Number(t));
-    if (select) this.player.addEventListener('frame', () => this.select(this.elements.find(({key}) => key === select) ?? null), {once: true});
-  }
-
-  /** Live, only what came since the page was opened is known. */
-  #goOnceKnown(time_s) {
-    if (this.info.live) return;
-    this.player.playing = false;
-    const go = () => {
-      if (!this.feed.complete && !(this.feed.last?.time_s >= time_s)) return;
-      this.feed.removeEventListener('frame', go);
-      this.player.seekTime(time_s);
-    };
-    this.feed.addEventListener('frame', go);
-  }
-
-  #setTheme(theme) {
+  setTheme(theme) {
     this.theme = theme;
     this.painter.dark = theme === 'auto' ? matchMedia('(prefers-color-scheme: dark)').matches : theme === 'dark';
     document.documentElement.dataset.theme = this.painter.dark ? 'dark' : 'light';
     this.layers.show();
     this.#dirty = true;
-    remember(this.state(false));
+    remember(stateOf(this, false));
   }
 
   #toast(text) {

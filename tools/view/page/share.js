@@ -21,6 +21,49 @@ export function remember(state) {
   }
 }
 
+/** Of the page: the view, and with `linked` the time and what is selected. */
+export function stateOf({camera, layers, player, theme, selection: {element}}, linked) {
+  const state = {mode: camera.mode, scale: camera.scale.toFixed(2), layers: [...layers.shown.keys()].join(), theme};
+  if (!linked) return state;
+  if (camera.mode === 'free') Object.assign(state, {x: camera.x.toFixed(2), y: camera.y.toFixed(2), up: camera.up.toFixed(4)});
+  if (!player.following && player.summary) state.t = player.summary.time_s;
+  if (element) state.select = element.key;
+  return state;
+}
+
+export function applyState(app, {mode, scale, layers, theme, x, y, up, t, select}) {
+  const {camera} = app;
+  if (['heading', 'north'].includes(mode) || (mode === 'free' && x)) camera.mode = mode;
+  for (const [key, value] of Object.entries({scale, x, y, up})) if (Number.isFinite(parseFloat(value))) camera[key] = parseFloat(value);
+  camera.zoom(1);
+  app.setTheme(theme ?? 'auto');
+  if (layers !== undefined) app.layers.set(layers.split(','));
+  if (t) goOnceKnown(app, Number(t));
+  if (select) selectOnceSeen(app, select);
+}
+
+function selectOnceSeen({player, panes, selection}, wanted) {
+  const look = () => {
+    const found = panes.find({key: wanted});
+    if (!found) return;
+    player.removeEventListener('frame', look);
+    selection.select(found);
+  };
+  player.addEventListener('frame', look);
+}
+
+/** Live, only what came since the page was opened is known. */
+function goOnceKnown({feed, player}, time_s) {
+  if (feed.live) return;
+  player.playing = false;
+  const go = () => {
+    if (!feed.complete && !(feed.last?.time_s >= time_s)) return;
+    feed.removeEventListener('frame', go);
+    player.seekTime(time_s);
+  };
+  feed.addEventListener('frame', go);
+}
+
 export async function copyLink(state) {
   history.replaceState(null, '', `#${new URLSearchParams(state)}`);
   try {
@@ -41,8 +84,8 @@ export function downloadPng(canvas) {
   canvas.toBlob((blob) => download(blob, 'laneloom.png'), 'image/png');
 }
 
-export function downloadSvg(camera, paint) {
-  const pen = new SvgPen(camera.width, camera.height);
+export function downloadSvg(canvas, paint) {
+  const pen = new SvgPen(canvas.clientWidth, canvas.clientHeight);
   paint(pen);
   download(new Blob([pen.text()], {type: 'image/svg+xml'}), 'laneloom.svg');
 }

@@ -7,6 +7,8 @@ export class SvgPen {
   #parts = [];
   #path = [];
   #dashes = [];
+  #open = [];  // groups since each save()
+  #clips = 0;
 
   constructor(width, height) {
     this.width = width;
@@ -17,6 +19,17 @@ export class SvgPen {
   moveTo(x, y) { this.#path.push(`M${round(x)} ${round(y)}`); }
   lineTo(x, y) { this.#path.push(`L${round(x)} ${round(y)}`); }
   closePath() { this.#path.push('Z'); }
+  rect(x, y, width, height) { this.#path.push(`M${x} ${y}h${width}v${height}h${-width}Z`); }
+  save() { this.#open.push(0); }
+  translate(x, y) { this.#group(`transform="translate(${round(x)} ${round(y)})"`); }
+
+  clip() {
+    const id = `clip${++this.#clips}`;
+    this.#parts.push(`<clipPath id="${id}"><path d="${this.#path.join('')}"/></clipPath>`);
+    this.#group(`clip-path="url(#${id})"`);
+  }
+
+  restore() { this.#parts.push('</g>'.repeat(this.#open.pop())); }
   setLineDash(dashes) { this.#dashes = dashes; }
 
   stroke() {
@@ -39,6 +52,11 @@ export class SvgPen {
   #text(text, x, y, paint) {
     const anchor = {center: 'middle', left: 'start', right: 'end'}[this.textAlign];
     this.#parts.push(`<text x="${round(x)}" y="${round(y)}" font-size="${parseFloat(this.font)}" font-family="sans-serif" text-anchor="${anchor}" opacity="${this.globalAlpha}" ${paint}>${escape(text)}</text>`);
+  }
+
+  #group(attribute) {
+    this.#parts.push(`<g ${attribute}>`);
+    ++this.#open[this.#open.length - 1];
   }
 
   #add(open) { this.#parts.push(`${open} opacity="${this.globalAlpha}"/>`); }

@@ -7,7 +7,8 @@ const STRIPS = [
   {title: 'latency', unit: 'ms', keys: ['latency_ms'], floor: 5},
 ];
 const STATES = {OK: '--ok', DEGRADED: '--degraded', STALE: '--stale'};
-const LEFT = 92, RIGHT = 10, BAND = 7;
+const LEFT = 106, RIGHT = 10, BAND = 7;
+const SHORTEST_S = 10;
 
 export class Timeline {
   constructor(canvas, feed, player) {
@@ -21,8 +22,9 @@ export class Timeline {
   }
 
   #span() {
-    const {first, last} = this.feed;
-    return [first.time_s, Math.max(last.time_s, first.time_s + 10)];
+    const {first, last, live} = this.feed;
+    if (live) return [Math.min(first.time_s, last.time_s - SHORTEST_S), last.time_s];  // which is now
+    return [first.time_s, Math.max(last.time_s, first.time_s + SHORTEST_S)];
   }
 
   #timeAt(x) {

@@ -1,0 +1,63 @@
+// What the tests of the page have in common.
+import assert from 'node:assert/strict';
+import {spawn} from 'node:child_process';
+import {once} from 'node:events';
+import puppeteer from 'puppeteer-core';
+
+export const launch = () => puppeteer.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
+
+export const until = (page, condition, ...values) => page.waitForFunction(condition, {timeout: 30000}, ...values);
+
+const running = new Set();
+
+/** Starts a program; what it prints first is `lines`. */
+export async function start(command, words, lines = 0) {
+  const program = spawn(command, words, {stdio: ['ignore', 'pipe', 'inherit']});
+  running.add(program);
+  program.once('exit', () => running.delete(program));
+  let text = '';
+  program.stdout.on('data', (part) => (text += part));
+  while (text.split('\n').length <= lines) await Promise.race([once(program.stdout, 'data'), once(program, 'exit').then(([code]) => assert.fail(`${words[0]} ended with ${code}`))]);
+  return {program, lines: text.split('\n')};
+}
+
+export async function stop(program, signal = 'SIGTERM') {
+  const ended = once(program, 'exit');
+  program.kill(signal);
+  return ended;
+}
+
+export const stopAll = () => Promise.all([...running].map((program) => stop(program)));
+
+/** A tab whose complaints, and those of its console, are kept. */
+export async function openTab(browser, url) {
+  const page = await browser.newPage();
+  page.complaints = [];
+  await page.setViewport({width: 1280, height: 720});
+  page.on('pageerror', ({message}) => page.complaints.push(message));
+  page.on('console', (message) => ['error', 'warn'].includes(message.type()) && page.complaints.push(message.text()));
+  await page.goto(url);
+  return page;
+}
+
+/** A place on the screen at which a click finds a lane: halfway between its left and its right side. */
+const laneOnScreen = (page, pane) => page.evaluate((column) => {
+  const {camera, canvas, panes, selection} = window.laneloom, box = canvas.getBoundingClientRect(), left = column * camera.width;
+  const places = panes.lists[column].filter(({layer, type}) => layer === 'lanes' && type === 'lane').flatMap(({id, shapes}) => {
+    const outline = shapes.find(({area}) => area).area, last = outline.length - 2;
+    return Array.from({length: Math.floor(last / 4)}, (_, k) =>
+      ({id, at: camera.project((outline[2 * k] + outline[last - 2 * k]) / 2, (outline[2 * k + 1] + outline[last - 2 * k + 1]) / 2)}));
+  });
+  const found = places.find(({id, at: [x, y]}) =>
+    x > 0 && y > 0 && x < camera.width && y < box.height && selection.pick([left + x, y])?.id === id);
+  return found ? {id: found.id, x: box.x + left + found.at[0], y: box.y + found.at[1]} : null;
+}, pane);
+
+/** Of the map in this column. The map has to stand still. Returns the lane's id. */
+export async function clickALane(page, pane = 0) {
+  const lane = await laneOnScreen(page, pane);
+  assert.ok(lane, 'a lane can be clicked');
+  await page.mouse.click(lane.x, lane.y);
+  await until(page, (title) => document.getElementById('selected')?.textContent === title, `lane ${lane.id}`);
+  return lane.id;
+}
