@@ -1,0 +1,164 @@
+// Drives a headless Chromium through a live view: node live.mjs LANELOOMD LANELOOM DOMAIN [PICTURE]
+// Exits with 1 where something is not as a person would find it.
+import assert from 'node:assert/strict';
+import http from 'node:http';
+import {once} from 'node:events';
+import WebSocket from 'ws';
+import {clickALane, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
+
+const [laneloomd, laneloom, domain, picture] = process.argv.slice(2);
+const dds = ['--domain', domain, '--vehicle-id', 'browser'];
+const startService = async () => (await start(laneloomd, dds)).program;
+const startViewer = async (port) => {
+  const {program, lines: [url]} = await start(laneloom, ['view', '--port', port, ...dds], 1);
+  return {viewer: program, url};
+};
+
+const banner = (page) => page.evaluate(() => ({state: document.body.dataset.state, reasons: document.getElementById('reasons').textContent}));
+const isState = (page, state) => until(page, (wanted) => document.body.dataset.state === wanted, state);
+const isMode = (page, mode) => until(page, (wanted) => document.body.dataset.mode === wanted, mode);
+const hasLanes = (page) => until(page, () => window.laneloom?.elements.some(({type}) => type === 'lane'));
+
+async function showsAPictureAtOnce(browser, url) {
+  const begin = performance.now(), page = await openTab(browser, url);
+  await until(page, () => window.laneloom?.elements.length > 0 && window.laneloom.drawn.frames > 0);
+  console.log(`first picture: ${(performance.now() - begin).toFixed(0)} ms after the tab was opened`);
+  return page;
+}
+
+async function pausesScrubsAndJumpsToLive(page) {
+  await page.focus('#map');
+  await page.keyboard.press('Space');
+  await isMode(page, 'paused');
+  const paused = await page.evaluate(() => window.laneloom.player.summary.index);
+  await until(page, (index) => window.laneloom.feed.last.index > index + 5, paused);
+  assert.equal(await page.evaluate(() => window.laneloom.player.summary.index), paused, 'what is paused stands still');
+  const id = await clickALane(page);
+  assert.ok((await page.$$eval('#inspector .history li', (items) => items.length)) > 0, `lane ${id} has a history`);
+  await page.keyboard.press('ArrowLeft');
+  await until(page, (index) => window.laneloom.player.summary.index === index - 1, paused);
+  const box = await (await page.$('#timeline')).boundingBox();
+  await page.mouse.click(box.x + 0.15 * box.width, box.y + 0.5 * box.height);
+  await until(page, (index) => window.laneloom.player.summary.index < index - 1, paused);
+  await page.click('#live');
+  await isMode(page, 'live');
+  await until(page, () => window.laneloom.player.summary === window.laneloom.feed.last);
+}
+
+/** One tab is suspended as a browser does it; the other loses nothing. */
+async function aSuspendedTabSlowsNobody(browser, page, url) {
+  const other = await openTab(browser, url);
+  await hasLanes(other);
+  const debug = await other.createCDPSession();
+  await debug.send('Page.setWebLifecycleState', {state: 'frozen'});
+  await page.bringToFront();
+  const newest = () => page.evaluate(() => ({number: window.laneloom.player.frame.number, at_ms: performance.now(), lost: window.laneloom.feed.lost}));
+  const begin = await newest();
+  await until(page, (number) => window.laneloom.player.frame.number >= number + 50, begin.number);
+  const end = await newest();
+  assert.equal(end.lost, begin.lost, 'no frame was lost');
+  console.log(`beside a suspended tab: ${(1e3 * (end.number - begin.number) / (end.at_ms - begin.at_ms)).toFixed(2)} frames/s, none lost`);
+  await debug.send('Page.setWebLifecycleState', {state: 'active'});
+  await other.bringToFront();
+  await until(other, (number) => window.laneloom.player.frame.number >= number, end.number);
+  assert.deepEqual(other.complaints.filter((text) => !text.includes('Back-Forward Cache')), []);  // which ended its stream
+  await other.close();
+  await page.bringToFront();
+}
+
+async function saysThatTheServiceIsGone(browser, page, url, service) {
+  await stop(service, 'SIGKILL');
+  await isState(page, 'STALE');
+  await until(page, () => document.body.classList.contains('frozen') && !document.getElementById('veil').hidden);
+  if (picture) await page.screenshot({path: picture.replace('.png', '_stale.png')});
+  const late = await openTab(browser, url);
+  await isState(late, 'STALE');
+  await until(late, () => document.getElementById('reasons').textContent.startsWith('the service is gone'));
+  assert.deepEqual(late.complaints, []);
+  await late.close();
+  await page.bringToFront();
+  const again = await startService();
+  await isState(page, 'OK');
+  await until(page, () => !document.body.classList.contains('frozen'));
+  await until(page, () => [...document.querySelectorAll('#events button')].some(({textContent}) => textContent.includes('another session')));
+  await page.evaluate(() => [...document.querySelectorAll('#events button')].find(({textContent}) => textContent.includes('another session')).click());
+  await isMode(page, 'paused');
+  await until(page, () => window.laneloom.player.summary.events?.some(([, text]) => text.includes('another session')));
+  await page.click('#live');
+  return again;
+}
+
+async function recoversWithTheViewer(browser, viewer, url) {
+  const page = await openTab(browser, url);  // whose console tells of the connection
+  await hasLanes(page);
+  await stop(viewer, 'SIGKILL');
+  await until(page, () => document.getElementById('reasons').textContent.startsWith('no connection'));
+  assert.equal((await banner(page)).state, 'STALE');
+  const again = await startViewer(new URL(url).port);
+  await isState(page, 'OK');
+  await page.reload();
+  await hasLanes(page);
+  await page.close();
+  return again.viewer;
+}
+
+const statusOf = (url, headers) => new Promise((resolve) => http.get(url, {headers}, (answer) => {
+  answer.resume();
+  resolve(answer.statusCode);
+}));
+async function statusOfStream(url, options) {
+  const [, {statusCode}] = await once(new WebSocket(url.replace('http', 'ws') + 'live', options), 'unexpected-response');
+  return statusCode;
+}
+
+async function refusesStrangers(browser, url) {
+  const origin = 'http://evil.example', host = 'evil.example';
+  assert.equal(await statusOf(url, {}), 200);
+  assert.equal(await statusOf(url, {Host: host}), 403);
+  assert.equal(await statusOf(url, {Origin: origin}), 403);
+  assert.equal(await statusOfStream(url, {origin}), 403);
+  assert.equal(await statusOfStream(url, {headers: {Host: host}}), 403);
+  const elsewhere = http.createServer((_, answer) => answer.setHeader('Content-Type', 'text/html').end('<title>elsewhere</title>'));
+  elsewhere.listen(0, '127.0.0.1');
+  await once(elsewhere, 'listening');
+  const page = await browser.newPage();
+  await page.goto(`http://127.0.0.1:${elsewhere.address().port}/`);
+  const got = await page.evaluate(async (target) => {
+    const socket = new WebSocket(target.replace('http', 'ws') + 'live');
+    const stream = await new Promise((resolve) => Object.assign(socket, {onmessage: () => resolve('a frame'), onclose: () => resolve('nothing')}));
+    return [stream, await fetch(target + 'info').then(() => 'an answer', () => 'nothing')];
+  }, url);
+  assert.deepEqual(got, ['nothing', 'nothing'], 'a page of another origin reads nothing');
+  await page.close();
+  elsewhere.close();
+}
+
+const browser = await launch();
+try {
+  let {viewer, url} = await startViewer('0');
+  const early = await openTab(browser, url);
+  await until(early, () => document.getElementById('reasons').textContent === 'no map was heard yet');
+  let service = await startService();
+  await start(laneloom, ['publish', '--scenario', 'town', '--noise', 'inhouse', '--loop', '--wait-for-readers', '2', ...dds]);
+  await isState(early, 'OK');
+  await hasLanes(early);
+  assert.deepEqual(early.complaints, []);
+  await early.close();
+  const page = await showsAPictureAtOnce(browser, url);
+  await hasLanes(page);
+  await until(page, () => window.laneloom.feed.summaries.length > 30);
+  await pausesScrubsAndJumpsToLive(page);
+  if (picture) await page.screenshot({path: picture});
+  await aSuspendedTabSlowsNobody(browser, page, url);
+  service = await saysThatTheServiceIsGone(browser, page, url, service);
+  const {ms, worst_ms, frames} = await page.evaluate(() => window.laneloom.drawn);
+  console.log(`drawing: ${ms.toFixed(2)} ms a frame, at most ${worst_ms.toFixed(2)} ms, ${frames} frames`);
+  await refusesStrangers(browser, url);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+  viewer = await recoversWithTheViewer(browser, viewer, url);
+  assert.deepEqual(await stop(viewer), [0, null]);
+} finally {
+  await browser.close();
+  await stopAll();
+}
