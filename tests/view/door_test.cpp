@@ -32,6 +32,21 @@ TEST(Door, RefusesForeignOrigins) {
     EXPECT_EQ(door.judge(from("localhost:8642", origin)), 403U) << origin;
 }
 
+TEST(Door, LetsProgramsOfAllowedOriginsHaveTheirStreamAlone) {
+  const Door door("127.0.0.1", "", {"https://app.foxglove.dev"});
+  Knock knock = from("localhost:8642", "https://app.foxglove.dev");
+  EXPECT_EQ(door.judge(knock), 403U);
+  knock.is_for_programs = true;
+  EXPECT_EQ(door.judge(knock), 200U);
+  for (const char* origin : {"https://app.foxglove.dev.evil.example", "http://app.foxglove.dev", "null"}) {
+    knock.origin = origin;
+    EXPECT_EQ(door.judge(knock), 403U) << origin;
+  }
+  knock = from("evil.example", "https://app.foxglove.dev");
+  knock.is_for_programs = true;
+  EXPECT_EQ(door.judge(knock), 403U);
+}
+
 TEST(Door, OnlyGets) {
   const Door door("127.0.0.1", "");
   for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "HEAD", "CONNECT", "get", ""}) {

@@ -135,13 +135,45 @@ TEST_F(Server, ASlowViewerLosesFramesAndSlowsNobody) {
   EXPECT_LT(std::count(heard.begin(), heard.end(), '#'), kFrames);
 }
 
+/// A text as a client sends it, with an empty mask; shorter than 65536 bytes.
+std::string client_text(const std::string& text) {
+  const auto byte = [](std::size_t value) { return static_cast<char>(value & 0xFFU); };
+  std::string bytes = "\x81";
+  if (text.size() < 126)
+    bytes += byte(0x80U | text.size());
+  else
+    bytes += {byte(0x80U | 126U), byte(text.size() >> 8U), byte(text.size())};
+  return bytes + std::string(4, '\0') + text;
+}
+
+TEST_F(Server, SpeaksFoxglovesProtocolWhereItIsTold) {
+  const std::string asking = upgrade("Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n");
+  start();
+  Client page = client();
+  page.send(asking);  // which is for the page's stream, as there is no other
+  EXPECT_THAT(page.receive_until("\r\n\r\n"), Not(HasSubstr("Sec-WebSocket-Protocol")));
+  start({.foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}});
+  server_->publish(0, 1, "first transform");
+  Client program = client();
+  program.send(asking);
+  const std::string greeting = program.receive_until("struct Transform {};");
+  EXPECT_THAT(greeting, HasSubstr("Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n"));
+  EXPECT_THAT(greeting, HasSubstr("serverInfo"));
+  program.send(client_text(R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":1}]})"));
+  program.receive_until("first transform");
+  server_->publish("a frame of the page");
+  server_->publish(0, 2, "second transform");
+  EXPECT_THAT(program.receive_until("second transform"), Not(HasSubstr("a frame of the page")));
+  program.send(client_text("no message"));
+  program.receive_all();
+}
+
 TEST_F(Server, EndsViewersThatSendTooMuch) {
   start();
   Client loud = client();
   loud.send(upgrade());
   loud.receive_until("\r\n\r\n");
-  // A text of 2000 bytes, with an empty mask.
-  loud.send(std::string("\x81\xfe\x07\xd0\0\0\0\0", 8) + std::string(2000, 'x'));
+  loud.send(client_text(std::string(20'000, 'x')));
   loud.receive_all();
   Client other = client();
   other.send(get("/b"));

@@ -7,18 +7,13 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
-#include <variant>
 
 #include "commands/commands.hpp"
-#include "commands/inbox.hpp"
+#include "commands/live_view.hpp"
 #include "commands/options.hpp"
 #include "commands/recorded_view.hpp"
 #include "commands/stop_signal.hpp"
-#include "laneloom/dds/reader.hpp"
-#include "support/system_clock.hpp"
 #include "view/door.hpp"
-#include "view/frame_text.hpp"
-#include "view/site.hpp"
 
 namespace laneloom {
 namespace {
@@ -30,107 +25,26 @@ struct Options {
   WebServerConfig server{.port = 8642};
   RecordedInputs recorded;
   RangeConfig range;
-};
-
-/// Whether a writer of maps asserts its liveliness.
-struct Alive {
-  bool alive = false;
-};
-
-/// A message, and when it arrived (system clock).
-struct Arrival {
-  std::variant<DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus, Alive> what;
-  std::int64_t time_ns = 0;
-};
-
-/// Shows what a vehicle's participants say to each other now.
-class LiveView {
- public:
-  explicit LiveView(const Options& options) : options_(options), participant_(options.dds, "laneloom view") {}
-
-  /// Publishes frames until the program is to end.
-  void run(Site& site, WebServer& server) {
-    while (!stop_requested()) {
-      auto arrival = inbox_.take(std::chrono::milliseconds(50));
-      if (!arrival) continue;
-      if (const auto* status = std::get_if<ServiceStatus>(&arrival->what)) site.set_status(*status);
-      if (const auto* alive = std::get_if<Alive>(&arrival->what)) {
-        set_alive(alive->alive);
-      } else {
-        if (!add(std::move(*arrival))) continue;
-        shown_ = builder_.take();
-        shown_->alive = alive_;
-      }
-      if (shown_) show(server);
-    }
-  }
-
- private:
-  bool add(Arrival&& arrival) {
-    return std::visit(
-        [&](auto&& message) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(message)>, Alive>)
-            return false;
-          else
-            return builder_.add(std::forward<decltype(message)>(message), arrival.time_ns);
-        },
-        std::move(arrival.what));
-  }
-
-  /// The last moment is shown once more, as it tells.
-  void set_alive(bool alive) {
-    alive_ = alive;
-    if (!shown_) return;
-    shown_->alive = alive;
-    shown_->map.map.lineage.clear();
-  }
-
-  void show(WebServer& server) {
-    const FramePlace place{number_++, events_.next(*shown_)};
-    server.publish(frame_text(*shown_, place, options_.range));
-  }
-
-  template <class T>
-  dds::ReaderCallbacks<T> into_inbox() {
-    return {.sample = [this](T&& message) { inbox_.put({std::move(message), system_now_ns()}); }};
-  }
-  dds::ReaderCallbacks<PublishedMap> maps_into_inbox() {
-    auto callbacks = into_inbox<PublishedMap>();
-    callbacks.alive = [this](int writers) { inbox_.put({Alive{writers > 0}, system_now_ns()}); };
-    return callbacks;
-  }
-
-  const Options& options_;
-  Inbox<Arrival> inbox_;
-  MomentBuilder builder_;
-  EventFinder events_;
-  std::optional<ViewMoment> shown_;
-  bool alive_ = true;
-  std::uint64_t number_ = 0;
-  // They end before the inbox that they fill.
-  dds::Participant participant_;
-  dds::Reader<DetectionFrame> detections_{participant_, into_inbox<DetectionFrame>()};
-  dds::Reader<VehiclePose> poses_{participant_, into_inbox<VehiclePose>()};
-  dds::Reader<PublishedMap> maps_{participant_, maps_into_inbox()};
-  dds::Reader<RoadMarkings> markings_{participant_, into_inbox<RoadMarkings>()};
-  dds::Reader<ServiceStatus> statuses_{participant_, into_inbox<ServiceStatus>()};
+  bool foxglove = false;
 };
 
 /// For a browser; on every address, this host's own name stands for it.
-void print_url(const WebServerConfig& config, std::uint16_t port) {
-  std::string host = config.address;
+void print_urls(const Options& options, std::uint16_t port) {
+  std::string host = options.server.address;
   if (host == "0.0.0.0" || host == "::") host = "localhost";
   if (host.find(':') != std::string::npos) host = "[" + host + "]";
-  fmt::print("http://{}:{}/{}\n", host, port, config.token.empty() ? "" : "?token=" + config.token);
+  const std::string token = options.server.token.empty() ? "" : "?token=" + options.server.token;
+  fmt::print("http://{}:{}/{}\n", host, port, token);
+  if (options.foxglove) fmt::print("ws://{}:{}/{}\n", host, port, token);
   std::fflush(stdout);
 }
 
 void view_live(const Options& options) {
   Site site(fmt::format("vehicle {}, domain {}", options.dds.vehicle_id, options.dds.domain), "[]", nullptr);
-  LiveView view(options);
+  LiveView view(options.dds, options.range);
   WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
-  print_url(options.server, server.port());
-  view.run(site, server);
+  print_urls(options, server.port());
+  view.run(site, server, options.foxglove);
 }
 
 void view_recording(const Options& options) {
@@ -140,7 +54,7 @@ void view_recording(const Options& options) {
   std::thread loader([&] { load(options.recorded, options.range, store); });
   try {
     const WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
-    print_url(options.server, server.port());
+    print_urls(options, server.port());
     while (store.failure().empty() && sleep_until(std::chrono::steady_clock::now() + kLook)) {
     }
   } catch (...) {
@@ -154,6 +68,7 @@ void view_recording(const Options& options) {
 void view(Options options) {
   catch_stop_signals();
   if (!is_loopback(options.server.address)) options.server.token = random_token();
+  if (options.foxglove) options.server.foxglove_topics = scene_topics();
   options.recorded.empty() ? view_live(options) : view_recording(options);
 }
 
@@ -170,18 +85,30 @@ void add_view(CLI::App& app) {
       ->add_option("--listen", options->server.address,
                    "Address to listen on; other hosts reach it only with the token that is printed")
       ->capture_default_str();
-  CLI::Option* in = command->add_option("--in", options->recorded.recording, "Recording to show (.mcap)");
-  command->add_option("--frames", options->recorded.frames, "Detections to show (.frames.jsonl or .mcap)")
-      ->excludes(in);
+  CLI::Option* foxglove = command->add_flag(
+      "--foxglove", options->foxglove,
+      "Also speak Foxglove's WebSocket protocol, for its 3D panel and Lichtblick's: prints that URL next");
   command
-      ->add_option("--map", options->recorded.maps,
-                   "Maps to show (.jsonl or .mcap); several of one drive are compared")
-      ->excludes(in);
+      ->add_option("--allow-origin", options->server.foxglove_origins,
+                   "Page that may connect so, as https://app.foxglove.dev; once for each")
+      ->needs(foxglove);
+  command->add_option("--map-frame-id", options->dds.map_frame_id, "Live: frame of the poses")
+      ->capture_default_str();
+  CLI::Option* in = command->add_option("--in", options->recorded.recording, "Recording to show (.mcap)");
+  CLI::Option* frames =
+      command->add_option("--frames", options->recorded.frames, "Detections to show (.frames.jsonl or .mcap)")
+          ->excludes(in);
+  CLI::Option* map = command
+                         ->add_option("--map", options->recorded.maps,
+                                      "Maps to show (.jsonl or .mcap); several of one drive are compared")
+                         ->excludes(in);
   command
       ->add_option("--config", options->recorded.configs,
                    "Map the detections of --in (.mcap or .frames.jsonl) anew by this configuration (.yaml); "
                    "several are compared")
       ->needs(in);
+  for (CLI::Option* recorded : {in, frames, map})
+    foxglove->excludes(recorded);  // Foxglove opens recordings itself
   command->add_option("--truth", options->recorded.truth, "Truth of the road to show (.json)");
   add_range(*command, options->range);
   command->callback([options] { view(*options); });

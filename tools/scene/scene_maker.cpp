@@ -55,6 +55,14 @@ std::vector<SceneMessage> SceneMaker::take(const RawMessage& message) {
   return out;
 }
 
+std::vector<SceneMessage> SceneMaker::take(const AnyMessage& message, std::int64_t log_time_ns) {
+  std::vector<SceneMessage> out;
+  if (const auto* map = std::get_if<PublishedMap>(&message)) draw(*map, log_time_ns, out);
+  if (const auto* pose = std::get_if<VehiclePose>(&message)) draw(*pose, log_time_ns, out);
+  if (const auto* frame = std::get_if<DetectionFrame>(&message)) draw(*frame, log_time_ns, out);
+  return out;
+}
+
 template <class T>
 void SceneMaker::take_as(const RawMessage& message, std::vector<SceneMessage>& to) {
   T taken;

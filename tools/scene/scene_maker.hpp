@@ -45,6 +45,8 @@ class SceneMaker {
   /// What the message, in the order of log times, has changed. One that is refused, or of which nothing is
   /// drawn, changes nothing. Detections are drawn when the pose at their stamp is known.
   std::vector<SceneMessage> take(const RawMessage& message);
+  /// Likewise, of a message that was not refused.
+  std::vector<SceneMessage> take(const AnyMessage& message, std::int64_t log_time_ns);
 
  private:
   template <class T>

@@ -53,12 +53,12 @@ Target::Target(std::string_view target) : path(target.substr(0, target.find('?')
 
 std::string_view Target::value(std::string_view key) const { return value_of(query, key, '&'); }
 
-Door::Door(std::string address, std::string token) : address_(std::move(address)), token_(std::move(token)) {}
+Door::Door(std::string address, std::string token, std::vector<std::string> program_origins)
+    : address_(std::move(address)), token_(std::move(token)), program_origins_(std::move(program_origins)) {}
 
 unsigned Door::judge(const Knock& knock) const {
   if (!is_own_host(knock.host)) return 403;
-  // What is no browser sends no Origin, and what a browser asks of its own page needs none.
-  if (!knock.origin.empty() && knock.origin != "http://" + std::string(knock.host)) return 403;
+  if (!is_own_origin(knock)) return 403;
   if (knock.method != "GET") return 405;
   return token_.empty() || brings_token(knock) ? 200 : 401;
 }
@@ -69,6 +69,13 @@ bool Door::is_own_host(std::string_view host) const {
   if (name == address_ || name == "localhost" || is_loopback(name)) return true;
   const bool on_every_address = address_ == "0.0.0.0" || address_ == "::";
   return on_every_address && is_ip_address(name);
+}
+
+/// What is no browser sends no Origin, and what a browser asks of its own page needs none.
+bool Door::is_own_origin(const Knock& knock) const {
+  if (knock.origin.empty() || knock.origin == "http://" + std::string(knock.host)) return true;
+  return knock.is_for_programs &&
+         std::find(program_origins_.begin(), program_origins_.end(), knock.origin) != program_origins_.end();
 }
 
 bool Door::brings_token(const Knock& knock) const {

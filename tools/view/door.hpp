@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// Who may ask the viewer's web server for what.
 namespace laneloom {
@@ -9,6 +10,7 @@ namespace laneloom {
 /// What of a request decides whether the request is answered. What a request does not have is empty.
 struct Knock {
   std::string_view method, target, host, origin, cookie, authorization;
+  bool is_for_programs = false;  ///< asks for the stream that other programs' pages may be allowed to read
 };
 
 /// Decides by the rules of one server. Immutable, so thread-safe.
@@ -18,8 +20,9 @@ struct Knock {
 class Door {
  public:
   /// `address` is what the server listens on. Where `token` is not empty, every request has to bring the
-  /// token: in the target (`?token=`), in the cookie `cookie_name()`, or as `Authorization: Bearer`.
-  Door(std::string address, std::string token);
+  /// token: in the target (`?token=`), in the cookie `cookie_name()`, or as `Authorization: Bearer`. Pages of
+  /// `program_origins` get the stream for programs, and nothing else.
+  Door(std::string address, std::string token, std::vector<std::string> program_origins = {});
 
   /// The status of HTTP that the request deserves: 200, 401 (no token), 403 (foreign Host or Origin), or 405
   /// (not GET).
@@ -30,9 +33,11 @@ class Door {
 
  private:
   bool is_own_host(std::string_view host) const;
+  bool is_own_origin(const Knock& knock) const;
   bool brings_token(const Knock& knock) const;
 
   std::string address_, token_;
+  std::vector<std::string> program_origins_;
 };
 
 /// A target is its path and the values after it: "/frame?number=7".

@@ -1,136 +1,28 @@
 // The one source that knows Boost.Beast, which takes half a minute to compile.
 #include "view/web_server.hpp"
 
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
-#include <chrono>
-#include <optional>
-#include <set>
 #include <stdexcept>
 #include <thread>
-#include <utility>
 
-#include "view/door.hpp"
+#include "view/web_viewer.hpp"
 
 namespace laneloom {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using boost::system::error_code;
-using Tcp = asio::ip::tcp;
-using Request = http::request<http::empty_body>;
-using Frame = std::shared_ptr<const std::string>;
-
 constexpr std::uint32_t kMaxHeaderBytes = 8192;
-constexpr std::size_t kMaxMessageBytes = 1024;  // of what a viewer sends
-constexpr int kSendBufferBytes = 1 << 17;       // of the kernel: a tab that was suspended sees few old frames
-constexpr std::chrono::seconds kSilence{60};    // after which a viewer that answers no ping is gone
-
-class Viewer;
-
-/// What all connections share. Only the server's thread has to do with it.
-struct Hub {
-  WebServerConfig config;
-  Door door;
-  WebServer::Handler handler;
-  std::set<Viewer*> viewers{};
-  std::size_t connections = 0;
-  Frame newest{};
-
-  std::chrono::milliseconds patience() const {
-    return std::chrono::milliseconds(static_cast<std::int64_t>(config.patience_s * 1e3));
-  }
-};
+constexpr int kSendBufferBytes = 1 << 17;  // of the kernel: a tab that was suspended sees few old frames
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
 Knock knock_of(const Request& request) {
-  return {view_of(request.method_string()),      view_of(request.target()),
-          view_of(request[http::field::host]),   view_of(request[http::field::origin]),
-          view_of(request[http::field::cookie]), view_of(request[http::field::authorization])};
+  return {.method = view_of(request.method_string()),
+          .target = view_of(request.target()),
+          .host = view_of(request[http::field::host]),
+          .origin = view_of(request[http::field::origin]),
+          .cookie = view_of(request[http::field::cookie]),
+          .authorization = view_of(request[http::field::authorization])};
 }
-
-/// Counts a connection for as long as it lives.
-class Place {
- public:
-  explicit Place(Hub& hub) : hub_(&hub) { ++hub_->connections; }
-  Place(Place&& other) noexcept : hub_(std::exchange(other.hub_, nullptr)) {}
-  Place& operator=(Place&&) = delete;
-  ~Place() {
-    if (hub_ != nullptr) --hub_->connections;
-  }
-
- private:
-  Hub* hub_;
-};
-
-/// One tab that is sent frames.
-class Viewer : public std::enable_shared_from_this<Viewer> {
- public:
-  Viewer(beast::tcp_stream&& stream, Hub& hub, Place&& place)
-      : socket_(std::move(stream)), hub_(hub), place_(std::move(place)) {
-    hub_.viewers.insert(this);
-  }
-  Viewer(const Viewer&) = delete;
-  Viewer& operator=(const Viewer&) = delete;
-  ~Viewer() { hub_.viewers.erase(this); }
-
-  void accept(const Request& request) {
-    beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has times of its own
-    socket_.set_option(
-        {.handshake_timeout = hub_.patience(), .idle_timeout = kSilence, .keep_alive_pings = true});
-    socket_.read_message_max(kMaxMessageBytes);
-    socket_.text(true);
-    socket_.async_accept(request, [self = shared_from_this()](error_code error) {
-      if (error) return;
-      self->listen();
-      self->accepted_ = true;
-      if (self->hub_.newest) self->offer(self->hub_.newest);
-    });
-  }
-
-  void offer(const Frame& frame) {
-    waiting_ = frame;
-    if (accepted_ && !sending_) send();
-  }
-
- private:
-  void send() {
-    sending_ = std::exchange(waiting_, nullptr);
-    socket_.async_write(asio::buffer(*sending_), [self = shared_from_this()](error_code error, std::size_t) {
-      self->sending_ = nullptr;
-      if (!error && self->waiting_) self->send();
-    });
-  }
-
-  /// For pongs and the end; what else comes is dropped.
-  void listen() {
-    socket_.async_read(inbox_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (error) return self->leave();
-      self->inbox_.clear();
-      self->listen();
-    });
-  }
-
-  /// Ends a write that may wait for a viewer who takes nothing.
-  void leave() {
-    error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
-  }
-
-  websocket::stream<beast::tcp_stream> socket_;
-  Hub& hub_;
-  Place place_;
-  beast::flat_buffer inbox_{kMaxMessageBytes};
-  bool accepted_ = false;
-  Frame sending_, waiting_;
-};
 
 /// One connection over which requests come, one after another.
 class Connection : public std::enable_shared_from_this<Connection> {
@@ -153,17 +45,28 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (error)
       return refuse(error == http::error::header_limit ? 431 : error == http::error::body_limit ? 413 : 400);
     const Request& request = parser_->get();
-    const unsigned status = hub_.door.judge(knock_of(request));
+    const std::string_view protocol = foxglove_protocol(request);
+    Knock knock = knock_of(request);
+    knock.is_for_programs = !protocol.empty();
+    const unsigned status = hub_.door.judge(knock);
     if (status != 200) return refuse(status);
-    if (Target(view_of(request.target())).path == "/live") return upgrade();
+    if (!protocol.empty()) return upgrade(std::make_unique<FoxgloveStream>(*hub_.foxglove), protocol);
+    if (Target(knock.target).path == "/live") return upgrade(std::make_unique<PageStream>(kPageChannel), {});
     answer(hub_.handler(view_of(request.target())), request.keep_alive());
   }
 
-  void upgrade() {
+  /// Empty: the request is for the page, or for nothing that there is.
+  std::string_view foxglove_protocol(const Request& request) const {
+    if (!hub_.foxglove || !websocket::is_upgrade(request)) return {};
+    return foxglove_subprotocol(view_of(request[http::field::sec_websocket_protocol]));
+  }
+
+  void upgrade(std::unique_ptr<Stream> content, std::string_view protocol) {
     if (!websocket::is_upgrade(parser_->get())) return refuse(426);
     if (hub_.viewers.size() >= hub_.config.max_viewers) return refuse(503);
-    const auto viewer = std::make_shared<Viewer>(std::move(stream_), hub_, std::move(place_));
-    viewer->accept(parser_->get());
+    const auto viewer =
+        std::make_shared<Viewer>(std::move(stream_), hub_, std::move(place_), std::move(content));
+    viewer->accept(parser_->get(), protocol);
   }
 
   void refuse(unsigned status) {
@@ -219,8 +122,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 class WebServer::Impl {
  public:
-  Impl(const WebServerConfig& config, Handler handler)
-      : hub_{.config = config, .door = Door(config.address, config.token), .handler = std::move(handler)} {
+  Impl(const WebServerConfig& config, Handler handler) : hub_(config, std::move(handler)) {
     open();
     accept();
     thread_ = std::thread([this] { context_.run(); });
@@ -234,11 +136,8 @@ class WebServer::Impl {
 
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
-  void publish(Frame frame) {
-    asio::post(context_, [this, frame = std::move(frame)] {
-      hub_.newest = frame;
-      for (Viewer* viewer : hub_.viewers) viewer->offer(frame);
-    });
+  void publish(Publication publication) {
+    asio::post(context_, [this, publication = std::move(publication)] { hub_.publish(publication); });
   }
 
  private:
@@ -288,7 +187,13 @@ WebServer::~WebServer() = default;
 std::uint16_t WebServer::port() const { return impl_->port(); }
 
 void WebServer::publish(std::string frame) {
-  impl_->publish(std::make_shared<const std::string>(std::move(frame)));
+  impl_->publish({.channel = kPageChannel, .body = std::make_shared<const std::string>(std::move(frame))});
+}
+
+void WebServer::publish(std::size_t topic, std::int64_t log_time_ns, std::string message) {
+  impl_->publish({.channel = kFirstTopicChannel + topic,
+                  .log_time_ns = log_time_ns,
+                  .body = std::make_shared<const std::string>(std::move(message))});
 }
 
 }  // namespace laneloom

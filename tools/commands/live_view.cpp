@@ -1,0 +1,75 @@
+#include "commands/live_view.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "commands/stop_signal.hpp"
+#include "support/system_clock.hpp"
+#include "view/frame_text.hpp"
+
+namespace laneloom {
+
+LiveView::LiveView(const DdsConfig& dds, const RangeConfig& range)
+    : range_(range),
+      scenes_(dds.map_frame_id),
+      participant_(dds, "laneloom view"),
+      detections_(participant_, into_inbox<DetectionFrame>()),
+      poses_(participant_, into_inbox<VehiclePose>()),
+      maps_(participant_, maps_into_inbox()),
+      markings_(participant_, into_inbox<RoadMarkings>()),
+      statuses_(participant_, into_inbox<ServiceStatus>()) {}
+
+void LiveView::run(Site& site, WebServer& server, bool with_scenes) {
+  while (!stop_requested()) {
+    auto arrival = inbox_.take(std::chrono::milliseconds(50));
+    if (!arrival) continue;
+    if (const auto* alive = std::get_if<Alive>(&arrival->what)) {
+      set_alive(alive->alive);
+    } else {
+      auto& message = std::get<AnyMessage>(arrival->what);
+      if (const auto* status = std::get_if<ServiceStatus>(&message)) site.set_status(*status);
+      if (with_scenes) publish_scenes(message, arrival->time_ns, server);
+      if (!add(std::move(message), arrival->time_ns)) continue;
+      shown_ = builder_.take();
+      shown_->alive = alive_;
+    }
+    if (shown_) show(server);
+  }
+}
+
+void LiveView::publish_scenes(const AnyMessage& message, std::int64_t time_ns, WebServer& server) {
+  for (const SceneMessage& scene : scenes_.take(message, time_ns))
+    server.publish(static_cast<std::size_t>(scene.topic), time_ns,
+                   std::string(scene.bytes.begin(), scene.bytes.end()));
+}
+
+bool LiveView::add(AnyMessage&& message, std::int64_t time_ns) {
+  const auto add = [&](auto&& any) { return builder_.add(std::forward<decltype(any)>(any), time_ns); };
+  return std::visit(add, std::move(message));
+}
+
+/// The last moment is shown once more, as it tells.
+void LiveView::set_alive(bool alive) {
+  alive_ = alive;
+  if (!shown_) return;
+  shown_->alive = alive;
+  shown_->map.map.lineage.clear();
+}
+
+void LiveView::show(WebServer& server) {
+  const FramePlace place{number_++, events_.next(*shown_)};
+  server.publish(frame_text(*shown_, place, range_));
+}
+
+template <class T>
+dds::ReaderCallbacks<T> LiveView::into_inbox() {
+  return {.sample = [this](T&& message) { inbox_.put({AnyMessage(std::move(message)), system_now_ns()}); }};
+}
+
+dds::ReaderCallbacks<PublishedMap> LiveView::maps_into_inbox() {
+  auto callbacks = into_inbox<PublishedMap>();
+  callbacks.alive = [this](int writers) { inbox_.put({Alive{writers > 0}, system_now_ns()}); };
+  return callbacks;
+}
+
+}  // namespace laneloom

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "commands/inbox.hpp"
+#include "laneloom/config.hpp"
+#include "laneloom/dds/reader.hpp"
+#include "laneloom/recording.hpp"
+#include "scene/scene_maker.hpp"
+#include "view/events.hpp"
+#include "view/moment.hpp"
+#include "view/site.hpp"
+#include "view/web_server.hpp"
+
+namespace laneloom {
+
+/// Shows what a vehicle's participants say to each other now. Not thread-safe.
+class LiveView {
+ public:
+  /// `range` is the map's range box, until the service tells its own. Throws std::runtime_error where DDS
+  /// refuses.
+  LiveView(const DdsConfig& dds, const RangeConfig& range);
+
+  /// Publishes frames, and scenes where the server has scene_topics(), until the program is to end.
+  void run(Site& site, WebServer& server, bool with_scenes);
+
+ private:
+  /// Whether a writer of maps asserts its liveliness.
+  struct Alive {
+    bool alive = false;
+  };
+  /// What arrived, and when (system clock).
+  struct Arrival {
+    std::variant<AnyMessage, Alive> what;
+    std::int64_t time_ns = 0;
+  };
+
+  void publish_scenes(const AnyMessage& message, std::int64_t time_ns, WebServer& server);
+  bool add(AnyMessage&& message, std::int64_t time_ns);
+  void set_alive(bool alive);
+  void show(WebServer& server);
+  template <class T>
+  dds::ReaderCallbacks<T> into_inbox();
+  dds::ReaderCallbacks<PublishedMap> maps_into_inbox();
+
+  RangeConfig range_;
+  Inbox<Arrival> inbox_;
+  SceneMaker scenes_;
+  MomentBuilder builder_;
+  EventFinder events_;
+  std::optional<ViewMoment> shown_;
+  bool alive_ = true;
+  std::uint64_t number_ = 0;
+  // They end before the inbox that they fill.
+  dds::Participant participant_;
+  dds::Reader<DetectionFrame> detections_;
+  dds::Reader<VehiclePose> poses_;
+  dds::Reader<PublishedMap> maps_;
+  dds::Reader<RoadMarkings> markings_;
+  dds::Reader<ServiceStatus> statuses_;
+};
+
+}  // namespace laneloom
