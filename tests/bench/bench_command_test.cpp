@@ -104,7 +104,7 @@ TEST_F(BenchCommand, TimesTheMapsOfARealService) {
   const std::string domain = std::to_string(own_domain());
   for (const char* transport : {"udp", "udp+shm"}) {
     ASSERT_EQ(run({"latency", "--scenario", "straight", "--duration", "3", "--domain", domain, "--transport",
-                   transport, "--load", "--json"}),
+                   transport, "--load", "--viewers", "2", "--json"}),
               0)
         << output();
     const json result = json::parse(output());
@@ -119,6 +119,9 @@ TEST_F(BenchCommand, TimesTheMapsOfARealService) {
       expect_times(result.at("ms").at(span), span);
     EXPECT_GT(result.at("service").at("cpu_percent"), 0.0);
     EXPECT_GT(result.at("service").at("peak_rss_mb"), 1.0);
+    EXPECT_GT(result.at("viewer").at("cpu_percent"), 0.0);
+    EXPECT_GT(result.at("viewer").at("peak_rss_mb"), 1.0);
+    EXPECT_GT(result.at("viewer").at("frames_per_s"), 0.0);
   }
 }
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -15,6 +17,7 @@
 
 #include "bench/child_process.hpp"
 #include "bench/process_usage.hpp"
+#include "bench/view_readers.hpp"
 #include "io/work_folder.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "support/publication_log.hpp"
@@ -153,6 +156,55 @@ void wait_for_maps(const MapListener& listener, Party& service, Party& publisher
   std::this_thread::sleep_for(kSettling);
 }
 
+/// `laneloom view` with its readers.
+class WatchedViewer {
+ public:
+  WatchedViewer(const LatencySpec& spec, const std::string& log)
+      : process_(
+            {spec.publisher.string(), "view", "--port", "0", "--domain", std::to_string(spec.dds.domain),
+             "--vehicle-id", spec.dds.vehicle_id, "--security", dds_of(spec, "observer").security_directory},
+            log),
+        readers_(port_in(log), spec.viewers),
+        viewers_(static_cast<double>(spec.viewers)) {}
+
+  void begin() {
+    cpu_before_s_ = cpu_s(process_.id());
+    frames_before_ = readers_.frames();
+    begin_ = SteadyClock::now();
+  }
+  ViewerCost end() {
+    process_.check();
+    const std::chrono::duration<double> elapsed = SteadyClock::now() - begin_;
+    const auto frames = static_cast<double>(readers_.frames() - frames_before_);
+    return {.cpu_percent = 100.0 * (cpu_s(process_.id()) - cpu_before_s_) / elapsed.count(),
+            .peak_rss_mb = peak_rss_mb(process_.id()),
+            .frames_per_s = frames / viewers_ / elapsed.count()};
+  }
+
+ private:
+  /// Of the URL that the viewer prints.
+  std::uint16_t port_in(const std::string& log) {
+    const auto deadline = SteadyClock::now() + kPatience;
+    for (;;) {
+      unsigned port = 0;
+      std::string line;
+      if (std::getline(std::ifstream(log) >> std::ws, line) &&
+          std::sscanf(line.c_str(), "http://127.0.0.1:%u/", &port) == 1)
+        return static_cast<std::uint16_t>(port);
+      process_.check();
+      if (SteadyClock::now() > deadline) throw std::runtime_error("laneloom view printed no URL");
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
+  Party process_;
+  ViewReaders readers_;
+  double viewers_;
+  double cpu_before_s_ = 0.0;
+  std::uint64_t frames_before_ = 0;
+  SteadyClock::time_point begin_;
+};
+
 /// Those that began from `from_ns` to `to_ns`.
 std::vector<LoggedTick> ticks_between(std::vector<LoggedTick> ticks, std::int64_t from_ns,
                                       std::int64_t to_ns) {
@@ -202,11 +254,14 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   MapListener listener(dds_of(spec, "pnc"));
   Party service({spec.service.string(), "--config", config}, log);
   Party publisher(publish_command(spec, times), folder.file("publish.log"));
+  std::optional<WatchedViewer> viewer;
+  if (spec.viewers > 0) viewer.emplace(spec, folder.file("view.log"));
   wait_for_maps(listener, service, publisher);
 
   const pid_t id = service.id();
   const double cpu_before_s = cpu_s(id);
   const std::int64_t from_ns = system_now_ns();
+  if (viewer) viewer->begin();
   {
     const BusyThreads load(spec.busy_threads);
     std::this_thread::sleep_for(std::chrono::duration<double>(spec.duration_s));
@@ -214,6 +269,7 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   service.check();
   publisher.check();
   const std::int64_t to_ns = system_now_ns();
+  const auto viewer_cost = viewer ? std::optional(viewer->end()) : std::nullopt;
   const double cpu_used_s = cpu_s(id) - cpu_before_s;
   const double peak_mb = peak_rss_mb(id);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the last map is on its way
@@ -224,6 +280,7 @@ LatencyResult measure_latency(const LatencySpec& spec) {
                                    read_publication_log(times).times_ns);
   result.service_cpu_percent = 100.0 * cpu_used_s / (static_cast<double>(to_ns - from_ns) * 1e-9);
   result.service_peak_rss_mb = peak_mb;
+  result.viewer = viewer_cost;
   return result;
 }
 

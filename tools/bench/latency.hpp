@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,14 @@ struct LatencySpec {
   double speed_mps = 10.0;
   double duration_s = 30.0;   ///< that is measured
   unsigned busy_threads = 0;  ///< of this process, that do nothing but keep a core busy
+  std::size_t viewers = 0;    ///< that read from a `laneloom view`, which runs beside; 0: it does not run
+};
+
+/// What `laneloom view` took while it was read.
+struct ViewerCost {
+  double cpu_percent = 0.0;   ///< of one core
+  double peak_rss_mb = 0.0;   ///< MiB
+  double frames_per_s = 0.0;  ///< that each of its readers got, in the mean
 };
 
 /// A map as it came.
@@ -44,6 +53,7 @@ struct LatencyResult {
   std::uint64_t frames = 0;             ///< whose first map came
   double service_cpu_percent = 0.0;     ///< of one core
   double service_peak_rss_mb = 0.0;     ///< MiB
+  std::optional<ViewerCost> viewer;     ///< where there were readers of it
 };
 
 /// Puts together what the three processes wrote down. `published` has the detections' times by sequence; CPU

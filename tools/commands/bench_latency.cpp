@@ -19,6 +19,7 @@ struct Options {
   BenchDrive drive;
   DdsConfig dds;
   std::filesystem::path identities;
+  std::size_t viewers = 0;
   bool load = false;
   bool json = false;
 };
@@ -33,27 +34,35 @@ LatencySpec latency_spec(const Options& options) {
                    .noise = options.drive.noise,
                    .speed_mps = options.drive.speed_mps,
                    .duration_s = options.drive.duration_s,
-                   .busy_threads = options.load ? std::thread::hardware_concurrency() : 0};
+                   .busy_threads = options.load ? std::thread::hardware_concurrency() : 0,
+                   .viewers = options.viewers};
   spec.dds.vehicle_id = fmt::format("bench_{}", getpid());  // apart from every other vehicle
   return spec;
 }
 
+nlohmann::json to_json(const ViewerCost& viewer) {
+  return {{"cpu_percent", viewer.cpu_percent},
+          {"peak_rss_mb", viewer.peak_rss_mb},
+          {"frames_per_s", viewer.frames_per_s}};
+}
+
 nlohmann::json to_json(const LatencySpec& spec, const LatencyResult& result) {
-  return {{"duration_s", spec.duration_s},
-          {"transport", spec.dds.transport},
-          {"secured", !spec.identities.empty()},
-          {"busy_threads", spec.busy_threads},
-          {"ticks", result.ticks},
-          {"missed_deadlines", result.missed_deadlines},
-          {"maps_lost", result.maps_lost},
-          {"frames", result.frames},
-          {"ms",
-           {{"tick_delay", to_json(result.tick_delay)},
-            {"tick_to_callback", to_json(result.tick_to_callback)},
-            {"publication_to_callback", to_json(result.publication_to_callback)},
-            {"detections_to_callback", to_json(result.detections_to_callback)}}},
-          {"service",
-           {{"cpu_percent", result.service_cpu_percent}, {"peak_rss_mb", result.service_peak_rss_mb}}}};
+  return {
+      {"duration_s", spec.duration_s},
+      {"transport", spec.dds.transport},
+      {"secured", !spec.identities.empty()},
+      {"busy_threads", spec.busy_threads},
+      {"ticks", result.ticks},
+      {"missed_deadlines", result.missed_deadlines},
+      {"maps_lost", result.maps_lost},
+      {"frames", result.frames},
+      {"ms",
+       {{"tick_delay", to_json(result.tick_delay)},
+        {"tick_to_callback", to_json(result.tick_to_callback)},
+        {"publication_to_callback", to_json(result.publication_to_callback)},
+        {"detections_to_callback", to_json(result.detections_to_callback)}}},
+      {"service", {{"cpu_percent", result.service_cpu_percent}, {"peak_rss_mb", result.service_peak_rss_mb}}},
+      {"viewer", result.viewer ? to_json(*result.viewer) : nlohmann::json()}};
 }
 
 void print(const LatencySpec& spec, const LatencyResult& result) {
@@ -67,6 +76,10 @@ void print(const LatencySpec& spec, const LatencyResult& result) {
              result.frames);
   fmt::print("the service: {:.1f} % of a core, peak memory {:.0f} MB\n", result.service_cpu_percent,
              result.service_peak_rss_mb);
+  if (result.viewer)
+    fmt::print(
+        "laneloom view with {} viewers: {:.1f} % of a core, peak memory {:.0f} MB, {:.2f} frames/s each\n",
+        spec.viewers, result.viewer->cpu_percent, result.viewer->peak_rss_mb, result.viewer->frames_per_s);
 }
 
 void latency(const Options& options) {
@@ -91,6 +104,9 @@ void add_bench_latency(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--identities", options->identities,
                       "With DDS-Security: folder of tools/make-certificates");
+  command->add_option("--viewers", options->viewers, "Clients that read from a `laneloom view` beside it")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
   command->add_flag("--load", options->load, "Keep all cores busy meanwhile");
   command->add_flag("--json", options->json, "One JSON object");
   command->callback([options] { latency(*options); });
