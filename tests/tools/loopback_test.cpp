@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "io/json_lines.hpp"
 #include "own_domain.hpp"
 #include "recording/recording.hpp"
 #include "tools/commands.hpp"
@@ -49,6 +50,20 @@ class Loopback : public Commands {
 };
 
 TEST_F(Loopback, PncWithoutServiceSaysSo) { EXPECT_EQ(run(command({"pnc", "--duration", "0.5"})), 3); }
+
+TEST_F(Loopback, ADriveBeginsWhereItIsTold) {
+  ASSERT_EQ(
+      run(command({"publish", "--scenario", "straight", "--duration", "0.3", "--frames", file("whole")})), 0);
+  ASSERT_EQ(run(command({"publish", "--scenario", "straight", "--from", "5", "--duration", "0.3", "--frames",
+                         file("later")})),
+            0);
+  JsonLinesReader whole(file("whole")), later(file("later"));
+  const auto first = whole.next_frame(), moved = later.next_frame();
+  ASSERT_TRUE(first && moved);
+  EXPECT_NEAR((moved->pose.position - first->pose.position).norm(), 5.0 * 10.0, 0.1);
+  EXPECT_EQ(run(command({"publish", "--scenario", "straight", "--loop", "--from", "1000"})), 1);
+  EXPECT_THAT(output(), testing::HasSubstr("begin earlier"));
+}
 
 TEST_F(Loopback, LanesReachThePlanner) {
   Process service(command({LANELOOM_SERVICE}), file("service.log"));

@@ -105,6 +105,7 @@ TEST_F(Commands, NumbersThatAreNoneOrFarTooLargeAreRefused) {
     EXPECT_FALSE(std::filesystem::exists(frames));
     refused({"publish", "--scenario", "hill", "--loop", "--duration", number});
     refused({"publish", "--scenario", "hill", "--speed-up", number});
+    refused({"publish", "--scenario", "hill", "--from", number});
     refused({"record", "--duration", "0.1", "--out", file("x.mcap"), "--max-size", number});
     refused({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"),
              "--min-confidence", number});

@@ -7,7 +7,7 @@
 #include "commands/inbox.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/dds/reader.hpp"
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "scene/scene_maker.hpp"
 #include "view/events.hpp"
 #include "view/moment.hpp"

@@ -34,6 +34,7 @@ struct Options {
   RoadSource source;
   DdsConfig dds;
   double speed_up = 1.0;
+  double from_s = 0.0;
   double duration_s = 0.0;
   bool loop = false;
   int readers = 0;
@@ -49,6 +50,7 @@ class Publisher {
         detections_(participant_),
         poses_(participant_),
         road_(road),
+        from_s_(options.from_s),
         perception_(options.source.perception(road)),
         delays_(options.source.seed),
         session_id_(new_session_id()),
@@ -96,7 +98,7 @@ class Publisher {
   }
 
   VehiclePose pose_at(std::int64_t step) const {
-    const double t_s = static_cast<double>(step) * static_cast<double>(kPosePeriod_ns) * 1e-9;
+    const double t_s = from_s_ + static_cast<double>(step) * static_cast<double>(kPosePeriod_ns) * 1e-9;
     VehiclePose pose = road_.drive.pose_at(std::fmod(t_s, road_.drive.duration_s()));
     pose.stamp_ns = start_ns_ + step * kPosePeriod_ns;
     pose.sequence = static_cast<std::uint64_t>(step);
@@ -122,6 +124,7 @@ class Publisher {
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
   const Road& road_;
+  double from_s_;
   Perception perception_;
   Random delays_;
   std::uint64_t session_id_;
@@ -137,15 +140,17 @@ std::int64_t step_count(const Options& options, const Road& road) {
   constexpr double kPosesPerSecond = 1e9 / static_cast<double>(kPosePeriod_ns);
   if (options.duration_s > 0.0) return std::llround(options.duration_s * kPosesPerSecond);
   if (options.loop) return std::numeric_limits<std::int64_t>::max();
-  return std::llround(std::floor(road.drive.duration_s() * kPosesPerSecond));
+  return std::llround(std::floor((road.drive.duration_s() - options.from_s) * kPosesPerSecond));
 }
 
 void publish(const Options& options) {
   catch_stop_signals();
   const Road road = options.source.load();
-  if (!options.loop && options.duration_s > road.drive.duration_s())
-    throw std::runtime_error(
-        fmt::format("the drive lasts {:.1f} s; drive on with --loop", road.drive.duration_s()));
+  const double drive_s = road.drive.duration_s();
+  if (options.from_s >= drive_s)
+    throw std::runtime_error(fmt::format("the drive lasts {:.1f} s; begin earlier", drive_s));
+  if (!options.loop && options.from_s + options.duration_s > drive_s)
+    throw std::runtime_error(fmt::format("the drive lasts {:.1f} s; drive on with --loop", drive_s));
   if (!options.truth.empty()) save_truth(options.truth, road);
   Publisher publisher(options, road);
   while (publisher.readers() < options.readers)
@@ -181,6 +186,9 @@ void add_publish(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--loop", options->loop,
                     "Drive on for ever; where the drive does not end as it began, the pose jumps");
+  command->add_option("--from", options->from_s, "Where to begin, in seconds of the drive")
+      ->check(within(0.0, 1e9))
+      ->capture_default_str();
   command->add_option("--duration", options->duration_s, "Simulated seconds; default: the drive once")
       ->check(positive_seconds());
   command

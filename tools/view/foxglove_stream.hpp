@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 #include "view/stream.hpp"
 
 namespace laneloom {

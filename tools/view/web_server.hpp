@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "laneloom/recording.hpp"
+#include "recording/recording.hpp"
 
 namespace laneloom {
 
