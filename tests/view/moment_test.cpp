@@ -1,0 +1,115 @@
+#include "view/moment.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "drawing/small_map.hpp"
+#include "view/events.hpp"
+#include "view/frame_text.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::IsEmpty;
+
+PublishedMap published(std::uint64_t sequence, std::int64_t stamp_ns) {
+  PublishedMap map;
+  map.sequence = sequence;
+  map.session_id = 1;
+  map.state = MapState::ok;
+  map.map = small_map();
+  map.map.markings.clear();
+  map.map.stamp_ns = stamp_ns;
+  return map;
+}
+RoadMarkings markings_of(std::uint64_t sequence, std::uint64_t session_id = 1) {
+  return {.sequence = sequence, .session_id = session_id, .markings = small_map().boundaries};
+}
+
+TEST(MomentBuilder, AMapIsCompleteWithItsMarkings) {
+  MomentBuilder builder;
+  EXPECT_FALSE(builder.add(DetectionFrame{.stamp_ns = 10}, 1));
+  EXPECT_FALSE(builder.add(DetectionFrame{.stamp_ns = 20}, 2));
+  EXPECT_FALSE(builder.add(published(7, 10), 3));
+  EXPECT_FALSE(builder.add(markings_of(6), 4));
+  EXPECT_FALSE(builder.add(markings_of(7, 2), 4));
+  ASSERT_TRUE(builder.add(markings_of(7), 5));
+  const ViewMoment moment = builder.take();
+  EXPECT_EQ(moment.seen_ns, 3);
+  EXPECT_EQ(moment.map.map.markings.size(), 2U);
+  ASSERT_TRUE(moment.detections);
+  EXPECT_EQ(moment.detections->stamp_ns, 10);
+  EXPECT_FALSE(builder.finish());
+}
+
+TEST(MomentBuilder, AMapWhoseMarkingsAreLostComesWithTheNext) {
+  MomentBuilder builder;
+  EXPECT_FALSE(builder.add(published(7, 10), 3));
+  ASSERT_TRUE(builder.add(published(8, 20), 4));
+  EXPECT_EQ(builder.take().map.sequence, 7U);
+  EXPECT_EQ(builder.finish()->map.sequence, 8U);
+}
+
+/// The texts of the events between two moments.
+std::vector<std::string> events_between(const ViewMoment& before, const ViewMoment& after) {
+  EventFinder finder;
+  EXPECT_THAT(finder.next(before), IsEmpty());
+  std::vector<std::string> texts;
+  for (const ViewEvent& event : finder.next(after)) texts.push_back(event.kind + ": " + event.text);
+  return texts;
+}
+
+TEST(EventFinder, FindsWhatChanged) {
+  const ViewMoment before{.map = published(1, 10), .status = ServiceStatus{.sequence = 1}};
+  EXPECT_THAT(events_between(before, before), IsEmpty());
+  ViewMoment gone = before;
+  gone.alive = false;
+  EXPECT_THAT(events_between(before, gone), Contains("service: the service is gone or hangs"));
+  ViewMoment other = before;
+  other.map.session_id = 2;
+  other.map.map_id = 3;
+  EXPECT_THAT(events_between(before, other), Contains("service: another session of the service: 2"));
+  EXPECT_THAT(events_between(before, other), Contains("reset: a new map: earlier ids are void"));
+  ViewMoment refusing = before;
+  refusing.status->sequence = 2;
+  refusing.status->counters = {{"detections_refused_late", 4}, {"detections_fused", 9}};
+  EXPECT_THAT(events_between(before, refusing), testing::ElementsAre("counter: detections_refused_late +4"));
+  ViewMoment degraded = before;
+  degraded.map.state = MapState::degraded;
+  EXPECT_EQ(events_between(before, degraded).size(), 1U);
+}
+
+TEST(FrameText, HasSummaryElementsAndWhatIsCompared) {
+  ViewMoment moment{.map = published(5, 10'000'000'000),
+                    .seen_ns = 1'500'000'000,
+                    .status = ServiceStatus{.counters = {{"detections_refused_late", 4}}}};
+  moment.map.published_ns = moment.seen_ns - 2'000'000;
+  moment.others = {small_map(), {}};
+  const FramePlace place{3, {{"reset", "a new map"}}};
+  const json frame = json::parse(frame_text(moment, place, RangeConfig{}));
+  EXPECT_EQ(frame["number"], 3);
+  EXPECT_EQ(frame["time_s"], 1.5);
+  EXPECT_EQ(frame["state"], "OK");
+  EXPECT_EQ(frame["latency_ms"], 2.0);
+  EXPECT_EQ(frame["refused"], 4);
+  EXPECT_EQ(frame["age_s"], json());  // not known
+  EXPECT_EQ(frame["events"], json::parse(R"([["reset", "a new map"]])"));
+  EXPECT_EQ(frame["lineage"][0]["kind"], "merged_into");
+  const auto is_lane = [](const json& element) { return element["key"] == "lanes/21"; };
+  EXPECT_TRUE(std::any_of(frame["elements"].begin(), frame["elements"].end(), is_lane));
+  ASSERT_EQ(frame["others"].size(), 2U);
+  const json& first = frame["others"][0]["elements"];
+  EXPECT_TRUE(std::any_of(first.begin(), first.end(), is_lane));
+  const json& second = frame["others"][1]["elements"];
+  EXPECT_FALSE(std::any_of(second.begin(), second.end(), is_lane));
+  // The summary is the same without what is drawn.
+  json summary = json::parse(summary_text(moment, place));
+  for (const auto& [key, value] : summary.items()) EXPECT_EQ(frame[key], value) << key;
+  EXPECT_FALSE(summary.contains("elements"));
+}
+
+}  // namespace
+}  // namespace laneloom
