@@ -1,13 +1,12 @@
 #include "mapping/boundaries/lane_boundaries.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
+#include "mapping/markings/chains.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom {
@@ -17,18 +16,6 @@ constexpr double kMinGap_m = 1.0;      // a shorter one is no more than the dist
 constexpr double kMeeting_m = 1.5;     // ends that are nearer meet,
 constexpr double kMaxBend_deg = 40.0;  // and there a line may bend as it does round a corner of 8 m
 constexpr double kChange_m = 0.5;      // over which the one changes to the other where they overlap
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-/// One end of a marking, by the marking's index.
-struct MarkingEnd {
-  std::size_t marking = kNone;
-  End end = End::front;
-};
-
-struct Join {
-  double gap_m = 0.0;
-  MarkingEnd a, b;
-};
 
 /// One end of a marking, as it looks.
 struct Tip {
@@ -84,35 +71,7 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHi
       }
     }
   }
-  std::ranges::stable_sort(joins, {}, &Join::gap_m);
   return joins;
-}
-
-/// For every end of every marking the end that it is joined to.
-class Joined {
- public:
-  explicit Joined(std::size_t count) : ends_(count) {}
-  const MarkingEnd& operator[](const MarkingEnd& at) const { return ends_[at.marking][index(at.end)]; }
-  MarkingEnd& operator[](const MarkingEnd& at) { return ends_[at.marking][index(at.end)]; }
-
- private:
-  std::vector<std::array<MarkingEnd, 2>> ends_;
-};
-
-/// No chain closes on itself.
-Joined choose_joins(const std::vector<Join>& joins, std::size_t count) {
-  Joined joined(count);
-  std::vector<std::size_t> group(count);
-  std::iota(group.begin(), group.end(), 0U);
-  for (const auto& [gap_m, a, b] : joins) {
-    const bool taken = joined[a].marking != kNone || joined[b].marking != kNone;
-    if (taken || group[a.marking] == group[b.marking]) continue;
-    joined[a] = b;
-    joined[b] = a;
-    const std::size_t from = group[b.marking], to = group[a.marking];
-    std::ranges::replace(group, from, to);
-  }
-  return joined;
 }
 
 /// The part of `next` that lies ahead of the end of `line`; the two may overlap at their ends. Empty: none.
@@ -132,20 +91,17 @@ void continue_with(const Marking& ahead, LaneBoundary& boundary) {
   append(boundary.marking, ahead);
 }
 
-/// Follows the joins from one free end of a chain to the other.
-LaneBoundary assemble(const std::vector<Marking>& lines, const Joined& joined, const MarkingEnd& start) {
+LaneBoundary assemble(const std::vector<Link>& chain, const std::vector<Marking>& lines) {
   LaneBoundary boundary;
-  MarkingEnd entered = start;
-  while (entered.marking != kNone) {
-    Marking next = lines[entered.marking];
-    if (entered.end == End::back) reverse(next);
+  for (const Link& link : chain) {
+    Marking next = lines[link.line];
+    if (link.reversed) reverse(next);
     boundary.members.push_back(next.id);
     if (boundary.marking.points.empty()) {
       boundary.marking = std::move(next);
     } else if (const auto ahead = ahead_of(boundary.marking, next)) {
       continue_with(*ahead, boundary);
     }
-    entered = joined[{entered.marking, opposite(entered.end)}];
   }
   std::ranges::sort(boundary.members);
   boundary.marking.id = boundary.members.front();
@@ -159,23 +115,10 @@ Boundaries lane_boundaries(const std::vector<Marking>& markings, const PairHisto
   std::vector<Marking> lines;
   std::ranges::copy_if(markings, std::back_inserter(lines),
                        [](const Marking& m) { return m.type != MarkingType::stopline; });
-  const Joined joined = choose_joins(possible_joins(lines, joints, config), lines.size());
-
+  // A chain runs as its first line does, so that the boundary runs as its oldest member.
   std::vector<LaneBoundary> boundaries;
-  std::vector<bool> used(lines.size(), false);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (used[i]) continue;
-    // Back to the chain's first line, so that the boundary runs as its oldest member does.
-    MarkingEnd start{i, End::front};
-    while (joined[start].marking != kNone) {
-      const MarkingEnd before = joined[start];
-      start = {before.marking, opposite(before.end)};
-    }
-    boundaries.push_back(assemble(lines, joined, start));
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      if (std::ranges::binary_search(boundaries.back().members, lines[k].id)) used[k] = true;
-    }
-  }
+  for (const std::vector<Link>& chain : chains(possible_joins(lines, joints, config), lines.size()))
+    boundaries.push_back(assemble(chain, lines));
   return boundaries;
 }
 

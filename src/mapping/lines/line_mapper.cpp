@@ -11,6 +11,7 @@
 #include "mapping/lines/line_growth.hpp"
 #include "mapping/lines/line_merging.hpp"
 #include "mapping/lines/line_publishing.hpp"
+#include "mapping/markings/dashes.hpp"
 
 namespace laneloom {
 namespace {
@@ -61,7 +62,7 @@ FusedMarkings LineMapper::fuse(const ObservedFrame& observed, const Scene& scene
 Association LineMapper::associated(const ObservedFrame& observed, const Network& network,
                                    const FusionConfig& config, Viewpoint& from) {
   const Eigen::Isometry3d& T_map_body = observed.T_map_body;
-  auto detections = sample_detections(observed.markings, config);
+  auto detections = sample_detections(join_dashes(observed.markings), config);
   from.stretch_per_m = estimate_stretch_per_m(detections, T_map_body);
   unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
   LineMatcher matcher(lines_, config);

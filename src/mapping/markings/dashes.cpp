@@ -1,0 +1,96 @@
+#include "mapping/markings/dashes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
+#include "mapping/markings/chains.hpp"
+
+namespace laneloom {
+namespace {
+
+constexpr double kMaxDash_m = 9.0;      // of the longest that are painted, which may be seen too long
+constexpr double kMaxGap_m = 13.0;      // between the longest that are painted
+constexpr double kMaxLateral_m = 0.5;   // from the extension of either line
+constexpr double kMaxAngle_deg = 20.0;  // a dash of a metre hardly tells its direction
+constexpr std::size_t kMinDashes = 3;   // two may be pieces of one solid line
+
+/// An end of a line that may go on beyond a gap.
+struct Tip {
+  LineEnd id;
+  bool of_dash = false;
+  Point place = Point::Zero();
+  Eigen::Vector2d leaving = Eigen::Vector2d::Zero();  ///< unit direction, away from the line
+};
+
+std::vector<Tip> tips_of(const std::vector<ObservedMarking>& markings) {
+  std::vector<Tip> tips;
+  tips.reserve(2 * markings.size());
+  for (std::size_t i = 0; i < markings.size(); ++i) {
+    const ObservedMarking& marking = markings[i];
+    if (marking.type != MarkingType::laneline || marking.style == MarkingStyle::solid) continue;
+    const bool of_dash = length(marking.points) <= kMaxDash_m;
+    for (const End end : kEnds)
+      tips.push_back({{i, end},
+                      of_dash,
+                      end == End::back ? marking.points.back() : marking.points.front(),
+                      end_direction(marking.points, end)});
+  }
+  return tips;
+}
+
+bool goes_on(const Tip& tip, const Eigen::Vector2d& gap) {
+  return tip.leaving.dot(gap) >= cos_degrees(kMaxAngle_deg) * gap.norm() &&
+         std::abs(cross(tip.leaving, gap)) <= kMaxLateral_m;
+}
+
+std::vector<Join> possible_joins(const std::vector<ObservedMarking>& markings) {
+  const std::vector<Tip> tips = tips_of(markings);
+  std::vector<Join> joins;
+  for (auto a = tips.begin(); a != tips.end(); ++a) {
+    for (auto b = a + 1; b != tips.end(); ++b) {
+      if (a->id.line == b->id.line || (!a->of_dash && !b->of_dash)) continue;
+      const Eigen::Vector2d gap = (b->place - a->place).head<2>();
+      if (gap.squaredNorm() > kMaxGap_m * kMaxGap_m || !same_level(a->place, b->place)) continue;
+      if (goes_on(*a, gap) && goes_on(*b, -gap)) joins.push_back({gap.norm(), a->id, b->id});
+    }
+  }
+  return joins;
+}
+
+ObservedMarking joined(const std::vector<Link>& chain, std::vector<ObservedMarking>& markings) {
+  ObservedMarking line{.type = MarkingType::laneline};
+  double doubt = 1.0;
+  std::size_t dashes = 0;
+  bool has_stddev = true;
+  for (const Link& link : chain) {
+    ObservedMarking& piece = markings[link.line];
+    if (link.reversed) {
+      std::ranges::reverse(piece.points);
+      std::ranges::reverse(piece.stddev_m);
+    }
+    doubt *= 1.0 - piece.confidence;
+    if (length(piece.points) <= kMaxDash_m) ++dashes;
+    if (piece.style == MarkingStyle::dashed || dashes >= kMinDashes) line.style = MarkingStyle::dashed;
+    has_stddev = has_stddev && !piece.stddev_m.empty();
+    line.points.insert(line.points.end(), piece.points.begin(), piece.points.end());
+    line.stddev_m.insert(line.stddev_m.end(), piece.stddev_m.begin(), piece.stddev_m.end());
+  }
+  if (!has_stddev) line.stddev_m.clear();
+  line.confidence = 1.0 - doubt;
+  return line;
+}
+
+}  // namespace
+
+std::vector<ObservedMarking> join_dashes(std::vector<ObservedMarking> markings) {
+  std::vector<ObservedMarking> result;
+  result.reserve(markings.size());
+  for (const std::vector<Link>& chain : chains(possible_joins(markings), markings.size()))
+    result.push_back(chain.size() == 1 ? std::move(markings[chain.front().line]) : joined(chain, markings));
+  return result;
+}
+
+}  // namespace laneloom
