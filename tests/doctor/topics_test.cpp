@@ -21,11 +21,11 @@ TEST(Topics, AnotherPartition) {
   Observed seen = healthy();
   seen.endpoints[kDetections].partitions = {"car-7"};
   Findings found = topic_findings(seen);
-  ASSERT_THAT(ids(found), ElementsAre("no_detections", "wrong_partition"));
-  EXPECT_EQ(found[1].found,
+  ASSERT_THAT(ids(found), ElementsAre("wrong_partition", "no_detections"));
+  EXPECT_EQ(found[0].found,
             "\"perception\" (10.0.0.1) writes detections in the partition \"car-7\", not \"ego\".");
   seen.endpoints[kDetections].partitions = {};
-  EXPECT_THAT(topic_findings(seen)[1].found, HasSubstr("in the default partition, not"));
+  EXPECT_THAT(topic_findings(seen)[0].found, HasSubstr("in the default partition, not"));
 
   // Those of other vehicles are none of ours.
   seen.endpoints.push_back(detections_writer());
@@ -38,12 +38,12 @@ TEST(Topics, SimilarNames) {
     Observed seen = healthy();
     seen.endpoints[kDetections].topic = name;
     const Findings found = topic_findings(seen);
-    ASSERT_THAT(ids(found), ElementsAre("no_detections", "similar_topic")) << name;
-    EXPECT_THAT(found[1].found, HasSubstr(std::string("the topic ") + name + ", not laneloom/v2/detections"));
+    ASSERT_THAT(ids(found), ElementsAre("similar_topic", "no_detections")) << name;
+    EXPECT_THAT(found[0].found, HasSubstr(std::string("the topic ") + name + ", not laneloom/v2/detections"));
   }
   Observed seen = healthy();
   seen.endpoints[kPoses].topic = "rt/VehiclePose";
-  EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("no_poses", "similar_topic"));
+  EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("similar_topic", "no_poses"));
   seen.endpoints[kPoses].topic = "laneloom/v2/gnss";
   EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("no_poses"));
 }
@@ -52,8 +52,8 @@ TEST(Topics, AnotherType) {
   Observed seen = healthy();
   seen.endpoints[kDetections].type = "my::Detections";
   const Findings found = topic_findings(seen);
-  ASSERT_THAT(ids(found), ElementsAre("no_detections", "wrong_type"));
-  EXPECT_THAT(found[1].found, HasSubstr("with the type my::Detections, not laneloom::msg::Detections"));
+  ASSERT_THAT(ids(found), ElementsAre("wrong_type", "no_detections"));
+  EXPECT_THAT(found[0].found, HasSubstr("with the type my::Detections, not laneloom::msg::Detections"));
 }
 
 TEST(Topics, APlannerThatReadsWhatNobodyWrites) {

@@ -107,7 +107,6 @@ void judge(const Observed& seen, const Topic& topic, Findings& found) {
       std::ranges::any_of(seen.endpoints,
                           [&](const Endpoint& endpoint) { return is_right(endpoint, topic, vehicle_id); }) ||
       (topic.ros_writes != nullptr && topic.ros_writes(seen));
-  if (topic.input && !connected) found.push_back(nobody_writes(seen, topic));
   for (const Endpoint& endpoint : seen.endpoints) {
     const bool of_vehicle = is_of_vehicle(endpoint, vehicle_id);
     if (endpoint.topic == topic.name) {
@@ -121,6 +120,8 @@ void judge(const Observed& seen, const Topic& topic, Findings& found) {
       found.push_back(similar_name(endpoint, topic));
     }
   }
+  // Last: what was found of others is the cause.
+  if (topic.input && !connected) found.push_back(nobody_writes(seen, topic));
 }
 
 }  // namespace
