@@ -20,7 +20,9 @@ Sources::Verdict Sources::check(const DetectionFrame& frame, std::int64_t arriva
   if (verdict == Gate::Verdict::repeated || (seen && !restarted)) return {"repeated"};
   if (restarted) {
     source.stamps_ns.clear();
-    source.progress = {.source = frame.source};
+    // After a jump of the stamps the session is the same, and so is what it counts.
+    const bool same = source.progress.session_id == frame.session_id;
+    source.progress = {.source = frame.source, .fused = same ? source.progress.fused : 0};
   }
   source.stamps_ns.push_back(frame.stamp_ns);
   if (source.stamps_ns.size() > kStampsRemembered) source.stamps_ns.pop_front();
