@@ -30,7 +30,7 @@ class Viewer {
  private:
   FrameStore frames_;
   Site site_{"fuzz", "[]", &frames_};
-  WebServer server_{{.foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
+  WebServer server_{{.patience_s = 0.2, .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
                     [this](std::string_view target) { return site_.answer(target); }};
 };
 
