@@ -29,6 +29,13 @@ void validate(const Config& config);
 /// names.
 void apply_preset(Config& config, std::string_view preset);
 
+/// The names that apply_preset() knows.
+std::vector<std::string> preset_names();
+
+/// The configuration in a file, or the default one where no file is named, and then the preset, where one is
+/// named. Throws as load_config() and apply_preset().
+Config resolve_config(const std::filesystem::path& file, std::string_view preset);
+
 /// The whole configuration as a file that load_config() reads back unchanged, each key with its unit,
 /// range and meaning.
 std::string dump(const Config& config);

@@ -155,6 +155,12 @@ Config load_config(const std::filesystem::path& path) {
   }
 }
 
+Config resolve_config(const std::filesystem::path& file, std::string_view preset) {
+  Config config = file.empty() ? Config{} : load_config(file);
+  if (!preset.empty()) apply_preset(config, preset);
+  return config;
+}
+
 void set_value(Config& config, std::string_view assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string_view::npos)

@@ -150,6 +150,8 @@ void validate(const Config& config) {
     throw ConfigError(problem->key + ": " + problem->what);
 }
 
+std::vector<std::string> preset_names() { return {"inhouse", "av2"}; }
+
 void apply_preset(Config& config, std::string_view preset) {
   auto& range = config.mapper.range;
   if (preset == "inhouse") {

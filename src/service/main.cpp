@@ -37,8 +37,7 @@ struct Options {
 
 /// The file, then the preset, then what else the command line says.
 Config configure(const Options& options) {
-  Config config = options.config_file.empty() ? Config{} : load_config(options.config_file);
-  if (!options.preset.empty()) apply_preset(config, options.preset);
+  Config config = resolve_config(options.config_file, options.preset);
   if (options.vehicle_id) config.dds.vehicle_id = *options.vehicle_id;
   if (options.domain) config.dds.domain = *options.domain;
   if (options.snapshot_file) config.service.snapshot_file = *options.snapshot_file;

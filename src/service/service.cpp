@@ -8,11 +8,12 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
-#include <random>
 #include <system_error>
 #include <utility>
 #include <variant>
 
+#include "base/random_id.hpp"
+#include "base/system_clock.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/state_names.hpp"
 
@@ -24,16 +25,6 @@ constexpr double kStatisticsWindow_s = 10.0;
 // perception sends.
 constexpr double kTickWork_m = 6000.0;
 constexpr double kSourceRemembered_s = 10.0;  // a source that ended, or took another name, is missed so long
-
-std::uint64_t random_id() {
-  std::random_device device;
-  return (std::uint64_t{device()} << 32) | device();
-}
-
-std::int64_t system_now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
 
 /// Of counters that should not rise in normal operation.
 bool is_incident(std::string_view counter) {

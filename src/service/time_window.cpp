@@ -1,8 +1,6 @@
 #include "service/time_window.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
+#include "base/distribution.hpp"
 
 namespace laneloom {
 
@@ -16,14 +14,8 @@ void TimeWindow::add(double value_ms) {
 }
 
 TimeSummary TimeWindow::summary() const {
-  if (values_ms_.empty()) return {};
-  auto sorted = values_ms_;
-  std::sort(sorted.begin(), sorted.end());
-  const auto count = static_cast<double>(sorted.size());
-  const auto rank = [&](double share) {
-    return sorted[static_cast<std::size_t>(std::max(0.0, std::ceil(share * count) - 1.0))];
-  };
-  return {std::accumulate(sorted.begin(), sorted.end(), 0.0) / count, rank(0.5), rank(0.99), sorted.back()};
+  const Distribution times_ms(values_ms_);
+  return {times_ms.mean(), times_ms.quantile(0.5), times_ms.quantile(0.99), times_ms.quantile(1.0)};
 }
 
 }  // namespace laneloom

@@ -15,6 +15,7 @@
 #include <thread>
 #include <unordered_map>
 
+#include "base/system_clock.hpp"
 #include "bench/child_process.hpp"
 #include "bench/process_usage.hpp"
 #include "bench/view_readers.hpp"
@@ -22,7 +23,6 @@
 #include "laneloom/dds/reader.hpp"
 #include "support/publication_log.hpp"
 #include "support/stage_timer.hpp"
-#include "support/system_clock.hpp"
 
 namespace laneloom {
 namespace {

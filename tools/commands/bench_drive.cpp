@@ -14,8 +14,7 @@ DriveSpec BenchDrive::spec() const {
 }
 
 MapperConfig BenchDrive::mapper_config() const {
-  Config read = config.empty() ? Config{} : load_config(config);
-  apply_preset(read, preset);
+  const Config read = resolve_config(config, preset);
   validate(read);
   return read.mapper;
 }
@@ -39,7 +38,7 @@ void add_bench_drive(CLI::App& command, BenchDrive& drive) {
   add_bench_road(command, drive);
   command.add_option("--seed", drive.seed, "Of the noise")->capture_default_str();
   command.add_option("--preset", drive.preset, "Range, and alpha_n of the voxel method")
-      ->check(CLI::IsMember({"inhouse", "av2"}))
+      ->check(CLI::IsMember(preset_names()))
       ->capture_default_str();
   command.add_option("--config", drive.config, "Configuration file");
 }

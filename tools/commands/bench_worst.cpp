@@ -20,7 +20,7 @@ struct Options {
 };
 
 void worst(const Options& options) {
-  const Config config = options.config.empty() ? Config{} : load_config(options.config);
+  const Config config = resolve_config(options.config, {});
   nlohmann::json result;
   if (!options.as_json) print_time_header("milliseconds");
   for (const WorstKind kind : kWorstKinds) {

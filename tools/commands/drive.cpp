@@ -47,8 +47,7 @@ ClosedLoopSpec loop_spec(const DriveSpec& drive, const Options& options) {
 }
 
 Config read_config(const Options& options) {
-  Config config = options.config.empty() ? Config{} : load_config(options.config);
-  if (!options.preset.empty()) apply_preset(config, options.preset);
+  const Config config = resolve_config(options.config, options.preset);
   validate(config);
   return config;
 }
@@ -137,7 +136,7 @@ void add_drive(CLI::App& app) {
       ->excludes(duration);
   auto* config = command->add_option("--config", options->config, "Configuration file");
   auto* preset = command->add_option("--preset", options->preset, "Range, and alpha_n of the voxel method")
-                     ->check(CLI::IsMember({"inhouse", "av2"}));
+                     ->check(CLI::IsMember(preset_names()));
   auto* dds = command->add_flag("--dds", options->over_dds, "In real time, by the map of a running laneloomd")
                   ->excludes(config)
                   ->excludes(preset);

@@ -34,7 +34,7 @@ class Pairs {
 };
 
 void rate_replay(const LaterInputs& inputs, Pairs& pairs) {
-  const Config config = inputs.config.empty() ? Config{} : load_config(inputs.config);
+  const Config config = resolve_config(inputs.config, {});
   const auto source = open_messages(inputs.in, config.dds.map_frame_id);
   Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { pairs.add(map.map); });
   while (std::optional<RecordedMessage> message = source->next_input()) {

@@ -27,8 +27,7 @@ struct Options {
 NamedConfig read_config(const std::string& spec, const std::string& preset) {
   const auto colon = spec.find(':');
   const std::string file = spec.substr(0, colon);
-  NamedConfig named{spec, file == "default" ? Config{} : load_config(file)};
-  apply_preset(named.config, preset);
+  NamedConfig named{spec, resolve_config(file == "default" ? "" : file, preset)};
   for (std::size_t from = colon; from != std::string::npos;) {
     const std::size_t to = spec.find(',', ++from);
     set_value(named.config, spec.substr(from, to - from));
@@ -62,7 +61,7 @@ void add_experiment(CLI::App& app) {
       ->check(CLI::IsMember(noise_profile_names()))
       ->capture_default_str();
   command->add_option("--preset", options->preset, "Range that is rated, and alpha_n of the voxel method")
-      ->check(CLI::IsMember({"inhouse", "av2"}))
+      ->check(CLI::IsMember(preset_names()))
       ->capture_default_str();
   command->add_option("--config", options->configs,
                       "Configuration, as FILE or FILE:section.key=value,…; \"default\" is the built-in one");

@@ -123,8 +123,7 @@ void check_files(const Options& options) {
 
 void export_drive(const Options& options) {
   check_files(options);
-  Config config = options.config.empty() ? Config{} : load_config(options.config);
-  if (!options.preset.empty()) apply_preset(config, options.preset);
+  const Config config = resolve_config(options.config, options.preset);
   const LocalMap map = weave(read_drive(options, config), config.mapper);
   if (map.lanes.empty()) throw std::runtime_error(options.in + ": has no lanes to export");
   RoadNetwork network = weld(map);

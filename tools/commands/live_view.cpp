@@ -3,8 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "base/system_clock.hpp"
 #include "commands/stop_signal.hpp"
-#include "support/system_clock.hpp"
 #include "view/frame_text.hpp"
 
 namespace laneloom {

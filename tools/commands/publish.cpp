@@ -7,9 +7,10 @@
 #include <deque>
 #include <limits>
 #include <memory>
-#include <random>
 #include <stdexcept>
 
+#include "base/random_id.hpp"
+#include "base/system_clock.hpp"
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "commands/road_source.hpp"
@@ -20,7 +21,6 @@
 #include "simulation/random.hpp"
 #include "simulation/scenarios.hpp"
 #include "support/publication_log.hpp"
-#include "support/system_clock.hpp"
 
 namespace laneloom {
 namespace {
@@ -53,7 +53,7 @@ class Publisher {
         from_s_(options.from_s),
         perception_(options.source.perception(road)),
         delays_(options.source.seed),
-        session_id_(new_session_id()),
+        session_id_(random_id()),
         start_ns_(system_now_ns()) {
     if (!options.frames.empty()) record_ = std::make_unique<JsonLinesWriter>(options.frames);
     if (!options.times.empty()) times_ = std::make_unique<PublicationLogWriter>(options.times, session_id_);
@@ -91,11 +91,6 @@ class Publisher {
     std::int64_t due_ns;
     FrameRecord record;
   };
-
-  static std::uint64_t new_session_id() {
-    std::random_device device;
-    return (std::uint64_t{device()} << 32U | device()) | 1U;  // never 0
-  }
 
   VehiclePose pose_at(std::int64_t step) const {
     const double t_s = from_s_ + static_cast<double>(step) * static_cast<double>(kPosePeriod_ns) * 1e-9;

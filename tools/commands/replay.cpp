@@ -62,8 +62,7 @@ class ProgressBar {
 };
 
 Config read_config(const Options& options, const std::string& file) {
-  Config config = file.empty() ? Config{} : load_config(file);
-  if (!options.preset.empty()) apply_preset(config, options.preset);
+  Config config = resolve_config(file, options.preset);
   if (options.range_given) {
     config.mapper.range.forward_min_m = options.range.forward_min_m;
     config.mapper.range.forward_max_m = options.range.forward_max_m;
@@ -209,7 +208,7 @@ void add_replay(CLI::App& app) {
       command->add_option("--config", options->config_files, "Configuration (.yaml); several are compared");
   auto* preset =
       command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
-          ->check(CLI::IsMember({"inhouse", "av2"}));
+          ->check(CLI::IsMember(preset_names()));
   auto* truth =
       command->add_option("--truth", options->truth, "Truth of the road (.json), to rate the maps by");
   auto* verify = command->add_flag("--verify", options->verify,

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/distribution.hpp"
 #include "drive/lane_tracker.hpp"
-#include "evaluation/distribution.hpp"
 
 /// How well a vehicle was driven.
 namespace laneloom {

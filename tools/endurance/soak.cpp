@@ -9,8 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/system_clock.hpp"
 #include "simulation/random.hpp"
-#include "support/system_clock.hpp"
 
 namespace laneloom {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "evaluation/distribution.hpp"
+#include "base/distribution.hpp"
 #include "laneloom/types.hpp"
 
 /// How good single detections and maps are, told without truth: by what the vehicle sees later from close by.

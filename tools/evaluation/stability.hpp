@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "evaluation/distribution.hpp"
+#include "base/distribution.hpp"
 #include "evaluation/evaluation.hpp"
 
 /// How steady a map is from frame to frame. The paper claims stability and does not measure it; these are the

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "evaluation/distribution.hpp"
+#include "base/distribution.hpp"
 #include "evaluation/evaluation.hpp"
 #include "laneloom/polyline.hpp"
 

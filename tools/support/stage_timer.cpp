@@ -1,8 +1,8 @@
 #include "support/stage_timer.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <utility>
+
+#include "base/distribution.hpp"
 
 namespace laneloom {
 namespace {
@@ -14,15 +14,8 @@ double milliseconds(std::chrono::steady_clock::duration duration) {
 }  // namespace
 
 TimeSummary summarise(std::vector<double> values_ms) {
-  if (values_ms.empty()) return {};
-  std::sort(values_ms.begin(), values_ms.end());
-  const auto count = static_cast<double>(values_ms.size());
-  // Nearest rank.
-  const auto quantile = [&](double share) {
-    return values_ms[static_cast<std::size_t>(std::ceil(share * count)) - 1];
-  };
-  return {std::accumulate(values_ms.begin(), values_ms.end(), 0.0) / count, quantile(0.5), quantile(0.99),
-          values_ms.back()};
+  const Distribution times_ms(std::move(values_ms));
+  return {times_ms.mean(), times_ms.quantile(0.5), times_ms.quantile(0.99), times_ms.quantile(1.0)};
 }
 
 void StageTimer::update_begins() {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace laneloom {
@@ -11,6 +12,9 @@ namespace laneloom {
 /// Values, to ask for their mean and quantiles. 0 where there are none.
 class Distribution {
  public:
+  Distribution() = default;
+  explicit Distribution(std::vector<double> values) : values_(std::move(values)) {}
+
   void add(double value) { values_.push_back(value); }
   void add(const Distribution& other) {
     values_.insert(values_.end(), other.values_.begin(), other.values_.end());

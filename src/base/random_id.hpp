@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace laneloom {
+
+/// Names a session, or a map: another one every time, never 0.
+inline std::uint64_t random_id() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32U | device()) | 1U;
+}
+
+}  // namespace laneloom
