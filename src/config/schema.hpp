@@ -108,6 +108,7 @@ void visit(auto& v, Is<PolylineConfig> auto& c) {
            "A polyline shorter than this is left out. For stoplines half of this counts.");
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 void visit(auto& v, Is<FusionConfig> auto& c) {
   auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, learn, stddev_m,
          stddev_per_m, bias_stddev_m, fade_m, birth_log_odds, extension_log_odds, hit_log_odds, miss_log_odds,

@@ -170,7 +170,8 @@ Polyline way_ahead(const LaneGraph& graph, const Entry& entry, const Bicycle& ve
 }
 
 /// Goes on along what the earlier maps gave, beginning at the end of `way` without a step.
-void remember(const Plan& earlier, const MeasuredPolyline& track, Plan& way) {
+void remember(const Plan& earlier, Plan& way) {
+  const MeasuredPolyline track(earlier.path);
   const Projection foot = track.project(way.path.back());
   if (!foot.inside || foot.distance_m > kMaxLateral_m) return;
   const Point shift = way.path.back() - foot.foot;
@@ -186,11 +187,11 @@ void remember(const Plan& earlier, const MeasuredPolyline& track, Plan& way) {
 
 /// The way on the map: from `entry` on, if not from a little behind it, to the horizon.
 Plan way_of(const LaneGraph& graph, const Entry& entry, const Bicycle& vehicle, const Plan& earlier,
-            const MeasuredPolyline& track, Linkage::Turn wanted) {
+            Linkage::Turn wanted) {
   Plan way{.passing = earlier.passing};
   way.path = smoothed(MeasuredPolyline(way_ahead(graph, entry, vehicle, wanted, way)).resample(kStep_m));
   way.support.assign(way.path.size(), Support::mapped);
-  remember(earlier, track, way);
+  remember(earlier, way);
   prolong(way.path, kHorizon_m + kBehind_m - length(way.path), kStep_m);
   way.support.resize(way.path.size(), Support::guessed);
   return way;
@@ -261,7 +262,7 @@ Plan next_plan(const LocalMap& map, const Bicycle& vehicle, const Plan& previous
   const LaneGraph graph(map);
   const std::optional<Entry> entry = find_entry(graph, track, vehicle_m, previous.passing);
   if (!entry) return earlier;
-  const Plan way = way_of(graph, *entry, vehicle, earlier, track, wanted);
+  const Plan way = way_of(graph, *entry, vehicle, earlier, wanted);
   const double blend_m = std::max(kMinBlend_m, kBlend_s * vehicle.speed_mps);
   // Up to shortly before the entry, the plan stays as it is.
   const double from_m = vehicle_m + std::max(0.0, entry->ahead_m - blend_m);
