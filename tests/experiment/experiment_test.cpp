@@ -50,7 +50,7 @@ TEST(Oracle, WithoutNoiseKnowsTheTruth) {
   ExperimentSpec experiment;
   experiment.drives = {spec("split", "none", 20.0)};
   experiment.oracle = true;
-  const auto results = run(experiment);
+  const auto results = sum(run(experiment));
   ASSERT_EQ(results.size(), 2U);
   EXPECT_EQ(results[0].name, "raw");
   EXPECT_EQ(results[1].name, "oracle");
@@ -90,7 +90,7 @@ TEST(Experiment, DrivesAddUpWhateverRunsFirst) {
   one.drives = {spec("straight", "inhouse", 10.0)};
   both.drives = {one.drives[0], spec("curve", "inhouse", 10.0)};
   one.configs = both.configs = {{"ours", Config{}}};
-  const auto single = run(one), sums = run(both), again = run(both);
+  const auto single = sum(run(one)), sums = sum(run(both)), again = sum(run(both));
   ASSERT_EQ(sums.size(), 2U);
   EXPECT_EQ(sums[1].name, "ours");
   EXPECT_EQ(single[1].measures.score.frames, 100U);
@@ -110,7 +110,7 @@ TEST(Experiment, AMapIsRatedWhereADriftingVehicleSeesIt) {
   experiment.drives[0].drift = 0.01;
   experiment.configs = {{"ours", Config{}}};
   // In the map frame the lines are off by metres at the end.
-  EXPECT_GT(run(experiment)[1].measures.score.markings().f1(), 0.95);
+  EXPECT_GT(sum(run(experiment))[1].measures.score.markings().f1(), 0.95);
 }
 
 TEST(Experiment, APeerThatFailsIsNamed) {
@@ -192,7 +192,7 @@ TEST(Experiment, TheOracleMissesNoLanesAsItKnowsNone) {
   ExperimentSpec experiment;
   experiment.drives = {spec("straight", "none", 2.0)};
   experiment.oracle = true;
-  const Measures oracle = run(experiment).back().measures;
+  const Measures oracle = sum(run(experiment)).back().measures;
   EXPECT_EQ(oracle.score.of(LineKind::lane).truths, 0U);
   EXPECT_EQ(oracle.top_ll.vertices, 0U);
 }

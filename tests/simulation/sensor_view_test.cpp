@@ -66,9 +66,9 @@ TEST(Occluders, HideWhatIsBehindThem) {
   for (const Point& corner : area) inside += corner / static_cast<double>(area.size());
   const Point across(-inside.y(), inside.x(), 0.0);
   const Polyline behind{inside - 3.0 * across, inside + 3.0 * across};
-  EXPECT_EQ(occluders.visible_parts(behind).size(), 2u);
+  EXPECT_EQ(occluders.visible_parts({{0.0, length(behind)}, behind}).size(), 2u);
   const Polyline before{{2.0, -3.0, 0.0}, {2.0, 3.0, 0.0}};
-  EXPECT_EQ(occluders.visible_parts(before).size(), 1u);
+  EXPECT_EQ(occluders.visible_parts({{0.0, 6.0}, before}).size(), 1u);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "commands/bench_drive.hpp"
 
+#include "commands/noise_option.hpp"
 #include "commands/options.hpp"
 #include "config/config_file.hpp"
 #include "simulation/scenarios.hpp"
@@ -24,7 +25,7 @@ void add_bench_road(CLI::App& command, BenchDrive& drive) {
       ->check(CLI::IsMember(scenario_names()))
       ->capture_default_str();
   command.add_option("--noise", drive.noise, "How the detections differ from the truth")
-      ->check(CLI::IsMember(noise_profile_names()))
+      ->check(noise_name())
       ->capture_default_str();
   command.add_option("--speed", drive.speed_mps, "Of the vehicle, in m/s")
       ->check(within(0.1, 60.0))

@@ -58,7 +58,7 @@ void run_calibration(const Options& options) {
   Config ranged;
   apply_preset(ranged, options.noise);
   const CalibrationStep last =
-      calibrate(start, target, options.roads.drives(start), ranged.mapper.range, options.steps, print_step);
+      calibrate(start, target, options.roads.drives({start}), ranged.mapper.range, options.steps, print_step);
   print_result(last, target);
 }
 

@@ -10,6 +10,7 @@
 #include "commands/drive_tables.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/lab_commands.hpp"
+#include "commands/noise_option.hpp"
 #include "commands/options.hpp"
 #include "commands/road_list.hpp"
 #include "commands/stop_signal.hpp"
@@ -27,7 +28,7 @@ constexpr std::chrono::seconds kPatience{10};
 
 struct Options {
   RoadList roads;
-  std::string noise = "inhouse";
+  NoiseOption noise;
   double duration_s = 120.0;
   double km = 0.0;
   std::string config, preset;
@@ -97,7 +98,7 @@ std::vector<DriveResult> drive_over_dds(const std::vector<DriveSpec>& drives, co
 
 void drive(const Options& options) {
   catch_stop_signals();
-  const std::vector<DriveSpec> drives = options.roads.drives(noise_profile(options.noise));
+  const std::vector<DriveSpec> drives = options.roads.drives({options.noise.profile()});
   const auto start = SteadyClock::now();
   const std::vector<DriveResult> results =
       options.over_dds ? drive_over_dds(drives, options) : drive_offline(drives, options);
@@ -125,9 +126,7 @@ void add_drive(CLI::App& app) {
   command->add_option("--speed", options->roads.speed_mps, "Of the vehicle at most, in m/s")
       ->check(within(1.0, 40.0))
       ->capture_default_str();
-  command->add_option("--noise", options->noise, "How the detections differ from the truth")
-      ->check(CLI::IsMember(noise_profile_names()))
-      ->capture_default_str();
+  add_noise(*command, options->noise);
   auto* duration = command->add_option("--duration", options->duration_s, "Simulated seconds per drive")
                        ->check(positive_seconds())
                        ->capture_default_str();

@@ -7,20 +7,24 @@
 #include <stdexcept>
 
 #include "commands/lab_commands.hpp"
+#include "commands/noise_option.hpp"
 #include "commands/road_list.hpp"
 #include "config/config_file.hpp"
 #include "experiment/results_table.hpp"
+#include "experiment/spread_table.hpp"
 
 namespace laneloom {
 namespace {
 
 struct Options {
   RoadList roads;
-  std::string noise = "inhouse";
+  std::vector<std::string> noises{"inhouse"};
+  bool without_view = false;
   std::string preset = "inhouse";
   std::vector<std::string> configs;
   std::string peer;
   bool oracle = false;
+  bool spread = false;
 };
 
 /// From "FILE" or "FILE:key=value,key=value"; the file "default" is the built-in configuration.
@@ -39,15 +43,20 @@ NamedConfig read_config(const std::string& spec, const std::string& preset) {
 
 void experiment(const Options& options) {
   ExperimentSpec spec;
-  spec.drives = options.roads.drives(noise_profile(options.noise));
+  std::vector<NoiseProfile> noises;
+  for (const std::string& name : options.noises)
+    noises.push_back(NoiseOption{.name = name, .without_view = options.without_view}.profile());
+  spec.drives = options.roads.drives(noises);
   for (const std::string& config : options.configs)
     spec.configs.push_back(read_config(config, options.preset));
   if (!options.peer.empty()) spec.peer = Peer{options.peer, options.preset};
-  spec.oracle = options.oracle;
+  spec.oracle = options.oracle || options.spread;
   Config ranged;
   apply_preset(ranged, options.preset);
   spec.range = ranged.mapper.range;
-  fmt::print("{}", results_table(run(spec)));
+  const std::vector<DriveResults> results = run(spec);
+  fmt::print("{}", results_table(sum(results)));
+  if (options.spread) fmt::print("\n{}", spread_table(spec.drives, results));
 }
 
 }  // namespace
@@ -57,9 +66,13 @@ void add_experiment(CLI::App& app) {
       app.add_subcommand("experiment", "Rates detections, configurations, a peer and an oracle on drives");
   const auto options = std::make_shared<Options>();
   add_road_list(*command, options->roads);
-  command->add_option("--noise", options->noise, "How the detections differ from the truth")
-      ->check(CLI::IsMember(noise_profile_names()))
+  command
+      ->add_option("--noise", options->noises,
+                   "How the detections differ from the truth; every road is seen with each")
+      ->delimiter(',')
+      ->check(noise_name())
       ->capture_default_str();
+  add_without_view(*command, options->without_view);
   command->add_option("--preset", options->preset, "Range that is rated, and alpha_n of the voxel method")
       ->check(CLI::IsMember(preset_names()))
       ->capture_default_str();
@@ -68,6 +81,10 @@ void add_experiment(CLI::App& app) {
   command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines");
   command->add_flag("--oracle", options->oracle,
                     "Also the mean of all that was seen of each marking, rightly associated");
+  command->add_flag(
+      "--spread", options->spread,
+      "Also mean, worst decile and worst of the single drives, and how far they are on the way from "
+      "single detections to the oracle");
   command->callback([options] { experiment(*options); });
 }
 

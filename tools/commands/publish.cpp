@@ -163,7 +163,7 @@ void publish(const Options& options) {
 }
 
 void list() {
-  fmt::print("Built-in roads: {}\nNoise: {}\n", fmt::join(scenario_names(), ", "),
+  fmt::print("Built-in roads: {}\nNoise: {}, random:SEED\n", fmt::join(scenario_names(), ", "),
              fmt::join(noise_profile_names(), ", "));
   throw CLI::Success();
 }

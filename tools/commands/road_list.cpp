@@ -7,7 +7,7 @@
 
 namespace laneloom {
 
-std::vector<DriveSpec> RoadList::drives(const NoiseProfile& noise) const {
+std::vector<DriveSpec> RoadList::drives(const std::vector<NoiseProfile>& noises) const {
   std::vector<std::shared_ptr<const Road>> roads;
   const auto add = [&](Road road) { roads.push_back(std::make_shared<const Road>(std::move(road))); };
   for (const std::string& name : scenarios) add(make_scenario(name, speed_mps));
@@ -15,9 +15,11 @@ std::vector<DriveSpec> RoadList::drives(const NoiseProfile& noise) const {
     for (const auto& log : argoverse2_logs(directory)) add(load_argoverse2(log));
   for (const std::string& file : lanelet2) add(load_lanelet2(file, speed_mps));
   std::vector<DriveSpec> drives;
-  drives.reserve(roads.size() * seeds.size());
+  drives.reserve(roads.size() * noises.size() * seeds.size());
   for (const auto& road : roads) {
-    for (const std::uint64_t seed : seeds) drives.push_back({road, noise, seed, duration_s, drift});
+    for (const NoiseProfile& noise : noises) {
+      for (const std::uint64_t seed : seeds) drives.push_back({road, noise, seed, duration_s, drift});
+    }
   }
   return drives;
 }

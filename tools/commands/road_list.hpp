@@ -17,8 +17,8 @@ struct RoadList {
   double duration_s = 60.0;
   double drift = 0.0;
 
-  /// One drive per road and seed. Throws what loading a road throws.
-  std::vector<DriveSpec> drives(const NoiseProfile& noise) const;
+  /// One drive per road, noise and seed. Throws what loading a road throws.
+  std::vector<DriveSpec> drives(const std::vector<NoiseProfile>& noises) const;
 };
 
 /// --scenario, --argoverse2, --lanelet2, --seeds and --drift.

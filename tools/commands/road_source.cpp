@@ -40,7 +40,7 @@ Road RoadSource::load() const {
 }
 
 Perception RoadSource::perception(const Road& road) const {
-  return {road, noise_profile(noise), SensorView{}, seed};
+  return {road, noise.profile(), SensorView{}, seed};
 }
 
 void add_road_source(CLI::App& command, RoadSource& source) {
@@ -53,9 +53,7 @@ void add_road_source(CLI::App& command, RoadSource& source) {
   command.add_option("--speed", source.speed_mps, "Of the vehicle, in m/s; recorded drives keep theirs")
       ->check(within(0.1, 60.0))
       ->capture_default_str();
-  command.add_option("--noise", source.noise, "How the detections differ from the truth")
-      ->check(CLI::IsMember(noise_profile_names()))
-      ->capture_default_str();
+  add_noise(command, source.noise);
   command.add_option("--seed", source.seed, "Of the noise")->capture_default_str();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/noise_option.hpp"
 #include "simulation/perception.hpp"
 #include "simulation/road.hpp"
 
@@ -14,7 +15,7 @@ namespace laneloom {
 struct RoadSource {
   std::string scenario, argoverse2, lanelet2;
   double speed_mps = 10.0;
-  std::string noise = "none";
+  NoiseOption noise{.name = "none"};
   std::uint64_t seed = 1;
 
   /// One source per log where a directory of several is given, else this one alone.
@@ -25,7 +26,7 @@ struct RoadSource {
   Perception perception(const Road& road) const;
 };
 
-/// One of --scenario, --argoverse2, --lanelet2, and --speed, --noise, --seed.
+/// One of --scenario, --argoverse2, --lanelet2, and --speed, --noise, --no-field-of-view, --seed.
 void add_road_source(CLI::App& command, RoadSource& source);
 
 }  // namespace laneloom

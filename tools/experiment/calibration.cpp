@@ -16,7 +16,8 @@ constexpr double kFramesPerSecond = 10.0;
 
 CalibrationStep measure(const NoiseProfile& noise, std::vector<DriveSpec>& drives, const RangeConfig& range) {
   for (DriveSpec& drive : drives) drive.noise = noise;
-  const Measures raw = run({.drives = drives, .configs = {}, .peer = {}, .range = range}).front().measures;
+  const Measures raw =
+      sum(run({.drives = drives, .configs = {}, .peer = {}, .range = range})).front().measures;
   return {noise, raw.score, raw.markings_stability().jitter_m.mean()};
 }
 
@@ -36,7 +37,7 @@ void correct(const CalibrationStep& step, const CalibrationTarget& target, Noise
     const double wrong = static_cast<double>(is.predictions - is.matches);
     const double wrong_should = static_cast<double>(is.matches) * (1.0 / should.precision - 1.0);
     double& ghosts = noise.ghost_rate_hz.at(index(type));
-    ghosts += kDamping * (wrong_should - wrong) / (seconds * kFramesPerSecond * noise.ghost_dwell_s);
+    ghosts += kDamping * (wrong_should - wrong) / (seconds * kFramesPerSecond * mean_ghost_life_s(noise));
     ghosts = std::max(0.0, ghosts);
     double& factor = noise.error_factor.at(index(type));
     factor = std::clamp(towards(factor, is.acd_m(), should.acd_m), 0.2, 5.0);

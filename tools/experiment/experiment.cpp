@@ -31,8 +31,8 @@ class DriveRun {
   DriveRun(const ExperimentSpec& spec, const DriveSpec& drive)
       : spec_(spec), drive_(drive), frames_(simulate(drive)) {}
 
-  std::vector<SubjectResult> results() const {
-    std::vector<SubjectResult> all{raw()};
+  DriveResults results() const {
+    DriveResults all{raw()};
     for (const NamedConfig& config : spec_.configs) all.push_back(mapped(config));
     if (spec_.peer) all.push_back(peer());
     if (spec_.oracle) all.push_back(oracle());
@@ -88,15 +88,18 @@ class DriveRun {
 
 }  // namespace
 
-std::vector<SubjectResult> run(const ExperimentSpec& spec) {
-  std::vector<std::vector<SubjectResult>> of_drive(spec.drives.size());
+std::vector<DriveResults> run(const ExperimentSpec& spec) {
+  std::vector<DriveResults> of_drive(spec.drives.size());
   in_parallel(spec.drives.size(),
               [&](std::size_t i) { of_drive[i] = DriveRun(spec, spec.drives[i]).results(); });
+  return of_drive;
+}
 
-  std::vector<SubjectResult> sums;
-  for (std::vector<SubjectResult>& results : of_drive) {
+DriveResults sum(const std::vector<DriveResults>& drives) {
+  DriveResults sums;
+  for (const DriveResults& results : drives) {
     if (sums.empty()) {
-      sums = std::move(results);
+      sums = results;
       continue;
     }
     for (std::size_t i = 0; i < sums.size(); ++i) {

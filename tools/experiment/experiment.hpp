@@ -27,13 +27,19 @@ struct ExperimentSpec {
 };
 
 struct SubjectResult {
-  std::string name;  ///< raw, a configuration's, peer, oracle; in this order
+  std::string name;  ///< raw, a configuration's, peer, oracle
   Measures measures;
   Distribution update_ms;  ///< of mappers only
 };
 
-/// Sums over the drives. They run on all cores at once; that changes no result but the times.
+/// Of one drive: raw, the configurations, peer, oracle; those that were asked for, in this order.
+using DriveResults = std::vector<SubjectResult>;
+
+/// One per drive. They run on all cores at once; that changes no result but the times.
 /// Throws what a drive throws.
-std::vector<SubjectResult> run(const ExperimentSpec& spec);
+std::vector<DriveResults> run(const ExperimentSpec& spec);
+
+/// Of all drives together.
+DriveResults sum(const std::vector<DriveResults>& drives);
 
 }  // namespace laneloom

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "laneloom/polyline.hpp"
@@ -63,6 +62,33 @@ MarkingStyle other_style(MarkingStyle style) {
 
 }  // namespace
 
+void shift_left(Polyline& line, double left_m) {
+  const MeasuredPolyline measured(line);
+  const std::vector<double> arcs_m = arc_lengths(line);
+  for (std::size_t i = 0; i < line.size(); ++i)
+    line[i].head<2>() += left_m * left_normal(measured, arcs_m[i]);
+}
+
+double confidence_error(const NoiseProfile& noise, const Wander& held, Random& random) {
+  return noise.confidence_stddev * (std::sqrt(noise.confidence_held) * held.value() +
+                                    std::sqrt(1.0 - noise.confidence_held) * random.normal());
+}
+
+LineNoise::DefectState::DefectState(const Defect& defect, Trait trait, Random& random)
+    : trait_(trait), moment_(defect.share * (1.0 - defect.lasting), random) {}
+
+void LineNoise::DefectState::step(double dt_s, const Defect& defect, Random& random) {
+  moment_.step(dt_s, defect.share * (1.0 - defect.lasting), defect.dwell_s, random);
+}
+
+bool LineNoise::DefectState::lasts(const Defect& defect, const Places& places, double arc_m) const {
+  return places.among(defect.share * defect.lasting, trait_, arc_m);
+}
+
+bool LineNoise::DefectState::on(const Defect& defect, const Places& places, double arc_m) const {
+  return moment_.on() || lasts(defect, places, arc_m);
+}
+
 LineNoise::LineNoise(const NoiseProfile& noise, MarkingType type, double distance_m, Random& random)
     : type_(type),
       offset_(random),
@@ -74,45 +100,55 @@ LineNoise::LineNoise(const NoiseProfile& noise, MarkingType type, double distanc
       confidence_(random),
       poor_offset_(random),
       missed_(missed_share(noise, distance_m), random),
-      poor_(noise.poor_share, random),
-      cut_(noise.cut_share, random),
-      duplicated_(noise.duplicate_share, random),
-      swapped_(noise.swapped_share, random),
-      wrong_style_(noise.style_wrong_share, random),
+      poor_(noise.poor, Trait::poor, random),
+      cut_(noise.cut, Trait::cut, random),
+      duplicated_(noise.duplicate, Trait::duplicated, random),
+      swapped_(noise.swapped, Trait::swapped, random),
+      wrong_style_(noise.style_wrong, Trait::style, random),
       cut_at_(random.uniform(0.2, 0.8)),
-      cut_gap_(random.uniform(0.3, 1.0)),
-      duplicate_offset_(random.uniform(0.5, 1.0) * (random.chance(0.5) ? 1.0 : -1.0)) {}
+      cut_gap_(random.uniform(0.3, 1.0)) {}
 
 double LineNoise::missed_share(const NoiseProfile& noise, double distance_m) const {
-  const double share = noise.missed_share.at(index(type_));
+  const double share = noise.missed_share.at(index(type_)) * (1.0 - noise.missed_lasting.at(index(type_)));
   return std::min(0.95, share + noise.missed_share_per_m * distance_m);
 }
 
 void LineNoise::step(double dt_s, const NoiseProfile& noise, double distance_m, Random& random) {
-  for (Wander* wander : {&offset_, &rotation_, &confidence_}) wander->step(dt_s, noise.line_memory_s, random);
+  for (Wander* wander : {&offset_, &rotation_}) wander->step(dt_s, noise.line_memory_s, random);
   for (Wander* wander : {&first_swing_, &last_swing_, &first_shift_, &last_shift_})
     wander->step(dt_s, noise.end_memory_s, random);
+  confidence_.step(dt_s, noise.confidence_memory_s, random);
+  poor_offset_.step(dt_s, noise.poor.dwell_s, random);
   missed_.step(dt_s, missed_share(noise, distance_m), noise.missed_dwell_s, random);
-  poor_offset_.step(dt_s, noise.poor_dwell_s, random);
-  poor_.step(dt_s, noise.poor_share, noise.poor_dwell_s, random);
-  cut_.step(dt_s, noise.cut_share, noise.cut_dwell_s, random);
-  duplicated_.step(dt_s, noise.duplicate_share, noise.duplicate_dwell_s, random);
-  swapped_.step(dt_s, noise.swapped_share, noise.swapped_dwell_s, random);
-  wrong_style_.step(dt_s, noise.style_wrong_share, noise.style_wrong_dwell_s, random);
+  poor_.step(dt_s, noise.poor, random);
+  cut_.step(dt_s, noise.cut, random);
+  duplicated_.step(dt_s, noise.duplicate, random);
+  swapped_.step(dt_s, noise.swapped, random);
+  wrong_style_.step(dt_s, noise.style_wrong, random);
 }
 
-double LineNoise::offset_m(double range_m, const NoiseProfile& noise) const {
+double LineNoise::offset_m(double range_m, double arc_m, const NoiseProfile& noise,
+                           const Places& places) const {
   // Nothing that a network would take for the line is farther off for long.
-  constexpr double kMaxStddevs = 1.5;
-  const double lasting = std::clamp(offset_.value(), -kMaxStddevs, kMaxStddevs);
-  const double lasting_m = lasting * noise.error_factor.at(index(type_)) *
-                           (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m);
-  if (!poor_.on()) return lasting_m;
-  return lasting_m + poor_offset_.value() * (noise.poor_stddev_m + noise.poor_stddev_per_m * range_m);
+  static constexpr double kMaxStddevs = 1.5;
+  constexpr double kFar_m = 30.0;
+  const auto bounded = [](double value) { return std::clamp(value, -kMaxStddevs, kMaxStddevs); };
+  double error = std::sqrt(1.0 - noise.offset_lasting) * bounded(offset_.value());
+  if (noise.offset_lasting > 0.0)
+    error += std::sqrt(noise.offset_lasting) * bounded(places.wave(Trait::offset, arc_m));
+  const double share = range_m / kFar_m;
+  const double offset_m = error * noise.error_factor.at(index(type_)) *
+                          (noise.offset_stddev_m + noise.offset_stddev_per_m * range_m +
+                           noise.offset_stddev_far_m * share * share);
+  if (!poor_.on(noise.poor, places, arc_m)) return offset_m;
+  const double poor =
+      poor_.lasts(noise.poor, places, arc_m) ? places.wave(Trait::poor_offset, arc_m) : poor_offset_.value();
+  return offset_m + poor * (noise.poor_stddev_m + noise.poor_stddev_per_m * range_m);
 }
 
-Polyline LineNoise::displaced(const Polyline& truth, const NoiseProfile& noise, Random& random) const {
-  const MeasuredPolyline measured(truth);
+Polyline LineNoise::displaced(const VisiblePiece& truth, const NoiseProfile& noise, const Places& places,
+                              Random& random) const {
+  const MeasuredPolyline measured(truth.points);
   Polyline line = densified(measured.points(), kDenseStep_m);
   const std::vector<double> arcs_m = arc_lengths(line);
   const double nearest_m = arcs_m[nearest_to_body(line)];
@@ -123,7 +159,7 @@ Polyline LineNoise::displaced(const Polyline& truth, const NoiseProfile& noise, 
     const double arc_m = arcs_m[i];
     const double range_m = line[i].head<2>().norm();
     const double left_m =
-        offset_m(range_m, noise) + slope * (arc_m - nearest_m) + flutter_m +
+        offset_m(range_m, truth.arc.from_m + arc_m, noise, places) + slope * (arc_m - nearest_m) + flutter_m +
         noise.point_stddev_m * random.normal() +
         noise.end_swing_stddev_m *
             (first_swing_.value() * end_weight(arc_m, noise.end_reach_m) +
@@ -148,41 +184,36 @@ Polyline LineNoise::with_shifted_ends(const Polyline& line, const NoiseProfile& 
   return out;
 }
 
-double LineNoise::confidence(const Polyline& line, const NoiseProfile& noise, Random& random) const {
-  double range_m = std::numeric_limits<double>::infinity();
-  for (const Point& p : line) range_m = std::min(range_m, p.head<2>().norm());
-  const double error_m = std::abs(offset_m(range_m, noise));
-  // Half of its scatter stays with the line, half is every frame's own.
-  const double scatter = noise.confidence_stddev * std::numbers::sqrt2 / 2.0;
-  return std::clamp(noise.confidence - noise.confidence_per_m * range_m -
-                        noise.confidence_per_error_m * error_m +
-                        scatter * (confidence_.value() + random.normal()),
-                    0.02, 1.0);
-}
-
-std::vector<Detection> LineNoise::detect(const Polyline& truth, MarkingStyle style, const NoiseProfile& noise,
-                                         Random& random) const {
-  const Polyline whole = with_shifted_ends(displaced(truth, noise, random), noise);
-  Detection detection{.type = swapped_.on() ? swapped_type(type_) : type_,
-                      .style = wrong_style_.on() ? other_style(style) : style,
-                      .confidence = confidence(whole, noise, random),
-                      .points = whole,
-                      .stddev_m = {}};
+std::vector<LineNoise::Seen> LineNoise::detect(const VisiblePiece& truth, MarkingStyle style,
+                                               const NoiseProfile& noise, const Places& places,
+                                               Random& random) const {
+  const Point& nearest = truth.points[nearest_to_body(truth.points)];
+  const double range_m = nearest.head<2>().norm();
+  const double arc_m = truth.arc.from_m + MeasuredPolyline(truth.points).project(nearest).arc_m;
+  const Polyline whole = with_shifted_ends(displaced(truth, noise, places, random), noise);
+  Detection detection{
+      .type = swapped_.on(noise.swapped, places, arc_m) ? swapped_type(type_) : type_,
+      .style = wrong_style_.on(noise.style_wrong, places, arc_m) ? other_style(style) : style,
+      .confidence = noise.confidence - noise.confidence_per_m * range_m -
+                    noise.confidence_per_error_m * std::abs(offset_m(range_m, arc_m, noise, places)) +
+                    confidence_error(noise, confidence_, random),
+      .points = whole,
+      .stddev_m = {}};
   if (random.chance(noise.style_unknown_probability)) detection.style = MarkingStyle::unknown;
-  std::vector<Detection> out{detection};
+  std::vector<Seen> out{{detection, true}};
   const MeasuredPolyline measured(whole);
   const double gap_m = cut_gap_ * noise.cut_gap_m, cut_m = cut_at_ * measured.length();
-  if (cut_.on() && cut_m > kMinLength_m && measured.length() - cut_m - gap_m > kMinLength_m) {
-    out.front().points = measured.slice({0.0, cut_m});
-    out.push_back(detection);
-    out.back().points = measured.slice({cut_m + gap_m, measured.length()});
+  if (cut_.on(noise.cut, places, arc_m) && cut_m > kMinLength_m &&
+      measured.length() - cut_m - gap_m > kMinLength_m) {
+    out.front().detection.points = measured.slice({0.0, cut_m});
+    out.push_back({detection, true});
+    out.back().detection.points = measured.slice({cut_m + gap_m, measured.length()});
   }
-  if (duplicated_.on()) {
-    out.push_back(detection);
-    out.back().confidence = std::clamp(noise.ghost_confidence + 0.15 * random.normal(), 0.02, 1.0);
-    for (Point& p : out.back().points)
-      p.head<2>() +=
-          duplicate_offset_ * noise.duplicate_offset_m * left_normal(measured, measured.project(p).arc_m);
+  if (duplicated_.on(noise.duplicate, places, arc_m)) {
+    const double side = 2.0 * places.uniform(Trait::duplicate_side, arc_m) - 1.0;
+    detection.confidence = noise.ghost_confidence + confidence_error(noise, confidence_, random);
+    shift_left(detection.points, std::copysign(0.5 + 0.5 * std::abs(side), side) * noise.duplicate_offset_m);
+    out.push_back({std::move(detection), false});
   }
   return out;
 }

@@ -3,36 +3,56 @@
 #include <vector>
 
 #include "simulation/noise_profile.hpp"
+#include "simulation/places.hpp"
 #include "simulation/random.hpp"
+#include "simulation/sensor_view.hpp"
 
 namespace laneloom {
 
-/// What is wrong with the detections of one line, over the frames in which it is in view.
+/// What is wrong with the detections of one line, over the frames in which it is in view; what lasts longer
+/// is the line's `Places`.
 class LineNoise {
  public:
+  struct Seen {
+    Detection detection;  ///< its confidence may be beyond 0..1
+    bool of_line = true;  ///< a duplicate is not
+  };
+
   /// The line's share of missed frames depends on its type and distance.
   LineNoise(const NoiseProfile& noise, MarkingType type, double distance_m, Random& random);
   void step(double dt_s, const NoiseProfile& noise, double distance_m, Random& random);
 
+  /// For a while; where it is for the whole drive, Places tell.
   bool missed() const { return missed_.on(); }
 
-  /// A line in the body frame as it is detected now: one or two lines, and perhaps a duplicate. No confidence
-  /// is above 1 or below 0.
-  std::vector<Detection> detect(const Polyline& truth, MarkingStyle style, const NoiseProfile& noise,
-                                Random& random) const;
+  /// A piece of the line as it is detected now: one or two lines, and perhaps a duplicate.
+  std::vector<Seen> detect(const VisiblePiece& truth, MarkingStyle style, const NoiseProfile& noise,
+                           const Places& places, Random& random) const;
 
  private:
-  double offset_m(double range_m, const NoiseProfile& noise) const;
+  class DefectState {
+   public:
+    DefectState(const Defect& defect, Trait trait, Random& random);
+    void step(double dt_s, const Defect& defect, Random& random);
+    bool lasts(const Defect& defect, const Places& places, double arc_m) const;
+    bool on(const Defect& defect, const Places& places, double arc_m) const;
+
+   private:
+    Trait trait_;
+    Switch moment_;
+  };
+
+  double offset_m(double range_m, double arc_m, const NoiseProfile& noise, const Places& places) const;
   double missed_share(const NoiseProfile& noise, double distance_m) const;
-  Polyline displaced(const Polyline& truth, const NoiseProfile& noise, Random& random) const;
+  Polyline displaced(const VisiblePiece& truth, const NoiseProfile& noise, const Places& places,
+                     Random& random) const;
   Polyline with_shifted_ends(const Polyline& line, const NoiseProfile& noise) const;
-  double confidence(const Polyline& line, const NoiseProfile& noise, Random& random) const;
 
   MarkingType type_;
   Wander offset_, rotation_, first_swing_, last_swing_, first_shift_, last_shift_, confidence_, poor_offset_;
-  Switch missed_, poor_, cut_, duplicated_, swapped_, wrong_style_;
-  double cut_at_, cut_gap_,
-      duplicate_offset_;  // drawn once: shares of the length and of the profile's maxima
+  Switch missed_;
+  DefectState poor_, cut_, duplicated_, swapped_, wrong_style_;
+  double cut_at_, cut_gap_;  // drawn once: shares of the length and of the profile's maximum
 };
 
 /// Points along a line as a network gives them: about twenty.
@@ -40,5 +60,11 @@ Polyline as_network_output(const Polyline& line);
 
 /// Shifts every other point of a line sideways.
 void make_zigzag(Polyline& line, double stddev_m, Random& random);
+
+/// Shifts a line to its left.
+void shift_left(Polyline& line, double left_m);
+
+/// How far a confidence is off; `held` is what of that stays with the line for a while.
+double confidence_error(const NoiseProfile& noise, const Wander& held, Random& random);
 
 }  // namespace laneloom

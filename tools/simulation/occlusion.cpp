@@ -77,15 +77,21 @@ Polyline Occluders::hidden_area(const Vehicle& vehicle) {
   return convex_hull(std::move(points));
 }
 
-std::vector<Polyline> Occluders::visible_parts(const Polyline& line) const {
-  if (areas_.empty()) return {line};
-  std::vector<Polyline> parts;
+std::vector<VisiblePiece> Occluders::visible_parts(const VisiblePiece& piece) const {
+  if (areas_.empty()) return {piece};
+  const Polyline points = MeasuredPolyline(piece.points).resample(kSplitStep_m);
+  const double step_m = (piece.arc.to_m - piece.arc.from_m) / static_cast<double>(points.size() - 1);
+  std::vector<VisiblePiece> parts;
   bool open = false;
-  for (const Point& p : MeasuredPolyline(line).resample(kSplitStep_m)) {
-    const bool hidden =
-        std::any_of(areas_.begin(), areas_.end(), [&](const Polyline& area) { return contains(area, p); });
-    if (!hidden && !open) parts.emplace_back();
-    if (!hidden) parts.back().push_back(p);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double arc_m = piece.arc.from_m + static_cast<double>(i) * step_m;
+    const bool hidden = std::any_of(areas_.begin(), areas_.end(),
+                                    [&](const Polyline& area) { return contains(area, points[i]); });
+    if (!hidden && !open) parts.push_back({{arc_m, arc_m}, {}});
+    if (!hidden) {
+      parts.back().points.push_back(points[i]);
+      parts.back().arc.to_m = arc_m;
+    }
     open = !hidden;
   }
   return parts;

@@ -5,6 +5,7 @@
 #include "laneloom/types.hpp"
 #include "simulation/noise_profile.hpp"
 #include "simulation/random.hpp"
+#include "simulation/sensor_view.hpp"
 
 namespace laneloom {
 
@@ -16,8 +17,8 @@ class Occluders {
   /// Where each of them stands and what is behind it: convex, counter-clockwise, body frame.
   const std::vector<Polyline>& areas() const { return areas_; }
 
-  /// The parts of a line (body frame) that are outside of all areas.
-  std::vector<Polyline> visible_parts(const Polyline& line) const;
+  /// The parts of a piece of a line that are outside of all areas.
+  std::vector<VisiblePiece> visible_parts(const VisiblePiece& piece) const;
 
  private:
   struct Vehicle {

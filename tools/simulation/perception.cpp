@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace laneloom {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFramePeriod_s = 0.1;
 constexpr double kMaxStep_s = 1.0;
 constexpr double kMinLength_m = 1.0;
+constexpr double kMinConfidence = 0.02;
 
 double reach_m(const SensorView& view) {
   const double ahead_m = std::max(std::abs(view.forward_min_m), std::abs(view.forward_max_m));
@@ -36,22 +35,18 @@ double overlap_m(const Stretch& a, const Stretch& b, double period_m) {
 }  // namespace
 
 Perception::Perception(const Road& road, NoiseProfile noise, SensorView view, std::uint64_t seed)
-    : noise_(std::move(noise)), view_(std::move(view)), random_(seed), frame_error_(random_) {
+    : noise_(std::move(noise)), view_(std::move(view)), random_(seed), ghosts_(road), frame_noise_(random_) {
   for (const RoadMarking& marking : road.markings) {
     if (!view_.detects(marking.type)) continue;
+    const ViewedLine& viewed = lines_.emplace_back(marking.points);
+    places_.emplace_back(seed, lines_.size(), viewed.line.length(), viewed.ring);
     markings_.push_back(marking);
-    lines_.emplace_back(marking.points);
-  }
-  for (const RoadLane& lane : road.lanes) {
-    if (!lane.in_intersection) continue;
-    crossings_.emplace_back(lane.left);
-    crossings_.emplace_back(lane.right);
   }
 }
 
 DetectionFrame Perception::observe(const VehiclePose& pose) {
   const double dt_s = step_time(pose.stamp_ns);
-  step_frame_error(dt_s);
+  frame_noise_.step(dt_s, noise_, random_);
   occluders_.step(dt_s, noise_, random_);
   sources_.clear();
   DetectionFrame frame;
@@ -59,11 +54,14 @@ DetectionFrame Perception::observe(const VehiclePose& pose) {
   frame.sequence = ++sequence_;
   frame.source = "simulation";
   frame.detected_types = view_.detected_types;
-  frame.field_of_view = view_.polygon();
-  frame.occluded_areas = occluders_.areas();
-  detect_markings(pose, dt_s, frame);
-  step_ghosts(pose, dt_s);
-  detect_ghosts(pose, frame);
+  if (noise_.tells_view) {
+    frame.field_of_view = view_.polygon();
+    frame.occluded_areas = occluders_.areas();
+  }
+  const std::vector<Polyline> in_view = detect_markings(pose, dt_s, frame);
+  ghosts_.step(pose, in_view, dt_s, noise_, view_, random_);
+  for (const Detection& ghost : ghosts_.detections(pose, noise_, view_, random_))
+    add(ghost, kNoElement, frame);
   return frame;
 }
 
@@ -72,18 +70,6 @@ double Perception::step_time(std::int64_t stamp_ns) {
       last_stamp_ns_ ? static_cast<double>(stamp_ns - *last_stamp_ns_) * 1e-9 : kFramePeriod_s;
   last_stamp_ns_ = stamp_ns;
   return dt_s > 0.0 && dt_s <= kMaxStep_s ? dt_s : kFramePeriod_s;
-}
-
-void Perception::step_frame_error(double dt_s) {
-  for (Wander* wander : {&frame_error_.yaw, &frame_error_.pitch, &frame_error_.longitudinal})
-    wander->step(dt_s, noise_.frame_memory_s, random_);
-  const auto turn = [](double angle_deg, const Point& axis) {
-    return Eigen::AngleAxisd(angle_deg * kDegree, axis);
-  };
-  T_seen_body_ =
-      Eigen::Translation3d(frame_error_.longitudinal.value() * noise_.frame_longitudinal_stddev_m, 0.0, 0.0) *
-      turn(frame_error_.yaw.value() * noise_.frame_yaw_stddev_deg, Point::UnitZ()) *
-      turn(frame_error_.pitch.value() * noise_.frame_pitch_stddev_deg, Point::UnitY());
 }
 
 // The piece's errors are those of the piece of the same marking that it overlaps most in the frame before.
@@ -109,65 +95,60 @@ Perception::Track& Perception::follow(std::vector<Track>& now, std::size_t marki
   return now.back();
 }
 
-void Perception::detect_markings(const VehiclePose& pose, double dt_s, DetectionFrame& frame) {
+// What of a piece is not missed for the whole drive.
+std::vector<VisiblePiece> Perception::found_parts(std::size_t marking, const VisiblePiece& piece) const {
+  const Places& places = places_[marking];
+  const std::size_t type = index(markings_[marking].type);
+  const double share = noise_.missed_share.at(type) * noise_.missed_lasting.at(type);
+  if (share <= 0.0) return {piece};
+  const MeasuredPolyline measured(piece.points);
+  std::vector<Stretch> found;
+  for (double from_m = piece.arc.from_m; from_m < piece.arc.to_m;) {
+    // Rounding must not leave us where we are.
+    const double to_m = std::min(piece.arc.to_m, std::max(places.stretch_end_m(from_m), from_m + 1e-6));
+    if (!places.among(share, Trait::missed, from_m)) {
+      if (!found.empty() && found.back().to_m == from_m) {
+        found.back().to_m = to_m;
+      } else {
+        found.push_back({from_m, to_m});
+      }
+    }
+    from_m = to_m;
+  }
+  std::vector<VisiblePiece> parts;
+  for (const Stretch& arc : found) {
+    const Stretch local{arc.from_m - piece.arc.from_m, arc.to_m - piece.arc.from_m};
+    if (local.to_m > local.from_m) parts.push_back({arc, measured.slice(local)});
+  }
+  return parts;
+}
+
+std::vector<Polyline> Perception::detect_markings(const VehiclePose& pose, double dt_s,
+                                                  DetectionFrame& frame) {
   const Eigen::Isometry3d T_body_map = transform(pose).inverse();
+  std::vector<Polyline> in_view;
   std::vector<Track> now;
   for (std::size_t i = 0; i < markings_.size(); ++i) {
     if (!lines_[i].may_be_near(pose.position, reach_m(view_))) continue;
     for (const VisiblePiece& piece : visible_pieces(lines_[i], view_, T_body_map)) {
+      if (markings_[i].type != MarkingType::stopline) in_view.push_back(piece.points);
       const Track& track = follow(now, i, piece, dt_s);
       const bool dropped = random_.chance(noise_.dropped_probability);
-      if (track.noise.missed() || dropped) continue;
-      for (const Polyline& part : occluders_.visible_parts(piece.points)) {
-        if (part.size() < 2 || length(part) < kMinLength_m) continue;
-        for (const Detection& detection : track.noise.detect(part, markings_[i].style, noise_, random_))
-          add(detection, markings_[i].id, frame);
-      }
+      if (!track.noise.missed() && !dropped) detect(i, track.noise, piece, frame);
     }
   }
   tracks_ = std::move(now);
+  return in_view;
 }
 
-void Perception::step_ghosts(const VehiclePose& pose, double dt_s) {
-  std::erase_if(ghosts_, [&](const Ghost&) { return random_.chance(dt_s / noise_.ghost_dwell_s); });
-  std::vector<const ViewedLine*> in_view;
-  for (const ViewedLine& crossing : crossings_) {
-    if (crossing.may_be_near(pose.position, view_.side_max_m)) in_view.push_back(&crossing);
-  }
-  // At intersections networks go on with lines where none are.
-  if (random_.chance(noise_.intersection_ghost_rate_hz * dt_s) && !in_view.empty())
-    appear(random_.chance(0.4) ? MarkingType::roadedge : MarkingType::laneline,
-           in_view[random_.below(in_view.size())]->line.points());
-  for (const MarkingType type : kMarkingTypes) {
-    if (!random_.chance(noise_.ghost_rate_hz.at(index(type)) * dt_s)) continue;
-    const Point begin(random_.uniform(view_.forward_min_m, 0.6 * view_.forward_max_m),
-                      random_.uniform(-0.6, 0.6) * view_.side_max_m, 0.0);
-    const bool across = type == MarkingType::stopline;
-    const double heading_rad = 10.0 * kDegree * random_.normal() + (across ? 90.0 * kDegree : 0.0);
-    const double length_m = across ? random_.uniform(2.5, 7.0) : random_.uniform(5.0, 20.0);
-    const Point end = begin + length_m * Point(std::cos(heading_rad), std::sin(heading_rad), 0.0);
-    appear(type, {transform(pose) * begin, transform(pose) * end});
-  }
-}
-
-void Perception::appear(MarkingType type, Polyline points_map) {
-  if (!view_.detects(type)) return;
-  const bool dashed = type == MarkingType::laneline && random_.chance(0.5);
-  ghosts_.push_back({std::move(points_map),
-                     {.type = type,
-                      .style = dashed ? MarkingStyle::dashed : MarkingStyle::solid,
-                      .confidence = std::clamp(noise_.ghost_confidence + 0.15 * random_.normal(), 0.02, 1.0),
-                      .points = {},
-                      .stddev_m = {}}});
-}
-
-void Perception::detect_ghosts(const VehiclePose& pose, DetectionFrame& frame) {
-  const Eigen::Isometry3d T_body_map = transform(pose).inverse();
-  for (const Ghost& ghost : ghosts_) {
-    for (const VisiblePiece& piece : visible_pieces(ViewedLine(ghost.points_map), view_, T_body_map)) {
-      Detection detection = ghost.detection;
-      detection.points = piece.points;
-      add(detection, kNoElement, frame);
+void Perception::detect(std::size_t marking, const LineNoise& line, const VisiblePiece& piece,
+                        DetectionFrame& frame) {
+  for (const VisiblePiece& found : found_parts(marking, piece)) {
+    for (const VisiblePiece& part : occluders_.visible_parts(found)) {
+      if (part.points.size() < 2 || length(part.points) < kMinLength_m) continue;
+      for (const LineNoise::Seen& seen :
+           line.detect(part, markings_[marking].style, noise_, places_[marking], random_))
+        add(seen.detection, seen.of_line ? markings_[marking].id : kNoElement, frame);
     }
   }
 }
@@ -175,9 +156,10 @@ void Perception::detect_ghosts(const VehiclePose& pose, DetectionFrame& frame) {
 void Perception::add(const Detection& detection, ElementId source, DetectionFrame& frame) {
   sources_.push_back(source);
   Detection& seen = frame.detections.emplace_back(detection);
+  seen.confidence = std::clamp(detection.confidence + frame_noise_.confidence(), kMinConfidence, 1.0);
   seen.points = as_network_output(detection.points);
   if (random_.chance(noise_.zigzag_probability)) make_zigzag(seen.points, noise_.zigzag_stddev_m, random_);
-  for (Point& point : seen.points) point = T_seen_body_ * point;
+  for (Point& point : seen.points) point = frame_noise_.seen(point);
 }
 
 }  // namespace laneloom

@@ -4,9 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "simulation/frame_noise.hpp"
+#include "simulation/ghosts.hpp"
 #include "simulation/line_noise.hpp"
 #include "simulation/noise_profile.hpp"
 #include "simulation/occlusion.hpp"
+#include "simulation/places.hpp"
 #include "simulation/random.hpp"
 #include "simulation/road.hpp"
 #include "simulation/sensor_view.hpp"
@@ -34,36 +37,24 @@ class Perception {
     Stretch arc;
     LineNoise noise;
   };
-  // A line that is not there; it stays in its place on the map.
-  struct Ghost {
-    Polyline points_map;
-    Detection detection;
-  };
-  struct FrameError {
-    explicit FrameError(Random& random) : yaw(random), pitch(random), longitudinal(random) {}
-    Wander yaw, pitch, longitudinal;
-  };
 
   double step_time(std::int64_t stamp_ns);
-  void step_frame_error(double dt_s);
   Track& follow(std::vector<Track>& now, std::size_t marking, const VisiblePiece& piece, double dt_s);
-  void detect_markings(const VehiclePose& pose, double dt_s, DetectionFrame& frame);
-  void step_ghosts(const VehiclePose& pose, double dt_s);
-  void appear(MarkingType type, Polyline points_map);
-  void detect_ghosts(const VehiclePose& pose, DetectionFrame& frame);
+  std::vector<VisiblePiece> found_parts(std::size_t marking, const VisiblePiece& piece) const;
+  std::vector<Polyline> detect_markings(const VehiclePose& pose, double dt_s, DetectionFrame& frame);
+  void detect(std::size_t marking, const LineNoise& line, const VisiblePiece& piece, DetectionFrame& frame);
   void add(const Detection& detection, ElementId source, DetectionFrame& frame);
 
   NoiseProfile noise_;
   SensorView view_;
   Random random_;
   std::vector<RoadMarking> markings_;
-  std::vector<ViewedLine> lines_;      // of the markings
-  std::vector<ViewedLine> crossings_;  // borders of the lanes in intersections
+  std::vector<ViewedLine> lines_;  // of the markings
+  std::vector<Places> places_;     // likewise
   std::vector<Track> tracks_;
-  std::vector<Ghost> ghosts_;
+  Ghosts ghosts_;
   Occluders occluders_;
-  FrameError frame_error_;
-  Eigen::Isometry3d T_seen_body_ = Eigen::Isometry3d::Identity();  // the frame's error
+  FrameNoise frame_noise_;
   std::optional<std::int64_t> last_stamp_ns_;
   std::uint64_t sequence_ = 0;
   std::vector<ElementId> sources_;

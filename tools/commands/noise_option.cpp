@@ -1,0 +1,37 @@
+#include "commands/noise_option.hpp"
+
+#include <stdexcept>
+
+namespace laneloom {
+
+CLI::Validator noise_name() {
+  const auto complaint = [](const std::string& name) {
+    try {
+      noise_profile(name);
+      return std::string();
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+  };
+  return {complaint, "none|inhouse|av2|shaken|random:SEED"};
+}
+
+NoiseProfile NoiseOption::profile() const {
+  NoiseProfile profile = noise_profile(name);
+  if (without_view) profile.tells_view = false;
+  return profile;
+}
+
+void add_without_view(CLI::App& command, bool& without_view) {
+  command.add_flag("--no-field-of-view", without_view,
+                   "Frames do not tell the field of view and what is occluded, as real networks' do not");
+}
+
+void add_noise(CLI::App& command, NoiseOption& noise) {
+  command.add_option("--noise", noise.name, "How the detections differ from the truth")
+      ->check(noise_name())
+      ->capture_default_str();
+  add_without_view(command, noise.without_view);
+}
+
+}  // namespace laneloom

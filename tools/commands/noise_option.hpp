@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "simulation/noise_profile.hpp"
+
+namespace laneloom {
+
+/// The name of a noise profile: a known one, or random:SEED.
+CLI::Validator noise_name();
+
+/// How simulated detections differ from the truth: options of several commands.
+struct NoiseOption {
+  std::string name = "inhouse";
+  bool without_view = false;
+
+  NoiseProfile profile() const;
+};
+
+/// --noise and --no-field-of-view.
+void add_noise(CLI::App& command, NoiseOption& noise);
+/// --no-field-of-view alone.
+void add_without_view(CLI::App& command, bool& without_view);
+
+}  // namespace laneloom
