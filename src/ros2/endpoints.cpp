@@ -58,14 +58,13 @@ class Endpoints::Impl {
                      relative<DiagnosticArray_PubSubType>(
                          "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", TopicKind::status)),
         detections_(participant_,
-                    relative<dds::CheckedType<msg::DetectionsPubSubType>>(
-                        kDetectionsTopic, kDetectionsType, TopicKind::detections),
+                    relative<dds::CheckedType<msg::DetectionsPubSubType>>(kDetectionsTopic, kDetectionsType,
+                                                                          TopicKind::detections),
                     std::move(inputs.detections),
                     in_map_frame<msg::Detections, DetectionFrame>(dds::from_msg)),
-        odometry_(
-            participant_,
-            relative<OdometryType>(config.ros2.odometry_topic, kOdometryType, TopicKind::poses),
-            std::move(inputs.poses), in_map_frame<Odometry_, VehiclePose>(from_ros)) {
+        odometry_(participant_,
+                  relative<OdometryType>(config.ros2.odometry_topic, kOdometryType, TopicKind::poses),
+                  std::move(inputs.poses), in_map_frame<Odometry_, VehiclePose>(from_ros)) {
     if (config.ros2.announce) announcement_ = announce(participant_, config.ros2);
   }
 

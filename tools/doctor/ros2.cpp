@@ -25,8 +25,8 @@ struct RosInput {
 };
 
 RosInput detections_of(const Ros2Config& ros2) {
-  return {"detections", ros2::dds_topic(ros2, ros2::kDetectionsTopic),
-          ros2::dds_type(ros2::kDetectionsType), "ros2.namespace", dds::kDetectionsTopic};
+  return {"detections", ros2::dds_topic(ros2, ros2::kDetectionsTopic), ros2::dds_type(ros2::kDetectionsType),
+          "ros2.namespace", dds::kDetectionsTopic};
 }
 
 RosInput poses_of(const Ros2Config& ros2) {

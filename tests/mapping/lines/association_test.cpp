@@ -78,11 +78,10 @@ TEST(Association, WhatIsSeenSideBySideIsNotOneLine) {
 TEST(Association, OneDetectionMayObserveTwoLinesInARow) {
   const std::vector<Line> lines{line(1, straight({0, 0, 0}, {10, 0, 0}, 11)),
                                 line(2, straight({14, 0, 0}, {30, 0, 0}, 17))};
-  auto detections = detect({straight({0, 0.1, 0}, {30, 0.1, 0})});
-  const auto matches = LineMatcher(lines, {}).match(detections);
-  EXPECT_EQ(matches.size(), 2U);
-  mark_explained(matches, detections);
-  const auto unexplained = std::ranges::count(detections[0].explained, false);
+  LineMatcher matcher(lines, {});
+  const Association found = associate(matcher, detect({straight({0, 0.1, 0}, {30, 0.1, 0})}));
+  EXPECT_EQ(found.matches.size(), 2U);
+  const auto unexplained = std::ranges::count(found.detections[0].explained, false);
   EXPECT_EQ(unexplained, 3);  // in the gap of 4 m, less half a spacing at each end
 }
 
