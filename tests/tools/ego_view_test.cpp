@@ -58,7 +58,7 @@ TEST(EgoView, MeasuresTheWidthAheadThroughTheSuccessor) {
 
 TEST(EgoView, SeesALaneThatIsGivenAgainstTheVehicle) {
   LocalMap map = road();
-  map.lanes.resize(2);
+  map.lanes[2].id = 7;
   Lane& ego = map.lanes[0];
   for (Polyline* line : {&ego.left, &ego.right, &ego.centerline}) std::reverse(line->begin(), line->end());
   std::swap(ego.left, ego.right);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mapping/geometry/reproducible.hpp"
 #include "mapping/lines/network_model.hpp"
 
 namespace laneloom {
@@ -24,7 +25,7 @@ void LateralFilter::predict(const LateralView& view) {
   // Of the error of a better view the worse one before had its share, and one of its own. It does not shrink
   // in proportion: the filter would go on beyond what was seen, as the views have moved so far.
   const double ratio = stddev_m_ > 0.0 ? std::min(1.0, view.stddev_m / stddev_m_) : 1.0;
-  const double kept = std::exp(-driven_m / view.correlation_m) * ratio;
+  const double kept = reproducible::exp(-driven_m / view.correlation_m) * ratio;
   error_m_ *= kept;
   covariance_.row(1) *= kept;
   covariance_.col(1) *= kept;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mapping/geometry/reproducible.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -132,7 +134,7 @@ void discount_unobserved(const View& view, const MapBox& range, const FusionConf
       if (in_view) station.sight = Sight::missed;
       const bool confirmed = station.log_odds >= config.confirm_log_odds;
       const double news = confirmed ? view.news : std::max(view.news, kStandingShare);
-      station.log_odds += news * config.miss_log_odds * std::log(1.0 - model.rate(type, place));
+      station.log_odds += news * config.miss_log_odds * reproducible::log(1.0 - model.rate(type, place));
     }
   }
 }

@@ -55,7 +55,8 @@ class BesideSearch {
         distance_m_(config.merge_distance_m),
         // A line that passes this near has a station within reach, unless its stations are more than twice
         // as far apart as wanted.
-        reach_m_(std::hypot(config.merge_distance_m, config.station_spacing_m)) {}
+        reach_m_(std::sqrt(config.merge_distance_m * config.merge_distance_m +
+                           config.station_spacing_m * config.station_spacing_m)) {}
 
   /// Calls `found(other)`. Of equally long ones, the first ones count as longer.
   template <class Found>

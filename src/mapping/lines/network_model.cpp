@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "mapping/geometry/reproducible.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -42,7 +44,7 @@ void Gain::learn(double suspected, double proved) {
 
 NetworkModel::NetworkModel(const FusionConfig& config)
     : pairs_(kPriorPairs),
-      products_(kPriorPairs * kShared * std::exp(-kPriorDistance_m / kPriorCorrelation_m)),
+      products_(kPriorPairs * kShared * reproducible::exp(-kPriorDistance_m / kPriorCorrelation_m)),
       distances_m_(kPriorPairs * kPriorDistance_m) {
   for (std::size_t i = 0; i < kNodes_m.size(); ++i) {
     const double stddev_m = config.stddev_m + config.stddev_per_m * kNodes_m[i];
@@ -60,7 +62,8 @@ double NetworkModel::stddev_m(double range_m) const {
 
 double NetworkModel::correlation_m() const {
   const double correlation = std::clamp(products_ / pairs_ / kShared, 0.01, 0.99);
-  return std::clamp(-distances_m_ / pairs_ / std::log(correlation), kMinCorrelation_m, kMaxCorrelation_m);
+  return std::clamp(-distances_m_ / pairs_ / reproducible::log(correlation), kMinCorrelation_m,
+                    kMaxCorrelation_m);
 }
 
 double NetworkModel::error_m(const FarView& view, double near_m) const {
