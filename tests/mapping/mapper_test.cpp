@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <random>
 
 #include "mapping/shapes.hpp"
@@ -58,6 +59,18 @@ class Drive {
   double x = 0.0;
   int number = 0;
 };
+
+TEST(Mapper, AMarkingKnowsWhenItWasFirstAndLastSeen) {
+  Drive drive;
+  drive.steps(5);
+  std::vector<Detection> without_line = road();
+  without_line.erase(without_line.begin() + 1);
+  const LocalMap& map = drive.step(without_line);
+  const auto line = std::ranges::find(map.markings, MarkingType::laneline, &Marking::type);
+  ASSERT_NE(line, map.markings.end());
+  EXPECT_EQ(line->first_seen_ns, 100'000'000);
+  EXPECT_EQ(line->last_seen_ns, 500'000'000);
+}
 
 TEST(Mapper, ATrueLineAppearsWithinItsFirstDetectionsAsTentative) {
   Drive drive;

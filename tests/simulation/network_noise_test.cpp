@@ -130,12 +130,14 @@ TEST(NetworkNoise, PitchScalesTheScene) {
 }
 
 TEST(NetworkNoise, DuplicatesAreOfNoMarking) {
-  NoiseProfile noise;
-  noise.duplicate = {.share = 1.0, .lasting = 0.5, .dwell_s = 10.0};
-  const Seen seen = drive(noise).front();
-  const auto ghosts = std::count(seen.sources.begin(), seen.sources.end(), kNoElement);
-  EXPECT_EQ(static_cast<std::size_t>(ghosts), make_scenario("straight").markings.size());
-  EXPECT_EQ(seen.sources.size(), 2 * make_scenario("straight").markings.size());
+  for (const double lasting : {0.0, 1.0}) {
+    NoiseProfile noise;
+    noise.duplicate = {.share = 1.0, .lasting = lasting, .dwell_s = 10.0};
+    const Seen seen = drive(noise).front();
+    const auto ghosts = std::count(seen.sources.begin(), seen.sources.end(), kNoElement);
+    EXPECT_EQ(static_cast<std::size_t>(ghosts), make_scenario("straight").markings.size());
+    EXPECT_EQ(seen.sources.size(), 2 * make_scenario("straight").markings.size());
+  }
 }
 
 TEST(NetworkNoise, GhostsStayInTheirPlaces) {
