@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "end_to_end/process.hpp"
+#include "own_domain.hpp"
+
+// A service, a perception and a planner; the planner's words are the proof.
+namespace laneloom {
+namespace {
+
+const std::string kVehicle = "example";
+
+Process service() {
+  return Process({LANELOOMD, "--domain", std::to_string(own_domain()), "--vehicle-id", kVehicle});
+}
+
+/// What it prints can be waited for.
+std::vector<std::string> example(const std::string& program) {
+  return {"/bin/sh", "-c", R"(exec "$0" "$@" >&2)", program, std::to_string(own_domain()), kVehicle};
+}
+
+void expect_lane(const std::string& perception, const std::string& planner, const std::string& words) {
+  const Process service = laneloom::service();
+  const Process perceives(example(perception));
+  const Process plans(example(planner));
+  EXPECT_TRUE(plans.wait_for_error(words)) << plans.errors() << service.errors() << perceives.errors();
+}
+
+TEST(Examples, OurPlannerKnowsTheLaneItIsIn) {
+  expect_lane(CPP_PERCEPTION, CPP_PLANNER, "m left of its right border");
+}
+
+#ifdef C_PLANNER
+TEST(Examples, CycloneReadsLanesOfWhatCycloneSees) { expect_lane(C_PERCEPTION, C_PLANNER, "is 3.50 m wide"); }
+
+TEST(Examples, CycloneReadsLanesOfWhatFastDdsSees) {
+  expect_lane(CPP_PERCEPTION, C_PLANNER, "is 3.50 m wide");
+}
+#endif
+
+TEST(Examples, WrongUseIsSaid) {
+  for (const std::string program : {CPP_PERCEPTION, CPP_PLANNER}) {
+    Process process({program});
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_NE(process.errors().find("usage: "), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,67 @@
+// planner DOMAIN VEHICLE_ID: follows the lane map, and says how wide its lanes are.
+#include <dds/dds.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "LaneMap.h"
+
+/// Ends the process when DDS refuses.
+static dds_entity_t made(dds_entity_t entity) {
+  if (entity >= 0) return entity;
+  fprintf(stderr, "%s\n", dds_strretcode(-entity));
+  exit(EXIT_FAILURE);
+}
+
+/// What a planner asks for: the map in time, and to learn that the service hangs.
+static dds_qos_t* map_qos(void) {
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(50));
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+  dds_qset_deadline(qos, DDS_MSECS(250));
+  dds_qset_liveliness(qos, DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_MSECS(400));
+  return qos;
+}
+
+static void plan(const laneloom_msg_LaneMap* map) {
+  // A planner must not drive on by an old map, however good it was.
+  if (map->state == laneloom_msg_MAP_STALE) {
+    printf("no map to drive on\n");
+    return;
+  }
+  for (uint32_t i = 0; i < map->lanes._length; ++i) {
+    const laneloom_msg_Lane* lane = &map->lanes._buffer[i];
+    printf("lane %" PRIu64 " is %.2f m wide, and has %u points\n", lane->id, lane->width_m,
+           (unsigned)lane->centerline._length);
+  }
+  fflush(stdout);
+}
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    fprintf(stderr, "usage: planner DOMAIN VEHICLE_ID\n");
+    return EXIT_FAILURE;
+  }
+  const dds_entity_t participant = made(dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL));
+  dds_qos_t* partition = dds_create_qos();
+  dds_qset_partition1(partition, argv[2]);
+  const dds_entity_t subscriber = made(dds_create_subscriber(participant, partition, NULL));
+  dds_delete_qos(partition);
+  const dds_entity_t topic =
+      made(dds_create_topic(participant, &laneloom_msg_LaneMap_desc, "laneloom/v2/lane_map", NULL, NULL));
+  dds_qos_t* qos = map_qos();
+  const dds_entity_t maps = made(dds_create_reader(subscriber, topic, qos, NULL));
+  dds_delete_qos(qos);
+
+  for (;; dds_sleepfor(DDS_MSECS(100))) {
+    void* sample = NULL;
+    dds_sample_info_t info;
+    if (dds_take(maps, &sample, &info, 1, 1) != 1) continue;
+    if (info.valid_data)
+      plan(sample);
+    else
+      printf("the service is gone\n");
+    dds_return_loan(maps, &sample, 1);
+  }
+}
