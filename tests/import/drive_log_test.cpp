@@ -46,6 +46,9 @@ TEST_F(DriveLogs, Argoverse2NamesSamplesByLogAndStamp) {
     EXPECT_EQ(drive.stamp_ns_of("log-a_315971916927482490"), 315971916927482490);
     EXPECT_EQ(drive.stamp_ns_of("log-b_315971916927482490"), std::nullopt);
     EXPECT_THAT(error([&] { drive.stamp_ns_of("log-a_1x"); }), HasSubstr("log-a_1x"));
+    EXPECT_EQ(drive.stamp_ns_of("2000"), 2000) << "a stamp alone is of the log whose poses are around it";
+    EXPECT_EQ(drive.stamp_ns_of("1999"), std::nullopt);
+    EXPECT_EQ(drive.stamp_ns_of("1000002001"), std::nullopt);
     EXPECT_EQ(drive.T_body_points * Point(1, 2, 3), Point(1, 2, 3));
   }
 }

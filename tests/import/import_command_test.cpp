@@ -71,6 +71,22 @@ TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
   EXPECT_EQ(frames[1].detections[0].points, (Polyline{{0, 2, -0.3}, {30, 2, -0.3}}));
 }
 
+TEST_F(ImportCommand, StreamMapNetAndMapTrackerNameSamplesByStamp) {
+  write(
+      "submission_vector.json",
+      R"({"meta": {}, "results": {"1250000000": {"vectors": [[[0, 2], [30, 2]]], "scores": [0.9], "labels": [1]},)"
+      R"("1900000000": {"vectors": [], "scores": [], "labels": []}}})");
+  for (const std::string network : {"streammapnet", "maptracker"}) {
+    const std::string recording = file(network + ".mcap");
+    ASSERT_EQ(run({network, "--results", file("submission_vector.json"), "--argoverse2", file("log"), "--out",
+                   recording}),
+              0)
+        << output();
+    EXPECT_THAT(output(), HasSubstr("log: 1 frames, 6 poses"));
+    EXPECT_THAT(output(), HasSubstr("1 frames of other drives"));
+  }
+}
+
 TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   const auto border = [](double y) {
     const std::string at = R"(,"y":)" + std::to_string(y) + R"(,"z":0})";

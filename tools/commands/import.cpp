@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -14,27 +13,35 @@
 #include "import/drive_log.hpp"
 #include "import/drive_recording.hpp"
 #include "import/maptr.hpp"
+#include "import/streammapnet.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/road.hpp"
 
 namespace laneloom {
 namespace {
 
-struct MapTrOptions {
+constexpr const char* kForwardLeft = "forward-left";
+constexpr const char* kRightForward = "right-forward";
+
+struct ResultsOptions {
   std::string results, out;
   std::string argoverse2, nuscenes, scene, poses, samples;
-  PointAxes axes = PointAxes::forward_left;
+  std::string axes = kForwardLeft;
 };
 
-DriveLog load_drive(const MapTrOptions& options) {
+DriveLog load_drive(const ResultsOptions& options) {
   if (!options.argoverse2.empty()) return argoverse2_drive(options.argoverse2);
   if (!options.nuscenes.empty()) return nuscenes_drive(options.nuscenes, options.scene);
-  return plain_drive(options.poses, options.samples, options.axes);
+  const PointAxes axes = options.axes == kForwardLeft ? PointAxes::forward_left : PointAxes::right_forward;
+  return plain_drive(options.poses, options.samples, axes);
 }
 
-void import_maptr(const MapTrOptions& options) {
+/// Reads a file of results, as far as it is of the drive.
+using ReadResults = ImportedFrames (*)(const std::filesystem::path& results, const DriveLog& drive);
+
+void import_results(const ResultsOptions& options, ReadResults read) {
   const DriveLog drive = load_drive(options);
-  ImportedFrames imported = read_maptr(options.results, drive);
+  ImportedFrames imported = read(options.results, drive);
   const std::size_t without_pose = drop_frames_without_pose(imported.frames, drive.poses);
   if (imported.frames.empty())
     throw std::runtime_error(options.results + ": no sample is within the poses of " + drive.name);
@@ -47,32 +54,36 @@ void import_maptr(const MapTrOptions& options) {
     fmt::print("passed over: {} frames of other drives\n", imported.other_drives);
 }
 
-void add_maptr(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("maptr", "Detections of MapTR or MapTRv2, and the poses of a drive");
-  const auto options = std::make_shared<MapTrOptions>();
-  command->add_option("--results", options->results, "What their evaluation wrote (…map_results.json)")
-      ->required();
-  CLI::Option_group* drive = command->add_option_group("Drive", "one of");
-  drive->add_option("--argoverse2", options->argoverse2, "Directory of an Argoverse 2 log");
+void add_drive(CLI::App& command, ResultsOptions& options) {
+  CLI::Option_group* drive = command.add_option_group("Drive", "one of");
+  drive->add_option("--argoverse2", options.argoverse2, "Directory of an Argoverse 2 log");
   CLI::Option* nuscenes =
-      drive->add_option("--nuscenes", options->nuscenes, "Folder of nuScenes' tables (v1.0-…)");
-  CLI::Option* poses = drive->add_option("--poses", options->poses,
+      drive->add_option("--nuscenes", options.nuscenes, "Folder of nuScenes' tables (v1.0-…)");
+  CLI::Option* poses = drive->add_option("--poses", options.poses,
                                          "Poses (.csv or .feather: timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m)");
   drive->require_option(1);
-  CLI::Option* scene = command->add_option("--scene", options->scene, "Of nuScenes, such as scene-0061");
+  CLI::Option* scene = command.add_option("--scene", options.scene, "Of nuScenes, such as scene-0061");
   CLI::Option* samples =
-      command->add_option("--samples", options->samples, "With --poses: samples (.csv: token,timestamp_ns)");
+      command.add_option("--samples", options.samples, "With --poses: samples (.csv: token,timestamp_ns)");
   nuscenes->needs(scene);
   scene->needs(nuscenes);
   poses->needs(samples);
   samples->needs(poses);
-  const std::map<std::string, PointAxes> axes{{"forward-left", PointAxes::forward_left},
-                                              {"right-forward", PointAxes::right_forward}};
-  command->add_option("--axes", options->axes, "With --poses: x and y of the points; default: forward-left")
-      ->transform(CLI::CheckedTransformer(axes))
+  command.add_option("--axes", options.axes, "With --poses: x and y of the points")
+      ->check(CLI::IsMember({kForwardLeft, kRightForward}))
+      ->capture_default_str()
       ->needs(poses);
+}
+
+void add_results(CLI::App& app, const std::string& name, const std::string& whose, const std::string& file,
+                 ReadResults read) {
+  CLI::App* command = app.add_subcommand(name, "Detections of " + whose + ", and the poses of a drive");
+  const auto options = std::make_shared<ResultsOptions>();
+  command->add_option("--results", options->results, "What their evaluation wrote (" + file + ")")
+      ->required();
+  add_drive(*command, *options);
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
-  command->callback([options] { import_maptr(*options); });
+  command->callback([options, read] { import_results(*options, read); });
 }
 
 struct LogOptions {
@@ -111,7 +122,15 @@ void add_import(CLI::App& app) {
   CLI::App* command = app.add_subcommand("import", "Makes recordings of other projects' data");
   command->require_subcommand(1);
   add_argoverse2(*command);
-  add_maptr(*command);
+  add_results(*command, "maptr", "MapTR or MapTRv2", "…map_results.json", read_maptr);
+  const auto streammapnet = [](const std::filesystem::path& results, const DriveLog& drive) {
+    return read_streammapnet(results, drive, StreamNetwork::streammapnet);
+  };
+  const auto maptracker = [](const std::filesystem::path& results, const DriveLog& drive) {
+    return read_streammapnet(results, drive, StreamNetwork::maptracker);
+  };
+  add_results(*command, "streammapnet", "StreamMapNet", "submission_vector.json", streammapnet);
+  add_results(*command, "maptracker", "MapTracker", "submission_vector.json", maptracker);
   add_import_scene(*command);
 }
 

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <map>
 #include <stdexcept>
+#include <string_view>
 
 #include "io/csv.hpp"
 #include "simulation/argoverse2.hpp"
@@ -13,16 +14,28 @@ namespace {
 
 constexpr double kArgoverse2Ground_m = -0.33;
 
-std::optional<std::int64_t> argoverse2_stamp_ns(const std::string& log_id, const std::string& token) {
-  const std::string prefix = log_id + "_";
-  if (!token.starts_with(prefix)) return std::nullopt;
-  std::int64_t stamp_ns = 0;
-  const char* const end = token.data() + token.size();
-  const auto [last, error] = std::from_chars(token.data() + prefix.size(), end, stamp_ns);
-  if (error != std::errc() || last != end)
-    throw std::runtime_error("the sample " + token + " is not named <log id>_<stamp in ns>");
-  return stamp_ns;
+/// None: `text` is no number.
+std::optional<std::int64_t> whole_number(std::string_view text) {
+  std::int64_t number = 0;
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && last == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
+
+/// Names the samples of a log of Argoverse 2.
+struct Argoverse2Samples {
+  std::string log_id;
+  std::int64_t first_ns, last_ns;  ///< of its poses
+
+  std::optional<std::int64_t> operator()(const std::string& token) const {
+    const std::string prefix = log_id + "_";
+    if (const auto stamp_ns = whole_number(token))
+      return *stamp_ns >= first_ns && *stamp_ns <= last_ns ? stamp_ns : std::nullopt;
+    if (!token.starts_with(prefix)) return std::nullopt;
+    const auto stamp_ns = whole_number(std::string_view(token).substr(prefix.size()));
+    if (!stamp_ns) throw std::runtime_error("the sample " + token + " is not named <log id>_<stamp in ns>");
+    return stamp_ns;
+  }
+};
 
 /// The rotation that takes x right, y forward to x forward, y left.
 Eigen::Isometry3d from_right_forward() {
@@ -36,10 +49,9 @@ Eigen::Isometry3d from_right_forward() {
 DriveLog argoverse2_drive(const std::filesystem::path& log_directory) {
   const std::filesystem::path whole = std::filesystem::weakly_canonical(log_directory);
   const std::string log_id = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-  return {.name = log_id,
-          .poses = argoverse2_poses(log_directory),
-          .stamp_ns_of = [log_id](const std::string& token) { return argoverse2_stamp_ns(log_id, token); },
-          .ground_z_m = kArgoverse2Ground_m};
+  DriveLog drive{.name = log_id, .poses = argoverse2_poses(log_directory), .ground_z_m = kArgoverse2Ground_m};
+  drive.stamp_ns_of = Argoverse2Samples{log_id, drive.poses.front().stamp_ns, drive.poses.back().stamp_ns};
+  return drive;
 }
 
 DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,

@@ -19,11 +19,13 @@ struct DriveLog {
   std::function<std::optional<std::int64_t>(const std::string& sample_token)> stamp_ns_of;
   /// Takes the points of the results to the body frame.
   Eigen::Isometry3d T_body_points = Eigen::Isometry3d::Identity();
-  double ground_z_m = 0.0;  ///< of the road in the body frame: the height of points without one
+  bool points_about_lidar = false;  ///< as nuScenes' in MapTR; else they are in the vehicle's frame
+  double ground_z_m = 0.0;          ///< of the road in the body frame: the height of points without one
 };
 
 /// Of a log of Argoverse 2 (its directory, named by the log's id). Samples are called `<log id>_<stamp in
-/// ns>`, and points are in the vehicle's frame.
+/// ns>`, or by the stamp alone: then one is of this log where it lies between the log's poses. Points are in
+/// the vehicle's frame.
 DriveLog argoverse2_drive(const std::filesystem::path& log_directory);
 
 /// Of a scene of nuScenes, from its folder of tables (v1.0-…). Points are in the frame of the LiDAR as a map

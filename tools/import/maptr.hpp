@@ -1,22 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "import/drive_log.hpp"
-#include "laneloom/types.hpp"
+#include "import/frame_collector.hpp"
 
 namespace laneloom {
-
-/// Results of a network as detections of one drive.
-struct ImportedFrames {
-  std::vector<DetectionFrame> frames;           ///< stamps ascend
-  std::map<std::string, std::size_t> left_out;  ///< lines of classes that laneloom has no use for, by class
-  std::size_t other_drives = 0;                 ///< samples of other drives
-};
 
 /// Reads what the evaluation of MapTR and MapTRv2 writes (nuscmap_results.json, av2map_results.json):
 ///

@@ -49,7 +49,8 @@ class SceneReader {
     });
     read_lidars();
     for_each("sample_data", [&](const json& record) { read_sample_data(record); });
-    DriveLog drive{.name = scene_, .poses = poses(), .T_body_points = T_body_points()};
+    DriveLog drive{
+        .name = scene_, .poses = poses(), .T_body_points = T_body_points(), .points_about_lidar = true};
     drive.stamp_ns_of = [stamps = std::move(stamps_)](const std::string& sample) {
       const auto found = stamps.find(sample);
       return found == stamps.end() ? std::nullopt : std::optional(found->second);

@@ -14,67 +14,95 @@ using Event = json::parse_event_t;
 
 constexpr int kMaxDepth = 16;
 
-/// Follows the parser: hands on the array's elements, and keeps nothing of the file.
+using Visit = std::function<void(const std::string& name, const json& value)>;
+
+/// What the objects are in.
+enum class Container : std::uint8_t { array, object };
+
+/// Follows the parser: hands on the container's elements, and keeps nothing of the file.
 class ElementVisitor {
  public:
-  ElementVisitor(const std::string& key, const std::function<void(const json&)>& visit)
-      : key_(key), visit_(visit), array_depth_(key.empty() ? 0 : 1), in_member_(key.empty()) {}
+  ElementVisitor(const std::string& key, Container container, const Visit& visit)
+      : key_(key),
+        container_(container),
+        visit_(visit),
+        depth_(key.empty() ? 0 : 1),
+        in_member_(key.empty()) {}
 
   /// Whether the parser is to keep the value.
   bool operator()(int depth, Event event, const json& value) {
     if (depth > kMaxDepth) throw JsonError("is nested too deeply");
-    if (event == Event::key && depth == 1 && array_depth_ == 1) return in_member_ = value == key_;
+    if (event == Event::key && depth == 1 && depth_ == 1) return in_member_ = value == key_;
     if (!in_member_) return depth == 0;
-    if (depth == array_depth_) check_array(event);
-    if (depth == array_depth_ + 1) return on_element(event, value);
+    if (depth == depth_) check_container(event);
+    if (depth == depth_ + 1) return on_element(event, value);
     return true;
   }
 
   bool found() const { return found_; }
+  const char* expected() const {
+    return container_ == Container::array ? "must be an array of objects" : "must be an object of objects";
+  }
 
  private:
-  void check_array(Event event) {
-    if (event != Event::array_start && event != Event::array_end)
-      throw JsonError(key_, "must be an array of objects");
+  void check_container(Event event) {
+    const bool array = event == Event::array_start || event == Event::array_end;
+    const bool object = event == Event::object_start || event == Event::object_end;
+    if (container_ == Container::array ? !array : !object) throw JsonError(key_, expected());
     found_ = true;
   }
 
   bool on_element(Event event, const json& value) {
-    if (event == Event::object_start) return true;
-    if (event != Event::object_end) throw JsonError(key_, "must be an array of objects");
+    if (event == Event::key) name_ = value.get<std::string>();
+    if (event == Event::object_start || event == Event::key) return true;
+    if (event != Event::object_end) throw JsonError(key_, expected());
     try {
-      visit_(value);
+      visit_(name_, value);
     } catch (const JsonError& error) {
-      throw error.inside(key_ + "[" + std::to_string(index_) + "]");
+      throw error.inside(key_ +
+                         (container_ == Container::array ? "[" + std::to_string(index_) + "]" : "." + name_));
     }
     ++index_;
     return false;
   }
 
   std::string key_;
-  const std::function<void(const json&)>& visit_;
-  int array_depth_;  ///< as the parser counts
+  Container container_;
+  const Visit& visit_;
+  int depth_;  ///< of the container, as the parser counts
   bool in_member_;
   bool found_ = false;
   std::size_t index_ = 0;
+  std::string name_;  ///< of the element, in an object
 };
 
-}  // namespace
-
-void for_each_json_object(const std::filesystem::path& path, const std::string& key,
-                          const std::function<void(const json&)>& visit) {
+void for_each_element(const std::filesystem::path& path, const std::string& key, Container container,
+                      const Visit& visit) {
   std::ifstream in(path);
   if (!in) throw std::runtime_error(path.string() + ": cannot be read");
-  ElementVisitor visitor(key, visit);
+  ElementVisitor visitor(key, container, visit);
   try {
     const json rest = json::parse(
         in, [&](int depth, Event event, const json& value) { return visitor(depth, event, value); });
-    if (!visitor.found()) throw JsonError(key, key.empty() ? "must be an array of objects" : "is missing");
+    if (!visitor.found()) throw JsonError(key, key.empty() ? visitor.expected() : "is missing");
   } catch (const JsonError& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   } catch (const json::exception& error) {
     throw std::runtime_error(path.string() + ": is not JSON: " + error.what());
   }
+}
+
+}  // namespace
+
+void for_each_json_object(const std::filesystem::path& path, const std::string& key,
+                          const std::function<void(const json&)>& visit) {
+  for_each_element(path, key, Container::array,
+                   [&](const std::string& /*name*/, const json& value) { visit(value); });
+}
+
+void for_each_json_member(const std::filesystem::path& path, const std::string& key,
+                          const std::function<void(const std::string&, const json&)>& visit) {
+  for_each_element(path, key, Container::object, visit);
 }
 
 }  // namespace laneloom

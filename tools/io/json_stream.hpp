@@ -14,4 +14,9 @@ namespace laneloom {
 void for_each_json_object(const std::filesystem::path& path, const std::string& key,
                           const std::function<void(const nlohmann::json&)>& visit);
 
+/// The same for the objects that are members of the root object's member `key`, which is an object: calls
+/// visit(name, object).
+void for_each_json_member(const std::filesystem::path& path, const std::string& key,
+                          const std::function<void(const std::string&, const nlohmann::json&)>& visit);
+
 }  // namespace laneloom

@@ -1,0 +1,82 @@
+#include "import/frame_collector.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "io/json_fields.hpp"
+#include "session/gate.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+/// None: laneloom has no use for the class.
+std::optional<MarkingType> type_of_class(const std::string& class_name) {
+  if (class_name == "divider") return MarkingType::laneline;
+  if (class_name == "boundary") return MarkingType::roadedge;
+  if (class_name == "ped_crossing" || class_name == "centerline") return std::nullopt;
+  throw JsonError("cls_name", "must be divider, boundary, ped_crossing or centerline, and is " + class_name);
+}
+
+}  // namespace
+
+double confidence(const json& value) {
+  const double confidence = number(value);
+  if (!(confidence >= 0.0 && confidence <= 1.0)) throw JsonError("must be from 0 to 1");
+  return confidence;
+}
+
+FrameCollector::FrameCollector(const DriveLog& drive, std::string source,
+                               const Eigen::Isometry3d& T_drive_points)
+    : drive_(drive), T_body_points_(drive.T_body_points * T_drive_points) {
+  frame_.source = std::move(source);
+  frame_.detected_types = {MarkingType::laneline, MarkingType::roadedge};
+}
+
+bool FrameCollector::begin(const std::string& sample) {
+  const std::optional<std::int64_t> stamp_ns = drive_.stamp_ns_of(sample);
+  if (!stamp_ns) {
+    ++imported_.other_drives;
+    return false;
+  }
+  if (!stamps_.insert(*stamp_ns).second) throw JsonError("a second one of this stamp");
+  frame_.stamp_ns = *stamp_ns;
+  frame_.detections.clear();
+  return true;
+}
+
+void FrameCollector::add(const std::string& class_name, double confidence, const json& points) {
+  const std::optional<MarkingType> type = type_of_class(class_name);
+  if (!type) {
+    ++imported_.left_out[class_name];
+    return;
+  }
+  Detection detection{.type = *type, .confidence = confidence};
+  detection.points = list(points, [&](const json& point) { return in_body(point); });
+  if (detection.points.size() < 2) throw JsonError("must have at least two points");
+  frame_.detections.push_back(std::move(detection));
+}
+
+void FrameCollector::end() {
+  if (const auto why = defect(frame_, GateConfig{}); !why.empty())
+    throw JsonError("the service would refuse this frame: " + std::string(why));
+  imported_.frames.push_back(frame_);
+}
+
+ImportedFrames FrameCollector::finish(const std::string& file) && {
+  if (imported_.frames.empty()) throw std::runtime_error(file + ": has no sample of " + drive_.name);
+  std::ranges::sort(imported_.frames, {}, &DetectionFrame::stamp_ns);
+  return std::move(imported_);
+}
+
+Point FrameCollector::in_body(const json& value) const {
+  if (value.is_array() && value.size() == 3) return T_body_points_ * point(value);
+  if (!value.is_array() || value.size() != 2) throw JsonError("must be [x, y] or [x, y, z]");
+  Point body = T_body_points_ * Point(number(value[0]), number(value[1]), 0.0);
+  body.z() = drive_.ground_z_m;
+  return body;
+}
+
+}  // namespace laneloom

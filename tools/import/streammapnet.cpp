@@ -1,0 +1,59 @@
+#include "import/streammapnet.hpp"
+
+#include <array>
+#include <numbers>
+#include <string>
+
+#include "io/json_fields.hpp"
+#include "io/json_stream.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array kClasses{"ped_crossing", "divider", "boundary"};  // by label
+
+std::string class_of(const json& value) {
+  const std::uint64_t label = count(value);
+  if (label >= kClasses.size()) throw JsonError("must be 0, 1 or 2");
+  return kClasses[label];
+}
+
+void read_sample(const std::string& token, const json& sample, FrameCollector& frames) {
+  if (!frames.begin(token)) return;
+  const auto scores = required(sample, "scores", [](const json& values) { return list(values, confidence); });
+  const auto classes = required(sample, "labels", [](const json& values) { return list(values, class_of); });
+  std::size_t next = 0;
+  required(sample, "vectors", [&](const json& vectors) {
+    if (!vectors.is_array() || vectors.size() != scores.size() || vectors.size() != classes.size())
+      throw JsonError("must be as many as scores and labels");
+    return list(vectors, [&](const json& points) {
+      frames.add(classes[next], scores[next], points);
+      return ++next;
+    });
+  });
+  frames.end();
+}
+
+/// MapTracker's points about the LiDAR of nuScenes are x forward, y left; MapTR's, which a drive speaks of, x
+/// right, y forward. Both are the same in the vehicle's frame of other drives.
+Eigen::Isometry3d T_drive_points(const DriveLog& drive, StreamNetwork network) {
+  if (!drive.points_about_lidar) return Eigen::Isometry3d::Identity();
+  if (network == StreamNetwork::streammapnet) return drive.T_body_points.inverse();
+  return Eigen::Isometry3d(Eigen::AngleAxisd(0.5 * std::numbers::pi, Point::UnitZ()));
+}
+
+}  // namespace
+
+ImportedFrames read_streammapnet(const std::filesystem::path& path, const DriveLog& drive,
+                                 StreamNetwork network) {
+  const char* const source = network == StreamNetwork::streammapnet ? "streammapnet" : "maptracker";
+  FrameCollector frames(drive, source, T_drive_points(drive, network));
+  for_each_json_member(path, "results", [&](const std::string& token, const json& sample) {
+    read_sample(token, sample, frames);
+  });
+  return std::move(frames).finish(path.string());
+}
+
+}  // namespace laneloom
