@@ -87,6 +87,28 @@ TEST_F(ImportCommand, StreamMapNetAndMapTrackerNameSamplesByStamp) {
   }
 }
 
+TEST_F(ImportCommand, AnOpenpilotLogBecomesARecording) {
+  const auto pose = [](std::int64_t stamp_ns) {
+    return R"({"logMonoTime":")" + std::to_string(stamp_ns) +
+           R"(","livePose":{"orientationNED":{"x":0,"y":0,"z":0,"valid":true},)"
+           R"("velocityDevice":{"x":10,"y":0,"z":0,"valid":true}}})" +
+           "\n";
+  };
+  const std::string line = R"({"x":[0,30],"y":[-1.8,-1.8],"z":[1.2,1.2]})";
+  write("rlog.jsonl",
+        pose(1'000'000'000) + pose(1'100'000'000) +
+            R"({"logMonoTime":"2","modelV2":{"timestampEof":"1050000000","laneLines":[)" + line +
+            R"(],"laneLineProbs":[0.9],"laneLineStds":[0.1],"roadEdges":[],"roadEdgeStds":[]}})" + "\n");
+  ASSERT_EQ(run({"openpilot", "--log", file("rlog.jsonl"), "--out", file("drive.mcap")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("1 frames, 2 poses"));
+  RecordingReader reader(file("drive.mcap"));
+  std::size_t frames = 0;
+  while (const auto message = reader.next())
+    frames += std::holds_alternative<DetectionFrame>(message->message);
+  EXPECT_EQ(frames, 1u);
+  EXPECT_TRUE(reader.refused().values().empty());
+}
+
 TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   const auto border = [](double y) {
     const std::string at = R"(,"y":)" + std::to_string(y) + R"(,"z":0})";

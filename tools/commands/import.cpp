@@ -13,6 +13,7 @@
 #include "import/drive_log.hpp"
 #include "import/drive_recording.hpp"
 #include "import/maptr.hpp"
+#include "import/openpilot.hpp"
 #include "import/streammapnet.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/road.hpp"
@@ -86,6 +87,33 @@ void add_results(CLI::App& app, const std::string& name, const std::string& whos
   command->callback([options, read] { import_results(*options, read); });
 }
 
+struct OpenpilotOptions {
+  std::string log, out;
+};
+
+void import_openpilot(const OpenpilotOptions& options) {
+  OpenpilotDrive drive = read_openpilot(options.log);
+  const std::size_t without_pose = drop_frames_without_pose(drive.frames, drive.poses);
+  if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");
+  write_drive(options.out, drive.poses, drive.frames);
+  fmt::print("{} frames, {} poses\n", drive.frames.size(), drive.poses.size());
+  if (drive.invalid_frames > 0) fmt::print("left out: {} invalid frames\n", drive.invalid_frames);
+  if (drive.invalid_poses > 0) fmt::print("left out: {} invalid poses\n", drive.invalid_poses);
+  if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
+}
+
+void add_openpilot(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("openpilot", "Lane lines, road edges and odometry of an openpilot log");
+  const auto options = std::make_shared<OpenpilotOptions>();
+  command->add_option("--log", options->log, "The log as JSON, one event a line (.jsonl)")->required();
+  command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  command->footer(
+      "The log as JSON: zstdcat rlog.zst | capnp convert --short binary:json openpilot/cereal/log.capnp "
+      "Event");
+  command->callback([options] { import_openpilot(*options); });
+}
+
 struct LogOptions {
   std::string directory, out, truth;
 };
@@ -131,6 +159,7 @@ void add_import(CLI::App& app) {
   };
   add_results(*command, "streammapnet", "StreamMapNet", "submission_vector.json", streammapnet);
   add_results(*command, "maptracker", "MapTracker", "submission_vector.json", maptracker);
+  add_openpilot(*command);
   add_import_scene(*command);
 }
 

@@ -1,0 +1,8 @@
+#include "import/openpilot.hpp"
+#include "memory_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const laneloom::MemoryFile file(data, size);
+  laneloom::take_or_refuse([&] { laneloom::read_openpilot(file.path()); });
+  return 0;
+}

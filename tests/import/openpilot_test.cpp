@@ -1,0 +1,138 @@
+#include "import/openpilot.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "temporary_folder.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kLine = R"({"x": [0, 10], "y": [-1.5, -1], "z": [1.2, 1.3], "t": ["NaN", 0]})";
+constexpr const char* kEdge = R"({"x": [0, 10], "y": [4, 4], "z": [1.2, 1.2], "t": []})";
+
+std::string model(std::int64_t stamp_ns, const std::string& line = kLine,
+                  const std::string& probabilities = "[0.75]") {
+  return fmt::format(
+      R"({{"logMonoTime": "7", "valid": true, "modelV2": {{"frameId": 3, "timestampEof": "{}", "laneLines": [{}],)"
+      R"("laneLineProbs": {}, "laneLineStds": [0.25], "roadEdges": [{}, {}], "roadEdgeStds": [0.5, 3]}}}})",
+      stamp_ns, line, probabilities, kEdge, kEdge);
+}
+
+/// Roll, pitch and yaw, and the velocity forward.
+std::string pose(std::int64_t stamp_ns, double yaw_rad, double speed_mps, bool valid = true) {
+  return fmt::format(
+      R"({{"logMonoTime": "{}", "valid": true, "livePose": {{"orientationNED": {{"x": 0, "y": 0, "z": {}, "valid": {}}},)"
+      R"("velocityDevice": {{"x": {}, "y": 0, "z": 0, "valid": true}}}}}})",
+      stamp_ns, yaw_rad, valid, speed_mps);
+}
+
+class Openpilot : public testing::Test {
+ protected:
+  OpenpilotDrive read(const std::vector<std::string>& events) {
+    std::ofstream(folder_.file("rlog.jsonl")) << fmt::format("{}\n", fmt::join(events, "\n"));
+    return read_openpilot(folder_.file("rlog.jsonl"));
+  }
+  std::string error(const std::vector<std::string>& events) {
+    try {
+      read(events);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Openpilot, LinesAndEdgesWithTheirProbabilitiesAndDeviations) {
+  const OpenpilotDrive drive = read({R"({"logMonoTime": "1", "carState": {"vEgo": 3}})", model(200),
+                                     model(100), pose(1, 0, 0), pose(1'000'000'000, 0, 0)});
+  ASSERT_EQ(drive.frames.size(), 2u);
+  EXPECT_EQ(drive.frames[0].stamp_ns, 100) << "by stamp, not in the order of the log";
+  const auto& detections = drive.frames[0].detections;
+  ASSERT_EQ(detections.size(), 3u);
+  EXPECT_EQ(detections[0].type, MarkingType::laneline);
+  EXPECT_EQ(detections[0].confidence, 0.75);
+  EXPECT_THAT(detections[0].stddev_m, ElementsAre(0.25, 0.25));
+  EXPECT_TRUE(detections[0].points[1].isApprox(Point(10, 1, -1.3))) << "x forward, y left, z up";
+  EXPECT_EQ(detections[1].type, MarkingType::roadedge);
+  EXPECT_EQ(detections[1].confidence, 0.5);
+  EXPECT_EQ(detections[2].confidence, 0.0);
+}
+
+TEST_F(Openpilot, PosesAreTheSumOfTheVelocities) {
+  const double east = std::numbers::pi / 2;
+  const OpenpilotDrive drive =
+      read({model(100), pose(1, 0, 10), pose(1'000'000'001, 0, 10), pose(3'000'000'001, east, 10)});
+  ASSERT_EQ(drive.poses.size(), 3u);
+  EXPECT_TRUE(drive.poses[0].position.isZero());
+  EXPECT_TRUE(drive.poses[1].position.isApprox(Point(10, 0, 0))) << "north is x";
+  EXPECT_TRUE(drive.poses[2].position.isApprox(Point(20, -10, 0))) << "east is -y";
+  EXPECT_TRUE((transform(drive.poses[2]).linear() * Point::UnitX()).isApprox(-Point::UnitY()));
+  EXPECT_TRUE((transform(drive.poses[2]).linear() * Point::UnitZ()).isApprox(Point::UnitZ()));
+}
+
+TEST_F(Openpilot, TheCalibrationTurnsTheDeviceIntoTheRoad) {
+  const std::string calibration =
+      R"({"logMonoTime": "5", "liveCalibration": {"calStatus": "calibrated", "rpyCalib": [0, 0.1, 0]}})";
+  const OpenpilotDrive drive = read({model(100), pose(1, 0, 1), pose(10, 0, 1), calibration});
+  // The calibrated frame is pitched up by 0.1 against the device: forward goes up.
+  const Point forward = transform(drive.poses[0]).linear() * Point::UnitX();
+  EXPECT_NEAR(forward.z(), std::sin(0.1), 1e-9);
+  const std::string unknown =
+      R"({"logMonoTime": "5", "liveCalibration": {"calStatus": "uncalibrated", "rpyCalib": []}})";
+  EXPECT_TRUE(read({model(100), pose(1, 0, 1), pose(10, 0, 1), unknown})
+                  .poses[0]
+                  .orientation.isApprox(Eigen::Quaterniond::Identity()));
+}
+
+TEST_F(Openpilot, OlderLogsHaveListsInsteadOfNames) {
+  const auto older = [](int stamp_ns) {
+    return fmt::format(
+        R"({{"logMonoTime": {}, "liveLocationKalman": {{"orientationNED": {{"value": [0, 0, 0],)"
+        R"("std": [], "valid": true}}, "velocityDevice": {{"value": [1, 0, 0], "valid": true}}}}}})",
+        stamp_ns);
+  };
+  EXPECT_EQ(read({model(100), older(1), older(1'000'000'001)}).poses[1].position, Point(1, 0, 0));
+}
+
+TEST_F(Openpilot, WhatOpenpilotDoesNotBelieveIsCounted) {
+  std::string invalid = model(300);
+  invalid.replace(invalid.find("true"), 4, "false");
+  const OpenpilotDrive drive =
+      read({model(100), invalid, pose(1, 0, 1), pose(2, 0, 1, false), pose(3, 0, 1)});
+  EXPECT_EQ(drive.frames.size(), 1u);
+  EXPECT_EQ(drive.poses.size(), 2u);
+  EXPECT_EQ(drive.invalid_frames, 1u);
+  EXPECT_EQ(drive.invalid_poses, 1u);
+}
+
+TEST_F(Openpilot, WhatIsWrongIsNamed) {
+  EXPECT_THAT(error({model(100, R"({"x": [0], "y": [0, 1], "z": [0, 1]})")}),
+              HasSubstr("rlog.jsonl:1: modelV2.laneLines[0]: x, y and z must be equally many"));
+  EXPECT_THAT(error({pose(1, 0, 0), model(100, kLine, "[1, 1]")}),
+              HasSubstr("rlog.jsonl:2: modelV2.laneLines: must be as many"));
+  EXPECT_THAT(error({model(100, kLine, "[1.5]")}), HasSubstr("refuse this frame: confidence"));
+  EXPECT_THAT(error({model(100), model(100)}), HasSubstr(":2: modelV2.timestampEof: a second frame"));
+  EXPECT_THAT(error({model(0)}), HasSubstr("refuse this frame: stamp"));
+  EXPECT_THAT(error({R"({"logMonoTime": "x"})"}), HasSubstr(":1: logMonoTime: must be an integer"));
+  EXPECT_THAT(error({"{}"}), HasSubstr("logMonoTime: is missing"));
+  EXPECT_THAT(error({"[]"}), HasSubstr(":1: must be an object"));
+  EXPECT_THAT(error({"{"}), HasSubstr(":1: "));
+  EXPECT_THAT(error({pose(1, 0, 0)}), HasSubstr("has no valid modelV2"));
+  EXPECT_THAT(error({model(100), pose(1, 0, 0)}), HasSubstr("fewer than two valid livePose"));
+  EXPECT_THAT(error({model(100), pose(1, 0, 1e12), pose(1'000'000'001, 0, 1e12)}),
+              HasSubstr("refuse a pose: coordinate"));
+}
+
+}  // namespace
+}  // namespace laneloom

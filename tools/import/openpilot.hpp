@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// A drive of openpilot: what its model saw, and where its odometry says the car was.
+struct OpenpilotDrive {
+  std::vector<DetectionFrame> frames;  ///< stamps ascend
+  std::vector<VehiclePose> poses;      ///< stamps ascend
+  std::size_t invalid_frames = 0;      ///< that openpilot itself marks as not valid; left out
+  std::size_t invalid_poses = 0;       ///< likewise
+};
+
+/// Reads a log of openpilot as JSON, one event a line, as Cap'n Proto's own tool makes it of the log and
+/// openpilot's schema:
+///
+///     zstdcat rlog.zst | capnp convert --short binary:json openpilot/cereal/log.capnp Event > rlog.jsonl
+///
+/// Of struct Event, logMonoTime and valid are read, and of its members
+/// - modelV2: timestampEof, laneLines and roadEdges (x, y, z), laneLineProbs, laneLineStds, roadEdgeStds;
+/// - livePose, or in older logs liveLocationKalman: orientationNED and velocityDevice, with their valid;
+/// - liveCalibration: rpyCalib, where calStatus is calibrated.
+/// Other events are passed over. Integers of 64 bits are numbers or texts of digits.
+///
+/// The body frame is openpilot's calibrated frame with y and z turned round (x forward, y left, z up): its
+/// origin is the camera, so that the road lies below it by the camera's height. The map frame is level, x
+/// north, y west, z up, with its origin at the first pose; positions are the sum of the odometry's
+/// velocities, and drift as these do. Across a gap the mean of the velocities around it counts.
+///
+/// A lane line's confidence is its probability. Road edges have none: theirs is 1 less the standard deviation
+/// in metres, and not below 0. The log has one standard deviation for a whole line, at the car: it is every
+/// point's.
+///
+/// Throws std::runtime_error naming the file, the line and the key of what is malformed, and where no frame
+/// or fewer than two poses are left.
+OpenpilotDrive read_openpilot(const std::filesystem::path& path);
+
+}  // namespace laneloom
