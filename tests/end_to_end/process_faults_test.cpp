@@ -130,18 +130,26 @@ TEST_F(Faults, KilledWithSharedMemoryItStartsAgain) {
   const TemporaryFile file("shm.yaml", "dds:\n  transport: udp+shm\n");
   auto with_memory = config_;
   with_memory.transport = "udp+shm";
-  Listener<PublishedMap> maps(with_memory);
-  const StraightRoad road(with_memory);
+  std::optional<Listener<PublishedMap>> maps;
+  std::optional<StraightRoad> road;
   std::optional<Process> service;
-  for (int i = 0; i < 4; ++i) {
-    // Now and then the service is not found through shared memory, also where none was killed before.
-    ASSERT_TRUE(one_of_three([&] {
-      service.emplace(command(config_, {"--config", file.path}));
-      maps.forget();
-      return maps.wait_for(is_good);
-    })) << service->errors();
+  const auto starts = [&] {
+    service.emplace(command(config_, {"--config", file.path}));
+    maps->forget();
+    return maps->wait_for(is_good);
+  };
+  // Now and then participants do not find one another through shared memory, also where none was killed
+  // before.
+  ASSERT_TRUE(one_of_three([&] {
+    road.reset();
+    maps.emplace(with_memory);
+    road.emplace(with_memory);
+    return starts();
+  })) << service->errors();
+  for (int i = 0; i < 3; ++i) {
     service->signal(SIGKILL);
     ASSERT_EQ(service->wait(), -SIGKILL);
+    ASSERT_TRUE(one_of_three(starts)) << service->errors();
   }
 }
 
