@@ -17,10 +17,16 @@ std::optional<MarkingType> type_of_class(const std::string& class_name) {
   if (class_name == "divider") return MarkingType::laneline;
   if (class_name == "boundary") return MarkingType::roadedge;
   if (class_name == "ped_crossing" || class_name == "centerline") return std::nullopt;
-  throw JsonError("cls_name", "must be divider, boundary, ped_crossing or centerline, and is " + class_name);
+  throw JsonError("must be divider, boundary, ped_crossing or centerline, and is " + class_name);
 }
 
 }  // namespace
+
+std::string class_name(const json& value) {
+  std::string name = text(value);
+  type_of_class(name);
+  return name;
+}
 
 double confidence(const json& value) {
   const double confidence = number(value);

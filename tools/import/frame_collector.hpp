@@ -50,6 +50,9 @@ class FrameCollector {
   std::set<std::int64_t> stamps_;
 };
 
+/// The name of one of the classes. Throws JsonError.
+std::string class_name(const nlohmann::json& value);
+
 /// A number from 0 to 1. Throws JsonError.
 double confidence(const nlohmann::json& value);
 

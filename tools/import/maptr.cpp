@@ -11,10 +11,10 @@ namespace {
 using nlohmann::json;
 
 void read_vector(const json& vector, FrameCollector& frames) {
-  const auto class_name = required(vector, "cls_name", text);
+  const auto name = required(vector, "cls_name", class_name);
   const double sure = required(vector, "confidence_level", confidence);
   required(vector, "pts", [&](const json& points) {
-    frames.add(class_name, sure, points);
+    frames.add(name, sure, points);
     return true;
   });
 }

@@ -4,9 +4,12 @@ import {spawn} from 'node:child_process';
 import {once} from 'node:events';
 import puppeteer from 'puppeteer-core';
 
-export const launch = () => puppeteer.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
+const PATIENCE_MS = 120000; // on a busy host
 
-export const until = (page, condition, ...values) => page.waitForFunction(condition, {timeout: 30000}, ...values);
+const ARGUMENTS = ['--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run'];
+export const launch = () => puppeteer.launch({executablePath: '/usr/bin/chromium', args: ARGUMENTS, timeout: PATIENCE_MS});
+
+export const until = (page, condition, ...values) => page.waitForFunction(condition, {timeout: PATIENCE_MS}, ...values);
 
 const running = new Set();
 
@@ -36,7 +39,7 @@ export async function openTab(browser, url) {
   await page.setViewport({width: 1280, height: 720});
   page.on('pageerror', ({message}) => page.complaints.push(message));
   page.on('console', (message) => ['error', 'warn'].includes(message.type()) && page.complaints.push(message.text()));
-  await page.goto(url);
+  await page.goto(url, {timeout: PATIENCE_MS});
   return page;
 }
 
