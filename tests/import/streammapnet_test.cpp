@@ -102,7 +102,7 @@ TEST_F(StreamMapNet, WhatIsWrongIsNamed) {
       error(sample("[]", "[]", "[]") + R"(, "drive_01": {"vectors": [], "scores": [], "labels": []})"),
       HasSubstr("results.drive_01: a second one of this stamp"));
   EXPECT_THAT(error(R"("other": {})"), HasSubstr("no sample of drive"));
-  EXPECT_THAT(error(R"("drive_1": {)"), HasSubstr("is not JSON"));
+  EXPECT_THAT(error(R"("drive_1": nul)"), HasSubstr("is not JSON"));
 }
 
 }  // namespace
