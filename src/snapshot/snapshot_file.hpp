@@ -17,7 +17,7 @@ struct SnapshotStamp {
 };
 
 /// What a service that starts again goes on with.
-struct Snapshot {
+struct Snapshot {  // NOLINT(bugprone-exception-escape): as the state
   SnapshotStamp stamp;
   std::uint64_t map_id = 0;  ///< the ids in the state belong to it
   MappingSession::Checkpoint checkpoint;
