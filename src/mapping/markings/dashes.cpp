@@ -17,6 +17,8 @@ constexpr double kMaxLateral_m = 0.5;   // from the extension of either line
 constexpr double kMaxAngle_deg = 20.0;  // a dash of a metre hardly tells its direction
 constexpr std::size_t kMinDashes = 3;   // two may be pieces of one solid line
 
+bool is_dash(const ObservedMarking& marking) { return length(marking.points) <= kMaxDash_m; }
+
 /// An end of a line that may go on beyond a gap.
 struct Tip {
   LineEnd id;
@@ -31,7 +33,7 @@ std::vector<Tip> tips_of(const std::vector<ObservedMarking>& markings) {
   for (std::size_t i = 0; i < markings.size(); ++i) {
     const ObservedMarking& marking = markings[i];
     if (marking.type != MarkingType::laneline || marking.style == MarkingStyle::solid) continue;
-    const bool of_dash = length(marking.points) <= kMaxDash_m;
+    const bool of_dash = is_dash(marking);
     for (const End end : kEnds)
       tips.push_back({{i, end},
                       of_dash,
@@ -72,7 +74,7 @@ ObservedMarking joined(const std::vector<Link>& chain, std::vector<ObservedMarki
       std::ranges::reverse(piece.stddev_m);
     }
     doubt *= 1.0 - piece.confidence;
-    if (length(piece.points) <= kMaxDash_m) ++dashes;
+    if (is_dash(piece)) ++dashes;
     if (piece.style == MarkingStyle::dashed || dashes >= kMinDashes) line.style = MarkingStyle::dashed;
     has_stddev = has_stddev && !piece.stddev_m.empty();
     line.points.insert(line.points.end(), piece.points.begin(), piece.points.end());
