@@ -1,0 +1,38 @@
+# Precompiled headers: two thirds of the time to compile a file here goes into headers that all files share.
+# A source still includes all that it uses: tools/tidy looks at each without them.
+set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <fstream> <functional> <limits> <map>
+  <memory> <mutex> <numbers> <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <utility>
+  <variant> <vector> <Eigen/Core> <Eigen/Geometry>)
+
+function(precompile name links)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp CONTENT "")
+  add_library(laneloom_precompiled_${name} OBJECT ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp)
+  target_link_libraries(laneloom_precompiled_${name} PRIVATE laneloom_types ${links})
+  target_precompile_headers(laneloom_precompiled_${name} PRIVATE ${standard} ${ARGN})
+endfunction()
+
+# Has all targets of a folder, and of the folders in it, use the precompiled headers.
+function(use_precompiled name folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    get_target_property(sources ${target} SOURCES)
+    if(sources MATCHES "[.]cpp" AND NOT sources MATCHES "[.]c(;|$)")
+      target_precompile_headers(${target} REUSE_FROM laneloom_precompiled_${name})
+    endif()
+  endforeach()
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(inner IN LISTS folders)
+    use_precompiled(${name} ${inner})
+  endforeach()
+endfunction()
+
+precompile(service "")
+use_precompiled(service ${PROJECT_SOURCE_DIR}/src)
+if(LANELOOM_BUILD_TOOLS)
+  precompile(tools "fmt::fmt;nlohmann_json::nlohmann_json" <fmt/format.h> <nlohmann/json.hpp>)
+  use_precompiled(tools ${PROJECT_SOURCE_DIR}/tools)
+endif()
+if(LANELOOM_BUILD_TESTS)
+  precompile(tests GTest::gmock <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
+  use_precompiled(tests ${PROJECT_SOURCE_DIR}/tests)
+endif()
