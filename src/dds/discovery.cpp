@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "dds/qos.hpp"
+#include "dds/writer_id.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -73,6 +74,7 @@ Endpoint to_plain(const Data& data, bool is_writer) {
   endpoint.liveliness = to_plain(data.m_qos.m_liveliness.kind);
   endpoint.lease_s = seconds(data.m_qos.m_liveliness.lease_duration);
   endpoint.exclusive = data.m_qos.m_ownership.kind == EXCLUSIVE_OWNERSHIP_QOS;
+  if (is_writer) endpoint.id = id_of(data.guid());
   return endpoint;
 }
 

@@ -18,8 +18,8 @@ class RawReader<T>::Impl {
   using Readers = TopicReader<Bytes>;
 
   typename Readers::Take take() {
-    return [this](const WriterId& /*writer*/, std::uint64_t /*number*/, Bytes* message) {
-      if (message != nullptr) callback_(std::move(*message));
+    return [this](const WriterId& writer, std::uint64_t /*number*/, Bytes* message) {
+      if (message != nullptr) callback_(writer, std::move(*message));
     };
   }
 

@@ -4,7 +4,6 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include "dds/participant_impl.hpp"
 #include "dds/sample_numbers.hpp"
 #include "dds/topic_traits.hpp"
+#include "dds/writer_id.hpp"
 
 namespace laneloom::dds {
 
@@ -94,13 +94,6 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
   /// The first reader matches every writer that another one matches.
   bool tells(const DataReader* reader) const {
     return reader->get_qos().reliability().kind == reader_reliabilities(kind_).front();
-  }
-  static WriterId id_of(const eprosima::fastrtps::rtps::GUID_t& guid) {
-    WriterId writer;
-    auto* const entity =
-        std::copy_n(guid.guidPrefix.value, eprosima::fastrtps::rtps::GuidPrefix_t::size, writer.begin());
-    std::copy_n(guid.entityId.value, eprosima::fastrtps::rtps::EntityId_t::size, entity);
-    return writer;
   }
   void end() {
     for (auto* reader : readers_) reader->set_listener(nullptr);

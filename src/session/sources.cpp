@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "laneloom/limits.hpp"
+
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kMaxSources = 8;  // at a time; a stack may take a new name with every run
 constexpr std::size_t kStampsRemembered = 64;
 
 }  // namespace
@@ -49,7 +50,7 @@ std::vector<SourceProgress> Sources::progress() const {
 }
 
 void Sources::forget_idle() {
-  if (sources_.size() <= kMaxSources) return;
+  if (sources_.size() <= kSourcesAtATime) return;  // a stack may take a new name with every run
   sources_.erase(
       std::ranges::min_element(sources_, {}, [](const auto& entry) { return entry.second.accepted; }));
 }

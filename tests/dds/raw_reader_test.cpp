@@ -32,7 +32,7 @@ TEST(RawReader, MessagesComeAsTheyWentOverTheWire) {
   config.domain = own_domain();
   config.vehicle_id = "raw" + std::to_string(getpid());
   const Participant there(config, "there"), here(config, "here");
-  const RawReader<DetectionFrame> reader(there, [&](Bytes&& message) {
+  const RawReader<DetectionFrame> reader(there, [&](const WriterId& /*writer*/, Bytes&& message) {
     const std::lock_guard lock(mutex);
     messages.push_back(std::move(message));
     arrived.notify_all();

@@ -55,6 +55,19 @@ TEST(HealthFindings, CountersThatRise) {
   EXPECT_THAT(found[1].remedy, HasSubstr("dds.map_frame_id"));
 }
 
+// Counters come in the order of the alphabet.
+TEST(HealthFindings, CausesStandBeforeTheirConsequences) {
+  Observed seen = healthy();
+  seen.services[0].last.counters = {{"detections_refused_unsynchronised", 20},
+                                    {"frames_dropped_queue_full", 1},
+                                    {"poses_refused_wrong_frame", 90}};
+  seen.services[0].first.sources = {{.source = "front", .session_id = 1}};
+  seen.services[0].last.sources = {{.source = "front", .session_id = 1, .frames = 20}};
+  EXPECT_THAT(ids(incident_findings(seen)),
+              ElementsAre("frames_dropped_queue_full", "poses_refused_wrong_frame",
+                          "detections_refused_unsynchronised", "source_not_fused"));
+}
+
 TEST(HealthFindings, EveryReasonOfTheServiceIsExplained) {
   const std::string unknown(explain_refusal("no such reason").cause);
   for (const char* reason : {"malformed", "unknown_enum", "not_finite", "not_a_rotation", "wrong_frame",

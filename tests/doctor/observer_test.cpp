@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 
+#include <fstream>
 #include <functional>
 #include <optional>
 
@@ -11,11 +12,13 @@
 #include "laneloom/dds/writer.hpp"
 #include "own_domain.hpp"
 #include "scenes.hpp"
+#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 DdsConfig private_config() {
   DdsConfig config;
@@ -107,6 +110,80 @@ TEST(Observer, TakesTheMapFrameFromTheService) {
   }
   EXPECT_EQ(seen.dds.map_frame_id, "odom");
   EXPECT_THAT(seen.poses.refused, testing::IsEmpty());
+}
+
+// As real messages, with real writers.
+TEST(Observer, SeesTwoWritersOfOneSource) {
+  const DdsConfig config = private_config();
+  const dds::Participant front(config, "front"), rear(config, "rear"), side(config, "side");
+  dds::Writer<DetectionFrame> one(front), other(rear), third(side);
+  const Observer observer(config);
+  std::optional<Finding> found;
+  for (std::uint64_t i = 1; i < 400 && !found; ++i) {
+    const DetectionFrame frame{.stamp_ns = 1, .sequence = i, .session_id = 1, .source = "camera"};
+    DetectionFrame of_side = frame;
+    of_side.source = "side";
+    one.write(frame);
+    usleep(25'000);
+    other.write(frame);
+    third.write(of_side);
+    usleep(25'000);
+    for (const Finding& finding : findings(observer.observed()))
+      if (finding.id == "source_of_several_writers") found = finding;
+  }
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->found, HasSubstr("\"camera\": \"front\" ("));
+  EXPECT_THAT(found->found, HasSubstr(", \"rear\" ("));
+  EXPECT_THAT(found->found, Not(HasSubstr("side")));
+}
+
+TEST(Observer, JudgesEachSourceByItself) {
+  const DdsConfig config = private_config();
+  const dds::Participant front(config, "front"), rear(config, "rear");
+  dds::Writer<DetectionFrame> one(front), other(rear);
+  const Observer observer(config);
+  Observed seen;
+  for (std::uint64_t i = 1;
+       i < 400 && (seen.sources["front"].messages < 5 || seen.sources["rear"].messages < 5); ++i) {
+    one.write(DetectionFrame{.stamp_ns = 1,
+                             .sequence = i,
+                             .session_id = 1,
+                             .source = "front",
+                             .field_of_view = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}}});
+    other.write(DetectionFrame{.stamp_ns = 1, .sequence = 0, .session_id = 2, .source = "rear"});
+    usleep(50'000);
+    seen = observer.observed();
+  }
+  EXPECT_EQ(seen.sources["front"].unnumbered, 0U);
+  EXPECT_EQ(seen.sources["front"].without_view, 0U);
+  EXPECT_GE(seen.sources["rear"].unnumbered, 4U) << "though another's came between";
+  EXPECT_GE(seen.sources["rear"].without_view, 5U);
+}
+
+TEST(Observer, LooksIntoTheProfileOfTheService) {
+  const DdsConfig config = private_config();
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("small.xml"))
+      << R"(<profiles xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">
+  <transport_descriptors><transport_descriptor>
+    <transport_id>udp</transport_id><type>UDPv4</type><maxMessageSize>1400</maxMessageSize>
+  </transport_descriptor></transport_descriptors>
+  <participant profile_name="small"><rtps>
+    <userTransports><transport_id>udp</transport_id></userTransports><useBuiltinTransports>false</useBuiltinTransports>
+  </rtps></participant>
+</profiles>)";
+  const dds::Participant vehicle(config, "vehicle");
+  dds::Writer<ServiceStatus> status(vehicle);
+  status.write(ServiceStatus{
+      .session_id = 1,
+      .configuration = {{"dds.profile_file", folder.file("small.xml")}, {"dds.profile_name", "small"}}});
+  status.write(ServiceStatus{
+      .session_id = 1,
+      .configuration = {{"dds.profile_file", folder.file("small.xml")}, {"dds.profile_name", "small"}}});
+  const auto found = wait_for(Observer(config), "datagrams_cut");
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->found, HasSubstr("more than 1400 bytes"));
+  EXPECT_THAT(found->found, HasSubstr(folder.file("small.xml")));
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ TEST(Presence, NoServiceAtAll) {
   ASSERT_THAT(ids(found), ElementsAre("no_service"));
   EXPECT_EQ(found[0].found, "No service publishes maps for vehicle \"ego\" in domain 3.");
   EXPECT_THAT(found[0].remedy, HasSubstr("Start laneloomd"));
+  seen.listening_domains = {0, 3};
+  EXPECT_THAT(presence_findings(seen)[0].found, HasSubstr("Processes of this host are in domain 0."));
 }
 
 TEST(Presence, ServicesOfOtherVehicles) {

@@ -56,6 +56,7 @@ inline Observed healthy() {
   for (const auto& each : seen.endpoints) seen.participants.push_back(each.participant);
   seen.listening_domains = {3};
   seen.detections = {.messages = 26, .window_s = 2.5, .newest = {{50'000'000'000, 2'000'000'000}}};
+  seen.sources = {{"camera", seen.detections}};
   seen.poses = {.messages = 251, .window_s = 2.5, .newest = {{50'100'000'000, 2'010'000'000}}};
   ServiceStatus status;
   status.session_id = 1;

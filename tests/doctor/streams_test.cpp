@@ -10,6 +10,7 @@ using testing::IsEmpty;
 TEST(Streams, AWriterOfWhichNothingComes) {
   Observed seen = healthy();
   seen.detections = {};
+  seen.sources.clear();
   const Findings found = stream_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("detections_silent"));
   EXPECT_EQ(found[0].found, "\"perception\" (10.0.0.1) writes detections, but none came within 3.0 s.");
@@ -17,12 +18,23 @@ TEST(Streams, AWriterOfWhichNothingComes) {
   EXPECT_THAT(stream_findings(seen), IsEmpty()) << "nobody writes: topic_findings() say so";
 }
 
+TEST(Streams, OfAWriterOfAnotherTypeNothingCanCome) {
+  Observed seen = healthy();
+  seen.detections = {};
+  seen.sources.clear();
+  seen.endpoints[1].type = "my::Detections";
+  seen.poses = {};
+  seen.endpoints[2].type = "my::Pose";
+  EXPECT_THAT(stream_findings(seen), IsEmpty()) << "topic_findings() say so";
+}
+
 TEST(Streams, Rates) {
   const auto found_at = [](std::uint64_t detections, std::uint64_t poses, double window_s) {
     Observed seen = healthy();
-    seen.detections.messages = detections;
+    InputObserved& camera = seen.sources.at("camera");
+    seen.detections.messages = camera.messages = detections;
     seen.poses.messages = poses;
-    seen.detections.window_s = seen.poses.window_s = window_s;
+    seen.detections.window_s = camera.window_s = seen.poses.window_s = window_s;
     return ids(stream_findings(seen));
   };
   EXPECT_THAT(found_at(9, 41, 2.0), IsEmpty());      // 4 and 20 a second
@@ -46,22 +58,20 @@ TEST(Streams, TwoWritersOfPosesAreNamed) {
   EXPECT_THAT(stream_findings(seen), IsEmpty()) << "two cameras are two sources";
 }
 
+TEST(Streams, TheRateOfEachSourceCounts) {
+  Observed seen = healthy();
+  seen.sources["rear"] = {.messages = 4, .window_s = 3.0};
+  const Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("detections_slow"));
+  EXPECT_EQ(found[0].found, "1.0 detections of source \"rear\" come in a second; it should be 4 at least.");
+}
+
 TEST(Streams, ASequenceNumberThatStays) {
   Observed seen = healthy();
-  seen.detections.unnumbered = 25;
+  seen.sources.at("camera").unnumbered = 25;
   const Findings found = stream_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("detections_unnumbered"));
   EXPECT_EQ(found[0].found, "25 detections have the sequence_number of the one before.");
-}
-
-TEST(Streams, AFieldOfViewThatIsNeverGivenIsAdvisedAndNotWrong) {
-  Observed seen = healthy();
-  seen.detections.without_view = seen.detections.messages - 1;
-  EXPECT_THAT(stream_findings(seen), IsEmpty()) << "one had it";
-  ++seen.detections.without_view;
-  const Findings found = stream_findings(seen);
-  ASSERT_THAT(ids(found), ElementsAre("no_field_of_view"));
-  EXPECT_TRUE(found[0].advice);
 }
 
 TEST(Streams, AProfileThatCutsDatagrams) {
@@ -74,16 +84,31 @@ TEST(Streams, AProfileThatCutsDatagrams) {
   EXPECT_THAT(found[0].found, HasSubstr("small.xml"));
 }
 
+// Without --config, the doctor has the settings of Fast DDS.
+TEST(Streams, AProfileOfTheServiceThatCutsDatagrams) {
+  Observed seen = healthy();
+  seen.services[0].profile_file = "small.xml";
+  EXPECT_THAT(stream_findings(seen), IsEmpty());
+  seen.services[0].largest_datagram = 1400;
+  Findings found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("datagrams_cut"));
+  EXPECT_THAT(found[0].found, HasSubstr("small.xml"));
+  seen.services[0].largest_datagram.reset();
+  found = stream_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("profile_unread"));
+  EXPECT_TRUE(found[0].advice);
+}
+
 TEST(Streams, DetectionsAndPosesOfDifferentClocks) {
   // In healthy(), detections are 90 ms behind poses: 50.0 s at 2.0 s, and 50.1 s at 2.01 s.
   Observed seen = healthy();
-  seen.detections.newest->stamp_ns -= 400'000'000;
+  seen.sources.at("camera").newest->stamp_ns -= 400'000'000;
   EXPECT_THAT(stream_findings(seen), IsEmpty());
-  seen.detections.newest->stamp_ns -= 20'000'000;
+  seen.sources.at("camera").newest->stamp_ns -= 20'000'000;
   Findings found = stream_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("sensor_clocks"));
   EXPECT_EQ(found[0].found, "Stamps of detections are 0.5 s behind those of poses.");
-  seen.detections.newest->stamp_ns = 3'650'100'000'000;
+  seen.sources.at("camera").newest->stamp_ns = 3'650'100'000'000;
   found = stream_findings(seen);
   ASSERT_THAT(ids(found), ElementsAre("sensor_clocks"));
   EXPECT_EQ(found[0].found, "Stamps of detections are 3600.0 s ahead of those of poses.");

@@ -6,6 +6,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 constexpr std::size_t kDetections = 1, kPoses = 2, kPlanner = 3;  // in healthy()
 
@@ -15,6 +16,16 @@ TEST(Topics, NobodyWritesAnInput) {
     seen.endpoints.erase(seen.endpoints.begin() + static_cast<std::ptrdiff_t>(at));
     EXPECT_THAT(ids(topic_findings(seen)), ElementsAre(id));
   }
+}
+
+TEST(Topics, WhatNobodyWritesMayBeInAnotherDomain) {
+  Observed seen = healthy();
+  seen.endpoints.erase(seen.endpoints.begin() + static_cast<std::ptrdiff_t>(kDetections));
+  EXPECT_THAT(topic_findings(seen)[0].found, HasSubstr("domain 3).")) << "nobody is elsewhere";
+  EXPECT_THAT(topic_findings(seen)[0].found, Not(HasSubstr("Processes")));
+  seen.listening_domains = {3, 17};
+  EXPECT_THAT(topic_findings(seen)[0].found,
+              HasSubstr("domain 3). Processes of this host are in domain 17."));
 }
 
 TEST(Topics, AnotherPartition) {

@@ -52,7 +52,8 @@ template <class T>
 class OurReader {
  public:
   explicit OurReader(const DdsConfig& config)
-      : participant_(config, "our reader"), reader_(participant_, [this](std::vector<std::uint8_t>&& bytes) {
+      : participant_(config, "our reader"),
+        reader_(participant_, [this](const dds::WriterId& /*writer*/, std::vector<std::uint8_t>&& bytes) {
           const std::lock_guard lock(mutex_);
           messages_.insert(by_sequence(json_of_cdr<T>(bytes)));
         }) {}

@@ -134,8 +134,10 @@ class Recorder {
   }
 
  private:
-  std::function<void(std::vector<std::uint8_t>&&)> into_inbox(std::size_t topic) {
-    return [this, topic](std::vector<std::uint8_t>&& message) { inbox_.put(topic, std::move(message)); };
+  dds::RawReader<DetectionFrame>::Callback into_inbox(std::size_t topic) {
+    return [this, topic](const dds::WriterId& /*writer*/, std::vector<std::uint8_t>&& message) {
+      inbox_.put(topic, std::move(message));
+    };
   }
 
   RecordingWriter writer_;

@@ -46,6 +46,13 @@ std::vector<dds::Endpoint> services(const Observed& seen) {
   });
 }
 
+std::string elsewhere(const Observed& seen) {
+  std::vector<int> others = seen.listening_domains;
+  std::erase(others, seen.dds.domain);
+  return others.empty() ? ""
+                        : fmt::format(" Processes of this host are in domain {}.", fmt::join(others, ", "));
+}
+
 std::string who(const dds::Peer& peer) {
   const std::string name = peer.name.empty() ? peer.id : fmt::format("\"{}\"", peer.name);
   return peer.address.empty() ? name : fmt::format("{} ({})", name, peer.address);

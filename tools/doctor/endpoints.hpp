@@ -21,6 +21,9 @@ std::vector<dds::Endpoint> select(const Observed& seen,
 /// Those that publish the lane map of any vehicle.
 std::vector<dds::Endpoint> services(const Observed& seen);
 
+/// A sentence on the domains that other processes of this host are in; empty: they are in none.
+std::string elsewhere(const Observed& seen);
+
 /// A participant, for people: `"laneloomd" (10.0.0.3)`.
 std::string who(const dds::Peer& peer);
 /// `the partition "car-1"`, `the partitions …`, or `the default partition`.

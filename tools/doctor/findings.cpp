@@ -18,6 +18,7 @@ Findings findings(const Observed& seen) {
     add(ros_findings(seen));
     add(qos_findings(seen));
     add(stream_findings(seen));
+    add(source_findings(seen));
     add(incident_findings(seen));
     add(state_findings(seen));
   }

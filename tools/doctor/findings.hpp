@@ -25,8 +25,10 @@ Findings topic_findings(const Observed& seen);
 Findings ros_findings(const Observed& seen);
 /// Which writers and readers of the vehicle would match, but for their quality of service.
 Findings qos_findings(const Observed& seen);
-/// Whether the inputs come, how often, by which clocks, and with what is useful in them.
+/// Whether the inputs come, how often, by which clocks, and whole.
 Findings stream_findings(const Observed& seen);
+/// Whether each source of detections writes as one source should, and how many there are.
+Findings source_findings(const Observed& seen);
 /// What the service refuses, and what else it counts that should not happen.
 Findings incident_findings(const Observed& seen);
 /// What the service says of itself: the consequences.

@@ -41,6 +41,11 @@ constexpr std::array kIncidents{
     Incident{"snapshots_failed", "the snapshot could not be written",
              "See the log of the service, and the rights and space of the folder of service.snapshot_file."}};
 
+/// They follow from what else is found.
+constexpr std::array kConsequences{std::string_view("detections_refused_unsynchronised"),
+                                   std::string_view("detections_refused_reset"),
+                                   std::string_view("source_not_fused")};
+
 struct Explanation {
   std::string_view why, remedy;
 };
@@ -145,6 +150,9 @@ Findings incident_findings(const Observed& seen) {
       judge_counter(counter, rise, found);
     for (const SourceStatus& source : service.last.sources) judge_source(source, service.first, found);
   }
+  std::ranges::stable_partition(found, [](const Finding& finding) {
+    return std::ranges::find(kConsequences, finding.id) == kConsequences.end();
+  });
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@
 /// What `laneloom doctor` sees, as plain data for findings.hpp to judge.
 namespace laneloom {
 
-/// Messages of one input topic, as a reader of the doctor's own got them.
+/// Messages of one input topic, or of one source of them, as a reader of the doctor's own got them.
 struct InputObserved {
   struct Newest {
     std::int64_t stamp_ns = 0;    ///< sensor clock
@@ -25,6 +26,7 @@ struct InputObserved {
   std::optional<Newest> newest;                  ///< that has a header, refused or not
   std::uint64_t unnumbered = 0;                  ///< have the sequence number and session of the one before
   std::uint64_t without_view = 0;                ///< detections without a field of view
+  std::set<dds::WriterId> mixed;                 ///< writers whose messages came between another's
 };
 
 /// What one service told of itself.
@@ -33,6 +35,9 @@ struct ServiceObserved {
   /// Of `last`'s clock behind ours, transmission included; of all statuses, the nearest to zero.
   double clock_offset_s = 0.0;
   std::uint64_t statuses = 0;
+  std::string profile_file = {};  ///< of its DDS; empty: none
+  /// Bytes that it receives whole; none: its profile cannot be read here.
+  std::optional<std::uint32_t> largest_datagram = 65500;
 };
 
 /// A file of Fast DDS in /dev/shm.
@@ -50,8 +55,9 @@ struct Observed {
   std::vector<dds::Peer> participants;  ///< all but those of doctors
   std::vector<dds::Endpoint> endpoints;
   InputObserved detections, poses;
-  std::vector<ServiceObserved> services;  ///< of this vehicle, by session
-  std::vector<int> listening_domains;     ///< that processes of this host are in
+  std::map<std::string, InputObserved> sources;  ///< detections that are well formed, by their source
+  std::vector<ServiceObserved> services;         ///< of this vehicle, by session
+  std::vector<int> listening_domains;            ///< that processes of this host are in
   std::vector<SharedMemoryFile> shared_memory;
 };
 

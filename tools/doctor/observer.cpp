@@ -1,10 +1,13 @@
 #include "doctor/observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <string_view>
 #include <utility>
 
 #include "doctor/host.hpp"
+#include "laneloom/error.hpp"
 
 namespace laneloom {
 namespace {
@@ -12,6 +15,8 @@ namespace {
 constexpr const char* kName = "laneloom doctor";
 /// Of one vehicle within one observation; more are no services.
 constexpr std::size_t kMaxSessions = 64;
+/// Names of sources, or writers of one, that are told apart; a stack has a few.
+constexpr std::size_t kMaxTold = 64;
 
 template <class Clock>
 std::int64_t now_ns() {
@@ -23,11 +28,34 @@ double offset_s(const ServiceStatus& status) {
          static_cast<double>(status.published_ns) / 1e9;
 }
 
+std::string setting(const ServiceStatus& status, std::string_view wanted) {
+  for (const auto& [key, value] : status.configuration)
+    if (key == wanted) return value;
+  return {};
+}
+
+/// Looks into the profile that the service names, as it may be on this host.
+void judge_profile(ServiceObserved& service) {
+  DdsConfig config;
+  config.profile_file = setting(service.last, "dds.profile_file");
+  config.profile_name = setting(service.last, "dds.profile_name");
+  service.profile_file = config.profile_file;
+  if (config.profile_file.empty()) return;
+  try {
+    service.largest_datagram = dds::largest_datagram(config);
+  } catch (const ConfigError&) {
+    service.largest_datagram.reset();
+  }
+}
+
 }  // namespace
 
-void Observer::Stream::note(const std::optional<dds::CdrHeader>& newest) {
+void Observer::Stream::note(const dds::WriterId& by, const std::optional<dds::CdrHeader>& newest) {
   const bool is_first = observed.messages++ == 0;
   if (is_first) first = SteadyClock::now();
+  if (by != writer && writers.contains(by)) observed.mixed.insert({by, writer});
+  if (writers.size() < kMaxTold) writers.insert(by);
+  writer = by;
   if (!newest) return;
   const bool same = newest->sequence == header.sequence && newest->session_id == header.session_id;
   if (!is_first && same) ++observed.unnumbered;
@@ -45,35 +73,42 @@ Observer::Observer(const DdsConfig& config)
     : config_(config),
       discovery_(config, kName),
       participant_(config, kName),
-      detections_(participant_, [this](Bytes&& message) { receive_detections(message); }),
-      poses_(participant_, [this](Bytes&& message) { receive_pose(message); }),
+      detections_(participant_, [this](const dds::WriterId& writer,
+                                       Bytes&& message) { receive_detections(writer, message); }),
+      poses_(participant_,
+             [this](const dds::WriterId& writer, Bytes&& message) { receive_pose(writer, message); }),
       statuses_(participant_, {.sample = [this](ServiceStatus&& status) { receive(std::move(status)); }}) {}
 
-void Observer::receive_detections(const Bytes& message) {
+void Observer::receive_detections(const dds::WriterId& writer, const Bytes& message) {
   DetectionFrame frame;
   const std::lock_guard lock(mutex_);
-  detections_stream_.note(dds::header_of(message));
+  const auto header = dds::header_of(message);
+  detections_stream_.note(writer, header);
   const auto refusal = dds::from_cdr(message, config_.map_frame_id, frame);
-  if (!refusal.empty()) ++detections_stream_.observed.refused[std::string(refusal)];
-  if (refusal.empty() && frame.field_of_view.empty()) ++detections_stream_.observed.without_view;
+  if (!refusal.empty()) {
+    ++detections_stream_.observed.refused[std::string(refusal)];
+  } else if (sources_.size() < kMaxTold || sources_.contains(frame.source)) {
+    Stream& source = sources_[frame.source];
+    source.note(writer, header);
+    if (frame.field_of_view.empty()) ++source.observed.without_view;
+  }
 }
 
-void Observer::receive_pose(const Bytes& message) {
+void Observer::receive_pose(const dds::WriterId& writer, const Bytes& message) {
   VehiclePose pose;
   const std::lock_guard lock(mutex_);
-  poses_stream_.note(dds::header_of(message));
+  poses_stream_.note(writer, dds::header_of(message));
   const auto refusal = dds::from_cdr(message, config_.map_frame_id, pose);
   if (!refusal.empty()) ++poses_stream_.observed.refused[std::string(refusal)];
 }
 
 /// The map frame is what the service was told it is, whatever this doctor was told.
 void Observer::take_configuration(const ServiceStatus& status) {
-  for (const auto& [key, value] : status.configuration) {
-    if (key != "dds.map_frame_id" || value == config_.map_frame_id) continue;
-    config_.map_frame_id = value;
-    detections_stream_.observed.refused.erase("wrong_frame");
-    poses_stream_.observed.refused.erase("wrong_frame");
-  }
+  const std::string frame_id = setting(status, "dds.map_frame_id");
+  if (frame_id.empty() || frame_id == config_.map_frame_id) return;
+  config_.map_frame_id = frame_id;
+  detections_stream_.observed.refused.erase("wrong_frame");
+  poses_stream_.observed.refused.erase("wrong_frame");
 }
 
 void Observer::receive(ServiceStatus&& status) {
@@ -83,7 +118,8 @@ void Observer::receive(ServiceStatus&& status) {
   auto found = services_.find(status.session_id);
   if (found == services_.end()) {
     if (services_.size() == kMaxSessions) return;
-    found = services_.emplace(status.session_id, ServiceObserved{status, {}, offset}).first;
+    found = services_.emplace(status.session_id, ServiceObserved{.first = status, .clock_offset_s = offset})
+                .first;
   }
   ServiceObserved& service = found->second;
   if (std::abs(offset) < std::abs(service.clock_offset_s)) service.clock_offset_s = offset;
@@ -110,8 +146,10 @@ Observed Observer::observed() const {
   result.duration_s = std::chrono::duration<double>(now - start_).count();
   result.detections = detections_stream_.until(now);
   result.poses = poses_stream_.until(now);
+  for (const auto& [name, stream] : sources_) result.sources.emplace(name, stream.until(now));
   result.services.reserve(services_.size());
   for (const auto& [session, service] : services_) result.services.push_back(service);
+  std::ranges::for_each(result.services, judge_profile);
   return result;
 }
 

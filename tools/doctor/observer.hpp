@@ -3,6 +3,8 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <set>
+#include <string>
 
 #include "doctor/observed.hpp"
 #include "laneloom/dds/cdr.hpp"
@@ -28,15 +30,17 @@ class Observer {
     InputObserved observed;
     SteadyClock::time_point first;
     dds::CdrHeader header;  ///< of the newest message
+    dds::WriterId writer{};
+    std::set<dds::WriterId> writers;
 
-    void note(const std::optional<dds::CdrHeader>& header);
+    void note(const dds::WriterId& writer, const std::optional<dds::CdrHeader>& header);
     InputObserved until(SteadyClock::time_point now) const;
   };
 
   using Bytes = std::vector<std::uint8_t>;
 
-  void receive_detections(const Bytes& message);
-  void receive_pose(const Bytes& message);
+  void receive_detections(const dds::WriterId& writer, const Bytes& message);
+  void receive_pose(const dds::WriterId& writer, const Bytes& message);
   void receive(ServiceStatus&& status);
   void take_configuration(const ServiceStatus& status);
 
@@ -44,6 +48,7 @@ class Observer {
   SteadyClock::time_point start_ = SteadyClock::now();
   mutable std::mutex mutex_;
   Stream detections_stream_, poses_stream_;
+  std::map<std::string, Stream> sources_;
   std::map<std::uint64_t, ServiceObserved> services_;  ///< by session
   dds::Discovery discovery_;
   dds::Participant participant_;

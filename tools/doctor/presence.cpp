@@ -11,11 +11,7 @@ namespace laneloom {
 namespace {
 
 Finding empty_domain(const Observed& seen) {
-  std::vector<int> others = seen.listening_domains;
-  std::erase(others, seen.dds.domain);
-  const std::string elsewhere =
-      others.empty() ? "" : fmt::format(" Processes of this host are in domain {}.", fmt::join(others, ", "));
-  return {"empty_domain", fmt::format("Nobody else is in domain {}.{}", seen.dds.domain, elsewhere),
+  return {"empty_domain", fmt::format("Nobody else is in domain {}.{}", seen.dds.domain, elsewhere(seen)),
           "Participants of different domains never see each other.",
           "Start all with the same domain (dds.domain, --domain). Those on other hosts also need a network "
           "that passes multicast, or a profile with their addresses (dds.profile_file), and UDP ports from "
@@ -33,11 +29,12 @@ Finding no_discovery_server(const Observed& seen) {
 Finding no_service(const Observed& seen, const std::vector<dds::Endpoint>& all) {
   std::set<std::string> others;
   for (const auto& service : all) others.insert(partitions_text(service.partitions));
-  const std::string elsewhere =
-      others.empty() ? "" : fmt::format(" There are services in {}.", fmt::join(others, ", in "));
+  const std::string of_others = others.empty()
+                                    ? elsewhere(seen)
+                                    : fmt::format(" There are services in {}.", fmt::join(others, ", in "));
   return {"no_service",
           fmt::format("No service publishes maps for vehicle \"{}\" in domain {}.{}", seen.dds.vehicle_id,
-                      seen.dds.domain, elsewhere),
+                      seen.dds.domain, of_others),
           "Without it there are no maps. Each vehicle has a partition of its own, named by its id.",
           others.empty() ? "Start laneloomd (systemctl status laneloom tells why it does not run)."
                          : "Use one vehicle id in all participants (dds.vehicle_id, --vehicle-id)."};

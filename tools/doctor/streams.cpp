@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
+#include <string>
+#include <vector>
 
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
@@ -13,93 +12,130 @@ namespace laneloom {
 namespace {
 
 constexpr double kMinWindow_s = 1.0;  ///< to tell a rate from
-constexpr double kAnyRate_hz = std::numeric_limits<double>::infinity();
+constexpr double kMinDetections_hz = 4.0, kMaxDetections_hz = 50.0, kMinPoses_hz = 20.0;
 constexpr double kMaxClockOffset_s = 0.5;
+constexpr std::uint32_t kLargestDatagram = 65500;  ///< bytes that participants send by default
 
-struct Input {
-  const char* what;
-  const char* topic;
-  const InputObserved& messages;
-  double min_rate_hz, max_rate_hz;
-  bool one_writer;
+/// What comes of one writer, if all is well.
+struct Stream {
+  const char* input;  ///< what it belongs to
+  std::string what;
+  const InputObserved* messages;
 };
 
-void judge_numbers(const Input& input, Findings& found) {
-  if (input.messages.unnumbered < 2) return;
-  found.push_back({fmt::format("{}_unnumbered", input.what),
-                   fmt::format("{} {} have the sequence_number of the one before.", input.messages.unnumbered,
-                               input.what),
+/// Of each source. Where nothing is well formed, of all.
+std::vector<Stream> detections(const Observed& seen) {
+  if (seen.sources.empty()) return {{"detections", "detections", &seen.detections}};
+  std::vector<Stream> result;
+  for (const auto& [name, messages] : seen.sources)
+    result.push_back(
+        {"detections",
+         seen.sources.size() == 1 ? "detections" : fmt::format("detections of source \"{}\"", name),
+         &messages});
+  return result;
+}
+
+void judge_numbers(const Stream& stream, Findings& found) {
+  if (stream.messages->unnumbered < 2) return;
+  found.push_back({fmt::format("{}_unnumbered", stream.input),
+                   fmt::format("{} {} have the sequence_number of the one before.",
+                               stream.messages->unnumbered, stream.what),
                    "Losses cannot be told, nor which frames a map was made of.",
                    "Count sequence_number up by one with each message."});
 }
 
-void judge_rate(const Input& input, Findings& found) {
-  if (input.messages.messages == 0 || input.messages.window_s < kMinWindow_s) return;
+void judge_slow(const Stream& stream, double min_hz, Findings& found) {
+  const InputObserved& observed = *stream.messages;
+  if (observed.messages == 0 || observed.window_s < kMinWindow_s) return;
   // The window ends between two messages: one of them more or less decides nothing.
-  const double messages = static_cast<double>(input.messages.messages);
-  const double rate_hz = (messages - 1.0) / input.messages.window_s;
-  if ((messages + 1.0) / input.messages.window_s < input.min_rate_hz)
-    found.push_back({fmt::format("{}_slow", input.what),
-                     fmt::format("{:.1f} {} come in a second; it should be {} at least.", rate_hz, input.what,
-                                 input.min_rate_hz),
-                     "Frames are only mapped between two poses at most sync.max_pose_gap_s apart; without "
-                     "new ones, the map gets stale.",
-                     "See whether their writer is overloaded, or the network loses them (counters *_lost)."});
-  if (rate_hz > input.max_rate_hz)
-    found.push_back({fmt::format("{}_fast", input.what),
-                     fmt::format("{:.1f} {} come in a second; it should be {} at most.", rate_hz, input.what,
-                                 input.max_rate_hz),
-                     "The service drops what it can't map in time.",
-                     "See whether several writers publish for this vehicle, or one publishes in bursts."});
+  const double messages = static_cast<double>(observed.messages);
+  if ((messages + 1.0) / observed.window_s >= min_hz) return;
+  found.push_back({fmt::format("{}_slow", stream.input),
+                   fmt::format("{:.1f} {} come in a second; it should be {} at least.",
+                               (messages - 1.0) / observed.window_s, stream.what, min_hz),
+                   "Frames are only mapped between two poses at most sync.max_pose_gap_s apart; without "
+                   "new ones, the map gets stale.",
+                   "See whether their writer is overloaded, or the network loses them (counters *_lost)."});
 }
 
-void judge(const Observed& seen, const Input& input, Findings& found) {
-  const auto writers = select(seen, [&](const dds::Endpoint& endpoint) {
-    return endpoint.is_writer && endpoint.topic == input.topic &&
+void judge_fast(const InputObserved& frames, Findings& found) {
+  if (frames.messages == 0 || frames.window_s < kMinWindow_s) return;
+  const double rate_hz = (static_cast<double>(frames.messages) - 1.0) / frames.window_s;
+  if (rate_hz <= kMaxDetections_hz) return;
+  found.push_back({"detections_fast",
+                   fmt::format("{:.1f} detections come in a second; it should be {} at most.", rate_hz,
+                               kMaxDetections_hz),
+                   "The service drops what it can't map in time.",
+                   "See whether several writers publish for this vehicle, or one publishes in bursts."});
+}
+
+/// Those that the service reads: of the right type, too.
+std::vector<dds::Endpoint> writers(const Observed& seen, const char* topic, const char* type) {
+  return select(seen, [&](const dds::Endpoint& endpoint) {
+    return endpoint.is_writer && endpoint.topic == topic && endpoint.type == type &&
            is_of_vehicle(endpoint, seen.dds.vehicle_id);
   });
-  if (!writers.empty() && input.messages.messages == 0)
-    found.push_back({fmt::format("{}_silent", input.what),
-                     fmt::format("{} writes {}, but none came within {:.1f} s.", who(writers[0].participant),
-                                 input.what, seen.duration_s),
-                     "It is known, so discovery works; its data does not arrive, or it writes none.",
-                     "See whether it gets data itself. If it does: a firewall may pass multicast alone, a "
-                     "host may announce an address that is out of reach, or it sends by shared memory to "
-                     "processes that can't read it (another user, a container)."});
-  if (writers.size() > 1 && input.one_writer)
-    found.push_back({fmt::format("{}_two_writers", input.what),
-                     fmt::format("{} and {} both write {} of this vehicle.", who(writers[0].participant),
-                                 who(writers[1].participant), input.what),
+}
+
+void judge_silence(const std::vector<dds::Endpoint>& writers, const char* what, const InputObserved& messages,
+                   double duration_s, Findings& found) {
+  if (writers.empty() || messages.messages > 0) return;
+  found.push_back({fmt::format("{}_silent", what),
+                   fmt::format("{} writes {}, but none came within {:.1f} s.", who(writers[0].participant),
+                               what, duration_s),
+                   "It is known, so discovery works; its data does not arrive, or it writes none.",
+                   "See whether it gets data itself. If it does: a firewall may pass multicast alone, a "
+                   "host may announce an address that is out of reach, or it sends by shared memory to "
+                   "processes that can't read it (another user, a container)."});
+}
+
+void judge_detections(const Observed& seen, Findings& found) {
+  judge_silence(writers(seen, dds::kDetectionsTopic, dds::kDetectionsType), "detections", seen.detections,
+                seen.duration_s, found);
+  for (const Stream& stream : detections(seen)) {
+    judge_slow(stream, kMinDetections_hz, found);
+    judge_numbers(stream, found);
+  }
+  judge_fast(seen.detections, found);
+}
+
+void judge_poses(const Observed& seen, Findings& found) {
+  const auto all = writers(seen, dds::kVehiclePoseTopic, dds::kVehiclePoseType);
+  judge_silence(all, "poses", seen.poses, seen.duration_s, found);
+  if (all.size() > 1)
+    found.push_back({"poses_two_writers",
+                     fmt::format("{} and {} both write poses of this vehicle.", who(all[0].participant),
+                                 who(all[1].participant)),
                      "Where their messages differ, each takes the other for a jump, and the map begins anew.",
                      "End one of them, or give each vehicle an id of its own."});
-  judge_rate(input, found);
-  judge_numbers(input, found);
+  const Stream stream{"poses", "poses", &seen.poses};
+  judge_slow(stream, kMinPoses_hz, found);
+  judge_numbers(stream, found);
 }
 
+Finding datagrams_cut(std::uint32_t bytes, const std::string& profile_file) {
+  return {"datagrams_cut",
+          fmt::format("Datagrams of more than {} bytes are cut when they are received, and lost without a "
+                      "word (maxMessageSize in {}).",
+                      bytes, profile_file),
+          "Other participants send up to 65500 bytes in one, and so every large frame would be missing.",
+          "Leave maxMessageSize out of the profile: Fast DDS receives into a buffer of that size."};
+}
+
+/// The doctor's own settings may be others than the service's.
 void judge_datagrams(const Observed& seen, Findings& found) {
-  constexpr std::uint32_t kLargest = 65500;  // bytes that participants send by default
-  if (seen.largest_datagram >= kLargest) return;
-  found.push_back(
-      {"datagrams_cut",
-       fmt::format("Datagrams of more than {} bytes are cut when they are received, and lost without a "
-                   "word (maxMessageSize in {}).",
-                   seen.largest_datagram, seen.dds.profile_file),
-       "Other participants send up to 65500 bytes in one, and so every large frame would be missing.",
-       "Leave maxMessageSize out of the profile: Fast DDS receives into a buffer of that size."});
-}
-
-void judge_view(const Observed& seen, Findings& found) {
-  const InputObserved& frames = seen.detections;
-  const std::uint64_t refused =
-      std::accumulate(frames.refused.begin(), frames.refused.end(), std::uint64_t{0},
-                      [](auto sum, const auto& entry) { return sum + entry.second; });
-  if (frames.without_view == 0 || frames.without_view + refused < frames.messages) return;
-  found.push_back(
-      {"no_field_of_view", "Detections come without a field of view.",
-       "Where nothing is seen, the mapper cannot tell a line that is gone from one out of sight.",
-       "Fill Detections.field_of_view with what the sensors cover, and occluded_areas where they are "
-       "blocked.",
-       true});
+  if (seen.largest_datagram < kLargestDatagram)
+    found.push_back(datagrams_cut(seen.largest_datagram, seen.dds.profile_file));
+  for (const ServiceObserved& service : seen.services) {
+    if (!service.largest_datagram)
+      found.push_back(
+          {"profile_unread",
+           fmt::format("The DDS profile of the service cannot be read here: {}.", service.profile_file),
+           "It may cut large datagrams, or send where nobody is.",
+           "Run the doctor on the service's host, as a user who may read it.", true});
+    else if (*service.largest_datagram < kLargestDatagram)
+      found.push_back(datagrams_cut(*service.largest_datagram, service.profile_file));
+  }
 }
 
 /// Stamp against arrival, in seconds.
@@ -107,13 +143,13 @@ double offset_s(const InputObserved::Newest& newest) {
   return static_cast<double>(newest.stamp_ns) / 1e9 - static_cast<double>(newest.arrival_ns) / 1e9;
 }
 
-void judge_sensor_clock(const Observed& seen, Findings& found) {
-  if (!seen.detections.newest || !seen.poses.newest) return;
-  const double apart_s = offset_s(*seen.detections.newest) - offset_s(*seen.poses.newest);
+void judge_sensor_clock(const Stream& stream, const InputObserved& poses, Findings& found) {
+  if (!stream.messages->newest || !poses.newest) return;
+  const double apart_s = offset_s(*stream.messages->newest) - offset_s(*poses.newest);
   if (std::abs(apart_s) <= kMaxClockOffset_s) return;
   found.push_back(
       {"sensor_clocks",
-       fmt::format("Stamps of detections are {:.1f} s {} those of poses.", std::abs(apart_s),
+       fmt::format("Stamps of {} are {:.1f} s {} those of poses.", stream.what, std::abs(apart_s),
                    apart_s < 0.0 ? "behind" : "ahead of"),
        "A frame needs the poses around its stamp, from the same clock; it waits for them no longer "
        "than sync.max_wait_s.",
@@ -138,12 +174,11 @@ void judge_host_clocks(const Observed& seen, Findings& found) {
 
 Findings stream_findings(const Observed& seen) {
   Findings found;
-  judge(seen, {"detections", dds::kDetectionsTopic, seen.detections, 4.0, 50.0, false}, found);
-  judge(seen, {"poses", dds::kVehiclePoseTopic, seen.poses, 20.0, kAnyRate_hz, true}, found);
+  judge_detections(seen, found);
+  judge_poses(seen, found);
   judge_datagrams(seen, found);
-  judge_sensor_clock(seen, found);
+  for (const Stream& stream : detections(seen)) judge_sensor_clock(stream, seen.poses, found);
   judge_host_clocks(seen, found);
-  judge_view(seen, found);
   return found;
 }
 

@@ -60,11 +60,13 @@ bool is_right(const Endpoint& endpoint, const Topic& topic, const std::string& v
 }
 
 Finding nobody_writes(const Observed& seen, const Topic& topic) {
-  return {fmt::format("no_{}", topic.id),
-          fmt::format(R"(Nobody writes {} for vehicle "{}" (topic {}, type {}, partition "{}").)", topic.what,
-                      seen.dds.vehicle_id, topic.name, topic.type, seen.dds.vehicle_id),
-          "The service maps nothing without detections and poses, both of the same vehicle.",
-          "Start what writes them, in this domain and partition."};
+  return {
+      fmt::format("no_{}", topic.id),
+      fmt::format(R"(Nobody writes {} for vehicle "{}" (topic {}, type {}, partition "{}", domain {}).{})",
+                  topic.what, seen.dds.vehicle_id, topic.name, topic.type, seen.dds.vehicle_id,
+                  seen.dds.domain, elsewhere(seen)),
+      "The service maps nothing without detections and poses, both of the same vehicle.",
+      "Start what writes them, in this domain and partition."};
 }
 
 Finding wrong_type(const Endpoint& endpoint, const Topic& topic) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/dds/participant.hpp"
 
 namespace laneloom::dds {
 
@@ -32,6 +33,7 @@ struct Endpoint {
   Liveliness liveliness = Liveliness::automatic;
   std::optional<double> lease_s;  ///< of the liveliness; none: infinite
   bool exclusive = false;         ///< ownership
+  WriterId id{};                  ///< of a writer
 };
 
 /// Who else is in the domain, in any partition, and what they write and read. It has a participant of its

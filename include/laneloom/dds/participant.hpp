@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -10,6 +11,9 @@
 #include "laneloom/error.hpp"
 
 namespace laneloom::dds {
+
+/// Of one writer in the domain, for as long as it lives.
+using WriterId = std::array<std::uint8_t, 16>;
 
 /// Opens the files that the configuration names, as a participant would. Throws ConfigError
 /// (laneloom/error.hpp) when the profile is missing or invalid, or a file of security is unreadable; whether

@@ -17,7 +17,7 @@ template <class T>
 class RawReader {
  public:
   /// Called by threads of DDS, as the callbacks of a Reader are.
-  using Callback = std::function<void(std::vector<std::uint8_t>&& message)>;
+  using Callback = std::function<void(const WriterId& writer, std::vector<std::uint8_t>&& message)>;
 
   RawReader(const Participant& participant, Callback callback);
   RawReader(RawReader&&) noexcept;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,9 +8,6 @@
 #include "laneloom/dds/participant.hpp"
 
 namespace laneloom::dds {
-
-/// Of one writer in the domain, for as long as it lives.
-using WriterId = std::array<std::uint8_t, 16>;
 
 /// Called by threads of DDS. They must return quickly, not make or end readers or writers, and not throw
 /// (what they throw is swallowed). Any of them may be empty.

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <iterator>
 
+#include "laneloom/limits.hpp"
+
 namespace laneloom {
 namespace {
 
 constexpr double kNewPlace_m = 0.3;
-constexpr std::size_t kMaxNetworks = 8;  // as many sources are believed at a time
 
 }  // namespace
 
@@ -24,7 +25,7 @@ double Standpoint::news(const Point& origin) {
 std::size_t Networks::number(const std::string& source, std::uint64_t frame, const FusionConfig& config) {
   auto network = std::ranges::find(networks_, source, &Network::source);
   if (network == networks_.end()) {
-    if (networks_.size() < kMaxNetworks) networks_.emplace_back();  // of frame 0: before all others
+    if (networks_.size() < kSourcesAtATime) networks_.emplace_back();  // of frame 0: before all others
     network = std::ranges::min_element(networks_, {}, &Network::frame);
     *network = {
         .source = source, .frame = frame, .lateral = NetworkModel(config), .detection = {}, .standpoint = {}};

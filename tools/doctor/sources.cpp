@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "doctor/endpoints.hpp"
+#include "doctor/findings.hpp"
+#include "laneloom/limits.hpp"
+
+namespace laneloom {
+namespace {
+
+/// What the finding says of one of the writers.
+std::string name_of(const Observed& seen, const dds::WriterId& writer) {
+  const auto found = std::ranges::find(seen.endpoints, writer, &dds::Endpoint::id);
+  return found == seen.endpoints.end() ? "one that is gone" : who(found->participant);
+}
+
+void judge_writers(const Observed& seen, const std::string& source, const InputObserved& frames,
+                   Findings& found) {
+  if (frames.mixed.empty()) return;
+  std::vector<std::string> names;
+  for (const dds::WriterId& writer : frames.mixed) names.push_back(name_of(seen, writer));
+  std::ranges::sort(names);
+  found.push_back(
+      {"source_of_several_writers",
+       fmt::format("{} writers take turns with detections of one source, \"{}\": {}.", names.size(), source,
+                   fmt::join(names, ", ")),
+       "A source has one session and one count. Each writer is taken for a restart of the other, or "
+       "for a jump of the stamps, and frames of both are refused.",
+       "Give each writer a name of its own (Detections.source), or end all but one of them."});
+}
+
+void judge_view(const std::string& source, const InputObserved& frames, Findings& found) {
+  if (frames.without_view < frames.messages) return;
+  found.push_back(
+      {"no_field_of_view", fmt::format("Detections of source \"{}\" come without a field of view.", source),
+       "Where nothing is seen, the mapper cannot tell a line that is gone from one out of sight.",
+       "Fill Detections.field_of_view with what the sensors cover, and occluded_areas where they are "
+       "blocked.",
+       true});
+}
+
+/// The sources that a service heard while it was watched.
+std::set<std::string> heard(const ServiceObserved& service) {
+  std::set<std::string> result;
+  for (const SourceStatus& source : service.last.sources) {
+    const bool silent = std::ranges::any_of(service.first.sources, [&](const SourceStatus& before) {
+      return before.source == source.source && before.session_id == source.session_id &&
+             before.frames == source.frames;
+    });
+    if (!silent) result.insert(source.source);
+  }
+  return result;
+}
+
+void judge_number(const Observed& seen, Findings& found) {
+  std::size_t most = seen.sources.size();
+  for (const ServiceObserved& service : seen.services) most = std::max(most, heard(service).size());
+  if (most <= kSourcesAtATime) return;
+  found.push_back(
+      {"too_many_sources",
+       fmt::format("{} sources write detections; the service keeps {} apart.", most, kSourcesAtATime),
+       "It forgets the one that is silent for longest, again and again: what was learned of that "
+       "source is lost, and frames that come twice are taken twice.",
+       "Use one name per perception stack, always the same (Detections.source). Where there are "
+       "more stacks, join the detections of some of them in one writer."});
+}
+
+}  // namespace
+
+Findings source_findings(const Observed& seen) {
+  Findings found;
+  judge_number(seen, found);
+  for (const auto& [source, frames] : seen.sources) {
+    judge_writers(seen, source, frames, found);
+    judge_view(source, frames, found);
+  }
+  return found;
+}
+
+}  // namespace laneloom
