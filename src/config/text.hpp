@@ -9,10 +9,12 @@
 
 namespace laneloom::config {
 
-/// The shortest text that reads back as the same number, whatever the locale.
+/// The shortest text without an exponent that reads back as the same number, whatever the locale: a whole
+/// number with an exponent is none to the loader.
 inline std::string to_text(double value) {
-  std::array<char, 32> buffer{};
-  char* const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  std::array<char, 400> buffer{};  // for any number
+  char* const end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed).ptr;
   return {buffer.data(), end};
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -260,6 +261,28 @@ TEST(ShippedFiles, LaneloomYamlHasDefaultsWithTheirUnitsAndRanges) {
   const auto shipped = settings_in(std::ifstream(kConfigDir / "laneloom.yaml"));
   EXPECT_GT(shipped.size(), 25U);
   EXPECT_TRUE(std::ranges::includes(settings_in(std::istringstream(dump(Config{}))), shipped));
+}
+
+// Whether the number fits with those of other keys is another matter.
+TEST(Dump, WritesNumbersAsTheLoaderTakesThem) {
+  Config config;
+  config.sync.pose_queue_capacity = 100'000;
+  EXPECT_THAT(dump(config), HasSubstr("pose_queue_capacity: 100000  # "));
+  std::size_t ranges = 0;
+  std::istringstream text(dump(config));
+  for (std::string line; std::getline(text, line);) {
+    const std::smatch match = [&] {
+      std::smatch found;
+      std::regex_search(line, found, std::regex(R"(# (?:[^,]*, )?(\S+) \.\. (\S+)$)"));
+      return found;
+    }();
+    if (match.empty()) continue;
+    ++ranges;
+    for (const std::size_t end : {1U, 2U})
+      EXPECT_THAT(match[end].str(), ::testing::MatchesRegex("-?[0-9]+(\\.[0-9]+)?")) << line;
+  }
+  EXPECT_GT(ranges, 80U);
+  set_value(config, "sync.pose_queue_capacity=100000");
 }
 
 TEST(Dump, SaysWhatEveryKeyMeans) {
