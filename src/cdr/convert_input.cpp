@@ -82,11 +82,11 @@ std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id
 Refusal from_msg(const msg::Detections& from, const std::string& map_frame_id, DetectionFrame& to) {
   Intake intake;
   // The body frame may have any name, but coordinates of the map would be taken to be about the vehicle.
-  if (from.header().frame_id().to_string() == map_frame_id) intake.refuse("wrong_frame");
+  if (intake.text(from.header().frame_id().to_string()) == map_frame_id) intake.refuse("wrong_frame");
   to.stamp_ns = from.header().stamp_ns();
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();
-  to.source = from.source().to_string();
+  to.source = intake.text(from.source().to_string());
   to.detected_types = convert_all<MarkingType>(from.detected_types(), [&](msg::MarkingType type) {
     return intake.enumeration(type, MarkingType::stopline);
   });

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <utf8.h>
+
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +31,11 @@ class Intake {
       return last;
     }
     return static_cast<To>(value);
+  }
+  /// What is published on has to be text: readers may refuse a string that is not UTF-8.
+  std::string text(std::string from) {
+    if (!utf8::is_valid(from.begin(), from.end())) refuse("not_text");
+    return from;
   }
   /// Per point there is a value, or none is given.
   void sizes_match(std::size_t values, std::size_t points) {

@@ -154,6 +154,21 @@ TEST(Refuse, DeviationsThatMatchNoPoints) {
   EXPECT_EQ(from_msg(message, "map", frame), "");
 }
 
+TEST(Refuse, NamesThatAreNotUtf8) {
+  DetectionFrame frame;
+  auto message = RandomMessages(4).detections();
+  message.source("Kamera f\xc3\xbcr vorn");
+  EXPECT_EQ(from_msg(message, "map", frame), "");
+  for (const char* bad : {"\xff", "cut \xc3", "long form of / \xc0\xaf", "half a pair \xed\xa0\x80"}) {
+    message.source(bad);
+    EXPECT_EQ(from_msg(message, "map", frame), "not_text") << bad;
+    message.source("camera");
+    message.header().frame_id(bad);
+    EXPECT_EQ(from_msg(message, "map", frame), "not_text") << bad;
+    message.header().frame_id("body");
+  }
+}
+
 TEST(Refuse, DetectionsInTheMapFrame) {
   DetectionFrame frame;
   auto message = RandomMessages(4).detections();

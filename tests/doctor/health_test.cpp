@@ -70,9 +70,10 @@ TEST(HealthFindings, CausesStandBeforeTheirConsequences) {
 
 TEST(HealthFindings, EveryReasonOfTheServiceIsExplained) {
   const std::string unknown(explain_refusal("no such reason").cause);
-  for (const char* reason : {"malformed", "unknown_enum", "not_finite", "not_a_rotation", "wrong_frame",
-                             "wrong_size", "stamp", "coordinate", "too_few_points", "confidence", "stddev",
-                             "crc", "data_id", "repeated", "late", "outlier", "unsynchronised", "reset"})
+  for (const char* reason :
+       {"malformed", "unknown_enum", "not_text", "not_finite", "not_a_rotation", "wrong_frame", "wrong_size",
+        "stamp", "coordinate", "too_few_points", "confidence", "stddev", "crc", "data_id", "repeated", "late",
+        "outlier", "unsynchronised", "reset"})
     EXPECT_NE(explain_refusal(reason).cause, unknown) << reason;
 }
 

@@ -20,6 +20,7 @@ constexpr std::array kRefusals{
             "Give them the data id that idl/Common.idl has for the topic."},
     Refusal{"malformed", "their bytes are no message of the topic's type", kIdl},
     Refusal{"unknown_enum", "an enumeration has a value that the IDL does not know", kIdl},
+    Refusal{"not_text", "their source or frame_id is not UTF-8", "Write names as UTF-8, or as plain ASCII."},
     Refusal{"not_finite", "they hold a NaN or an infinity", kWriter},
     Refusal{"not_a_rotation", "their quaternion is not of length one",
             "Normalise it where they are written."},

@@ -15,7 +15,7 @@ template <class T>
 struct ReaderCallbacks {
   std::function<void(T&&)> sample;
   /// A sample that is no valid T, with a stable name of the reason:
-  /// crc, data_id, malformed, unknown_enum, not_finite, not_a_rotation, wrong_frame, wrong_size.
+  /// crc, data_id, malformed, unknown_enum, not_text, not_finite, not_a_rotation, wrong_frame, wrong_size.
   std::function<void(std::string_view reason)> refused;
   /// Before each of these: who wrote it, and the number that it has among its writer's samples.
   std::function<void(const WriterId& writer, std::uint64_t number)> numbered;
