@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -43,10 +44,8 @@ class Claims {
     for (std::size_t i = 0; i < lines.size(); ++i) observed_[i].resize(lines[i].stations.size());
   }
 
-  void remove_claimed(LineMatch& match) const {
-    std::erase_if(match.samples, [&](const SampleMatch& s) {
-      return matched_[match.detection][s.sample] || observed_[match.line][observed_station(s)];
-    });
+  bool is_claimed(const LineMatch& match, const SampleMatch& s) const {
+    return matched_[match.detection][s.sample] || observed_[match.line][observed_station(s)];
   }
 
   /// Also the stations between two samples that follow one another.
@@ -91,67 +90,86 @@ std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarkin
   return detections;
 }
 
-struct LineMatcher::Candidate {
-  double score = 0.0;
-  LineMatch match;
-};
-
 LineMatcher::LineMatcher(const std::vector<Line>& lines, const FusionConfig& config)
     : lines_(lines),
       config_(config),
       min_cosine_(cos_degrees(config.gate_angle_deg)),
       along_(lines, false, config.gate_m),
-      across_(lines, true, config.gate_m) {}
+      across_(lines, true, config.gate_m),
+      found_(lines.size()) {
+  courses_.reserve(lines.size());
+  for (const Line& line : lines) courses_.emplace_back(line);
+}
+
+/// The foot of a sample on a line that it lies beside, and that runs alike.
+std::optional<StationFoot> LineMatcher::foot(const NearestStation& nearest, const Point& sample,
+                                             const Eigen::Vector2d& direction) const {
+  const Course& course = courses_[nearest.line];
+  if (std::abs(direction.dot(course.direction(nearest.station))) < min_cosine_) return std::nullopt;
+  const StationFoot foot = course.foot(nearest.station, sample);
+  const auto last = static_cast<double>(course.size() - 1);
+  const bool is_beside =
+      foot.index >= -0.5 && foot.index <= last + 0.5 && std::abs(foot.lateral_m) <= config_.gate_m;
+  return is_beside ? std::optional(foot) : std::nullopt;
+}
 
 /// All lines that a detection's samples lie beside, with the samples that do.
 void LineMatcher::find_candidates(std::size_t index, const SampledDetection& detection, std::size_t stride,
-                                  std::vector<Candidate>& candidates) {
+                                  Candidates& candidates) {
   NearestStations& nearest_stations = is_stopline(detection.type) ? across_ : along_;
-  const auto first = std::ssize(candidates);
-  const auto of_line = [&](std::size_t line) -> Candidate& {
-    const auto known = std::find_if(candidates.begin() + first, candidates.end(),
-                                    [line](const Candidate& c) { return c.match.line == line; });
-    if (known != candidates.end()) return *known;
-    candidates.push_back({0.0, {index, line, {}}});
-    candidates.back().match.samples.reserve(detection.samples.size() / stride + 1);
-    return candidates.back();
-  };
+  hits_.clear();
   for (std::size_t i = 0; i < detection.samples.size(); i += stride) {
-    const Point& point = detection.samples[i];
+    const Point& sample = detection.samples[i];
     const Eigen::Vector2d direction = direction_of(detection.samples, i);
-    for (const NearestStation& n : nearest_stations.around(point)) {
-      const Line& line = lines_[n.line];
-      const StationFoot foot = foot_at(line, n.station, point);
-      const auto last = static_cast<double>(line.stations.size() - 1);
-      if (foot.index < -0.5 || foot.index > last + 0.5) continue;
-      if (std::abs(foot.lateral_m) > config_.gate_m) continue;
-      if (std::abs(direction.dot(direction_at(line, n.station))) < min_cosine_) continue;
-      Candidate& candidate = of_line(n.line);
-      const double fit = foot.lateral_m / config_.gate_m;
-      candidate.score += 1.0 - fit * fit;
-      candidate.match.samples.push_back({i, foot});
+    for (const NearestStation& nearest : nearest_stations.around(sample)) {
+      const auto foot = this->foot(nearest, sample, direction);
+      if (!foot) continue;
+      const double fit = foot->lateral_m / config_.gate_m;
+      found_[nearest.line].score += 1.0 - fit * fit;
+      ++found_[nearest.line].samples;
+      hits_.push_back({nearest.line, {i, *foot}});
     }
   }
-  std::sort(candidates.begin() + first, candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.match.line < b.match.line; });
+  group_hits(index, candidates);
+}
+
+/// By line, and of each line in the order of the samples.
+void LineMatcher::group_hits(std::size_t detection, Candidates& candidates) {
+  std::size_t from = candidates.samples.size();
+  candidates.samples.resize(from + hits_.size());
+  for (std::size_t line = 0; line < found_.size(); ++line) {
+    Found& found = found_[line];
+    if (found.samples == 0) continue;
+    candidates.all.push_back({found.score, detection, line, from, found.samples});
+    found.next = from;
+    from += found.samples;
+  }
+  for (const auto& [line, sample] : hits_) candidates.samples[found_[line].next++] = sample;
+  for (const auto& [line, sample] : hits_) found_[line] = {};
 }
 
 std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& detections,
                                           std::size_t stride) {
-  std::vector<Candidate> candidates;
+  Candidates candidates;
   for (std::size_t i = 0; i < detections.size(); ++i) find_candidates(i, detections[i], stride, candidates);
-  std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::score);
+  std::ranges::stable_sort(candidates.all, std::ranges::greater{}, &Candidate::score);
 
   Claims claims(detections, lines_);
   std::vector<LineMatch> matches;
-  matches.reserve(candidates.size());
-  for (auto& [score, match] : candidates) {
-    claims.remove_claimed(match);
+  LineMatch match;
+  for (const Candidate& candidate : candidates.all) {
+    match.detection = candidate.detection;
+    match.line = candidate.line;
+    match.samples.clear();
     double overlap_m = 0.0;
-    for (const SampleMatch& s : match.samples) overlap_m += detections[match.detection].share_m(s.sample);
+    for (const SampleMatch& sample : std::span(candidates.samples).subspan(candidate.from, candidate.count)) {
+      if (claims.is_claimed(match, sample)) continue;
+      match.samples.push_back(sample);
+      overlap_m += detections[match.detection].share_m(sample.sample);
+    }
     if (match.samples.size() < 2 || overlap_m * static_cast<double>(stride) < config_.min_overlap_m) continue;
     claims.claim(match);
-    matches.push_back(std::move(match));
+    matches.push_back(match);
   }
   return matches;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -67,14 +69,41 @@ class LineMatcher {
   const FusionConfig& config() const { return config_; }
 
  private:
-  struct Candidate;
+  /// A line that a detection lies beside, with `count` samples from `from` on.
+  struct Candidate {
+    double score = 0.0;
+    std::size_t detection = 0, line = 0;
+    std::size_t from = 0, count = 0;
+  };
+  struct Candidates {
+    std::vector<Candidate> all;
+    std::vector<SampleMatch> samples;
+  };
+  /// Of one detection on one line, so far.
+  struct Found {
+    double score = 0.0;
+    std::size_t samples = 0;
+    std::size_t next = 0;  ///< place of the next sample among those of all candidates
+  };
+  struct Hit {
+    std::uint32_t line = 0;
+    SampleMatch sample;
+  };
+
+  std::optional<StationFoot> foot(const NearestStation& nearest, const Point& sample,
+                                  const Eigen::Vector2d& direction) const;
   void find_candidates(std::size_t index, const SampledDetection& detection, std::size_t stride,
-                       std::vector<Candidate>& candidates);
+                       Candidates& candidates);
+  void group_hits(std::size_t detection, Candidates& candidates);
 
   const std::vector<Line>& lines_;
   FusionConfig config_;
   double min_cosine_;
   NearestStations along_, across_;
+  std::vector<Course> courses_;  ///< of the lines
+  // Of one detection, and empty between two of them.
+  std::vector<Found> found_;  ///< by line
+  std::vector<Hit> hits_;
 };
 
 /// Matches the detections, and marks the samples that were matched.

@@ -84,6 +84,27 @@ StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point);
 /// Horizontal unit direction of the line at a station.
 Eigen::Vector2d direction_at(const Line& line, std::size_t station);
 
+/// Where a line runs, without what else its stations know: for feet that are looked for again and again. The
+/// line has at least two stations, and is not needed later on.
+class Course {
+ public:
+  explicit Course(const Line& line);
+
+  std::size_t size() const { return places_.size(); }
+  /// As foot_at() of the line.
+  StationFoot foot(std::size_t nearest, const Point& point) const;
+  /// As direction_at() of the line.
+  const Eigen::Vector2d& direction(std::size_t station) const { return places_[station].direction; }
+
+ private:
+  struct Place {
+    Point position;
+    Eigen::Vector2d direction;
+    double ahead_m;  ///< to the next one, horizontally
+  };
+  std::vector<Place> places_;
+};
+
 inline Eigen::Vector2d left_of(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
 
 /// Finds stations by place: a uniform grid over the stations of one instant.
