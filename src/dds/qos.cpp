@@ -47,6 +47,10 @@ constexpr std::uint32_t kSmallDatagramBytes = 1472;
 // The handshakes of DDS-Security do not come through small datagrams.
 constexpr std::uint32_t kLargeDatagramBytes = 65500;
 
+// A reliable reader keeps every frame of which a part is missing, for as long as its writer may repeat that.
+// A frame of 12.6 MB is within the bounds of the IDL, and a newer one is worth more than an older one.
+constexpr int kUnfinishedFrames = 2;
+
 eprosima::fastrtps::Duration_t milliseconds(int value) {
   return {value / 1000, static_cast<std::uint32_t>(value % 1000) * 1'000'000U};
 }
@@ -208,6 +212,8 @@ DataReaderQos reader_qos(TopicKind kind, ReliabilityQosPolicyKind reliability) {
   DataReaderQos qos = DATAREADER_QOS_DEFAULT;
   set_common(kind, qos);
   qos.reliability().kind = reliability;
+  if (kind == TopicKind::detections && reliability == RELIABLE_RELIABILITY_QOS)
+    qos.history().depth = kUnfinishedFrames;
   return qos;
 }
 
