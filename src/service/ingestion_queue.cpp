@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "session/admission.hpp"
+#include "session/gate.hpp"
 
 namespace laneloom {
 namespace {
@@ -24,15 +25,21 @@ IngestionQueue::IngestionQueue(const Config& config) : config_(config.sync), gat
 }
 
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
-  const std::size_t left_out = admit(gate_, frame);
+  // Before the frame is thinned: what is wrong with it may be in a detection that would be left out.
+  const std::string_view refusal = defect(frame, gate_);
+  const std::size_t left_out = refusal.empty() ? admit(gate_, frame) : 0;
   const std::lock_guard lock(mutex_);
   count_frame();
+  state_.newest_frame_ns = arrival_ns;
+  note_source(frame);
+  if (!refusal.empty()) {
+    state_.counters.add("detections_refused_" + std::string(refusal));
+    return;
+  }
   if (left_out > 0) {
     state_.counters.add("frames_thinned");
     state_.counters.add("detections_left_out", left_out);
   }
-  state_.newest_frame_ns = arrival_ns;
-  note_source(frame);
   if (frames_.size() >= static_cast<std::size_t>(config_.queue_capacity)) drop_oldest_of_most();
   push(frames_, {std::move(frame), arrival_ns});
 }

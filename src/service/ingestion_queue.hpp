@@ -31,7 +31,8 @@ class IngestionQueue {
  public:
   explicit IngestionQueue(const Config& config);
 
-  /// Keeps of the frame what admit() leaves, so that memory is bounded too.
+  /// Refuses a frame that has a defect() whole. Keeps of any other what admit() leaves, so that memory is
+  /// bounded too.
   void push(DetectionFrame&& frame, std::int64_t arrival_ns);
   void push(VehiclePose&& pose, std::int64_t arrival_ns);
   /// A message came that was no valid one.

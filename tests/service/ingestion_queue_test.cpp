@@ -15,8 +15,15 @@ Config capacities(int frames, int poses) {
   return config;
 }
 
-DetectionFrame frame(std::uint64_t sequence) { return {.sequence = sequence}; }
-VehiclePose pose(std::uint64_t sequence) { return {.sequence = sequence}; }
+DetectionFrame frame(std::uint64_t sequence) { return {.stamp_ns = 1, .sequence = sequence}; }
+VehiclePose pose(std::uint64_t sequence) { return {.stamp_ns = 1, .sequence = sequence}; }
+
+/// A valid frame of so many equal detections.
+DetectionFrame frame_of(std::size_t detections) {
+  DetectionFrame result = frame(1);
+  result.detections.resize(detections, {.confidence = 0.5, .points = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}});
+  return result;
+}
 
 /// "f1 p2": the kinds and sequences, in order.
 std::string text(const std::vector<Arrival>& arrivals) {
@@ -73,12 +80,26 @@ TEST(IngestionQueue, ThinsAFrameThatIsTooMuchWork) {
   auto config = capacities(4, 4);
   config.gate.max_frame_detections = 2;
   IngestionQueue queue(config);
-  auto heavy = frame(1);
-  heavy.detections.resize(5);
-  queue.push(std::move(heavy), 0);
+  queue.push(frame_of(5), 0);
   EXPECT_EQ(queue.snapshot().counters["frames_thinned"], 1U);
   EXPECT_EQ(queue.snapshot().counters["detections_left_out"], 3U);
   EXPECT_EQ(std::get<DetectionFrame>(queue.drain()[0].message).detections.size(), 2U);
+}
+
+TEST(IngestionQueue, RefusesAFrameWholeForADefectInWhatWouldBeLeftOut) {
+  auto config = capacities(4, 4);
+  config.gate.max_frame_detections = 2;
+  IngestionQueue queue(config);
+  auto heavy = frame_of(5);
+  heavy.detections[4].confidence = 0.1;
+  heavy.detections[4].points[1].x() = 1e300;
+  queue.push(std::move(heavy), 7);
+  const auto state = queue.snapshot();
+  EXPECT_EQ(state.counters["detections_received"], 1U);
+  EXPECT_EQ(state.counters["detections_refused_coordinate"], 1U);
+  EXPECT_EQ(state.counters["frames_thinned"], 0U);
+  EXPECT_EQ(state.newest_frame_ns, 7) << "detections do come";
+  EXPECT_TRUE(queue.drain().empty());
 }
 
 TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
