@@ -140,6 +140,8 @@ void Service::ingest(std::int64_t now_ns) {
 }
 
 bool Service::source_not_fused(std::int64_t now_ns) const {
+  const auto crowded_out_ns = session_.crowded_out_ns();
+  if (crowded_out_ns && age_s(now_ns, crowded_out_ns) < kSourceRemembered_s) return true;
   const auto sources = session_.sources();
   return sources.size() > 1 && std::ranges::any_of(sources, [&](const SourceProgress& source) {
            return age_s(now_ns, source.arrival_ns) < kSourceRemembered_s &&

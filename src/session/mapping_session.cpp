@@ -177,6 +177,10 @@ void MappingSession::grant_work(double markings_m) {
 
 std::vector<SourceProgress> MappingSession::sources() const { return state_->sources.progress(); }
 
+std::optional<std::int64_t> MappingSession::crowded_out_ns() const {
+  return state_->sources.crowded_out_ns();
+}
+
 std::optional<double> MappingSession::lag_s() const {
   const State& state = *state_;
   if (!state.newest_stamp_ns || !state.newest_pose) return std::nullopt;

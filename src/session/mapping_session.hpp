@@ -88,6 +88,8 @@ class MappingSession {
   const Counters& counters() const;
   /// By source.
   std::vector<SourceProgress> sources() const;
+  /// Arrival of the newest frame of a source too many, which was refused; none: never.
+  std::optional<std::int64_t> crowded_out_ns() const;
   /// From the stamp of the newest fused frame to that of the newest pose; none: nothing was fused yet.
   std::optional<double> lag_s() const;
 

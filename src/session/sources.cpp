@@ -7,13 +7,18 @@
 namespace laneloom {
 namespace {
 
+constexpr std::int64_t kIdle_ns = 2'000'000'000;  // a stack may take a new name with every run
 constexpr std::size_t kStampsRemembered = 64;
 
 }  // namespace
 
 Sources::Verdict Sources::check(const DetectionFrame& frame, std::int64_t arrival_ns) {
-  Source& source = sources_.try_emplace(frame.source, Source{Gate(config_), {.source = frame.source}, {}, 0})
-                       .first->second;
+  Source* const found = find_or_add(frame.source, arrival_ns);
+  if (found == nullptr) {
+    crowded_out_ns_ = arrival_ns;
+    return {"too_many_sources"};
+  }
+  Source& source = *found;
   const Gate::Verdict verdict = source.gate.check({frame.stamp_ns, frame.session_id});
   const bool seen = std::ranges::find(source.stamps_ns, frame.stamp_ns) != source.stamps_ns.end();
   const bool restarted = verdict == Gate::Verdict::begins_anew;
@@ -29,8 +34,6 @@ Sources::Verdict Sources::check(const DetectionFrame& frame, std::int64_t arriva
   if (source.stamps_ns.size() > kStampsRemembered) source.stamps_ns.pop_front();
   source.progress.session_id = frame.session_id;
   source.progress.arrival_ns = arrival_ns;
-  source.accepted = ++accepted_;
-  forget_idle();
   return {.refusal = {}, .restarted = restarted};
 }
 
@@ -49,10 +52,20 @@ std::vector<SourceProgress> Sources::progress() const {
   return all;
 }
 
-void Sources::forget_idle() {
-  if (sources_.size() <= kSourcesAtATime) return;  // a stack may take a new name with every run
-  sources_.erase(
-      std::ranges::min_element(sources_, {}, [](const auto& entry) { return entry.second.accepted; }));
+Sources::Source* Sources::find_or_add(const std::string& name, std::int64_t arrival_ns) {
+  const auto found = sources_.find(name);
+  if (found != sources_.end()) return &found->second;
+  if (!make_room(arrival_ns)) return nullptr;
+  return &sources_.emplace(name, Source{Gate(config_), {.source = name}, {}}).first->second;
+}
+
+bool Sources::make_room(std::int64_t arrival_ns) {
+  if (sources_.size() < kSourcesAtATime) return true;
+  const auto last_heard_ns = [](const auto& entry) { return entry.second.progress.arrival_ns; };
+  const auto idle = std::ranges::min_element(sources_, {}, last_heard_ns);
+  if (arrival_ns - last_heard_ns(*idle) <= kIdle_ns) return false;
+  sources_.erase(idle);
+  return true;
 }
 
 }  // namespace laneloom

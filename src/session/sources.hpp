@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,8 @@
 namespace laneloom {
 
 /// The sources of detections: which frames of each are believed, and what became of them. What happens to one
-/// source leaves the others as they are. Of too many sources, the one that accepted nothing for longest is
-/// forgotten.
+/// source leaves the others as they are. There is room for eight sources. A further one takes the place of
+/// one of which nothing was believed for 2 s; where all go on, the further one is refused.
 class Sources {
  public:
   explicit Sources(const GateConfig& config) : config_(config) {}
@@ -32,20 +33,22 @@ class Sources {
 
   /// By name.
   std::vector<SourceProgress> progress() const;
+  /// Arrival of the newest frame that was refused because there was no room for its source; none: never.
+  std::optional<std::int64_t> crowded_out_ns() const { return crowded_out_ns_; }
 
  private:
   struct Source {
     Gate gate;
     SourceProgress progress;
     std::deque<std::int64_t> stamps_ns;  ///< of the newest accepted frames
-    std::uint64_t accepted = 0;          ///< number of its newest accepted frame, among those of all sources
   };
 
-  void forget_idle();
+  Source* find_or_add(const std::string& name, std::int64_t arrival_ns);
+  bool make_room(std::int64_t arrival_ns);
 
   GateConfig config_;
   std::map<std::string, Source> sources_;
-  std::uint64_t accepted_ = 0;
+  std::optional<std::int64_t> crowded_out_ns_;
 };
 
 }  // namespace laneloom

@@ -218,26 +218,6 @@ TEST_F(MappingSessionTest, WaitingFramesAreBounded) {
   EXPECT_EQ(session_.counters()["frames_dropped_queue_full"], 36U);
 }
 
-TEST_F(MappingSessionTest, OfTooManySourcesTheOneThatWasIdleForLongestIsForgotten) {
-  const auto send = [this](const std::string& source, int stamp_ms) {
-    auto of_source = frame(stamp_ms);
-    of_source.source = source;
-    add(of_source);
-  };
-  // With its pid in the name, a stack that was restarted is another source.
-  for (int run = 0; run < 100; ++run) {
-    const int stamp_ms = 10'000 + 10 * run;
-    session_.add(pose(stamp_ms));
-    send("of run " + std::to_string(run), stamp_ms);
-    send("steady", stamp_ms);
-    send("steady", stamp_ms);
-  }
-  EXPECT_EQ(session_.counters()["frames_fused"], 200U);
-  EXPECT_EQ(session_.counters()["detections_refused_repeated"], 100U) << "the one that goes on is remembered";
-  send("of run 0", 10'000);
-  EXPECT_EQ(session_.counters()["detections_refused_repeated"], 100U) << "what it sent is forgotten";
-}
-
 TEST_F(MappingSessionTest, AnotherSessionGoesOnWhereOneEnded) {
   EXPECT_FALSE(session_.checkpoint());
   drive(10'000, 12'000);

@@ -37,5 +37,42 @@ TEST(Sources, ANewSessionCountsFromZero) {
   EXPECT_EQ(sources.progress()[0].session_id, 8U);
 }
 
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+DetectionFrame frame_of(const std::string& source, std::int64_t stamp_ns) {
+  DetectionFrame frame = frame_at(stamp_ns, 7);
+  frame.source = source;
+  return frame;
+}
+
+TEST(Sources, ANinthThatComesWhileEightGoOnIsRefusedSteadily) {
+  Sources sources{GateConfig{}};
+  const auto refusal = [&](const std::string& name, std::int64_t now_ns) {
+    return sources.check(frame_of(name, now_ns), now_ns).refusal;
+  };
+  for (int i = 1; i <= 100; ++i) {
+    for (int eighth = 1; eighth <= 8; ++eighth)
+      EXPECT_EQ(refusal(std::to_string(eighth), i * kFrame_ns + eighth), "");
+    EXPECT_EQ(refusal("ninth", i * kFrame_ns + 9), "too_many_sources");
+    EXPECT_EQ(sources.crowded_out_ns(), i * kFrame_ns + 9);
+  }
+  EXPECT_EQ(sources.progress().size(), 8U);
+}
+
+// With its pid in the name, a stack that was restarted is another source.
+TEST(Sources, ANewOneTakesThePlaceOfOneThatEnded) {
+  Sources sources{GateConfig{}};
+  for (int run = 1; run <= 100; ++run) {
+    const std::int64_t now_ns = run * kSecond_ns;
+    EXPECT_EQ(sources.check(frame_of("of run " + std::to_string(run), now_ns), now_ns).refusal, "") << run;
+    EXPECT_EQ(sources.check(frame_of("steady", now_ns), now_ns).refusal, "");
+    EXPECT_EQ(sources.check(frame_of("steady", now_ns), now_ns).refusal, "repeated") << "it is remembered";
+  }
+  EXPECT_EQ(sources.progress().size(), 8U);
+  EXPECT_EQ(sources.check(frame_of("of run 1", kSecond_ns), 200 * kSecond_ns).refusal, "")
+      << "what it sent is forgotten";
+  EXPECT_FALSE(sources.crowded_out_ns());
+}
+
 }  // namespace
 }  // namespace laneloom

@@ -47,7 +47,9 @@ constexpr std::array kRefusals{
             "See whether both use one clock, poses come at 20 Hz or more (sync.max_pose_gap_s), and no later "
             "than sync.max_wait_s after the frame."},
     Refusal{"reset", "they waited for poses when the map began anew",
-            "See why it did: pose or stamp jumped."}};
+            "See why it did: pose or stamp jumped."},
+    Refusal{"too_many_sources", "eight other sources of detections are heard",
+            "Give each perception stack one name of its own for the field `source`, and run at most eight."}};
 
 }  // namespace
 
