@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "session/admission.hpp"
 #include "session/gate.hpp"
@@ -119,10 +120,14 @@ void IngestionQueue::number_pose(const dds::WriterId& writer, std::uint64_t numb
   lost_poses_.note(writer, number);
 }
 
-std::vector<Arrival> IngestionQueue::drain() {
+Arrivals IngestionQueue::take() {
+  Arrivals arrivals;
   Queue frames, poses;
   {
     const std::lock_guard lock(mutex_);
+    arrivals = state_;
+    arrivals.counters.add("detections_lost", frames_lost_);
+    arrivals.counters.add("poses_lost", poses_lost_);
     frames.swap(frames_);
     poses.swap(poses_);
   }
@@ -132,19 +137,9 @@ std::vector<Arrival> IngestionQueue::drain() {
              std::make_move_iterator(poses.begin()), std::make_move_iterator(poses.end()),
              std::back_inserter(merged),
              [](const Numbered& a, const Numbered& b) { return a.order < b.order; });
-  std::vector<Arrival> arrivals;
-  arrivals.reserve(merged.size());
-  for (auto& [order, arrival] : merged) arrivals.push_back(std::move(arrival));
+  arrivals.messages.reserve(merged.size());
+  for (auto& [order, arrival] : merged) arrivals.messages.push_back(std::move(arrival));
   return arrivals;
-}
-
-IngestionQueue::Snapshot IngestionQueue::snapshot() const {
-  const std::lock_guard lock(mutex_);
-  auto result = state_;
-  result.queued_frames = frames_.size();
-  result.counters.add("detections_lost", frames_lost_);
-  result.counters.add("poses_lost", poses_lost_);
-  return result;
 }
 
 }  // namespace laneloom

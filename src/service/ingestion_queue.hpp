@@ -4,27 +4,17 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
-#include <optional>
 #include <string_view>
 #include <utility>
-#include <variant>
-#include <vector>
 
+#include "core/arrivals.hpp"
 #include "laneloom/config.hpp"
-#include "laneloom/counters.hpp"
-#include "laneloom/messages.hpp"
 #include "laneloom/types.hpp"
 #include "service/lost_messages.hpp"
 
 namespace laneloom {
 
-/// A message and when it came, by the steady clock.
-struct Arrival {
-  std::variant<VehiclePose, DetectionFrame> message;
-  std::int64_t arrival_ns = 0;
-};
-
-/// Between the threads of DDS, which push, and the executor, which drains. Bounded: for a new pose the oldest
+/// Between the threads of DDS, which push, and the executor, which takes. Bounded: for a new pose the oldest
 /// is dropped, for a new frame the oldest of the source that has the most; both are counted. All functions
 /// are thread-safe.
 class IngestionQueue {
@@ -45,19 +35,8 @@ class IngestionQueue {
   void number_detections(const dds::WriterId& writer, std::uint64_t number);
   void number_pose(const dds::WriterId& writer, std::uint64_t number);
 
-  /// All messages, in the order of their arrival.
-  std::vector<Arrival> drain();
-
-  /// Taken at one instant: detections_received = refused + dropped + drained + queued, and likewise of poses.
-  struct Snapshot {
-    Counters counters;
-    std::size_t queued_frames = 0;
-    std::optional<std::int64_t> newest_frame_ns;  ///< arrival
-    std::optional<std::int64_t> newest_pose_ns;
-    std::optional<std::int64_t> other_service_ns;
-    std::vector<SourceStatus> sources;  ///< the newest sessions, in the order of their beginning
-  };
-  Snapshot snapshot() const;
+  /// What came since the call before, with the counters of all that ever came.
+  Arrivals take();
 
  private:
   struct Numbered {
@@ -74,7 +53,7 @@ class IngestionQueue {
 
   SyncConfig config_;
   GateConfig gate_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::uint64_t next_order_ = 0;
   Queue frames_;
   Queue poses_;
@@ -83,7 +62,7 @@ class IngestionQueue {
   // What was lost is taken over with the message that shows it, so that the sums are right at every instant.
   std::uint64_t frames_lost_ = 0;
   std::uint64_t poses_lost_ = 0;
-  Snapshot state_;
+  Arrivals state_;  ///< without messages: they are in the queues
 };
 
 }  // namespace laneloom

@@ -5,23 +5,19 @@
 #include <memory>
 #include <string>
 
+#include "core/service_core.hpp"
 #include "laneloom/config.hpp"
-#include "laneloom/messages.hpp"
+#include "laneloom/counters.hpp"
 #include "service/endpoints.hpp"
-#include "service/executor.hpp"
-#include "service/health.hpp"
+#include "service/incident_log.hpp"
 #include "service/ingestion_queue.hpp"
 #include "service/time_window.hpp"
-#include "session/mapping_session.hpp"
 #include "snapshot/snapshot_writer.hpp"
 
 namespace laneloom {
 
-/// The version of laneloom that this is.
-const char* version();
-
-/// What laneloomd does: takes what came, updates the map, and publishes, at every tick.
-/// One thread calls it; the threads of DDS only reach its queue.
+/// The core with what it lacks: DDS, files, clocks and the log. One thread calls it; the threads of DDS only
+/// reach its queue.
 class Service {
  public:
   /// `now_ns` is a steady clock, callable from any thread. Throws ConfigError when a file that the
@@ -35,49 +31,28 @@ class Service {
   void reopen();
 
   /// State and numbers in one line, for people.
-  std::string summary() const;
+  std::string summary() const { return core_.summary(); }
 
  private:
   void check_reopening();
   /// Goes on with the map of the service before, if it left one.
   void resume();
-  void keep_snapshot(std::int64_t now_ns);
-  SnapshotStamp snapshot_stamp() const;
-  void ingest(std::int64_t now_ns);
-  /// Sets the verdict; true when it changed.
-  bool judge(const Tick& tick, std::uint64_t resets);
-  void log_tick(const Tick& tick) const;
-  void publish_map(MappingSession::Progress&& progress);
-  void publish_status(std::int64_t now_ns);
-  ServiceStatus status() const;
-  void add_progress(SourceStatus& source) const;
-  /// Whether one of several sources that was heard a moment ago does not go into the map.
-  bool source_not_fused(std::int64_t now_ns) const;
-  Counters all_counters(const IngestionQueue::Snapshot& arrived) const;
-  void log_incidents(const Counters& counters);
+  /// What came through DDS, and what was counted here.
+  Arrivals take_arrivals();
+  void publish(const PublishedMap& map, const RoadMarkings& markings);
+  void publish(const ServiceStatus& status);
+  void log_tick(const Tick& tick, const Messages& messages) const;
   template <class T>
   void write(dds::Writer<T>& writer, const T& message);
 
   Config config_;
-  std::string config_hash_;
   std::function<std::int64_t()> now_ns_;
-  std::uint64_t session_id_;
-  std::uint64_t map_id_;  ///< ids of elements are valid while it stays
-  std::int64_t started_ns_;
-  MappingSession session_;
+  ServiceCore core_;
   IngestionQueue queue_;
-  Health health_;
-  Verdict verdict_;
   TimeWindow work_;
   TimeWindow delay_;
-  Counters counters_;  ///< of the service itself
-  Counters reported_;  ///< as last logged
-  std::uint64_t unsynchronised_seen_ = 0;
-  std::uint64_t dropped_seen_ = 0;
-  std::uint64_t map_sequence_ = 0;
-  std::uint64_t status_sequence_ = 0;
-  std::int64_t next_status_ns_;
-  std::int64_t next_snapshot_ns_;
+  Counters counters_;  ///< of what happened here
+  IncidentLog incidents_;
   std::unique_ptr<SnapshotWriter> snapshots_;  ///< null: none are kept
   std::unique_ptr<Endpoints> endpoints_;       ///< last: nothing calls into what is already gone
 };

@@ -1,7 +1,6 @@
 #include "session/mapping_session.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,9 +13,6 @@
 
 namespace laneloom {
 namespace {
-
-// Of a frame without markings, too: the map is laid out anew.
-constexpr double kFrameWork_m = 100.0;
 
 using Checkpoint = MappingSession::Checkpoint;
 
@@ -76,7 +72,8 @@ struct MappingSession::State {
   std::optional<std::int64_t> newest_arrival_ns;
   std::optional<VehiclePose> newest_pose;
   std::optional<Checkpoint> resumed;  ///< until the first pose
-  double work_left_m = std::numeric_limits<double>::infinity();
+  std::function<bool()> may_go_on;    ///< empty: there is no limit
+  bool has_begun = false;             ///< since the limit was set, a frame was fused
   Counters counters;
   Progress progress;
   StageObserver* observer = nullptr;
@@ -113,8 +110,7 @@ std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t
     counters.add("frames_thinned");
     counters.add("detections_left_out", left_out);
   }
-  const double work_m = kFrameWork_m + length_of_markings(frame);
-  synchroniser.add(PendingFrame{std::move(frame), arrival_ns, work_m});
+  synchroniser.add(PendingFrame{std::move(frame), arrival_ns});
   fuse_ready();
   if (const auto dropped = synchroniser.drop_excess()) counters.add("frames_dropped_queue_full", dropped);
   return {};
@@ -122,8 +118,10 @@ std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t
 
 void MappingSession::State::fuse_ready() {
   std::size_t unsynchronised = 0;
-  while (const auto frame = synchroniser.next(work_left_m, unsynchronised)) {
-    work_left_m = std::max(0.0, work_left_m - frame->pending.work_m);
+  while (!may_go_on || !has_begun || may_go_on()) {
+    const auto frame = synchroniser.next(unsynchronised);
+    if (!frame) break;
+    has_begun = true;
     fuse(*frame);
   }
   refuse_frames("unsynchronised", unsynchronised);
@@ -170,8 +168,9 @@ void MappingSession::expire(std::int64_t now_ns) {
   state_->refuse_frames("unsynchronised", state_->synchroniser.expire(now_ns));
 }
 
-void MappingSession::grant_work(double markings_m) {
-  state_->work_left_m = markings_m;
+void MappingSession::fuse_while(std::function<bool()> may_go_on) {
+  state_->may_go_on = std::move(may_go_on);
+  state_->has_begun = false;
   state_->fuse_ready();
 }
 
@@ -207,6 +206,7 @@ const LocalMap& MappingSession::map() const { return state_->mapper.map(); }
 Mapper& MappingSession::mapper() { return state_->mapper; }
 const Mapper& MappingSession::mapper() const { return state_->mapper; }
 std::size_t MappingSession::pending() const { return state_->synchroniser.pending(); }
+std::size_t MappingSession::ready() const { return state_->synchroniser.ready(); }
 std::optional<std::int64_t> MappingSession::newest_arrival_ns() const { return state_->newest_arrival_ns; }
 const Counters& MappingSession::counters() const { return state_->counters; }
 void MappingSession::observe(StageObserver* observer) { state_->observer = observer; }

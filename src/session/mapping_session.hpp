@@ -47,9 +47,9 @@ class MappingSession {
   void add(DetectionFrame frame, std::int64_t arrival_ns);
   /// Refuses the frames that have waited for their poses for too long.
   void expire(std::int64_t now_ns);
-  /// From now until the next call, fuses frames with at most this many metres of markings together, but one
-  /// frame at least; the others wait. There is no limit before the first call.
-  void grant_work(double markings_m);
+  /// From now until the next call, begins a further frame only while `may_go_on()`, after one frame at least;
+  /// the others wait. There is no limit before the first call.
+  void fuse_while(std::function<bool()> may_go_on);
 
   /// What was done since the last call.
   struct Progress {
@@ -78,6 +78,8 @@ class MappingSession {
   const Mapper& mapper() const;
   /// Frames that wait for their poses.
   std::size_t pending() const;
+  /// Of these, frames whose poses are there: fuse_while() left no time for them.
+  std::size_t ready() const;
   /// Arrival of the newest frame in the map; none: the map is empty.
   std::optional<std::int64_t> newest_arrival_ns() const;
 

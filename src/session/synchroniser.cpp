@@ -5,20 +5,26 @@
 
 namespace laneloom {
 
-std::optional<SynchronisedFrame> Synchroniser::next(double most_work_m, std::size_t& refused) {
+std::optional<SynchronisedFrame> Synchroniser::next(std::size_t& refused) {
   while (!pending_.empty()) {
     const auto oldest = pending_.begin();
     SynchronisedFrame result;
     const auto answer = poses_.at(oldest->first, result.T_map_body);
     // The frames behind it are newer, and have to wait as well.
     if (answer == PoseBuffer::Answer::not_yet) return std::nullopt;
-    if (answer == PoseBuffer::Answer::found && oldest->second.work_m > most_work_m) return std::nullopt;
     result.pending = std::move(oldest->second);
     pending_.erase(oldest);
     if (answer == PoseBuffer::Answer::found) return result;
     ++refused;
   }
   return std::nullopt;
+}
+
+std::size_t Synchroniser::ready() const {
+  Eigen::Isometry3d unused;
+  return static_cast<std::size_t>(std::ranges::count_if(pending_, [&](const auto& entry) {
+    return poses_.at(entry.first, unused) == PoseBuffer::Answer::found;
+  }));
 }
 
 std::size_t Synchroniser::expire(std::int64_t now_ns) {

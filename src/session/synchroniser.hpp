@@ -16,7 +16,6 @@ namespace laneloom {
 struct PendingFrame {
   DetectionFrame frame;
   std::int64_t arrival_ns = 0;
-  double work_m = 0.0;  ///< markings, what fusing it costs
 };
 
 /// A frame and the pose at its stamp.
@@ -33,9 +32,9 @@ class Synchroniser {
   void add(const VehiclePose& pose) { poses_.add(pose); }
   void add(PendingFrame frame) { pending_.emplace(frame.frame.stamp_ns, std::move(frame)); }
 
-  /// The oldest frame that can be fused now with at most this work. Frames that never can be fused are
-  /// removed and counted in `refused`.
-  std::optional<SynchronisedFrame> next(double most_work_m, std::size_t& refused);
+  /// The oldest frame that can be fused now. Frames that never can be fused are removed and counted in
+  /// `refused`.
+  std::optional<SynchronisedFrame> next(std::size_t& refused);
   /// Removes the frames that have waited for their poses for longer than max_wait_s; returns how many.
   std::size_t expire(std::int64_t now_ns);
   /// Removes frames above the capacity, each the oldest of the source that has the most; returns how many.
@@ -45,6 +44,8 @@ class Synchroniser {
   void clear_poses() { poses_.clear(); }
 
   std::size_t pending() const { return pending_.size(); }
+  /// How many frames can be fused now.
+  std::size_t ready() const;
 
  private:
   std::string_view source_with_most() const;

@@ -46,10 +46,10 @@ TEST(IngestionQueue, KeepsTheOrderOfArrivalAcrossKinds) {
   queue.push(pose(3), 11);
   queue.push(frame(4), 11);
   queue.push(pose(5), 12);
-  const auto arrivals = queue.drain();
+  const auto arrivals = queue.take().messages;
   EXPECT_EQ(text(arrivals), "f1 p2 p3 f4 p5");
   EXPECT_EQ(arrivals[3].arrival_ns, 11);
-  EXPECT_TRUE(queue.drain().empty());
+  EXPECT_TRUE(queue.take().messages.empty());
 }
 
 TEST(IngestionQueue, DropsTheOldestOfAKindAndCountsIt) {
@@ -58,9 +58,9 @@ TEST(IngestionQueue, DropsTheOldestOfAKindAndCountsIt) {
     queue.push(frame(i), 0);
     queue.push(pose(i), 0);
   }
-  const auto counters = queue.snapshot().counters;
-  EXPECT_EQ(queue.snapshot().queued_frames, 2U);
-  EXPECT_EQ(text(queue.drain()), "p2 f3 p3 f4 p4");
+  const auto arrivals = queue.take();
+  const auto& counters = arrivals.counters;
+  EXPECT_EQ(text(arrivals.messages), "p2 f3 p3 f4 p4");
   EXPECT_EQ(counters["detections_received"], 5U);
   EXPECT_EQ(counters["poses_received"], 5U);
   EXPECT_EQ(counters["frames_dropped_queue_full"], 3U);
@@ -73,7 +73,7 @@ TEST(IngestionQueue, AFloodOfOneSourceLeavesTheFramesOfAnother) {
   quiet.source = "quiet";
   queue.push(std::move(quiet), 0);
   for (std::uint64_t i = 10; i < 30; ++i) queue.push(frame(i), 0);
-  EXPECT_EQ(text(queue.drain()), "f1 f27 f28 f29");
+  EXPECT_EQ(text(queue.take().messages), "f1 f27 f28 f29");
 }
 
 TEST(IngestionQueue, ThinsAFrameThatIsTooMuchWork) {
@@ -81,9 +81,10 @@ TEST(IngestionQueue, ThinsAFrameThatIsTooMuchWork) {
   config.gate.max_frame_detections = 2;
   IngestionQueue queue(config);
   queue.push(frame_of(5), 0);
-  EXPECT_EQ(queue.snapshot().counters["frames_thinned"], 1U);
-  EXPECT_EQ(queue.snapshot().counters["detections_left_out"], 3U);
-  EXPECT_EQ(std::get<DetectionFrame>(queue.drain()[0].message).detections.size(), 2U);
+  const auto arrivals = queue.take();
+  EXPECT_EQ(arrivals.counters["frames_thinned"], 1U);
+  EXPECT_EQ(arrivals.counters["detections_left_out"], 3U);
+  EXPECT_EQ(std::get<DetectionFrame>(arrivals.messages[0].message).detections.size(), 2U);
 }
 
 TEST(IngestionQueue, RefusesAFrameWholeForADefectInWhatWouldBeLeftOut) {
@@ -94,12 +95,12 @@ TEST(IngestionQueue, RefusesAFrameWholeForADefectInWhatWouldBeLeftOut) {
   heavy.detections[4].confidence = 0.1;
   heavy.detections[4].points[1].x() = 1e300;
   queue.push(std::move(heavy), 7);
-  const auto state = queue.snapshot();
-  EXPECT_EQ(state.counters["detections_received"], 1U);
-  EXPECT_EQ(state.counters["detections_refused_coordinate"], 1U);
-  EXPECT_EQ(state.counters["frames_thinned"], 0U);
-  EXPECT_EQ(state.newest_frame_ns, 7) << "detections do come";
-  EXPECT_TRUE(queue.drain().empty());
+  const auto arrivals = queue.take();
+  EXPECT_EQ(arrivals.counters["detections_received"], 1U);
+  EXPECT_EQ(arrivals.counters["detections_refused_coordinate"], 1U);
+  EXPECT_EQ(arrivals.counters["frames_thinned"], 0U);
+  EXPECT_EQ(arrivals.newest_frame_ns, 7) << "detections do come";
+  EXPECT_TRUE(arrivals.messages.empty());
 }
 
 TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
@@ -107,12 +108,13 @@ TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
   queue.refuse_detections("malformed");
   queue.refuse_detections("malformed");
   queue.refuse_pose("wrong_frame");
-  const auto counters = queue.snapshot().counters;
+  const auto arrivals = queue.take();
+  const auto& counters = arrivals.counters;
   EXPECT_EQ(counters["detections_received"], 2U);
   EXPECT_EQ(counters["detections_refused_malformed"], 2U);
   EXPECT_EQ(counters["poses_received"], 1U);
   EXPECT_EQ(counters["poses_refused_wrong_frame"], 1U);
-  EXPECT_FALSE(queue.snapshot().newest_frame_ns);
+  EXPECT_FALSE(arrivals.newest_frame_ns);
 }
 
 TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
@@ -126,7 +128,7 @@ TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
   for (const std::uint64_t sequence : {6U, 5U, 9U, 8U}) push("front", 1, sequence);
   push("front", 2, 0);
   push("rear", 1, 3);
-  const auto sources = queue.snapshot().sources;
+  const auto sources = queue.take().sources;
   ASSERT_EQ(sources.size(), 3U);
   EXPECT_EQ(sources[0].first_sequence, 5U);
   EXPECT_EQ(sources[0].last_sequence, 9U);
@@ -135,8 +137,8 @@ TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
   EXPECT_EQ(sources[2].source, "rear");
 
   for (std::uint64_t session = 10; session < 30; ++session) push("front", session, 0);
-  ASSERT_EQ(queue.snapshot().sources.size(), 16U);
-  EXPECT_EQ(queue.snapshot().sources.front().session_id, 14U);
+  ASSERT_EQ(queue.take().sources.size(), 16U);
+  EXPECT_EQ(queue.take().sources.front().session_id, 14U);
 }
 
 TEST(IngestionQueue, CountsWhatNeverCame) {
@@ -144,10 +146,10 @@ TEST(IngestionQueue, CountsWhatNeverCame) {
   queue.number_detections({1}, 7);
   queue.number_detections({1}, 11);
   for (const std::uint64_t number : {1U, 6U, 8U}) queue.number_pose({2}, number);
-  EXPECT_EQ(queue.snapshot().counters["detections_lost"], 0U) << "before the message that shows it";
+  EXPECT_EQ(queue.take().counters["detections_lost"], 0U) << "before the message that shows it";
   queue.refuse_detections("malformed");
   queue.push(pose(8), 0);
-  const auto counters = queue.snapshot().counters;
+  const auto counters = queue.take().counters;
   EXPECT_EQ(counters["detections_lost"], 3U);
   EXPECT_EQ(counters["poses_lost"], 5U);
   EXPECT_EQ(counters["detections_received"], 1U);
@@ -166,19 +168,16 @@ TEST(IngestionQueue, CountsExactlyWhileThreadsPush) {
   };
   std::vector<std::jthread> threads;
   for (int i = 0; i < 3; ++i) threads.emplace_back(pushing);
-  std::uint64_t drained = 0;
+  std::uint64_t taken = 0;
   const auto balanced = [&] {
-    const auto now = queue.snapshot();
-    return now.counters["detections_received"] == now.counters["detections_refused_malformed"] +
-                                                      now.counters["frames_dropped_queue_full"] + drained +
-                                                      now.queued_frames;
+    const auto now = queue.take();
+    taken += now.messages.size();
+    return now.counters["detections_received"] ==
+           now.counters["detections_refused_malformed"] + now.counters["frames_dropped_queue_full"] + taken;
   };
-  while (running > 0) {
-    drained += queue.drain().size();
-    ASSERT_TRUE(balanced());
-  }
+  while (running > 0) ASSERT_TRUE(balanced());
   EXPECT_TRUE(balanced());
-  EXPECT_EQ(queue.snapshot().counters["detections_received"], 3 * (kEach + (kEach + 2) / 3));
+  EXPECT_EQ(queue.take().counters["detections_received"], 3 * (kEach + (kEach + 2) / 3));
 }
 
 }  // namespace

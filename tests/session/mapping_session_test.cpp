@@ -136,15 +136,19 @@ TEST_F(MappingSessionTest, ASourceThatIsRestartedLeavesTheMapAndTheOthers) {
   EXPECT_EQ(session_.map().boundaries.at(0).id, id);
 }
 
-TEST_F(MappingSessionTest, WorkThatIsNotGrantedWaits) {
+TEST_F(MappingSessionTest, FramesForWhichNoTimeIsLeftWait) {
   for (std::int64_t t = 10'000; t <= 10'500; t += 10) session_.add(pose(t));
-  session_.grant_work(400.0);
-  for (const int stamp : {10'100, 10'200, 10'300, 10'400}) add(frame(stamp));  // 50 m of markings each
-  EXPECT_EQ(fused_ms(), (Stamps{10'100, 10'200}));
+  session_.fuse_while([this] { return session_.counters()["frames_fused"] < 3; });
+  for (const int stamp : {10'100, 10'200, 10'300, 10'400, 10'450}) add(frame(stamp));
+  EXPECT_EQ(fused_ms(), (Stamps{10'100, 10'200, 10'300}));
   session_.expire(60'000 * kMs);
   EXPECT_EQ(session_.pending(), 2U);
-  session_.grant_work(400.0);
-  EXPECT_EQ(fused_ms(), (Stamps{10'300, 10'400}));
+  EXPECT_EQ(session_.ready(), 2U);
+  session_.fuse_while([] { return false; });
+  EXPECT_EQ(fused_ms(), Stamps{10'400}) << "one at least";
+  session_.fuse_while({});
+  EXPECT_EQ(fused_ms(), Stamps{10'450});
+  EXPECT_EQ(session_.ready(), 0U);
 }
 
 TEST_F(MappingSessionTest, ALongFrameIsThinnedAndCounted) {

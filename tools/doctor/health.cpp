@@ -35,6 +35,7 @@ constexpr std::array kIncidents{
     Incident{"frames_thinned",
              "frames had more markings than gate.max_frame_detections and max_frame_length_m admit",
              "Send what the network trusts, within its range; the least trusted and farthest were left out."},
+    Incident{"ticks_out_of_time", "ticks had no time left for all of their frames", kLoad},
     Incident{"elements_left_out", "elements of maps exceed the bounds of the IDL",
              "See the log of the service."},
     Incident{"writes_failed", "DDS did not take what the service wrote", "See the log of the service."},
@@ -69,7 +70,7 @@ Explanation explain(StateReason reason) {
       return {"The map began anew a moment ago, as pose or stamps jumped.",
               "See whether two writers take turns, or a clock or localisation jumps."};
     case StateReason::overloaded:
-      return {"Frames were dropped, or a tick missed its deadline.", kLoad};
+      return {"Frames were dropped or had to wait, or a tick missed its deadline.", kLoad};
     case StateReason::another_service:
       return {"Another service publishes maps for the same vehicle.",
               "End one of them, or give each vehicle an id of its own."};

@@ -1,4 +1,4 @@
-#include "service/health.hpp"
+#include "core/health.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,9 @@ using Reasons = std::vector<StateReason>;
 class HealthTest : public ::testing::Test {
  protected:
   /// When things arrived last, in milliseconds before now; negative: never.
-  Verdict assess(std::int64_t detections_ms, std::int64_t poses_ms, std::int64_t fused_ms) {
-    const auto time = [&](std::int64_t ago_ms) {
-      return ago_ms < 0 ? std::nullopt : std::optional(now_ns_ - ago_ms * kMs);
-    };
-    return health_.assess(now_ns_, {time(detections_ms), time(poses_ms), time(fused_ms)});
+  Verdict assess(int detections_ms, int poses_ms, int fused_ms) {
+    const auto age_s = [](int ago_ms) { return ago_ms < 0 ? -1.0 : ago_ms / 1e3; };
+    return health_.assess(now_ns_, {age_s(detections_ms), age_s(poses_ms), age_s(fused_ms)});
   }
 
   std::int64_t now_ns_ = 100'000 * kMs;
@@ -65,9 +63,7 @@ TEST_F(HealthTest, AResetIsSaidForASecond) {
 
 // Frames come and are fused at once, but their stamps lie behind those of the poses.
 TEST_F(HealthTest, FramesThatAreOldByTheirStampsMakeItOutdated) {
-  const auto lag = [&](double lag_s) {
-    return health_.assess(now_ns_, {now_ns_, now_ns_, now_ns_, std::nullopt, lag_s});
-  };
+  const auto lag = [&](double lag_s) { return health_.assess(now_ns_, {0.0, 0.0, 0.0, -1.0, lag_s}); };
   EXPECT_EQ(lag(0.5), (Verdict{MapState::ok, {}}));
   EXPECT_EQ(lag(0.51), (Verdict{MapState::degraded, {StateReason::outdated}}));
   EXPECT_EQ(lag(1.0), (Verdict{MapState::degraded, {StateReason::outdated}}));
@@ -76,19 +72,17 @@ TEST_F(HealthTest, FramesThatAreOldByTheirStampsMakeItOutdated) {
 }
 
 TEST_F(HealthTest, ASourceThatIsNotFusedDegradesTheMapOfTheOthers) {
-  const auto fused_ago = [&](std::int64_t ago_ms) {
-    return health_.assess(now_ns_, {now_ns_, now_ns_, now_ns_ - ago_ms * kMs, std::nullopt, 0.1, true});
+  const auto fused_ago = [&](double ago_s) {
+    return health_.assess(now_ns_, {0.0, 0.0, ago_s, -1.0, 0.1, true});
   };
-  EXPECT_EQ(fused_ago(100), (Verdict{MapState::degraded, {StateReason::source_not_fused}}));
-  EXPECT_EQ(fused_ago(500), (Verdict{MapState::stale, {StateReason::unsynchronised}})) << "none is";
+  EXPECT_EQ(fused_ago(0.1), (Verdict{MapState::degraded, {StateReason::source_not_fused}}));
+  EXPECT_EQ(fused_ago(0.5), (Verdict{MapState::stale, {StateReason::unsynchronised}})) << "none is";
 }
 
 TEST_F(HealthTest, AnotherServiceIsSaidForAsLongAsItIsHeard) {
-  const auto heard_ago = [&](std::int64_t ago_ms) {
-    return health_.assess(now_ns_, {now_ns_, now_ns_, now_ns_, now_ns_ - ago_ms * kMs});
-  };
-  EXPECT_EQ(heard_ago(2500), (Verdict{MapState::degraded, {StateReason::another_service}}));
-  EXPECT_EQ(heard_ago(2501), (Verdict{MapState::ok, {}}));
+  const auto heard_ago = [&](double ago_s) { return health_.assess(now_ns_, {0.0, 0.0, 0.0, ago_s}); };
+  EXPECT_EQ(heard_ago(2.5), (Verdict{MapState::degraded, {StateReason::another_service}}));
+  EXPECT_EQ(heard_ago(2.501), (Verdict{MapState::ok, {}}));
 }
 
 TEST(Age, IsMinusOneBeforeTheFirst) {

@@ -10,14 +10,14 @@
 
 namespace laneloom {
 
-/// When things came last, by the steady clock; none: never.
-struct Arrivals {
-  std::optional<std::int64_t> detections_ns;
-  std::optional<std::int64_t> poses_ns;
-  std::optional<std::int64_t> fused_ns;          ///< arrival of the newest frame in the map
-  std::optional<std::int64_t> other_service_ns;  ///< a status of another service of this vehicle
-  std::optional<double> lag_s;    ///< of the newest fused frame's stamp behind the newest pose's
-  bool source_not_fused = false;  ///< a source of several, that was heard a moment ago
+/// Ages are seconds since an arrival, by the steady clock; -1: nothing came yet.
+struct HealthInputs {
+  double detections_age_s = -1.0;
+  double poses_age_s = -1.0;
+  double fused_age_s = -1.0;          ///< since the arrival of the newest frame in the map
+  double other_service_age_s = -1.0;  ///< since a status of another service of this vehicle
+  std::optional<double> lag_s;        ///< of the newest fused frame's stamp behind the newest pose's
+  bool source_not_fused = false;      ///< a source of several, that was heard a moment ago
 };
 
 struct Verdict {
@@ -37,7 +37,7 @@ class Health {
   void note_unsynchronised(std::int64_t now_ns) { unsynchronised_ns_ = now_ns; }
   void note_overload(std::int64_t now_ns) { overload_ns_ = now_ns; }
 
-  Verdict assess(std::int64_t now_ns, const Arrivals& arrivals) const;
+  Verdict assess(std::int64_t now_ns, const HealthInputs& inputs) const;
 
  private:
   ServiceConfig config_;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "laneloom/counters.hpp"
+#include "laneloom/messages.hpp"
+
+namespace laneloom {
+
+/// Logs the rise of counters that should not rise in normal operation. Once per period, so that nothing that
+/// others send can flood the log.
+class IncidentLog {
+ public:
+  explicit IncidentLog(double period_s) : period_ns_(static_cast<std::int64_t>(period_s * 1e9)) {}
+
+  void note(const ServiceStatus& status, std::int64_t now_ns);
+
+ private:
+  std::int64_t period_ns_;
+  std::int64_t next_ns_ = 0;
+  Counters reported_;
+};
+
+}  // namespace laneloom

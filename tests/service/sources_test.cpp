@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "simulated_drive.hpp"
+
+// Several perception stacks; idl/README.md, "Detections".
+namespace laneloom {
+namespace {
+
+using States = std::vector<std::string>;
+
+/// The fused frames of a source; 0 where it is not known.
+std::uint64_t fused(const ServiceStatus& status, const std::string& source) {
+  const auto found = std::ranges::find(status.sources, source, &SourceStatus::source);
+  return found == status.sources.end() ? 0 : found->fused;
+}
+
+class SourcesOfADrive : public ::testing::Test {
+ protected:
+  void SetUp() override { drive_.run_for(1000); }
+  std::uint64_t fused_of(const std::string& source) const { return fused(drive_.statuses().back(), source); }
+
+  SimulatedDrive drive_;
+};
+
+TEST_F(SourcesOfADrive, OfDifferentLatenciesAreAllFused) {
+  drive_.send_frames = [slow = delay<DetectionFrame>(2),
+                        slowest = delay<DetectionFrame>(3)](const DetectionFrame& frame) mutable {
+    std::vector sent{frame};
+    for (auto& late : slow(of_source(frame, "side", 70))) sent.push_back(late);
+    for (auto& late : slowest(of_source(frame, "rear", 80))) sent.push_back(late);
+    return sent;
+  };
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.states(), States{"OK"});
+  EXPECT_GE(fused_of("side"), 15U);
+  EXPECT_GE(fused_of("rear"), 15U);
+  EXPECT_EQ(drive_.counter("map_resets"), 0U);
+}
+
+TEST_F(SourcesOfADrive, OneThatRestartsLeavesTheMapOfTheOthers) {
+  drive_.send_frames = [](const DetectionFrame& frame) {
+    return std::vector{frame, of_source(frame, "side", 70 + frame.sequence / 10)};
+  };
+  drive_.run_for(4000);
+  EXPECT_EQ(drive_.states(), States{"OK"});
+  EXPECT_GE(drive_.counter("sources_restarted"), 3U);
+  EXPECT_EQ(drive_.counter("map_resets"), 0U);
+}
+
+TEST_F(SourcesOfADrive, OneThatIsNotFusedIsTold) {
+  drive_.send_frames = [](const DetectionFrame& frame) {
+    auto other = of_source(frame, "side", 70);
+    if (frame.sequence > 20) other.stamp_ns -= 20'000'000'000;
+    return std::vector{frame, other};
+  };
+  drive_.run_for(1000);
+  EXPECT_EQ(drive_.states(), States{"OK"});
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.state(), "DEGRADED unsynchronised source_not_fused");
+  drive_.send_frames = {};
+  drive_.run_for(12'000);
+  EXPECT_EQ(drive_.state(), "OK") << "it is missed for 10 s";
+}
+
+TEST_F(SourcesOfADrive, OneThatDiesIsToldUntilItReturns) {
+  const auto both = [](const DetectionFrame& frame) {
+    return std::vector{frame, of_source(frame, "side", 70)};
+  };
+  drive_.send_frames = both;
+  drive_.run_for(1000);
+  drive_.send_frames = {};
+  drive_.run_for(5000);
+  EXPECT_EQ(drive_.states(), (States{"OK", "DEGRADED source_not_fused"}));
+  drive_.send_frames = both;
+  drive_.run_for(1000);
+  EXPECT_EQ(drive_.states(), (States{"DEGRADED source_not_fused", "OK"}));
+}
+
+TEST_F(SourcesOfADrive, ThatLagBehindThePosesMakeTheMapDegradedAndThenStale) {
+  drive_.send_frames = delay<DetectionFrame>(7);
+  drive_.run_for(2000);
+  EXPECT_EQ(drive_.state(), "DEGRADED outdated");
+  drive_.send_frames = delay<DetectionFrame>(15);
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.state(), "STALE outdated") << "a backlog of 1.5 s";
+  EXPECT_GT(drive_.maps().back().lag_s, 1.0);
+  EXPECT_LT(drive_.maps().back().age_s, 0.5);
+  drive_.send_frames = {};
+  drive_.run_for(1000);
+  EXPECT_EQ(drive_.state(), "OK");
+}
+
+TEST_F(SourcesOfADrive, ANinthIsToldSteadilyAndLeavesTheOthers) {
+  drive_.send_frames = [](const DetectionFrame& frame) {
+    std::vector<DetectionFrame> sent;
+    for (int i = 1; i <= 9; ++i) sent.push_back(of_source(frame, "camera " + std::to_string(i), 70));
+    return sent;
+  };
+  drive_.run_for(4000);  // until the only source before these is missed no more
+  drive_.run_for(10'000);
+  EXPECT_EQ(drive_.states(), States{"DEGRADED source_not_fused"});
+  for (int i = 1; i <= 7; ++i) EXPECT_GT(fused_of("camera " + std::to_string(i)), 100U) << i;
+  EXPECT_GT(drive_.counter("detections_refused_too_many_sources"), 100U);
+  drive_.send_frames = {};
+  drive_.run_for(14'000);
+  EXPECT_EQ(drive_.state(), "OK");
+}
+
+}  // namespace
+}  // namespace laneloom
