@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -23,31 +22,6 @@ namespace laneloom {
 
 inline bool has_reason(const PublishedMap& map, StateReason reason) {
   return std::find(map.reasons.begin(), map.reasons.end(), reason) != map.reasons.end();
-}
-
-/// Whether a map with lanes says so.
-inline std::function<bool(const PublishedMap&)> saying(MapState state, StateReason reason) {
-  return [=](const PublishedMap& map) {
-    return map.state == state && has_reason(map, reason) && has_lanes(map);
-  };
-}
-
-/// A message of which nothing arrives.
-template <class T>
-std::vector<T> lose(const T& /*message*/) {
-  return {};
-}
-
-/// Everything arrives so many messages later.
-template <class T>
-Channel<T> delay(std::size_t messages) {
-  return [messages, waiting = std::deque<T>()](T message) mutable {
-    waiting.push_back(std::move(message));
-    if (waiting.size() <= messages) return std::vector<T>{};
-    std::vector<T> sent{waiting.front()};
-    waiting.pop_front();
-    return sent;
-  };
 }
 
 /// A host that stops the senders or the service for a while is no fault of what is tested.
@@ -76,8 +50,6 @@ class Faults : public ::testing::Test {
     ASSERT_TRUE(maps_.wait_for(is_good)) << service_->errors();
     maps_.forget();
   }
-  /// The planner is told, and the map is still there.
-  bool says(MapState state, StateReason reason) { return maps_.wait_for(saying(state, reason)); }
   /// So many good maps in a row come from now on.
   bool is_good_again(std::size_t maps = 1) {
     maps_.forget();

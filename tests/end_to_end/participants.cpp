@@ -10,10 +10,7 @@
 namespace laneloom {
 namespace {
 
-constexpr std::int64_t kStart_ms = 1'700'000'000'000;
 constexpr std::int64_t kStep_ms = 5;
-constexpr std::int64_t kPosePeriod_ms = 10;
-constexpr double kSpeed_mps = 5.0;
 
 }  // namespace
 
@@ -61,22 +58,13 @@ void StraightRoad::run(const std::stop_token& stopped) {
 }
 
 void StraightRoad::write_pose(std::int64_t time_ms) {
-  const VehiclePose pose{.stamp_ns = (kStart_ms + time_ms) * 1'000'000,
-                         .sequence = static_cast<std::uint64_t>(time_ms / kPosePeriod_ms),
-                         .session_id = 5,
-                         .position = {kSpeed_mps * static_cast<double>(time_ms) / 1e3, 0.0, 0.0}};
+  const VehiclePose pose = pose_on_straight_road(time_ms);
   const std::lock_guard lock(mutex_);
   for (const auto& sent : pose_channel_ ? pose_channel_(pose) : std::vector{pose}) poses_.write(sent);
 }
 
 void StraightRoad::write_frame(std::int64_t time_ms) {
-  // As a network does, it delivers late.
-  DetectionFrame frame{.stamp_ns = (kStart_ms + time_ms - 40) * 1'000'000,
-                       .sequence = static_cast<std::uint64_t>(time_ms / frame_period_ms_),
-                       .session_id = 6};
-  for (const double y_m : {-1.75, 1.75}) {
-    frame.detections.push_back(Detection{.confidence = 0.9, .points = {{-5.0, y_m, 0.0}, {25.0, y_m, 0.0}}});
-  }
+  const DetectionFrame frame = frame_on_straight_road(time_ms, frame_period_ms_);
   const std::lock_guard lock(mutex_);
   for (const auto& sent : frame_channel_ ? frame_channel_(frame) : std::vector{frame}) {
     detections_.write(sent);

@@ -12,15 +12,12 @@
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
 #include "laneloom/messages.hpp"
+#include "straight_road.hpp"
 
 namespace laneloom {
 
 /// A domain and vehicle of this test process alone; `name` tells its vehicles apart.
 DdsConfig private_config(const std::string& name = "car");
-
-/// What is sent instead of a message; empty: it is lost.
-template <class T>
-using Channel = std::function<std::vector<T>(T)>;
 
 /// Perception and odometry of a car on a straight road with one lane: frames at 10 Hz or another rate, poses
 /// at 100 Hz, in a thread of its own. Stamps advance by exactly that, however slow the host is.

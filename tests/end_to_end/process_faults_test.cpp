@@ -2,9 +2,11 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "faults.hpp"
 
@@ -13,33 +15,12 @@
 namespace laneloom {
 namespace {
 
-TEST_F(Faults, ARestartedPerceptionKeepsTheMap) {
-  start();
-  const auto before = counters();
-  road_->send_frames(lose<DetectionFrame>);
-  EXPECT_TRUE(says(MapState::stale, StateReason::no_detections));
-  const auto map_id = maps_.samples().back().map_id;
-  road_->send_frames([](DetectionFrame frame) {
-    frame.session_id = 7;
-    return std::vector{frame};
-  });
-  EXPECT_TRUE(is_good_again());
-  EXPECT_EQ(maps_.samples().back().map_id, map_id);
-  EXPECT_TRUE(rises("sources_restarted", before));
-  EXPECT_EQ(counters()["map_resets"], 0U);
-}
-
-TEST_F(Faults, ARestartedOdometryBeginsANewMap) {
-  start();
-  const auto map_id =
-      maps_.wait_for([](const PublishedMap&) { return true; }) ? maps_.samples().back().map_id : 0;
-  road_->send_poses([](VehiclePose pose) {
-    pose.session_id = 9;
-    return std::vector{pose};
-  });
-  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
-  EXPECT_TRUE(is_good_again());
-  EXPECT_NE(maps_.samples().back().map_id, map_id);
+/// Peak of a process's resident memory.
+double peak_memory_mb(const Process& process) {
+  std::ifstream file("/proc/" + std::to_string(process.id()) + "/status");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024.0;
+  return 0.0;
 }
 
 TEST_F(Faults, ThirtyPlannersThatJoinAtOnceAllGetTheMap) {
@@ -48,6 +29,24 @@ TEST_F(Faults, ThirtyPlannersThatJoinAtOnceAllGetTheMap) {
   for (auto& planner : planners) planner = std::make_unique<Listener<PublishedMap>>(config_);
   for (auto& planner : planners) EXPECT_TRUE(planner->wait_for(has_lanes));
   EXPECT_EQ(counters()["writes_failed"], 0U);
+}
+
+TEST_F(Faults, TheHeaviestFramesAreThinnedAndMemoryStaysBounded) {
+  start(500);
+  const auto before = counters();
+  road_->send_frames([](DetectionFrame frame) {
+    Detection heavy{.confidence = 0.4, .points = {}};
+    for (int i = 0; i < 1024; ++i) heavy.points.emplace_back(-5.0 + 0.04 * i, 8.0 + i % 2 * 0.01, 0.0);
+    frame.detections.resize(512, heavy);
+    return std::vector{frame};
+  });
+  EXPECT_TRUE(rises("frames_thinned", before));
+  EXPECT_TRUE(
+      maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::overloaded); }));
+  const auto thinned = counters();
+  EXPECT_TRUE(rises("frames_fused", thinned));
+  EXPECT_LT(peak_memory_mb(*service_), 96.0);
+  EXPECT_EQ(counters()["map_resets"], 0U);
 }
 
 TEST_F(Faults, AStoppedPlannerHoldsUpNobody) {

@@ -64,20 +64,6 @@ TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
   EXPECT_TRUE(maps_.wait_for(is_good));
 }
 
-TEST_F(WarmRestart, ForgetsAMapOfAnotherPoseFrame) {
-  start(100, {"--config", file_.path});
-  ASSERT_TRUE(stays_good(10));  // a snapshot at each
-  road_->send_poses(lose<VehiclePose>);
-  restart({"--config", file_.path});
-  ASSERT_EQ(first_.map.lanes.size(), 1U) << service_->errors();
-  road_->send_poses([](VehiclePose pose) {
-    pose.session_id = 99;
-    return std::vector{pose};
-  });
-  EXPECT_TRUE(maps_.wait_for([](const PublishedMap& map) { return has_reason(map, StateReason::reset); }));
-  EXPECT_TRUE(is_good_again());
-}
-
 TEST_F(WarmRestart, AServiceThatCannotStartLeavesTheSnapshotToTheNext) {
   start(100, {"--config", file_.path});
   ASSERT_TRUE(rises("snapshots_written", counters())) << service_->errors();
