@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "commands/completion.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/unknown_command.hpp"
 
@@ -23,6 +24,7 @@ int run(const Program& program, int argc, char** argv) {
       "Exit codes: 0 done; 1 it failed; 2 something wrong was found; 3 nobody was heard; 4 nothing to drive "
       "on; 64 no such command, option or value.");
   for (const auto add : program.commands) add(app);
+  add_completion(app);
   const std::vector<std::string> words{argv + std::min(1, argc), argv + argc};
   const std::string complaint = unknown_command(app, program, words);
   if (!complaint.empty()) {
