@@ -155,12 +155,14 @@ struct FusionConfig {
   double merge_distance_m = 1.0;  ///< lines closer than this that are not seen together are one
 };
 
+/// How detections of several frames become one line.
 enum class FusionMethod : std::uint8_t {
   lines,  ///< ours
   voxels  ///< the paper's
 };
 inline constexpr const char* kFusionMethods = "lines|voxels";
 
+/// All that the mapper needs to know.
 struct MapperConfig {
   FusionMethod method = FusionMethod::lines;
   RangeConfig range;
@@ -197,6 +199,7 @@ struct GateConfig {
   double max_frame_length_m = 2000.0;  ///< of all markings of a frame together, likewise
 };
 
+/// How often the service publishes, when it warns of its map, and what it keeps for a restart.
 struct ServiceConfig {
   double tick_rate_hz = 10.0;
   double stale_after_s = 0.4;      ///< without a fused frame, the map is STALE
@@ -210,6 +213,7 @@ struct ServiceConfig {
   double snapshot_max_age_s = 5.0;  ///< an older one is refused
 };
 
+/// Where the service is in DDS.
 struct DdsConfig {
   int domain = 0;
   std::string vehicle_id = "ego";  ///< names the DDS partition
@@ -240,6 +244,7 @@ struct Ros2Config {
       "laneloom/road_segments";  ///< autoware_mapless_planning_msgs/RoadSegments
 };
 
+/// Everything that a configuration file can say.
 struct Config {
   MapperConfig mapper;
   SdMapConfig sd_map;

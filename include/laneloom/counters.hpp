@@ -11,6 +11,7 @@ namespace laneloom {
 /// Counts of what happened, by stable names. Not thread-safe.
 class Counters {
  public:
+  /// Counts what happened once or several times.
   void add(std::string_view name, std::uint64_t count = 1) {
     const auto found = values_.find(name);
     if (found != values_.end()) {
@@ -19,6 +20,7 @@ class Counters {
       values_.emplace(name, count);
     }
   }
+  /// Adds all counts of others.
   void add(const Counters& others) {
     for (const auto& [name, count] : others.values_) add(name, count);
   }

@@ -52,6 +52,7 @@ std::optional<Projection> foot_in(const Lane& lane, const Point& place);
 /// the vehicle is elsewhere, or crosses the lane at more than 45 degrees.
 double ego_alignment(const Lane& lane, const Eigen::Isometry3d& T_map_body);
 
+/// Those on a side of the lane, which is as its points run.
 const std::vector<Neighbour>& neighbours(const Lane& lane, Side side);
 
 /// The lanes of one map by their ids, and how they follow one another.
@@ -60,6 +61,7 @@ class LaneGraph {
   /// `map` must outlive this and stay as it is. Linkages to lanes that it does not hold are left out.
   explicit LaneGraph(const LocalMap& map);
 
+  /// The map that this was made of.
   const LocalMap& map() const { return map_; }
 
   /// Null: the map has no lane of that id.

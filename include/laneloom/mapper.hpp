@@ -51,7 +51,7 @@ class Mapper {
 
   /// The same as a value, for laneloom's own sessions: the type is complete in src/mapping/state.hpp.
   const MapperState& state() const;
-  void set_state(MapperState state);
+  void set_state(MapperState state);  ///< goes on from such a value
 
  private:
   MapperConfig config_;

@@ -35,7 +35,9 @@ class MeasuredPolyline {
   /// Vertices that repeat their predecessor (horizontally) are left out. At least one point.
   explicit MeasuredPolyline(const Polyline& points);
 
+  /// The points without those that were left out.
   const Polyline& points() const { return points_; }
+  /// Horizontal, in metres.
   double length() const { return arc_.empty() ? 0.0 : arc_.back(); }
   /// The point at an arc length, clamped to the line.
   Point at(double arc_m) const;

@@ -32,8 +32,10 @@ class SdMap {
   /// Throws std::invalid_argument where a way has not as many points as nodes, or fewer than two.
   SdMap(std::vector<SdWay> ways, const std::vector<SdRestriction>& restrictions);
 
+  /// Whether it has no street.
   bool empty() const { return segments_.empty(); }
 
+  /// What the map says of two lanes.
   enum class Verdict {
     unknown,    ///< one of the lanes lies on no street of the map
     connected,  ///< the street of the one leads into that of the other

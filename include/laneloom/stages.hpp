@@ -23,6 +23,7 @@ enum class Stage : std::uint8_t {
   linkages
 };
 inline constexpr std::size_t kStageCount = 13;
+/// As it is called in tables: the enumerator.
 const char* name(Stage stage);
 
 /// Told of every update's begin and of its stages' ends. Whoever implements it owns the clock; the mapper has
@@ -30,8 +31,8 @@ const char* name(Stage stage);
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
-  virtual void update_begins() = 0;
-  virtual void stage_done(Stage stage) = 0;
+  virtual void update_begins() = 0;          ///< before the first stage
+  virtual void stage_done(Stage stage) = 0;  ///< after each stage
 };
 
 }  // namespace laneloom

@@ -8,6 +8,7 @@
 /// What people read for the states of a map, in logs and in the planner's view.
 namespace laneloom {
 
+/// In upper case.
 inline const char* name(MapState state) {
   switch (state) {
     case MapState::ok:
@@ -20,6 +21,7 @@ inline const char* name(MapState state) {
   return "unknown";
 }
 
+/// The enumerator.
 inline const char* name(StateReason reason) {
   switch (reason) {
     case StateReason::no_detections:

@@ -14,7 +14,9 @@
 /// the pose topic is given in. T_map_body takes body coordinates to map coordinates.
 namespace laneloom {
 
+/// Metres; the frame is said where a point is used.
 using Point = Eigen::Vector3d;
+/// Points in the order in which they are joined.
 using Polyline = std::vector<Point>;
 
 /// Identifies an element, and never another one in a session; one that was lost for a moment may come back by
@@ -25,6 +27,7 @@ inline constexpr ElementId kNoElement = 0;
 /// Of something that has a direction: a lane, a line.
 enum class Side : std::uint8_t { left, right };
 inline constexpr std::array kSides{Side::left, Side::right};
+/// The other side.
 constexpr Side opposite(Side side) { return side == Side::left ? Side::right : Side::left; }
 /// The same side, as what runs the other way has it.
 constexpr Side as_seen(Side side, bool reversed) { return reversed ? opposite(side) : side; }
@@ -32,20 +35,26 @@ constexpr Side as_seen(Side side, bool reversed) { return reversed ? opposite(si
 /// Of a polyline: at its first point, at its last one.
 enum class End : std::uint8_t { front, back };
 inline constexpr std::array kEnds{End::front, End::back};
+/// The other end.
 constexpr End opposite(End end) { return end == End::front ? End::back : End::front; }
 
+/// What a marking means: it bounds a lane, it bounds the road, or traffic waits at it.
 enum class MarkingType : std::uint8_t { laneline, roadedge, stopline };
 inline constexpr std::size_t kMarkingTypeCount = 3;
 inline constexpr std::array<MarkingType, kMarkingTypeCount> kMarkingTypes{
     MarkingType::laneline, MarkingType::roadedge, MarkingType::stopline};
 
+/// How a line is painted. Unknown: nobody told.
 enum class MarkingStyle : std::uint8_t { unknown, solid, dashed };
 inline constexpr std::size_t kMarkingStyleCount = 3;
 
+/// The place of an enumerator in an array that has one entry for each.
+///@{
 constexpr std::size_t index(MarkingType type) { return static_cast<std::size_t>(type); }
 constexpr std::size_t index(MarkingStyle style) { return static_cast<std::size_t>(style); }
 constexpr std::size_t index(Side side) { return static_cast<std::size_t>(side); }
 constexpr std::size_t index(End end) { return static_cast<std::size_t>(end); }
+///@}
 
 /// One polyline that the network saw in one frame (paper, eq. 1).
 struct Detection {
@@ -86,15 +95,17 @@ inline Eigen::Isometry3d transform(const VehiclePose& pose) {
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;
-  double length() const { return to_m - from_m; }
+  double length() const { return to_m - from_m; }  ///< metres
 };
 
+/// How far an element can be relied on.
 enum class ElementStatus : std::uint8_t {
   tentative,  ///< seen, not yet enough to rely on
   confirmed,  ///< observed often enough
   inferred    ///< not observed, concluded from what was
 };
 
+/// How a marking is painted along a stretch of it.
 struct StyleRange {
   Stretch range;
   MarkingStyle style = MarkingStyle::unknown;
@@ -102,6 +113,7 @@ struct StyleRange {
 
 /// How an id came to be in the map or left it, since the map before.
 struct LineageEvent {
+  /// What happened.
   enum class Kind : std::uint8_t { born, merged_into, split_from, retired };
   Kind kind = Kind::born;
   ElementId id = kNoElement;     ///< the boundary or stopline that it happened to
@@ -131,6 +143,7 @@ struct Neighbour {
 
 /// A lane between two boundaries (paper, Sec. III-D).
 struct Lane {
+  /// How traffic runs with respect to the order of the centerline's points.
   enum class Direction : std::uint8_t { unknown, along_centerline, against_centerline };
   ElementId id = kNoElement;
   ElementId left_boundary = kNoElement;
@@ -150,6 +163,7 @@ struct Lane {
   std::vector<Stretch> inferred_ranges;  ///< stretches of the centerline beside what was not seen
 };
 
+/// A stopline, and the lanes whose traffic waits there.
 struct Stopline {
   Marking marking;
   std::vector<ElementId> lanes;   ///< that it ends, in ascending order
@@ -158,7 +172,9 @@ struct Stopline {
 
 /// `to` continues `from`.
 struct Linkage {
+  /// By what the mapper knows it; of several, the surest.
   enum class Kind : std::uint8_t { shared_boundary, geometric_alignment, intersection, sd_map, ego_track };
+  /// What the traffic does that takes it.
   enum class Turn : std::uint8_t { unknown, straight, left, right, u_turn };
   ElementId from = kNoElement;
   ElementId to = kNoElement;

@@ -17,8 +17,9 @@ struct Peer {
   std::string address;  ///< the first that it receives data at; empty: it told none
 };
 
-// In the order in which one offers more than another.
+/// How long samples are kept for readers that come later; a later one offers more.
 enum class Durability { volatile_, transient_local, transient, persistent };
+/// Who has to say that a writer is alive; a later one offers more.
 enum class Liveliness { automatic, manual_by_participant, manual_by_topic };
 
 /// A writer or a reader of another participant, with the quality of service that decides on a match.
@@ -48,6 +49,7 @@ class Discovery {
 
   /// Those who are there now. May be called from any thread.
   std::vector<Peer> participants() const;
+  /// Their writers and readers that are there now. May be called from any thread.
   std::vector<Endpoint> endpoints() const;
 
  private:

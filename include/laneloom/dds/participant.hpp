@@ -37,14 +37,14 @@ struct NotPermitted : std::runtime_error {
 /// Not thread-safe; not to be used within a reader's callback.
 class Participant {
  public:
-  /// `name` is shown to others, but for one that is hidden: it is only to see what DDS refuses, and neither
-  /// hears nor is heard. Throws ConfigError as check_files(), NotPermitted where there is security and DDS
-  /// refuses, else std::runtime_error.
+  /// A hidden one is only to see what DDS refuses, and neither hears nor is heard.
   enum class Presence { shown, hidden };
+  /// `name` is shown to others. Throws ConfigError as check_files(), NotPermitted where there is security and
+  /// DDS refuses, else std::runtime_error.
   Participant(const DdsConfig& config, const std::string& name, Presence presence = Presence::shown);
 
   class Impl;
-  const std::shared_ptr<Impl>& impl() const { return impl_; }
+  const std::shared_ptr<Impl>& impl() const { return impl_; }  ///< for readers and writers
 
  private:
   std::shared_ptr<Impl> impl_;

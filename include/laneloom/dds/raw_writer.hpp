@@ -14,6 +14,7 @@ namespace laneloom::dds {
 template <class T>
 class RawWriter {
  public:
+  /// Keeps the participant alive.
   explicit RawWriter(const Participant& participant);
   RawWriter(RawWriter&&) noexcept;
   RawWriter& operator=(RawWriter&&) noexcept;

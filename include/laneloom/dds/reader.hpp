@@ -29,6 +29,7 @@ struct ReaderCallbacks {
 template <class T>
 class Reader {
  public:
+  /// `callbacks` may be called from then on.
   Reader(const Participant& participant, ReaderCallbacks<T> callbacks);
   Reader(Reader&&) noexcept;
   Reader& operator=(Reader&&) noexcept;

@@ -12,6 +12,7 @@ namespace laneloom::dds {
 template <class T>
 class Writer {
  public:
+  /// Keeps the participant alive.
   explicit Writer(const Participant& participant);
   Writer(Writer&&) noexcept;
   Writer& operator=(Writer&&) noexcept;
