@@ -78,5 +78,34 @@ TEST(DriveAccumulator, InferredBoundariesAreLeftOut) {
   EXPECT_THAT(drive_of({map}).markings, SizeIs(0));
 }
 
+/// Maps of a drive along x, whose roadedge has a stretch of 30 m beneath the vehicle, at a lateral position.
+DriveAccumulator::Drive drive_over_an_edge(double y) {
+  std::vector<LocalMap> maps;
+  for (int i = 0; i <= 100; ++i) {
+    LocalMap map = map_at(i, 2.0);
+    map.boundaries.push_back(map.boundaries[0]);
+    map.boundaries[1].id = 2;
+    map.boundaries[1].type = MarkingType::roadedge;
+    map.boundaries[1].points = {{20, 3, 0}, {30, 3, 0}, {35, y, 0}, {65, y, 0}, {70, 3, 0}, {80, 3, 0}};
+    maps.push_back(map);
+  }
+  return drive_of(maps);
+}
+
+TEST(DriveAccumulator, NoEdgeIsWhereTheVehicleDrove) {
+  const auto drive = drive_over_an_edge(0.5);
+  ASSERT_THAT(drive.markings, SizeIs(3)) << "the line, and both ends of the edge";
+  for (ElementId id = 0; const Marking& marking : drive.markings) {
+    EXPECT_EQ(marking.id, ++id);
+    for (const Point& point : marking.points) EXPECT_GT(point.y(), 0.7);
+  }
+}
+
+TEST(DriveAccumulator, AnEdgeBesideTheVehicleStays) {
+  const auto drive = drive_over_an_edge(1.2);
+  ASSERT_THAT(drive.markings, SizeIs(2));
+  EXPECT_NEAR(length(drive.markings[1].points), 60.7, 1.0);
+}
+
 }  // namespace
 }  // namespace laneloom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "export/driven_over.hpp"
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/map_box.hpp"
 #include "mapping/markings/markings.hpp"
@@ -105,7 +106,7 @@ void DriveAccumulator::begin_anew() {
 
 DriveAccumulator::Drive DriveAccumulator::finish() {
   begin_anew();
-  return {archive_.markings(), std::move(poses_)};
+  return {without_edges_driven_over(archive_.markings(), poses_), std::move(poses_)};
 }
 
 }  // namespace laneloom

@@ -13,7 +13,8 @@ namespace laneloom {
 /// What a whole drive knows, of its local maps: the lines, each place as the map had it when the place was
 /// last in it, and the way that the vehicle drove. What left the map because it was not there is left out;
 /// what left it because the vehicle drove on stays. Several passes of a place are one (line_archive.hpp).
-/// Inferred boundaries are left out: they follow from the lines. Not thread-safe.
+/// Inferred boundaries are left out: they follow from the lines. So are roadedges where the vehicle drove
+/// (driven_over.hpp). Not thread-safe.
 class DriveAccumulator {
  public:
   /// `range` is the one of the maps: what is beyond it, with its margin, has left the map.
