@@ -17,8 +17,11 @@ Process service() {
 }
 
 /// What it prints can be waited for.
-std::vector<std::string> example(const std::string& program) {
-  return {"/bin/sh", "-c", R"(exec "$0" "$@" >&2)", program, std::to_string(own_domain()), kVehicle};
+std::vector<std::string> example(const std::string& program, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words{"/bin/sh", "-c", R"(exec "$0" "$@" >&2)", program};
+  words.insert(words.end(), {std::to_string(own_domain()), kVehicle});
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
 }
 
 void expect_lane(const std::string& perception, const std::string& planner, const std::string& words) {
@@ -29,7 +32,15 @@ void expect_lane(const std::string& perception, const std::string& planner, cons
 }
 
 TEST(Examples, OurPlannerKnowsTheLaneItIsIn) {
-  expect_lane(CPP_PERCEPTION, CPP_PLANNER, "m left of its right border");
+  expect_lane(CPP_PERCEPTION, CPP_PLANNER, "m left of its center\n  left of it is lane ");
+}
+
+TEST(Examples, OurPlannerKnowsTheWayAlongAWishedTurn) {
+  const Process service = laneloom::service();
+  const Process publishes({LANELOOM, "publish", "--scenario", "intersection", "--loop", "--domain",
+                           std::to_string(own_domain()), "--vehicle-id", kVehicle});
+  const Process plans(example(CPP_PLANNER, {"left"}));
+  EXPECT_TRUE(plans.wait_for_error("the way leads as wished into lane ")) << plans.errors();
 }
 
 #ifdef C_PLANNER

@@ -1,19 +1,23 @@
-// planner DOMAIN VEHICLE_ID: follows the lane map, and says which lane the car is in.
+// planner DOMAIN VEHICLE_ID [straight|left|right]: follows the lane map, and says which lane the car is in,
+// where it may change lanes, and along which lanes the wished turn is made.
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "laneloom/dds/reader.hpp"
+#include "laneloom/lane_graph.hpp"
 #include "laneloom/messages.hpp"
 #include "laneloom/state_names.hpp"
 
 namespace {
 
-using laneloom::Lane;
-using laneloom::PublishedMap;
+using laneloom::PublishedMap, laneloom::Side, laneloom::Linkage;
+
+constexpr double kReach_m = 60.0;
 
 /// The newest map, which a thread of DDS puts there and the planner's thread takes.
 class Newest {
@@ -32,46 +36,41 @@ class Newest {
   std::unique_ptr<PublishedMap> map_;
 };
 
-/// Of a lane that has the car between its borders; negative: there is none.
-double metres_left_of_right_border(const Lane& lane, const Eigen::Isometry3d& T_body_map) {
-  for (std::size_t i = 0; i + 1 < lane.left.size() && i + 1 < lane.right.size(); ++i) {
-    const laneloom::Point left = T_body_map * lane.left[i], right = T_body_map * lane.right[i];
-    const double ahead = (T_body_map * lane.left[i + 1]).x();
-    if (left.x() <= 0.0 && ahead >= 0.0 && left.y() > 0.0 && right.y() < 0.0) return -right.y();
-  }
-  return -1.0;
-}
-
-void plan(const PublishedMap& published) {
-  std::cout << laneloom::state_text(published.state, published.reasons);
+void plan(const PublishedMap& published, Linkage::Turn wished) {
+  std::cout << laneloom::state_text(published.state, published.reasons) << '\n';
   // A planner must not drive on by an old map, however good it was.
-  if (published.state == laneloom::MapState::stale) {
-    std::cout << ": no map to drive on\n";
-    return;
-  }
-  std::cout << ", " << published.map.lanes.size() << " lanes\n";
-  for (const Lane& lane : published.map.lanes) {
-    const double offset_m = metres_left_of_right_border(lane, published.map.T_map_body.inverse());
-    if (offset_m < 0.0) continue;
-    std::cout << "in lane " << lane.id << ", which is " << lane.width_m << " m wide, " << offset_m
-              << " m left of its right border\n";
-  }
+  if (published.state == laneloom::MapState::stale) return;
+  const laneloom::LaneGraph graph(published.map);
+  const auto own = graph.own_lane(published.map.T_map_body);
+  if (!own) return;
+  std::cout << "in lane " << own->lane.lane->id << ", which is " << own->lane.lane->width_m << " m wide, "
+            << own->offset_m << " m left of its center\n";
+  for (const Side side : laneloom::kSides)
+    if (const laneloom::Lane* beside = graph.beside(own->lane, side, own->arc_m))
+      std::cout << (side == Side::left ? "  left" : "  right") << " of it is lane " << beside->id << '\n';
+  for (const laneloom::Passage& passage : graph.ahead(own->lane, wished, own->arc_m + kReach_m))
+    std::cout << "  the way leads " << (passage.turn == wished ? "as wished" : "on") << " into lane "
+              << passage.to.lane->id << (passage.to.oncoming() ? ", against its traffic\n" : "\n");
+  std::cout.flush();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return std::cerr << "usage: planner DOMAIN VEHICLE_ID\n", EXIT_FAILURE;
+  if (argc < 3) return std::cerr << "usage: planner DOMAIN VEHICLE_ID [straight|left|right]\n", EXIT_FAILURE;
   laneloom::DdsConfig dds;
   dds.domain = std::atoi(argv[1]);
   dds.vehicle_id = argv[2];
+  const std::string turn = argc > 3 ? argv[3] : "straight";
+  const auto wished = turn == "left"    ? Linkage::Turn::left
+                      : turn == "right" ? Linkage::Turn::right
+                                        : Linkage::Turn::straight;
   Newest newest;
   const laneloom::dds::Participant participant(dds, "example of a planner");
   const laneloom::dds::Reader<PublishedMap> maps(
-      participant,
-      {.sample = [&newest](PublishedMap&& map) { newest.put(std::move(map)); },
-       .refused = [](std::string_view why) { std::cerr << "a map was refused: " << why << '\n'; },
-       .alive = [](int services) { std::cerr << services << " services are alive\n"; }});
+      participant, {.sample = [&newest](PublishedMap&& map) { newest.put(std::move(map)); },
+                    .refused = [](std::string_view why) { std::cerr << "refused: " << why << '\n'; },
+                    .alive = [](int services) { std::cerr << services << " services are alive\n"; }});
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(100)))
-    if (const auto map = newest.take()) plan(*map);
+    if (const auto map = newest.take()) plan(*map, wished);
 }
