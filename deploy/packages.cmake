@@ -1,4 +1,4 @@
-# Four Debian packages, one per component: laneloomd, laneloom, laneloom-lab, laneloom-dev.
+# Debian packages, one per component: laneloomd, laneloom, laneloom-lab, laneloom-dev, and python3-laneloom where it is built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "laneloom maintainers <maintainers@laneloom.invalid>")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
@@ -35,6 +35,18 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME laneloom-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "IDL of the topics, and readers and writers of them for C++.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfastcdr-dev, libfastrtps-dev")
+
+if(LANELOOM_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-laneloom)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Maps of detections, and how good both are, for Python.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${control}/python/postinst ${control}/python/prerm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+endif()
 
 # Each package has its licence and its history, where Debian looks for them.
 set(changelog ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)

@@ -10,13 +10,14 @@
 
 #include "commands/commands.hpp"
 #include "commands/evaluate_later.hpp"
-#include "commands/evaluation_inputs.hpp"
 #include "commands/evaluation_plots.hpp"
 #include "commands/evaluation_tables.hpp"
 #include "commands/later_table.hpp"
 #include "commands/options.hpp"
 #include "commands/profile_tables.hpp"
 #include "commands/score_table.hpp"
+#include "commands/warn_of.hpp"
+#include "evaluation/inputs.hpp"
 #include "evaluation/map_evaluation.hpp"
 
 namespace laneloom {

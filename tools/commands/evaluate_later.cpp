@@ -1,14 +1,12 @@
 #include "commands/evaluate_later.hpp"
 
-#include <fmt/format.h>
-
 #include <map>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
-#include "commands/evaluation_inputs.hpp"
+#include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
+#include "evaluation/inputs.hpp"
 #include "replay/message_source.hpp"
 #include "replay/replay.hpp"
 
@@ -60,16 +58,7 @@ LaterMeter evaluate_later(const LaterInputs& inputs) {
   LaterMeter meter(inputs.min_confidence);
   Pairs pairs(meter);
   inputs.in.empty() ? rate_files(inputs, pairs) : rate_replay(inputs, pairs);
-  const std::string& name = inputs.in.empty() ? inputs.frames : inputs.in;
-  if (meter.frames() == 0)
-    throw std::runtime_error(fmt::format(
-        "{}: too short to be rated: after 2 s, the vehicle must drive {:g} m more, with detections and maps",
-        name, kLaterDistances_m.back()));
-  if (!meter.any())
-    throw std::runtime_error(fmt::format(
-        "{}: cannot be rated: in {:.0f} m, nothing was seen 6 to 10 m ahead of the vehicle that was to be "
-        "found before",
-        name, meter.driven_m()));
+  require_rated(meter, inputs.in.empty() ? inputs.frames : inputs.in);
   return meter;
 }
 

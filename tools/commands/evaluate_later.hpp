@@ -14,7 +14,7 @@ struct LaterInputs {
 };
 
 /// Rates a drive by what was seen later. Throws std::runtime_error where nothing was, and as
-/// evaluation_inputs.hpp where a file cannot be read.
+/// evaluation/inputs.hpp where a file cannot be read.
 LaterMeter evaluate_later(const LaterInputs& inputs);
 
 }  // namespace laneloom

@@ -12,9 +12,10 @@
 #include <variant>
 
 #include "commands/commands.hpp"
-#include "commands/evaluation_inputs.hpp"
 #include "commands/options.hpp"
+#include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
+#include "evaluation/inputs.hpp"
 #include "export/accumulate.hpp"
 #include "export/geojson_file.hpp"
 #include "export/lanelet2_file.hpp"

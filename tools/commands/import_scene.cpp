@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "commands/evaluation_inputs.hpp"
 #include "commands/import_scene.hpp"
+#include "commands/warn_of.hpp"
 #include "scene/scene_recording.hpp"
 
 namespace laneloom {

@@ -19,18 +19,7 @@ Figure share(std::size_t part, std::size_t whole) {
 
 Figure ratio(Figure of, Figure to) { return of && to && *to > 0.0 ? Figure(*of / *to) : std::nullopt; }
 
-/// What is told of single detections or maps, at one distance.
-struct Figures {
-  Figure precision, recall, rms_m, p95_m;
-};
-
-Figures figures(const LaterScore& score, const LaterScore::Subject& subject) {
-  Figures result{share(subject.right, subject.lines), share(subject.found, score.seen_later), {}, {}};
-  if (subject.lateral_errors_m.count() == 0) return result;
-  result.rms_m = subject.lateral_errors_m.root_mean_square();
-  result.p95_m = subject.lateral_errors_m.quantile(0.95);
-  return result;
-}
+using Figures = LaterScore::Figures;
 
 std::string cell(Figure figure, int width, int decimals, double unit = 1.0) {
   return figure ? fmt::format(" {:>{}.{}f}", *figure * unit, width, decimals)
@@ -38,7 +27,7 @@ std::string cell(Figure figure, int width, int decimals, double unit = 1.0) {
 }
 
 std::string row(MarkingType type, double distance_m, const LaterScore& score) {
-  const Figures single = figures(score, score.single), map = figures(score, score.map);
+  const Figures single = score.figures(score.single), map = score.figures(score.map);
   return fmt::format("{:<9}{:>3.0f} m{:>7}", name(line_kind(type)), distance_m, score.seen_later) +
          cell(single.precision, 8, 1, 100) + cell(map.precision, 6, 1, 100) + cell(single.recall, 8, 1, 100) +
          cell(map.recall, 6, 1, 100) + cell(single.rms_m, 8, 3) + cell(map.rms_m, 6, 3) +
@@ -72,7 +61,7 @@ nlohmann::json figures_json(const Figures& of) {
 }
 
 nlohmann::json score_json(const LaterScore& score) {
-  const Figures single = figures(score, score.single), map = figures(score, score.map);
+  const Figures single = score.figures(score.single), map = score.figures(score.map);
   return {{"seen_later", score.seen_later},
           {"pairs", score.map.lateral_errors_m.count()},
           {"single", figures_json(single)},

@@ -8,11 +8,12 @@
 #include <utility>
 #include <variant>
 
-#include "commands/evaluation_inputs.hpp"
 #include "commands/stop_signal.hpp"
+#include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "drawing/drawing_json.hpp"
 #include "drawing/truth.hpp"
+#include "evaluation/inputs.hpp"
 #include "recording/recording.hpp"
 #include "replay/message_source.hpp"
 #include "replay/replay.hpp"

@@ -8,11 +8,12 @@
 #include <stdexcept>
 
 #include "commands/commands.hpp"
-#include "commands/evaluation_inputs.hpp"
 #include "commands/options.hpp"
+#include "commands/warn_of.hpp"
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
 #include "drawing/truth.hpp"
+#include "evaluation/inputs.hpp"
 #include "render/figure.hpp"
 
 namespace laneloom {

@@ -9,13 +9,13 @@
 #include <stdexcept>
 
 #include "commands/commands.hpp"
-#include "commands/evaluation_inputs.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
 #include "commands/replay_advice.hpp"
 #include "commands/replay_report.hpp"
 #include "commands/score_table.hpp"
 #include "commands/stop_signal.hpp"
+#include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "evaluation/map_evaluation.hpp"
 #include "replay/message_source.hpp"

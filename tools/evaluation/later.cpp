@@ -1,8 +1,10 @@
 #include "evaluation/later.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -21,6 +23,11 @@ constexpr std::ptrdiff_t kFewestWitnesses = 2;
 constexpr double kOwnLaneAhead_m = 8.0;
 constexpr std::int64_t kWarmUp_ns = 2'000'000'000;
 constexpr double kLeastStep_m = 0.5, kLargestStep_m = 10.0;
+
+std::optional<double> share(std::size_t part, std::size_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
 
 Polyline transformed(const Polyline& points, const Eigen::Isometry3d& transform) {
   Polyline result;
@@ -226,6 +233,26 @@ bool LaterMeter::any() const {
     for (const LaterScore& score : by_type)
       if (score.seen_later > 0) return true;
   return false;
+}
+
+LaterScore::Figures LaterScore::figures(const Subject& subject) const {
+  Figures result{share(subject.right, subject.lines), share(subject.found, seen_later), {}, {}};
+  if (subject.lateral_errors_m.count() == 0) return result;
+  result.rms_m = subject.lateral_errors_m.root_mean_square();
+  result.p95_m = subject.lateral_errors_m.quantile(0.95);
+  return result;
+}
+
+void require_rated(const LaterMeter& meter, const std::string& name) {
+  if (meter.frames() == 0)
+    throw std::runtime_error(fmt::format(
+        "{}: too short to be rated: after 2 s, the vehicle must drive {:g} m more, with detections and maps",
+        name, kLaterDistances_m.back()));
+  if (!meter.any())
+    throw std::runtime_error(fmt::format(
+        "{}: cannot be rated: in {:.0f} m, nothing was seen 6 to 10 m ahead of the vehicle that was to be "
+        "found before",
+        name, meter.driven_m()));
 }
 
 }  // namespace laneloom

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/distribution.hpp"
@@ -41,8 +43,15 @@ struct LaterScore {
     std::size_t found = 0;            ///< of the lines seen later
     Distribution lateral_errors_m{};  ///< absolute, of the pairs
   };
+  /// Empty where nothing can be told.
+  struct Figures {
+    std::optional<double> precision, recall;  ///< 0..1
+    std::optional<double> rms_m, p95_m;       ///< of the pairs' lateral errors
+  };
   std::size_t seen_later = 0;  ///< lines
   Subject single, map;
+
+  Figures figures(const Subject& subject) const;  ///< of `single` or `map`
 };
 
 struct OwnLaneScore {
@@ -108,5 +117,9 @@ class LaterMeter {
   std::size_t frames_ = 0, lanes_ = 0;
   double driven_m_ = 0.0;
 };
+
+/// Throws std::runtime_error, whose text begins with `name`, where a drive was too short, or shows too
+/// little, to be rated.
+void require_rated(const LaterMeter& meter, const std::string& name);
 
 }  // namespace laneloom

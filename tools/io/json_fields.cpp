@@ -12,8 +12,6 @@ using nlohmann::json;
 
 constexpr int kMaxDepth = 16;
 constexpr double kMaxCoordinate_m = 1e7;
-constexpr std::array kTypeNames{"laneline", "roadedge", "stopline"};
-constexpr std::array kStyleNames{"unknown", "solid", "dashed"};
 
 template <typename Enum, std::size_t N>
 Enum named(const json& value, const std::array<const char*, N>& names) {
@@ -127,8 +125,5 @@ json polyline_json(const Polyline& points) {
   for (const Point& p : points) out.push_back({p.x(), p.y(), p.z()});
   return out;
 }
-
-const char* name(MarkingType type) { return kTypeNames.at(index(type)); }
-const char* name(MarkingStyle style) { return kStyleNames.at(index(style)); }
 
 }  // namespace laneloom

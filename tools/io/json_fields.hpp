@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/element_names.hpp"
 #include "laneloom/types.hpp"
 
 /// Checked reading of JSON: what is missing, of another type, or not finite is an error that names the key.
@@ -51,8 +52,6 @@ std::vector<double> numbers(const nlohmann::json& value);
 Eigen::Quaterniond quaternion(const nlohmann::json& value, std::size_t first);  ///< x, y, z, w from there on
 
 nlohmann::json polyline_json(const Polyline& points);
-const char* name(MarkingType type);
-const char* name(MarkingStyle style);
 
 /// Every element of an array, read by `read`.
 template <typename Read>

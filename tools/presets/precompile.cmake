@@ -11,12 +11,13 @@ function(precompile name links)
   target_precompile_headers(laneloom_precompiled_${name} PRIVATE ${standard} ${ARGN})
 endfunction()
 
-# Has all targets of a folder, and of the folders in it, use the precompiled headers.
+# Has all targets of a folder, and of the folders in it, use the precompiled headers, but those that use others.
 function(use_precompiled name folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
     get_target_property(sources ${target} SOURCES)
-    if(sources MATCHES "[.]cpp" AND NOT sources MATCHES "[.]c(;|$)")
+    get_target_property(others ${target} PRECOMPILE_HEADERS_REUSE_FROM)
+    if(NOT others AND sources MATCHES "[.]cpp" AND NOT sources MATCHES "[.]c(;|$)")
       target_precompile_headers(${target} REUSE_FROM laneloom_precompiled_${name})
     endif()
   endforeach()
@@ -28,6 +29,12 @@ endfunction()
 
 precompile(service "")
 use_precompiled(service ${PROJECT_SOURCE_DIR}/src)
+if(LANELOOM_BUILD_PYTHON)
+  precompile(python "pybind11::module;fmt::fmt" <fmt/format.h> <pybind11/numpy.h> <pybind11/pybind11.h>)
+  # False alarms of g++ 12 within pybind11's headers.
+  set_source_files_properties(${PROJECT_BINARY_DIR}/precompiled/python.cpp PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
+  use_precompiled(python ${PROJECT_SOURCE_DIR}/tools/python)
+endif()
 if(LANELOOM_BUILD_TOOLS)
   precompile(tools "fmt::fmt;nlohmann_json::nlohmann_json" <fmt/format.h> <nlohmann/json.hpp>)
   use_precompiled(tools ${PROJECT_SOURCE_DIR}/tools)

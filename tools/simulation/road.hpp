@@ -37,6 +37,10 @@ struct Road {
   Drive drive;
 };
 
+/// Throws std::runtime_error where an id of a marking or a lane is 0 or given twice, or a lane refers to one
+/// that the road does not have.
+void check_references(const Road& road);
+
 /// Writes a road as one JSON object:
 ///
 ///     {"format": "laneloom-truth", "version": 1, "name": "…", "driving_side": "right" | "left",

@@ -99,21 +99,6 @@ std::set<ElementId> ids_of(const std::vector<T>& items, const char* key) {
   return ids;
 }
 
-void check_references(const Road& road) {
-  const std::set<ElementId> markings = ids_of(road.markings, "markings");
-  const std::set<ElementId> lanes = ids_of(road.lanes, "lanes");
-  const auto check = [](bool known, const RoadLane& lane, ElementId id) {
-    if (known) return;
-    throw JsonError("lanes",
-                    "lane " + std::to_string(lane.id) + " refers to the unknown id " + std::to_string(id));
-  };
-  for (const RoadLane& lane : road.lanes) {
-    for (const ElementId id : {lane.left_marking, lane.right_marking})
-      check(id == kNoElement || markings.contains(id), lane, id);
-    for (const ElementId id : lane.successors) check(lanes.contains(id), lane, id);
-  }
-}
-
 bool right_hand(const json& value) {
   const std::string side = text(value);
   if (side != "right" && side != "left") throw JsonError("must be right or left");
@@ -146,6 +131,21 @@ Road road(const json& value) {
 }
 
 }  // namespace
+
+void check_references(const Road& road) {
+  const std::set<ElementId> markings = ids_of(road.markings, "markings");
+  const std::set<ElementId> lanes = ids_of(road.lanes, "lanes");
+  const auto check = [](bool known, const RoadLane& lane, ElementId id) {
+    if (known) return;
+    throw JsonError("lanes",
+                    "lane " + std::to_string(lane.id) + " refers to the unknown id " + std::to_string(id));
+  };
+  for (const RoadLane& lane : road.lanes) {
+    for (const ElementId id : {lane.left_marking, lane.right_marking})
+      check(id == kNoElement || markings.contains(id), lane, id);
+    for (const ElementId id : lane.successors) check(lanes.contains(id), lane, id);
+  }
+}
 
 void save_truth(const std::filesystem::path& path, const Road& road) {
   std::ofstream out(path);

@@ -1,8 +1,5 @@
-#include "commands/evaluation_inputs.hpp"
+#include "evaluation/inputs.hpp"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -140,12 +137,6 @@ InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& vis
   }
   maps.finish();
   return account;
-}
-
-void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off) {
-  for (const auto& [what, count] : refused.values())
-    fmt::print(stderr, "laneloom: {}: {} messages passed over: {}\n", path.string(), count, what);
-  if (cut_off) fmt::print(stderr, "laneloom: {}: the recording is cut off\n", path.string());
 }
 
 }  // namespace laneloom

@@ -30,7 +30,4 @@ InputAccount for_each_frame(
 InputAccount for_each_map(const std::filesystem::path& path,
                           const std::function<void(const LocalMap&)>& visit);
 
-/// On standard error, where the account is of a part of the file only.
-void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off);
-
 }  // namespace laneloom

@@ -1,0 +1,165 @@
+"""Maps, their figures and pictures are those of the program."""
+import json
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import laneloom
+from conftest import run
+
+
+def same_map(a, b):
+    return (
+        a.stamp_ns == b.stamp_ns
+        and [m.id for m in a.boundaries] == [m.id for m in b.boundaries]
+        and all(np.array_equal(m.points, n.points) for m, n in zip(a.boundaries, b.boundaries))
+        and [lane.id for lane in a.lanes] == [lane.id for lane in b.lanes]
+        and all(np.array_equal(m.centerline, n.centerline) for m, n in zip(a.lanes, b.lanes))
+    )
+
+
+def test_a_map_is_made_of_arrays(maps):
+    last = maps[-1]
+    lane = last.lanes[0]
+    assert lane.left.shape[1] == lane.right.shape[1] == lane.centerline.shape[1] == 3
+    assert lane.centerline.dtype == np.float64
+    assert last.pose.shape == (4, 4)
+    boundaries = {boundary.id: boundary for boundary in last.boundaries}
+    left = boundaries[lane.left_boundary]
+    assert left.lateral_stddev.shape == (len(left.points),)
+    assert 0 <= lane.left_range[0] < lane.left_range[1]
+    assert {linkage.from_lane for linkage in last.linkages} <= {lane.id for lane in last.lanes}
+    assert any(event.kind == "born" for m in maps for event in m.lineage)
+
+
+def test_a_map_stays_as_it_was(frames):
+    mapper = laneloom.Mapper()
+    first = mapper.update(*frames[0])
+    count = len(first.boundaries)
+    for frame, pose in frames[1:20]:
+        mapper.update(frame, pose)
+    assert len(first.boundaries) == count
+    assert same_map(mapper.map, mapper.map)
+    assert not same_map(mapper.map, first)
+    assert mapper.learned(frames[0][0].source) and mapper.learned("another") == {}
+    mapper.reset()
+    assert mapper.map.boundaries == ()
+
+
+def test_maps_are_those_of_the_program(drive, maps):
+    out = drive.folder / "replayed.jsonl"
+    run("replay", "--in", drive.frames, "--out", out)
+    replayed = laneloom.read_maps(out)
+    assert len(replayed) == len(maps) > 50
+    for ours, theirs in zip(maps, replayed):
+        assert [m.id for m in ours.boundaries] == [m.id for m in theirs.boundaries]
+        assert [lane.id for lane in ours.lanes] == [lane.id for lane in theirs.lanes]
+
+
+def test_figures_are_those_of_the_program(drive, truth, frames, maps):
+    laneloom.write_maps(drive.folder / "maps.jsonl", maps)
+    run("evaluate", "--truth", drive.truth, "--frames", drive.frames, "--map", drive.folder / "maps.jsonl",
+        "--json", drive.folder / "figures.json")
+    figures = json.loads((drive.folder / "figures.json").read_text())
+    for who, ours in (("fused", laneloom.evaluate(truth, maps)), ("raw", laneloom.evaluate(truth, frames=frames))):
+        assert ours.frames == len(maps)
+        for kind in ("laneline", "roadedge", "stopline"):
+            score = getattr(ours, kind)
+            assert score.f1 == pytest.approx(figures[who][kind]["f1"])
+            assert score.acd_m == pytest.approx(figures[who][kind]["acd_m"])
+    assert laneloom.evaluate(truth, maps).markings.f1 > laneloom.evaluate(truth, frames=frames).markings.f1 > 0.3
+
+
+def test_the_range_and_the_confidence_count(truth, frames, maps):
+    near = laneloom.Config()
+    near["mapper.range.forward_max_m"] = 10
+    assert laneloom.evaluate(truth, maps, config=near).markings.truths < laneloom.evaluate(truth, maps).markings.truths
+    assert laneloom.evaluate(truth, frames=frames, min_confidence=1.0).markings.predictions == 0
+    with pytest.raises(ValueError, match=r"^maps\[1\]: stamps must ascend"):
+        laneloom.evaluate(truth, [maps[1], maps[0]])
+
+
+def test_figures_without_truth_are_those_of_the_program(drive, frames, maps):
+    laneloom.write_maps(drive.folder / "later.jsonl", maps)
+    run("evaluate", "--later", "--frames", drive.frames, "--map", drive.folder / "later.jsonl", "--json",
+        drive.folder / "later.json")
+    figures = json.loads((drive.folder / "later.json").read_text())
+    rated = laneloom.evaluate_later(frames, maps)
+    assert rated.frames == figures["frames"] > 20
+    assert rated.driven_m == pytest.approx(figures["driven_m"])
+    assert rated.lanes_per_frame == pytest.approx(figures["lanes_per_frame"])
+    assert rated.own_lane_share == pytest.approx(figures["own_lane"]["share"])
+    assert rated.own_lane_id_changes == figures["own_lane"]["id_changes"]
+    for type in ("laneline", "roadedge"):
+        for distance_m in (12, 20, 28):
+            score, expected = rated.score(type, distance_m), figures[type][str(distance_m)]
+            assert score.seen_later == expected["seen_later"]
+            for who in ("single", "map"):
+                for name, value in expected[who].items():
+                    assert getattr(getattr(score, who), name) == (value if value is None else pytest.approx(value))
+    assert rated.score("laneline", 20).map.recall > 0.5
+
+
+def test_a_truth_of_ones_own(truth, maps):
+    """Rated by a truth that is what the map says, a map is right."""
+    last = maps[-1]
+    markings = [laneloom.TruthMarking(m.id, m.type, m.points) for m in last.boundaries if m.status != "inferred"]
+    markings += [laneloom.TruthMarking(s.marking.id, "stopline", s.marking.points) for s in last.stoplines]
+    rated = laneloom.evaluate(laneloom.Truth("own", markings), [last])
+    assert rated.markings.f1 == 1.0
+    assert rated.markings.acd_m == pytest.approx(0.0, abs=1e-9)
+
+
+def test_pictures(tmp_path, truth, frames, maps):
+    laneloom.render(tmp_path / "a.png", maps[-1], frame=frames[-1], truth=truth, title="a road")
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    laneloom.render(tmp_path / "a.svg", frame=frames[-1])
+    assert "<svg" in (tmp_path / "a.svg").read_text()
+    with pytest.raises(RuntimeError, match="a.bmp"):
+        laneloom.render(tmp_path / "a.bmp", maps[-1])
+
+
+@pytest.mark.parametrize("work", ["update", "evaluate"])
+def test_other_threads_run_meanwhile(work, truth, frames, maps):
+    """With a long switch interval, another thread only runs where the GIL is released."""
+    begun, ended, seen = threading.Event(), [], []
+    points = [[x, 0.01 * (x % 2), 0] for x in np.linspace(0, 30, 20000)]
+    large = laneloom.Frame(1, [laneloom.Detection("laneline", points)] * 20)
+    mapper, pose = laneloom.Mapper(), laneloom.Pose([0, 0, 0], [0, 0, 0, 1])
+
+    def watch():
+        begun.wait()
+        seen.append(not ended)
+
+    watcher = threading.Thread(target=watch)
+    interval = sys.getswitchinterval()
+    watcher.start()
+    sys.setswitchinterval(60)
+    try:
+        begun.set()
+        mapper.update(large, pose) if work == "update" else laneloom.evaluate(truth, maps)
+        ended.append(True)
+    finally:
+        sys.setswitchinterval(interval)
+    watcher.join()
+    assert seen == [True]
+
+
+def test_threads_may_share_a_mapper_or_have_their_own(frames, maps):
+    shared, results = laneloom.Mapper(), {}
+
+    def drive(number):
+        own = laneloom.Mapper()
+        for frame, pose in frames[:40]:
+            shared.update(frame, pose)
+            results[number] = own.update(frame, pose)
+
+    threads = [threading.Thread(target=drive, args=(number,)) for number in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(same_map(results[number], maps[39]) for number in range(3))
+    assert len(shared.map.boundaries) > 0

@@ -1,0 +1,42 @@
+"""Docstrings, the typed stub, and the example."""
+import inspect
+import pathlib
+import subprocess
+import sys
+
+import laneloom
+from conftest import run
+
+EXAMPLE = pathlib.Path(__file__).parents[2] / "tools" / "examples" / "python" / "rate_network.py"
+
+
+def test_everything_public_has_a_docstring():
+    for name in laneloom.__all__:
+        public = getattr(laneloom, name)
+        if name != "__version__":
+            assert inspect.getdoc(public), name
+
+
+def test_the_version_is_that_of_the_program():
+    assert laneloom.__version__ in run("--version").stdout
+
+
+def test_the_stub_says_what_is_there(tmp_path):
+    checked = subprocess.run([sys.executable, "-m", "mypy.stubtest", "laneloom"], cwd=tmp_path, capture_output=True,
+                             text=True)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def test_the_example_rates_a_network(drive):
+    picture = drive.folder / "picture.png"
+    rated = subprocess.run([sys.executable, EXAMPLE, drive.truth, drive.frames, picture], check=True,
+                           capture_output=True, text=True).stdout.splitlines()
+    raw, fused = (float(line.split("F1 ")[1].split(",")[0]) for line in rated)
+    assert fused > raw > 0.3
+    assert picture.exists()
+
+
+def test_the_example_is_typed_as_the_stub_says(tmp_path):
+    checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path,
+                              EXAMPLE], capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stdout + checked.stderr

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "arguments.hpp"
+#include "binding.hpp"
+#include "evaluation/map_evaluation.hpp"
+
+namespace laneloom::python {
+namespace {
+
+constexpr const char* kEvaluateDoc = R"(Rates maps or single detections by the truth of the road.
+
+truth: Truth
+maps: LocalMap objects, or
+frames: pairs (Frame, Pose); exactly one of the two is given. Stamps ascend
+config: Config whose mapper.range is the box around the vehicle that counts; None: the default range
+min_confidence: detections below it do not count
+
+The measures are those of `laneloom evaluate --truth`. Other threads of Python run meanwhile.)";
+
+constexpr const char* kScoreDoc =
+    R"(Precision, recall and F1 (0..1) of the lines of one kind, over all frames.
+
+A prediction is a true positive if its samples lie less than 0.5 m from a truth line along 75 % of that line's samples.
+acd_m is the mean distance of the matched samples in metres.)";
+
+std::vector<LocalMap> given_maps(const py::object& maps) {
+  std::vector<LocalMap> out = list(maps, "maps", instance<LocalMap>);
+  for (std::size_t i = 1; i < out.size(); ++i)
+    if (out[i].stamp_ns < out[i - 1].stamp_ns)
+      refuse_value("maps[" + std::to_string(i) + "]", "stamps must ascend");
+  return out;
+}
+
+Measures rate_maps(const Road& road, const RangeConfig& range, const std::vector<LocalMap>& maps) {
+  const py::gil_scoped_release others_run;
+  MapEvaluation evaluation(road, range, Subject::maps);
+  for (const LocalMap& map : maps) evaluation.add(map);
+  return evaluation.measures();
+}
+
+Measures rate_frames(const Road& road, const RangeConfig& range, const std::vector<SeenFrame>& frames,
+                     double min_confidence) {
+  const py::gil_scoped_release others_run;
+  MapEvaluation evaluation(road, range, Subject::detections);
+  for (const auto& [frame, pose] : frames) evaluation.add(frame, transform(pose), min_confidence);
+  return evaluation.measures();
+}
+
+Measures evaluate(const py::object& truth, const py::object& maps, const py::object& frames,
+                  const py::object& config, const py::object& min_confidence) {
+  if (maps.is_none() == frames.is_none())
+    throw py::type_error("maps, frames: exactly one of the two must be given");
+  const Road& road = instance<Road>(truth, "truth");
+  const RangeConfig range =
+      config.is_none() ? RangeConfig{} : RangeConfig(instance<Config>(config, "config").mapper.range);
+  const double least = number(min_confidence, "min_confidence");
+  if (!maps.is_none()) return rate_maps(road, range, given_maps(maps));
+  return rate_frames(road, range, frames_in_order(frames, "frames"), least);
+}
+
+/// A method that gives the score of one kind.
+auto score_of(LineKind kind) {
+  return [kind](const Measures& measures) { return measures.score.of(kind); };
+}
+
+void bind_scores(py::module_& module) {
+  py::class_<Score>(module, "Score", kScoreDoc)
+      .def_property_readonly("precision", &Score::precision)
+      .def_property_readonly("recall", &Score::recall)
+      .def_property_readonly("f1", &Score::f1)
+      .def_property_readonly("acd_m", &Score::acd_m)
+      .def_readonly("truths", &Score::truths)
+      .def_readonly("predictions", &Score::predictions)
+      .def_readonly("matches", &Score::matches)
+      .def("__repr__", [](const Score& s) {
+        return fmt::format("<Score precision {:.3f}, recall {:.3f}, f1 {:.3f}, acd {:.3f} m>", s.precision(),
+                           s.recall(), s.f1(), s.acd_m());
+      });
+  py::class_<PairScore>(module, "PairScore", "Precision, recall and F1 (0..1) of what relates two elements.")
+      .def_property_readonly("precision", &PairScore::precision)
+      .def_property_readonly("recall", &PairScore::recall)
+      .def_property_readonly("f1", &PairScore::f1)
+      .def_readonly("published", &PairScore::published)
+      .def_readonly("truths", &PairScore::truths);
+}
+
+}  // namespace
+
+void bind_evaluation(py::module_& module) {
+  using py::arg;
+  bind_scores(module);
+  py::class_<Measures>(module, "Evaluation", "The outcome of evaluate().")
+      .def_property_readonly(
+          "frames", [](const Measures& m) { return m.score.frames; }, "How many were rated.")
+      .def_property_readonly(
+          "markings", [](const Measures& m) { return m.score.markings(); },
+          "Of lanelines, roadedges and stoplines together.")
+      .def_property_readonly("laneline", score_of(LineKind::laneline))
+      .def_property_readonly("roadedge", score_of(LineKind::roadedge))
+      .def_property_readonly("stopline", score_of(LineKind::stopline))
+      .def_property_readonly("lane", score_of(LineKind::lane), "Of the lanes' centerlines.")
+      .def_property_readonly(
+          "mean_ap", [](const Measures& m) { return m.average_precision.map(); },
+          "Chamfer mAP at 0.5, 1.0 and 1.5 m, 0..1, of the markings.")
+      .def_property_readonly("linkages", [](const Measures& m) { return m.topology.linkages; })
+      .def_property_readonly("directions", [](const Measures& m) { return m.topology.directions; })
+      .def_property_readonly("stopline_lanes", [](const Measures& m) { return m.topology.stopline_lanes; });
+  module.def("evaluate", &evaluate, arg("truth"), arg("maps") = py::none(), py::kw_only(),
+             arg("frames") = py::none(), arg("config") = py::none(),
+             arg("min_confidence") = PreprocessConfig{}.min_confidence, kEvaluateDoc);
+}
+
+}  // namespace laneloom::python

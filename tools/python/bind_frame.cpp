@@ -1,0 +1,189 @@
+#include <fmt/format.h>
+
+#include "arguments.hpp"
+#include "arrays.hpp"
+#include "binding.hpp"
+#include "io/element_names.hpp"
+#include "session/gate.hpp"
+
+namespace laneloom::python {
+namespace {
+
+constexpr const char* kDetectionDoc = R"(A polyline that a network saw in one frame.
+
+type: "laneline", "roadedge" or "stopline"
+points: array (N, 3), N >= 2, in metres, body frame (x forward, y left, z up)
+confidence: 0..1
+style: "unknown", "solid" or "dashed"
+stddev: array (N,), lateral standard deviation of each point in metres; None: not given)";
+
+constexpr const char* kFrameDoc = R"(Everything that a network saw at one instant.
+
+stamp_ns: time of the sensor in nanoseconds, above 0
+detections: Detection objects
+source: name of the network; each network is a source of its own
+detected_types: types that the network can detect; empty: every type
+field_of_view: array (N, 3), polygon in the body frame; empty: all of the mapper's range
+occluded_areas: arrays (N, 3), polygons in the body frame; what is in them is not seen
+sequence, session_id: number of the frame, and of the network's run
+
+ValueError: a coordinate is beyond 10 000 km, or whatever else the service would refuse the frame for.)";
+
+constexpr const char* kPoseDoc = R"(Where the vehicle is in the map frame at one instant.
+
+position: array (3,), metres
+orientation: array (4,), unit quaternion x, y, z, w; it takes the body frame to the map frame
+stamp_ns: time of the sensor in nanoseconds, above 0
+
+ValueError: the quaternion is not of unit length, or a coordinate is beyond 10 000 km.)";
+
+/// What a service would refuse is refused here.
+template <class T>
+T checked(T message, const char* name) {
+  if (const auto why = defect(message, GateConfig{}); !why.empty())
+    refuse_value(name, "the service would refuse it: " + std::string(why));
+  return message;
+}
+
+Detection make_detection(const py::object& type, const py::object& points, const py::object& confidence,
+                         const py::object& style, const py::object& stddev) {
+  Detection detection{.type = word<MarkingType>(type, "type", kTypeNames),
+                      .style = word<MarkingStyle>(style, "style", kStyleNames),
+                      .confidence = number(confidence, "confidence"),
+                      .points = line(points, "points")};
+  if (!(detection.confidence >= 0.0 && detection.confidence <= 1.0))
+    refuse_value("confidence", "must be 0..1");
+  if (stddev.is_none()) return detection;
+  detection.stddev_m = fixed_array(stddev, "stddev", {static_cast<py::ssize_t>(detection.points.size())});
+  for (const double deviation : detection.stddev_m)
+    if (deviation < 0.0) refuse_value("stddev", "must not be negative");
+  return detection;
+}
+
+DetectionFrame make_frame(const py::object& stamp_ns, const py::object& detections, const py::object& source,
+                          const py::object& detected_types, const py::object& field_of_view,
+                          const py::object& occluded_areas, const py::object& sequence,
+                          const py::object& session_id) {
+  const auto type = [](const py::handle& value, const std::string& name) {
+    return word<MarkingType>(value, name, kTypeNames);
+  };
+  return checked(DetectionFrame{.stamp_ns = integer(stamp_ns, "stamp_ns"),
+                                .sequence = count(sequence, "sequence"),
+                                .session_id = count(session_id, "session_id"),
+                                .source = text(source, "source"),
+                                .detected_types = list(detected_types, "detected_types", type),
+                                .field_of_view = polyline(field_of_view, "field_of_view"),
+                                .occluded_areas = list(occluded_areas, "occluded_areas", polyline),
+                                .detections = list(detections, "detections", instance<Detection>)},
+                 "Frame");
+}
+
+VehiclePose make_pose(const py::object& position, const py::object& orientation, const py::object& stamp_ns) {
+  const std::vector<double> p = fixed_array(position, "position", {3});
+  const std::vector<double> q = fixed_array(orientation, "orientation", {4});
+  return checked(VehiclePose{.stamp_ns = integer(stamp_ns, "stamp_ns"),
+                             .position = {p[0], p[1], p[2]},
+                             .orientation = Eigen::Quaterniond(q[3], q[0], q[1], q[2])},
+                 "Pose");
+}
+
+VehiclePose pose_of_matrix(const py::object& matrix, const py::object& stamp_ns) {
+  const std::vector<double> values = fixed_array(matrix, "matrix", {4, 4});
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(values.data());
+  const Eigen::Matrix3d rotation = T.topLeftCorner<3, 3>();
+  const bool rigid = (rotation * rotation.transpose()).isIdentity(1e-3) && rotation.determinant() > 0.0 &&
+                     T.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1));
+  if (!rigid) refuse_value("matrix", "must be a rotation and a translation");
+  return checked(VehiclePose{.stamp_ns = integer(stamp_ns, "stamp_ns"),
+                             .position = T.topRightCorner<3, 1>(),
+                             .orientation = Eigen::Quaterniond(rotation).normalized()},
+                 "Pose");
+}
+
+void bind_detection(py::module_& module) {
+  using py::arg;
+  py::class_<Detection>(module, "Detection", kDetectionDoc)
+      .def(py::init(&make_detection), arg("type"), arg("points"), arg("confidence") = 1.0,
+           arg("style") = "unknown", arg("stddev") = py::none())
+      .def_property_readonly("type", [](const Detection& d) { return name(d.type); })
+      .def_property_readonly("style", [](const Detection& d) { return name(d.style); })
+      .def_property_readonly("confidence", [](const Detection& d) { return d.confidence; })
+      .def_property_readonly("points", [](const Detection& d) { return to_array(d.points); })
+      .def_property_readonly(
+          "stddev", [](const Detection& d) { return to_array(d.stddev_m); },
+          "Array (N,), or (0,) where it is not given.")
+      .def("__repr__", [](const Detection& d) {
+        return fmt::format("<Detection {} of {} points, confidence {:.2f}>", name(d.type), d.points.size(),
+                           d.confidence);
+      });
+}
+
+void bind_frames(py::module_& module) {
+  using py::arg;
+  using Frame = DetectionFrame;
+  const auto type_name = [](MarkingType type) { return py::str(name(type)); };
+  py::class_<Frame>(module, "Frame", kFrameDoc)
+      .def(py::init(&make_frame), arg("stamp_ns"), arg("detections"), arg("source") = "", py::kw_only(),
+           arg("detected_types") = py::tuple(), arg("field_of_view") = py::tuple(),
+           arg("occluded_areas") = py::tuple(), arg("sequence") = 0, arg("session_id") = 0)
+      .def_property_readonly("stamp_ns", [](const Frame& f) { return f.stamp_ns; })
+      .def_property_readonly("detections", [](const Frame& f) { return to_tuple(f.detections); })
+      .def_property_readonly("source", [](const Frame& f) { return f.source; })
+      .def_property_readonly("detected_types",
+                             [type_name](const Frame& f) { return to_tuple(f.detected_types, type_name); })
+      .def_property_readonly("field_of_view", [](const Frame& f) { return to_array(f.field_of_view); })
+      .def_property_readonly("occluded_areas",
+                             [](const Frame& f) {
+                               return to_tuple(f.occluded_areas,
+                                               [](const Polyline& p) { return to_array(p); });
+                             })
+      .def_property_readonly("sequence", [](const Frame& f) { return f.sequence; })
+      .def_property_readonly("session_id", [](const Frame& f) { return f.session_id; })
+      .def("__repr__", [](const Frame& f) {
+        return fmt::format("<Frame at {} ns, {} detections>", f.stamp_ns, f.detections.size());
+      });
+}
+
+void bind_pose(py::module_& module) {
+  using py::arg;
+  using Pose = VehiclePose;
+  py::class_<Pose>(module, "Pose", kPoseDoc)
+      .def(py::init(&make_pose), arg("position"), arg("orientation"), arg("stamp_ns") = 1)
+      .def_static("from_matrix", &pose_of_matrix, arg("matrix"), arg("stamp_ns") = 1,
+                  "Pose of an array (4, 4) that takes the body frame to the map frame.")
+      .def_property_readonly("stamp_ns", [](const Pose& p) { return p.stamp_ns; })
+      .def_property_readonly("position", [](const Pose& p) { return to_array(p.position); })
+      .def_property_readonly("orientation", [](const Pose& p) { return to_array(p.orientation); })
+      .def_property_readonly(
+          "matrix", [](const Pose& p) { return to_array(transform(p)); },
+          "Array (4, 4) that takes the body frame to the map frame.")
+      .def("__repr__", [](const Pose& p) {
+        return fmt::format("<Pose at {} ns, ({:.2f}, {:.2f}, {:.2f})>", p.stamp_ns, p.position.x(),
+                           p.position.y(), p.position.z());
+      });
+}
+
+}  // namespace
+
+SeenFrame seen_frame(const py::handle& value, const std::string& name) {
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) || py::len(value) != 2)
+    refuse_type(name, "a pair (Frame, Pose)", value);
+  const auto pair = py::reinterpret_borrow<py::sequence>(value);
+  return {instance<DetectionFrame>(pair[0], name + "[0]"), instance<VehiclePose>(pair[1], name + "[1]")};
+}
+
+std::vector<SeenFrame> frames_in_order(const py::handle& value, const std::string& name) {
+  std::vector<SeenFrame> frames = list(value, name, seen_frame);
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    if (frames[i].frame.stamp_ns < frames[i - 1].frame.stamp_ns)
+      refuse_value(name + "[" + std::to_string(i) + "]", "stamps must ascend");
+  return frames;
+}
+
+void bind_frame(py::module_& module) {
+  bind_detection(module);
+  bind_frames(module);
+  bind_pose(module);
+}
+
+}  // namespace laneloom::python

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+/// The parts of the module, each in a file of its own. Objects of the module cannot be changed once they are
+/// made, so that threads may share them; but for Config and Mapper.
+namespace laneloom::python {
+
+namespace py = pybind11;
+
+void bind_config(py::module_& module);
+void bind_frame(py::module_& module);
+void bind_map(py::module_& module);
+void bind_mapper(py::module_& module);
+void bind_truth(py::module_& module);
+void bind_files(py::module_& module);
+void bind_evaluation(py::module_& module);
+void bind_later(py::module_& module);
+void bind_render(py::module_& module);
+
+/// A frame and the pose at its stamp.
+struct SeenFrame {
+  DetectionFrame frame;
+  VehiclePose pose;
+};
+
+/// Of a pair (Frame, Pose), as read_frames() gives it.
+SeenFrame seen_frame(const py::handle& value, const std::string& name);
+/// Of a list of such pairs, whose stamps ascend.
+std::vector<SeenFrame> frames_in_order(const py::handle& value, const std::string& name);
+
+}  // namespace laneloom::python

@@ -1,0 +1,81 @@
+"""Fuses the road markings that a network detects into a lane map, and rates both.
+
+>>> import laneloom
+>>> truth = laneloom.Truth.load("road.truth.json")
+>>> frames = laneloom.read_frames("road.frames.jsonl")
+>>> mapper = laneloom.Mapper()
+>>> maps = [mapper.update(frame, pose) for frame, pose in frames]
+>>> laneloom.evaluate(truth, maps).markings.f1
+>>> laneloom.evaluate(truth, frames=frames).markings.f1
+>>> laneloom.evaluate_later(frames, maps).score("laneline", 20).map.recall
+
+Metres, radians, nanoseconds. The body frame is the vehicle's: x forward, y left, z up. The map frame is the fixed one
+that poses are given in. Arrays are copies. Objects cannot be changed once they are made, but for Config and Mapper.
+What is wrong with an argument is a TypeError or a ValueError whose text begins with the argument's name.
+"""
+
+from ._core import (
+    Config,
+    ConfigError,
+    Detection,
+    Evaluation,
+    Frame,
+    Lane,
+    LaterEvaluation,
+    LaterFigures,
+    LaterScore,
+    LineageEvent,
+    Linkage,
+    LocalMap,
+    Mapper,
+    Marking,
+    Neighbour,
+    PairScore,
+    Pose,
+    Score,
+    Stopline,
+    Truth,
+    TruthLane,
+    TruthMarking,
+    __version__,
+    evaluate,
+    evaluate_later,
+    read_frames,
+    read_maps,
+    render,
+    write_frames,
+    write_maps,
+)
+
+__all__ = [
+    "Config",
+    "ConfigError",
+    "Detection",
+    "Evaluation",
+    "Frame",
+    "Lane",
+    "LaterEvaluation",
+    "LaterFigures",
+    "LaterScore",
+    "LineageEvent",
+    "Linkage",
+    "LocalMap",
+    "Mapper",
+    "Marking",
+    "Neighbour",
+    "PairScore",
+    "Pose",
+    "Score",
+    "Stopline",
+    "Truth",
+    "TruthLane",
+    "TruthMarking",
+    "__version__",
+    "evaluate",
+    "evaluate_later",
+    "read_frames",
+    "read_maps",
+    "render",
+    "write_frames",
+    "write_maps",
+]
