@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "laneloom/network_profile.hpp"
+
 /// Every parameter, with its default here and nowhere else. Angles are in degrees, as people write them.
 /// Units and ranges are checked when a file is read (src/config); "ours" marks a choice that the paper leaves
 /// open.
@@ -132,7 +134,8 @@ struct FusionConfig {
   double gate_angle_deg = 25.0;
   double min_overlap_m = 2.0;
   // How well an observation tells the lateral position.
-  bool learn = true;             ///< how each source errs, from what is later seen from near
+  bool learn = true;             ///< how each source errs: from what is later seen from near
+  std::string profile_file;      ///< what is known of the networks to begin with; empty: nothing
   double stddev_m = 0.03;        ///< at the vehicle, before anything is learned
   double stddev_per_m = 0.0035;  ///< more, per metre from it
   double bias_stddev_m =
@@ -178,6 +181,7 @@ struct MapperConfig {
   LinkageConfig linkage;
   DirectionConfig direction;
   StoplineConfig stopline;
+  NetworkProfiles networks;  ///< what fusion.profile_file tells; it is not part of the configuration's text
 };
 
 /// Synchronisation of detections with poses.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/network_profile.hpp"
 #include "laneloom/sd_map.hpp"
 #include "laneloom/stages.hpp"
 #include "laneloom/types.hpp"
@@ -20,7 +21,8 @@ struct MapperState;
 /// Not thread-safe: one thread at a time.
 class Mapper {
  public:
-  /// `config` must be valid (see validate() in config/config_file.hpp). `sd_map` is in the map frame.
+  /// `config` must be valid (see validate() in config/config_file.hpp). `sd_map` is in the map frame. Throws
+  /// ConfigError where a profile of config.networks names a value that no network has.
   explicit Mapper(const MapperConfig& config, SdMap sd_map = {});
   ~Mapper();
   Mapper(Mapper&&) noexcept;
@@ -38,6 +40,9 @@ class Mapper {
   /// Returns, by name, the values that the mapper has learned of one source's network, as standard deviations
   /// by range. The list is empty where the mapper does not know the source.
   std::vector<std::pair<std::string, double>> learned(const std::string& source) const;
+  /// The same of all sources, with what each value is worth: MapperConfig::networks of a mapper that starts
+  /// with it.
+  NetworkProfiles profiles() const;
 
   /// Forgets everything but the ids that were given out and what was learned of the networks.
   void reset();

@@ -1,19 +1,16 @@
 #include <yaml-cpp/yaml.h>
 
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <utility>
 
 #include "config/config_file.hpp"
+#include "read_text.hpp"
 #include "schema.hpp"
 #include "validate.hpp"
 
 namespace laneloom {
 namespace config {
 namespace {
-
-constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
 
 /// A Problem whose line is known; 0: it is not.
 struct LocatedProblem {
@@ -126,19 +123,6 @@ Config parse(const std::string& text, Config config = {}) {
     throw LocatedProblem{line == lines.end() ? 0 : line->second, *problem};
   }
   return config;
-}
-
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw ConfigError(path.string() + ": is not a readable file");
-  if (std::filesystem::file_size(path, error) > kMaxFileBytes)
-    throw ConfigError(path.string() + ": is too large");
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw ConfigError(path.string() + ": can not be read");
-  return text.str();
 }
 
 }  // namespace

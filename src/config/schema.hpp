@@ -110,9 +110,9 @@ void visit(auto& v, Is<PolylineConfig> auto& c) {
 
 // NOLINTNEXTLINE(readability-function-size): a table
 void visit(auto& v, Is<FusionConfig> auto& c) {
-  auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, learn, stddev_m,
-         stddev_per_m, bias_stddev_m, fade_m, birth_log_odds, extension_log_odds, hit_log_odds, miss_log_odds,
-         max_log_odds, min_log_odds, extent_log_odds, publish_log_odds, confirm_log_odds,
+  auto& [sample_step_m, station_spacing_m, gate_m, gate_angle_deg, min_overlap_m, learn, profile_file,
+         stddev_m, stddev_per_m, bias_stddev_m, fade_m, birth_log_odds, extension_log_odds, hit_log_odds,
+         miss_log_odds, max_log_odds, min_log_odds, extent_log_odds, publish_log_odds, confirm_log_odds,
          existence_at_publish, existence_at_max, min_birth_length_m, min_length_m, merge_distance_m] = c;
   v.number("sample_step_m", sample_step_m, {"m", 0.1, 2},
            "Distance between the samples along a detection that observe lines.");
@@ -125,7 +125,10 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("min_overlap_m", min_overlap_m, {"m", 1, 20},
            "A detection observes a line only if the two run along each other for at least this length.");
   v.flag("learn", learn,
-         "Whether the mapper learns how each source errs, from what is later seen from near.");
+         "Whether the mapper learns how each source errs. If not, what it knows of a source is frozen.");
+  v.path("profile_file", profile_file,
+         "File with what is known of the networks before anything is learned, as `laneloom learn` writes it. "
+         "Empty: nothing is known.");
   v.number("stddev_m", stddev_m, {"m", 0.01, 2},
            "Lateral standard deviation of an observation at the vehicle, before anything is learned.");
   v.number("stddev_per_m", stddev_per_m, {"m/m", 0, 0.2},
@@ -270,7 +273,7 @@ void visit(auto& v, Is<StoplineConfig> auto& c) {
 
 void visit(auto& v, Is<MapperConfig> auto& c) {
   auto& [method, range, preprocess, voxel_map, clustering, polyline, fusion, style, boundary, section, lane,
-         linkage, direction, stopline] = c;
+         linkage, direction, stopline, networks] = c;  // networks: of fusion.profile_file
   choice(v, "method", method, kFusionMethods,
          "How detections become markings. \"lines\" follows each line over time (section fusion). \"voxels\" "
          "is the paper's algorithm (sections voxel_map, clustering and polyline).");

@@ -56,7 +56,9 @@ const char* name(Stage stage) {
 }
 
 Mapper::Mapper(const MapperConfig& config, SdMap sd_map)
-    : config_(config), sd_map_(std::move(sd_map)), state_(std::make_unique<MapperState>(config)) {}
+    : config_(config), sd_map_(std::move(sd_map)), state_(std::make_unique<MapperState>(config)) {
+  check_profiles(config_);
+}
 Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
@@ -93,7 +95,17 @@ const LocalMap& Mapper::map() const { return state_->map; }
 std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& source) const {
   const LineMapper* lines = state_->fusion.lines();
   const Network* network = lines != nullptr ? lines->networks().find(source) : nullptr;
-  return network != nullptr ? network->lateral.learned() : std::vector<std::pair<std::string, double>>{};
+  std::vector<std::pair<std::string, double>> values;
+  if (network == nullptr) return values;
+  for (const auto& [name, learned] : network->profile()) values.emplace_back(name, learned.value);
+  return values;
+}
+
+NetworkProfiles Mapper::profiles() const {
+  NetworkProfiles profiles;
+  if (const LineMapper* lines = state_->fusion.lines())
+    for (const Network& network : lines->networks().all()) profiles[network.source] = network.profile();
+  return profiles;
 }
 
 void Mapper::reset() {

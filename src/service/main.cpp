@@ -16,11 +16,11 @@
 
 #include "config/config_file.hpp"
 #include "laneloom/dds/participant.hpp"
-#include "sd_map/osm.hpp"
 #include "service/executor.hpp"
 #include "service/log.hpp"
 #include "service/service.hpp"
 #include "service/signals.hpp"
+#include "session/mapping_session.hpp"
 
 namespace laneloom {
 namespace {
@@ -128,7 +128,7 @@ int start(const Options& options) {
     return EX_OK;
   }
   if (options.check_only) {
-    load_sd_map(config.sd_map);
+    const MappingSession session(config);  // reads the files that the configuration names
     dds::check_files(config.dds);
     std::printf("configuration %s is valid\n", config_hash(config).c_str());
     return EX_OK;

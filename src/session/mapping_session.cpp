@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "config/network_profile.hpp"
 #include "mapping/state.hpp"
 #include "sd_map/osm.hpp"
 #include "session/admission.hpp"
@@ -24,6 +25,12 @@ bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateCo
          step_s <= config.max_stamp_step_s + max_pause_s &&
          (pose.position - checkpoint.position).norm() <=
              config.max_pose_jump_m + config.max_speed_mps * step_s;
+}
+
+MapperConfig with_profiles(MapperConfig config) {
+  for (auto& [source, profile] : load_network_profiles(config.fusion.profile_file))
+    config.networks[source] = std::move(profile);
+  return config;
 }
 
 std::string_view reason(Gate::Verdict verdict) {
@@ -50,7 +57,7 @@ struct MappingSession::State {
         pose_gate(c.gate),
         sources(c.gate),
         synchroniser(c.sync),
-        mapper(c.mapper, load_sd_map(c.sd_map)) {}
+        mapper(with_profiles(c.mapper), load_sd_map(c.sd_map)) {}
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);

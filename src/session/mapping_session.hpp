@@ -35,7 +35,8 @@ struct SourceProgress {
 /// thread at a time.
 class MappingSession {
  public:
-  /// `config` must be valid; its parts mapper, sd_map, sync and gate are used. Throws as load_sd_map().
+  /// `config` must be valid; its parts mapper, sd_map, sync and gate are used. Throws as
+  /// load_sd_map(), load_network_profiles() and Mapper().
   explicit MappingSession(const Config& config);
   ~MappingSession();
   MappingSession(MappingSession&&) noexcept;

@@ -41,6 +41,29 @@ TEST_F(Commands, ReplayGivesTheSameMapsAgain) {
   EXPECT_THAT(output(), HasSubstr(report.at("hash")));
 }
 
+TEST_F(Commands, LearnWritesAProfileThatAReplayStartsWith) {
+  simulate("inhouse", "in.frames.jsonl");
+  ASSERT_EQ(run({"learn", "--in", file("in.frames.jsonl"), "--out", file("network.yaml")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("lateral standard deviation"));
+  const auto replay = [&](const std::string& fusion, const char* report) {
+    std::ofstream(file("c.yaml")) << "mapper: {fusion: {" << fusion << "}}";
+    EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", file("c.yaml"), "--report",
+                   file(report)}),
+              0)
+        << output();
+    return json::parse(content(file(report))).at("hash");
+  };
+  const json nothing = replay("", "r.json");
+  EXPECT_NE(replay("profile_file: '" + file("network.yaml") + "'", "r.json"), nothing);
+  EXPECT_EQ(replay("profile_file: ''", "r.json"), nothing);
+
+  std::ofstream(file("network.yaml")) << "front: {stddev: {value: 1, weight: 1}}";
+  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", file("c.yaml")}), 0);
+  std::ofstream(file("c.yaml")) << "mapper: {fusion: {profile_file: '" << file("network.yaml") << "'}}";
+  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", file("c.yaml")}), 1);
+  EXPECT_THAT(output(), HasSubstr("network.yaml: front.stddev is not a value that is learned of a network"));
+}
+
 TEST_F(Commands, ReplayWritesRecordingsToo) {
   simulate("inhouse", "in.frames.jsonl");
   ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("maps.mcap")}), 0) << output();

@@ -23,7 +23,8 @@ ServiceStatus degraded() {
   status.pending_frames = 3;
   status.tick = {0.9, 0.6, 4.9, 6.0};
   status.counters = {{"frames_fused", 12}, {"poses_lost", 0}, {"poses_refused_late", 5}};
-  status.sources = {{"front camera", 9, 100, 130, 31}};
+  status.sources = {
+      {"front camera", 9, 100, 130, 31, 30, 0.1, {{"pitch_gain", 0.9}, {"stddev_at_8_m", 0.034}}}};
   status.version = "1.2.3";
   status.config_hash = "0123456789abcdef";
   return status;
@@ -40,6 +41,9 @@ TEST(StatusReport, TellsHowTheServiceIs) {
   EXPECT_THAT(text, HasSubstr("pending frames  3"));
   EXPECT_THAT(text, HasSubstr("mean 0.90  p50 0.60  p99 4.90  max 6.00 ms"));
   EXPECT_THAT(text, HasSubstr("\"front camera\": 31 frames, 100 to 130, session 9"));
+  EXPECT_THAT(text, HasSubstr("lateral deviation      0.03 m at 8"));
+  EXPECT_THAT(text, HasSubstr("believed of pitch, pose 0.90 of"));
+  EXPECT_THAT(text, Not(HasSubstr("errors last"))) << "it is not told";
   EXPECT_THAT(text, HasSubstr("poses_refused_late"));
   EXPECT_THAT(text, Not(HasSubstr("poses_lost"))) << "it is zero";
   EXPECT_THAT(text, Not(HasSubstr("+")));

@@ -17,6 +17,7 @@ void add_render(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_replay(CLI::App& app);
+void add_learn(CLI::App& app);
 void add_record(CLI::App& app);
 void add_export(CLI::App& app);
 void add_import(CLI::App& app);

@@ -27,6 +27,8 @@ class Replay {
 
   const Counters& counters() const { return session_.counters(); }
   std::size_t pending() const { return session_.pending(); }
+  /// What was learned of each source's network.
+  NetworkProfiles networks() const { return session_.mapper().profiles(); }
   /// Of all maps so far, with their instances, as they go over the wire; but the times of arrival are left
   /// out.
   std::string hash() const { return digest_.text(); }

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "io/printable.hpp"
 #include "laneloom/state_names.hpp"
@@ -42,6 +45,31 @@ std::string counter_lines(const ServiceStatus& status, const std::map<std::strin
   return text;
 }
 
+/// What was learned of a network, in a line a subject; empty where nothing was.
+std::string learned_lines(const SourceStatus& source) {
+  const std::map<std::string, double> learned(source.learned.begin(), source.learned.end());
+  std::string text;
+  const auto line = [&](const char* subject, const char* after, const std::vector<std::string>& names) {
+    std::string values;
+    for (const std::string& name : names)
+      if (const auto value = learned.find(name); value != learned.end())
+        values += fmt::format(" {:.2f}", value->second);
+    if (!values.empty()) text += fmt::format("    {:<22}{}{}\n", subject, values, after);
+  };
+  line("lateral deviation", " m at 8, 12, 18, 26, 36, 48 m",
+       {"stddev_at_8_m", "stddev_at_12_m", "stddev_at_18_m", "stddev_at_26_m", "stddev_at_36_m",
+        "stddev_at_48_m"});
+  line("errors last", " m", {"correlation_m"});
+  line("believed of pitch, pose", " of what is suspected", {"pitch_gain", "alignment_gain"});
+  for (const std::string type : {"laneline", "roadedge"})
+    line((type + "s seen").c_str(), " of those there, 0, 10, 20, 30 m ahead",
+         {"rate_" + type + "_ahead_0_m", "rate_" + type + "_ahead_10_m", "rate_" + type + "_ahead_20_m",
+          "rate_" + type + "_ahead_30_m"});
+  line("wrong lines' confidence", " less, of lanelines, roadedges",
+       {"confidence_deficit_laneline", "confidence_deficit_roadedge"});
+  return text;
+}
+
 }  // namespace
 
 std::map<std::string, std::uint64_t> rises(const ServiceStatus& status, const ServiceStatus& previous) {
@@ -71,7 +99,8 @@ std::string describe(const ServiceStatus& status, const ServiceStatus* previous)
       time_text(status.tick_delay));
   for (const SourceStatus& source : status.sources)
     text += fmt::format("source          \"{}\": {} frames, {} to {}, session {}\n", printable(source.source),
-                        source.frames, source.first_sequence, source.last_sequence, source.session_id);
+                        source.frames, source.first_sequence, source.last_sequence, source.session_id) +
+            learned_lines(source);
   return text +
          counter_lines(status, previous ? rises(status, *previous) : std::map<std::string, std::uint64_t>{});
 }
@@ -80,11 +109,15 @@ json to_json(const ServiceStatus& status, const ServiceStatus* previous) {
   json reasons = json::array(), sources = json::array(), counters = json::object();
   for (const StateReason reason : status.reasons) reasons.push_back(name(reason));
   for (const SourceStatus& source : status.sources)
-    sources.push_back({{"source", source.source},
-                       {"session_id", source.session_id},
-                       {"first_sequence", source.first_sequence},
-                       {"last_sequence", source.last_sequence},
-                       {"frames", source.frames}});
+    sources.push_back(
+        {{"source", source.source},
+         {"session_id", source.session_id},
+         {"first_sequence", source.first_sequence},
+         {"last_sequence", source.last_sequence},
+         {"frames", source.frames},
+         {"fused", source.fused},
+         {"lag_s", source.lag_s},
+         {"learned", std::map<std::string, double>(source.learned.begin(), source.learned.end())}});
   for (const auto& [counter, total] : status.counters) counters[counter] = total;
   return {{"event", "status"},
           {"sequence", status.sequence},

@@ -1,7 +1,9 @@
 #include "mapping/lines/detection_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 namespace laneloom {
 namespace {
@@ -15,6 +17,8 @@ constexpr double kMaxDeficit = 0.3;
 constexpr double kLeastConfidences = 10.0;            // to tell their level
 constexpr double kMinWrongHits = 3.0;                 // a single one is told by its lack of company
 constexpr double kMostAgainst = 4.0, kMostFor = 1.0;  // log odds: many wrong lines look right, too
+
+constexpr std::array kTypeNames{"laneline", "roadedge", "stopline"};
 
 // Priors: of networks in general, worth some seconds of driving.
 constexpr double kRateAhead = 0.9, kRateLossPerRing = 0.06, kRateBehind = 0.05, kRateWeight = 200.0;
@@ -41,7 +45,27 @@ void LearnedMean::add(double value, double max_weight) {
   mean += (value - mean) / weight;
 }
 
-DetectionModel::DetectionModel() {
+void DetectionModel::each(auto& model, const auto& visit) {
+  const auto metres = [](std::size_t i, double width_m) {
+    return std::to_string(std::lround(static_cast<double>(i) * width_m)) + "_m";
+  };
+  for (const MarkingType type : kMarkingTypes) {
+    const std::string of_type = kTypeNames[index(type)];
+    for (std::size_t ring = 0; ring < kRings; ++ring) {
+      const std::string from = metres(ring, kRing_m);
+      visit("rate_" + of_type + "_ahead_" + from, model.rates_[index(type)][ring]);
+      visit("rate_" + of_type + "_behind_" + from, model.rates_[index(type)][kRings + ring]);
+    }
+    for (std::size_t i = 0; i < kRanges; ++i)
+      visit("confidence_" + of_type + "_" + metres(i, kRange_m), model.levels_[index(type)][i]);
+    visit("confidence_deficit_" + of_type, model.deficits_[index(type)]);
+  }
+  visit(std::string("confidence"), model.level_);
+  visit(std::string("confidence_variance"), model.variance_);
+  visit(std::string("confidence_lasting_share"), model.lasting_);
+}
+
+DetectionModel::DetectionModel(const NetworkProfile& profile) {
   for (auto& of_type : rates_) {
     for (std::size_t ring = 0; ring < kRings; ++ring) {
       of_type[ring] = {kRateAhead - kRateLossPerRing * static_cast<double>(ring), kRateWeight};
@@ -51,6 +75,18 @@ DetectionModel::DetectionModel() {
   variance_ = kVariance;
   lasting_ = kLasting;
   deficits_.fill(kDeficit);
+  each(*this, [&](const std::string& name, LearnedMean& mean) {
+    if (const auto known = profile.find(name); known != profile.end())
+      mean = {known->second.value, known->second.weight};
+  });
+}
+
+NetworkProfile DetectionModel::profile() const {
+  NetworkProfile profile;
+  each(*this, [&](const std::string& name, const LearnedMean& mean) {
+    profile[name] = {mean.mean, mean.weight};
+  });
+  return profile;
 }
 
 void DetectionModel::learn_rate(MarkingType type, const Point& point_body, bool seen) {

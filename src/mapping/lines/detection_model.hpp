@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "laneloom/network_profile.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/lines/line_map.hpp"
 
@@ -26,7 +27,10 @@ struct LearnedMean {
 /// lines are right or wrong, so that no belief in confidences confirms itself. Ours.
 class DetectionModel {
  public:
-  DetectionModel();
+  /// What `profile` knows stands in place of what is taken of networks in general.
+  explicit DetectionModel(const NetworkProfile& profile = {});
+  /// What was learned, as the constructor takes it.
+  NetworkProfile profile() const;
 
   /// Whether a frame saw a place on an established line.
   void learn_rate(MarkingType type, const Point& point_body, bool seen);
@@ -55,6 +59,9 @@ class DetectionModel {
   static constexpr std::size_t kRings = 6, kRanges = 4;
   template <std::size_t Count>
   using ByTypeAnd = std::array<std::array<LearnedMean, Count>, kMarkingTypeCount>;
+
+  /// Calls `visit(name, mean)` for each value that is learned, of a model that may be const.
+  static void each(auto& model, const auto& visit);
 
   /// Of the mean of so many confidences of a right line.
   double variance_of_mean(double count) const;

@@ -110,7 +110,7 @@ void credit_observed(const View& view, const Association& association, const Fus
     Line& line = lines[match.line];
     line.last_seen_ns = std::max(line.last_seen_ns, view.frame->stamp_ns);
     credit_stations(match, hit(detection, config), view.news, config, line);
-    if (view.is_independent() && is_established(line, config)) {
+    if (config.learn && view.is_independent() && is_established(line, config)) {
       model.learn_confidence(line.type(), mean_range_m(detection, origin), detection.confidence);
       if (reaches_milestone(line.confidences.count, view.news)) model.learn_right(line.confidences);
     }
@@ -122,13 +122,13 @@ void discount_unobserved(const View& view, const MapBox& range, const FusionConf
                          DetectionModel& model, std::vector<Line>& lines) {
   for (Line& line : lines) {
     const MarkingType type = line.type();
-    const bool established = view.is_independent() && is_established(line, config);
+    const bool teaches = config.learn && view.is_independent() && is_established(line, config);
     for (Station& station : line.stations) {
       const Point place = view.T_body_map * station.position;
       const bool seen = station.sight == Sight::observed;
       const bool in_view = view.sees(station.position, type, range);
       const bool could_see = seen || in_view || (view.unlimited() && view.detects(type));
-      if (established && could_see && station.log_odds >= config.confirm_log_odds)
+      if (teaches && could_see && station.log_odds >= config.confirm_log_odds)
         model.learn_rate(type, place, seen);
       if (seen || !could_see) continue;
       if (in_view) station.sight = Sight::missed;
@@ -183,7 +183,7 @@ std::vector<Relative> prune_lines(const MapBox& range, const FusionConfig& confi
         std::ranges::any_of(line.stations, [&](const Station& s) { return !range.keeps(s.position); });
     std::vector<Line> pieces = living_pieces(line, range, config);
     if (pieces.empty()) {
-      if (!leaves) model.learn_wrong(line.type(), line.confidences);
+      if (config.learn && !leaves) model.learn_wrong(line.type(), line.confidences);
       continue;
     }
     const auto longest =

@@ -30,7 +30,7 @@ FusedMarkings LineMapper::fuse(const ObservedFrame& observed, const Scene& scene
                                IdSource& ids, const StageLog& log) {
   const FusionConfig& fusion = config.fusion;
   const Point origin = observed.T_map_body.translation();
-  const std::size_t source = networks_.number(observed.frame.source, scene.frame, fusion);
+  const std::size_t source = networks_.number(observed.frame.source, scene.frame, config);
   Network& network = networks_[source];
   Viewpoint from = viewpoint(observed, source, network.lateral);
   Association association = associated(observed, network, fusion, from);

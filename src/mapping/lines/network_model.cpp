@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
+#include <utility>
 
 #include "mapping/geometry/reproducible.hpp"
 
@@ -31,26 +33,46 @@ Between between(double range_m) {
   return {node, std::clamp((range_m - nodes_m[node]) / (nodes_m[node + 1] - nodes_m[node]), 0.0, 1.0)};
 }
 
+constexpr const char *kCorrelation = "correlation_m", *kPitchGain = "pitch_gain",
+                     *kAlignmentGain = "alignment_gain";
+
+std::string stddev_name(double range_m) { return "stddev_at_" + std::to_string(std::lround(range_m)) + "_m"; }
+
 void add(double value, double& sum) { sum += value - sum / kMemory; }
 
 }  // namespace
 
 double Gain::value() const { return std::clamp(effect_ / (evidence_ + kPriorGain), 0.0, 1.0); }
 
+void Gain::start_with(const LearnedValue& known) {
+  evidence_ = known.weight;
+  effect_ = known.value * (known.weight + kPriorGain);
+}
+
 void Gain::learn(double suspected, double proved) {
   add(suspected * suspected, evidence_);
   add(suspected * proved, effect_);
 }
 
-NetworkModel::NetworkModel(const FusionConfig& config)
-    : pairs_(kPriorPairs),
-      products_(kPriorPairs * kShared * reproducible::exp(-kPriorDistance_m / kPriorCorrelation_m)),
-      distances_m_(kPriorPairs * kPriorDistance_m) {
+NetworkModel::NetworkModel(const FusionConfig& config, const NetworkProfile& profile) {
+  const auto known = [&profile](const std::string& name, const LearnedValue& otherwise) {
+    const auto found = profile.find(name);
+    return found != profile.end() ? found->second : otherwise;
+  };
   for (std::size_t i = 0; i < kNodes_m.size(); ++i) {
-    const double stddev_m = config.stddev_m + config.stddev_per_m * kNodes_m[i];
-    views_[i] = kPriorViews;
-    squares_m2_[i] = kPriorViews * stddev_m * stddev_m;
+    const auto [stddev_m, views] =
+        known(stddev_name(kNodes_m[i]), {config.stddev_m + config.stddev_per_m * kNodes_m[i], kPriorViews});
+    views_[i] = views;
+    squares_m2_[i] = views * stddev_m * stddev_m;
   }
+  const auto [correlation_m, pairs] = known(kCorrelation, {kPriorCorrelation_m, kPriorPairs});
+  pairs_ = pairs;
+  products_ =
+      pairs * kShared *
+      reproducible::exp(-kPriorDistance_m / std::clamp(correlation_m, kMinCorrelation_m, kMaxCorrelation_m));
+  distances_m_ = pairs * kPriorDistance_m;
+  pitch_.start_with(known(kPitchGain, {}));
+  alignment_.start_with(known(kAlignmentGain, {}));
 }
 
 double NetworkModel::stddev_m(double range_m) const {
@@ -94,15 +116,13 @@ void NetworkModel::learn(const FarView& one, const FarView& other, double near_m
   add(std::abs(one.range_m - other.range_m), distances_m_);
 }
 
-std::vector<std::pair<std::string, double>> NetworkModel::learned() const {
-  std::vector<std::pair<std::string, double>> values;
-  values.reserve(kNodes_m.size() + 3);
-  for (const double range_m : kNodes_m)
-    values.emplace_back("stddev_at_" + std::to_string(std::lround(range_m)) + "_m", stddev_m(range_m));
-  values.emplace_back("correlation_m", correlation_m());
-  values.emplace_back("pitch_gain", pitch_gain());
-  values.emplace_back("alignment_gain", alignment_gain());
-  return values;
+NetworkProfile NetworkModel::profile() const {
+  NetworkProfile profile{{kCorrelation, {correlation_m(), pairs_}},
+                         {kPitchGain, {pitch_gain(), pitch_.evidence()}},
+                         {kAlignmentGain, {alignment_gain(), alignment_.evidence()}}};
+  for (std::size_t i = 0; i < kNodes_m.size(); ++i)
+    profile[stddev_name(kNodes_m[i])] = {stddev_m(kNodes_m[i]), views_[i]};
+  return profile;
 }
 
 }  // namespace laneloom

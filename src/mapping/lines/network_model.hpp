@@ -4,11 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/network_profile.hpp"
 
 namespace laneloom {
 
@@ -32,6 +30,10 @@ class Gain {
  public:
   /// 0 to 1; at first 0.
   double value() const;
+  /// How many squared deviations were suspected.
+  double evidence() const { return evidence_; }
+  /// Of so many, such a share is taken to have come true.
+  void start_with(const LearnedValue& known);
   /// Both in standard deviations of what else moves the proof.
   void learn(double suspected, double proved);
 
@@ -55,8 +57,9 @@ class NetworkModel {
   static constexpr std::array<double, 6> kNodes_m{8.0, 12.0, 18.0, 26.0, 36.0, 48.0};
 
   NetworkModel() = default;
-  /// Before anything is learned: the deviations of the configuration, and no pitch is believed.
-  explicit NetworkModel(const FusionConfig& config);
+  /// Before anything is learned: the deviations of the configuration, and no pitch is believed. What
+  /// `profile` knows stands in their place.
+  explicit NetworkModel(const FusionConfig& config, const NetworkProfile& profile = {});
 
   /// Lateral standard deviation of a sample from so far away.
   double stddev_m(double range_m) const;
@@ -72,8 +75,8 @@ class NetworkModel {
   /// Likewise the place of two views, of which one is the next after the other.
   void learn(const FarView& one, const FarView& other, double near_m);
 
-  /// By name, for people.
-  std::vector<std::pair<std::string, double>> learned() const;
+  /// What was learned, as the constructor takes it.
+  NetworkProfile profile() const;
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "laneloom/error.hpp"
 #include "laneloom/limits.hpp"
 
 namespace laneloom {
@@ -22,13 +23,25 @@ double Standpoint::news(const Point& origin) {
   return 1.0;
 }
 
-std::size_t Networks::number(const std::string& source, std::uint64_t frame, const FusionConfig& config) {
+NetworkProfile Network::profile() const {
+  NetworkProfile profile = lateral.profile();
+  profile.merge(detection.profile());
+  std::erase_if(profile, [](const auto& value) { return value.second.weight <= 0.0; });
+  return profile;
+}
+
+std::size_t Networks::number(const std::string& source, std::uint64_t frame, const MapperConfig& config) {
   auto network = std::ranges::find(networks_, source, &Network::source);
   if (network == networks_.end()) {
     if (networks_.size() < kSourcesAtATime) networks_.emplace_back();  // of frame 0: before all others
     network = std::ranges::min_element(networks_, {}, &Network::frame);
-    *network = {
-        .source = source, .frame = frame, .lateral = NetworkModel(config), .detection = {}, .standpoint = {}};
+    const auto known = config.networks.find(source);
+    const NetworkProfile profile = known != config.networks.end() ? known->second : NetworkProfile{};
+    *network = {.source = source,
+                .frame = frame,
+                .lateral = NetworkModel(config.fusion, profile),
+                .detection = DetectionModel(profile),
+                .standpoint = {}};
   }
   network->frame = frame;
   return static_cast<std::size_t>(std::distance(networks_.begin(), network));
@@ -37,6 +50,16 @@ std::size_t Networks::number(const std::string& source, std::uint64_t frame, con
 const Network* Networks::find(const std::string& source) const {
   const auto network = std::ranges::find(networks_, source, &Network::source);
   return network != networks_.end() ? &*network : nullptr;
+}
+
+void check_profiles(const MapperConfig& config) {
+  NetworkProfile known = NetworkModel(config.fusion).profile();
+  known.merge(DetectionModel().profile());
+  for (const auto& [source, profile] : config.networks)
+    for (const auto& [name, value] : profile)
+      if (!known.contains(name))
+        throw ConfigError(config.fusion.profile_file + ": " + source + "." + name +
+                          " is not a value that is learned of a network");
 }
 
 }  // namespace laneloom

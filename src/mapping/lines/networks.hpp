@@ -37,6 +37,8 @@ struct Network {
   DetectionModel detection;  ///< whether there are lines
   Standpoint standpoint;
 
+  NetworkProfile profile() const;
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(source, frame, lateral, detection, standpoint);
@@ -48,10 +50,11 @@ struct Network {
 class Networks {
  public:
   /// The number of a source, from which the `frame`-th frame comes.
-  std::size_t number(const std::string& source, std::uint64_t frame, const FusionConfig& config);
+  std::size_t number(const std::string& source, std::uint64_t frame, const MapperConfig& config);
   Network& operator[](std::size_t number) { return networks_[number]; }
   /// Null: nothing is known of that source.
   const Network* find(const std::string& source) const;
+  const std::vector<Network>& all() const { return networks_; }
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -61,5 +64,8 @@ class Networks {
  private:
   std::vector<Network> networks_;
 };
+
+/// Throws ConfigError where a profile of `config` has a value that no network has.
+void check_profiles(const MapperConfig& config);
 
 }  // namespace laneloom

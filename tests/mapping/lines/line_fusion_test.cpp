@@ -17,7 +17,7 @@ using test::straight;
 /// Sees detections from the map's origin, frame by frame.
 class LineFusion : public ::testing::Test {
  protected:
-  LineFusion() { networks_.number("", 1, config_); }
+  LineFusion() { networks_.number("", 1, {.fusion = config_}); }
 
   void see(const std::vector<Polyline>& polylines, MarkingType type = MarkingType::laneline) {
     std::vector<ObservedMarking> markings;

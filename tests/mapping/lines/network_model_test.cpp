@@ -93,10 +93,10 @@ TEST_F(LateralModel, LearnsHowLongItsErrorsLast) {
 }
 
 TEST_F(LateralModel, ShowsWhatItLearned) {
-  const auto values = network_.learned();
-  ASSERT_EQ(values.size(), NetworkModel::kNodes_m.size() + 3);
-  EXPECT_EQ(values[0].first, "stddev_at_8_m");
-  EXPECT_EQ(values.back(), std::pair(std::string("alignment_gain"), 0.0));
+  const NetworkProfile profile = network_.profile();
+  EXPECT_EQ(profile.size(), NetworkModel::kNodes_m.size() + 3);
+  EXPECT_NEAR(profile.at("stddev_at_8_m").value, network_.stddev_m(8.0), 1e-12);
+  EXPECT_EQ(profile.at("alignment_gain"), LearnedValue{});
 }
 
 }  // namespace

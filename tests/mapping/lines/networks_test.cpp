@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "laneloom/error.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -34,6 +36,58 @@ TEST(Networks, TheOneThatWasNotHeardOfForLongestIsForgotten) {
   EXPECT_NE(networks.find("0"), nullptr);
   EXPECT_EQ(networks.find("1"), nullptr);
   EXPECT_NE(networks.find("another"), nullptr);
+}
+
+TEST(Networks, StartsWithWhatTheProfileOfASourceKnows) {
+  MapperConfig config;
+  config.networks["front"] = {{"stddev_at_26_m", {0.4, 1000}},
+                              {"correlation_m", {5.0, 500}},
+                              {"pitch_gain", {0.8, 900}},
+                              {"rate_roadedge_behind_10_m", {0.5, 700}},
+                              {"confidence_deficit_laneline", {0.25, 60}}};
+  Networks networks;
+  const Network front = networks[networks.number("front", 1, config)];
+  EXPECT_NEAR(front.lateral.stddev_m(26.0), 0.4, 1e-12);
+  EXPECT_NEAR(front.lateral.correlation_m(), 5.0, 1e-9);
+  EXPECT_NEAR(front.lateral.pitch_gain(), 0.8, 1e-12);
+  EXPECT_EQ(front.detection.rate(MarkingType::roadedge, {-15, 0, 0}), 0.5);
+  EXPECT_EQ(front.lateral.stddev_m(8.0), NetworkModel(config.fusion).stddev_m(8.0)) << "not in the profile";
+
+  const Network rear = networks[networks.number("rear", 2, config)];
+  EXPECT_EQ(rear.lateral.pitch_gain(), 0.0) << "a profile is of one source";
+}
+
+TEST(Networks, AProfileGivesTheSameNetworkAgain) {
+  MapperConfig config;
+  Networks networks;
+  Network& taught = networks[networks.number("front", 1, config)];
+  for (int i = 0; i < 500; ++i) {
+    const FarView view{.source = 0, .range_m = 20.0, .lateral_m = 0.1, .stretched_m = 0.08};
+    taught.lateral.learn(view, 0.0);
+    taught.detection.learn_rate(MarkingType::laneline, {12, 0, 0}, i % 3 != 0);
+    taught.detection.learn_confidence(MarkingType::laneline, 12.0, 0.6);
+  }
+  config.networks["front"] = taught.profile();
+  Networks again;
+  const NetworkProfile profile = again[again.number("front", 1, config)].profile();
+  ASSERT_EQ(profile.size(), taught.profile().size());
+  for (const auto& [name, learned] : taught.profile()) {
+    EXPECT_NEAR(profile.at(name).value, learned.value, 1e-9) << name;
+    EXPECT_NEAR(profile.at(name).weight, learned.weight, 1e-9) << name;
+  }
+}
+
+TEST(Networks, AProfileWithAnUnknownValueIsRefused) {
+  MapperConfig config;
+  config.fusion.profile_file = "network.yaml";
+  config.networks["front"] = {{"stddev_at_27_m", {0.4, 1000}}};
+  try {
+    check_profiles(config);
+    FAIL() << "it was taken";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "network.yaml: front.stddev_at_27_m is not a value that is learned of a network");
+  }
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace laneloom {
+
+/// A mean, and how many values it is worth: as many new ones have the same weight.
+struct LearnedValue {
+  double value = 0.0, weight = 0.0;
+
+  friend bool operator==(const LearnedValue&, const LearnedValue&) = default;
+};
+
+/// What was learned of one network, by name: `src/mapping/README.md` explains each value.
+using NetworkProfile = std::map<std::string, LearnedValue>;
+
+/// Profiles by the source that the network's frames name.
+using NetworkProfiles = std::map<std::string, NetworkProfile>;
+
+}  // namespace laneloom

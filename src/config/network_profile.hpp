@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "laneloom/error.hpp"
+#include "laneloom/network_profile.hpp"
+
+/// Files with profiles of networks: YAML, a map of sources, each a map of values by name:
+///     front: {stddev_at_8_m: {value: 0.03, weight: 5400}, …}
+namespace laneloom {
+
+/// Throws ConfigError naming file, line and key for an unreadable file, bad YAML, a key that is unknown or
+/// given twice, a value that is no finite number, and a weight that is none above 0. Whether a network has
+/// values of these names, Mapper checks. An empty path gives no profiles.
+NetworkProfiles load_network_profiles(const std::filesystem::path& path);
+
+/// As load_network_profiles() reads it back.
+std::string dump(const NetworkProfiles& profiles);
+
+}  // namespace laneloom

@@ -1,0 +1,64 @@
+#include "config/network_profile.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace laneloom {
+namespace {
+
+using testing::EndsWith;
+
+class NetworkProfileFile : public ::testing::Test {
+ protected:
+  ~NetworkProfileFile() override { std::filesystem::remove(path_); }
+
+  NetworkProfiles load(const std::string& text) {
+    std::ofstream(path_) << text;
+    return load_network_profiles(path_);
+  }
+  std::string error_of(const std::string& text) {
+    try {
+      load(text);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+  std::filesystem::path path_ = testing::TempDir() + "network_profile_test.yaml";
+};
+
+TEST_F(NetworkProfileFile, ReadsBackWhatItWrote) {
+  const NetworkProfiles profiles{
+      {"front: camera", {{"pitch_gain", {0.875, 12.5}}, {"correlation_m", {7.5, 300}}}},
+      {"", {{"stddev_at_8_m", {0.03125, 50}}}}};
+  EXPECT_EQ(load(dump(profiles)), profiles);
+}
+
+TEST_F(NetworkProfileFile, AnEmptyPathIsNoProfile) { EXPECT_TRUE(load_network_profiles("").empty()); }
+
+TEST_F(NetworkProfileFile, TellsWhereItIsWrong) {
+  EXPECT_THAT(error_of("a: {b: {value: 1, weight: 0}}"), EndsWith("1: a.b.weight is not above 0"));
+  EXPECT_THAT(error_of("a:\n  b: {value: 1}"), EndsWith("2: a.b.weight is not above 0"));
+  EXPECT_THAT(error_of("a: {b: {value: x, weight: 1}}"), EndsWith("1: a.b.value is not a finite number"));
+  EXPECT_THAT(error_of("a: {b: {value: .nan, weight: 1}}"), EndsWith("1: a.b.value is not a finite number"));
+  EXPECT_THAT(error_of("a: {b: {value: [1], weight: 1}}"), EndsWith("1: a.b.value is not a finite number"));
+  EXPECT_THAT(error_of("a: {b: {mean: 1, weight: 1}}"), EndsWith("1: a.b.mean is not a known key"));
+  EXPECT_THAT(error_of("a: {b: {value: 1, value: 2, weight: 1}}"),
+              EndsWith("1: value is given twice in a.b"));
+  EXPECT_THAT(error_of("a: 1"), EndsWith("1: a is not a map of keys and values"));
+  EXPECT_THAT(error_of("- a"), EndsWith("1: the profile is not a map of keys and values"));
+  EXPECT_THAT(error_of("a: {b: "), testing::HasSubstr("bad YAML"));
+}
+
+TEST_F(NetworkProfileFile, AFileThatIsNotThereIsNamed) {
+  std::filesystem::remove(path_);
+  EXPECT_THROW(load_network_profiles(path_), ConfigError);
+}
+
+}  // namespace
+}  // namespace laneloom

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "commands/commands.hpp"
+#include "commands/warn_of.hpp"
+#include "config/config_file.hpp"
+#include "config/network_profile.hpp"
+#include "replay/message_source.hpp"
+#include "replay/replay.hpp"
+
+namespace laneloom {
+namespace {
+
+struct Options {
+  std::string in, out, config;
+};
+
+NetworkProfiles learned_from(const Options& options) {
+  const Config config = resolve_config(options.config, {});
+  if (!config.mapper.fusion.learn)
+    throw std::runtime_error(options.config + ": mapper.fusion.learn is false: nothing would be learned");
+  const std::unique_ptr<MessageSource> source = open_messages(options.in, config.dds.map_frame_id);
+  Replay replay(config, [](const PublishedMap& /*map*/, std::int64_t /*log_time_ns*/) {});
+  while (std::optional<RecordedMessage> message = source->next_input()) replay.add(std::move(*message));
+  warn_of(options.in, source->refused(), source->cut_off());
+  NetworkProfiles networks = replay.networks();
+  if (networks.empty())
+    throw std::runtime_error(
+        options.in +
+        ": nothing was learned: no frame was fused by mapper.method lines (see laneloom replay)");
+  return networks;
+}
+
+void learn(const Options& options) {
+  const NetworkProfiles networks = learned_from(options);
+  std::ofstream file(options.out);
+  file << "# What laneloom learned from a drive: mapper.fusion.profile_file starts with it. A weight is how "
+          "many\n"
+          "# values a value is worth.\n"
+       << dump(networks);
+  file.close();
+  if (!file) throw std::runtime_error(options.out + ": can not be written");
+  for (const auto& [source, profile] : networks)
+    fmt::print("\"{}\": {} values, lateral standard deviation {:.3f} m at 12 m, {:.3f} m at 36 m\n", source,
+               profile.size(), profile.at("stddev_at_12_m").value, profile.at("stddev_at_36_m").value);
+}
+
+}  // namespace
+
+void add_learn(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      *app.add_subcommand("learn",
+                          "Learns from a recorded drive how its networks err, for a service to start with "
+                          "(mapper.fusion.profile_file).");
+  command.add_option("--in", options->in, "Recording, or JSON lines of frames with poses.")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command.add_option("--out", options->out, "Profile to write (YAML).")->required();
+  command.add_option("--config", options->config, "Configuration; default: the built-in values.")
+      ->check(CLI::ExistingFile);
+  command.callback([options] { learn(*options); });
+}
+
+}  // namespace laneloom
