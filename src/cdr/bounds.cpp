@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 #include <vector>
 
 #include "Common.h"
+#include "base/fields.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -16,25 +18,32 @@ bool fits(const Marking& marking) {
          marking.lateral_stddev_m.size() <= msg::MAX_POINTS;
 }
 
+template <class Number>
+requires(std::is_arithmetic_v<Number> || std::is_enum_v<Number>) bool fits(Number /*value*/) { return true; }
+bool fits(const Stretch& /*range*/) { return true; }
+bool fits(const std::vector<Stretch>& ranges) { return ranges.size() <= msg::MAX_RANGES; }
+
+template <HasFields Struct>
+bool fits(const Struct& element);
+
 bool fits(const std::vector<Neighbour>& neighbours) {
-  return neighbours.size() <= msg::MAX_NEIGHBOURS && std::ranges::all_of(neighbours, [](const Neighbour& n) {
-           return n.crossable.size() <= msg::MAX_RANGES;
-         });
+  return neighbours.size() <= msg::MAX_NEIGHBOURS &&
+         std::ranges::all_of(neighbours, [](const Neighbour& beside) { return fits(beside); });
 }
 
-bool fits(const Lane& lane) {
-  return fits(lane.left_neighbours) && fits(lane.right_neighbours) && fits(lane.left) && fits(lane.right) &&
-         fits(lane.centerline) && lane.inferred_ranges.size() <= msg::MAX_RANGES;
+template <HasFields Struct>
+bool fits(const Struct& element) {
+  bool all = true;
+  for_each_field<Struct>([&](const auto& field) { all = all && fits(element.*field.member); });
+  return all;
 }
 
 bool fits(const Stopline& stopline) {
   return fits(stopline.marking) && stopline.lanes.size() <= msg::MAX_STOPLINE_LANES;
 }
 
-bool fits(const Linkage& linkage) { return fits(linkage.path); }
 bool fits(const FusedFrame& /*frame*/) { return true; }
 bool fits(const LineageEvent& /*event*/) { return true; }
-bool fits(StateReason /*reason*/) { return true; }
 
 template <class T>
 bool within(const std::vector<T>& list, std::size_t bound) {

@@ -1,3 +1,7 @@
+#include <concepts>
+#include <type_traits>
+
+#include "base/fields.hpp"
 #include "cdr/bounds.hpp"
 #include "cdr/convert.hpp"
 #include "cdr/convert_parts.hpp"
@@ -8,72 +12,51 @@ namespace {
 using dds::from_msg;  // beside the overloads here
 using dds::to_msg;
 
-std::vector<msg::Range> to_msg(const std::vector<laneloom::Stretch>& from) {
-  return convert_all<msg::Range>(from, [](const laneloom::Stretch& range) { return to_msg(range); });
-}
+/// Writes values into a message, field by field.
+struct ToMessage {
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  static void put(Number from, Number& to) { to = from; }
+  template <class Enum, class MsgEnum>
+  requires std::is_enum_v<Enum>
+  static void put(Enum from, MsgEnum& to) { to = enum_to_msg<MsgEnum>(from); }
+  static void put(const laneloom::Stretch& from, msg::Range& to) { to = to_msg(from); }
+  static void put(const Polyline& from, std::vector<msg::Point>& to) { to = to_msg(from); }
+  template <class From, class To>
+  static void put(const std::vector<From>& from, std::vector<To>& to) {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) put(from[i], to[i]);
+  }
+  template <HasFields From, class To>
+  static void put(const From& from, To& to) {
+    for_each_field<From>([&](const auto& field) { put(from.*field.member, field.of_message(to)); });
+  }
+};
 
-std::vector<laneloom::Stretch> from_msg(const std::vector<msg::Range>& from, Intake& intake) {
-  return convert_all<laneloom::Stretch>(from, [&](const msg::Range& range) { return intake.range(range); });
-}
+/// Takes them out again.
+struct FromMessage {
+  Intake& intake;
 
-std::vector<msg::Neighbour> to_msg(const std::vector<Neighbour>& from) {
-  return convert_all<msg::Neighbour>(from, [](const Neighbour& neighbour) {
-    msg::Neighbour to;
-    to.lane(neighbour.lane);
-    to.range(to_msg(neighbour.range));
-    to.crossable(to_msg(neighbour.crossable));
-    return to;
-  });
-}
-
-std::vector<Neighbour> from_msg(const std::vector<msg::Neighbour>& from, Intake& intake) {
-  return convert_all<Neighbour>(from, [&](const msg::Neighbour& neighbour) {
-    return Neighbour{neighbour.lane(), intake.range(neighbour.range()),
-                     from_msg(neighbour.crossable(), intake)};
-  });
-}
-
-msg::Lane to_msg(const Lane& from) {
-  msg::Lane to;
-  to.id(from.id);
-  to.left_boundary(from.left_boundary);
-  to.right_boundary(from.right_boundary);
-  to.left_range(to_msg(from.left_range));
-  to.right_range(to_msg(from.right_range));
-  to.left(to_msg(from.left));
-  to.right(to_msg(from.right));
-  to.centerline(to_msg(from.centerline));
-  to.width_m(from.width_m);
-  to.left_neighbours(to_msg(from.left_neighbours));
-  to.right_neighbours(to_msg(from.right_neighbours));
-  to.direction(enum_to_msg<msg::DrivingDirection>(from.direction));
-  to.section(from.section);
-  to.status(enum_to_msg<msg::ElementStatus>(from.status));
-  to.existence_probability(from.existence_probability);
-  to.inferred_ranges(to_msg(from.inferred_ranges));
-  return to;
-}
-
-Lane from_msg(const msg::Lane& from, Intake& intake) {
-  Lane to;
-  to.id = from.id();
-  to.left_boundary = from.left_boundary();
-  to.right_boundary = from.right_boundary();
-  to.left_range = intake.range(from.left_range());
-  to.right_range = intake.range(from.right_range());
-  to.left = intake.polyline(from.left());
-  to.right = intake.polyline(from.right());
-  to.centerline = intake.polyline(from.centerline());
-  to.width_m = intake.number(from.width_m());
-  to.left_neighbours = from_msg(from.left_neighbours(), intake);
-  to.right_neighbours = from_msg(from.right_neighbours(), intake);
-  to.direction = intake.enumeration(from.direction(), Lane::Direction::against_centerline);
-  to.section = from.section();
-  to.status = intake.enumeration(from.status(), ElementStatus::inferred);
-  to.existence_probability = intake.number(from.existence_probability());
-  to.inferred_ranges = from_msg(from.inferred_ranges(), intake);
-  return to;
-}
+  void take(double from, double& to) const { to = intake.number(from); }
+  template <std::unsigned_integral Number>
+  void take(Number from, Number& to) const {
+    to = from;
+  }
+  template <class MsgEnum, class Enum>
+  requires std::is_enum_v<Enum>
+  void take(MsgEnum from, Enum& to) const { to = intake.enumeration(from, kLast<Enum>); }
+  void take(const msg::Range& from, laneloom::Stretch& to) const { to = intake.range(from); }
+  void take(const std::vector<msg::Point>& from, Polyline& to) const { to = intake.polyline(from); }
+  template <class From, class To>
+  void take(const std::vector<From>& from, std::vector<To>& to) const {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) take(from[i], to[i]);
+  }
+  template <class From, HasFields To>
+  void take(const From& from, To& to) const {
+    for_each_field<To>([&](const auto& field) { take(field.of_message(from), to.*field.member); });
+  }
+};
 
 msg::Stopline to_msg(const Stopline& from, std::int64_t stamp_ns) {
   msg::Stopline to;
@@ -85,26 +68,6 @@ msg::Stopline to_msg(const Stopline& from, std::int64_t stamp_ns) {
 
 Stopline from_msg(const msg::Stopline& from, std::int64_t stamp_ns, Intake& intake) {
   return {from_msg(from.marking(), stamp_ns, intake), from.lanes(), intake.point(from.heading())};
-}
-
-msg::Linkage to_msg(const Linkage& from) {
-  msg::Linkage to;
-  to.from_lane(from.from);
-  to.to_lane(from.to);
-  to.kind(enum_to_msg<msg::LinkageKind>(from.kind));
-  to.turn(enum_to_msg<msg::TurnKind>(from.turn));
-  to.confidence(from.confidence);
-  to.path(to_msg(from.path));
-  return to;
-}
-
-Linkage from_msg(const msg::Linkage& from, Intake& intake) {
-  return {from.from_lane(),
-          from.to_lane(),
-          intake.enumeration(from.kind(), Linkage::Kind::ego_track),
-          intake.enumeration(from.turn(), Linkage::Turn::u_turn),
-          intake.number(from.confidence()),
-          intake.polyline(from.path())};
 }
 
 msg::LineageEvent to_msg(const LineageEvent& from) {
@@ -128,9 +91,9 @@ void elements_to_msg(const LocalMap& from, msg::LaneMap& to) {
   const auto marking = [&](const Marking& m) { return to_msg(m, from.stamp_ns); };
   const auto stopline = [&](const Stopline& s) { return to_msg(s, from.stamp_ns); };
   to.boundaries(convert_all<msg::Marking>(from.boundaries, marking));
-  to.lanes(convert_all<msg::Lane>(from.lanes, [](const Lane& lane) { return to_msg(lane); }));
+  ToMessage::put(from.lanes, to.lanes());
   to.stoplines(convert_all<msg::Stopline>(from.stoplines, stopline));
-  to.linkages(convert_all<msg::Linkage>(from.linkages, [](const Linkage& link) { return to_msg(link); }));
+  ToMessage::put(from.linkages, to.linkages());
   to.lineage(convert_all<msg::LineageEvent>(from.lineage, [](const LineageEvent& e) { return to_msg(e); }));
 }
 
@@ -138,11 +101,10 @@ void elements_from_msg(const msg::LaneMap& from, Intake& intake, LocalMap& to) {
   const auto stamp_ns = to.stamp_ns;
   to.boundaries = convert_all<Marking>(
       from.boundaries(), [&](const msg::Marking& marking) { return from_msg(marking, stamp_ns, intake); });
-  to.lanes = convert_all<Lane>(from.lanes(), [&](const msg::Lane& lane) { return from_msg(lane, intake); });
+  FromMessage{intake}.take(from.lanes(), to.lanes);
   to.stoplines = convert_all<Stopline>(
       from.stoplines(), [&](const msg::Stopline& stopline) { return from_msg(stopline, stamp_ns, intake); });
-  to.linkages = convert_all<Linkage>(from.linkages(),
-                                     [&](const msg::Linkage& linkage) { return from_msg(linkage, intake); });
+  FromMessage{intake}.take(from.linkages(), to.linkages);
   to.lineage = convert_all<LineageEvent>(from.lineage(), [&](const msg::LineageEvent& event) {
     return LineageEvent{intake.enumeration(event.kind(), LineageEvent::Kind::retired), event.id(),
                         event.other()};

@@ -1,6 +1,9 @@
 #include "cdr/layout.hpp"
 
 #include <type_traits>
+#include <vector>
+
+#include "base/fields.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -44,39 +47,39 @@ void marking(CdrScanner& cdr) {
   cdr.numbers(kDouble, 2);
 }
 
-void neighbours(CdrScanner& cdr) {
-  cdr.sequence(msg::MAX_NEIGHBOURS, [](CdrScanner& neighbour) {
-    neighbour.numbers(kLongLong);
-    neighbour.numbers(kDouble, 2);
-    neighbour.double_sequence(2, msg::MAX_RANGES);
-  });
-}
-
-void lane(CdrScanner& cdr) {
-  cdr.numbers(kLongLong, 3);
-  cdr.numbers(kDouble, 4);
-  for (int line = 0; line < 3; ++line) polyline(cdr);
-  cdr.numbers(kDouble);
-  neighbours(cdr);
-  neighbours(cdr);
-  cdr.numbers(kEnum);
-  cdr.numbers(kLong);
-  cdr.numbers(kEnum);
-  cdr.numbers(kDouble);
-  cdr.double_sequence(2, msg::MAX_RANGES);
-}
+/// How a message has a member of this type.
+template <class Value>
+struct Layout {
+  static void scan(CdrScanner& cdr) {
+    if constexpr (HasFields<Value>)
+      for_each_field<Value>([&]<class Struct, class Member, class Of>(const Field<Struct, Member, Of>&) {
+        Layout<Member>::scan(cdr);
+      });
+    else
+      cdr.numbers(std::is_enum_v<Value> ? kEnum : sizeof(Value));
+  }
+};
+template <>
+struct Layout<Stretch> {
+  static void scan(CdrScanner& cdr) { cdr.numbers(kDouble, 2); }
+};
+template <>
+struct Layout<Polyline> {
+  static void scan(CdrScanner& cdr) { polyline(cdr); }
+};
+template <>
+struct Layout<std::vector<Stretch>> {
+  static void scan(CdrScanner& cdr) { cdr.double_sequence(2, msg::MAX_RANGES); }
+};
+template <>
+struct Layout<std::vector<Neighbour>> {
+  static void scan(CdrScanner& cdr) { cdr.sequence(msg::MAX_NEIGHBOURS, Layout<Neighbour>::scan); }
+};
 
 void stopline(CdrScanner& cdr) {
   marking(cdr);
   cdr.number_sequence(kLongLong, msg::MAX_STOPLINE_LANES);
   cdr.numbers(kDouble, 3);
-}
-
-void linkage(CdrScanner& cdr) {
-  cdr.numbers(kLongLong, 2);
-  cdr.numbers(kEnum, 2);
-  cdr.numbers(kDouble);
-  polyline(cdr);
 }
 
 void lineage_event(CdrScanner& cdr) {
@@ -133,9 +136,9 @@ void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
     frame.numbers(kLongLong, 3);
   });
   cdr.sequence(msg::MAX_MARKINGS, marking);
-  cdr.sequence(msg::MAX_LANES, lane);
+  cdr.sequence(msg::MAX_LANES, Layout<Lane>::scan);
   cdr.sequence(msg::MAX_MARKINGS, stopline);
-  cdr.sequence(msg::MAX_LINKAGES, linkage);
+  cdr.sequence(msg::MAX_LINKAGES, Layout<Linkage>::scan);
   cdr.sequence(msg::MAX_LINKAGES, lineage_event);
 }
 

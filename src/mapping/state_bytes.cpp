@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/fields.hpp"
+
 namespace Eigen {
 
 template <class Archive, class Scalar, int Rows, int Columns>
@@ -26,7 +28,7 @@ void serialize(Archive& archive, Isometry3d& transform) {
 
 namespace laneloom {
 
-// The structured bindings make a member that is forgotten here an error of the compiler.
+// A member that is forgotten in a structured binding, or in a table of fields, is an error of the compiler.
 
 template <class Archive>
 void serialize(Archive& archive, Stretch& range) {
@@ -54,20 +56,20 @@ void serialize(Archive& archive, Marking& marking) {
           first_seen_ns, last_seen_ns);
 }
 
+template <class Archive, HasFields Struct>
+void serialize_fields(Archive& archive, Struct& element) {
+  for_each_field<Struct>([&](const auto& field) { archive(element.*field.member); });
+}
+
 template <class Archive>
 void serialize(Archive& archive, Neighbour& neighbour) {
-  auto& [lane, range, crossable] = neighbour;
-  archive(lane, range, crossable);
+  serialize_fields(archive, neighbour);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Lane& lane) {
-  auto& [id, left_boundary, right_boundary, left_range, right_range, left_reversed, right_reversed, left,
-         right, centerline, width_m, left_neighbours, right_neighbours, direction, section, status,
-         existence_probability, inferred_ranges] = lane;
-  archive(id, left_boundary, right_boundary, left_range, right_range, left_reversed, right_reversed, left,
-          right, centerline, width_m, left_neighbours, right_neighbours, direction, section, status,
-          existence_probability, inferred_ranges);
+  serialize_fields(archive, lane);
+  archive(lane.left_reversed, lane.right_reversed);
 }
 
 template <class Archive>
@@ -78,8 +80,7 @@ void serialize(Archive& archive, Stopline& stopline) {
 
 template <class Archive>
 void serialize(Archive& archive, Linkage& linkage) {
-  auto& [from, to, kind, turn, confidence, path] = linkage;
-  archive(from, to, kind, turn, confidence, path);
+  serialize_fields(archive, linkage);
 }
 
 template <class Archive>
@@ -90,7 +91,7 @@ void serialize(Archive& archive, LocalMap& map) {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x36'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x37'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 

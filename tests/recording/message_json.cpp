@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/fields.hpp"
+
 namespace laneloom {
 
 using nlohmann::json;
@@ -12,6 +14,7 @@ namespace msg {
 
 static json of(std::uint64_t value) { return std::to_string(value); }
 static json of(std::int64_t value) { return std::to_string(value); }
+static json of(std::uint32_t value) { return value; }
 static json of(double value) { return value; }
 template <class Enum>
 requires std::is_enum_v<Enum> json of(Enum value) { return static_cast<std::uint32_t>(value); }
@@ -70,37 +73,21 @@ static json of(const LineageEvent& m) {
   return {{"kind", of(m.kind())}, {"id", of(m.id())}, {"other", of(m.other())}};
 }
 
-static json of(const Neighbour& m) {
-  return {{"lane", of(m.lane())}, {"range", of(m.range())}, {"crossable", of(m.crossable())}};
+/// By the names of the table, which the decoders of others compare with the IDL's.
+template <class Plain>
+static json of_fields(const auto& m) {
+  json object;
+  for_each_field<Plain>([&](const auto& field) { object[field.name] = of(field.of_message(m)); });
+  return object;
 }
-
-static json of(const Lane& m) {
-  return {{"id", of(m.id())},
-          {"left_boundary", of(m.left_boundary())},
-          {"right_boundary", of(m.right_boundary())},
-          {"left_range", of(m.left_range())},
-          {"right_range", of(m.right_range())},
-          {"left", of(m.left())},
-          {"right", of(m.right())},
-          {"centerline", of(m.centerline())},
-          {"width_m", m.width_m()},
-          {"left_neighbours", of(m.left_neighbours())},
-          {"right_neighbours", of(m.right_neighbours())},
-          {"direction", of(m.direction())},
-          {"section", m.section()},
-          {"status", of(m.status())},
-          {"existence_probability", m.existence_probability()},
-          {"inferred_ranges", of(m.inferred_ranges())}};
-}
+static json of(const Neighbour& m) { return of_fields<laneloom::Neighbour>(m); }
+static json of(const Lane& m) { return of_fields<laneloom::Lane>(m); }
 
 static json of(const Stopline& m) {
   return {{"marking", of(m.marking())}, {"lanes", of(m.lanes())}, {"heading", of(m.heading())}};
 }
 
-static json of(const Linkage& m) {
-  return {{"from_lane", of(m.from_lane())}, {"to_lane", of(m.to_lane())},   {"kind", of(m.kind())},
-          {"turn", of(m.turn())},           {"confidence", m.confidence()}, {"path", of(m.path())}};
-}
+static json of(const Linkage& m) { return of_fields<laneloom::Linkage>(m); }
 
 static json of(const FusedFrame& m) {
   return {{"source", m.source().to_string()},

@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
+#include <type_traits>
+#include <utility>
 
+#include "base/fields.hpp"
 #include "io/element_names.hpp"
 #include "io/json_fields.hpp"
 #include "io/json_lines.hpp"
@@ -22,21 +26,29 @@ auto one_of(const std::array<const char*, N>& names) {
   };
 }
 
-json to_json(const Stretch& range) { return {range.from_m, range.to_m}; }
-
-json to_json(const std::vector<Stretch>& ranges) {
-  json list = json::array();
-  for (const Stretch& range : ranges) list.push_back(to_json(range));
-  return list;
-}
-
-json to_json(const std::vector<Neighbour>& neighbours) {
-  json list = json::array();
-  for (const Neighbour& beside : neighbours)
-    list.push_back(
-        {{"lane", beside.lane}, {"range", to_json(beside.range)}, {"crossable", to_json(beside.crossable)}});
-  return list;
-}
+/// The value of a field as JSON.
+struct ToJson {
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  static json of(Number value) { return value; }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  static json of(Enum value) { return name(value); }
+  static json of(const Stretch& range) { return {range.from_m, range.to_m}; }
+  static json of(const Polyline& line) { return polyline_json(line); }
+  template <class Value>
+  static json of(const std::vector<Value>& values) {
+    json list = json::array();
+    for (const Value& value : values) list.push_back(of(value));
+    return list;
+  }
+  template <HasFields Struct>
+  static json of(const Struct& element) {
+    json object;
+    for_each_field<Struct>([&](const auto& field) { object[field.key] = of(element.*field.member); });
+    return object;
+  }
+};
 
 json to_json(const Marking& marking) {
   json styles = json::array();
@@ -59,32 +71,9 @@ json to_json(const Lane& lane, const LocalMap& map) {
   for (const Linkage& linkage : map.linkages) {
     if (linkage.from == lane.id) successors.push_back(linkage.to);
   }
-  return {{"id", lane.id},
-          {"left", polyline_json(lane.left)},
-          {"right", polyline_json(lane.right)},
-          {"centerline", polyline_json(lane.centerline)},
-          {"successors", std::move(successors)},
-          {"left_boundary", lane.left_boundary},
-          {"right_boundary", lane.right_boundary},
-          {"left_range", to_json(lane.left_range)},
-          {"right_range", to_json(lane.right_range)},
-          {"left_neighbours", to_json(lane.left_neighbours)},
-          {"right_neighbours", to_json(lane.right_neighbours)},
-          {"width", lane.width_m},
-          {"section", lane.section},
-          {"direction", name(lane.direction)},
-          {"status", name(lane.status)},
-          {"existence", lane.existence_probability},
-          {"inferred_ranges", to_json(lane.inferred_ranges)}};
-}
-
-json to_json(const Linkage& linkage) {
-  return {{"from", linkage.from},
-          {"to", linkage.to},
-          {"kind", name(linkage.kind)},
-          {"turn", name(linkage.turn)},
-          {"confidence", linkage.confidence},
-          {"path", polyline_json(linkage.path)}};
+  json object = ToJson::of(lane);
+  object["successors"] = std::move(successors);
+  return object;
 }
 
 /// -1 where it is not given.
@@ -93,11 +82,6 @@ double existence(const json& value) {
   if (probability != -1.0 && (probability < 0.0 || probability > 1.0))
     throw JsonError("must be from 0 to 1, or -1");
   return probability;
-}
-
-Stretch range(const json& value) {
-  if (!value.is_array() || value.size() != 2) throw JsonError("must be [from, to]");
-  return {number(value[0]), number(value[1])};
 }
 
 StyleRange style_range(const json& value) {
@@ -123,51 +107,54 @@ Marking marking(const json& value) {
   return out;
 }
 
-std::uint32_t section(const json& value) {
-  const std::uint64_t number = count(value);
-  if (number > UINT32_MAX) throw JsonError("is too large");
-  return static_cast<std::uint32_t>(number);
-}
-
-Neighbour neighbour(const json& value) {
-  const auto ranges = [](const json& items) { return list(items, range); };
-  return {required(value, "lane", count), required(value, "range", range),
-          required(value, "crossable", ranges)};
-}
+/// Reads the value of a field.
+struct FromJson {
+  static void read(const json& value, double& to) { to = number(value); }
+  static void read(const json& value, ElementId& to) { to = count(value); }
+  static void read(const json& value, std::uint32_t& to) {
+    const std::uint64_t whole = count(value);
+    if (whole > UINT32_MAX) throw JsonError("is too large");
+    to = static_cast<std::uint32_t>(whole);
+  }
+  static void read(const json& value, ElementStatus& to) { to = one_of<ElementStatus>(kStatusNames)(value); }
+  static void read(const json& value, Lane::Direction& to) {
+    to = one_of<Lane::Direction>(kDirectionNames)(value);
+  }
+  static void read(const json& value, Linkage::Kind& to) { to = one_of<Linkage::Kind>(kLinkageNames)(value); }
+  static void read(const json& value, Linkage::Turn& to) { to = one_of<Linkage::Turn>(kTurnNames)(value); }
+  static void read(const json& value, Stretch& to) {
+    if (!value.is_array() || value.size() != 2) throw JsonError("must be [from, to]");
+    to = {number(value[0]), number(value[1])};
+  }
+  static void read(const json& value, Polyline& to) { to = polyline(value); }
+  template <class Value>
+  static void read(const json& value, std::vector<Value>& to) {
+    to = list(value, element<Value>);
+  }
+  template <HasFields Struct>
+  static void read(const json& object, Struct& to) {
+    for_each_field<Struct>([&]<class Value, class Of>(const Field<Struct, Value, Of>& field) {
+      auto value = optional(object, field.key, element<Value>);
+      if (!value && field.is_needed) throw JsonError(field.key, "is missing");
+      if (value) to.*field.member = *std::move(value);
+    });
+  }
+  template <class Value>
+  static Value element(const json& value) {
+    Value to{};
+    read(value, to);
+    return to;
+  }
+};
 
 Lane lane(const json& value) {
-  Lane out;
-  out.id = required(value, "id", count);
-  out.left = required(value, "left", polyline);
-  out.right = required(value, "right", polyline);
-  out.centerline = required(value, "centerline", polyline);
-  const auto ranges = [](const json& items) { return list(items, range); };
-  out.left_boundary = optional(value, "left_boundary", count).value_or(kNoElement);
-  out.right_boundary = optional(value, "right_boundary", count).value_or(kNoElement);
-  out.left_range = optional(value, "left_range", range).value_or(Stretch{});
-  out.right_range = optional(value, "right_range", range).value_or(Stretch{});
-  const auto neighbours = [](const json& items) { return list(items, neighbour); };
-  out.left_neighbours = optional(value, "left_neighbours", neighbours).value_or(out.left_neighbours);
-  out.right_neighbours = optional(value, "right_neighbours", neighbours).value_or(out.right_neighbours);
-  out.width_m = optional(value, "width", number).value_or(0.0);
-  out.section = optional(value, "section", section).value_or(0);
-  out.direction =
-      optional(value, "direction", one_of<Lane::Direction>(kDirectionNames)).value_or(out.direction);
-  out.status = optional(value, "status", one_of<ElementStatus>(kStatusNames)).value_or(out.status);
-  out.existence_probability = optional(value, "existence", existence).value_or(out.existence_probability);
-  out.inferred_ranges = optional(value, "inferred_ranges", ranges).value_or(out.inferred_ranges);
-  return out;
+  optional(value, "existence", existence);
+  return FromJson::element<Lane>(value);
 }
 
 Linkage linkage(const json& value) {
-  Linkage out;
-  out.from = required(value, "from", count);
-  out.to = required(value, "to", count);
-  out.kind = optional(value, "kind", one_of<Linkage::Kind>(kLinkageNames)).value_or(out.kind);
-  out.turn = optional(value, "turn", one_of<Linkage::Turn>(kTurnNames)).value_or(out.turn);
-  out.confidence = optional(value, "confidence", share).value_or(out.confidence);
-  out.path = optional(value, "path", polyline).value_or(out.path);
-  return out;
+  optional(value, "confidence", share);
+  return FromJson::element<Linkage>(value);
 }
 
 std::vector<Linkage> linkages(const json& object) {
@@ -231,7 +218,7 @@ std::string to_json_line(const LocalMap& map) {
                                 {"heading", {heading.x(), heading.y(), heading.z()}}});
   }
   for (const Lane& lane : map.lanes) out["lanes"].push_back(to_json(lane, map));
-  for (const Linkage& linkage : map.linkages) out["linkages"].push_back(to_json(linkage));
+  for (const Linkage& linkage : map.linkages) out["linkages"].push_back(ToJson::of(linkage));
   return out.dump();
 }
 
