@@ -7,7 +7,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kLeastWay = 0.02;
+constexpr double kLeastWay = 0.1;
 
 std::string title(const DriveSpec& drive) {
   return fmt::format("{} {} {}", drive.road->name, drive.noise.name, drive.seed);
@@ -27,6 +27,7 @@ class Spread {
     return fmt::format("{:.1f}/{:.1f}/{:.1f}", 100 * values_.mean(), 100 * values_.quantile(0.1),
                        100 * worst_);
   }
+  std::uint64_t count() const { return values_.count(); }
   const std::string& worst_drive() const { return worst_drive_; }
 
  private:
@@ -48,8 +49,8 @@ std::string row(const std::vector<DriveSpec>& drives, const std::vector<DriveRes
     if (lane.truths > 0) lanes.add(lane.f1(), drives[i]);
     if (oracle - raw > kLeastWay) way.add((own - raw) / (oracle - raw), drives[i]);
   }
-  return fmt::format("| {} | {} | {} | {} | {} |\n", results.front()[subject].name, way.values(),
-                     lines.values(), lanes.values(), way.worst_drive());
+  return fmt::format("| {} | {} ({} drives) | {} | {} | {} |\n", results.front()[subject].name, way.values(),
+                     way.count(), lines.values(), lanes.values(), way.worst_drive());
 }
 
 }  // namespace
