@@ -54,7 +54,7 @@ class RecordedFrames {
  private:
   void visit_ready() {
     std::size_t without_pose = 0;
-    while (const auto ready = synchroniser_.next(std::numeric_limits<double>::infinity(), without_pose))
+    while (const auto ready = synchroniser_.next(without_pose))
       visit_(ready->pending.frame, ready->T_map_body);
   }
 
