@@ -49,10 +49,10 @@ class StreamMapNet : public testing::Test {
 };
 
 TEST_F(StreamMapNet, LabelsBecomeTypesAndOthersAreCounted) {
-  const std::string both =
-      std::string(R"("drive_2": {)") + kThree + R"(, "prop": [true, false, false]}, "other_1": {},)" +
-      R"("drive_1": {"vectors": [], "scores": [], "labels": [], "props": [],)"
-      R"("track_vectors": [[[1, 2], [3, 4]]], "track_scores": [1], "track_labels": [1]})";
+  std::string both = R"("drive_2": {)";
+  both.append(kThree).append(R"(, "prop": [true, false, false]}, "other_1": {},)");
+  both.append(R"("drive_1": {"vectors": [], "scores": [], "labels": [], "props": [],)");
+  both.append(R"("track_vectors": [[[1, 2], [3, 4]]], "track_scores": [1], "track_labels": [1]})");
   const ImportedFrames imported = read(both);
   ASSERT_EQ(imported.frames.size(), 2u);
   EXPECT_EQ(imported.frames[0].stamp_ns, 1) << "by stamp, not in the order of the file";

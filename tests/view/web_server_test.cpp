@@ -127,7 +127,7 @@ TEST_F(Server, ASlowViewerLosesFramesAndSlowsNobody) {
   }
   constexpr int kFrames = 400;
   for (int i = 0; i < kFrames; ++i) {  // 40 MB: more than any kernel keeps for who does not read
-    server_->publish(std::string(100'000, '.') + "#" + std::to_string(i) + "#");
+    server_->publish(std::string(100'000, '.').append("#").append(std::to_string(i)).append("#"));
     quick.receive_until("#" + std::to_string(i) + "#");
   }
   const std::string last = "#" + std::to_string(kFrames - 1) + "#";
