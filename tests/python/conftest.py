@@ -17,7 +17,8 @@ def run(*arguments):
 def drive(tmp_path_factory):
     folder = tmp_path_factory.mktemp("drive")
     files = SimpleNamespace(folder=folder, frames=folder / "road.frames.jsonl", truth=folder / "road.truth.json")
-    run("simulate", "--scenario", "intersection", "--duration", 8, "--frames", files.frames, "--truth", files.truth)
+    run("simulate", "--scenario", "intersection", "--noise", "inhouse", "--duration", 8, "--frames", files.frames,
+        "--truth", files.truth)
     return files
 
 

@@ -76,7 +76,8 @@ def test_the_range_and_the_confidence_count(truth, frames, maps):
     near = laneloom.Config()
     near["mapper.range.forward_max_m"] = 10
     assert laneloom.evaluate(truth, maps, config=near).markings.truths < laneloom.evaluate(truth, maps).markings.truths
-    assert laneloom.evaluate(truth, frames=frames, min_confidence=1.0).markings.predictions == 0
+    sure = laneloom.evaluate(truth, frames=frames, min_confidence=0.9).markings.predictions
+    assert 0 < sure < laneloom.evaluate(truth, frames=frames).markings.predictions
     with pytest.raises(ValueError, match=r"^maps\[1\]: stamps must ascend"):
         laneloom.evaluate(truth, [maps[1], maps[0]])
 
