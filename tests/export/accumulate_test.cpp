@@ -82,7 +82,7 @@ TEST(DriveAccumulator, InferredBoundariesAreLeftOut) {
 DriveAccumulator::Drive drive_over_an_edge(double y) {
   std::vector<LocalMap> maps;
   for (int i = 0; i <= 100; ++i) {
-    LocalMap map = map_at(i, 2.0);
+    LocalMap map = map_at(i, 5.0);
     map.boundaries.push_back(map.boundaries[0]);
     map.boundaries[1].id = 2;
     map.boundaries[1].type = MarkingType::roadedge;
@@ -103,8 +103,10 @@ TEST(DriveAccumulator, NoEdgeIsWhereTheVehicleDrove) {
 
 TEST(DriveAccumulator, AnEdgeBesideTheVehicleStays) {
   const auto drive = drive_over_an_edge(1.2);
-  ASSERT_THAT(drive.markings, SizeIs(2));
-  EXPECT_NEAR(length(drive.markings[1].points), 60.7, 1.0);
+  double edges_m = 0.0;
+  for (const Marking& marking : drive.markings)
+    if (marking.type == MarkingType::roadedge) edges_m += length(marking.points);
+  EXPECT_NEAR(edges_m, 60.7, 1.0);
 }
 
 }  // namespace
