@@ -61,7 +61,7 @@ std::string spread_table(const std::vector<DriveSpec>& drives, const std::vector
       "|---|---|---|---|---|\n",
       drives.size());
   if (results.empty()) return table;
-  for (std::size_t subject = 1; subject + 1 < results.front().size(); ++subject)
+  for (std::size_t subject = 0; subject + 1 < results.front().size(); ++subject)
     table += row(drives, results, subject);
   return table;
 }
