@@ -20,7 +20,7 @@ class ProfileReader {
     NetworkProfiles profiles;
     each(root, "the profile", [&](const std::string& source, const YAML::Node& values) {
       each(values, source, [&](const std::string& name, const YAML::Node& learned) {
-        profiles[source][name] = learned_value(learned, source + "." + name);
+        profiles[source][name] = learned_value(learned, std::string(source).append(".").append(name));
       });
     });
     return profiles;

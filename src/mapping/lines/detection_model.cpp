@@ -46,19 +46,19 @@ void LearnedMean::add(double value, double max_weight) {
 }
 
 void DetectionModel::each(auto& model, const auto& visit) {
-  const auto metres = [](std::size_t i, double width_m) {
-    return std::to_string(std::lround(static_cast<double>(i) * width_m)) + "_m";
+  const auto named = [](std::string name, MarkingType type) { return name.append(kTypeNames[index(type)]); };
+  const auto from = [](std::string name, std::size_t i, double width_m) {
+    return name.append(std::to_string(std::lround(static_cast<double>(i) * width_m))).append("_m");
   };
   for (const MarkingType type : kMarkingTypes) {
-    const std::string of_type = kTypeNames[index(type)];
     for (std::size_t ring = 0; ring < kRings; ++ring) {
-      const std::string from = metres(ring, kRing_m);
-      visit("rate_" + of_type + "_ahead_" + from, model.rates_[index(type)][ring]);
-      visit("rate_" + of_type + "_behind_" + from, model.rates_[index(type)][kRings + ring]);
+      visit(from(named("rate_", type).append("_ahead_"), ring, kRing_m), model.rates_[index(type)][ring]);
+      visit(from(named("rate_", type).append("_behind_"), ring, kRing_m),
+            model.rates_[index(type)][kRings + ring]);
     }
     for (std::size_t i = 0; i < kRanges; ++i)
-      visit("confidence_" + of_type + "_" + metres(i, kRange_m), model.levels_[index(type)][i]);
-    visit("confidence_deficit_" + of_type, model.deficits_[index(type)]);
+      visit(from(named("confidence_", type).append("_"), i, kRange_m), model.levels_[index(type)][i]);
+    visit(named("confidence_deficit_", type), model.deficits_[index(type)]);
   }
   visit(std::string("confidence"), model.level_);
   visit(std::string("confidence_variance"), model.variance_);

@@ -58,8 +58,12 @@ void check_profiles(const MapperConfig& config) {
   for (const auto& [source, profile] : config.networks)
     for (const auto& [name, value] : profile)
       if (!known.contains(name))
-        throw ConfigError(config.fusion.profile_file + ": " + source + "." + name +
-                          " is not a value that is learned of a network");
+        throw ConfigError(std::string(config.fusion.profile_file)
+                              .append(": ")
+                              .append(source)
+                              .append(".")
+                              .append(name)
+                              .append(" is not a value that is learned of a network"));
 }
 
 }  // namespace laneloom
