@@ -20,7 +20,7 @@ class ProfileReader {
     NetworkProfiles profiles;
     each(root, "the profile", [&](const std::string& source, const YAML::Node& values) {
       each(values, source, [&](const std::string& name, const YAML::Node& learned) {
-        profiles[source][name] = learned_value(learned, std::string(source).append(".").append(name));
+        profiles[source][name] = learned_value(learned, source + "." + name);
       });
     });
     return profiles;
@@ -38,7 +38,8 @@ class ProfileReader {
     for (const auto& entry : node) {
       if (!entry.first.IsScalar()) fail(entry.first, what + " has a key that is not a plain word");
       const std::string& key = entry.first.Scalar();
-      if (!keys.insert(key).second) fail(entry.first, key + " is given twice in " + what);
+      if (!keys.insert(key).second)
+        fail(entry.first, std::string(key).append(" is given twice in ").append(what));
       visit(key, entry.second);
     }
   }
