@@ -6,8 +6,8 @@
 
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
-#include "io/element_names.hpp"
 #include "io/json_lines.hpp"
+#include "laneloom/element_names.hpp"
 #include "recording/recording.hpp"
 #include "scene/scene_recording.hpp"
 #include "temporary_folder.hpp"

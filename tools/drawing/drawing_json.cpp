@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "drawing/properties.hpp"
-#include "io/element_names.hpp"
+#include "laneloom/element_names.hpp"
 
 namespace laneloom {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/element_names.hpp"
 #include "io/json_fields.hpp"
+#include "laneloom/element_names.hpp"
 #include "laneloom/polyline.hpp"
 
 namespace laneloom {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "io/element_names.hpp"
 #include "io/json_fields.hpp"
+#include "laneloom/element_names.hpp"
 
 namespace laneloom {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/element_names.hpp"
+#include "laneloom/element_names.hpp"
 #include "laneloom/types.hpp"
 
 /// Checked reading of JSON: what is missing, of another type, or not finite is an error that names the key.

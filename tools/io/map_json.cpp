@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/fields.hpp"
-#include "io/element_names.hpp"
 #include "io/json_fields.hpp"
 #include "io/json_lines.hpp"
 #include "io/stamp_and_pose.hpp"
+#include "laneloom/element_names.hpp"
 
 namespace laneloom {
 namespace {

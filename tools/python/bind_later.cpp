@@ -7,8 +7,8 @@
 #include "arguments.hpp"
 #include "binding.hpp"
 #include "evaluation/later.hpp"
-#include "io/element_names.hpp"
 #include "laneloom/config.hpp"
+#include "laneloom/element_names.hpp"
 
 namespace laneloom::python {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "arrays.hpp"
 #include "binding.hpp"
-#include "io/element_names.hpp"
+#include "laneloom/element_names.hpp"
 
 namespace laneloom::python {
 namespace {

@@ -3,7 +3,7 @@
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "binding.hpp"
-#include "io/element_names.hpp"
+#include "laneloom/element_names.hpp"
 #include "simulation/road.hpp"
 
 namespace laneloom::python {

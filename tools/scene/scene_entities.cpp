@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/element_names.hpp"
+#include "laneloom/element_names.hpp"
 #include "laneloom/polyline.hpp"
 #include "scene/triangles.hpp"
 

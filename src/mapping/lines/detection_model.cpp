@@ -1,9 +1,10 @@
 #include "mapping/lines/detection_model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
+
+#include "laneloom/element_names.hpp"
 
 namespace laneloom {
 namespace {
@@ -17,8 +18,6 @@ constexpr double kMaxDeficit = 0.3;
 constexpr double kLeastConfidences = 10.0;            // to tell their level
 constexpr double kMinWrongHits = 3.0;                 // a single one is told by its lack of company
 constexpr double kMostAgainst = 4.0, kMostFor = 1.0;  // log odds: many wrong lines look right, too
-
-constexpr std::array kTypeNames{"laneline", "roadedge", "stopline"};
 
 // Priors: of networks in general, worth some seconds of driving.
 constexpr double kRateAhead = 0.9, kRateLossPerRing = 0.06, kRateBehind = 0.05, kRateWeight = 200.0;
@@ -46,7 +45,7 @@ void LearnedMean::add(double value, double max_weight) {
 }
 
 void DetectionModel::each(auto& model, const auto& visit) {
-  const auto named = [](std::string name, MarkingType type) { return name.append(kTypeNames[index(type)]); };
+  const auto named = [](std::string prefix, MarkingType type) { return prefix.append(name(type)); };
   const auto from = [](std::string name, std::size_t i, double width_m) {
     return name.append(std::to_string(std::lround(static_cast<double>(i) * width_m))).append("_m");
   };
