@@ -13,6 +13,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "commands/replay_input.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "evaluation/inputs.hpp"
@@ -21,7 +22,6 @@
 #include "export/lanelet2_file.hpp"
 #include "export/weave.hpp"
 #include "export/weld.hpp"
-#include "replay/message_source.hpp"
 #include "replay/replay.hpp"
 
 namespace laneloom {
@@ -83,10 +83,8 @@ void take_recorded_maps(const std::string& path, DriveReader& taker) {
 }
 
 void map_frames(const std::string& path, const Config& config, DriveReader& taker) {
-  const auto source = open_messages(path, config.dds.map_frame_id);
   Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { taker.take(map); });
-  while (std::optional<RecordedMessage> message = source->next_input()) replay.add(std::move(*message));
-  warn_of(path, source->refused(), source->cut_off());
+  replay_input(path, config, replay);
 }
 
 DriveAccumulator::Drive read_drive(const Options& options, const Config& config) {

@@ -5,13 +5,11 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "commands/commands.hpp"
-#include "commands/warn_of.hpp"
+#include "commands/replay_input.hpp"
 #include "config/config_file.hpp"
 #include "config/network_profile.hpp"
-#include "replay/message_source.hpp"
 #include "replay/replay.hpp"
 
 namespace laneloom {
@@ -25,10 +23,8 @@ NetworkProfiles learned_from(const Options& options) {
   const Config config = resolve_config(options.config, {});
   if (!config.mapper.fusion.learn)
     throw std::runtime_error(options.config + ": mapper.fusion.learn is false: nothing would be learned");
-  const std::unique_ptr<MessageSource> source = open_messages(options.in, config.dds.map_frame_id);
   Replay replay(config, [](const PublishedMap& /*map*/, std::int64_t /*log_time_ns*/) {});
-  while (std::optional<RecordedMessage> message = source->next_input()) replay.add(std::move(*message));
-  warn_of(options.in, source->refused(), source->cut_off());
+  replay_input(options.in, config, replay);
   NetworkProfiles networks = replay.networks();
   if (networks.empty())
     throw std::runtime_error(

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "laneloom/config.hpp"
+#include "replay/replay.hpp"
+
+namespace laneloom {
+
+/// Replays all detections and poses of a recording, or of frames with their poses, and warns of what was
+/// passed over. Throws as open_messages().
+void replay_input(const std::string& path, const Config& config, Replay& replay);
+
+}  // namespace laneloom
