@@ -158,7 +158,7 @@ struct FusionConfig {
   double merge_distance_m = 1.0;  ///< lines closer than this that are not seen together are one
 };
 
-/// How detections of several frames become one line.
+/// The method by which detections of several frames become one line.
 enum class FusionMethod : std::uint8_t {
   lines,  ///< ours
   voxels  ///< the paper's
@@ -203,7 +203,8 @@ struct GateConfig {
   double max_frame_length_m = 2000.0;  ///< of all markings of a frame together, likewise
 };
 
-/// How often the service publishes, when it warns of its map, and what it keeps for a restart.
+/// The service process: its rate, the limits beyond which it warns of its map, its log, and what it keeps for
+/// a restart.
 struct ServiceConfig {
   double tick_rate_hz = 10.0;
   double stale_after_s = 0.4;      ///< without a fused frame, the map is STALE
@@ -217,7 +218,7 @@ struct ServiceConfig {
   double snapshot_max_age_s = 5.0;  ///< an older one is refused
 };
 
-/// Where the service is in DDS.
+/// The service's place in DDS: domain, partition, transport, security.
 struct DdsConfig {
   int domain = 0;
   std::string vehicle_id = "ego";  ///< names the DDS partition

@@ -10,7 +10,7 @@
 /// What the service publishes, as plain data; idl/ says what each field means on the wire.
 namespace laneloom {
 
-/// Whether a planner may drive on the map: yes; with the reasons in mind; no.
+/// The state tells whether a planner may drive on the map: yes; with the reasons in mind; no.
 enum class MapState : std::uint8_t { ok, degraded, stale };
 
 /// Why a map is not OK; idl/Common.idl says what each means.
@@ -58,7 +58,7 @@ struct RoadMarkings {
   std::vector<Marking> markings;
 };
 
-/// How long something took, over the last ten seconds.
+/// Times that something took, over the last ten seconds.
 struct TimeSummary {
   double mean_ms = 0.0;
   double p50_ms = 0.0;

@@ -12,7 +12,7 @@ struct LearnedValue {
   friend bool operator==(const LearnedValue&, const LearnedValue&) = default;
 };
 
-/// What was learned of one network, by name: `src/mapping/README.md` explains each value.
+/// A profile holds what was learned of one network, by name. `src/mapping/README.md` explains each value.
 using NetworkProfile = std::map<std::string, LearnedValue>;
 
 /// Profiles by the source that the network's frames name.

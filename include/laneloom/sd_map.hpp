@@ -35,7 +35,7 @@ class SdMap {
   /// Whether it has no street.
   bool empty() const { return segments_.empty(); }
 
-  /// What the map says of two lanes.
+  /// The map's verdict on two lanes.
   enum class Verdict {
     unknown,    ///< one of the lanes lies on no street of the map
     connected,  ///< the street of the one leads into that of the other

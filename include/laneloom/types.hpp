@@ -38,13 +38,13 @@ inline constexpr std::array kEnds{End::front, End::back};
 /// The other end.
 constexpr End opposite(End end) { return end == End::front ? End::back : End::front; }
 
-/// What a marking means: it bounds a lane, it bounds the road, or traffic waits at it.
+/// A laneline bounds a lane, a roadedge bounds the road, and traffic waits at a stopline.
 enum class MarkingType : std::uint8_t { laneline, roadedge, stopline };
 inline constexpr std::size_t kMarkingTypeCount = 3;
 inline constexpr std::array<MarkingType, kMarkingTypeCount> kMarkingTypes{
     MarkingType::laneline, MarkingType::roadedge, MarkingType::stopline};
 
-/// How a line is painted. Unknown: nobody told.
+/// The paint of a line. Unknown: no detection told it.
 enum class MarkingStyle : std::uint8_t { unknown, solid, dashed };
 inline constexpr std::size_t kMarkingStyleCount = 3;
 
@@ -98,14 +98,14 @@ struct Stretch {
   double length() const { return to_m - from_m; }  ///< metres
 };
 
-/// How far an element can be relied on.
+/// An element's status tells how far a planner can rely on it.
 enum class ElementStatus : std::uint8_t {
   tentative,  ///< seen, not yet enough to rely on
   confirmed,  ///< observed often enough
   inferred    ///< not observed, concluded from what was
 };
 
-/// How a marking is painted along a stretch of it.
+/// A marking has one style along a stretch of it.
 struct StyleRange {
   Stretch range;
   MarkingStyle style = MarkingStyle::unknown;
@@ -143,7 +143,7 @@ struct Neighbour {
 
 /// A lane between two boundaries (paper, Sec. III-D).
 struct Lane {
-  /// How traffic runs with respect to the order of the centerline's points.
+  /// The direction of traffic, with respect to the order of the centerline's points.
   enum class Direction : std::uint8_t { unknown, along_centerline, against_centerline };
   ElementId id = kNoElement;
   ElementId left_boundary = kNoElement;
@@ -174,7 +174,7 @@ struct Stopline {
 struct Linkage {
   /// By what the mapper knows it; of several, the surest.
   enum class Kind : std::uint8_t { shared_boundary, geometric_alignment, intersection, sd_map, ego_track };
-  /// What the traffic does that takes it.
+  /// The turn that traffic makes on it.
   enum class Turn : std::uint8_t { unknown, straight, left, right, u_turn };
   ElementId from = kNoElement;
   ElementId to = kNoElement;

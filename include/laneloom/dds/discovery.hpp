@@ -17,9 +17,10 @@ struct Peer {
   std::string address;  ///< the first that it receives data at; empty: it told none
 };
 
-/// How long samples are kept for readers that come later; a later one offers more.
+/// A writer's durability tells how long it keeps samples for readers that come later. A later value offers
+/// more.
 enum class Durability { volatile_, transient_local, transient, persistent };
-/// Who has to say that a writer is alive; a later one offers more.
+/// A writer's liveliness tells who says that it is alive. A later value offers more.
 enum class Liveliness { automatic, manual_by_participant, manual_by_topic };
 
 /// A writer or a reader of another participant, with the quality of service that decides on a match.

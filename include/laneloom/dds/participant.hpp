@@ -12,7 +12,7 @@
 
 namespace laneloom::dds {
 
-/// Of one writer in the domain, for as long as it lives.
+/// A WriterId names one writer in the domain, for as long as the writer lives.
 using WriterId = std::array<std::uint8_t, 16>;
 
 /// Opens the files that the configuration names, as a participant would. Throws ConfigError
