@@ -31,8 +31,9 @@ TEST(SpreadTable, TellsMeanWorstDecileAndWorst) {
   std::vector<std::array<double, 3>> drives(18, {0.5, 0.8, 0.9});  // 75 % of the way
   drives.push_back({0.5, 0.68, 0.9});                              // 45 %
   drives.push_back({0.5, 0.6, 0.9});                               // 25 %
-  EXPECT_NE(table(drives).find("| own | 71.0/45.0/25.0 (20 drives) | 78.4/68.0/60.0 | -/-/- | road noise 20 |"),
-            std::string::npos)
+  EXPECT_NE(
+      table(drives).find("| own | 71.0/45.0/25.0 (20 drives) | 78.4/68.0/60.0 | -/-/- | road noise 20 |"),
+      std::string::npos)
       << table(drives);
 }
 
