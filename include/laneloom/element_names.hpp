@@ -5,7 +5,7 @@
 
 #include "laneloom/types.hpp"
 
-/// The enumerators of map elements as words, in the order of their values: in files, and for people.
+/// Words for the enumerators of map elements, in the order of their values. Files and people read them.
 namespace laneloom {
 
 inline constexpr std::array kTypeNames{"laneline", "roadedge", "stopline"};
@@ -17,14 +17,21 @@ inline constexpr std::array kLinkageNames{"shared_boundary", "geometric_alignmen
 inline constexpr std::array kTurnNames{"unknown", "straight", "left", "right", "u_turn"};
 inline constexpr std::array kLineageNames{"born", "merged_into", "split_from", "retired"};
 
+/// The word for a type of marking.
 inline const char* name(MarkingType type) { return kTypeNames.at(index(type)); }
+/// The word for a style of paint.
 inline const char* name(MarkingStyle style) { return kStyleNames.at(index(style)); }
+/// The word for an element's status.
 inline const char* name(ElementStatus status) { return kStatusNames.at(static_cast<std::size_t>(status)); }
+/// The word for the direction of traffic in a lane.
 inline const char* name(Lane::Direction direction) {
   return kDirectionNames.at(static_cast<std::size_t>(direction));
 }
+/// The word for the way in which a linkage became known.
 inline const char* name(Linkage::Kind kind) { return kLinkageNames.at(static_cast<std::size_t>(kind)); }
+/// The word for a turn.
 inline const char* name(Linkage::Turn turn) { return kTurnNames.at(static_cast<std::size_t>(turn)); }
+/// The word for an event in an id's life.
 inline const char* name(LineageEvent::Kind kind) { return kLineageNames.at(static_cast<std::size_t>(kind)); }
 
 }  // namespace laneloom

@@ -9,7 +9,8 @@ namespace laneloom {
 struct LearnedValue {
   double value = 0.0, weight = 0.0;
 
-  friend bool operator==(const LearnedValue&, const LearnedValue&) = default;
+  /// Whether value and weight are the same.
+  bool operator==(const LearnedValue&) const = default;
 };
 
 /// A profile holds what was learned of one network, by name. `src/mapping/README.md` explains each value.
