@@ -1,5 +1,5 @@
 # `cmake --build build --target doc`: what the headers of laneloom-dev and the IDL say, as pages for a browser in
-# build/docs/html. What Doxygen warns of is an error (make-docs).
+# build/docs/html. A warning of Doxygen is an error (make-docs).
 find_package(Doxygen 1.9 QUIET)
 if(DOXYGEN_FOUND)
   configure_file(${CMAKE_CURRENT_SOURCE_DIR}/Doxyfile ${CMAKE_CURRENT_BINARY_DIR}/Doxyfile @ONLY)

@@ -11,7 +11,7 @@ namespace laneloom {
 /// Counts of what happened, by stable names. Not thread-safe.
 class Counters {
  public:
-  /// Counts what happened once or several times.
+  /// Adds `count` to the counter `name`.
   void add(std::string_view name, std::uint64_t count = 1) {
     const auto found = values_.find(name);
     if (found != values_.end()) {
@@ -24,12 +24,12 @@ class Counters {
   void add(const Counters& others) {
     for (const auto& [name, count] : others.values_) add(name, count);
   }
-  /// 0 for what was never counted.
+  /// The count of a name; 0 if nothing was counted by it.
   std::uint64_t operator[](std::string_view name) const {
     const auto found = values_.find(name);
     return found == values_.end() ? 0 : found->second;
   }
-  /// In the order of their names.
+  /// All counts by name, in alphabetical order.
   const std::map<std::string, std::uint64_t, std::less<>>& values() const { return values_; }
 
  private:

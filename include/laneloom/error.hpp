@@ -4,8 +4,8 @@
 
 namespace laneloom {
 
-/// What is wrong with a configuration or a file that it names, in the form "file:line: key: what" (as much of
-/// it as is known).
+/// An error of a configuration or of a file that it names. what() reads "file:line: key: reason"; parts that
+/// are not known are left out.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -29,8 +29,9 @@ class Mapper {
   Mapper& operator=(Mapper&&) noexcept;
 
   /// Fuses one frame, seen from T_map_body, and rebuilds the local map about the newest pose so far. A frame
-  /// may be older than the one before it. Values are finite; whoever takes them from outside checks that
-  /// first. `observer` may be null.
+  /// may be older than the one before it. All values must be finite; this is not checked here. `observer` may
+  /// be
+  /// null.
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 
@@ -40,23 +41,24 @@ class Mapper {
   /// Returns, by name, the values that the mapper has learned of one source's network, as standard deviations
   /// by range. The list is empty where the mapper does not know the source.
   std::vector<std::pair<std::string, double>> learned(const std::string& source) const;
-  /// The same of all sources, with what each value is worth: MapperConfig::networks of a mapper that starts
-  /// with it.
+  /// The learned values of all sources, with their weights. A mapper whose MapperConfig::networks is set to
+  /// them
+  /// starts with this knowledge.
   NetworkProfiles profiles() const;
 
-  /// Forgets everything but the ids that were given out and what was learned of the networks.
+  /// Forgets everything except which ids were given out and what was learned of the networks.
   void reset();
 
   /// The whole state, as bytes that are the same on every host.
   std::string save() const;
   /// Goes on from a state that was saved by a mapper of the same configuration: the maps that follow are the
   /// same to the last bit. Throws std::runtime_error where the bytes end too early, or are of another version
-  /// or of another method; the mapper then is as it was.
+  /// or of another method; the mapper is unchanged then.
   void load(const std::string& bytes);
 
-  /// The same as a value, for laneloom's own sessions: the type is complete in src/mapping/state.hpp.
+  /// The whole state as a value, for laneloom's own sessions. The type is complete in src/mapping/state.hpp.
   const MapperState& state() const;
-  void set_state(MapperState state);  ///< goes on from such a value
+  void set_state(MapperState state);  ///< goes on from a value of state()
 
  private:
   MapperConfig config_;

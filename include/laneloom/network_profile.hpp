@@ -5,7 +5,7 @@
 
 namespace laneloom {
 
-/// A mean, and how many values it is worth: as many new ones have the same weight.
+/// A mean that was learned. `weight` new values count as much as it does.
 struct LearnedValue {
   double value = 0.0, weight = 0.0;
 

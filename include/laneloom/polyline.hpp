@@ -21,32 +21,32 @@ double length(const Polyline& line);
 struct Projection {
   double arc_m = 0.0;       ///< arc length of the foot
   double distance_m = 0.0;  ///< horizontal, from the point to the foot
-  double lateral_m =
-      0.0;              ///< signed distance, left of the line is positive; beyond an end: from its extension
-  bool inside = false;  ///< the foot is on the line, not beyond one of its ends
-  std::size_t segment = 0;  ///< that holds the foot
-  Point foot = Point::Zero();
+  /// Signed distance; left of the line is positive. Beyond an end it is measured from the line's extension.
+  double lateral_m = 0.0;
+  bool inside = false;         ///< the foot is on the line, not beyond one of its ends
+  std::size_t segment = 0;     ///< the segment that holds the foot; segment i joins points i and i + 1
+  Point foot = Point::Zero();  ///< in the frame of the polyline
 };
 
 /// A polyline with its arc lengths, for repeated queries. Keeps a copy of the points.
 class MeasuredPolyline {
  public:
   MeasuredPolyline() = default;
-  /// Vertices that repeat their predecessor (horizontally) are left out. At least one point.
+  /// `points` are one or more. Vertices that repeat their predecessor (horizontally) are left out.
   explicit MeasuredPolyline(const Polyline& points);
 
   /// The points without those that were left out.
   const Polyline& points() const { return points_; }
-  /// Horizontal, in metres.
+  /// Horizontal length, in metres.
   double length() const { return arc_.empty() ? 0.0 : arc_.back(); }
   /// The point at an arc length, clamped to the line.
   Point at(double arc_m) const;
   /// Horizontal unit direction of the segment that holds an arc length; zero for a single point.
   Eigen::Vector2d direction(double arc_m) const;
-  /// The same at a foot on this line, without search.
+  /// The horizontal unit direction at a foot on this line. Needs no search.
   Eigen::Vector2d direction(const Projection& foot) const;
-  /// The nearest foot of `point`; the first one where several are equally near. Where none is as near as
-  /// `within_m`, `distance_m` is infinite and the foot not `inside`.
+  /// The nearest foot of `point`; the first one where several are equally near. Where no foot is as near as
+  /// `within_m`, the result has an infinite `distance_m` and is not `inside`.
   Projection project(const Point& point, double within_m = std::numeric_limits<double>::infinity()) const;
   /// The stretch between two arc lengths (from < to, both clamped), with its inner vertices.
   Polyline slice(const Stretch& range) const;
@@ -66,10 +66,10 @@ class MeasuredPolyline {
 
   Polyline points_;
   std::vector<double> arc_;
-  // What tells from afar where on the line a foot is: in the frame of its first point and its course.
+  // The search for a foot is narrowed by these. Their frame is the first point and the course.
   Eigen::Vector2d course_ = Eigen::Vector2d::UnitX();  ///< from the first point to the last
   Eigen::AlignedBox2d bounds_;                         ///< along the course, and to the left of it
-  double cosine_ = 1.0, sine_ = 0.0;                   ///< of the largest angle of a segment to the course
+  double cosine_ = 1.0, sine_ = 0.0;         ///< of the largest angle between a segment and the course
   std::vector<Eigen::AlignedBox2d> blocks_;  ///< bounds of a few segments each, where the line turns far
 };
 

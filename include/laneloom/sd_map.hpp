@@ -13,16 +13,16 @@ namespace laneloom {
 
 /// A street of a standard-definition map, without lanes.
 struct SdWay {
-  std::int64_t id = 0;
+  std::int64_t id = 0;                  ///< as restrictions name it
   std::vector<std::int64_t> nodes;      ///< at least two; ways meet where they have one in common
   std::vector<Eigen::Vector2d> points;  ///< of the nodes, map frame
   bool oneway = false;                  ///< in the order of the nodes
 };
 
-/// At a node, one may not turn from one way into another, or into no other.
+/// A restriction at a node: traffic from one way may not turn into another way, or into no other (`only`).
 struct SdRestriction {
-  std::int64_t from_way = 0, via_node = 0, to_way = 0;
-  bool only = false;
+  std::int64_t from_way = 0, via_node = 0, to_way = 0;  ///< ids
+  bool only = false;  ///< `to_way` is the only way that may be entered; else it may not be entered
 };
 
 /// A standard-definition map: which streets lead into which (paper, Sec. III-D-4). Immutable.
@@ -32,24 +32,25 @@ class SdMap {
   /// Throws std::invalid_argument where a way has not as many points as nodes, or fewer than two.
   SdMap(std::vector<SdWay> ways, const std::vector<SdRestriction>& restrictions);
 
-  /// Whether it has no street.
+  /// Whether the map has no street.
   bool empty() const { return segments_.empty(); }
 
   /// The map's verdict on two lanes.
   enum class Verdict {
     unknown,    ///< one of the lanes lies on no street of the map
     connected,  ///< the street of the one leads into that of the other
-    forbidden   ///< it does not, or not without breaking a restriction
+    forbidden   ///< it does not lead there, or only by breaking a restriction
   };
-  /// Whether traffic may drive from the end of one lane to the start of another. Both run with the traffic.
+  /// Whether traffic may drive from the end of lane `from` to the start of lane `to`. Both are centerlines in
+  /// the map frame, in the direction of traffic.
   Verdict verdict(const Polyline& from, const Polyline& to) const;
 
  private:
-  /// From a node of a way to its next one, as it may be driven.
+  /// A piece of a way from one node to the next, in a direction in which it may be driven.
   struct Segment {
-    std::size_t way;
-    std::int64_t begin, end;  ///< nodes
-    Eigen::Vector2d from, to;
+    std::size_t way;           ///< place in ways_
+    std::int64_t begin, end;   ///< nodes
+    Eigen::Vector2d from, to;  ///< places of these nodes, map frame
   };
   using Cell = std::pair<int, int>;
 

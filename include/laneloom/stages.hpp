@@ -5,34 +5,33 @@
 
 namespace laneloom {
 
-/// The stages of one update, in order. Of those between preprocess and polylines, only the configured
-/// method's run.
+/// The stages of one update, in order. The method `voxels` skips those of `lines`, and the reverse.
 enum class Stage : std::uint8_t {
-  preprocess,
-  voxel_update,
-  reliable_voxels,
-  clustering,
-  local_range,
-  association,
-  line_update,
-  line_set,
-  polylines,
-  lane_boundaries,
-  road_sections,
-  lanes,
-  linkages
+  preprocess,       ///< drops detections that are not believed, and takes the rest to the map frame
+  voxel_update,     ///< `voxels`: counts the voxels that detections touch
+  reliable_voxels,  ///< `voxels`: finds voxels that were detected often enough
+  clustering,       ///< `voxels`: joins reliable voxels to instances
+  local_range,      ///< `voxels`: forgets voxels outside the box
+  association,      ///< `lines`: matches detections with lines
+  line_update,      ///< `lines`: moves the lines and their evidence
+  line_set,         ///< `lines`: extends, creates, merges and removes lines
+  polylines,        ///< makes markings of instances or lines
+  lane_boundaries,  ///< joins markings to boundaries
+  road_sections,    ///< groups boundaries that run side by side
+  lanes,            ///< builds lanes between boundaries, and gives them their ids
+  linkages          ///< links lanes, finds their directions, and ties stoplines to them
 };
 inline constexpr std::size_t kStageCount = 13;
-/// As it is called in tables: the enumerator.
+/// The name of the enumerator.
 const char* name(Stage stage);
 
-/// Told of every update's begin and of its stages' ends. Whoever implements it owns the clock; the mapper has
-/// none.
+/// Is told when an update begins and when each of its stages ends, so that it can measure times. The mapper
+/// has no clock of its own.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
   virtual void update_begins() = 0;          ///< before the first stage
-  virtual void stage_done(Stage stage) = 0;  ///< after each stage
+  virtual void stage_done(Stage stage) = 0;  ///< after each stage that the method runs
 };
 
 }  // namespace laneloom

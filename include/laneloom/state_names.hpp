@@ -5,10 +5,10 @@
 
 #include "laneloom/messages.hpp"
 
-/// What people read for the states of a map, in logs and in the planner's view.
+/// Words for the states of a map, for people to read in logs and in the planner's view.
 namespace laneloom {
 
-/// In upper case.
+/// The name of the enumerator, in upper case.
 inline const char* name(MapState state) {
   switch (state) {
     case MapState::ok:
@@ -21,7 +21,7 @@ inline const char* name(MapState state) {
   return "unknown";
 }
 
-/// The enumerator.
+/// The name of the enumerator.
 inline const char* name(StateReason reason) {
   switch (reason) {
     case StateReason::no_detections:
@@ -46,7 +46,7 @@ inline const char* name(StateReason reason) {
   return "unknown";
 }
 
-/// "DEGRADED no_poses reset"
+/// State and reasons in one line, such as "DEGRADED no_poses reset".
 inline std::string state_text(MapState state, const std::vector<StateReason>& reasons) {
   std::string text = name(state);
   for (const StateReason reason : reasons) text += std::string(" ") + name(reason);

@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// Values, to ask for their mean and quantiles. 0 where there are none.
+/// Values with their mean and quantiles, which are 0 if there are no values.
 class Distribution {
  public:
   Distribution() = default;

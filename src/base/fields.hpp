@@ -17,24 +17,24 @@ template <class Struct, class Value, class OfMessage>
 struct Field {
   constexpr Field(const char* its_name, Value Struct::*its_member, OfMessage its_of_message)
       : name(its_name), key(its_name), member(its_member), of_message(its_of_message) {}
-  /// Its key in JSON, where that is not its name.
+  /// Sets the key in JSON, if it differs from the name.
   constexpr Field as(const char* json_key) const {
     Field field = *this;
     field.key = json_key;
     return field;
   }
-  /// What is read from JSON must have it.
+  /// An element that is read from JSON must have this member.
   constexpr Field needed() const {
     Field field = *this;
     field.is_needed = true;
     return field;
   }
 
-  const char* name;
-  const char* key;
+  const char* name;  ///< of the member of the struct
+  const char* key;   ///< in JSON
   Value Struct::*member;
-  OfMessage of_message;
-  bool is_needed = false;
+  OfMessage of_message;    ///< returns the message's member
+  bool is_needed = false;  ///< in JSON
 };
 
 #define LANELOOM_FIELD_AS(Struct, member, name) \
@@ -77,7 +77,7 @@ constexpr void for_each_field(Visit visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, kFields<Struct>);
 }
 
-/// The largest enumerator: what a message has beyond it is refused.
+/// The largest enumerator. A message with a larger value is refused.
 template <class Enum>
 inline constexpr Enum kLast = Enum{};
 template <>
@@ -89,13 +89,14 @@ inline constexpr auto kLast<Linkage::Kind> = Linkage::Kind::ego_track;
 template <>
 inline constexpr auto kLast<Linkage::Turn> = Linkage::Turn::u_turn;
 
-/// Converts to what an aggregate wants for any member.
+/// Converts to the type of any member of an aggregate.
 struct AnyMember {
   template <class Value>
   operator Value() const;  // NOLINT(google-explicit-constructor): that is its purpose
 };
 
-/// How many members an aggregate has, published or not: a table that lacks one is an error of the compiler.
+/// The number of members of an aggregate, published or not. By it, a table that lacks a member is an error of
+/// the compiler.
 template <class Struct, class... Members>
 constexpr std::size_t count_members() {
   if constexpr (requires { Struct{Members{}..., AnyMember{}}; })

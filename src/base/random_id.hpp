@@ -5,7 +5,7 @@
 
 namespace laneloom {
 
-/// Names a session, or a map: another one every time, never 0.
+/// A random id for a session or a map: a different one every time, never 0.
 inline std::uint64_t random_id() {
   std::random_device device;
   return (std::uint64_t{device()} << 32U | device()) | 1U;

@@ -50,7 +50,7 @@ bool within(const std::vector<T>& list, std::size_t bound) {
   return list.size() <= bound && std::all_of(list.begin(), list.end(), [](const T& e) { return fits(e); });
 }
 
-/// Keeps the first `bound` elements that `keep` accepts, and returns how many went.
+/// Keeps the first `bound` elements that `keep` accepts. Returns how many were removed.
 template <class T, class Keep>
 std::size_t prune(std::vector<T>& list, std::size_t bound, Keep keep) {
   const auto before = list.size();

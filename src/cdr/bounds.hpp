@@ -6,12 +6,12 @@
 
 namespace laneloom::dds {
 
-/// Takes out of a map what exceeds the bounds of the IDL, and whatever refers to it, so that every id that is
-/// referred to stays in the map: of long lists the first elements stay, an element that is too long itself
-/// goes as a whole. Returns how many elements went.
+/// Removes from a map the elements that exceed the bounds of the IDL, and all that refer to them, so that
+/// every id that is referred to stays in the map. Of a list that is too long, the first elements stay. An
+/// element that is too long itself is removed as a whole. Returns how many elements were removed.
 std::size_t keep_within_bounds(PublishedMap& map);
 
-/// Likewise of instances.
+/// Does the same for the topic road_markings.
 std::size_t keep_within_bounds(RoadMarkings& markings);
 
 /// Whether keep_within_bounds() would change nothing.

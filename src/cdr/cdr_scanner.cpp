@@ -35,7 +35,7 @@ std::size_t CdrScanner::length(std::size_t bound) {
 }
 
 void CdrScanner::text(std::size_t bound) {
-  const auto count = length(bound + 1);  // with its terminator
+  const auto count = length(bound + 1);  // with the terminator
   numbers(1, count);
   ok_ = ok_ && count > 0 && bytes_[position_ - 1] == 0;
 }

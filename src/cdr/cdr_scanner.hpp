@@ -10,30 +10,30 @@ namespace laneloom::dds {
 /// it reads: it throws, or allocates gigabytes. So lengths are checked here first, against the bounds of the
 /// IDL and against the bytes that are there.
 ///
-/// A failure is remembered; what is asked after it does nothing.
+/// A failure is remembered; later calls do nothing.
 class CdrScanner {
  public:
   /// `payload` starts with the encapsulation header; only plain CDR is known, as @final types have it.
   explicit CdrScanner(std::span<const std::uint8_t> payload);
 
-  /// `count` numbers of `size` bytes each.
+  /// Skips `count` numbers of `size` bytes each.
   void numbers(std::size_t size, std::size_t count = 1);
-  /// A string of at most `bound` characters.
+  /// Skips a string of at most `bound` characters.
   void text(std::size_t bound);
-  /// A sequence of numbers, at most `bound`.
+  /// Skips a sequence of at most `bound` numbers of `size` bytes each.
   void number_sequence(std::size_t size, std::size_t bound);
-  /// A sequence of at most `bound` structs of `per_element` doubles each.
+  /// Skips a sequence of at most `bound` structs of `per_element` doubles each.
   void double_sequence(std::size_t per_element, std::size_t bound);
-  /// A sequence of at most `bound` elements, each walked by `element(scanner)`.
+  /// Skips a sequence of at most `bound` elements. `element(scanner)` skips one of them.
   template <class Element>
   void sequence(std::size_t bound, Element element) {
     const auto count = length(bound);
     for (std::size_t i = 0; i < count && ok_; ++i) element(*this);
   }
 
-  /// All was well so far.
+  /// Whether there was no failure so far.
   bool ok() const { return ok_; }
-  /// All was well, and the payload ends here (but for padding).
+  /// Whether there was no failure and the payload ends here (except for padding).
   bool complete() const;
 
  private:

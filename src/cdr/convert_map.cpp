@@ -33,7 +33,7 @@ struct ToMessage {
   }
 };
 
-/// Takes them out again.
+/// Takes values out of a message, field by field.
 struct FromMessage {
   Intake& intake;
 

@@ -10,7 +10,7 @@ constexpr double kUnitTolerance = 1e-3;
 std::int64_t stamp_before(std::int64_t stamp_ns, double age_s, Intake& intake) {
   const double age_ns = intake.number(age_s) * kNanosecondsPerSecond;
   std::int64_t before_ns = 0;
-  // Within a century (and a number at all) the conversion is defined; the stamp may be anything.
+  // The conversion to an integer is defined for finite ages within a century. The stamp may have any value.
   const bool defined = std::abs(age_ns) <= 3.2e18;
   if (!defined || __builtin_sub_overflow(stamp_ns, std::llround(age_ns), &before_ns))
     intake.refuse("not_finite");

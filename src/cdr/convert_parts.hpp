@@ -17,11 +17,11 @@ msg::Pose pose_to_msg(const Point& position, const Eigen::Quaterniond& orientati
 msg::Header header_to_msg(std::int64_t stamp_ns, std::uint64_t sequence, std::uint64_t session_id,
                           const std::string& frame_id);
 
-/// `stamp_ns` is the message's, which ages are given at.
+/// `stamp_ns` is the stamp of the message. Times of the marking are sent as ages at that stamp.
 msg::Marking to_msg(const Marking& from, std::int64_t stamp_ns);
 Marking from_msg(const msg::Marking& from, std::int64_t stamp_ns, Intake& intake);
 
-/// Elements of one vector converted into another.
+/// Converts all elements of a vector.
 template <class To, class From, class Convert>
 std::vector<To> convert_all(const std::vector<From>& from, Convert convert) {
   std::vector<To> to;
@@ -30,7 +30,7 @@ std::vector<To> convert_all(const std::vector<From>& from, Convert convert) {
   return to;
 }
 
-/// An enumeration of ours as the IDL's, which lists the same values in the same order.
+/// Converts an enumerator to the IDL's enumeration, which lists the same values in the same order.
 template <class To, class From>
 To enum_to_msg(From value) {
   return static_cast<To>(static_cast<std::uint32_t>(value));

@@ -47,7 +47,7 @@ void marking(CdrScanner& cdr) {
   cdr.numbers(kDouble, 2);
 }
 
-/// How a message has a member of this type.
+/// The layout in CDR of a member of this type.
 template <class Value>
 struct Layout {
   static void scan(CdrScanner& cdr) {

@@ -7,7 +7,7 @@
 #include "VehiclePose.h"
 #include "cdr/cdr_scanner.hpp"
 
-/// What each message of idl/ looks like in CDR.
+/// The layout of each message of idl/ in CDR.
 namespace laneloom::dds {
 
 void scan(CdrScanner& cdr, const msg::Detections*);
@@ -16,7 +16,7 @@ void scan(CdrScanner& cdr, const msg::LaneMap*);
 void scan(CdrScanner& cdr, const msg::RoadMarkings*);
 void scan(CdrScanner& cdr, const msg::ServiceStatus*);
 
-/// Which topic's message each is, from end to end (Header.data_id).
+/// The number that tells the messages of one topic from others (Header.data_id).
 constexpr std::uint32_t data_id(const msg::Detections* /*type*/) { return msg::DATA_ID_DETECTIONS; }
 constexpr std::uint32_t data_id(const msg::VehiclePose* /*type*/) { return msg::DATA_ID_VEHICLE_POSE; }
 constexpr std::uint32_t data_id(const msg::LaneMap* /*type*/) { return msg::DATA_ID_LANE_MAP; }

@@ -5,7 +5,7 @@
 #include "cdr/layout.hpp"
 #include "laneloom/messages.hpp"
 
-/// The message of each plain type.
+/// Maps each plain type to its message type. The functions are only declared.
 namespace laneloom::dds {
 
 msg::Detections message_of(const DetectionFrame&);

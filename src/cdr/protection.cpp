@@ -21,7 +21,7 @@ std::uint64_t crc_of(std::span<const std::uint8_t> message) {
   return crc.checksum();
 }
 
-/// Numbers in the byte order that the encapsulation tells.
+/// Reads and writes numbers in the byte order that the encapsulation names.
 template <class T>
 T read(std::span<const std::uint8_t> message, std::size_t at) {
   T value = 0;

@@ -12,8 +12,8 @@ namespace laneloom::dds {
 /// Header.
 void protect(std::span<std::uint8_t> message, std::uint32_t data_id);
 
-/// Why `message` is not what its writer protected: "crc" or "data_id". Empty where it is, and where its
-/// writer gave neither. A message that is too short for a header is not judged here.
+/// The reason why `message` differs from what its writer protected: "crc" or "data_id". Empty: it does not
+/// differ, or its writer did not protect it. A message that is too short for a header is not judged here.
 std::string_view check_protection(std::span<const std::uint8_t> message, std::uint32_t data_id);
 
 }  // namespace laneloom::dds

@@ -27,10 +27,11 @@ void serialise(const Message& from, std::vector<std::uint8_t>& to) {
   protect(to, kDataId<Message>);
 }
 
-/// Calls `read(cdr)` behind the encapsulation header, which must be well formed. Throws what Fast CDR throws.
+/// Calls `read(cdr)` behind the encapsulation header, which must be well formed. Throws the exceptions of
+/// Fast CDR.
 template <class Read>
 void read_cdr(std::span<const std::uint8_t> from, Read read) {
-  // Fast CDR knows no buffer that is only read.
+  // Fast CDR has no buffer type for reading alone.
   auto* bytes = reinterpret_cast<char*>(const_cast<std::uint8_t*>(from.data()));
   eprosima::fastcdr::FastBuffer buffer(bytes, from.size());
   eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN, eprosima::fastcdr::Cdr::DDS_CDR);
@@ -38,8 +39,8 @@ void read_cdr(std::span<const std::uint8_t> from, Read read) {
   read(cdr);
 }
 
-/// Why the bytes are no such message: "crc", "data_id" or "malformed"; `to` is of no use then. Empty: they
-/// are.
+/// Reads a message. Returns why the bytes are no such message: "crc", "data_id" or "malformed"; `to` is not
+/// valid then. Empty: `to` is set.
 template <class Message>
 std::string_view deserialise(std::span<const std::uint8_t> from, Message& to) {
   if (const auto why = check_protection(from, kDataId<Message>); !why.empty()) return why;

@@ -9,13 +9,12 @@
 #include "laneloom/config.hpp"
 #include "laneloom/error.hpp"
 
-/// Configuration files: YAML, one map per section, the keys named as the members of Config.
-/// All functions are pure but for the file that is read, and may be called from any thread.
+/// Configuration files: YAML, one map per section, the keys named as the members of Config. All functions are
+/// pure, except for the file that is read, and may be called from any thread.
 namespace laneloom {
 
-/// The configuration in a file; a key that is missing keeps its default.
-/// Throws ConfigError for an unreadable file, bad YAML, an unknown or repeated key, a wrong type, and
-/// whatever validate() refuses.
+/// The configuration in a file; a key that is missing keeps its default. Throws ConfigError for an unreadable
+/// file, bad YAML, an unknown or repeated key, a wrong type, and values that validate() refuses.
 Config load_config(const std::filesystem::path& path);
 
 /// Sets one value, from "section.key=value" in the words of a file: "mapper.range.side_max_m=20".
@@ -25,14 +24,14 @@ void set_value(Config& config, std::string_view assignment);
 /// Throws ConfigError for a value outside its range, or values that contradict each other.
 void validate(const Config& config);
 
-/// Sets the local range and alpha_n of the paper's data sets: "inhouse" or "av2". ConfigError for other
-/// names.
+/// Sets the local range and alpha_n of one of the paper's data sets: "inhouse" or "av2". Throws ConfigError
+/// for other names.
 void apply_preset(Config& config, std::string_view preset);
 
 /// The names that apply_preset() knows.
 std::vector<std::string> preset_names();
 
-/// The configuration in a file, or the default one where no file is named, and then the preset, where one is
+/// The configuration in a file, or the default one if no file is named, with the preset applied if one is
 /// named. Throws as load_config() and apply_preset().
 Config resolve_config(const std::filesystem::path& file, std::string_view preset);
 

@@ -12,7 +12,7 @@ namespace laneloom {
 namespace config {
 namespace {
 
-/// A Problem whose line is known; 0: it is not.
+/// A problem, with its line in the file. Line 0: it is not known.
 struct LocatedProblem {
   int line = 0;
   Problem problem;
@@ -25,7 +25,7 @@ class Parser {
  public:
   using Lines = std::map<std::string, int>;
 
-  /// Notes in `lines` where each key stands.
+  /// Notes the line of each key in `lines`.
   Parser(const YAML::Node& node, std::string prefix, Lines& lines)
       : prefix_(std::move(prefix)), lines_(lines) {
     if (!node.IsMap()) fail(line_of(node), prefix_, "is not a map of keys and values");
@@ -64,7 +64,7 @@ class Parser {
   }
   void path(const char* key, std::string& value, const char* /*meaning*/) { read(key, value, "a text"); }
 
-  /// To be called when every key that is known was asked for.
+  /// Is to be called after every known key was visited. Refuses keys that are left.
   void finish() const {
     if (values_.empty()) return;
     const auto key = prefix_ + values_.begin()->first;
@@ -76,13 +76,13 @@ class Parser {
     throw LocatedProblem{line, {key.ends_with('.') ? key.substr(0, key.size() - 1) : key, what}};
   }
 
-  /// 0: the key is missing.
+  /// The line of a key. 0: the key is missing.
   int line_at(const std::string& key) const {
     const auto line = lines_.find(prefix_ + key);
     return line == lines_.end() ? 0 : line->second;
   }
 
-  /// Undefined where the key is missing.
+  /// Takes out the value of a key. Undefined: the key is missing.
   YAML::Node take(const std::string& key) {
     const auto entry = values_.extract(key);
     return entry ? entry.mapped() : YAML::Node(YAML::NodeType::Undefined);
@@ -105,7 +105,7 @@ class Parser {
   std::map<std::string, YAML::Node> values_;
 };
 
-/// What `text` gives, on top of `config`.
+/// The values of `text`, on top of `config`.
 Config parse(const std::string& text, Config config = {}) {
   Parser::Lines lines;
   try {

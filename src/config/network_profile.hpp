@@ -11,11 +11,11 @@
 namespace laneloom {
 
 /// Throws ConfigError naming file, line and key for an unreadable file, bad YAML, a key that is unknown or
-/// given twice, a value that is no finite number, and a weight that is none above 0. Whether a network has
-/// values of these names, Mapper checks. An empty path gives no profiles.
+/// given twice, a value that is no number or beyond 1e9, and a weight that is not above 0. Mapper checks
+/// whether a network has values of these names. An empty path gives no profiles.
 NetworkProfiles load_network_profiles(const std::filesystem::path& path);
 
-/// As load_network_profiles() reads it back.
+/// The text of profiles, as load_network_profiles() reads it back.
 std::string dump(const NetworkProfiles& profiles);
 
 }  // namespace laneloom

@@ -9,9 +9,9 @@
 #include "laneloom/config.hpp"
 #include "text.hpp"
 
-/// Every key with its unit, its valid range and its meaning. One table per struct; whatever reads, checks, or
-/// writes a configuration is a visitor of these tables. The structured bindings make a member that is missing
-/// here an error of the compiler.
+/// Every key with its unit, its valid range and its meaning. There is one table per struct. Code that reads,
+/// checks, or writes a configuration is a visitor of these tables. The structured bindings make a member that
+/// is missing here an error of the compiler.
 ///
 /// A visitor has
 ///   section(key, config, meaning)                another table
@@ -132,14 +132,13 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("stddev_m", stddev_m, {"m", 0.01, 2},
            "Lateral standard deviation of an observation at the vehicle, before anything is learned.");
   v.number("stddev_per_m", stddev_per_m, {"m/m", 0, 0.2},
-           "By how much the lateral standard deviation of an observation grows per metre of distance, before "
+           "Growth of the lateral standard deviation of an observation per metre of distance, before "
            "anything is learned.");
   v.number("bias_stddev_m", bias_stddev_m, {"m", 0, 2},
            "Standard deviation of the detector's lasting lateral bias. It does not shrink with more "
            "observations, and is not learned.");
   v.number("fade_m", fade_m, {"m", 0.5, 50},
-           "Where a detection extends a line beyond its end, the lateral step between the two fades out over "
-           "this length.");
+           "Length over which the lateral step between a line and a detection that extends it fades out.");
   v.number("birth_log_odds", birth_log_odds, {"", -10, 0}, "Log odds of the stations of a new line.");
   v.number("extension_log_odds", extension_log_odds, {"", -10, 10},
            "Log odds of a new station by which a line is extended.");
@@ -210,9 +209,9 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
            "Widest lane beside a roadedge, where there is room to park. A lane beside a single line needs "
            "this much free room.");
   v.flag("find_shoulders", find_shoulders,
-         "Tell shoulders and cycle lanes from lanes: a narrow strip between a roadedge and the solid line of "
-         "a wider lane is none, if the road goes on beyond that lane. The strip is a lane while the vehicle "
-         "drives in it.");
+         "Tell shoulders and cycle lanes from lanes. A narrow strip between a roadedge and the solid line of "
+         "a wider lane is no lane if the road goes on beyond the wider lane. The strip is a lane while the "
+         "vehicle drives in it.");
   v.number("max_shoulder_width_m", max_shoulder_width_m, {"m", 0.5, 20}, "A shoulder is narrower than this.");
   v.flag("unmarked_roads", unmarked_roads,
          "Publish a road without a line as two lanes with an inferred boundary between them.");
@@ -280,7 +279,7 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("range", range,
             "The part of the world that is mapped: a box around the vehicle, in the body frame (paper, Sec. "
             "IV-C).");
-  v.section("preprocess", preprocess, "Which detections are believed (paper, Sec. III-A).");
+  v.section("preprocess", preprocess, "The choice of the detections that are believed (paper, Sec. III-A).");
   v.section("voxel_map", voxel_map, "The semantic voxel map (paper, Sec. III-B).");
   v.section("clustering", clustering,
             "Voxels to instances (paper, Sec. III-C-1). A voxel joins an instance that satisfies beta_n or "
@@ -298,8 +297,8 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("section", section, "Boundaries to road sections (paper, Sec. III-D-2); the values are ours.");
   v.section("lane", lane, "Boundaries to lanes (paper, Sec. III-D-3); the values are ours.");
   v.section("linkage", linkage, "Lanes to linkages (paper, Sec. III-D-4); the values are ours.");
-  v.section("direction", direction, "Which way the traffic of a lane runs. Ours.");
-  v.section("stopline", stopline, "Which lanes a stopline ends. Ours.");
+  v.section("direction", direction, "The direction in which the traffic of a lane runs. Ours.");
+  v.section("stopline", stopline, "The lanes that a stopline ends. Ours.");
 }
 
 void visit(auto& v, Is<SyncConfig> auto& c) {
@@ -329,11 +328,11 @@ void visit(auto& v, Is<GateConfig> auto& c) {
   v.number("max_coordinate_m", max_coordinate_m, {"m", 1000, 1e7},
            "Messages with larger coordinates are refused.");
   v.number("max_frame_detections", max_frame_detections, {"", 1, 512},
-           "Most detections of one frame that are fused. Of more, the least trusted ones, and of equally "
-           "trusted ones the farthest, are left out.");
+           "Most detections of one frame that are fused. If a frame has more, the least trusted detections "
+           "are left out; among equally trusted ones, the farthest.");
   v.number("max_frame_length_m", max_frame_length_m, {"m", 100, 1e5},
-           "Greatest length of all markings of one frame together. Of longer frames, the least trusted "
-           "detections, and of equally trusted ones the farthest, are left out.");
+           "Greatest length of all markings of one frame together. If a frame has more, the least trusted "
+           "detections are left out; among equally trusted ones, the farthest.");
 }
 
 void visit(auto& v, Is<ServiceConfig> auto& c) {
@@ -414,13 +413,13 @@ void visit(auto& v, Is<Config> auto& c) {
             "III-D-4).");
   v.section("sync", sync, "Synchronisation of detections with poses.");
   v.section("gate", gate,
-            "When input is not believed. Three outliers in a row that agree with one another are believed, "
-            "and reset the map.");
+            "Limits of the input that is believed. Three outliers in a row that agree with one another are "
+            "believed, and reset the map.");
   v.section("service", service, "The service process.");
   v.section("dds", dds, "DDS: how the service meets its participants.");
   v.section("ros2", ros2,
-            "What nodes of ROS 2 see of the service, without a bridge, on a DDS participant of its own. "
-            "Names without a leading / are below the namespace.");
+            "The interface for nodes of ROS 2, without a bridge, on a DDS participant of its own. Names "
+            "without a leading / are below the namespace.");
 }
 
 }  // namespace laneloom::config

@@ -50,7 +50,8 @@ class RangeCheck {
   std::string prefix_;
 };
 
-/// What may be published is this long: the longer side of the range and its margins, and more for curves.
+/// The greatest length of a published line: the longer side of the range with its margins, and more for
+/// curves.
 double longest_line_m(const RangeConfig& range) {
   constexpr double kCurves = 1.5;
   const double forward_m = range.forward_max_m - range.forward_min_m + 2.0 * range.margin_forward_m;
@@ -58,7 +59,8 @@ double longest_line_m(const RangeConfig& range) {
   return kCurves * std::max(forward_m, side_m);
 }
 
-/// A line that has more points than a message holds would always be left out.
+/// Finds a spacing of points that is too small for the range: a line with more points than a message holds
+/// would always be left out.
 std::optional<Problem> find_too_many_points(const MapperConfig& mapper) {
   constexpr double kMaxPoints = 1024;  // MAX_POINTS of idl/Common.idl
   const double least_m = longest_line_m(mapper.range) / kMaxPoints;
@@ -71,11 +73,12 @@ std::optional<Problem> find_too_many_points(const MapperConfig& mapper) {
   return std::nullopt;
 }
 
-/// Of a name in ROS 2: tokens of letters, digits and '_', none of which begins with a digit, divided by '/'.
+/// Whether a name is one of ROS 2: tokens of letters, digits and '_', none of which begins with a digit,
+/// divided by '/'.
 bool is_ros_name(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   if (name.starts_with('/')) name.remove_prefix(1);
-  bool begins = true;  // a token
+  bool begins = true;  // a token begins here
   for (const char c : name) {
     const bool fits = is_letter(c) || (!begins && ((c >= '0' && c <= '9') || c == '/'));
     if (!fits) return false;
@@ -85,7 +88,7 @@ bool is_ros_name(std::string_view name) {
 }
 
 std::optional<Problem> find_wrong_name(const Ros2Config& ros2) {
-  constexpr std::size_t kMaxLength = 100;  // of either part: DDS takes 255 characters in all
+  constexpr std::size_t kMaxLength = 100;  // of the namespace and of a topic: DDS takes 255 characters in all
   const auto problem = [](const char* key, const std::string& name) {
     return Problem{std::string("ros2.") + key,
                    "\"" + name + "\" is no name of ROS 2, or has more than 100 characters"};

@@ -7,13 +7,13 @@
 
 namespace laneloom::config {
 
-/// What is wrong with a configuration, and at which key ("mapper.range.side_max_m").
+/// A problem of a configuration, with its key ("mapper.range.side_max_m").
 struct Problem {
   std::string key;
-  std::string what;
+  std::string what;  ///< goes on after the key: "must exceed 0.2 m"
 };
 
-/// The first value outside its range, else the first contradiction between values.
+/// Finds the first value outside its range, or else the first contradiction between values.
 std::optional<Problem> find_problem(const Config& config);
 
 }  // namespace laneloom::config

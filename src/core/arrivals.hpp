@@ -11,21 +11,23 @@
 
 namespace laneloom {
 
-/// A message and when it came, by the steady clock.
+/// A message and the time of its arrival, by the steady clock.
 struct Arrival {
   std::variant<VehiclePose, DetectionFrame> message;
   std::int64_t arrival_ns = 0;
 };
 
-/// What a tick works on, taken at one instant: detections_received = refused + dropped + the frames of all
-/// Arrivals so far, and likewise of poses. Times are by the steady clock; none: never.
+/// The input of a tick, taken at one instant. The counters fit the messages: detections_received = refused +
+/// dropped + the frames of all Arrivals so far, and likewise for poses. Times are by the steady clock; none:
+/// never.
 struct Arrivals {
   std::vector<Arrival> messages;                ///< since the tick before, in the order of their arrival
-  Counters counters;                            ///< of what happened outside the core, since the start
-  std::optional<std::int64_t> newest_frame_ns;  ///< arrival
-  std::optional<std::int64_t> newest_pose_ns;
-  std::optional<std::int64_t> other_service_ns;  ///< a status of another service of this vehicle
-  std::vector<SourceStatus> sources;             ///< the newest sessions, in the order of their beginning
+  Counters counters;                            ///< of events outside the core, since the start
+  std::optional<std::int64_t> newest_frame_ns;  ///< arrival of the newest frame
+  std::optional<std::int64_t> newest_pose_ns;   ///< arrival of the newest pose
+  /// Arrival of the newest status of another service of this vehicle.
+  std::optional<std::int64_t> other_service_ns;
+  std::vector<SourceStatus> sources;  ///< the newest sessions, in the order of their beginning
 };
 
 }  // namespace laneloom

@@ -26,7 +26,7 @@ Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {
   add_if(inputs.fused_age_s < 0.0 && !recent(reset_ns_), StateReason::starting);
   add_if(recent(reset_ns_), StateReason::reset);
   add_if(recent(overload_ns_), StateReason::overloaded);
-  // It may miss one of its times.
+  // The other service may miss one of its status messages.
   add_if(!older(inputs.other_service_age_s, 2.5 * config_.status_period_s), StateReason::another_service);
 
   const auto lags = [&](double limit_s) { return inputs.lag_s && *inputs.lag_s > limit_s; };
@@ -34,7 +34,7 @@ Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {
   const bool silent = older(inputs.fused_age_s, config_.stale_after_s);
   add_if(inputs.source_not_fused && !silent, StateReason::source_not_fused);
   const bool stale = silent || lags(config_.stale_lag_s);
-  // Both inputs come, yet nothing is fused: no pose matches, or frames are refused for what they are.
+  // Both inputs come, yet nothing is fused: no pose matches, or all frames are refused.
   add_if(silent && verdict.reasons.empty(), StateReason::unsynchronised);
   verdict.state = stale ? MapState::stale : verdict.reasons.empty() ? MapState::ok : MapState::degraded;
   return verdict;

@@ -10,16 +10,18 @@
 
 namespace laneloom {
 
-/// Ages are seconds since an arrival, by the steady clock; -1: nothing came yet.
+/// The facts that the health of a map is judged by. Ages are seconds since an arrival, by the steady clock;
+/// -1: nothing came yet.
 struct HealthInputs {
-  double detections_age_s = -1.0;
-  double poses_age_s = -1.0;
+  double detections_age_s = -1.0;     ///< since the arrival of the newest detections
+  double poses_age_s = -1.0;          ///< since the arrival of the newest pose
   double fused_age_s = -1.0;          ///< since the arrival of the newest frame in the map
   double other_service_age_s = -1.0;  ///< since a status of another service of this vehicle
-  std::optional<double> lag_s;        ///< of the newest fused frame's stamp behind the newest pose's
-  bool source_not_fused = false;      ///< a source of several, that was heard a moment ago
+  std::optional<double> lag_s;  ///< from the newest fused stamp to the newest pose's; none: nothing was fused
+  bool source_not_fused = false;  ///< one of several sources was heard a moment ago, but is not fused
 };
 
+/// How far the map can be relied on, and why.
 struct Verdict {
   MapState state = MapState::stale;
   std::vector<StateReason> reasons;  ///< empty where the state is OK
@@ -27,8 +29,8 @@ struct Verdict {
 };
 
 /// Judges how far the map can be relied on. STALE: nothing was fused for stale_after_s. DEGRADED: input is
-/// missing, or something went wrong within the last second. Times are the steady clock's; the lag is by
-/// stamps, which are the sensors'.
+/// missing, or something went wrong within the last second. Times are by the steady clock; the lag is by the
+/// stamps of the sensors.
 class Health {
  public:
   explicit Health(ServiceConfig config) : config_(std::move(config)) {}

@@ -9,12 +9,13 @@
 namespace laneloom {
 namespace {
 
-constexpr double kSourceRemembered_s = 10.0;  // a source that ended, or took another name, is missed so long
-constexpr double kFusionShare = 0.5;          // of a tick's period, after which no further frame is begun
+constexpr double kSourceRemembered_s = 10.0;  // a source that is silent for longer is not missed any more
+constexpr double kFusionShare = 0.5;  // share of a tick's period, after which no further frame is begun
 
 std::int64_t nanoseconds(double duration_s) { return static_cast<std::int64_t>(duration_s * 1e9); }
 
-/// Two configurations with the same value make the same maps of the same messages.
+/// Names the version and all of a configuration that maps depend on. Two services with the same name make the
+/// same maps of the same messages.
 std::string maker_of_maps(Config config) {
   config.service = {};
   config.ros2 = {};
@@ -83,7 +84,7 @@ void ServiceCore::fuse(const Tick& tick, std::vector<Arrival>&& messages) {
 }
 
 HealthInputs ServiceCore::inputs(std::int64_t now_ns, const Arrivals& arrivals) const {
-  // Nobody shall drive on a map of the run before until a frame has confirmed it.
+  // Nobody shall drive on a map of a former run until a frame has confirmed it.
   const auto checkpoint = session_.checkpoint();
   const auto fused_ns = checkpoint ? std::optional(checkpoint->frame_arrival_ns) : std::nullopt;
   return {.detections_age_s = age_s(now_ns, arrivals.newest_frame_ns),

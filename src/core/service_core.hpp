@@ -16,53 +16,53 @@
 
 namespace laneloom {
 
-/// The version of laneloom that this is.
+/// The version of laneloom.
 const char* version();
 
-/// All that the core knows of the world beside its messages.
+/// The functions by which the core knows the world beside its messages.
 struct Surroundings {
-  std::function<std::int64_t()> steady_now_ns;
-  std::function<std::int64_t()> system_now_ns;
-  std::function<std::uint64_t()> new_id;  ///< another one at every call, never 0
+  std::function<std::int64_t()> steady_now_ns;  ///< the steady clock
+  std::function<std::int64_t()> system_now_ns;  ///< the system clock
+  std::function<std::uint64_t()> new_id;        ///< a different id at every call, never 0
 };
 
-/// What a tick tells the world.
+/// The output of a tick.
 struct Messages {
   PublishedMap map;
   RoadMarkings road_markings;
-  std::optional<ServiceStatus> status;  ///< without the times of ticks; none: it is not due
+  std::optional<ServiceStatus> status;  ///< without its fields tick and tick_delay; none: it is not due
   std::optional<Snapshot> snapshot;     ///< to be kept for a restart; none: it is not due
-  bool state_changed = false;           ///< the state or its reasons are not those of the tick before
+  bool state_changed = false;           ///< the state or its reasons differ from those of the tick before
 };
 
-/// What the service does: takes what came, updates the map, judges how far it can be relied on, and tells. It
-/// has no DDS, no thread and no clock of its own: what it tells depends on its arguments and surroundings
-/// alone. Not thread-safe.
+/// The work of the service: takes the messages that came, updates the map, judges how far it can be relied
+/// on, and returns the messages to publish. It has no DDS, no thread and no clock of its own, so that its
+/// output depends on its arguments and surroundings alone. Not thread-safe.
 class ServiceCore {
  public:
   /// Throws ConfigError when the file of the SD map is missing or invalid.
   ServiceCore(const Config& config, Surroundings surroundings);
 
   /// Fuses frames for at most half a tick's period, and one frame at least. Frames for which no time is left
-  /// wait for the next tick; the state tells it.
+  /// wait for the next tick; the map's state then names the reason overloaded.
   Messages tick(const Tick& tick, Arrivals&& arrivals);
 
-  /// Goes on with the map of a service before; to be called before the first tick.
+  /// Goes on with the map of a former service. Is to be called before the first tick.
   void resume(Snapshot&& snapshot);
-  /// Of a snapshot made now. One with another maker is of no use to this service.
+  /// The stamp of a snapshot made now. A snapshot with another maker is of no use to this service.
   SnapshotStamp snapshot_stamp() const;
 
   /// Names this run of the service.
   std::uint64_t session_id() const { return session_id_; }
   const MappingSession& session() const { return session_; }
-  /// Is told of the stages of every fused frame.
+  /// Lets `observer` be told of the stages of every fused frame.
   void observe(StageObserver* observer) { session_.observe(observer); }
   /// State and numbers in one line, for people.
   std::string summary() const;
 
  private:
   void fuse(const Tick& tick, std::vector<Arrival>&& messages);
-  /// The inputs' ages at `now_ns`.
+  /// The facts for Health at `now_ns`.
   HealthInputs inputs(std::int64_t now_ns, const Arrivals& arrivals) const;
   /// Whether one of several sources that was heard a moment ago does not go into the map.
   bool source_not_fused(std::int64_t now_ns) const;
@@ -75,14 +75,14 @@ class ServiceCore {
   Config config_;
   Surroundings surroundings_;
   std::string config_hash_;
-  std::string maker_;  ///< of snapshots
+  std::string maker_;  ///< names this service in snapshots, see SnapshotStamp
   std::uint64_t session_id_;
   std::uint64_t map_id_;  ///< ids of elements are valid while it stays
   std::int64_t started_ns_;
   MappingSession session_;
   Health health_;
   Verdict verdict_;
-  Counters counters_;  ///< of the core itself
+  Counters counters_;  ///< of events in the core
   std::uint64_t unsynchronised_seen_ = 0;
   std::uint64_t overload_seen_ = 0;
   std::uint64_t map_sequence_ = 0;

@@ -10,16 +10,16 @@
 
 namespace laneloom::dds {
 
-/// What a reader takes: a message, or why what came is none.
+/// A received message, or the reason why the received bytes are none.
 template <class Message>
 struct Sample {
   Message message;
   std::string_view refusal;  ///< "crc", "data_id" or "malformed"; empty: the message is whole
 };
 
-/// The generated type support, made safe, and protected from end to end: a payload that is malformed neither
-/// throws (which would terminate the process, or be thrown again at every later take) nor allocates what it
-/// claims to need. It arrives as a sample that says so, for the reader to count.
+/// The generated type support, made safe and protected from end to end. A malformed payload neither throws
+/// (which would terminate the process, or be thrown again at every later take) nor allocates as much as it
+/// claims to need. It arrives as a sample with a refusal, for the reader to count.
 template <class PubSubType>
 class CheckedType : public PubSubType {
  public:
@@ -27,7 +27,8 @@ class CheckedType : public PubSubType {
   using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
 
   CheckedType() {
-    // Without these, Fast DDS would announce types that it could not describe (no -typeobject).
+    // Otherwise Fast DDS would announce types that it can not describe (the code was generated without
+    // -typeobject).
     this->auto_fill_type_object(false);
     this->auto_fill_type_information(false);
   }

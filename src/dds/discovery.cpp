@@ -60,7 +60,7 @@ Liveliness to_plain(LivelinessQosPolicyKind kind) {
   return Liveliness::automatic;
 }
 
-/// Of a writer's or a reader's announcement. Who it is of, is left open.
+/// The endpoint of a writer's or a reader's announcement, without its participant.
 template <class Data>
 Endpoint to_plain(const Data& data, bool is_writer) {
   Endpoint endpoint;
@@ -86,8 +86,8 @@ Peer to_plain(const ParticipantProxyData& data) {
           locators.empty() ? std::string() : IPLocator::ip_to_string(locators[0])};
 }
 
-/// Of one who is told of everybody: a plain client of a discovery server hears of those alone with whom it
-/// has topics in common.
+/// The quality of service of a participant that is told of all others. A plain client of a discovery server
+/// only hears of participants with which it has topics in common.
 DomainParticipantQos observer_qos(const DdsConfig& config, const std::string& name) {
   auto qos = participant_qos(config, name);
   auto& protocol = qos.wire_protocol().builtin.discovery_config.discoveryProtocol;
@@ -162,11 +162,11 @@ class Discovery::Impl : public DomainParticipantListener {
     }
   }
 
-  // DDS itself keeps as much of everyone who is there.
+  // Memory needs no bound: DDS itself keeps as much of every participant.
   mutable std::mutex mutex_;
   std::map<GuidPrefix_t, Peer> peers_;
   std::map<GUID_t, Endpoint> endpoints_;
-  DomainParticipant* participant_;  ///< the last, as it calls back from its beginning
+  DomainParticipant* participant_;  ///< last, because it calls back from its beginning on
 };
 
 Discovery::Discovery(const DdsConfig& config, const std::string& name)

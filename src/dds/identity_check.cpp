@@ -30,7 +30,7 @@ Certificate certificate(const std::filesystem::path& file) {
   return Certificate(PEM_read_bio_X509(open(file).get(), nullptr, nullptr, nullptr));
 }
 
-/// Of those whom this authority vouches for.
+/// A store that trusts all certificates of this authority.
 Store trusting(const Certificate& authority) {
   Store store(X509_STORE_new());
   X509_STORE_add_cert(store.get(), authority.get());

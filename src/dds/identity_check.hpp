@@ -5,8 +5,8 @@
 
 namespace laneloom::dds {
 
-/// What is wrong with the files of security in a folder, as far as they say by themselves; Fast DDS keeps its
-/// reasons to itself. Empty where nothing is found: then it is what the permissions say.
+/// The problem with the files of security in a folder, as far as the files show it by themselves; Fast DDS
+/// does not tell its reasons. Empty: no problem was found, so that the permissions forbid what is wanted.
 std::string identity_problem(const std::filesystem::path& folder);
 
 }  // namespace laneloom::dds

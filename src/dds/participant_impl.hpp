@@ -20,14 +20,14 @@ class Participant::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  /// The topic of this name, made at its first use. Throws std::runtime_error.
+  /// The topic of this name. It is made at its first use. Throws as Participant().
   eprosima::fastdds::dds::Topic* topic(const std::string& name,
                                        const eprosima::fastdds::dds::TypeSupport& type);
 
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }
-  /// DDS made no `entity`, of which it does not say why. Throws as Participant().
+  /// Throws, as Participant() does, because DDS made no `entity`. DDS itself does not tell why.
   [[noreturn]] void refuse(const std::string& entity) const;
 
  private:

@@ -27,8 +27,7 @@ using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-// A map of 500 KB is lost on the way with the kernel's default buffer; the kernel may give less than asked
-// for.
+// With the kernel's default buffers, a map of 500 KB gets lost. The kernel may give less than this.
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20;
 constexpr std::uint32_t kSharedMemoryBytes = 16U << 20;
 
@@ -98,7 +97,7 @@ void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
   }
 }
 
-/// The file of this name as an URI. Fast DDS itself says nothing of a file that it cannot read.
+/// The URI of a file. Throws if it can not be read, since Fast DDS says nothing then.
 std::string readable(const std::filesystem::path& directory, const char* name) {
   const auto file = std::filesystem::absolute(directory / name);
   if (!std::filesystem::is_regular_file(file) || !std::ifstream(file)) {
@@ -108,12 +107,12 @@ std::string readable(const std::filesystem::path& directory, const char* name) {
 }
 
 void set_security(const std::string& directory, DomainParticipantQos& qos) {
-  // A Fast DDS that was built without it ignores the properties.
+  // A Fast DDS that was built without security ignores the properties.
   if (HAVE_SECURITY == 0) throw ConfigError("dds.security_directory: this Fast DDS has no security");
   const std::string authentication = "dds.sec.auth.builtin.PKI-DH.";
   const std::string access = "dds.sec.access.builtin.Access-Permissions.";
   auto& properties = qos.properties().properties();
-  // Of two properties of one name, the first would count.
+  // Properties of the profile are removed: of two of one name, the first would count.
   std::erase_if(properties, [](const auto& property) { return property.name().starts_with("dds.sec."); });
   properties.emplace_back("dds.sec.auth.plugin", "builtin.PKI-DH");
   properties.emplace_back(authentication + "identity_ca", readable(directory, "identity_ca.cert.pem"));
@@ -129,7 +128,7 @@ void set_security(const std::string& directory, DomainParticipantQos& qos) {
 int depth(TopicKind kind) {
   switch (kind) {
     case TopicKind::detections:
-      return 64;  // seconds, so that a busy host loses none
+      return 64;  // some seconds, so that a busy host loses none
     case TopicKind::poses:
       return 512;
     case TopicKind::map:
@@ -140,12 +139,13 @@ int depth(TopicKind kind) {
   return 1;
 }
 
-/// What a writer and a reader of one topic have in common.
+/// Sets the quality of service that a writer and a reader of one topic have in common.
 template <class Qos>
 void set_common(TopicKind kind, Qos& qos) {
   qos.history().kind = KEEP_LAST_HISTORY_QOS;
   qos.history().depth = depth(kind);
   // The types are bounded but rarely full: preallocation would take their largest size for every sample.
+  // What is not reused would be freed too early (take_all.hpp).
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   qos.data_sharing().off();
   const bool from_service = kind == TopicKind::map || kind == TopicKind::status;
@@ -165,8 +165,8 @@ DomainParticipantQos participant_qos(const DdsConfig& config, const std::string&
   DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
   if (config.profile_file.empty()) {
     set_transports(config, qos);
-    // Far longer than a process hangs: after a lease that only one side saw end, Fast DDS 2.9 does not match
-    // the two again. Who died is noticed by what does not come, much sooner.
+    // The lease is far longer than a process hangs: after a lease that only one side saw end, Fast DDS 2.9
+    // does not match the two again. The death of a writer is noticed much sooner, by missing messages.
     auto& discovery = qos.wire_protocol().builtin.discovery_config;
     discovery.leaseDuration = milliseconds(20'000);
     discovery.leaseDuration_announcementperiod = milliseconds(500);
@@ -202,7 +202,7 @@ DataWriterQos writer_qos(TopicKind kind) {
   set_common(kind, qos);
   qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = milliseconds(50);
-  // What got lost is repaired after this time; the default is 3 s.
+  // A lost sample is repaired after this time; the default is 3 s.
   qos.reliable_writer_qos().times.heartbeatPeriod = milliseconds(20);
   qos.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
   return qos;
@@ -220,9 +220,9 @@ DataReaderQos reader_qos(TopicKind kind, ReliabilityQosPolicyKind reliability) {
 std::vector<ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind) {
   switch (kind) {
     case TopicKind::detections:
-      // Sensors often write best effort, which a reliable reader would not match. Of a reliable writer, the
-      // one reader has a frame at once, and the other a frame that had to be repaired: a large one seldom
-      // comes through whole.
+      // Sensors often write best effort, which a reliable reader does not match. From a reliable writer, the
+      // best-effort reader has a frame at once, and the reliable one has frames that had to be repaired: a
+      // large frame seldom comes through whole.
       return {BEST_EFFORT_RELIABILITY_QOS, RELIABLE_RELIABILITY_QOS};
     case TopicKind::poses:
       return {BEST_EFFORT_RELIABILITY_QOS};  // a pose that has to be sent again comes after the next one

@@ -12,12 +12,13 @@
 /// All quality of service of laneloom.
 namespace laneloom::dds {
 
+/// The kinds of topics, by their quality of service.
 enum class TopicKind {
   detections,  ///< to the service, some a second, large
   poses,       ///< to the service, many a second, small
-  map,         ///< from the service, at every tick; a late joiner gets the newest
-  status,      ///< from the service, now and then; a late joiner gets the newest
-  view         ///< from the service, at every tick or not; a late joiner gets the next
+  map,         ///< from the service, at every tick; a late reader gets the newest message
+  status,      ///< from the service, now and then; a late reader gets the newest message
+  view         ///< from the service to viewers; a late reader gets the next message
 };
 
 /// Throws ConfigError when the configured profile is missing or invalid, or a file of security is unreadable.
@@ -27,8 +28,8 @@ eprosima::fastdds::dds::DataWriterQos writer_qos(TopicKind kind);
 eprosima::fastdds::dds::DataReaderQos reader_qos(
     TopicKind kind, eprosima::fastdds::dds::ReliabilityQosPolicyKind reliability);
 
-/// What the readers of a topic ask for, one reader each. The first asks for least, so that it matches every
-/// writer.
+/// The reliabilities that the readers of a topic ask for, one reader each. The first one asks for least, so
+/// that it matches every writer.
 std::vector<eprosima::fastdds::dds::ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind);
 
 /// Announces these bytes with a participant or an endpoint.

@@ -24,7 +24,7 @@ class RawReader<T>::Impl {
   }
 
   Callback callback_;
-  Readers reader_;  // last: nothing calls into what is already gone
+  Readers reader_;  // last, so that no callback meets a destroyed member
 };
 
 template <class T>

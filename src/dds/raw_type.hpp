@@ -11,7 +11,7 @@ namespace laneloom::dds {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The topic's type by name and size, whose samples are the payloads themselves.
+/// A type support with the name and size of the topic's type, whose samples are the payloads themselves.
 template <class CheckedType>
 class RawType : public CheckedType {
  public:

@@ -7,11 +7,11 @@
 
 namespace laneloom::dds {
 
-/// Tells samples that came once from those that come again, by the numbers that their writers gave them.
+/// Recognises samples that come again, by the numbers that their writers gave them.
 class SampleNumbers {
  public:
-  /// True at the first call with this number of this writer. A number far below the newest is taken for one
-  /// that came before.
+  /// Whether this is the first call with this number of this writer. A number far below the newest one counts
+  /// as seen.
   bool is_new(const WriterId& writer, std::uint64_t number) {
     if (writers_.size() >= kMaxWriters) writers_.clear();
     const auto [entry, first] = writers_.try_emplace(writer, Window{number, 1});
@@ -31,8 +31,9 @@ class SampleNumbers {
 
  private:
   static constexpr std::uint64_t kWindow = 64;
-  static constexpr std::size_t kMaxWriters = 1024;  // a stranger may come with a new writer again and again
+  static constexpr std::size_t kMaxWriters = 1024;  // a stranger may come with ever new writers
 
+  /// The newest numbers of a writer.
   struct Window {
     std::uint64_t newest = 0;
     std::uint64_t seen = 0;  ///< bit i: the number i below the newest came

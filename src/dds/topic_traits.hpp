@@ -16,12 +16,12 @@
 
 namespace laneloom::dds {
 
-/// What a reader or a writer needs to know of its topic.
+/// The properties of a topic that its readers and writers need.
 struct TopicDescription {
   std::string name;
   TopicKind kind;
   eprosima::fastdds::dds::TypeSupport type;
-  std::string user_data;  ///< announced with the endpoint; ROS 2 has the hash of the type there
+  std::string user_data;  ///< announced with the endpoint; ROS 2 puts the hash of the type there
 };
 
 /// The topic of each plain type.
@@ -63,7 +63,7 @@ struct TopicTraits<ServiceStatus> {
   static constexpr auto kKind = TopicKind::status;
 };
 
-/// The topic of T, whose samples are as `Type` supports them.
+/// The topic of T, with `Type` as the type support of its samples.
 template <class T, class Type>
 TopicDescription topic_of() {
   return {TopicTraits<T>::kName, TopicTraits<T>::kKind, eprosima::fastdds::dds::TypeSupport(new Type), {}};

@@ -22,7 +22,7 @@ class Writer<T>::Impl {
 
  private:
   TopicWriter writer_;
-  Sample<MessageOf<T>> sample_;  // kept, so that its memory is used again
+  Sample<MessageOf<T>> sample_;  // kept, so that its memory is reused
   std::uint64_t left_out_ = 0;
 };
 

@@ -6,14 +6,14 @@
 namespace laneloom {
 namespace {
 
-/// The element that a marking belongs to; none where the marking is not published.
+/// The element that a marking belongs to. kNoElement: the marking is not published.
 ElementId element_of(const Membership& membership, ElementId marking) {
   const auto found = std::ranges::lower_bound(membership, marking, {}, &Membership::value_type::first);
   return found != membership.end() && found->first == marking ? found->second : kNoElement;
 }
 
-/// The same, or else that of the nearest of the marking's relatives that has one. What went may have gone
-/// into what went later.
+/// The element of a marking, or else that of its nearest relative that has one. Relatives are followed on,
+/// because a line may have merged into a line that merged into another one later.
 ElementId element_of(const Membership& membership, ElementId marking,
                      const std::vector<Relative>& relatives) {
   for (auto relative = relatives.begin(); relative != relatives.end(); ++relative) {
@@ -47,7 +47,7 @@ std::vector<LineageEvent> lineage(const Membership& before, const Membership& no
   using Kind = LineageEvent::Kind;
   const std::set<ElementId> ids_before = elements(before), ids_now = elements(now);
   std::vector<LineageEvent> events;
-  // An element is named after its oldest marking, so that its fate is that marking's.
+  // An element has the id of its oldest marking, and shares that marking's fate.
   for (const ElementId id : ids_now) {
     if (ids_before.contains(id)) continue;
     const ElementId former = element_of(before, id, relatives);

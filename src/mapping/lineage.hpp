@@ -9,14 +9,14 @@
 
 namespace laneloom {
 
-/// Which published element each marking was part of: pairs of (marking, element), by ascending marking.
+/// The published element that each marking is part of: pairs of (marking, element), by ascending marking.
 using Membership = std::vector<std::pair<ElementId, ElementId>>;
 
-/// Boundaries with their members, and stoplines, each of which is its own.
+/// The membership of boundaries, each with its members, and of stoplines, each of which is its own member.
 Membership membership(const Boundaries& boundaries, const std::vector<Stopline>& stoplines);
 
-/// What happened to the published ids from one map to the next, by ascending id. `relatives` are of the lines
-/// that came or went in between.
+/// The events of published ids from one map to the next, by ascending id. `relatives` are the lines that
+/// merged or were split in between.
 std::vector<LineageEvent> lineage(const Membership& before, const Membership& now,
                                   const std::vector<Relative>& relatives);
 

@@ -21,7 +21,8 @@
 namespace laneloom {
 namespace {
 
-/// A frame may come after newer ones of another source: it is fused as it was seen, into the map of now.
+/// The scene of the next map. A frame may come after newer ones of another source: it is fused as it was
+/// seen, into the present map.
 Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, const RangeConfig& range,
                  MapperState& state) {
   const bool newest = frame.stamp_ns >= state.map.stamp_ns;
@@ -30,7 +31,7 @@ Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_bod
           .frame = ++state.frame};
 }
 
-/// `published` is the membership of the map before, and then of this one.
+/// The map of a frame. `published` is the membership of the map before, and is set to that of this map.
 LocalMap assembled(const Scene& scene, FusedMarkings fused, RoadGraph road, const StoplineConfig& config,
                    Membership& published) {
   LocalMap map{.stamp_ns = scene.stamp_ns, .T_map_body = scene.T_map_body()};

@@ -16,7 +16,7 @@
 
 namespace laneloom {
 
-/// What markings are fused by: one method for a mapper's life.
+/// The method by which markings are fused. It stays the same for a mapper's life.
 // clang-tidy does not see that the moves of a std::variant of such methods throw nothing.
 class Fusion {  // NOLINT(bugprone-exception-escape)
  public:
@@ -29,7 +29,7 @@ class Fusion {  // NOLINT(bugprone-exception-escape)
     return std::visit([&](auto& method) { return method.fuse(observed, scene, config, ids, log); }, method_);
   }
 
-  /// Null: the method is the other one.
+  /// The state of the method `lines` or `voxels`. Null: the mapper uses the other method.
   const LineMapper* lines() const { return std::get_if<LineMapper>(&method_); }
   LineMapper* lines() { return std::get_if<LineMapper>(&method_); }
   const VoxelMapper* voxels() const { return std::get_if<VoxelMapper>(&method_); }
@@ -47,17 +47,17 @@ class Fusion {  // NOLINT(bugprone-exception-escape)
   std::variant<LineMapper, VoxelMapper> method_;
 };
 
-/// Everything that a mapper knows: a value without pointers, to be copied, saved and loaded.
+/// The whole knowledge of a mapper. It is a value without pointers, which can be copied, saved and loaded.
 struct MapperState {  // NOLINT(bugprone-exception-escape)
   explicit MapperState(const MapperConfig& config) : fusion(config) {}
 
-  std::uint64_t frame = 0;  ///< how many were fused
+  std::uint64_t frame = 0;  ///< number of fused frames
   Fusion fusion;
   LaneMemory lane_memory;
   EgoTrack ego_track;
-  Membership published;  ///< of the last map
+  Membership published;  ///< membership in the last map
   IdSource ids;
-  LocalMap map;  ///< the last one
+  LocalMap map;  ///< the last map
 
   template <class Archive>
   void serialize(Archive& archive) {

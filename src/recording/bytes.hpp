@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// Values as MCAP serialises them: little endian; texts and lists with their length in bytes in front.
+/// Values as MCAP serialises them: little endian, with the length in bytes before texts and lists.
 namespace laneloom {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -48,7 +48,7 @@ class ByteReader {
     for (std::size_t i = 0; i < sizeof(Number); ++i) value |= std::uint64_t{encoded[i]} << 8 * i;
     return static_cast<Number>(value);
   }
-  /// Views what the buffer has.
+  /// Takes `size` bytes, as a view of the buffer.
   ByteView bytes(std::uint64_t size) {
     if (size > from_.size()) throw std::runtime_error("a length exceeds what is there");
     const ByteView value = from_.first(size);

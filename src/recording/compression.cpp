@@ -44,7 +44,7 @@ void decompress_lz4(ByteView from, std::span<std::uint8_t> to) {
   if (LZ4F_isError(LZ4F_createDecompressionContext(&created, LZ4F_VERSION)) != 0U) throw std::bad_alloc();
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(
       created, LZ4F_freeDecompressionContext);
-  std::size_t expected = 1;  // more input; 0 is the end of the frame
+  std::size_t expected = 1;  // not 0: more input is expected; 0: the frame ends
   while (expected != 0) {
     std::size_t written = to.size();
     std::size_t read = from.size();

@@ -35,7 +35,7 @@ void OutputFile::append(ByteView bytes) {
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
       const int reason = errno;
-      // Where even this fails, a reader finds the file cut off.
+      // If even this fails, a reader takes the file for cut off.
       const bool undone = ftruncate(file_.get(), static_cast<off_t>(size_)) == 0 &&
                           lseek(file_.get(), static_cast<off_t>(size_), SEEK_SET) >= 0;
       errno = reason;

@@ -4,7 +4,8 @@
 
 #include "recording/bytes.hpp"
 
-/// Files by their descriptors; closed at the end. All throw std::runtime_error naming the file.
+/// Files by their descriptors, which are closed by the destructors. All throw std::runtime_error naming the
+/// file.
 namespace laneloom {
 
 class FileDescriptor {
@@ -25,7 +26,7 @@ class OutputFile {
   /// The file must not exist yet.
   explicit OutputFile(const std::string& path);
 
-  /// All of it, or none: where the disk is full, the file stays as it was before.
+  /// Appends all bytes or none: if the disk is full, the file stays as it was before.
   void append(ByteView bytes);
 
   std::uint64_t size() const { return size_; }
@@ -37,15 +38,15 @@ class OutputFile {
   std::uint64_t size_ = 0;
 };
 
-/// A file that is read from anywhere.
+/// A file that is read at any offset.
 class InputFile {
  public:
   explicit InputFile(const std::string& path);
 
-  /// Fills `to` from `offset` on; all of it must be within the file.
+  /// Fills `to` with the bytes from `offset` on, which must be within the file.
   void read(std::uint64_t offset, std::span<std::uint8_t> to) const;
 
-  /// When it was opened.
+  /// The size at the time of opening, in bytes.
   std::uint64_t size() const { return size_; }
   const std::string& path() const { return path_; }
 

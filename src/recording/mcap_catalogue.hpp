@@ -13,11 +13,11 @@ class McapCatalogue {
  public:
   explicit McapCatalogue(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// From a record's content.
+  /// Adds the schema or the channel of a record's content.
   void add_schema(ByteView record);
   void add_channel(ByteView record);
 
-  /// The reference stays valid as long as the catalogue is where it is.
+  /// The reference stays valid until the catalogue is moved or destroyed.
   const McapChannel& channel(std::uint16_t id) const;
 
  private:

@@ -31,19 +31,21 @@ enum class McapOpcode : std::uint8_t {
 /// Opcode and length, before a record's content.
 inline constexpr std::size_t kMcapRecordHeaderBytes = 9;
 inline constexpr std::size_t kMcapFooterBytes = 20;
-/// What a message record has before the message itself.
+/// Size of the part of a message record before the message itself.
 inline constexpr std::size_t kMcapMessageHeaderBytes = 22;
 
+/// The definition of a message type.
 struct McapSchema {
   std::string name;      ///< of the message type
-  std::string encoding;  ///< of `data`, as "omgidl"
-  std::string data;
+  std::string encoding;  ///< of `data`, such as "omgidl"
+  std::string data;      ///< the definition of the type
   bool operator==(const McapSchema&) const = default;
 };
 
+/// A stream of messages of one topic.
 struct McapChannel {
   std::string topic;
-  std::string message_encoding;                   ///< as "cdr"
+  std::string message_encoding;                   ///< such as "cdr"
   std::shared_ptr<const McapSchema> schema = {};  ///< null: the channel has none
   bool operator==(const McapChannel&) const = default;
 };

@@ -43,7 +43,7 @@ void McapReader::sort_by_time() {
 void McapReader::learn_channels(const McapSection& section) try {
   load(file_, section, limits_, 0, catalogue_);
 } catch (const std::runtime_error&) {
-  // What is damaged is told when it is opened; the others are read all the same.
+  // A damaged section is reported when it is opened. The other sections are read all the same.
 }
 
 bool McapReader::OpenSection::operator<(const OpenSection& other) const {
@@ -80,9 +80,10 @@ void McapReader::open(std::size_t number) {
   std::push_heap(open_.begin(), open_.end());
 }
 
-/// A chunk whose opcode is damaged would be passed over as an unknown record.
+/// Compares the number of messages with the file's statistics: a chunk whose opcode is damaged is passed over
+/// as an unknown record.
 void McapReader::check_count() {
-  const auto expected = std::exchange(contents_.message_count, std::nullopt);  // it is told once
+  const auto expected = std::exchange(contents_.message_count, std::nullopt);  // so that it is reported once
   if (!expected || *expected == count_) return;
   throw std::runtime_error(file_.path() + ": at its end: " + std::to_string(count_) +
                            " messages were found, of " + std::to_string(*expected));

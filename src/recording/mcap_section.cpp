@@ -38,7 +38,7 @@ class Allowance {
   std::uint64_t& used_;
 };
 
-/// The records of a chunk, in the content or in the buffer that is made for them.
+/// The records of a chunk: a view of its content, or of a buffer into which it is decompressed.
 ByteView unpack(ByteView content, Allowance& allowance, Buffer& decompressed) {
   ByteReader reader(content);
   reader.bytes(2 * sizeof(std::uint64_t));  // times
@@ -64,7 +64,7 @@ void add_message(ByteView message, const McapSection& section, Allowance& allowa
   reader.bytes(sizeof(std::uint16_t) + sizeof(std::uint32_t));  // channel, sequence
   const auto time_ns = reader.number<std::uint64_t>();
   if (time_ns < section.start_ns) throw std::runtime_error("a message that is older than its chunk says");
-  allowance.take(3 * sizeof(LoadedSection::Entry));  // what a vector takes at most while it grows
+  allowance.take(3 * sizeof(LoadedSection::Entry));  // the most that a vector takes while it grows
   to.entries.push_back({time_ns, message});
 }
 

@@ -8,7 +8,7 @@ namespace laneloom {
 namespace {
 
 constexpr std::uint64_t kWindowBytes = 4096;
-/// So that few messages outside of chunks are in memory at a time.
+/// A stretch of messages outside of chunks is cut at this size, so that few of them are in memory at a time.
 constexpr std::uint64_t kMaxLooseBytes = 1U << 20U;
 constexpr std::size_t kLogTimeOffset = 6;  // in a message
 
@@ -57,7 +57,7 @@ class Walk {
     return kMcapMagic.size();
   }
 
-  /// None: the file ends here, or is cut off.
+  /// The next record. None: the file ends here, or is cut off.
   std::optional<Record> record_at(std::uint64_t offset) {
     if (offset == end_) return std::nullopt;
     if (end_ - offset >= kMcapRecordHeaderBytes) {
@@ -65,7 +65,7 @@ class Walk {
       const auto opcode = reader.number<std::uint8_t>();
       const Record record{McapOpcode{opcode}, offset + kMcapRecordHeaderBytes,
                           reader.number<std::uint64_t>()};
-      // Zeros are what a file system may leave of an end that did not get to disk.
+      // A file system may leave zeros for an end that did not get to disk.
       if (opcode != 0 && record.length <= end_ - record.offset) return record;
     }
     if (!contents_.cut_off) fail(offset, "a record that is longer than the file, or none");
@@ -120,7 +120,7 @@ class Walk {
     return content_;
   }
 
-  /// Bytes of the file, which must be there. Valid until the next call.
+  /// Bytes of the file, which must have them. The view is valid until the next call.
   ByteView window(std::uint64_t offset, std::size_t size) {
     if (offset < window_offset_ || offset + size > window_offset_ + window_.size()) {
       window_.resize(std::min(kWindowBytes, file_.size() - offset));

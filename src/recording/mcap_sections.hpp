@@ -12,26 +12,26 @@ namespace laneloom {
 
 /// A chunk, or a stretch of messages outside of chunks.
 struct McapSection {
-  std::uint64_t offset = 0;  ///< of the chunk's content, or of the first message's record
-  std::uint64_t length = 0;
+  std::uint64_t offset = 0;    ///< of the chunk's content, or of the first message's record
+  std::uint64_t length = 0;    ///< in bytes
   std::uint64_t start_ns = 0;  ///< earliest log time
-  bool is_chunk = false;
+  bool is_chunk = false;       ///< else messages outside of chunks
 };
 
-/// What is where in an MCAP file.
+/// The sections of an MCAP file.
 struct McapContents {
   std::vector<McapSection> sections;  ///< in the order of the file
-  bool has_summary = false;  ///< the catalogue knows all channels, also those described within chunks
-  std::optional<std::uint64_t> message_count;  ///< as its statistics say
-  bool cut_off = false;                        ///< the file ends before its end
+  bool has_summary = false;           ///< the summary described all channels, also those within chunks
+  std::optional<std::uint64_t> message_count;  ///< by the file's statistics
+  bool cut_off = false;                        ///< the file ends before its footer
 };
 
-/// Walks over the file from record to record, and reads neither chunks nor messages. An index is not needed,
-/// and so not believed. Throws std::runtime_error naming file and offset when the file is malformed; one that
-/// is cut off is not, behind its magic.
+/// Walks over the file from record to record, without reading chunks and messages. An index is neither needed
+/// nor trusted. Throws std::runtime_error naming file and offset when the file is malformed. A file that is
+/// cut off behind its magic is not malformed.
 McapContents list_contents(const InputFile& file, const RecordingLimits& limits, McapCatalogue& catalogue);
 
-/// Calls `work`, and names file and offset in the std::runtime_error that it throws.
+/// Calls `work`, and adds file and offset to a std::runtime_error that it throws.
 template <class Work>
 auto at_offset(const InputFile& file, std::uint64_t offset, Work work) {
   try {

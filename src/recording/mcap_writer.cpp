@@ -58,7 +58,7 @@ void append_channel(std::uint16_t id, const McapChannel& channel, Bytes& to) {
   });
 }
 
-/// `index` has log times and offsets within the chunk.
+/// Writes the index of a channel; `index` has log times and offsets within the chunk.
 void append_message_index(std::uint16_t channel,
                           const std::vector<std::pair<std::uint64_t, std::uint64_t>>& index, Bytes& to) {
   append_record(McapOpcode::message_index, to, [&](ByteWriter& writer) {
@@ -98,7 +98,7 @@ std::uint16_t McapWriter::add_channel(const McapChannel& channel) {
   Bytes schema_record, channel_record;
   append_schema(id, *channel.schema, schema_record);
   append_channel(id, channel, channel_record);
-  // Outside of chunks, so that each chunk can be read whatever became of the others.
+  // Written outside of chunks, so that each chunk can be read even if others are damaged.
   append(schema_record);
   append(channel_record);
   schemas_.insert(schemas_.end(), schema_record.begin(), schema_record.end());

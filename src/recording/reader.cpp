@@ -14,14 +14,16 @@ namespace laneloom {
 namespace {
 
 constexpr std::string_view kForeignTopic = "not a topic of laneloom";
-/// What is only for viewers: made from laneloom's topics, so that passing over it loses nothing.
+/// The prefix of types for viewers alone. Their topics are made from laneloom's, so that passing over them
+/// loses nothing.
 constexpr std::string_view kViewersTypes = "foxglove::";
 constexpr std::uint64_t kMaxLogTime_ns = std::uint64_t{1} << 62U;  // differences do not overflow
 
 template <class T>
 constexpr bool kIsInput = std::is_same_v<T, DetectionFrame> || std::is_same_v<T, VehiclePose>;
 
-/// A channel that has the topic's name, but another type or encoding, would be taken for what it is not.
+/// Why a message of a channel with the topic's name is refused. Empty: it is not refused. The name alone does
+/// not tell that the channel is the topic's.
 template <class T>
 std::string_view refusal(const McapMessage& message) {
   const McapChannel& channel = *message.channel;
@@ -78,7 +80,8 @@ class RecordingReader::Impl {
   double progress() const { return file_.progress(); }
 
  private:
-  /// Whether the message is one of laneloom's, and `take`, called with its type, names no reason against it.
+  /// Whether the message is one of laneloom's, and `take`, which is called with its type, names no reason to
+  /// refuse it.
   template <class Take>
   bool accept(const McapMessage& message, const Take& take) {
     if (message.channel->schema && message.channel->schema->name.starts_with(kViewersTypes)) return false;

@@ -6,8 +6,8 @@
 /// The topics of laneloom as a recording describes them.
 namespace laneloom {
 
-/// IDL as one text: what a message's file includes is in it, and no line is for a preprocessor, which readers
-/// of recordings do not have. Made from idl/ by flatten_idl.cmake.
+/// The IDL of a message as one text: included files are inserted, and there is no line for a preprocessor,
+/// which readers of recordings do not have. Made from idl/ by flatten_idl.cmake.
 extern const char* const kDetectionsIdl;
 extern const char* const kVehiclePoseIdl;
 extern const char* const kLaneMapIdl;
@@ -17,6 +17,7 @@ extern const char* const kServiceStatusIdl;
 inline constexpr const char* kCdr = "cdr";
 inline constexpr const char* kOmgIdl = "omgidl";
 
+/// A topic with its message type and the IDL of that type.
 struct RecordedTopic {
   const char* name;
   const char* type;

@@ -25,7 +25,7 @@ McapChannel channel_of(const Topic& topic) {
   return {topic.name, kCdr, std::make_shared<McapSchema>(McapSchema{topic.type, kOmgIdl, topic.idl})};
 }
 
-/// MCAP knows no time before 1970.
+/// A time in MCAP, which knows none before 1970.
 std::uint64_t mcap_time(std::int64_t time_ns) {
   return static_cast<std::uint64_t>(std::max(std::int64_t{0}, time_ns));
 }
@@ -41,7 +41,7 @@ class RecordingWriter::Impl {
   ~Impl() {
     try {
       close();
-    } catch (const std::exception&) {  // whoever wants to know calls close()
+    } catch (const std::exception&) {  // close() reports failures
     }
   }
   Impl(const Impl&) = delete;
@@ -128,7 +128,7 @@ class RecordingWriter::Impl {
     start_ns_ = log_time_ns;
   }
 
-  std::string path_;  ///< without number and extension
+  std::string path_;  ///< path without number and extension
   RecordingOptions options_;
   std::string file_path_;
   std::unique_ptr<McapWriter> file_;
@@ -136,7 +136,7 @@ class RecordingWriter::Impl {
   std::vector<std::uint16_t> extra_channels_;  ///< in the order of options_.extra_topics
   std::optional<std::int64_t> start_ns_;       ///< log time of the file's first message
   int files_ = 0;
-  Bytes cdr_;  // kept, so that its memory is used again
+  Bytes cdr_;  // kept, so that its memory is reused
   std::uint64_t left_out_ = 0;
 };
 

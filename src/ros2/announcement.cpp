@@ -15,7 +15,7 @@ namespace {
 
 using eprosima::fastrtps::rtps::GUID_t;
 
-constexpr const char* kTopic = "ros_discovery_info";  // without the prefix of others
+constexpr const char* kTopic = "ros_discovery_info";  // has no prefix "rt/"
 constexpr const char* kType = "rmw_dds_common/msg/ParticipantEntitiesInfo";
 
 template <class Gid>
@@ -36,7 +36,7 @@ std::vector<Gid> to_gids(const std::vector<Entity*>& entities) {
   return gids;
 }
 
-/// Writes what the participant has, in the words of one distribution.
+/// Writes the participant's endpoints, with the message type of one distribution.
 template <class Type, class Node, class Gid>
 std::unique_ptr<dds::TopicWriter> announce_as(const std::shared_ptr<dds::Participant::Impl>& participant,
                                               const Ros2Config& config) {

@@ -7,9 +7,9 @@
 
 namespace laneloom::ros2 {
 
-/// Tells ROS that what the participant writes and reads is of a node, as `ros2 node list` shows. Returns the
-/// writer that keeps the announcement for those who come later. Of what the participant gets later, nothing
-/// is told. Throws as dds::Participant().
+/// Announces to ROS that the participant's writers and readers belong to a node, which `ros2 node list` then
+/// shows. Returns the writer that keeps the announcement for nodes that come later. Endpoints that the
+/// participant gets later are not announced. Throws as dds::Participant().
 std::unique_ptr<dds::TopicWriter> announce(const std::shared_ptr<dds::Participant::Impl>& participant,
                                            const Ros2Config& config);
 

@@ -13,7 +13,7 @@ namespace {
 
 using diagnostic_msgs::msg::dds_::KeyValue_;
 
-/// As diagnostic_msgs/DiagnosticStatus numbers them.
+/// Levels, as diagnostic_msgs/DiagnosticStatus numbers them.
 enum Level : std::uint8_t { kOk = 0, kWarn = 1, kStale = 3 };
 
 Level level_of(MapState state) {

@@ -10,12 +10,12 @@
 
 namespace laneloom::ros2 {
 
-/// All that nodes of ROS 2 see of the service, on a participant of its own: it is in no partition, and its
-/// topics and types have the names that ROS gives them. Not thread-safe.
+/// The endpoints of the service for nodes of ROS 2, on a participant of its own. It is in no partition, and
+/// its topics and types have the names that ROS gives them. Not thread-safe.
 class Endpoints {
  public:
-  /// What takes the inputs, as that of dds::Reader. A detection frame or a pose whose writer names no session
-  /// has that of the DDS writer, and the number that DDS gave it.
+  /// Callbacks for the inputs, as those of dds::Reader. A frame or a pose without a session gets one that is
+  /// derived from its DDS writer, and the sequence number that DDS gave it.
   struct Inputs {
     dds::ReaderCallbacks<DetectionFrame> detections;
     dds::ReaderCallbacks<VehiclePose> poses;
@@ -24,10 +24,10 @@ class Endpoints {
   Endpoints(const Config& config, Inputs inputs, dds::Participant::Presence presence);
   ~Endpoints();
 
-  /// Writes the lane map and its markers, and of a map to drive on the road segments, which cannot tell the
-  /// state. Returns how many of them DDS did not take.
+  /// Writes the lane map, its markers and its road segments. Road segments have no room for the state, so
+  /// that they are only written for a map to drive on. Returns how many messages DDS did not take.
   std::size_t write(const PublishedMap& map);
-  /// Writes the diagnostics. Returns likewise.
+  /// Writes the diagnostics. Returns how many messages DDS did not take.
   std::size_t write(const ServiceStatus& status);
 
  private:

@@ -12,26 +12,28 @@
 namespace laneloom::ros2 {
 
 /// The map as markers for RViz and Foxglove. An element keeps its marker's namespace and id for as long as it
-/// is in the map, so that nothing flickers; what leaves the map is deleted once. Whatever is not repeated
-/// goes after a second: a display of a service that hangs gets empty. Not thread-safe.
+/// is in the map, so that nothing flickers. The marker of an element that leaves the map is deleted once. A
+/// marker that is not repeated disappears after a second, so that the display of a service that hangs becomes
+/// empty. Not thread-safe.
 class Markers {
  public:
-  /// Everything that is in the map now, and the deletions since the call before. Coordinates are in the map
-  /// frame.
+  /// Markers of all elements of the map, and deletions of those that left it since the call before.
+  /// Coordinates are in the map frame.
   visualization_msgs::msg::dds_::MarkerArray_ update(const PublishedMap& map);
 
  private:
   using Marker = visualization_msgs::msg::dds_::Marker_;
 
-  /// An element of the map: a linkage has two ids.
+  /// An element of the map. A linkage has two ids: those of its lanes.
   struct Element {
-    std::string ns;
+    std::string ns;  ///< namespace of the marker
     ElementId id = kNoElement, other = kNoElement;
     bool operator<(const Element& o) const { return std::tie(ns, id, other) < std::tie(o.ns, o.id, o.other); }
   };
+  /// A marker that viewers show.
   struct Shown {
-    std::int32_t id = 0;
-    std::uint64_t update = 0;  ///< the newest that had it
+    std::int32_t id = 0;       ///< of the marker
+    std::uint64_t update = 0;  ///< number of the newest update that had it
   };
 
   /// A new marker of an element, without any shape.
@@ -46,7 +48,7 @@ class Markers {
   std::map<Element, Shown> shown_;
   std::int32_t next_id_ = 0;
   std::uint64_t updates_ = 0;
-  std::vector<Marker> markers_;  ///< of the update that is made
+  std::vector<Marker> markers_;  ///< of the present update
 };
 
 }  // namespace laneloom::ros2

@@ -7,19 +7,19 @@
 #include "laneloom/config.hpp"
 #include "laneloom/dds/reader.hpp"
 
-/// What ROS 2 makes of names on DDS. All functions are pure.
+/// The names on DDS that ROS 2 gives to topics and types. All functions are pure.
 namespace laneloom::ros2 {
 
-/// The node that the service is.
+/// The name of the service as a node.
 inline constexpr const char* kNodeName = "laneloom";
 
-/// Of the frames of detections: the topic, in the namespace, and its type.
+/// Topic (in the namespace) and type of the frames of detections.
 inline constexpr const char* kDetectionsTopic = "laneloom/detections";
 inline constexpr const char* kDetectionsType = "laneloom_msgs/msg/Detections";
-/// Of the poses; the configuration names their topic.
+/// Type of the poses. The configuration names their topic.
 inline constexpr const char* kOdometryType = "nav_msgs/msg/Odometry";
 
-/// The namespace with its leading '/'; "/" where there is none.
+/// The namespace with its leading '/'; "/" if there is none.
 std::string full_namespace(const Ros2Config& config);
 /// The node with its namespace: "/car_1/laneloom".
 std::string full_node_name(const Ros2Config& config);
@@ -31,14 +31,14 @@ std::string dds_topic(const Ros2Config& config, const std::string& name);
 /// The DDS type of a ROS type: "nav_msgs::msg::dds_::Odometry_" for "nav_msgs/msg/Odometry".
 std::string dds_type(std::string_view ros_type);
 
-/// What an endpoint of a ROS type tells in its user data: "typehash=RIHS01_…;". Throws std::out_of_range for
-/// a type that idl/ does not have.
+/// The user data of an endpoint of a ROS type: "typehash=RIHS01_…;". Throws std::out_of_range for a type that
+/// idl/ does not have.
 std::string user_data(std::string_view ros_type);
 
-/// What makes a DDS participant one of ROS: the security enclave that it belongs to.
+/// The user data of a participant of ROS. It names the security enclave that the participant belongs to.
 inline constexpr const char* kParticipantUserData = "enclave=/;";
 
-/// A session id for a writer whose messages name none: another one for each writer, never 0.
+/// A session id for a writer whose messages name none: a different one for each writer, never 0.
 std::uint64_t session_of(const dds::WriterId& writer);
 
 }  // namespace laneloom::ros2

@@ -6,7 +6,7 @@
 namespace laneloom::ros2 {
 namespace {
 
-constexpr std::size_t kMaxName = 4096;  // of a frame: far more than any has
+constexpr std::size_t kMaxName = 4096;  // of a frame; far longer than any real one
 constexpr std::size_t kCovariance = 36;
 constexpr std::uint32_t kNanosecondsPerSecond = 1'000'000'000;
 

@@ -12,9 +12,9 @@ namespace laneloom::ros2 {
 /// Whether `payload` can be an Odometry: each length is within the payload.
 bool is_odometry(std::span<const std::uint8_t> payload);
 
-/// The pose of an odometry, which must be in `map_frame_id`; session and sequence are left as they are.
-/// Returns why it is refused, as cdr/convert.hpp; empty: it is not. Covariances and the twist are not looked
-/// at.
+/// Takes the pose of an odometry, which must be in `map_frame_id`. Session and sequence of `to` stay
+/// unchanged. Returns why it is refused, by the names of cdr/convert.hpp; empty: it is not refused.
+/// Covariances and the twist are ignored.
 std::string_view from_ros(const nav_msgs::msg::dds_::Odometry_& from, const std::string& map_frame_id,
                           VehiclePose& to);
 

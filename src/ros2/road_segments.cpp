@@ -18,7 +18,7 @@ using autoware_mapless_planning_msgs::msg::dds_::Segment_;
 constexpr std::int32_t kNone = -1;
 constexpr std::size_t kMaxSegments = 65'536;
 
-/// Along the line at one of its points, from above.
+/// The horizontal direction of a line at one of its points.
 Eigen::Vector2d direction_at(const Polyline& line, std::size_t i) {
   const Point& from = line[i == 0 ? 0 : i - 1];
   const Point& to = line[std::min(i + 1, line.size() - 1)];
@@ -37,8 +37,8 @@ Linestring_ to_linestring(const Polyline& line, const Eigen::Isometry3d& T_body_
   return to;
 }
 
-/// The first lane on that side that runs the same way: it has this lane on its other side. Null: there is
-/// none.
+/// The first lane on a side that runs the same way, so that it has this lane on its other side. Null: there
+/// is none.
 const Lane* neighbour(const std::map<ElementId, const Lane*>& lanes, const Lane& lane, bool left) {
   for (const Neighbour& beside : left ? lane.left_neighbours : lane.right_neighbours) {
     const auto found = lanes.find(beside.lane);
@@ -96,7 +96,7 @@ class Builder {
     }
     continue_with(last, numbers_[linkage.to]);
   }
-  /// The lines at both sides of a path whose width goes from one to the other.
+  /// The lines at both sides of a path, whose width changes evenly from its beginning to its end.
   static std::array<Polyline, 2> sides(const Polyline& path, double from_m, double to_m) {
     std::array<Polyline, 2> both;
     for (std::size_t i = 0; i < path.size(); ++i) {
@@ -112,7 +112,7 @@ class Builder {
   const LocalMap& map_;
   Eigen::Isometry3d T_body_map_;
   std::map<ElementId, const Lane*> lanes_;
-  std::map<ElementId, std::int32_t> numbers_;  ///< of the lanes' segments
+  std::map<ElementId, std::int32_t> numbers_;  ///< numbers of the lanes' segments
   std::vector<Segment_> segments_;
 };
 

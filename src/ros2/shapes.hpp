@@ -8,10 +8,11 @@ namespace laneloom::ros2 {
 
 using Marker = visualization_msgs::msg::dds_::Marker_;
 
-/// As visualization_msgs/Marker numbers them.
+/// Types and actions, as visualization_msgs/Marker numbers them.
 enum MarkerType : std::int32_t { kLineStrip = 4, kTextViewFacing = 9, kTriangleList = 11 };
 enum MarkerAction : std::int32_t { kAdd = 0, kDelete = 2 };
 
+/// Red, green, blue and opacity, 0..1.
 struct Color {
   float r = 0, g = 0, b = 0, a = 1;
 };

@@ -8,8 +8,7 @@
 
 namespace laneloom::ros2 {
 
-/// The topic `name` of a node, of a type that ROS knows by `ros_type`, and whose samples are as `Type`
-/// supports them.
+/// The topic `name` of a node. ROS knows its type as `ros_type`; `Type` is the type support of its samples.
 template <class Type>
 dds::TopicDescription topic(const std::string& name, std::string_view ros_type, dds::TopicKind kind) {
   auto* type = new Type;

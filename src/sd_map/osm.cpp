@@ -20,13 +20,13 @@ namespace {
 
 using OsmId = std::int64_t;
 
-/// Values of the tag highway that motor vehicles drive on, but for their links.
+/// Values of the tag highway of streets for motor vehicles. Their links have the suffix "_link".
 const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",     "secondary",
                                           "tertiary", "unclassified", "residential", "living_street",
                                           "service",  "road"};
-constexpr double kMaxDistance_m = 1e6;  // from the origin; beyond, the projection means nothing
-constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;  // in memory it takes a few times as much
-constexpr double kMaxStreets_m = 2e7;  // in all: a few bytes can name streets that would take all memory
+constexpr double kMaxDistance_m = 1e6;  // from the origin; further away the projection has no meaning
+constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;  // in memory a file takes a few times as much
+constexpr double kMaxStreets_m = 2e7;  // all streets; a few bytes can name streets that take all memory
 
 std::string_view tag(const pugi::xml_node& element, const char* key) {
   return element.find_child_by_attribute("tag", "k", key).attribute("v").as_string();
@@ -64,7 +64,7 @@ bool is_street(const pugi::xml_node& way) {
   return kStreets.contains(highway);
 }
 
-/// Splits off what lies outside of the extract, whose nodes are not in it.
+/// Adds the parts of a way whose nodes are in the extract.
 void add_way(const pugi::xml_node& element, const std::map<OsmId, Eigen::Vector2d>& nodes,
              std::vector<SdWay>& ways) {
   const std::string_view oneway = tag(element, "oneway"), junction = tag(element, "junction");
@@ -101,7 +101,8 @@ double total_length_m(const std::vector<SdWay>& ways) {
   return total_m;
 }
 
-/// Restrictions by a single node; others, and those for some vehicles or hours only, are left out.
+/// The turn restriction of a relation at a single node. Empty: it is another one, or holds for some vehicles
+/// or hours only.
 std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
   if (tag(relation, "type") != "restriction") return std::nullopt;
   const std::string_view kind = tag(relation, "restriction");
@@ -118,7 +119,7 @@ std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
   return SdRestriction{*from, *via, *to, kind.starts_with("only_")};
 }
 
-/// Opening a pipe would wait for who writes it.
+/// Refuses files that are too large or not regular: opening a pipe would wait for its writer.
 void check_file(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error("is not a readable file");

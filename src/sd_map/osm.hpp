@@ -8,8 +8,8 @@ namespace laneloom {
 
 /// Reads an OpenStreetMap extract (XML): its highways for motor vehicles, one-way streets and turn
 /// restrictions, with the map frame's origin as configured: x east, y north. An empty file name gives an
-/// empty map. Throws ConfigError naming the file and, where it can, the element, if it cannot be read, is
-/// larger than 512 MB, or holds no street, or more than 20000 km of them.
+/// empty map. Throws ConfigError if the file cannot be read, is larger than 512 MB, or holds no street or
+/// more than 20000 km of them. The error names the file and, if possible, the element.
 SdMap load_sd_map(const SdMapConfig& config);
 
 }  // namespace laneloom

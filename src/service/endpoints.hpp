@@ -14,11 +14,11 @@
 
 namespace laneloom {
 
-/// Everything of the service that DDS sees, as one object: it can be made anew while the map lives on.
+/// All DDS endpoints of the service, as one object that can be made anew while the map lives on.
 class Endpoints {
  public:
-  /// What arrives goes into `queue`, which must outlive this; so does that another service than that of
-  /// `session_id` has the same vehicle. Throws as dds::Participant().
+  /// Messages that arrive are put into `queue`, which must outlive this. The queue is also told when a status
+  /// of the same vehicle comes from a service other than `session_id`. Throws as dds::Participant().
   Endpoints(const Config& config, std::uint64_t session_id, IngestionQueue& queue,
             const std::function<std::int64_t()>& now_ns,
             dds::Participant::Presence presence = dds::Participant::Presence::shown);

@@ -24,7 +24,7 @@ void IncidentLog::note(const ServiceStatus& status, std::int64_t now_ns) {
   for (const auto& [counter, total] : status.counters) {
     seen.add(counter, total);
     const auto before = reported_[counter];
-    // A message that was taken for lost may still come.
+    // A total may also fall: a message that was taken for lost may still come.
     if (total > before && is_incident(counter)) {
       spdlog::warn("counter={} new={} total={}", counter, total - before, total);
     }

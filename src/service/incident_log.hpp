@@ -7,8 +7,8 @@
 
 namespace laneloom {
 
-/// Logs the rise of counters that should not rise in normal operation. Once per period, so that nothing that
-/// others send can flood the log.
+/// Logs the rise of counters that should not rise in normal operation. It does so once per period, so that no
+/// message of others can flood the log.
 class IncidentLog {
  public:
   explicit IncidentLog(double period_s) : period_ns_(static_cast<std::int64_t>(period_s * 1e9)) {}

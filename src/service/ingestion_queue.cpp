@@ -26,7 +26,7 @@ IngestionQueue::IngestionQueue(const Config& config) : config_(config.sync), gat
 }
 
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
-  // Before the frame is thinned: what is wrong with it may be in a detection that would be left out.
+  // Checked before the frame is thinned: the defect may be in a detection that would be left out.
   const std::string_view refusal = defect(frame, gate_);
   const std::size_t left_out = refusal.empty() ? admit(gate_, frame) : 0;
   const std::lock_guard lock(mutex_);
@@ -76,7 +76,7 @@ void IngestionQueue::note_source(const DetectionFrame& frame) {
     if (sources.size() == kMaxSources) sources.erase(sources.begin());
     sources.push_back({frame.source, frame.session_id, frame.sequence, frame.sequence, 1});
   } else {
-    // The first to arrive may have overtaken one that was lost and sent again.
+    // The first frame to arrive may have overtaken one that was lost and sent again.
     known->first_sequence = std::min(known->first_sequence, frame.sequence);
     known->last_sequence = std::max(known->last_sequence, frame.sequence);
     ++known->frames;

@@ -14,33 +14,35 @@
 
 namespace laneloom {
 
-/// Between the threads of DDS, which push, and the executor, which takes. Bounded: for a new pose the oldest
-/// is dropped, for a new frame the oldest of the source that has the most; both are counted. All functions
-/// are thread-safe.
+/// The queue between the threads of DDS, which push, and the executor, which takes. It is bounded: for a new
+/// pose the oldest pose is dropped, for a new frame the oldest frame of the source that has the most. Both
+/// are counted. All functions are thread-safe.
 class IngestionQueue {
  public:
   explicit IngestionQueue(const Config& config);
 
-  /// Refuses a frame that has a defect() whole. Keeps of any other what admit() leaves, so that memory is
+  /// Refuses a frame that has a defect() as a whole. Other frames are reduced by admit(), so that memory is
   /// bounded too.
   void push(DetectionFrame&& frame, std::int64_t arrival_ns);
   void push(VehiclePose&& pose, std::int64_t arrival_ns);
-  /// A message came that was no valid one.
+  /// Counts a message that was refused as invalid.
   void refuse_detections(std::string_view reason);
   void refuse_pose(std::string_view reason);
 
-  /// Another service of the same vehicle was heard.
+  /// Notes that another service of the same vehicle was heard.
   void note_other_service(std::int64_t arrival_ns);
-  /// Before each of these: its writer, and its number among that writer's. Tells what never came.
+  /// Is called before each push or refusal, with the writer of the message and its number among the writer's
+  /// messages. The numbers tell which messages never came.
   void number_detections(const dds::WriterId& writer, std::uint64_t number);
   void number_pose(const dds::WriterId& writer, std::uint64_t number);
 
-  /// What came since the call before, with the counters of all that ever came.
+  /// Takes the messages since the call before, with the counters since the start.
   Arrivals take();
 
  private:
+  /// A queued message.
   struct Numbered {
-    std::uint64_t order = 0;
+    std::uint64_t order = 0;  ///< its place in the order of arrival
     Arrival arrival;
   };
   using Queue = std::deque<Numbered>;
@@ -59,10 +61,11 @@ class IngestionQueue {
   Queue poses_;
   LostMessages lost_frames_;
   LostMessages lost_poses_;
-  // What was lost is taken over with the message that shows it, so that the sums are right at every instant.
+  // Lost messages are counted together with the message that shows the loss, so that the sums are right at
+  // every instant.
   std::uint64_t frames_lost_ = 0;
   std::uint64_t poses_lost_ = 0;
-  Arrivals state_;  ///< without messages: they are in the queues
+  Arrivals state_;  ///< without messages, which are in the queues
 };
 
 }  // namespace laneloom

@@ -16,7 +16,8 @@
 namespace laneloom {
 namespace {
 
-/// systemd names the stream that it connected; what a parent inherited and redirected is another one.
+/// Whether standard error is the journal. systemd names the stream that it connected, so that a stream which
+/// was redirected later is told apart.
 bool writes_to_journal() {
   const char* stream = std::getenv("JOURNAL_STREAM");
   struct stat errors {};
@@ -33,7 +34,7 @@ std::shared_ptr<spdlog::sinks::sink> make_sink() {
 
 void set_up_log(const std::string& level) {
   auto log = std::make_shared<spdlog::logger>("laneloomd", make_sink());
-  // The journal has times of its own, and takes the text alone.
+  // The journal adds times of its own, and does not use this pattern.
   log->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
   spdlog::set_default_logger(std::move(log));
   set_log_level(level);

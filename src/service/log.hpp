@@ -4,15 +4,15 @@
 
 namespace laneloom {
 
-/// Makes the log of the process: to the journal, with priorities, where standard error is connected to it,
-/// and to standard error, with times, elsewhere.
+/// Makes the log of the process. If standard error is connected to the journal, the log goes there with
+/// priorities; otherwise it goes to standard error with times.
 void set_up_log(const std::string& level);
 
-/// An error before there is a log, in one or more lines on standard error; with a priority where that is the
-/// journal.
+/// Prints an error of one or more lines on standard error, before there is a log. If that is the journal, the
+/// lines have a priority.
 void print_error(const std::string& text);
 
-/// "debug", "info", "warn", "error" or "off".
+/// Sets the least severe level that is logged: "debug", "info", "warn", "error" or "off".
 void set_log_level(const std::string& level);
 
 }  // namespace laneloom

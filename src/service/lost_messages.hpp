@@ -8,11 +8,11 @@
 
 namespace laneloom {
 
-/// Tells by the writers' own numbers how many messages never arrived, whatever their contents. A message that
-/// comes after newer ones is not lost any more.
+/// Counts the messages that never arrived, by the numbers that their writers gave them. A message that comes
+/// after newer ones is no longer counted as lost.
 class LostMessages {
  public:
-  /// Each number of a writer at most once.
+  /// Notes that a message arrived. Each number of a writer may be noted once.
   void note(const dds::WriterId& writer, std::uint64_t number) {
     if (writers_.size() >= kMaxWriters) forget();
     Numbers& numbers = writers_.try_emplace(writer, Numbers{number, number, 0}).first->second;
@@ -28,6 +28,7 @@ class LostMessages {
   }
 
  private:
+  /// The smallest and the largest number of a writer, and how many arrived.
   struct Numbers {
     std::uint64_t first = 0, newest = 0, arrived = 0;
   };
@@ -37,7 +38,7 @@ class LostMessages {
     writers_.clear();
   }
 
-  static constexpr std::size_t kMaxWriters = 1024;  // none is forgotten alone: it may come back
+  static constexpr std::size_t kMaxWriters = 1024;  // beyond, all are forgotten: one alone may return
   std::map<dds::WriterId, Numbers> writers_;
   std::uint64_t of_forgotten_ = 0;
 };

@@ -35,7 +35,8 @@ struct Options {
   bool dump_only = false;
 };
 
-/// The file, then the preset, then what else the command line says.
+/// The configuration of the file, overridden by the preset, overridden by the other options of the command
+/// line.
 Config configure(const Options& options) {
   Config config = resolve_config(options.config_file, options.preset);
   if (options.vehicle_id) config.dds.vehicle_id = *options.vehicle_id;
@@ -45,13 +46,13 @@ Config configure(const Options& options) {
   return config;
 }
 
-/// What the service runs with.
+/// The configuration that the service runs with.
 struct Running {
   Config config;
-  std::string profile;  ///< what the profile's file said at the start: Fast DDS reads it once
+  std::string profile;  ///< text of the profile's file at the start; Fast DDS reads it once
 };
 
-/// Empty where there is none.
+/// The text of the profile's file. Empty: there is none.
 std::string profile_of(const Config& config) {
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(config.dds.profile_file, unknown)) return {};
@@ -60,7 +61,7 @@ std::string profile_of(const Config& config) {
   return std::move(text).str();
 }
 
-/// Takes over what can change while it runs, and says what can't.
+/// Applies the settings that can change while the service runs, and logs which can not.
 void reconfigure(Running& running, const Options& options) try {
   const auto wanted = configure(options);
   auto& config = running.config;
@@ -80,7 +81,7 @@ void reconfigure(Running& running, const Options& options) try {
   spdlog::error("event=configuration_refused reason=\"{}\"", error.what());
 }
 
-/// After a change of the network, interfaces that were down are only seen by new endpoints.
+/// Makes the endpoints anew: after a change of the network, only new endpoints see interfaces that were down.
 void reopen(Service& service) try {
   service.reopen();
   spdlog::info("event=reopened");
@@ -128,7 +129,7 @@ int start(const Options& options) {
     return EX_OK;
   }
   if (options.check_only) {
-    const MappingSession session(config);  // reads the files that the configuration names
+    const MappingSession session(config);  // checks the files that the configuration names
     dds::check_files(config.dds);
     std::printf("configuration %s is valid\n", config_hash(config).c_str());
     return EX_OK;
@@ -145,7 +146,7 @@ int main(int argc, char** argv) try {
   laneloom::Options options;
   CLI::App app("Fuses road-marking detections into a local lane map, over DDS.", "laneloomd");
   app.add_option("--config", options.config_file,
-                 "Configuration file (YAML); defaults where it says nothing");
+                 "Configuration file (YAML); keys that it lacks have their defaults");
   app.add_option("--preset", options.preset, "Range and alpha_n of the paper's data sets: inhouse or av2");
   app.add_option("--vehicle-id", options.vehicle_id,
                  "Vehicle (DDS partition), instead of the configured one");
@@ -167,10 +168,10 @@ int main(int argc, char** argv) try {
   return laneloom::start(options);
 } catch (const laneloom::ConfigError& error) {
   laneloom::print_error(error.what());
-  return EX_CONFIG;  // systemd does not try again: it would be refused again
+  return EX_CONFIG;  // systemd does not start the service again: it would be refused again
 } catch (const laneloom::dds::NotPermitted& error) {
   laneloom::print_error(error.what());
-  return EX_NOPERM;  // systemd tries again: the clock may be what is wrong
+  return EX_NOPERM;  // systemd starts the service again: the clock may be wrong yet
 } catch (const std::exception& error) {
   laneloom::print_error(error.what());
   return EXIT_FAILURE;

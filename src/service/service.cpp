@@ -35,7 +35,7 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
       work_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       delay_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       incidents_(config.service.status_period_s) {
-  reopen();  // first, as a snapshot that is resumed is gone
+  reopen();  // first: if it throws, the snapshot is kept, which resume() removes
   if (!config.service.snapshot_file.empty()) {
     resume();
     snapshots_ = std::make_unique<SnapshotWriter>(config.service.snapshot_file);
@@ -55,10 +55,11 @@ void Service::resume() {
     counters_.add("snapshots_refused");
     spdlog::warn("event=snapshot_refused file={} why=\"{}\"", file, error.what());
   }
-  std::filesystem::remove(file, unknown);  // a map that ends the service does so once
+  // A map that crashes the service shall do so only once.
+  std::filesystem::remove(file, unknown);
 }
 
-/// While there still are endpoints to go on with.
+/// Throws ConfigError if reopen() would be refused, while there still are endpoints to go on with.
 void Service::check_reopening() {
   dds::check_files(config_.dds);
   if (!endpoints_ || config_.dds.security_directory.empty()) return;
@@ -71,7 +72,7 @@ void Service::check_reopening() {
 
 void Service::reopen() {
   check_reopening();
-  endpoints_.reset();  // before the new ones, or two services on one vehicle id would be seen
+  endpoints_.reset();  // before the new ones are made, or others would see two services of one vehicle
   endpoints_ = std::make_unique<Endpoints>(config_, core_.session_id(), queue_, now_ns_);
 }
 
@@ -122,7 +123,7 @@ void Service::log_tick(const Tick& tick, const Messages& messages) const {
   const PublishedMap& map = messages.map;
   if (messages.state_changed)
     spdlog::info("state={} session={}", state_text(map.state, map.reasons), map.session_id);
-  // Benchmarks tell by it how long the map of a tick takes to its readers.
+  // Benchmarks read this line to measure how long the map of a tick takes to its readers.
   if (!spdlog::should_log(spdlog::level::debug)) return;
   spdlog::debug("event=tick map={} start_ns={} delay_ns={} missed={}", map.sequence,
                 system_now_ns() - (now_ns_() - tick.start_ns), tick.start_ns - tick.deadline_ns, tick.missed);

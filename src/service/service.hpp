@@ -16,8 +16,8 @@
 
 namespace laneloom {
 
-/// The core with what it lacks: DDS, files, clocks and the log. One thread calls it; the threads of DDS only
-/// reach its queue.
+/// Connects the core with DDS, files, clocks and the log. One thread calls it; the threads of DDS only reach
+/// its queue.
 class Service {
  public:
   /// `now_ns` is a steady clock, callable from any thread. Throws ConfigError when a file that the
@@ -25,9 +25,9 @@ class Service {
   Service(const Config& config, std::function<std::int64_t()> now_ns);
 
   void tick(const Tick& tick);
-  /// Makes all DDS endpoints anew; the map and what is queued stay. Throws ConfigError, and keeps the
-  /// endpoints that there are, when a file of the profile or of security is missing or invalid, or DDS does
-  /// not believe it. After the std::runtime_error of a DDS that refuses, nothing else may be called.
+  /// Makes all DDS endpoints anew; the map and the queued messages stay. Throws ConfigError, and keeps the
+  /// present endpoints, when a file of the profile or of security is missing or invalid, or DDS does not
+  /// trust it. If it throws std::runtime_error because DDS refuses, nothing else may be called.
   void reopen();
 
   /// State and numbers in one line, for people.
@@ -35,9 +35,9 @@ class Service {
 
  private:
   void check_reopening();
-  /// Goes on with the map of the service before, if it left one.
+  /// Goes on with the map of a former service, if that left a snapshot.
   void resume();
-  /// What came through DDS, and what was counted here.
+  /// The arrivals through DDS, with the counters of this class added.
   Arrivals take_arrivals();
   void publish(const PublishedMap& map, const RoadMarkings& markings);
   void publish(const ServiceStatus& status);
@@ -51,10 +51,10 @@ class Service {
   IngestionQueue queue_;
   TimeWindow work_;
   TimeWindow delay_;
-  Counters counters_;  ///< of what happened here
+  Counters counters_;  ///< of events in this class
   IncidentLog incidents_;
-  std::unique_ptr<SnapshotWriter> snapshots_;  ///< null: none are kept
-  std::unique_ptr<Endpoints> endpoints_;       ///< last: nothing calls into what is already gone
+  std::unique_ptr<SnapshotWriter> snapshots_;  ///< null: no snapshots are kept
+  std::unique_ptr<Endpoints> endpoints_;       ///< last, so that no callback meets a destroyed member
 };
 
 }  // namespace laneloom

@@ -4,11 +4,11 @@
 
 namespace laneloom {
 
-/// What ended a sleep.
+/// The event that ended a sleep.
 enum class Wake { deadline, stop, reload };
 
-/// Takes SIGTERM, SIGINT and SIGHUP as file events, so that no work is done in a signal handler. To be made
-/// before any thread is started, as threads inherit that these signals are blocked.
+/// Takes SIGTERM, SIGINT and SIGHUP as file events, so that no work is done in a signal handler. It must be
+/// made before any thread is started: it blocks these signals, and threads inherit that.
 class Signals {
  public:
   /// Throws std::system_error.

@@ -7,13 +7,13 @@
 
 namespace laneloom {
 
-/// The last `capacity` durations, to be summarised. Does not allocate after it is full.
+/// Summarises the last `capacity` durations. Does not allocate once it is full.
 class TimeWindow {
  public:
   explicit TimeWindow(std::size_t capacity) : capacity_(capacity) { values_ms_.reserve(capacity); }
 
   void add(double value_ms);
-  /// All zero when nothing was added.
+  /// The summary of the durations. All values are 0 if nothing was added.
   TimeSummary summary() const;
 
  private:

@@ -14,7 +14,7 @@ double length_3d(const Polyline& line) {
   return length_m;
 }
 
-/// Of the vertex that is nearest to the vehicle, from above.
+/// Squared horizontal distance of the vertex that is nearest to the vehicle; body frame.
 double squared_distance(const Polyline& line) {
   double nearest = std::numeric_limits<double>::max();
   for (const Point& point : line) nearest = std::min(nearest, point.head<2>().squaredNorm());

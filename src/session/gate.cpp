@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kOutliersToBelieve = 3;
 constexpr std::size_t kSessionsRemembered = 8;
-constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;  // differences do not overflow
+constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;  // differences of smaller stamps do not overflow
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(to_ns - from_ns) / 1e9;

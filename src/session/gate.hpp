@@ -12,22 +12,22 @@ namespace laneloom {
 
 /// A message's place in its stream.
 struct StreamPoint {
-  std::int64_t stamp_ns = 0;
-  std::uint64_t session_id = 0;
-  Point position = Point::Zero();  ///< of a pose; zero in streams that have none
+  std::int64_t stamp_ns = 0;       ///< sensor clock
+  std::uint64_t session_id = 0;    ///< of the writer's run
+  Point position = Point::Zero();  ///< of a pose, map frame; zero in a stream of detections
 };
 
-/// Decides which messages of one stream are believed. A jump of stamp or position is an outlier; the third
-/// one in a row that agrees with its predecessors is believed, and so is the first of a new session: with
-/// them the stream begins anew.
+/// Decides which messages of one stream are believed. A message that jumps in stamp or position is an
+/// outlier. The third outlier in a row that agrees with its predecessors is believed, and so is the first
+/// message of a new session: the stream begins anew with it.
 class Gate {
  public:
   enum class Verdict {
     accepted,
-    begins_anew,  ///< accepted, but it has nothing to do with what came before
-    repeated,     ///< of the stamp that was accepted last
-    late,         ///< older, within a plausible step
-    outlier
+    begins_anew,  ///< accepted; it does not continue the messages before
+    repeated,     ///< has the stamp that was accepted last
+    late,         ///< older than that, by a plausible step
+    outlier       ///< jumps in stamp or position
   };
 
   explicit Gate(const GateConfig& config) : config_(config) {}
@@ -41,15 +41,15 @@ class Gate {
   Verdict begin_anew(const StreamPoint& point);
 
   GateConfig config_;
-  std::optional<StreamPoint> last_;     ///< accepted
-  std::optional<StreamPoint> outlier_;  ///< the newest
+  std::optional<StreamPoint> last_;     ///< of the newest accepted message
+  std::optional<StreamPoint> outlier_;  ///< of the newest outlier
   int outliers_in_a_row_ = 0;
-  /// Sessions that a newer one took the place of. A second writer that is still alive (two perception stacks
-  /// by mistake) can't take it back with a single message.
+  /// Sessions that newer ones took the place of. If their writer is still alive (two perception stacks by
+  /// mistake), it can not take its place back with a single message.
   std::deque<std::uint64_t> superseded_;
 };
 
-/// Why a message is refused whatever came before it, as a stable name; empty: it is not.
+/// The reason, as a stable name, to refuse a message whatever came before it. Empty: there is none.
 std::string_view defect(const DetectionFrame& frame, const GateConfig& config);
 std::string_view defect(const VehiclePose& pose, const GateConfig& config);
 

@@ -17,7 +17,7 @@ namespace {
 
 using Checkpoint = MappingSession::Checkpoint;
 
-/// `max_pause_s` is how long the service may have been away.
+/// Whether a pose may follow a checkpoint, after a pause of the service of at most `max_pause_s`.
 bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateConfig& config,
              double max_pause_s) {
   const double step_s = static_cast<double>(pose.stamp_ns - checkpoint.pose_stamp_ns) / 1e9;
@@ -78,9 +78,9 @@ struct MappingSession::State {
   std::optional<std::int64_t> newest_stamp_ns;
   std::optional<std::int64_t> newest_arrival_ns;
   std::optional<VehiclePose> newest_pose;
-  std::optional<Checkpoint> resumed;  ///< until the first pose
+  std::optional<Checkpoint> resumed;  ///< the checkpoint, until the first pose came
   std::function<bool()> may_go_on;    ///< empty: there is no limit
-  bool has_begun = false;             ///< since the limit was set, a frame was fused
+  bool has_begun = false;             ///< a frame was fused since the limit was set
   Counters counters;
   Progress progress;
   StageObserver* observer = nullptr;
@@ -146,7 +146,7 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   progress.lineage.insert(progress.lineage.end(), map.lineage.begin(), map.lineage.end());
 }
 
-/// Forgets the map, and the frames that belong to what was before.
+/// Forgets the map, and the frames that belong to it.
 void MappingSession::State::reset() {
   refuse_frames("reset", synchroniser.clear_frames());
   mapper.reset();

@@ -17,22 +17,22 @@ namespace laneloom {
 
 /// The progress of one source of detections since its session began.
 struct SourceProgress {
-  std::string source;
-  std::uint64_t session_id = 0;
-  std::uint64_t fused = 0;                       ///< frames that went into the map
+  std::string source;                            ///< the name that its frames carry
+  std::uint64_t session_id = 0;                  ///< of its run
+  std::uint64_t fused = 0;                       ///< number of frames that went into the map
   std::int64_t arrival_ns = 0;                   ///< of its newest believed frame
-  std::optional<std::int64_t> fused_arrival_ns;  ///< of the one that was fused last
+  std::optional<std::int64_t> fused_arrival_ns;  ///< of the frame that was fused last
   std::optional<std::int64_t> fused_stamp_ns;    ///< of its newest fused frame
 };
 
-/// From poses and detection frames, in the order of their arrival, to the map: decides what is believed,
-/// waits for the poses that belong to each frame, and fuses each frame with the pose at its own stamp. Frames
-/// that are ready together are fused in the order of their stamps; a frame that comes later than newer ones
-/// of another source is fused all the same.
+/// Makes the map from poses and detection frames, in the order of their arrival. It decides which messages
+/// are believed, waits for the poses that belong to each frame, and fuses each frame with the pose at its own
+/// stamp. Frames that are ready together are fused in the order of their stamps; a frame that comes later
+/// than newer ones of another source is fused all the same.
 ///
-/// It has no clock, thread or queue of its own. What it decides depends on the messages and their order
-/// alone, except for expire(); so a replay of the same messages makes the same maps. Not thread-safe: one
-/// thread at a time.
+/// It has no clock, thread or queue of its own. Its maps depend on the messages and their order alone, except
+/// for expire() and fuse_while(), so that a replay of the same messages makes the same maps. Not thread-safe:
+/// one thread at a time.
 class MappingSession {
  public:
   /// `config` must be valid; its parts mapper, sd_map, sync and gate are used. Throws as
@@ -44,61 +44,63 @@ class MappingSession {
 
   /// Takes a pose, and fuses the frames that waited for it.
   void add(const VehiclePose& pose);
-  /// Takes a frame, and fuses it when its poses are there. `arrival_ns` is by the clock of expire().
+  /// Takes a frame, and fuses it once its poses are there. `arrival_ns` is by the same clock as expire().
   void add(DetectionFrame frame, std::int64_t arrival_ns);
   /// Refuses the frames that have waited for their poses for too long.
   void expire(std::int64_t now_ns);
-  /// From now until the next call, begins a further frame only while `may_go_on()`, after one frame at least;
-  /// the others wait. There is no limit before the first call.
+  /// Limits the fusion from now until the next call: after the first frame, a further one is begun only while
+  /// `may_go_on()`. The other frames wait. There is no limit before the first call.
   void fuse_while(std::function<bool()> may_go_on);
 
-  /// What was done since the last call.
+  /// The progress since the last call.
   struct Progress {
     std::vector<FusedFrame> fused;      ///< in the order of fusion
-    std::vector<LineageEvent> lineage;  ///< of all of them
-    std::uint64_t resets = 0;           ///< how often the map was cleared
+    std::vector<LineageEvent> lineage;  ///< of all these frames
+    std::uint64_t resets = 0;           ///< number of times that the map was cleared
   };
   Progress take_progress();
 
-  /// What the map is of: beside the mapper's state, what another session needs to go on with it.
+  /// The newest inputs of the map. Another session needs them, beside the mapper's state, to go on with the
+  /// map.
   struct Checkpoint {
     std::int64_t frame_stamp_ns = 0;    ///< of the newest frame in the map
     std::int64_t frame_arrival_ns = 0;  ///< its arrival, by the clock of expire()
     std::int64_t pose_stamp_ns = 0;     ///< of the newest pose
-    std::uint64_t pose_session_id = 0;
-    Point position = Point::Zero();
+    std::uint64_t pose_session_id = 0;  ///< of the newest pose
+    Point position = Point::Zero();     ///< of the newest pose, map frame
   };
-  /// None while nothing was fused into the map here.
+  /// The checkpoint of the present map. None: this session has not yet fused a frame into it.
   std::optional<Checkpoint> checkpoint() const;
-  /// Goes on from there, with the state that its mapper had. If the first pose can't follow on the one
-  /// before, the map is none of its frame, and is cleared.
+  /// Goes on from a checkpoint, with the state that the mapper had there. If the first pose can not follow
+  /// the checkpoint's pose, the map is cleared.
   void resume(const Checkpoint& checkpoint, MapperState state);
 
   const LocalMap& map() const;
   Mapper& mapper();
   const Mapper& mapper() const;
-  /// Frames that wait for their poses.
+  /// Number of frames that wait to be fused.
   std::size_t pending() const;
-  /// Of these, frames whose poses are there: fuse_while() left no time for them.
+  /// Number of waiting frames whose poses are there: fuse_while() left no time for them.
   std::size_t ready() const;
-  /// Arrival of the newest frame in the map; none: the map is empty.
+  /// Arrival of the frame that was fused last. None: the map is empty.
   std::optional<std::int64_t> newest_arrival_ns() const;
 
-  /// frames_fused, frames_thinned (of which admission left detections out), detections_left_out (those),
-  /// sources_restarted, frames_dropped_queue_full, detections_refused_<reason>, poses_accepted,
-  /// poses_refused_<reason>, map_resets. Every frame that was added is fused, refused, dropped or pending;
-  /// every pose is accepted or refused.
+  /// The counters frames_fused, frames_thinned (frames of which admission left detections out),
+  /// detections_left_out (these detections), sources_restarted, frames_dropped_queue_full,
+  /// detections_refused_<reason>, poses_accepted, poses_refused_<reason>, map_resets. Every frame that was
+  /// added is fused, refused, dropped or pending; every pose is accepted or refused.
   const Counters& counters() const;
-  /// By source.
+  /// The progress of all sources, by name.
   std::vector<SourceProgress> sources() const;
-  /// Arrival of the newest frame of a source too many, which was refused; none: never.
+  /// Arrival of the newest frame that was refused because there were too many sources. None: never.
   std::optional<std::int64_t> crowded_out_ns() const;
-  /// From the stamp of the newest fused frame to that of the newest pose; none: nothing was fused yet.
+  /// Seconds from the stamp of the newest fused frame to that of the newest pose. None: nothing was fused
+  /// yet.
   std::optional<double> lag_s() const;
 
-  /// Told of the stages of every fused frame; may be null.
+  /// Lets `observer` be told of the stages of every fused frame. It may be null.
   void observe(StageObserver* observer);
-  /// Told of the map after every fused frame, where map() only shows the last one.
+  /// Lets `observer` be told of the map after every fused frame; map() only shows the last one.
   void observe(std::function<void(const FusedFrame&, const LocalMap&)> observer);
 
  private:

@@ -8,7 +8,7 @@
 
 namespace laneloom {
 
-/// The newest poses, to interpolate between. Never extrapolates.
+/// The newest poses. Interpolates between them, and never extrapolates.
 class PoseBuffer {
  public:
   explicit PoseBuffer(const SyncConfig& config) : config_(config) {}
@@ -18,11 +18,11 @@ class PoseBuffer {
   void clear() { poses_.clear(); }
 
   enum class Answer {
-    found,
+    found,    ///< the result is set
     not_yet,  ///< no pose is as new as the stamp
-    never     ///< older than all poses, or its neighbours are too far apart
+    never     ///< the stamp is older than all poses, or the poses around it are too far apart
   };
-  /// T_map_body at a stamp, for which the two poses around it must be at most max_pose_gap_s apart.
+  /// Interpolates T_map_body at a stamp. The two poses around it must be at most max_pose_gap_s apart.
   /// Position is interpolated linearly, orientation on the great arc.
   Answer at(std::int64_t stamp_ns, Eigen::Isometry3d& T_map_body) const;
 

@@ -7,7 +7,7 @@
 namespace laneloom {
 namespace {
 
-constexpr std::int64_t kIdle_ns = 2'000'000'000;  // a stack may take a new name with every run
+constexpr std::int64_t kIdle_ns = 2'000'000'000;  // not longer: a stack may take a new name with every run
 constexpr std::size_t kStampsRemembered = 64;
 
 }  // namespace
@@ -26,7 +26,7 @@ Sources::Verdict Sources::check(const DetectionFrame& frame, std::int64_t arriva
   if (verdict == Gate::Verdict::repeated || (seen && !restarted)) return {"repeated"};
   if (restarted) {
     source.stamps_ns.clear();
-    // After a jump of the stamps the session is the same, and so is what it counts.
+    // After a jump of the stamps within one session, the count goes on.
     const bool same = source.progress.session_id == frame.session_id;
     source.progress = {.source = frame.source, .fused = same ? source.progress.fused : 0};
   }

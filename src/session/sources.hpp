@@ -15,25 +15,26 @@
 
 namespace laneloom {
 
-/// The sources of detections: which frames of each are believed, and what became of them. What happens to one
-/// source leaves the others as they are. There is room for eight sources. A further one takes the place of
-/// one of which nothing was believed for 2 s; where all go on, the further one is refused.
+/// Decides which frames of each source of detections are believed, and keeps the sources' progress. No source
+/// affects another one. There is room for eight sources. A further source takes the place of one of which
+/// nothing was believed for 2 s. If there is no such one, the further source is refused.
 class Sources {
  public:
   explicit Sources(const GateConfig& config) : config_(config) {}
 
+  /// The judgement of a frame.
   struct Verdict {
     std::string_view refusal;  ///< a stable name; empty: the frame is believed
     bool restarted = false;    ///< the source begins anew with this frame
   };
-  /// Frames of one source may come in another order than that of their stamps.
+  /// Judges a frame. Frames of one source may come in another order than that of their stamps.
   Verdict check(const DetectionFrame& frame, std::int64_t arrival_ns);
-  /// The frame went into the map.
+  /// Notes that a frame went into the map.
   void note_fused(const DetectionFrame& frame, std::int64_t arrival_ns);
 
-  /// By name.
+  /// The progress of all sources, by name.
   std::vector<SourceProgress> progress() const;
-  /// Arrival of the newest frame that was refused because there was no room for its source; none: never.
+  /// Arrival of the newest frame that was refused because there was no room for its source. None: never.
   std::optional<std::int64_t> crowded_out_ns() const { return crowded_out_ns_; }
 
  private:

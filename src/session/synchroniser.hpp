@@ -15,7 +15,7 @@ namespace laneloom {
 /// A frame that waits for its poses.
 struct PendingFrame {
   DetectionFrame frame;
-  std::int64_t arrival_ns = 0;
+  std::int64_t arrival_ns = 0;  ///< by the clock of expire()
 };
 
 /// A frame and the pose at its stamp.
@@ -32,19 +32,20 @@ class Synchroniser {
   void add(const VehiclePose& pose) { poses_.add(pose); }
   void add(PendingFrame frame) { pending_.emplace(frame.frame.stamp_ns, std::move(frame)); }
 
-  /// The oldest frame that can be fused now. Frames that never can be fused are removed and counted in
-  /// `refused`.
+  /// Takes out the oldest frame, if it can be fused now. Older frames that never can be fused are removed and
+  /// counted in `refused`.
   std::optional<SynchronisedFrame> next(std::size_t& refused);
   /// Removes the frames that have waited for their poses for longer than max_wait_s; returns how many.
   std::size_t expire(std::int64_t now_ns);
-  /// Removes frames above the capacity, each the oldest of the source that has the most; returns how many.
+  /// Removes frames above the capacity, each time the oldest of the source that has the most. Returns how
+  /// many.
   std::size_t drop_excess();
   /// Removes all frames; returns how many.
   std::size_t clear_frames();
   void clear_poses() { poses_.clear(); }
 
   std::size_t pending() const { return pending_.size(); }
-  /// How many frames can be fused now.
+  /// Number of frames that can be fused now.
   std::size_t ready() const;
 
  private:

@@ -26,7 +26,7 @@ std::system_error failure(int error, const std::string& what) {
 
 bool is_trusted(uid_t user) { return user == geteuid() || user == 0; }
 
-/// A link of another user in the path would lead to where that user wants. Throws std::runtime_error.
+/// Throws std::runtime_error if a folder of the path is a link of another user, who could lead it anywhere.
 void refuse_planted_links(const std::string& file) {
   std::filesystem::path whole;
   for (const auto& part : std::filesystem::absolute(file).parent_path()) {
@@ -37,14 +37,14 @@ void refuse_planted_links(const std::string& file) {
   }
 }
 
-/// A new file: neither one that someone has put there, nor what a link points to.
+/// Creates a new file. Fails if there is a file or a link already.
 File create(const std::string& file) {
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (descriptor < 0) throw failure(errno, "cannot make " + file);
   return File(fdopen(descriptor, "wb"));
 }
 
-/// Does not wait for the other end of a pipe.
+/// Opens a file without waiting for the other end, in case that it is a pipe.
 File open_to_read(const std::string& file) {
   const int descriptor = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0 && errno == ELOOP) throw std::runtime_error("is a link");
@@ -57,7 +57,7 @@ File open_to_read(const std::string& file) {
 void replace_private_file(const std::string& file, std::string_view bytes) {
   refuse_planted_links(file);
   const std::string unfinished = file + ".new";
-  unlink(unfinished.c_str());  // of a crash while it was written
+  unlink(unfinished.c_str());  // left by a crash during writing
   File out = create(unfinished);
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out.get()) == bytes.size();
   if (std::fclose(out.release()) != 0 || !written) throw failure(errno, "cannot write " + unfinished);

@@ -55,7 +55,7 @@ void write_snapshot(const std::string& file, const Snapshot& snapshot) {
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
                        const MapperConfig& config) {
   const std::string bytes = read_private_file(file);
-  // Lengths are only believed in what is as it was written.
+  // The digest is checked first: lengths within damaged bytes cannot be believed.
   if (bytes.size() < kDigestBytes || digest(std::string_view(bytes).substr(kDigestBytes)) !=
                                          std::string_view(bytes).substr(0, kDigestBytes)) {
     throw std::runtime_error("damaged");
@@ -64,7 +64,7 @@ Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double
   cereal::PortableBinaryInputArchive archive(body);
   Snapshot snapshot{{}, 0, {}, MapperState(config)};
   archive(snapshot.stamp);
-  check(snapshot.stamp, now, max_age_s);  // first: what another version wrote may not be readable
+  check(snapshot.stamp, now, max_age_s);  // first: the rest may not be readable if another version wrote it
   std::string state;
   archive(snapshot.map_id, snapshot.checkpoint, state);
   snapshot.state = from_bytes(state, config);

@@ -9,26 +9,27 @@
 
 namespace laneloom {
 
-/// Who makes a snapshot, and when.
+/// The maker and the time of a snapshot.
 struct SnapshotStamp {
-  std::string maker;           ///< version and configuration
-  std::int64_t steady_ns = 0;  ///< begins anew with the host
-  std::int64_t system_ns = 0;  ///< may be set
+  std::string maker;           ///< version and hash of the configuration
+  std::int64_t steady_ns = 0;  ///< steady clock, which begins anew when the host starts
+  std::int64_t system_ns = 0;  ///< system clock, which may be set
 };
 
-/// What a service that starts again goes on with.
+/// The data with which a restarted service goes on.
 struct Snapshot {  // NOLINT(bugprone-exception-escape): as the state
   SnapshotStamp stamp;
-  std::uint64_t map_id = 0;  ///< the ids in the state belong to it
-  MappingSession::Checkpoint checkpoint;
+  std::uint64_t map_id = 0;               ///< the ids in the state belong to it
+  MappingSession::Checkpoint checkpoint;  ///< the newest inputs of the map
   MapperState state;
 };
 
-/// Takes the place of `file` as a whole; only this user reads it. Throws std::runtime_error.
+/// Writes a snapshot in the place of `file` as a whole. Only this user can read it. Throws
+/// std::runtime_error.
 void write_snapshot(const std::string& file, const Snapshot& snapshot);
 
-/// The snapshot, if its file is one of this user's or root's, undamaged, of the same maker as `now`, and by
-/// both clocks at most `max_age_s` older. Throws std::runtime_error that says why it is refused.
+/// Reads a snapshot. Throws std::runtime_error with the reason unless its file belongs to this user or to
+/// root and is undamaged, its maker is that of `now`, and it is by both clocks at most `max_age_s` older.
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
                        const MapperConfig& config);
 

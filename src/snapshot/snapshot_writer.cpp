@@ -39,7 +39,7 @@ void SnapshotWriter::write_now(const Snapshot& snapshot) {
     failure = error.what();
   }
   const std::lock_guard lock(mutex_);
-  // The reason once; that it goes on is counted.
+  // The reason is logged once. Further failures are only counted.
   if (!failure.empty() && totals_.failed++ == 0) spdlog::error("event=snapshot_failed why=\"{}\"", failure);
   if (failure.empty()) ++totals_.written;
 }

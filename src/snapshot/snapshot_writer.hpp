@@ -11,14 +11,15 @@
 
 namespace laneloom {
 
-/// Writes snapshots in a thread of its own: a slow disk holds up nobody. Thread-safe.
+/// Writes snapshots in a thread of its own, so that a slow disk holds up no caller. Thread-safe.
 class SnapshotWriter {
  public:
   explicit SnapshotWriter(std::string file);
 
-  /// Has it written soon, instead of one that still waits.
+  /// Hands over a snapshot to be written soon. It replaces one that still waits.
   void write(Snapshot snapshot);
 
+  /// Counts since the start.
   struct Totals {
     std::uint64_t written = 0;
     std::uint64_t failed = 0;
@@ -34,7 +35,7 @@ class SnapshotWriter {
   std::condition_variable_any changed_;
   std::optional<Snapshot> waiting_;
   Totals totals_;
-  std::jthread thread_;  ///< last: it uses all of the above
+  std::jthread thread_;  ///< last, because it uses all of the above
 };
 
 }  // namespace laneloom

@@ -38,7 +38,7 @@ AllocationScope::~AllocationScope() { current = nullptr; }
 
 }  // namespace laneloom
 
-// Every form: sanitizers bring their own of those that are left out.
+// Every form is defined, because sanitizers bring their own of those that are left out.
 void* operator new(std::size_t size) { return laneloom::allocate_or_throw(size); }
 void* operator new[](std::size_t size) { return laneloom::allocate_or_throw(size); }
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {

@@ -16,7 +16,8 @@
 namespace laneloom {
 namespace {
 
-/// The child's end of the pipe is closed when its program begins; before, it tells why there is none.
+/// Becomes the program. The child's end of the pipe `complaints` is closed when the program begins. If it
+/// cannot begin, the pipe tells why.
 void become(char* const* arguments, int output, int complaints) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // else it would outlive an interrupted benchmark
   dup2(output, STDOUT_FILENO);

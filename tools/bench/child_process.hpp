@@ -8,10 +8,11 @@
 
 namespace laneloom {
 
-/// A program that runs beside this one; ended at the latest with it.
+/// A program that runs beside this one. It is ended at the latest when this process ends.
 class ChildProcess {
  public:
-  /// All that it prints goes to the file `output`. Throws std::runtime_error where it cannot be started.
+  /// Starts a program, whose output goes to the file `output`. Throws std::runtime_error if it cannot be
+  /// started.
   ChildProcess(std::vector<std::string> command, const std::string& output);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -19,10 +20,10 @@ class ChildProcess {
 
   pid_t id() const { return id_; }
   bool running();
-  /// Asks it to end (SIGTERM), and kills it when it has not after `patience`. Returns what was wrong with its
-  /// end; empty where it ended then, with exit code 0.
+  /// Asks the program to end (SIGTERM), and kills it if it has not ended after `patience`. Returns the
+  /// problem with its end; empty: it ended when asked, with exit code 0.
   std::string stop(std::chrono::milliseconds patience = std::chrono::seconds(10));
-  /// How it ended, once it is not running; empty: with exit code 0.
+  /// The problem with its end, once it is not running. Empty: it ended with exit code 0.
   std::string failure() const;
 
  private:

@@ -30,11 +30,11 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{15};
-constexpr std::chrono::seconds kSettling{2};  // after the first map: discovery, first lines
+constexpr std::chrono::seconds kSettling{2};  // wait after the first map, for discovery and the first lines
 
 double milliseconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-6; }
 
-/// The planning participant: keeps when each map came.
+/// The planning participant. Keeps the time at which each map came.
 class MapListener {
  public:
   explicit MapListener(const DdsConfig& dds)
@@ -62,7 +62,7 @@ class MapListener {
   mutable std::mutex mutex_;
   std::vector<ReceivedMap> maps_;
   dds::Participant participant_;
-  dds::Reader<PublishedMap> reader_;  // last: it calls into what is above
+  dds::Reader<PublishedMap> reader_;  // last, because it calls into the members above
 };
 
 /// Keeps cores busy while it lives.
@@ -82,7 +82,7 @@ class BusyThreads {
   std::vector<std::jthread> threads_;
 };
 
-/// A program of the measurement, whose last words are told when it ends by itself.
+/// A program of the measurement. If it ends by itself, the error quotes the end of its log.
 class Party {
  public:
   Party(std::vector<std::string> command, std::string log)
@@ -182,7 +182,7 @@ class WatchedViewer {
   }
 
  private:
-  /// Of the URL that the viewer prints.
+  /// The port of the URL that the viewer prints.
   std::uint16_t port_in(const std::string& log) {
     const auto deadline = SteadyClock::now() + kPatience;
     for (;;) {
@@ -205,7 +205,7 @@ class WatchedViewer {
   SteadyClock::time_point begin_;
 };
 
-/// Those that began from `from_ns` to `to_ns`.
+/// The ticks that began from `from_ns` to `to_ns`.
 std::vector<LoggedTick> ticks_between(std::vector<LoggedTick> ticks, std::int64_t from_ns,
                                       std::int64_t to_ns) {
   std::erase_if(ticks,
@@ -272,7 +272,7 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   const auto viewer_cost = viewer ? std::optional(viewer->end()) : std::nullopt;
   const double cpu_used_s = cpu_s(id) - cpu_before_s;
   const double peak_mb = peak_rss_mb(id);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the last map is on its way
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // for the last map, which is on its way
   publisher.stop();
   service.stop();
 

@@ -10,29 +10,29 @@
 
 namespace laneloom {
 
-/// What the updates of a mapper took.
+/// The cost of the updates of a mapper.
 struct MapperCost {
   StageTimer stages;
   std::vector<double> update_ms;     ///< of each update as a whole
   std::vector<double> allocations;   ///< calls of `new` in each update
   std::int64_t heap_bytes = 0;       ///< of the mapper and its map, after the last update
-  std::int64_t peak_heap_bytes = 0;  ///< the most that it had, also within an update
-  std::size_t markings = 0;          ///< summed over the maps
+  std::int64_t peak_heap_bytes = 0;  ///< largest heap, also within an update
+  std::size_t markings = 0;          ///< sum over the maps
 
   TimeSummary update() const { return summarise(update_ms); }
   double allocations_per_update() const;
   double markings_per_map() const;
 };
 
-/// A mapper whose updates are watched: either its stages, or its allocations, as counting takes time of its
-/// own.
+/// Measures the updates of a mapper: either the times of its stages, or its allocations, because counting
+/// takes time itself.
 class MapperMeter {
  public:
   /// `config` must be valid.
   MapperMeter(const MapperConfig& config, bool count_allocations);
 
   void update(const FrameRecord& record);
-  /// Of the updates since the last call; but the heap is the mapper's since its start.
+  /// The cost of the updates since the last call. The heap counts since the mapper's start.
   MapperCost take_cost();
 
  private:
@@ -42,7 +42,7 @@ class MapperMeter {
   MapperCost cost_;
 };
 
-/// Of a fresh mapper over all frames: one pass for the times, and one for the allocations.
+/// The cost of a fresh mapper over all frames: one pass for the times, and one for the allocations.
 MapperCost measure(const MapperConfig& config, const std::vector<SimulatedFrame>& frames);
 
 }  // namespace laneloom

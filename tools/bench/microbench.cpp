@@ -1,4 +1,4 @@
-// Micro-benchmarks: every stage of the mapper, and what lies between it and the wire or a file. Each
+// Micro-benchmarks of every stage of the mapper, and of the steps between it and the wire or a file. Each
 // iteration of a stage is one more frame of a drive through the town, timed by itself.
 #include <benchmark/benchmark.h>
 
@@ -115,7 +115,7 @@ void map_to_json_line(benchmark::State& state) {
   for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(to_json_line(last_map().map));
 }
 
-/// Those of the method's stages that its updates reach.
+/// Registers the stages that updates of a method reach.
 void register_stages(FusionMethod method, const std::string& method_name) {
   MapperConfig config;
   config.method = method;

@@ -4,7 +4,7 @@
 
 namespace laneloom {
 
-/// Of a running process, from /proc. Throw std::runtime_error where it is gone.
+/// Usage of a running process, from /proc. All throw std::runtime_error if it is gone.
 double peak_rss_mb(pid_t process);  ///< MiB, since its start
 double rss_mb(pid_t process);       ///< MiB, now
 double cpu_s(pid_t process);        ///< of all its threads, in user mode and in the kernel

@@ -18,7 +18,7 @@ double mean_y(const Polyline& points) {
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-/// Sideways by `offset_m`, and round within ±side_m by the line's mean.
+/// A detection, displaced sideways by `offset_m`. Its mean is wrapped into ±side_m.
 Detection displaced(Detection detection, double offset_m, double side_m) {
   const double y_m = mean_y(detection.points);
   const double width_m = 2.0 * side_m;

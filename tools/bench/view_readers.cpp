@@ -32,7 +32,7 @@ int connect_to(std::uint16_t port) {
   return socket;
 }
 
-/// Byte by byte, so that nothing of the stream behind it is taken.
+/// Reads an answer of HTTP byte by byte, so that no byte of the stream behind it is taken.
 void read_answer(int socket) {
   std::string answer;
   char byte = 0;
@@ -57,7 +57,7 @@ void WebSocketCounter::add(const std::uint8_t* bytes, std::size_t size) {
   }
 }
 
-/// Where the header is whole.
+/// Begins the body if the header is whole.
 void WebSocketCounter::begin_body() {
   constexpr unsigned kLast = 0x80, kControl = 0x08, kTwoBytes = 126, kEightBytes = 127;
   if (header_.size() < 2) return;

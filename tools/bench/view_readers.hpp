@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// Counts the messages in a stream of a WebSocket's bytes from a server, in parts of any size.
+/// Counts the messages in the bytes that a server sends over a WebSocket, in parts of any size.
 class WebSocketCounter {
  public:
   void add(const std::uint8_t* bytes, std::size_t size);
@@ -19,21 +19,21 @@ class WebSocketCounter {
   void begin_body();
 
   std::vector<std::uint8_t> header_;
-  std::uint64_t left_ = 0;  ///< bytes of the body that are to come
+  std::uint64_t left_ = 0;  ///< number of bytes of the body that are still to come
   std::uint64_t messages_ = 0;
 };
 
-/// Tabs of a live view that draw nothing: clients of this host's `laneloom view` that read, in a thread of
-/// their own, all that they are sent. Thread-safe.
+/// Clients of this host's `laneloom view`, like tabs of a live view that draw nothing. They read all messages
+/// in a thread of their own. Thread-safe.
 class ViewReaders {
  public:
-  /// Throws std::runtime_error where the viewer does not take them.
+  /// Connects the clients. Throws std::runtime_error if the viewer does not accept them.
   ViewReaders(std::uint16_t port, std::size_t count);
   ~ViewReaders();
   ViewReaders(const ViewReaders&) = delete;
   ViewReaders& operator=(const ViewReaders&) = delete;
 
-  /// That came so far, to all of them.
+  /// Number of frames that came so far, to all clients together.
   std::uint64_t frames() const { return frames_; }
 
  private:

@@ -7,7 +7,7 @@
 #include "laneloom/messages.hpp"
 #include "laneloom/types.hpp"
 
-/// The dearest frames that the bounds of the IDL allow.
+/// The most expensive frames that the bounds of the IDL allow.
 namespace laneloom {
 
 enum class WorstKind : std::uint8_t {
@@ -15,8 +15,8 @@ enum class WorstKind : std::uint8_t {
   crossing,    ///< a grid of lines across one another
   spiralling,  ///< spirals one in the other
   closed,      ///< rings round many centres
-  doubled,     ///< lines of which each two nearly meet
-  heap,        ///< all in one spot, of every type
+  doubled,     ///< pairs of lines that nearly coincide
+  heap,        ///< all lines in one spot, of every type
   changing     ///< lines in other places in every frame
 };
 inline constexpr std::array kWorstKinds{WorstKind::parallel, WorstKind::crossing, WorstKind::spiralling,
@@ -28,8 +28,8 @@ const char* name(WorstKind kind);
 /// trusted.
 DetectionFrame worst_frame(WorstKind kind, std::uint64_t number);
 
-/// What a session takes for a frame of this kind, admission included, in milliseconds: over `frames` of them,
-/// ten a second, at 10 m/s.
+/// The times in milliseconds that a session takes for a frame of this kind, admission included. They are
+/// measured over `frames` frames, ten per second, at 10 m/s.
 TimeSummary time_worst(const Config& config, WorstKind kind, std::uint64_t frames);
 
 }  // namespace laneloom

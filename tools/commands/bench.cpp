@@ -104,7 +104,7 @@ void add_bench(CLI::App& app) {
   add_bench_latency(*command);
   add_bench_scale(*command);
   add_bench_worst(*command);
-  // Each has its own, behind its name; those before it would be of no account.
+  // Each measurement has its own options behind its name. Options before its name would be ignored.
   for (CLI::App* measurement : command->get_subcommands({})) {
     for (CLI::Option* option : own) measurement->excludes(option);
   }

@@ -24,10 +24,10 @@ void add_bench_road(CLI::App& command, BenchDrive& drive) {
   command.add_option("--scenario", drive.scenario, "A built-in road")
       ->check(CLI::IsMember(scenario_names()))
       ->capture_default_str();
-  command.add_option("--noise", drive.noise, "How the detections differ from the truth")
+  command.add_option("--noise", drive.noise, "Noise profile of the detections")
       ->check(noise_name())
       ->capture_default_str();
-  command.add_option("--speed", drive.speed_mps, "Of the vehicle, in m/s")
+  command.add_option("--speed", drive.speed_mps, "Speed of the vehicle in m/s")
       ->check(within(0.1, 60.0))
       ->capture_default_str();
   command.add_option("--duration", drive.duration_s, "Seconds that are measured")
@@ -37,7 +37,7 @@ void add_bench_road(CLI::App& command, BenchDrive& drive) {
 
 void add_bench_drive(CLI::App& command, BenchDrive& drive) {
   add_bench_road(command, drive);
-  command.add_option("--seed", drive.seed, "Of the noise")->capture_default_str();
+  command.add_option("--seed", drive.seed, "Seed of the noise")->capture_default_str();
   command.add_option("--preset", drive.preset, "Range, and alpha_n of the voxel method")
       ->check(CLI::IsMember(preset_names()))
       ->capture_default_str();

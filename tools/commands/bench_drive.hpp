@@ -14,7 +14,7 @@ struct BenchDrive {
   std::string scenario = "town";
   std::string noise = "inhouse";
   std::string preset = "inhouse";
-  std::string config;  ///< file; empty: the default one
+  std::string config;  ///< configuration file; empty: the default configuration
   double speed_mps = 10.0;
   double duration_s = 60.0;
   std::uint64_t seed = 1;
@@ -24,9 +24,9 @@ struct BenchDrive {
   MapperConfig mapper_config() const;
 };
 
-/// --scenario, --noise, --speed, --duration.
+/// Adds --scenario, --noise, --speed and --duration.
 void add_bench_road(CLI::App& command, BenchDrive& drive);
-/// These, --seed, --preset and --config.
+/// Adds these, --seed, --preset and --config.
 void add_bench_drive(CLI::App& command, BenchDrive& drive);
 
 }  // namespace laneloom

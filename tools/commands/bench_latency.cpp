@@ -99,11 +99,11 @@ void add_bench_latency(CLI::App& bench) {
   command->add_option("--domain", options->dds.domain, "DDS domain")
       ->check(CLI::Range(0, 232))
       ->capture_default_str();
-  command->add_option("--transport", options->dds.transport, "Of the service and this process")
+  command->add_option("--transport", options->dds.transport, "Transport of the service and this process")
       ->check(CLI::IsMember({"udp", "udp+shm"}))
       ->capture_default_str();
   command->add_option("--identities", options->identities,
-                      "With DDS-Security: folder of tools/make-certificates");
+                      "Use DDS-Security: folder of tools/make-certificates");
   command->add_option("--viewers", options->viewers, "Clients that read from a `laneloom view` beside it")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();

@@ -34,7 +34,7 @@ json cost_json(const MapperCost& cost) {
           {"peak_heap_mb", static_cast<double>(cost.peak_heap_bytes) / kBytesPerMB}};
 }
 
-/// A row of the result, which says what it is about under `key`.
+/// A row of the result. Its subject is under `key`.
 json row(const char* key, std::size_t value, const MapperCost& cost) {
   json result = cost_json(cost);
   result[key] = value;
@@ -66,7 +66,7 @@ json by_range(const Options& options) {
   return rows;
 }
 
-/// Minute by minute.
+/// The cost of a drive, minute by minute.
 json by_time(const Options& options, const DriveSpec& drive) {
   json rows = json::array();
   drive_minutes(options.drive.mapper_config(), drive, options.minutes, [&](const MinuteCost& minute) {
@@ -103,7 +103,7 @@ void print_costs(const char* title, const char* key, const json& rows) {
   }
 }
 
-/// The first two minutes and the last two.
+/// The rows of the first two minutes and the last two.
 json ends(const json& minutes) {
   json rows = json::array();
   for (std::size_t i = 0; i < minutes.size(); ++i)
@@ -124,7 +124,7 @@ void print(const json& result) {
 
 void scale(const Options& options) {
   json result;
-  // First, while this process has little else in memory.
+  // This comes first, while this process has little else in memory.
   result["driving"] = by_time(options, options.drive.spec());
   result["standing"] = standing_still(options);
   const std::vector<SimulatedFrame> frames = simulate(options.drive.spec());
@@ -139,7 +139,8 @@ void scale(const Options& options) {
 
 void add_bench_scale(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand(
-      "scale", "How the mapper's time and memory grow with detections, range, duration and vehicles");
+      "scale",
+      "Measures how the mapper's time and memory grow with detections, range, duration and vehicles");
   const auto options = std::make_shared<Options>();
   add_bench_drive(*command, options->drive);
   command->add_option("--minutes", options->minutes, "Simulated minutes of driving round, and of standing")

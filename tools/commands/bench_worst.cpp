@@ -35,7 +35,7 @@ void worst(const Options& options) {
 
 void add_bench_worst(CLI::App& bench) {
   CLI::App* command =
-      bench.add_subcommand("worst", "Time per frame for the dearest frames that a message can hold, by kind");
+      bench.add_subcommand("worst", "Times the most expensive frames that a message can hold, by kind");
   const auto options = std::make_shared<Options>();
   command->add_option("--config", options->config, "Configuration file; its gate bounds the work");
   command->add_option("--frames", options->frames, "Frames of each kind")

@@ -5,8 +5,8 @@ class App;
 }
 
 /// The subcommands of `laneloom`, one file each. Each function registers its command; the command's work is
-/// done while the command line is parsed. It throws what run_program() reports: std::exception where it
-/// failed, and what end_with() throws (exit_codes.hpp) for any other exit code.
+/// done while the command line is parsed. It throws std::exception if it failed, which run_program() reports,
+/// and calls end_with() (exit_codes.hpp) for any other exit code.
 namespace laneloom {
 
 void add_publish(CLI::App& app);

@@ -11,21 +11,21 @@
 namespace laneloom {
 namespace {
 
-/// What may stand on a command line.
+/// A word that may stand on a command line.
 struct Word {
   std::string text;
   std::string description;
-  std::vector<std::string> values;  ///< that may follow it; empty: any
+  std::vector<std::string> values;  ///< values that may follow it; empty: any
 };
 
-/// A command, and all that may follow it.
+/// A command, with the words that may follow it.
 struct Command {
   std::string path;  ///< " bench latency"; empty: the program
   std::vector<Word> commands, options;
-  std::vector<std::string> values;  ///< of what has no name
+  std::vector<std::string> values;  ///< of an argument without a name
 };
 
-/// What CLI::IsMember lets pass: its help says "TEXT:{a,b}".
+/// The values that CLI::IsMember lets pass. Its help text for them is "TEXT:{a,b}".
 std::vector<std::string> values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find(":{");
@@ -33,7 +33,7 @@ std::vector<std::string> values_of(const CLI::Option& option) {
   return CLI::detail::split(type.substr(open + 2, type.size() - open - 3), ',');
 }
 
-/// Also those of the groups, which are commands without a name.
+/// Adds the options of a command, also those of its groups, which are commands without a name.
 void add_options(const CLI::App& app, Command& command) {
   for (const CLI::Option* option : app.get_options()) {
     const std::vector<std::string> values = values_of(*option);
@@ -62,7 +62,7 @@ std::string quoted(std::string text) {
   return "'" + text + "'";
 }
 
-/// The part that both shells have in common: which command the words before the cursor name.
+/// The part that both shells have in common: it finds the command that the words before the cursor name.
 std::string find_command(const std::vector<Command>& all) {
   std::string text = "    case \"$at $word\" in\n";
   for (const Command& command : all)
@@ -70,7 +70,7 @@ std::string find_command(const std::vector<Command>& all) {
   return text + "    esac\n";
 }
 
-/// One case per option that has known values; `offer` makes the shell's command that offers them.
+/// One case per option with known values. `offer` makes the shell's command that offers them.
 template <class Offer>
 std::string offer_values(const std::vector<Command>& all, Offer offer) {
   std::string text;
@@ -82,7 +82,7 @@ std::string offer_values(const std::vector<Command>& all, Offer offer) {
   return text;
 }
 
-/// Each in quotes, with spaces between.
+/// The words, each in quotes, with spaces between.
 std::string quoted(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += " " + quoted(word);
@@ -149,8 +149,8 @@ compdef _{0} {0}
 }  // namespace
 
 void add_completion(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("completion", "Prints what makes a shell complete commands and options");
+  CLI::App* command = program.add_subcommand(
+      "completion", "Prints a script that makes a shell complete commands and options");
   const auto shell = std::make_shared<std::string>();
   command->add_option("shell", *shell, "The shell")->required()->check(CLI::IsMember({"bash", "zsh"}));
   command->footer(fmt::format("For the shell that runs: source <({} completion bash)", program.get_name()));

@@ -6,8 +6,8 @@ class App;
 
 namespace laneloom {
 
-/// The command `completion`: prints what makes a shell complete the commands and options of `program`, whose
-/// other commands are all registered.
+/// Adds the command `completion`. It prints a script that makes a shell complete the commands and options of
+/// `program`, whose other commands must all be registered.
 void add_completion(CLI::App& program);
 
 }  // namespace laneloom

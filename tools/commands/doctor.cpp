@@ -27,7 +27,7 @@ struct Options {
   bool json = false;
 };
 
-/// Options given beside the file are parsed after it, and so override it.
+/// Reads the configuration file. Options given beside it are parsed after it, and thereby override it.
 void read_config(const std::string& file, Options& options) {
   try {
     options.dds = load_config(file).dds;
@@ -48,7 +48,7 @@ Finding refused_participant(const std::string& problem) {
           "Mend the key that is named, or see what Fast DDS wrote above."};
 }
 
-/// What is found, with what it was found in.
+/// The observations and the findings in them.
 std::pair<Observed, Findings> examine(const Options& options) {
   Observed seen;
   seen.dds = options.dds;

@@ -123,7 +123,7 @@ void add_drive(CLI::App& app) {
       "(--dds).");
   const auto options = std::make_shared<Options>();
   add_roads(*command, options->roads);
-  command->add_option("--speed", options->roads.speed_mps, "Of the vehicle at most, in m/s")
+  command->add_option("--speed", options->roads.speed_mps, "Greatest speed of the vehicle in m/s")
       ->check(within(1.0, 40.0))
       ->capture_default_str();
   add_noise(*command, options->noise);
@@ -136,9 +136,10 @@ void add_drive(CLI::App& app) {
   auto* config = command->add_option("--config", options->config, "Configuration file");
   auto* preset = command->add_option("--preset", options->preset, "Range, and alpha_n of the voxel method")
                      ->check(CLI::IsMember(preset_names()));
-  auto* dds = command->add_flag("--dds", options->over_dds, "In real time, by the map of a running laneloomd")
-                  ->excludes(config)
-                  ->excludes(preset);
+  auto* dds =
+      command->add_flag("--dds", options->over_dds, "Drive in real time, by the map of a running laneloomd")
+          ->excludes(config)
+          ->excludes(preset);
   for (CLI::Option* option : add_dds(*command, options->dds)) option->needs(dds);
   command->add_flag("--require-lane", options->require_lane, "Fail if the vehicle leaves its lane");
   command->add_flag("--json", options->json, "One JSON object");

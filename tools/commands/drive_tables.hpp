@@ -8,16 +8,17 @@
 
 namespace laneloom {
 
+/// The score of a drive over one road with one seed.
 struct DriveResult {
   std::string road;
   std::uint64_t seed = 1;
   DriveScore score;
 };
 
-/// A line per drive and one for all, and where lanes were left.
+/// A table with a line per drive and one for all, and the places where lanes were left.
 std::string drive_table(const std::vector<DriveResult>& results);
 
-/// The same for machines, with every departure and guess.
+/// The same as JSON, with every departure and guess.
 nlohmann::json drive_json(const std::vector<DriveResult>& results);
 
 }  // namespace laneloom

@@ -32,7 +32,7 @@ struct Options {
 
 using Stamps = std::set<std::int64_t>;
 
-/// A file's moments, of so many frames or maps that it has.
+/// The stamps of a file that are compared, and the number of all its frames or maps.
 struct Moments {
   Stamps stamps;
   std::size_t count = 0;
@@ -61,10 +61,10 @@ Moments map_moments(const std::string& path) {
   return moments(path, std::move(stamps), account);
 }
 
-/// What is compared: at the stamps that every given file has.
+/// The comparison of files, at the stamps that all of them have.
 struct Comparison {
   Stamps stamps;
-  std::string account;  ///< of how much, in words
+  std::string account;  ///< how much is compared, in words
 };
 
 Comparison comparison(const Options& options) {
@@ -151,7 +151,8 @@ void evaluate(const Options& options) {
 void add_evaluate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "evaluate",
-      "How good detections and maps are. Of your own drive, without truth, by what is seen later from close "
+      "Rates detections and maps. Your own drive needs no truth, but is rated by what is seen later from "
+      "close "
       "by: laneloom evaluate --later --in drive.mcap. By truth: precision, recall, stability, lanes, trust");
   const auto options = std::make_shared<Options>();
   CLI::Option_group* references = command->add_option_group("Rated by", "one of");
@@ -168,7 +169,9 @@ void add_evaluate(CLI::App& app) {
   inputs->require_option(1, 2);
   command->add_option("--config", options->config, "Configuration to map with (.yaml)")->needs(in);
   add_range(*command, options->range)->needs(truth);
-  command->add_option("--min-confidence", options->min_confidence, "Of the single detections that count")
+  command
+      ->add_option("--min-confidence", options->min_confidence,
+                   "Least confidence of the single detections that count")
       ->check(within(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--json", options->json, "Figures to write (.json)");

@@ -13,7 +13,7 @@
 namespace laneloom {
 namespace {
 
-/// Gives each map the frame that it was made after.
+/// Pairs each map with the frame after which it was made.
 class Pairs {
  public:
   explicit Pairs(LaterMeter& meter) : meter_(meter) {}

@@ -6,15 +6,16 @@
 
 namespace laneloom {
 
-/// What to rate: `in` as mapped with a configuration (none: the default), or the maps that a file holds.
+/// The input to rate: `in`, mapped with a configuration (empty: the default), or `frames` with the maps of
+/// the file `map`.
 struct LaterInputs {
   std::string in, config;
   std::string frames, map;
   double min_confidence = 0.0;
 };
 
-/// Rates a drive by what was seen later. Throws std::runtime_error where nothing was, and as
-/// evaluation/inputs.hpp where a file cannot be read.
+/// Rates a drive by detections that were seen later. Throws std::runtime_error if there were none, and as
+/// evaluation/inputs.hpp if a file cannot be read.
 LaterMeter evaluate_later(const LaterInputs& inputs);
 
 }  // namespace laneloom

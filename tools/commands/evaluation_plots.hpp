@@ -7,9 +7,9 @@
 
 namespace laneloom {
 
-/// Draws over_time and over_range, each as .svg and .png, into a folder that is made if need be: precision
-/// and recall by samples (evaluation/profile.hpp), lateral error, and over time the jitter; one colour a
-/// name. Throws std::runtime_error naming what cannot be written.
+/// Draws over_time and over_range, each as .svg and .png, into a folder that is made if need be. They show
+/// precision and recall by samples (evaluation/profile.hpp), the lateral error, and over time the jitter,
+/// with one colour per name. Throws std::runtime_error naming a file that cannot be written.
 void draw_evaluation(const std::vector<NamedEvaluation>& evaluations, const std::filesystem::path& folder);
 
 }  // namespace laneloom

@@ -11,11 +11,11 @@ namespace laneloom {
 
 using NamedEvaluation = std::pair<std::string, MapEvaluation>;
 
-/// What goes beyond the score_table(): stability, average precision, trust, styles, linkages, stoplines. A
-/// dash stands for what an input cannot tell.
+/// Tables of the measures beyond score_table(): stability, average precision, trust, styles, linkages,
+/// stoplines. A dash stands for a value that an input cannot tell.
 std::string evaluation_tables(const std::vector<NamedEvaluation>& evaluations);
 
-/// The same for machines, under each name; shares are 0..1, and what an input cannot tell is null.
+/// The same as JSON, under each name. Shares are 0..1; a value that an input cannot tell is null.
 nlohmann::json evaluation_json(const std::vector<NamedEvaluation>& evaluations);
 
 }  // namespace laneloom

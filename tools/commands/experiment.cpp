@@ -27,7 +27,8 @@ struct Options {
   bool spread = false;
 };
 
-/// From "FILE" or "FILE:key=value,key=value"; the file "default" is the built-in configuration.
+/// Reads a configuration from "FILE" or "FILE:key=value,key=value". The file "default" is the built-in
+/// configuration.
 NamedConfig read_config(const std::string& spec, const std::string& preset) {
   const auto colon = spec.find(':');
   const std::string file = spec.substr(0, colon);
@@ -68,7 +69,7 @@ void add_experiment(CLI::App& app) {
   add_road_list(*command, options->roads);
   command
       ->add_option("--noise", options->noises,
-                   "How the detections differ from the truth; every road is seen with each")
+                   "Noise profile of the detections; every road is seen with each")
       ->delimiter(',')
       ->check(noise_name())
       ->capture_default_str();
@@ -80,10 +81,10 @@ void add_experiment(CLI::App& app) {
                       "Configuration, as FILE or FILE:section.key=value,…; \"default\" is the built-in one");
   command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines");
   command->add_flag("--oracle", options->oracle,
-                    "Also the mean of all that was seen of each marking, rightly associated");
+                    "Also rate the mean of all detections of each marking, without wrong associations");
   command->add_flag(
       "--spread", options->spread,
-      "Also mean, worst decile and worst of the single drives, and how far they are on the way from "
+      "Also print mean, worst decile and worst of the single drives, and how far they are on the way from "
       "single detections to the oracle");
   command->callback([options] { experiment(*options); });
 }

@@ -33,7 +33,7 @@ struct Options {
   bool plain = false;
 };
 
-/// Puts published maps together.
+/// Joins published maps to one drive.
 class DriveReader {
  public:
   explicit DriveReader(const RangeConfig& range) : accumulator_(range) {}
@@ -152,12 +152,13 @@ void add_export(CLI::App& app) {
       outputs->add_option("--geojson", options->geojson, "GeoJSON (RFC 7946) to write; needs --origin");
   outputs->require_option(1, 2);
   command
-      ->add_flag("--plain", options->plain,
-                 "Without the stop lines' regulatory elements, which Autoware's extension of Lanelet2 knows")
+      ->add_flag(
+          "--plain", options->plain,
+          "Leave out the stop lines' regulatory elements, which Autoware's extension of Lanelet2 knows")
       ->needs(lanelet2);
   CLI::Option* place = command->add_option_function<std::string>(
       "--origin", [options](const std::string& text) { options->origin = origin(text); },
-      "Where the map frame's origin is, in degrees (WGS84); x points east, y north");
+      "Place of the map frame's origin in degrees (WGS84); x points east, y north");
   place->type_name("LAT,LON");
   geojson->needs(place);
   command->callback([options] { export_drive(*options); });

@@ -37,7 +37,7 @@ DriveLog load_drive(const ResultsOptions& options) {
   return plain_drive(options.poses, options.samples, axes);
 }
 
-/// Reads a file of results, as far as it is of the drive.
+/// Reads the part of a file of results that belongs to the drive.
 using ReadResults = ImportedFrames (*)(const std::filesystem::path& results, const DriveLog& drive);
 
 void import_results(const ResultsOptions& options, ReadResults read) {
@@ -63,7 +63,7 @@ void add_drive(CLI::App& command, ResultsOptions& options) {
   CLI::Option* poses = drive->add_option("--poses", options.poses,
                                          "Poses (.csv or .feather: timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m)");
   drive->require_option(1);
-  CLI::Option* scene = command.add_option("--scene", options.scene, "Of nuScenes, such as scene-0061");
+  CLI::Option* scene = command.add_option("--scene", options.scene, "Scene of nuScenes, such as scene-0061");
   CLI::Option* samples =
       command.add_option("--samples", options.samples, "With --poses: samples (.csv: token,timestamp_ns)");
   nuscenes->needs(scene);
@@ -80,7 +80,7 @@ void add_results(CLI::App& app, const std::string& name, const std::string& whos
                  ReadResults read) {
   CLI::App* command = app.add_subcommand(name, "Detections of " + whose + ", and the poses of a drive");
   const auto options = std::make_shared<ResultsOptions>();
-  command->add_option("--results", options->results, "What their evaluation wrote (" + file + ")")
+  command->add_option("--results", options->results, "File that their evaluation wrote (" + file + ")")
       ->required();
   add_drive(*command, *options);
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
@@ -135,12 +135,12 @@ void import_argoverse2(const LogOptions& options) {
 void add_argoverse2(CLI::App& app) {
   CLI::App* command = app.add_subcommand("argoverse2", "Map and poses of an Argoverse 2 log");
   const auto options = std::make_shared<LogOptions>();
-  command->add_option("directory", options->directory, "Of the log, or of logs")->required();
+  command->add_option("directory", options->directory, "Directory of the log, or of logs")->required();
   CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
   outputs->add_option("--out", options->out, "Recording of the poses to write (.mcap)");
   outputs->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   outputs->require_option(1, 2);
-  command->footer("Of a directory of logs, --out and --truth are folders, with a file per log.");
+  command->footer("For a directory of logs, --out and --truth are folders, with a file per log.");
   command->callback([options] { import_argoverse2(*options); });
 }
 

@@ -6,7 +6,7 @@ class App;
 
 namespace laneloom {
 
-/// Adds `laneloom import scene`, of which add_import() is.
+/// Adds `laneloom import scene` to the command `import`.
 void add_import_scene(CLI::App& app);
 
 }  // namespace laneloom

@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// From DDS's threads to ours. Holds the newest 64 events; of more, the oldest are dropped.
+/// Passes events from DDS's threads to ours. Holds the newest 64 events; of more, the oldest are dropped.
 template <class Event>
 class Inbox {
  public:
@@ -20,7 +20,7 @@ class Inbox {
     arrived_.notify_one();
   }
 
-  /// The next event; nothing if none comes within `patience`.
+  /// The next event. None: none comes within `patience`.
   std::optional<Event> take(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     if (!arrived_.wait_for(lock, patience, [this] { return !events_.empty(); })) return std::nullopt;

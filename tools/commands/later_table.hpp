@@ -7,10 +7,10 @@
 
 namespace laneloom {
 
-/// Single detections and maps side by side. A dash stands for what cannot be told.
+/// A table of single detections and maps side by side. A dash stands for a value that cannot be told.
 std::string later_table(const LaterMeter& meter);
 
-/// The same for machines; shares are 0..1, and what cannot be told is null.
+/// The same as JSON. Shares are 0..1; a value that cannot be told is null.
 nlohmann::json later_json(const LaterMeter& meter);
 
 }  // namespace laneloom

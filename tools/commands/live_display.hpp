@@ -10,9 +10,10 @@ class LiveDisplay {
  public:
   bool is_terminal() const { return terminal_; }
 
-  /// Stays; the next text is drawn below it.
+  /// Prints a line that stays; the next text is drawn below it.
   void print_line(const std::string& line);
-  /// `text` ends with a line feed, and no line of it is longer than the terminal is wide.
+  /// Draws a text in place of the one before. `text` ends with a line feed, and no line of it is longer than
+  /// the terminal is wide.
   void redraw(const std::string& text);
 
  private:

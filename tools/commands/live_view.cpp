@@ -48,7 +48,7 @@ bool LiveView::add(AnyMessage&& message, std::int64_t time_ns) {
   return std::visit(add, std::move(message));
 }
 
-/// The last moment is shown once more, as it tells.
+/// Shows the last moment once more, with the new liveliness.
 void LiveView::set_alive(bool alive) {
   alive_ = alive;
   if (!shown_) return;

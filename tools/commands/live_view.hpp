@@ -16,14 +16,14 @@
 
 namespace laneloom {
 
-/// Shows what a vehicle's participants say to each other now. Not thread-safe.
+/// Shows the messages that a vehicle's participants exchange now. Not thread-safe.
 class LiveView {
  public:
-  /// `range` is the map's range box, until the service tells its own. Throws std::runtime_error where DDS
+  /// `range` is the map's range box until the service tells its own. Throws std::runtime_error if DDS
   /// refuses.
   LiveView(const DdsConfig& dds, const RangeConfig& range);
 
-  /// Publishes frames, and scenes where the server has scene_topics(), until the program is to end.
+  /// Publishes frames, and scenes if the server has scene_topics(), until the program is to end.
   void run(Site& site, WebServer& server, bool with_scenes);
 
  private:
@@ -31,7 +31,7 @@ class LiveView {
   struct Alive {
     bool alive = false;
   };
-  /// What arrived, and when (system clock).
+  /// An arrival, with its time (system clock).
   struct Arrival {
     std::variant<AnyMessage, Alive> what;
     std::int64_t time_ns = 0;

@@ -28,7 +28,7 @@ void add_without_view(CLI::App& command, bool& without_view) {
 }
 
 void add_noise(CLI::App& command, NoiseOption& noise) {
-  command.add_option("--noise", noise.name, "How the detections differ from the truth")
+  command.add_option("--noise", noise.name, "Noise profile of the detections")
       ->check(noise_name())
       ->capture_default_str();
   add_without_view(command, noise.without_view);

@@ -10,7 +10,7 @@ namespace laneloom {
 /// The name of a noise profile: a known one, or random:SEED.
 CLI::Validator noise_name();
 
-/// How simulated detections differ from the truth: options of several commands.
+/// Options of several commands on how simulated detections differ from the truth.
 struct NoiseOption {
   std::string name = "inhouse";
   bool without_view = false;
@@ -18,9 +18,9 @@ struct NoiseOption {
   NoiseProfile profile() const;
 };
 
-/// --noise and --no-field-of-view.
+/// Adds --noise and --no-field-of-view.
 void add_noise(CLI::App& command, NoiseOption& noise);
-/// --no-field-of-view alone.
+/// Adds --no-field-of-view alone.
 void add_without_view(CLI::App& command, bool& without_view);
 
 }  // namespace laneloom

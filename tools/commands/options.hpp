@@ -14,7 +14,7 @@
 /// Options that several commands share.
 namespace laneloom {
 
-/// A number from `min` to `max`. As CLI::Range, which lets NaN pass.
+/// Checks for a number from `min` to `max`. CLI::Range would let NaN pass.
 inline CLI::Validator within(double min, double max) {
   const auto complaint = [min, max](const std::string& input) {
     double value = 0.0;
@@ -24,10 +24,10 @@ inline CLI::Validator within(double min, double max) {
   return {complaint, fmt::format("FLOAT in [{:g} - {:g}]", min, max)};
 }
 
-/// More than nothing, and no more than fits into nanoseconds.
+/// Checks for seconds above 0 that fit into nanoseconds.
 inline CLI::Validator positive_seconds() { return within(1e-6, 1e9); }
 
-/// --range x0,x1,y0,y1: the map's range box. The box is symmetric: y0 = -y1.
+/// Adds --range x0,x1,y0,y1: the map's range box. The box is symmetric: y0 = -y1.
 inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
   const auto set = [&range](const std::vector<double>& values) {
     if (!(values[0] < values[1] && values[3] > 0.0 && values[2] == -values[3]))
@@ -42,10 +42,11 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
       ->expected(4);
 }
 
-/// A reader that a writer knows of may need so much longer to know the writer; what is sent before is lost.
+/// A reader that a writer knows already may need this much longer to know the writer. Messages sent before
+/// are lost.
 inline constexpr std::chrono::seconds kDiscovery{1};
 
-/// Which service is meant, and how it is reached. Returns the options.
+/// Adds the options that tell which service is meant, and how it is reached. Returns them.
 inline std::vector<CLI::Option*> add_dds(CLI::App& command, DdsConfig& dds) {
   auto* domain = command.add_option("--domain", dds.domain, "DDS domain")
                      ->check(CLI::Range(0, 232))
@@ -57,8 +58,8 @@ inline std::vector<CLI::Option*> add_dds(CLI::App& command, DdsConfig& dds) {
                         ->capture_default_str();
   auto* file = command.add_option("--profile-file", dds.profile_file,
                                   "Fast DDS XML profiles, for other networks; as dds.profile_file");
-  auto* name =
-      command.add_option("--profile-name", dds.profile_name, "Of the participant in that file")->needs(file);
+  auto* name = command.add_option("--profile-name", dds.profile_name, "Name of the participant in that file")
+                   ->needs(file);
   auto* security = command.add_option("--security", dds.security_directory,
                                       "Folder with the identity for DDS-Security; as dds.security_directory");
   return {domain, vehicle, transport, file, name, security};
@@ -67,9 +68,9 @@ inline std::vector<CLI::Option*> add_dds(CLI::App& command, DdsConfig& dds) {
 inline const std::map<std::string, Compression> kCompressions{
     {"zstd", Compression::zstd}, {"lz4", Compression::lz4}, {"none", Compression::none}};
 
-/// --compression: of a recording that is written; a key of kCompressions.
+/// Adds --compression, of a recording that is written: a key of kCompressions.
 inline CLI::Option* add_compression(CLI::App& command, std::string& compression) {
-  return command.add_option("--compression", compression, "Of a recording: zstd, lz4 or none")
+  return command.add_option("--compression", compression, "Compression of a recording: zstd, lz4 or none")
       ->check(CLI::IsMember(kCompressions))
       ->capture_default_str();
 }

@@ -32,12 +32,12 @@ struct Options {
   std::string record;
 };
 
-/// Something about the service itself, by its name for machines and for people.
+/// An event of the service itself: its name for machines, and a text for people.
 struct Notice {
   std::string event, text;
 };
 using Event = std::variant<PublishedMap, Notice>;
-using Events = Inbox<Event>;  // of more than fit, the oldest maps show as missed
+using Events = Inbox<Event>;  // when it is full, dropped maps count as missed
 
 dds::ReaderCallbacks<PublishedMap> callbacks_into(Events& inbox) {
   return {.sample = [&inbox](PublishedMap&& map) { inbox.put(std::move(map)); },
@@ -57,7 +57,7 @@ dds::ReaderCallbacks<PublishedMap> callbacks_into(Events& inbox) {
               }};
 }
 
-/// Shows updates as they come: redrawn in place on a terminal, else a line a second, or JSON.
+/// Shows updates as they come: redrawn in place on a terminal, otherwise as a line per second, or as JSON.
 class Display {
  public:
   explicit Display(bool json) : json_(json) {}
@@ -74,7 +74,7 @@ class Display {
 
   void show(const Notice& notice) {
     if (json_) return output_.print_line(nlohmann::json{{"event", notice.event}}.dump());
-    // Once between maps: deadlines are missed again and again.
+    // A notice is shown once between two maps, because deadlines are missed again and again.
     if (!shown_.insert(notice.event).second) return;
     output_.print_line(notice.text);
   }
@@ -86,7 +86,7 @@ class Display {
   std::set<std::string> shown_;  ///< notices since the last map
 };
 
-/// Everything received so far, in numbers.
+/// Counts of everything received so far.
 struct Tally {
   std::uint64_t maps = 0, maps_with_lanes = 0, missed = 0, refused = 0, violations = 0;
 

@@ -8,10 +8,11 @@
 
 namespace laneloom {
 
-/// Median and 90 % of the lateral errors of each marking type by distance; a dash where there are none.
+/// A table of the median and the 90th percentile of the lateral errors of each marking type by distance. A
+/// dash stands for no errors.
 std::string profile_table(const std::vector<NamedEvaluation>& evaluations);
 
-/// The same for machines, under each name's "lateral_error", and the figures over range under its "range".
+/// The same as JSON, under each name's "lateral_error", and the figures over range under its "range".
 nlohmann::json profile_json(const std::vector<NamedEvaluation>& evaluations);
 
 }  // namespace laneloom

@@ -34,9 +34,9 @@ int run(const Program& program, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return kDone;
-  } catch (const CLI::RuntimeError& end) {  // of end_with()
+  } catch (const CLI::RuntimeError& end) {  // thrown by end_with()
     return end.get_exit_code();
-  } catch (const CLI::Error& error) {  // or a call for help
+  } catch (const CLI::Error& error) {  // also thrown for --help
     return app.exit(error) == 0 ? kDone : kWrongUse;
   }
 }
@@ -50,7 +50,7 @@ int run_and_tell(const Program& program, int argc, char** argv) {
   }
 }
 
-/// Whether all that was printed has been taken; a full disk shows when it is flushed at the latest.
+/// Whether all output was written. A full disk shows at the latest when the output is flushed.
 bool printed() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct Program {
   std::vector<std::string> other_commands;  ///< its commands, which users may look for here
 };
 
-/// Does what the command line says, and tells on standard error what went wrong. Returns the exit code
+/// Runs the command of the command line, and prints errors on standard error. Returns the exit code
 /// (exit_codes.hpp).
 int run_program(const Program& program, int argc, char** argv);
 

@@ -59,10 +59,10 @@ class Publisher {
     if (!options.times.empty()) times_ = std::make_unique<PublicationLogWriter>(options.times, session_id_);
   }
 
-  /// Of the topic that has fewer.
+  /// Number of readers, of the topic that has fewer.
   int readers() const { return std::min(detections_.matched(), poses_.matched()); }
 
-  /// Publishes what is due at the simulation's time of pose number `step`.
+  /// Publishes the messages that are due at the simulation's time of pose number `step`.
   void step(std::int64_t step) {
     const std::int64_t now_ns = step * kPosePeriod_ns;
     const VehiclePose pose = pose_at(step);
@@ -181,18 +181,18 @@ void add_publish(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--loop", options->loop,
                     "Drive on for ever; where the drive does not end as it began, the pose jumps");
-  command->add_option("--from", options->from_s, "Where to begin, in seconds of the drive")
+  command->add_option("--from", options->from_s, "Time to begin at, in seconds of the drive")
       ->check(within(0.0, 1e9))
       ->capture_default_str();
   command->add_option("--duration", options->duration_s, "Simulated seconds; default: the drive once")
       ->check(positive_seconds());
   command
       ->add_option("--wait-for-readers", options->readers,
-                   "Start when so many read the detections, and so many the poses")
+                   "Number of readers of detections and of poses to wait for")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   command->add_option("--frames", options->frames, "Detections and exact poses to write (.frames.jsonl)");
-  command->add_option("--times", options->times, "When each frame was published, to write (.csv)");
+  command->add_option("--times", options->times, "Times of each frame's publication to write (.csv)");
   command->add_flag_callback("--list", list, "List the built-in roads and kinds of noise")
       ->trigger_on_parse();
   command->callback([options] { publish(*options); });

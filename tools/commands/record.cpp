@@ -32,7 +32,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// So much is lost at most when the process is killed.
+/// The greatest stretch that is lost if the process is killed.
 constexpr std::chrono::seconds kFlushPeriod{1};
 constexpr std::size_t kInboxBytes = 256U << 20U;
 constexpr double kBytesPerMB = 1e6;
@@ -47,19 +47,19 @@ struct Options {
   bool scene = false;
 };
 
-/// In the order of AnyMessage.
+/// The topics in the order of AnyMessage.
 constexpr std::array kTopics{dds::kDetectionsTopic, dds::kVehiclePoseTopic, dds::kLaneMapTopic,
                              dds::kRoadMarkingsTopic, dds::kStatusTopic};
 
-/// From DDS's threads to ours, so that none of them ever waits for the disk. When it is full, what arrives is
-/// dropped and counted.
+/// Passes messages from DDS's threads to ours, so that none of them ever waits for the disk. When it is full,
+/// messages are dropped and counted.
 class Inbox {
  public:
   void put(std::size_t topic, std::vector<std::uint8_t>&& message) {
     const std::lock_guard lock(mutex_);
     const std::chrono::nanoseconds now = std::chrono::system_clock::now().time_since_epoch();
-    // A recording is read in the order of log times: where the clock is set back, the order still is that of
-    // arrival.
+    // A recording is read in the order of log times. It stays the order of arrival even if the clock is set
+    // back.
     log_time_ns_ = std::max(log_time_ns_ + 1, std::int64_t{now.count()});
     if (bytes_ + message.size() > kInboxBytes) {
       ++dropped_[topic];
@@ -70,7 +70,7 @@ class Inbox {
     arrived_.notify_one();
   }
 
-  /// All that has arrived; waits for it no longer than `patience`.
+  /// Takes all messages that have arrived. Waits for one no longer than `patience`.
   std::deque<RawMessage> take(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, patience, [&] { return !arrivals_.empty(); });
@@ -92,7 +92,7 @@ class Inbox {
   std::array<std::uint64_t, kTopics.size()> dropped_{};
 };
 
-/// Everything that a vehicle's participants say to each other, into a recording.
+/// Records all messages that a vehicle's participants exchange.
 class Recorder {
  public:
   explicit Recorder(const Options& options)
@@ -108,7 +108,7 @@ class Recorder {
     std::fflush(stdout);
   }
 
-  /// Writes what has arrived; waits for it no longer than `patience`.
+  /// Writes all messages that have arrived. Waits for one no longer than `patience`.
   void step(std::chrono::milliseconds patience) {
     for (const RawMessage& arrival : inbox_.take(patience)) {
       writer_.write_raw(arrival);
@@ -185,16 +185,18 @@ void add_record(CLI::App& app) {
   command->add_option("--out", options->out,
                       "File (.mcap), or a folder; default: laneloom_<UTC time>.mcap here");
   add_compression(*command, options->compression);
-  command->add_option("--max-size", options->max_size_mb, "MB, after which a new file is begun")
+  command->add_option("--max-size", options->max_size_mb, "Size in MB after which a new file is begun")
       ->check(within(1e-3, 1e9));
-  command->add_option("--max-duration", options->recording.max_file_s, "Seconds, likewise")
+  command
+      ->add_option("--max-duration", options->recording.max_file_s, "Seconds after which a new file is begun")
       ->check(positive_seconds());
   command->add_option("--duration", options->duration_s, "Seconds; default: until it is stopped")
       ->check(positive_seconds());
-  CLI::Option* scene =
-      command->add_flag("--scene", options->scene,
-                        "With /laneloom/scene and /tf, for the 3D panels of Foxglove and Lichtblick");
-  command->add_option("--map-frame-id", options->dds.map_frame_id, "With --scene: of the poses; default: map")
+  CLI::Option* scene = command->add_flag(
+      "--scene", options->scene, "Add /laneloom/scene and /tf, for the 3D panels of Foxglove and Lichtblick");
+  command
+      ->add_option("--map-frame-id", options->dds.map_frame_id,
+                   "With --scene: frame of the poses; default: map")
       ->needs(scene);
   command->callback([options] { record(*options); });
 }

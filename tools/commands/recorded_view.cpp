@@ -22,7 +22,7 @@
 namespace laneloom {
 namespace {
 
-/// Ends the loading of a long file when the program is to end.
+/// Is thrown to end the loading of a long file when the program is to end.
 struct Stopped {};
 
 /// Writes moments into a store.
@@ -55,7 +55,7 @@ void load_recording(const std::string& path, Storer& storer) {
   warn_of(path, reader.refused(), reader.cut_off());
 }
 
-/// One drive by several configurations, in step.
+/// Maps one drive with several configurations, in step.
 class Comparison {
  public:
   explicit Comparison(const std::vector<std::string>& configs) : maps_(configs.size()) {
@@ -77,7 +77,7 @@ class Comparison {
   }
 
  private:
-  /// With the newest map of each other that is not later.
+  /// The moment of a map, with the newest map of each other configuration that is not later.
   ViewMoment moment_of(PublishedMap&& map, std::int64_t now_ns) {
     const std::int64_t stamp_ns = map.map.stamp_ns;
     RoadMarkings markings = road_markings(map);
@@ -94,7 +94,7 @@ class Comparison {
     return moment;
   }
 
-  std::vector<std::deque<PublishedMap>> maps_;  ///< of each configuration; of the others, the last stays
+  std::vector<std::deque<PublishedMap>> maps_;  ///< per configuration; the last map of the others stays
   std::deque<Replay> replays_;
   MomentBuilder builder_;
 };
@@ -113,7 +113,7 @@ std::map<std::int64_t, LocalMap> read_maps(const std::string& file) {
   return maps;
 }
 
-/// Frames and maps by their stamps; what one of the files lacks stays empty.
+/// Loads frames and maps by their stamps. A moment that one of the files lacks has no such part.
 void load_files(const RecordedInputs& inputs, Storer& storer) {
   std::map<std::int64_t, ViewMoment> moments;
   const auto at = [&](std::int64_t stamp_ns) -> ViewMoment& {

@@ -68,7 +68,7 @@ const T& nearest(const std::vector<T>& items, std::int64_t stamp_ns) {
   });
 }
 
-/// First and last stamp of what there is to draw: the maps, else the detections, else the drive.
+/// First and last stamp of the things to draw: of the maps, or else the detections, or else the drive.
 std::pair<std::int64_t, std::int64_t> time_span(const Inputs& inputs) {
   if (!inputs.maps.empty()) return {stamp(inputs.maps.front()), stamp(inputs.maps.back())};
   if (!inputs.frames.empty()) return {stamp(inputs.frames.front()), stamp(inputs.frames.back())};
@@ -80,7 +80,8 @@ std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) 
   std::vector<std::int64_t> stamps_ns;
   const auto span_ns = static_cast<double>(last_ns - first_ns);
   for (const double at_s : options.at_s) {
-    if (!(at_s >= 0.0 && at_s * 1e9 < span_ns + 0.5))  // before it is rounded, as it may be anything
+    // Checked before it is rounded, because it may be any number.
+    if (!(at_s >= 0.0 && at_s * 1e9 < span_ns + 0.5))
       throw std::runtime_error(
           fmt::format("--at {:g} s is beyond the {:.1f} s that there are", at_s, 1e-9 * span_ns));
     stamps_ns.push_back(first_ns + std::llround(at_s * 1e9));
@@ -92,7 +93,7 @@ std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) 
   return stamps_ns;
 }
 
-/// What every panel of a moment shows.
+/// The things that every panel of a moment shows.
 Drawing surroundings(const Options& options, const Eigen::Isometry3d& T_map_body) {
   Drawing drawing;
   add_range(options.range, T_map_body, drawing);
@@ -149,7 +150,7 @@ void add_render(CLI::App& app) {
       command->add_option("--at", options->at_s, "Moments, in seconds since the first; default: the last")
           ->type_name("SECONDS")
           ->delimiter(',');
-  command->add_option("--sequence", options->sequence, "That many moments, evenly spread")
+  command->add_option("--sequence", options->sequence, "Number of moments, evenly spread")
       ->check(CLI::Range(1, 50))
       ->excludes(at);
   add_range(*command, options->range);

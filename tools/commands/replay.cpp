@@ -40,7 +40,7 @@ struct Options {
   double speed_up = 1.0;
 };
 
-/// On a terminal, how far the reading is.
+/// Shows on a terminal how far the reading is.
 class ProgressBar {
  public:
   void show(double share) {
@@ -72,7 +72,7 @@ Config read_config(const Options& options, const std::string& file) {
   return config;
 }
 
-/// One configuration's replay of the whole input.
+/// Replays the whole input with one configuration.
 ReplayResult run(const Options& options, const std::string& config_file, const std::string& out,
                  const Road* truth) {
   const Config config = read_config(options, config_file);
@@ -121,7 +121,7 @@ void check_live(const ReplayResult& result) {
   if (!live.holds()) end_with(kFoundWrong);
 }
 
-/// Whether two paths name one file, which need not be there yet.
+/// Whether two paths name one file, which need not exist yet.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error)) return true;
@@ -129,7 +129,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   return !error && whole == std::filesystem::weakly_canonical(b, error);
 }
 
-/// What is written must not be what is read, nor be written over.
+/// Refuses to write a file that is read, or one that is written already.
 void check_files(const Options& options) {
   std::vector<std::string> written = options.out;
   if (!options.report.empty()) written.push_back(options.report);
@@ -221,7 +221,7 @@ void add_replay(CLI::App& app) {
       ->check(within(0.01, 100.0))
       ->needs(publish)
       ->capture_default_str();
-  command->add_option("--wait-for-readers", options->readers, "With --publish: start when so many read")
+  command->add_option("--wait-for-readers", options->readers, "With --publish: number of readers to wait for")
       ->check(CLI::NonNegativeNumber)
       ->needs(publish);
   for (CLI::Option* option : add_dds(*command, options->dds)) option->needs(publish);

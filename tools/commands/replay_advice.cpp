@@ -10,9 +10,9 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kFramesForALane = 5;  // that see it, by default
+constexpr std::size_t kFramesForALane = 5;  // that must see a lane, by default
 
-/// What most were refused for, of the counters with this prefix.
+/// The most frequent reason among the counters with this prefix, and its count.
 std::pair<std::string, std::uint64_t> main_refusal(const Counters& counters, std::string_view prefix) {
   std::pair<std::string, std::uint64_t> most;
   for (const auto& [name, count] : counters.values())

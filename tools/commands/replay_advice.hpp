@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// What goes into a replay.
+/// The input of a replay, in numbers.
 struct ReplayInput {
   std::uint64_t poses = 0, frames = 0, detections = 0;
   double best_confidence = 0.0;
@@ -17,7 +17,8 @@ struct ReplayInput {
   void add(const AnyMessage& message);
 };
 
-/// Where a replay gave no map, no marking or no lane: that, and a likely reason. Else empty.
+/// If a replay gave no map, no marking or no lane, a text that says so and gives a likely reason. Otherwise
+/// empty.
 std::string advice_on(const ReplayInput& input, const ReplayResult& result, const MapperConfig& config);
 
 }  // namespace laneloom

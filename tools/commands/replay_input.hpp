@@ -7,8 +7,8 @@
 
 namespace laneloom {
 
-/// Replays all detections and poses of a recording, or of frames with their poses, and warns of what was
-/// passed over. Throws as open_messages().
+/// Replays all detections and poses of a recording, or of frames with their poses. Warns of messages that
+/// were passed over. Throws as open_messages().
 void replay_input(const std::string& path, const Config& config, Replay& replay);
 
 }  // namespace laneloom

@@ -10,17 +10,17 @@
 
 namespace laneloom {
 
-/// What came of one configuration's replay.
+/// The result of the replay with one configuration.
 struct ReplayResult {
   std::string name;  ///< of the configuration
   StageTimer timer;
-  double elapsed_s = 0.0;  ///< with reading and writing
+  double elapsed_s = 0.0;  ///< including reading and writing
   std::string hash;
   Counters counters;
-  std::size_t pending = 0;                                        ///< frames whose poses never came
+  std::size_t pending = 0;                                        ///< number of frames whose poses never came
   std::size_t maps = 0, boundaries = 0, lanes = 0, linkages = 0;  ///< summed over the maps
-  std::int64_t first_ns = 0, last_ns = 0;                         ///< stamps
-  std::string advice;                                             ///< where nothing came of it: why
+  std::int64_t first_ns = 0, last_ns = 0;                         ///< stamps of the first and last map
+  std::string advice;                                             ///< see advice_on()
   LiveComparison comparison;
   MapScore score;
 
@@ -29,9 +29,10 @@ struct ReplayResult {
 };
 
 void print_result(const ReplayResult& result);
-/// Side by side.
+/// Prints results side by side.
 void print_comparison(const std::vector<ReplayResult>& results);
-/// As JSON; of several results, under "configurations". Throws std::runtime_error where it cannot be written.
+/// Writes the results as JSON; several results are under "configurations". Throws std::runtime_error if the
+/// file cannot be written.
 void write_report(const std::string& path, const std::vector<ReplayResult>& results);
 
 }  // namespace laneloom

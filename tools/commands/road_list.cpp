@@ -30,16 +30,16 @@ void add_roads(CLI::App& command, RoadList& roads) {
   road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log, or of logs");
   road->add_option("--lanelet2", roads.lanelet2, "A Lanelet2 map (.osm), driven along its lanes");
   road->require_option(1, 0);
-  command.add_option("--seeds", roads.seeds, "Of the noise; every road is driven with each")
+  command.add_option("--seeds", roads.seeds, "Seeds of the noise; every road is driven with each")
       ->delimiter(',')
       ->capture_default_str();
-  command.add_option("--drift", roads.drift, "Of the odometry, as a share of the distance driven")
+  command.add_option("--drift", roads.drift, "Drift of the odometry, as a share of the distance driven")
       ->check(within(0.0, 0.2));
 }
 
 void add_road_list(CLI::App& command, RoadList& roads) {
   add_roads(command, roads);
-  command.add_option("--speed", roads.speed_mps, "In m/s; recorded drives keep theirs")
+  command.add_option("--speed", roads.speed_mps, "Speed in m/s; recorded drives keep theirs")
       ->check(within(0.1, 60.0))
       ->capture_default_str();
   command.add_option("--duration", roads.duration_s, "Seconds per drive; one that is not closed ends sooner")

@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// Drives over several roads: options of `experiment`, `calibrate` and `drive`.
+/// Options of `experiment`, `calibrate` and `drive` for drives over several roads.
 struct RoadList {
   std::vector<std::string> scenarios, argoverse2, lanelet2;
   std::vector<std::uint64_t> seeds{1};
@@ -17,13 +17,13 @@ struct RoadList {
   double duration_s = 60.0;
   double drift = 0.0;
 
-  /// One drive per road, noise and seed. Throws what loading a road throws.
+  /// The drives, one per road, noise and seed. Throws as the loading of a road.
   std::vector<DriveSpec> drives(const std::vector<NoiseProfile>& noises) const;
 };
 
-/// --scenario, --argoverse2, --lanelet2, --seeds and --drift.
+/// Adds --scenario, --argoverse2, --lanelet2, --seeds and --drift.
 void add_roads(CLI::App& command, RoadList& roads);
-/// These, --speed and --duration.
+/// Adds these, --speed and --duration.
 void add_road_list(CLI::App& command, RoadList& roads);
 
 }  // namespace laneloom

@@ -50,11 +50,11 @@ void add_road_source(CLI::App& command, RoadSource& source) {
                    "Directory of an Argoverse 2 log, driven as recorded, or of logs");
   road->add_option("--lanelet2", source.lanelet2, "A Lanelet2 map (.osm), driven along its lanes");
   road->require_option(1);
-  command.add_option("--speed", source.speed_mps, "Of the vehicle, in m/s; recorded drives keep theirs")
+  command.add_option("--speed", source.speed_mps, "Speed of the vehicle in m/s; recorded drives keep theirs")
       ->check(within(0.1, 60.0))
       ->capture_default_str();
   add_noise(command, source.noise);
-  command.add_option("--seed", source.seed, "Of the noise")->capture_default_str();
+  command.add_option("--seed", source.seed, "Seed of the noise")->capture_default_str();
 }
 
 }  // namespace laneloom

@@ -11,22 +11,23 @@
 
 namespace laneloom {
 
-/// The road that a command drives over, and how it is seen: options of `publish` and `simulate`.
+/// Options of `publish` and `simulate` for the road that is driven over, and how it is seen.
 struct RoadSource {
   std::string scenario, argoverse2, lanelet2;
   double speed_mps = 10.0;
   NoiseOption noise{.name = "none"};
   std::uint64_t seed = 1;
 
-  /// One source per log where a directory of several is given, else this one alone.
+  /// One source per log if a directory of several logs is given, or else this one alone.
   std::vector<RoadSource> each() const;
-  /// Throws std::runtime_error or std::invalid_argument naming what is wrong with the road, or where there
-  /// are several.
+  /// Loads the road. Throws std::runtime_error or std::invalid_argument naming the problem with the road, or
+  /// if there are several.
   Road load() const;
   Perception perception(const Road& road) const;
 };
 
-/// One of --scenario, --argoverse2, --lanelet2, and --speed, --noise, --no-field-of-view, --seed.
+/// Adds --scenario, --argoverse2 and --lanelet2, of which one is needed, and --speed, --noise,
+/// --no-field-of-view and --seed.
 void add_road_source(CLI::App& command, RoadSource& source);
 
 }  // namespace laneloom

@@ -11,10 +11,10 @@ namespace laneloom {
 
 using NamedScore = std::pair<std::string, MapScore>;
 
-/// One line per kind and score: precision, recall, F1 (per cent), ACD (metres) and the counts.
+/// A table with one line per kind and score: precision, recall, F1 (per cent), ACD (metres) and the counts.
 std::string score_table(const std::vector<NamedScore>& scores);
 
-/// The same for machines; shares are 0..1.
+/// The same as JSON. Shares are 0..1.
 nlohmann::json score_json(const std::vector<NamedScore>& scores);
 
 }  // namespace laneloom

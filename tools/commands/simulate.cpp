@@ -27,7 +27,7 @@ void simulate(const RoadSource& source, double duration_s, const std::string& fr
   if (!(duration_s > 0.0)) duration_s = road.drive.duration_s();
   const auto frames = static_cast<std::int64_t>(std::floor(duration_s * 10.0));
   JsonLinesWriter out(frames_file);
-  for (std::int64_t i = 1; i <= frames; ++i) {  // from 0.1 s: the stamp 0 means none
+  for (std::int64_t i = 1; i <= frames; ++i) {  // from 0.1 s on: a stamp of 0 would mean none
     VehiclePose pose = road.drive.pose_at(static_cast<double>(i) * 0.1);
     pose.stamp_ns = i * 100'000'000;
     out.write(FrameRecord{perception.observe(pose), pose});
@@ -57,7 +57,7 @@ void add_simulate(CLI::App& app) {
   command->add_option("--frames", options->frames, "Detections and poses to write (.frames.jsonl)")
       ->required();
   command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
-  command->footer("Of a directory of logs, --frames and --truth are folders, with a file per log.");
+  command->footer("For a directory of logs, --frames and --truth are folders, with a file per log.");
   command->callback([options] { simulate_each(*options); });
 }
 

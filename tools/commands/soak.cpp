@@ -64,15 +64,13 @@ void add_soak(CLI::App& app) {
                                          "Runs publisher, service, planner and other perceptions under "
                                          "random faults, and accounts for every frame");
   const auto options = std::make_shared<Options>();
-  command->add_option("--minutes", options->minutes, "For so long")
+  command->add_option("--minutes", options->minutes, "Minutes to run")
       ->check(within(1e-3, 1e6))
       ->capture_default_str();
-  command->add_option("--seed", options->spec.seed, "Of the faults")->capture_default_str();
+  command->add_option("--seed", options->spec.seed, "Seed of the faults")->capture_default_str();
   command->add_option("--perception", options->perceptions,
                       "One more perception, run as PROGRAM DOMAIN VEHICLE_ID FILE (tests/interop has two)");
-  command
-      ->add_option("--recovery", options->recovery_s,
-                   "Seconds that the planner has to wait for a map at most")
+  command->add_option("--recovery", options->recovery_s, "Longest wait of the planner for a map, in seconds")
       ->check(positive_seconds())
       ->capture_default_str();
   command->add_option("--domain", options->spec.fleet.dds.domain, "DDS domain")

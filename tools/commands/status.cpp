@@ -25,7 +25,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr double kPatience_s = 5.0;  ///< for the first status, with --once
-/// A service that was not heard for so long is no more shown beside one that is.
+/// A service that was silent for this long is no longer shown beside one that is heard.
 constexpr std::chrono::seconds kForgotten{10};
 
 struct Options {
@@ -52,7 +52,7 @@ ExitCode code_of(MapState state) {
   return kNothingToDriveOn;
 }
 
-/// What one service said last.
+/// The last status of one service.
 struct Heard {
   ServiceStatus status;
   std::optional<ServiceStatus> previous;
@@ -61,12 +61,12 @@ struct Heard {
   const ServiceStatus* before() const { return previous ? &*previous : nullptr; }
 };
 
-/// Follows the services of one vehicle: there should be one.
+/// Follows the services of one vehicle, of which there should be one.
 class Watch {
  public:
   explicit Watch(const Options& options) : options_(options) {}
 
-  /// The exit code: of the newest status.
+  /// Follows the services. Returns the exit code by the newest status.
   ExitCode run() {
     Events inbox;
     const dds::Participant participant(options_.dds, "laneloom status");

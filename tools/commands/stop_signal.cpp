@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kReaction{50};
 
-// A signal handler can reach nothing else.
+// Global, because a signal handler can reach nothing else.
 std::atomic<bool> stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 

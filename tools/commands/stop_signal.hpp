@@ -4,13 +4,13 @@
 
 namespace laneloom {
 
-/// From now on, SIGINT and SIGTERM only ask the program to end.
+/// Lets SIGINT and SIGTERM only ask the program to end, from now on.
 void catch_stop_signals();
 
-/// Whether it was asked. May be called from any thread.
+/// Whether the program was asked to end. May be called from any thread.
 bool stop_requested();
 
-/// Sleeps until `deadline`, or until the program is to end; tells whether it may go on.
+/// Sleeps until `deadline`, or until the program is asked to end. Returns whether it may go on.
 bool sleep_until(std::chrono::steady_clock::time_point deadline);
 
 }  // namespace laneloom

@@ -7,15 +7,15 @@
 
 namespace laneloom {
 
-/// Rows of a table of milliseconds, on standard output.
+/// Print rows of a table of milliseconds on standard output.
 void print_time_header(const std::string& title);
 void print_time_row(const std::string& name, const TimeSummary& time);
-/// A row for each stage that was reached.
+/// Prints a row for each stage that was reached.
 void print_stage_rows(const StageTimer& timer);
 
 /// {"mean", "p50", "p99", "max"}, in milliseconds.
 nlohmann::json to_json(const TimeSummary& time);
-/// These by the names of the stages that were reached.
+/// Such objects by the names of the stages that were reached.
 nlohmann::json to_json(const StageTimer& timer);
 
 }  // namespace laneloom

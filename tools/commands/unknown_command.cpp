@@ -12,7 +12,7 @@
 namespace laneloom {
 namespace {
 
-/// How many letters have to be put in, taken out or changed (Levenshtein's distance).
+/// The number of letters to insert, remove or change (Levenshtein's distance).
 std::size_t edits_between(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);  // from the first letters of a to each beginning of b
   std::iota(row.begin(), row.end(), 0);

@@ -11,8 +11,8 @@ namespace laneloom {
 
 struct Program;
 
-/// Where these words name a command that there is not: a complaint that names it, and the program that has
-/// it, or the nearest that there is. Else empty.
+/// If the words name an unknown command, a complaint that names it, and the program that has it or the most
+/// similar command. Otherwise empty.
 std::string unknown_command(const CLI::App& app, const Program& program,
                             const std::vector<std::string>& words);
 

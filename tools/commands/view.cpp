@@ -28,7 +28,7 @@ struct Options {
   bool foxglove = false;
 };
 
-/// For a browser; on every address, this host's own name stands for it.
+/// Prints the URLs. If the server listens on all addresses, "localhost" stands for them.
 void print_urls(const Options& options, std::uint16_t port) {
   std::string host = options.server.address;
   if (host == "0.0.0.0" || host == "::") host = "localhost";
@@ -79,7 +79,7 @@ void add_view(CLI::App& app) {
       app.add_subcommand("view", "Shows the live map, or a recording, in a browser: prints the URL");
   const auto options = std::make_shared<Options>();
   add_dds(*command, options->dds);
-  command->add_option("--port", options->server.port, "Of the web server; 0: one that is free")
+  command->add_option("--port", options->server.port, "Port of the web server; 0: a free one")
       ->capture_default_str();
   command
       ->add_option("--listen", options->server.address,

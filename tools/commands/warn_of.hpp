@@ -6,8 +6,8 @@
 
 namespace laneloom {
 
-/// On standard error, where only a part of a file could be read: messages that were passed over, as
-/// "<topic>: <reason>", and whether the file ends before its end.
+/// Warns on standard error if only a part of a file could be read: of refused messages, as "<topic>:
+/// <reason>", and of a file that is cut off.
 void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off);
 
 }  // namespace laneloom

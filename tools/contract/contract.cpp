@@ -106,7 +106,8 @@ void check_succession(const PublishedMap& map, const PublishedMap& previous, Fin
   findings.require(
       map.sequence > previous.sequence, ContractRule::ascending_sequence,
       "sequence " + std::to_string(map.sequence) + " after " + std::to_string(previous.sequence));
-  // The stamp stays where a frame of a slower source was fused; what a missed map fused is not known.
+  // The stamp also stays if a frame of a slower source was fused. The frames that a missed map fused are not
+  // known.
   const bool nothing_new = map.map.stamp_ns == previous.map.stamp_ns && map.map.stamp_ns != 0 &&
                            map.fused_frames.empty() && map.sequence == previous.sequence + 1;
   findings.require(!nothing_new || map.age_s >= previous.age_s, ContractRule::possible_age,

@@ -5,7 +5,7 @@
 
 #include "laneloom/messages.hpp"
 
-/// What a consumer may rely on in every published map, and the check of it.
+/// The contract of published maps, on which every consumer may rely, and its check.
 namespace laneloom {
 
 enum class ContractRule : std::uint8_t {
@@ -21,21 +21,22 @@ enum class ContractRule : std::uint8_t {
   valid_values,                ///< probabilities, confidences, deviations and widths are possible
   ascending_sequence,          ///< within a session, sequence numbers neither repeat nor go back
   possible_age,                ///< the age fits the stamp, and grows while nothing new is fused
-  stated_reasons               ///< a map that is not OK says why, one that is OK has nothing to say
+  stated_reasons               ///< a map that is not OK has reasons, and one that is OK has none
 };
 const char* name(ContractRule rule);
 
+/// A rule that a map breaks.
 struct Violation {
   ContractRule rule = ContractRule::finite_numbers;
-  std::string detail;  ///< which element, and what is wrong with it
+  std::string detail;  ///< the element, and the problem with it
 };
 
-/// Everything in `map` that a consumer must never see; empty if all is well. `previous` is the map received
-/// before it, or null. Pure; never throws on odd values (they are what it looks for).
+/// Finds all violations of the contract in `map`. `previous` is the map received before it, or null. Pure;
+/// never throws on odd values, which are among what it looks for.
 std::vector<Violation> check_contract(const PublishedMap& map, const PublishedMap* previous);
 
-/// Maps that were published between the two and not received: a loss to be counted, not a violation.
-/// 0 across sessions and where the sequence does not ascend.
+/// Number of maps that were published between the two and not received. A loss is counted, but is no
+/// violation. 0 across sessions and if the sequence does not ascend.
 std::uint64_t missed_maps(const PublishedMap& map, const PublishedMap* previous);
 
 }  // namespace laneloom

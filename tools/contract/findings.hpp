@@ -12,7 +12,7 @@ namespace laneloom {
 /// Collects violations while a map is walked.
 class Findings {
  public:
-  /// Records a violation of `rule` unless `holds`; tells whether it held.
+  /// Records a violation of `rule` unless `holds`. Returns `holds`.
   bool require(bool holds, ContractRule rule, const std::string& detail) {
     if (!holds) violations_.push_back({rule, detail});
     return holds;
@@ -23,19 +23,19 @@ class Findings {
   std::vector<Violation> violations_;
 };
 
-/// Two finite points at least, and horizontal extent.
+/// Whether a line has at least two points, all finite, and horizontal extent.
 bool is_measurable(const Polyline& line);
 
-/// Whether `line` is measurable. Else it is recorded what is wrong.
+/// Whether `line` is measurable. Records a violation if it is not.
 bool check_line(const Polyline& line, const std::string& what, Findings& findings);
 
-/// That `range` is a forward or backward stretch of a line of `length_m`.
+/// Checks that `range` is a stretch within a line of `length_m`.
 void check_range(const Stretch& range, double length_m, const std::string& what, Findings& findings);
 
-/// That a probability is in 0..1, or -1 for "not estimated".
+/// Checks that a probability is in 0..1, or -1 for "not estimated".
 void check_probability(double value, const std::string& what, Findings& findings);
 
-/// The rules about lanes: sides, centerlines, boundaries and neighbours.
+/// Checks the rules about lanes: sides, centerlines, boundaries and neighbours.
 void check_lanes(const LocalMap& map, Findings& findings);
 
 }  // namespace laneloom

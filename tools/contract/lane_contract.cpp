@@ -8,15 +8,16 @@
 namespace laneloom {
 namespace {
 
-/// A lane's sides are fitted to noisy boundaries: this much may they and the centerline cross each other.
+/// A lane's sides are fitted to noisy boundaries, so that sides and centerline may cross each other by this
+/// much.
 constexpr double kSideTolerance_m = 0.05;
 
 using BoundariesById = std::map<ElementId, const Marking*>;
 
 std::string label(const Lane& lane) { return "lane " + std::to_string(lane.id); }
 
-/// Whether no point of `line` that has a foot within `reference` is on the other side of it; `side` is +1
-/// for left of it, -1 for right of it.
+/// Whether all points of `line` that have a foot within `reference` lie on one side of it. `side` is +1 for
+/// the left, -1 for the right.
 bool stays_on_side(const Polyline& line, const MeasuredPolyline& reference, double side, double margin_m) {
   return std::all_of(line.begin(), line.end(), [&](const Point& point) {
     const Projection foot = reference.project(point);
@@ -54,7 +55,7 @@ void check_boundary(const Lane& lane, ElementId id, const Stretch& range, const 
                 findings);
 }
 
-/// Whether two lanes run the same way where the one lies `beside` the other: elsewhere both may bend.
+/// Whether two lanes run the same way along the stretch `beside` of `a`. Elsewhere both may bend.
 bool same_way(const Lane& a, const Stretch& beside, const Lane& b) {
   const MeasuredPolyline line_a(a.centerline), line_b(b.centerline);
   const double middle_m = 0.5 * (beside.from_m + beside.to_m);

@@ -7,7 +7,7 @@ namespace laneloom {
 
 Findings findings(const Observed& seen) {
   Findings all = presence_findings(seen);
-  // Two services, or two readers of one participant, may give the same.
+  // Two services, or two readers of one participant, may give the same finding.
   const auto add = [&](Findings more) {
     for (Finding& finding : more)
       if (std::ranges::find(all, finding.found, &Finding::found) == all.end())

@@ -5,39 +5,41 @@
 
 #include "doctor/observed.hpp"
 
-/// Why nothing arrives. Pure functions, one per subject.
+/// Findings on why messages do not arrive. Pure functions, one per subject.
 namespace laneloom {
 
+/// A reason why messages do not arrive or arrive badly, with its remedy; or an advice.
 struct Finding {
   std::string id;       ///< for machines
-  std::string found;    ///< what is so
-  std::string why;      ///< why that matters
+  std::string found;    ///< the fact
+  std::string why;      ///< why the fact matters
   std::string remedy;   ///< what to do
-  bool advice = false;  ///< nothing is wrong, but it could be better
+  bool advice = false;  ///< nothing is wrong, but something could be better
 };
 using Findings = std::vector<Finding>;
 
-/// Whether anybody is in the domain, and the one service of the vehicle is.
+/// Finds that nobody is in the domain, or not exactly one service of the vehicle.
 Findings presence_findings(const Observed& seen);
-/// Who writes or reads under another name, type or partition than the service, and what nobody writes.
+/// Finds writers and readers whose name, type or partition differs from the service's, and inputs that nobody
+/// writes.
 Findings topic_findings(const Observed& seen);
-/// Nodes of ROS 2 that write detections or odometry where the service does not read them.
+/// Finds nodes of ROS 2 that write detections or odometry where the service does not read them.
 Findings ros_findings(const Observed& seen);
-/// Which writers and readers of the vehicle would match, but for their quality of service.
+/// Finds writers and readers of the vehicle that do not match only because of their quality of service.
 Findings qos_findings(const Observed& seen);
-/// Whether the inputs come, how often, by which clocks, and whole.
+/// Finds inputs that do not come, come too seldom, have stamps of another clock, or do not come whole.
 Findings stream_findings(const Observed& seen);
-/// Whether each source of detections writes as one source should, and how many there are.
+/// Finds sources of detections that do not write as one source should, and too many sources.
 Findings source_findings(const Observed& seen);
-/// What the service refuses, and what else it counts that should not happen.
+/// Finds messages that the service refuses, and other counters that should not rise.
 Findings incident_findings(const Observed& seen);
-/// What the service says of itself: the consequences.
+/// Finds states that the service reports of itself, which are consequences.
 Findings state_findings(const Observed& seen);
-/// What is in the way of shared memory, where that is used.
+/// Finds obstacles to shared memory, if that is used.
 Findings shared_memory_findings(const Observed& seen);
 
-/// All of these, in this order, so that causes stand before their consequences; each once. Where nobody is
-/// there, no more is said of those who are not.
+/// All of these findings, each once, in this order, so that causes stand before their consequences. If nobody
+/// is in the domain, findings on what these participants lack are left out.
 Findings findings(const Observed& seen);
 
 }  // namespace laneloom

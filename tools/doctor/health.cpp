@@ -42,7 +42,7 @@ constexpr std::array kIncidents{
     Incident{"snapshots_failed", "the snapshot could not be written",
              "See the log of the service, and the rights and space of the folder of service.snapshot_file."}};
 
-/// They follow from what else is found.
+/// Counters that only rise as a consequence of other findings.
 constexpr std::array kConsequences{std::string_view("detections_refused_unsynchronised"),
                                    std::string_view("detections_refused_reset"),
                                    std::string_view("source_not_fused")};
@@ -118,13 +118,13 @@ void judge_counter(const std::string& counter, std::uint64_t rise, Findings& fou
                    "The map lacks what they would have added.", std::string(known->remedy)});
 }
 
-/// What no service was there to refuse.
+/// Adds the refusals by the doctor itself, if there is no service that could refuse.
 void judge_own(const char* subject, const InputObserved& input, Findings& found) {
   for (const auto& [reason, count] : input.refused)
     found.push_back(refusal("The doctor, as the service would,", subject, reason, count));
 }
 
-/// Frames of a source that arrive, while none goes into the map.
+/// Adds a finding if frames of a source arrive, but none goes into the map.
 void judge_source(const SourceStatus& source, const ServiceStatus& first, Findings& found) {
   const auto before = std::ranges::find_if(first.sources, [&](const SourceStatus& other) {
     return other.source == source.source && other.session_id == source.session_id;

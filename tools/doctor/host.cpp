@@ -16,7 +16,7 @@
 namespace laneloom {
 namespace {
 
-// Ports of discovery, as the RTPS standard has them by default.
+// Ports of discovery, by the defaults of the RTPS standard.
 constexpr int kFirstPort = 7400;
 constexpr int kPortsPerDomain = 250;
 constexpr int kFirstUnicast = 10;
@@ -49,10 +49,10 @@ std::string name_of(uid_t owner) {
   return entry ? entry->pw_name : std::to_string(owner);
 }
 
-/// What processes have mapped.
+/// The mappings of processes.
 struct Mappings {
   std::set<std::string> files;  ///< names of Fast DDS's
-  std::set<uid_t> unreadable;   ///< owners of processes that don't show theirs
+  std::set<uid_t> unreadable;   ///< owners of processes whose mappings may not be read
 };
 
 void add_mappings(std::istream& maps, Mappings& mappings) {
@@ -93,7 +93,7 @@ std::vector<int> listening_domains(std::istream& sockets) {
   std::vector<int> domains;
   for (int domain = 0; domain < kDomains; ++domain) {
     const int multicast = kFirstPort + kPortsPerDomain * domain;
-    // Others may use the one port by chance; a participant has one of the others, too.
+    // Another program may use the multicast port by chance. A participant also has a unicast port.
     const auto unicast = ports.lower_bound(multicast + kFirstUnicast);
     if (ports.contains(multicast) && unicast != ports.end() && *unicast < multicast + kPortsPerDomain)
       domains.push_back(domain);

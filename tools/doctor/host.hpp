@@ -6,14 +6,15 @@
 
 #include "doctor/observed.hpp"
 
-/// What this host tells of participants on it. All is left out that may not be read.
+/// Facts that this host tells of participants on it. Facts that may not be read are left out.
 namespace laneloom {
 
-/// The domains whose discovery some process listens to, in ascending order; `sockets` as in /proc/net/udp.
+/// The domains whose discovery some process listens to, in ascending order. `sockets` has the form of
+/// /proc/net/udp.
 std::vector<int> listening_domains(std::istream& sockets);
 
-/// Fast DDS's files in `folder` (/dev/shm), but those that are for locking alone. Of other users with
-/// processes whose mappings may not be read (in `processes`, /proc), none is said to be stale.
+/// Fast DDS's files in `folder` (/dev/shm), without those that are for locking alone. `processes` is /proc.
+/// If the mappings of a user's processes may not be read, none of this user's files is called stale.
 std::vector<SharedMemoryFile> shared_memory_files(const std::filesystem::path& folder,
                                                   const std::filesystem::path& processes);
 

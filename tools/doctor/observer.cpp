@@ -13,9 +13,9 @@ namespace laneloom {
 namespace {
 
 constexpr const char* kName = "laneloom doctor";
-/// Of one vehicle within one observation; more are no services.
+/// Most sessions of one vehicle within one observation. Further ones are not taken for services.
 constexpr std::size_t kMaxSessions = 64;
-/// Names of sources, or writers of one, that are told apart; a stack has a few.
+/// Most names of sources, or writers of a source, that are told apart. A perception stack has a few.
 constexpr std::size_t kMaxTold = 64;
 
 template <class Clock>
@@ -34,7 +34,7 @@ std::string setting(const ServiceStatus& status, std::string_view wanted) {
   return {};
 }
 
-/// Looks into the profile that the service names, as it may be on this host.
+/// Reads the profile that the service names, in case that it is on this host.
 void judge_profile(ServiceObserved& service) {
   DdsConfig config;
   config.profile_file = setting(service.last, "dds.profile_file");
@@ -102,7 +102,7 @@ void Observer::receive_pose(const dds::WriterId& writer, const Bytes& message) {
   if (!refusal.empty()) ++poses_stream_.observed.refused[std::string(refusal)];
 }
 
-/// The map frame is what the service was told it is, whatever this doctor was told.
+/// Takes over the map frame of the service's configuration, which may differ from the doctor's.
 void Observer::take_configuration(const ServiceStatus& status) {
   const std::string frame_id = setting(status, "dds.map_frame_id");
   if (frame_id.empty() || frame_id == config_.map_frame_id) return;

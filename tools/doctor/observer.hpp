@@ -13,13 +13,13 @@
 
 namespace laneloom {
 
-/// Watches a domain and what one vehicle's topics carry, as a participant of its own.
+/// Watches a domain and the messages of one vehicle's topics, as a participant of its own.
 class Observer {
  public:
-  /// Begins at once. Throws as dds::Participant does.
+  /// Begins to watch at once. Throws as dds::Participant does.
   explicit Observer(const DdsConfig& config);
 
-  /// What was seen so far.
+  /// The observations so far.
   Observed observed() const;
 
  private:

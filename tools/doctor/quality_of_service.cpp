@@ -43,12 +43,12 @@ std::string text(const std::optional<double>& duration_s) {
 const char* reliability(const Endpoint& endpoint) { return endpoint.reliable ? "reliable" : "best effort"; }
 const char* ownership(const Endpoint& endpoint) { return endpoint.exclusive ? "exclusive" : "shared"; }
 
-/// None is longer than any.
+/// Whether `a` is longer than `b`. None stands for infinite.
 bool is_longer(const std::optional<double>& a, const std::optional<double>& b) {
   return b && (!a || *a > *b);
 }
 
-/// Each policy by which the writer offers less than the reader asks for.
+/// The policies by which the writer offers less than the reader asks for.
 std::vector<std::string> mismatches(const Endpoint& writer, const Endpoint& reader) {
   std::vector<std::string> result;
   const auto require = [&](bool holds, const char* policy, const auto& offered, const auto& requested) {
@@ -67,7 +67,8 @@ std::vector<std::string> mismatches(const Endpoint& writer, const Endpoint& read
   return result;
 }
 
-/// Whether another reader of the same participant gets the topic: one for each kind of writers, say.
+/// Whether another reader of the same participant matches the writer. A participant may have a reader for
+/// each kind of writers.
 bool another_matches(const Endpoint& writer, const Endpoint& reader, const std::vector<Endpoint>& endpoints) {
   return std::ranges::any_of(endpoints, [&](const Endpoint& other) {
     return !other.is_writer && other.participant.id == reader.participant.id && other.topic == reader.topic &&

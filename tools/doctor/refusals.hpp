@@ -4,14 +4,14 @@
 
 namespace laneloom {
 
-/// Why a message is refused, and what to do about it.
+/// The cause of a refusal, and its remedy.
 struct Refusal {
   std::string_view reason;  ///< as the counters name it: detections_refused_<reason>, poses_refused_<reason>
   std::string_view cause;
   std::string_view remedy;
 };
 
-/// Of a reason that is not known, it says no more than that.
+/// Explains a reason. For an unknown reason, the explanation says that it is unknown.
 Refusal explain_refusal(std::string_view reason);
 
 }  // namespace laneloom

@@ -7,9 +7,9 @@
 
 namespace laneloom {
 
-/// For people: who was seen, and each finding.
+/// A text for people, with the participants that were seen and the findings.
 std::string report(const Observed& seen, const Findings& found);
-/// The same for machines.
+/// The same as an object for machines.
 nlohmann::json report_json(const Observed& seen, const Findings& found);
 
 }  // namespace laneloom

@@ -17,11 +17,11 @@ namespace {
 
 using dds::Endpoint;
 
-/// An input of the service, as ROS has it.
+/// An input of the service from ROS.
 struct RosInput {
   std::string what, topic, type;
-  std::string key;        ///< gives it another topic
-  std::string own_topic;  ///< of laneloom, with the same
+  std::string key;        ///< key of the configuration that names its topic
+  std::string own_topic;  ///< laneloom's own topic for the same input
 };
 
 RosInput detections_of(const Ros2Config& ros2) {
@@ -34,7 +34,7 @@ RosInput poses_of(const Ros2Config& ros2) {
           "ros2.odometry_topic", dds::kVehiclePoseTopic};
 }
 
-/// The section ros2 of the vehicle's service, as it told; none: it told nothing.
+/// The section ros2 of the service's configuration. None: there is no service, or it told nothing.
 std::optional<Ros2Config> ros2_of(const Observed& seen) {
   if (seen.services.empty()) return std::nullopt;
   Ros2Config ros2;
@@ -70,7 +70,7 @@ Finding not_enabled(const Endpoint& endpoint) {
           "Set ros2.enabled: true, and restart the service."};
 }
 
-/// Others in the domain may have odometries that are none of ours.
+/// Whether laneloom's own topic of an input is written: then odometries in the domain may belong to others.
 bool is_written_without_ros(const Observed& seen, const RosInput& input) {
   return std::ranges::any_of(seen.endpoints, [&](const Endpoint& endpoint) {
     return endpoint.is_writer && endpoint.topic == input.own_topic &&

@@ -4,11 +4,11 @@
 
 namespace laneloom {
 
-/// Whether nodes of ROS 2 write what the service takes from them.
+/// Whether nodes of ROS 2 write the inputs that the service takes from them.
 bool ros_writes_detections(const Observed& seen);
 bool ros_writes_poses(const Observed& seen);
 
-/// Whether it is a node's, by its type.
+/// Whether an endpoint belongs to a node of ROS 2, by its type.
 bool is_of_ros(const dds::Endpoint& endpoint);
 
 }  // namespace laneloom

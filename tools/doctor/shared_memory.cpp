@@ -7,7 +7,7 @@
 namespace laneloom {
 namespace {
 
-/// How many files there are of each owner.
+/// A text with the number of files of each owner.
 std::string by_owner(const std::map<std::string, int>& files) {
   std::string text;
   for (const auto& [owner, count] : files)

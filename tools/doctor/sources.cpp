@@ -12,7 +12,7 @@
 namespace laneloom {
 namespace {
 
-/// What the finding says of one of the writers.
+/// The text for a writer.
 std::string name_of(const Observed& seen, const dds::WriterId& writer) {
   const auto found = std::ranges::find(seen.endpoints, writer, &dds::Endpoint::id);
   return found == seen.endpoints.end() ? "one that is gone" : who(found->participant);

@@ -11,19 +11,19 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMinWindow_s = 1.0;  ///< to tell a rate from
+constexpr double kMinWindow_s = 1.0;  ///< a shorter window tells no rate
 constexpr double kMinDetections_hz = 4.0, kMaxDetections_hz = 50.0, kMinPoses_hz = 20.0;
 constexpr double kMaxClockOffset_s = 0.5;
-constexpr std::uint32_t kLargestDatagram = 65500;  ///< bytes that participants send by default
+constexpr std::uint32_t kLargestDatagram = 65500;  ///< that participants send by default, in bytes
 
-/// What comes of one writer, if all is well.
+/// A stream of messages that one writer should write.
 struct Stream {
-  const char* input;  ///< what it belongs to
+  const char* input;  ///< the input that it belongs to
   std::string what;
   const InputObserved* messages;
 };
 
-/// Of each source. Where nothing is well formed, of all.
+/// The streams of detections, one for each source. If no message is well formed, one for all.
 std::vector<Stream> detections(const Observed& seen) {
   if (seen.sources.empty()) return {{"detections", "detections", &seen.detections}};
   std::vector<Stream> result;
@@ -47,7 +47,7 @@ void judge_numbers(const Stream& stream, Findings& found) {
 void judge_slow(const Stream& stream, double min_hz, Findings& found) {
   const InputObserved& observed = *stream.messages;
   if (observed.messages == 0 || observed.window_s < kMinWindow_s) return;
-  // The window ends between two messages: one of them more or less decides nothing.
+  // The window ends between two messages, so that one message more must not decide.
   const double messages = static_cast<double>(observed.messages);
   if ((messages + 1.0) / observed.window_s >= min_hz) return;
   found.push_back({fmt::format("{}_slow", stream.input),
@@ -69,7 +69,7 @@ void judge_fast(const InputObserved& frames, Findings& found) {
                    "See whether several writers publish for this vehicle, or one publishes in bursts."});
 }
 
-/// Those that the service reads: of the right type, too.
+/// The writers that the service reads, which are also of the right type.
 std::vector<dds::Endpoint> writers(const Observed& seen, const char* topic, const char* type) {
   return select(seen, [&](const dds::Endpoint& endpoint) {
     return endpoint.is_writer && endpoint.topic == topic && endpoint.type == type &&
@@ -122,7 +122,7 @@ Finding datagrams_cut(std::uint32_t bytes, const std::string& profile_file) {
           "Leave maxMessageSize out of the profile: Fast DDS receives into a buffer of that size."};
 }
 
-/// The doctor's own settings may be others than the service's.
+/// Judges the datagrams of the doctor's settings and of the service's, which may differ.
 void judge_datagrams(const Observed& seen, Findings& found) {
   if (seen.largest_datagram < kLargestDatagram)
     found.push_back(datagrams_cut(seen.largest_datagram, seen.dds.profile_file));
@@ -138,7 +138,7 @@ void judge_datagrams(const Observed& seen, Findings& found) {
   }
 }
 
-/// Stamp against arrival, in seconds.
+/// The time from arrival to stamp, in seconds. The two clocks may differ.
 double offset_s(const InputObserved::Newest& newest) {
   return static_cast<double>(newest.stamp_ns) / 1e9 - static_cast<double>(newest.arrival_ns) / 1e9;
 }
@@ -159,7 +159,7 @@ void judge_sensor_clock(const Stream& stream, const InputObserved& poses, Findin
 
 void judge_host_clocks(const Observed& seen, Findings& found) {
   for (const ServiceObserved& service : seen.services) {
-    // The first may be one that was kept for late joiners.
+    // The first status may be an old one that was kept for late readers.
     if (service.statuses < 2 || std::abs(service.clock_offset_s) <= kMaxClockOffset_s) continue;
     found.push_back(
         {"host_clocks",

@@ -21,7 +21,7 @@ struct Topic {
   const char* what;
   const char* name;
   const char* type;
-  bool input;                                     ///< of the service
+  bool input;                                     ///< whether it is an input of the service
   bool (*ros_writes)(const Observed&) = nullptr;  ///< whether nodes of ROS 2 write it
 };
 
@@ -32,7 +32,7 @@ constexpr std::array kTopics{
     Topic{"lane_map", "the lane map", dds::kLaneMapTopic, dds::kLaneMapType, false},
     Topic{"road_markings", "the road markings", dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, false}};
 
-/// What a topic is named at heart: without case, separators, version, and prefixes that bridges add.
+/// The essence of a topic's name: without case, separators, version, and prefixes that bridges add.
 std::string heart(const std::string& topic) {
   std::string result, part;
   std::istringstream parts(topic);
@@ -48,12 +48,12 @@ std::string heart(const std::string& topic) {
   return result;
 }
 
-/// Perception and the like write inputs; planners read outputs.
+/// Whether an endpoint is on the other side than the service: a writer of an input, or a reader of an output.
 bool is_at_far_end(const Endpoint& endpoint, const Topic& topic) { return endpoint.is_writer == topic.input; }
 
 const char* verb(const Topic& topic) { return topic.input ? "writes" : "reads"; }
 
-/// Endpoints at the far end that connect to the service of this vehicle, if their quality of service does.
+/// Whether an endpoint at the far end matches the service of this vehicle, apart from its quality of service.
 bool is_right(const Endpoint& endpoint, const Topic& topic, const std::string& vehicle_id) {
   return is_at_far_end(endpoint, topic) && endpoint.topic == topic.name && endpoint.type == topic.type &&
          is_of_vehicle(endpoint, vehicle_id);
@@ -122,7 +122,7 @@ void judge(const Observed& seen, const Topic& topic, Findings& found) {
       found.push_back(similar_name(endpoint, topic));
     }
   }
-  // Last: what was found of others is the cause.
+  // This comes last, since findings on other endpoints are the cause.
   if (topic.input && !connected) found.push_back(nobody_writes(seen, topic));
 }
 

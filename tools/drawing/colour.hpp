@@ -2,6 +2,7 @@
 
 namespace laneloom {
 
+/// A colour; every part is 0..1.
 struct Colour {
   double red = 0.0;
   double green = 0.0;

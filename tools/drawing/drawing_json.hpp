@@ -14,21 +14,22 @@
 ///                               {"text": "12", "at": [x, y], …}]}, …],
 ///      "lineage": [{"kind": "merged_into", "id": 12, "other": 5}, …]}
 ///
-/// Metres and radians in the map frame; elements in the order of painting. stamp_ns is text, as a number of
-/// JavaScript does not hold it; ids are counted up, and stay exact below 2^53. Left out where there is none:
-/// id, status, properties, opacity (1), lineage.
+/// Lengths are in metres, angles in radians, both in the map frame. Elements are in the order of painting.
+/// stamp_ns is text, because a number of JavaScript does not hold it; ids are counted up, and stay exact
+/// below 2^53. id, status, properties, opacity (1) and lineage are left out if there is none.
 namespace laneloom {
 
 nlohmann::json to_json(const Drawing& drawing);
 
-/// How everything looks:
+/// The palette as JSON:
 ///
 ///     {"layers": [{"name": "lanes", "title": "lanes", "shown": true, "overlay": 1.0}, …],
 ///      "styles": {"linkage": {"light": "#cc00bfff", "dark": "#rrggbbaa", "width": 1.8, "dash": [9, 7],
 ///                             "head": 9, "text": 11}, …},
 ///      "light": {"ground": "#…", "text": "#…", "faint": "#…"}, "dark": {…}}
 ///
-/// Layers in the order of painting; widths, dashes, heads and texts in pixels, left out where there is none.
+/// Layers are in the order of painting. Widths, dashes, heads and texts are in pixels, and left out if there
+/// is none.
 nlohmann::json palette_json();
 
 }  // namespace laneloom

@@ -34,7 +34,7 @@ Element element_of(const Detection& detection, const DetectionFrame& frame, std:
           .shapes = marking_shapes(marking, opacity_of(detection.confidence))};
 }
 
-/// In the body frame.
+/// The outline of a car in the body frame, with cut corners at its front.
 Polyline car_outline(double rear, double front, double half_width, double corner) {
   return {{rear, half_width, 0.0},
           {front - corner, half_width, 0.0},

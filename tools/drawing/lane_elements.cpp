@@ -11,13 +11,13 @@ namespace laneloom {
 namespace {
 
 constexpr double kArrowSpacing_m = 9.0;
-constexpr double kLinkageReach_m = 3.5;  ///< of its arrow into either lane
+constexpr double kLinkageReach_m = 3.5;  ///< length of a linkage's arrow within either lane
 constexpr double kCenterlineOpacity = 0.6;
-constexpr double kUnknownDirection = 0.6;  ///< opacity where it is not known which way traffic runs
+constexpr double kUnknownDirection = 0.6;  ///< opacity of a lane whose driving direction is not known
 
 Point as_point(const Eigen::Vector2d& direction) { return {direction.x(), direction.y(), 0.0}; }
 
-/// The centerline, in driving direction where it is known, and arrows along it.
+/// Adds the centerline, in driving direction if it is known, and arrows along it.
 void add_course(const Lane& lane, std::vector<Shape>& shapes) {
   if (!drawable(lane.centerline)) return;
   Polyline centerline = lane.centerline;

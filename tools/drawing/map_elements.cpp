@@ -20,7 +20,7 @@ Element element_of(Layer layer, const Marking& marking, nlohmann::json propertie
           .shapes = marking_shapes(marking, opacity_of(marking.existence_probability))};
 }
 
-/// To the left at each point of a line.
+/// The direction to the left at each point of a line, of unit length.
 std::vector<Point> normals(const Polyline& line) {
   std::vector<Point> out(line.size(), Point::Zero());
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -5,19 +5,20 @@
 
 #include "drawing/drawing.hpp"
 
-/// What the elements of map, frames and truth have in common.
+/// Functions for the elements of maps, frames and truth alike.
 namespace laneloom {
 
 /// Whether a line has any extent.
 bool drawable(const Polyline& line);
 
-/// A line per stretch of a style.
+/// The shapes of a marking: one line for each stretch of a style.
 std::vector<Shape> marking_shapes(const Marking& marking, double opacity);
 
-/// What is sure is opaque; so is what was not estimated (-1).
+/// The opacity for an existence probability: the surer the more opaque. A probability that was not estimated
+/// (-1) is opaque.
 double opacity_of(double existence_probability);
 
-/// "boundaries/12"
+/// The key of an element, such as "boundaries/12".
 std::string key_of(Layer layer, ElementId id);
 
 }  // namespace laneloom

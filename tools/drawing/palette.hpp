@@ -7,18 +7,18 @@
 #include "drawing/colour.hpp"
 #include "laneloom/types.hpp"
 
-/// How everything looks, for pictures, the viewer and other programs' scenes: the only place with colours.
-/// The hues are the paper's: red lanelines, green roadedges, blue stoplines, magenta linkages.
+/// The colours and strokes of all pictures, of the viewer and of other programs' scenes. They are defined
+/// nowhere else. The hues are the paper's: red lanelines, green roadedges, blue stoplines, magenta linkages.
 namespace laneloom {
 
-/// What a drawn shape looks like. Pictures draw it on a light ground; viewers may have a dark one.
+/// The look of a drawn shape. Pictures have a light ground; viewers may have a dark one.
 enum class Style : std::uint8_t {
   laneline_solid,
   laneline_dashed,
   laneline_unknown,
   roadedge,
   stopline,
-  lane_a,  ///< neighbouring lanes get different ones of four
+  lane_a,  ///< one of four colours of lanes, so that neighbours differ
   lane_b,
   lane_c,
   lane_d,
@@ -39,7 +39,8 @@ enum class Style : std::uint8_t {
 inline constexpr std::size_t kStyleCount = 22;
 inline constexpr std::size_t kLaneStyles = 4;
 
-/// What can be shown or hidden as one, in the order of painting: what is first lies lowest.
+/// A group of elements that can be shown or hidden together. Layers are painted in this order; the first lies
+/// lowest.
 enum class Layer : std::uint8_t {
   field_of_view,
   occlusions,
@@ -67,33 +68,34 @@ inline constexpr Colour kDarkText{0.90, 0.90, 0.92};
 inline constexpr Colour kDarkFaint{0.62, 0.63, 0.68};
 inline constexpr Colour kDarkGround{0.09, 0.10, 0.12};
 
-/// Pixels of a screen.
+/// The values of a style, in pixels of a screen.
 struct StyleSpec {
   const char* name;
   Colour light;           ///< on a light ground
   Colour dark;            ///< on a dark ground
-  double width = 0.0;     ///< of a line; 0: it is none
+  double width = 0.0;     ///< of a line; 0: it is not for lines
   double dash_on = 0.0;   ///< 0: solid
   double dash_off = 0.0;  ///< between two dashes
-  double head = 0.0;      ///< length of an arrow's head; 0: it is none
-  double text = 0.0;      ///< height of a text; 0: it is none
+  double head = 0.0;      ///< length of an arrow's head; 0: it is not for arrows
+  double text = 0.0;      ///< height of a text; 0: it is not for texts
 };
 
+/// The name of a layer, and how viewers show it.
 struct LayerSpec {
   const char* name;
   const char* title;     ///< for people
-  bool shown = true;     ///< at first, in a viewer
-  double overlay = 1.0;  ///< factor on widths of lines where the layer lies over the fused map
+  bool shown = true;     ///< whether a viewer shows it at first
+  double overlay = 1.0;  ///< factor on widths of lines in viewers that lay it over the fused map
 };
 
 const StyleSpec& of(Style style);
 const LayerSpec& of(Layer layer);
 
-/// Dashed as painted; where the style is unknown: thin.
+/// The style of a marking: dashed if it is painted so, thin if its style is unknown.
 Style marking_style(MarkingType type, MarkingStyle style);
-/// The same lane has the same one as long as it keeps its id.
+/// The style of a lane's area. It stays the same as long as the lane keeps its id.
 Style lane_style(ElementId lane);
-/// Of the lane's centerline and arrows.
+/// The style of a lane's centerline and arrows.
 Style course_style(ElementId lane);
 
 }  // namespace palette

@@ -41,7 +41,7 @@ void put_lineage(ElementId id, const LocalMap& map, json& out) {
     if (event.id == id || event.other == id) out["lineage"].push_back(properties_of(event));
 }
 
-/// Of the lanes that `is_beside` holds for.
+/// Puts the ids of the lanes for which `is_beside` holds.
 template <typename IsBeside>
 void put_lanes(const char* key, const LocalMap& map, json& out, IsBeside is_beside) {
   for (const Lane& lane : map.lanes)

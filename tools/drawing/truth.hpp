@@ -6,7 +6,7 @@
 
 namespace laneloom {
 
-/// The truth's markings as thin lines, to lie beneath a map.
+/// Adds the truth's markings as thin lines, which lie beneath a map.
 void add_truth(const Road& truth, Drawing& drawing);
 
 /// The truth as a map to draw, with the lanes' driving directions and successors.

@@ -14,15 +14,15 @@ namespace {
 constexpr std::int64_t kPeriod_ns = 10'000'000;
 constexpr std::int64_t kStepsPerTick = 10;
 constexpr double kTick_s = 0.1;
-constexpr double kPatience_s = 5.0;  // before the vehicle creeps
+constexpr double kPatience_s = 5.0;  // without a lane, before the vehicle creeps
 constexpr double kCreep_mps = 2.0;
-constexpr double kLooking_mps = 5.0;  // for the way that turns off
-constexpr double kPutBack_m = 20.0;   // beyond where it left its lane
+constexpr double kLooking_mps = 5.0;  // speed while it looks for the way that turns off
+constexpr double kPutBack_m = 20.0;   // beyond the place where it left its lane
 constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
-constexpr int kMaxVainRestarts = 100;  // some may be: a drive goes on behind a lane that leads nowhere
+constexpr int kMaxVainRestarts = 100;  // some are expected: a drive goes on behind a lane that leads nowhere
 
-/// Whether the lane at a place on the road, if there is one, is not between lines that were seen.
+/// Whether the lane at a place on the road, if there is one, is inferred.
 bool is_inferred(const LocalMap& map, Point place) {
   place.z() = map.T_map_body.translation().z();
   const Lane* lane = LaneGraph(map).at(place);

@@ -14,41 +14,42 @@
 
 namespace laneloom {
 
+/// The noise of the sensors and the speed of a simulated drive.
 struct ClosedLoopSpec {
   NoiseProfile noise;
   std::uint64_t seed = 1;
-  double speed_mps = 10.0;       ///< at most
+  double speed_mps = 10.0;       ///< greatest speed
   double drift = 0.0;            ///< of the odometry, as a share of the distance driven
   std::int64_t start_ns = 1;     ///< of the sensor clock
-  std::uint64_t session_id = 1;  ///< of the first start; each restart has the next one
+  std::uint64_t session_id = 1;  ///< of the first start; each restart has the next id
 };
 
-/// A vehicle that is steered by the map which a service makes of what the vehicle sees on its way. The true
-/// road only gives detections, poses, the turns that a driver would ask for, and the score.
+/// A vehicle that is steered by the map which a service makes of the vehicle's own detections. The true road
+/// only gives detections, poses, the turns that a driver would ask for, and the score.
 ///
-/// When the vehicle has left its lane, it is put back onto its route further on; when the road ends, onto the
-/// drive behind where a missed turn led away from it, or else at its begin. Either restarts perception and
-/// odometry, and with that the map. Until the first map with a lane under it the vehicle stands; after a few
-/// seconds without one it creeps on.
+/// When the vehicle has left its lane, it is put back onto its route further on. When the road ends, it is
+/// put onto the drive behind the place where a missed turn led away from it, or else at its beginning. Both
+/// restart perception and odometry, and thereby the map. The vehicle stands until the first map with a lane
+/// under it; after a few seconds without one it creeps on.
 ///
 /// Deterministic as far as the service is. Not thread-safe.
 class ClosedLoop {
  public:
   static constexpr double kPeriod_s = 0.01;
 
-  /// All must outlive this. Throws std::runtime_error where the road's drive is on none of its lanes.
+  /// `road` and `service` must outlive this. Throws std::runtime_error if the road's drive is on none of its
+  /// lanes.
   ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& service);
 
-  /// One period: sensing, the planner's turn ten times a second, control, motion. Throws std::runtime_error
-  /// where the vehicle, wherever it is put, is off its lane or at the road's end before it has driven a
-  /// metre.
+  /// One period: sensing, planning (ten times a second), control, and motion. Throws std::runtime_error if
+  /// the vehicle, wherever it is put, is off its lane or at the road's end before it has driven a metre.
   void step();
-  /// So far; what has not ended yet included.
+  /// The score so far. A guess that has not ended yet is included.
   DriveScore score() const;
   double driven_m() const { return score_.driven_m; }
   double time_s() const { return score_.time_s; }
 
-  /// As it truly is.
+  /// The true state of the vehicle.
   const Bicycle& vehicle() const { return vehicle_; }
 
  private:
@@ -77,8 +78,8 @@ class ClosedLoop {
   Random delays_;
   std::int64_t steps_ = 0;
   // Since the last restart.
-  Bicycle vehicle_;  ///< true
-  Bicycle told_;     ///< where the odometry says that it is
+  Bicycle vehicle_;  ///< the true state
+  Bicycle told_;     ///< the state by the odometry
   std::optional<Odometry> odometry_;
   std::deque<Pending> in_network_;
   std::int64_t begun_ns_ = 0;
@@ -91,8 +92,8 @@ class ClosedLoop {
   bool in_inferred_lane_ = false;
   bool over_border_ = false;
   double last_curvature_ = 0.0, last_lateral_mps2_ = 0.0, last_driven_m_ = 0.0;
-  double restarted_at_m_ = 0.0;  ///< of all that was driven
-  int vain_restarts_ = 0;        ///< in a row, without a metre between them
+  double restarted_at_m_ = 0.0;  ///< distance driven in all at the last restart
+  int vain_restarts_ = 0;        ///< number of restarts in a row without a metre between them
 };
 
 }  // namespace laneloom

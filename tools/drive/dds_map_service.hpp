@@ -13,9 +13,9 @@ class DdsMapService : public MapService {
  public:
   explicit DdsMapService(const DdsConfig& dds);
 
-  /// The service reads what is sent, and its maps are read here.
+  /// Whether the service reads the messages sent here, and its maps are read here.
   bool connected() const;
-  /// Maps that came so far, of any state.
+  /// Number of maps that came so far, of any state.
   std::uint64_t received() const;
 
   void send(const VehiclePose& pose) override { poses_.write(pose); }

@@ -9,10 +9,11 @@
 namespace laneloom {
 namespace {
 
-constexpr double kJoint_m = 1.0;        // lanes may meet with a wedge between them
-constexpr double kEndsSoon_m = 60.0;    // from where on one may change to a lane that goes on
-constexpr double kBeside_m = 6.0;       // of another lane of the street
-constexpr double kMinAlignment = 0.85;  // cosine: of the same direction
+constexpr double kJoint_m = 1.0;  // lanes may meet with a wedge between them
+// Distance before a lane's end, from which on a change to a lane that goes on is allowed.
+constexpr double kEndsSoon_m = 60.0;
+constexpr double kBeside_m = 6.0;       // greatest distance of another lane of the street
+constexpr double kMinAlignment = 0.85;  // cosine; more is the same direction
 constexpr int kMaxDepth = 12;
 
 double grade_along(const MeasuredPolyline& line, double arc_m) {

@@ -8,39 +8,39 @@
 
 namespace laneloom {
 
-/// Follows a vehicle through the true lanes of a road, to say whether it keeps to them. Where lanes fork it
-/// may be in several at once.
+/// Follows a vehicle through the true lanes of a road, and tells whether it keeps to them. Where lanes fork
+/// it may be in several at once.
 class LaneTracker {
  public:
   enum class Verdict : std::uint8_t {
     in_lane,
-    road_ended,    ///< its lane ends, and no other goes on beside it
+    road_ended,    ///< its lane ends, and no other lane goes on beside it
     changed_lane,  ///< it is in another lane of its direction, though its own goes on
     oncoming,      ///< it is in a lane of another direction
     off_lanes      ///< it is in no lane
   };
 
-  /// `road` must outlive this, and has lanes.
+  /// `road` must outlive this, and have lanes.
   explicit LaneTracker(const Road& road);
 
-  /// The vehicle is put into a lane.
+  /// Puts the vehicle into a lane.
   void place(std::size_t lane) { lanes_ = {lane}; }
-  /// The vehicle's centre goes on to `centre`. From a lane it may go to its successors; where it ends, also
-  /// to one beside it that goes on. When it leaves its lanes, they stay what they were.
+  /// Moves the vehicle's centre to `centre`. From a lane it may go to its successors and, where the lane
+  /// ends, also to one beside it that goes on. When it leaves its lanes, lanes() stays unchanged.
   Verdict move_to(const Eigen::Vector2d& centre, const Eigen::Vector2d& direction);
 
   /// Indices of the lanes that the vehicle may be in; never empty after place().
   const std::vector<std::size_t>& lanes() const { return lanes_; }
-  /// From the nearest centerline of its lanes, to the left, in metres.
+  /// Offset to the left of the nearest centerline of its lanes, in metres.
   double offset_m() const { return offset_m_; }
   /// Width of that lane beside the vehicle, in metres.
   double width_m() const { return width_m_; }
   bool in_intersection() const;
 
-  /// T_map_body of the vehicle at its rear axle on the road's surface, level across where the borders are.
+  /// T_map_body of a vehicle whose rear axle is on the road's surface. Across the road, the surface is level.
   Eigen::Isometry3d on_surface(const Bicycle& vehicle) const;
   const MeasuredPolyline& centerline(std::size_t lane) const { return lines_[lane].centre; }
-  /// Of every lane, the indices of those that follow it.
+  /// Per lane, the indices of the lanes that follow it.
   const std::vector<std::vector<std::size_t>>& successors() const { return successors_; }
 
  private:

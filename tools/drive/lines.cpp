@@ -77,7 +77,8 @@ Polyline bend_between(const Point& from, const Eigen::Vector2d& leaving, const P
   const Point gap = to - from;
   const double gap_m = gap.head<2>().norm();
   const double turn_rad = std::atan2(cross(leaving, entering), leaving.dot(entering));
-  const double pull_m = gap_m / std::pow(std::cos(0.25 * turn_rad), 2);  // an arc's, for a cubic
+  // With this pull the cubic is near to an arc.
+  const double pull_m = gap_m / std::pow(std::cos(0.25 * turn_rad), 2);
   const int steps = std::max(1, static_cast<int>(std::ceil(gap_m / kBendStep_m)));
   Polyline path;
   for (int i = 0; i <= steps; ++i) {

@@ -2,33 +2,33 @@
 
 #include "laneloom/polyline.hpp"
 
-/// What a planner does with lines besides measuring them.
+/// Operations of a planner on lines.
 namespace laneloom {
 
-/// From 0 to 1 without kinks, as `share` does.
+/// A smooth step from 0 to 1 while `share` goes from 0 to 1.
 double smooth_step(double share);
 
-/// Adds what of `next` lies ahead of the end of `line`.
+/// Appends the part of `next` that lies ahead of the end of `line`.
 void append(Polyline& line, const Polyline& next);
 
-/// Every point becomes that of a parabola through its neighbours (Savitzky-Golay, three metres either way for
-/// points that are half a metre apart): takes noise away, and cuts no bend.
+/// Replaces every point by that of a parabola fitted to its neighbours (Savitzky-Golay, three metres either
+/// way for points that are half a metre apart). This removes noise, and cuts no bend.
 Polyline smoothed(const Polyline& line);
 
 /// Prolongs a line at its end, in steps of `step_m`, with the curvature of its last metres, which fades. The
-/// line has a length.
+/// line must have a length.
 void prolong(Polyline& line, double by_m, double step_m);
 
-/// From one point to another, leaving and entering in unit directions, nearly as an arc would; every half
-/// metre or less.
+/// A bend from one point to another, which leaves and enters in the given unit directions, nearly as an arc.
+/// Its points are at most half a metre apart.
 Polyline bend_between(const Point& from, const Eigen::Vector2d& leaving, const Point& to,
                       const Eigen::Vector2d& entering);
 
-/// The same from the end of one line to the beginning of another; empty where they (nearly) meet, or the
-/// other begins before the first one's end.
+/// A bend from the end of one line to the beginning of another. Empty: they (nearly) meet, or the other
+/// begins before the end of the first.
 Polyline bridge(const Polyline& from, const Polyline& to);
 
-/// `line` until shortly before its end, from where it changes over to `other` and goes on along that.
+/// `line` until shortly before its end, then a change over to `other`, and `other` from there on.
 Polyline change_over(const Polyline& line, const Polyline& other);
 
 }  // namespace laneloom

@@ -6,17 +6,18 @@
 
 namespace laneloom {
 
-/// The lane map service, as a vehicle reaches it. Times are those of the sensor clock.
+/// The lane map service for a vehicle. Times are by the sensor clock.
 class MapService {
  public:
   virtual ~MapService() = default;
   virtual void send(const VehiclePose& pose) = 0;
   virtual void send(const DetectionFrame& frame, std::int64_t now_ns) = 0;
-  /// The newest map, which stays until the next call; without lanes where there is none, or it is stale.
+  /// The newest map. It has no lanes if there is none, or it is stale. The reference holds until the next
+  /// call.
   virtual const LocalMap& newest(std::int64_t now_ns) = 0;
 };
 
-/// The service's own session, without DDS.
+/// A mapping session within this process, without DDS.
 class LocalMapService : public MapService {
  public:
   explicit LocalMapService(const Config& config) : session_(config) {}

@@ -37,7 +37,7 @@ std::size_t lane_of(const Road& road, const LaneTracker& lanes, const VehiclePos
   return best;
 }
 
-/// Of every lane, the successor from where the fewest lanes lead to one of `goals`; none: no way leads there.
+/// Per lane, the successor from which the fewest lanes lead to one of `goals`. kNone: no way leads there.
 std::vector<std::size_t> ways_to(const std::vector<std::size_t>& goals,
                                  const std::vector<std::vector<std::size_t>>& successors) {
   std::vector<std::vector<std::size_t>> predecessors(successors.size());
@@ -154,7 +154,7 @@ bool Navigator::follow(const std::vector<std::size_t>& lanes) {
     if (driven != drive_.end()) driven_to_ = static_cast<std::size_t>(driven - drive_.begin());
     return false;
   }
-  // Which lane of an intersection it is in shows when it is out of it.
+  // The lane that it took in an intersection is known once it is out of it.
   const auto out =
       std::ranges::find_if(lanes, [this](std::size_t lane) { return !road_.lanes[lane].in_intersection; });
   if (out == lanes.end()) return false;

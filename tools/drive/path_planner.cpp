@@ -16,7 +16,7 @@ namespace {
 constexpr double kStep_m = 0.5;
 constexpr double kBehind_m = 12.0;  // enough to tell a bend from noise
 constexpr double kHorizon_m = 45.0;
-// Which lane a plan runs on.
+// These decide on which lane a plan runs.
 constexpr double kMaxLateral_m = 1.6;
 constexpr double kMinAlignment = 0.8;  // cosine
 constexpr double kCompared_m = 12.0;
@@ -25,13 +25,13 @@ constexpr double kCostOfOncoming_m = 1.0;
 constexpr double kPreview_m = 3.0;
 constexpr double kMaxOffPath_m = 0.4;
 constexpr double kLookForTurn_m = 20.0;  // before the lane's end
-// How a plan bends to the way.
+// These decide how a plan bends to the way.
 constexpr double kMinBlend_m = 12.0;
 constexpr double kBlend_s = 2.0;
 constexpr double kMaxSlope = 0.5;
 constexpr double kMinGap_m = 2.0;
 
-/// The previous plan as it is now: shed behind the vehicle, and long enough ahead of it.
+/// The previous plan, cut off behind the vehicle, and prolonged ahead of it if need be.
 Plan carried_on(const Bicycle& vehicle, Plan plan) {
   if (plan.path.empty()) {
     const Eigen::Vector2d back = vehicle.rear_axle - kBehind_m * vehicle.direction();
@@ -50,11 +50,11 @@ Plan carried_on(const Bicycle& vehicle, Plan plan) {
   return plan;
 }
 
-/// Where a plan comes onto a lane of the map.
+/// The place where a plan enters a lane of the map.
 struct Entry {
   DirectedLane way;
-  double arc_m = 0.0;    ///< on the way
-  double ahead_m = 0.0;  ///< of the vehicle
+  double arc_m = 0.0;    ///< arc length on the way
+  double ahead_m = 0.0;  ///< distance ahead of the vehicle
   double cost_m = 0.0;
   bool between = false;  ///< the vehicle is on the passage behind the way
 };
@@ -86,7 +86,8 @@ const Passage* find(const std::vector<Passage>& all, ElementId into) {
   return found == all.end() ? nullptr : &*found;
 }
 
-/// Onto the passage that the vehicle has begun, where the map still has it and it is there.
+/// The entry onto the passage that the vehicle has begun. None: the map no longer has the passage, or the
+/// vehicle is not on it.
 std::optional<Entry> on_passage(const LaneGraph& graph, const Passing& passing, const Point& vehicle) {
   const Lane* const from = graph.find(passing.from);
   if (from == nullptr) return std::nullopt;
@@ -99,8 +100,8 @@ std::optional<Entry> on_passage(const LaneGraph& graph, const Passing& passing, 
   return Entry{.way = way, .arc_m = length(from->centerline), .between = true};
 }
 
-/// Onto the lane that the track runs on, or the nearest ahead; in between, the passage that was begun, or the
-/// lane that it led into.
+/// The entry onto the lane that the track runs on, or the nearest one ahead. Between lanes, it is onto the
+/// passage that was begun, or the lane into which that led.
 std::optional<Entry> find_entry(const LaneGraph& graph, const MeasuredPolyline& track, double vehicle_m,
                                 const Passing& passing) {
   std::optional<Entry> best, after;
@@ -115,7 +116,8 @@ std::optional<Entry> find_entry(const LaneGraph& graph, const MeasuredPolyline& 
   return after && passing.between ? after : best;
 }
 
-/// Whether the vehicle may still take a passage: straight on, it does not leave the path too soon.
+/// Whether the vehicle can still take a passage: if it went straight on, it would not leave the path too
+/// soon.
 bool can_take(const Passage& passage, const Bicycle& vehicle) {
   if (passage.path.size() < 2) return true;
   const Eigen::Vector2d ahead = vehicle.rear_axle + kPreview_m * vehicle.direction();
@@ -123,7 +125,8 @@ bool can_take(const Passage& passage, const Bicycle& vehicle) {
   return foot.distance_m < kMaxOffPath_m || (!foot.inside && foot.arc_m == 0.0);
 }
 
-/// The passage for the wanted turn, where that can be taken still; null where none leads on.
+/// The best passage for the wanted turn. If another passage was begun, and the best one can no longer be
+/// taken, it is the one that was begun. Null: there is no passage.
 const Passage* next_passage(const std::vector<Passage>& all, ElementId begun, const Bicycle& vehicle,
                             Linkage::Turn wanted) {
   const Passage* const wished = best_passage(all, wanted);
@@ -133,7 +136,7 @@ const Passage* next_passage(const std::vector<Passage>& all, ElementId begun, co
 
 bool is_bend(Linkage::Turn turn) { return turn == Linkage::Turn::left || turn == Linkage::Turn::right; }
 
-/// The centerlines and paths from an entry on, from a little behind it.
+/// The centerlines and paths ahead, beginning a little behind an entry.
 Polyline way_ahead(const LaneGraph& graph, const Entry& entry, const Bicycle& vehicle, Linkage::Turn wanted,
                    Plan& plan) {
   DirectedLane way = entry.way;
@@ -157,7 +160,7 @@ Polyline way_ahead(const LaneGraph& graph, const Entry& entry, const Bicycle& ve
     if (passage != nullptr) {
       append(line, passage->path);
       append(line, passage->to.centerline());
-      if (passage->turn == wanted) wanted = Linkage::Turn::straight;  // the intersection is behind
+      if (passage->turn == wanted) wanted = Linkage::Turn::straight;  // that intersection is passed
       way = passage->to;
     } else if (const DirectedLane other = lane_to_change_to(graph, way); other.lane != nullptr) {
       line = change_over(line, other.centerline());
@@ -169,7 +172,7 @@ Polyline way_ahead(const LaneGraph& graph, const Entry& entry, const Bicycle& ve
   return line;
 }
 
-/// Goes on along what the earlier maps gave, beginning at the end of `way` without a step.
+/// Continues `way` along the earlier plan, beginning at the end of `way` without a step.
 void remember(const Plan& earlier, Plan& way) {
   const MeasuredPolyline track(earlier.path);
   const Projection foot = track.project(way.path.back());
@@ -185,7 +188,7 @@ void remember(const Plan& earlier, Plan& way) {
   }
 }
 
-/// The way on the map: from `entry` on, if not from a little behind it, to the horizon.
+/// The way on the map from an entry, or a little behind it, to the horizon.
 Plan way_of(const LaneGraph& graph, const Entry& entry, const Bicycle& vehicle, const Plan& earlier,
             Linkage::Turn wanted) {
   Plan way{.passing = earlier.passing};
@@ -197,7 +200,8 @@ Plan way_of(const LaneGraph& graph, const Entry& entry, const Bicycle& vehicle, 
   return way;
 }
 
-/// Bends from `track` to `way`: a cubic that begins with the track's offset and angle, and ends with none.
+/// The lateral offset of a bend from one line to another: a cubic that begins with the track's offset and
+/// slope, and ends with none.
 class Blend {
  public:
   Blend(double offset_m, double slope, double length_m)
@@ -217,7 +221,7 @@ Plan until(const Plan& plan, double arc_m) {
   return {{plan.path.begin(), plan.path.begin() + kept}, {plan.support.begin(), plan.support.begin() + kept}};
 }
 
-/// Adds to `plan`, which ends at `from_m` of the track: on beside `way`, ever nearer to it.
+/// Extends `plan`, which ends at `from_m` of the track, along `way`, ever nearer to it.
 void approach(const MeasuredPolyline& track, double from_m, double blend_m, const Plan& way, Plan& plan) {
   const MeasuredPolyline line(way.path);
   const Projection foot = line.project(track.at(from_m));
@@ -231,7 +235,7 @@ void approach(const MeasuredPolyline& track, double from_m, double blend_m, cons
   }
 }
 
-/// Adds to `plan`, which ends at `from_m` of the track: a bend, and the way from the bend's end on.
+/// Extends `plan`, which ends at `from_m` of the track, by a bend and by the way from the bend's end on.
 void bend_over(const MeasuredPolyline& track, double from_m, double bend_m, const Plan& way, Plan& plan) {
   const MeasuredPolyline line(way.path);
   const double to_m = line.project(track.at(from_m + bend_m)).arc_m;
@@ -264,7 +268,7 @@ Plan next_plan(const LocalMap& map, const Bicycle& vehicle, const Plan& previous
   if (!entry) return earlier;
   const Plan way = way_of(graph, *entry, vehicle, earlier, wanted);
   const double blend_m = std::max(kMinBlend_m, kBlend_s * vehicle.speed_mps);
-  // Up to shortly before the entry, the plan stays as it is.
+  // The plan stays unchanged up to shortly before the entry.
   const double from_m = vehicle_m + std::max(0.0, entry->ahead_m - blend_m);
   Plan next = until(earlier, from_m);
   next.passing = way.passing;

@@ -6,8 +6,8 @@
 namespace laneloom {
 namespace {
 
-constexpr double kPreview_s = 0.25;  // what turning the wheels takes
-constexpr double kReach_s = 0.8;     // over which offsets are taken away
+constexpr double kPreview_s = 0.25;  // time that turning the wheels takes
+constexpr double kReach_s = 0.8;     // time over which offsets are taken away
 constexpr double kMinReach_m = 4.0;
 constexpr double kTangentReach_m = 1.0;
 constexpr double kDamping = 1.0;
@@ -15,7 +15,7 @@ constexpr double kMaxLateral_mps2 = 2.0;
 constexpr double kComfortableBraking_mps2 = 1.5;
 constexpr double kStep_m = 1.0;
 
-/// Without the steps that a polyline's segments have.
+/// The direction of a path, without the steps between a polyline's segments.
 Eigen::Vector2d direction_at(const MeasuredPolyline& path, double arc_m) {
   const Eigen::Vector2d chord =
       (path.at(arc_m + kTangentReach_m) - path.at(arc_m - kTangentReach_m)).head<2>();
@@ -28,7 +28,7 @@ double safe_speed(const MeasuredPolyline& path, double from_m, double speed_mps)
   for (double ahead_m = 0.0; ahead_m < stopping_m; ahead_m += kStep_m) {
     if (from_m + ahead_m > path.length()) break;
     const double curvature = std::abs(curvature_at(path, from_m + ahead_m));
-    const double there = kMaxLateral_mps2 / std::max(curvature, 1e-6);  // its square
+    const double there = kMaxLateral_mps2 / std::max(curvature, 1e-6);  // squared speed there
     fastest_mps = std::min(fastest_mps, std::sqrt(there + 2.0 * kComfortableBraking_mps2 * ahead_m));
   }
   return fastest_mps;

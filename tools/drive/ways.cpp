@@ -10,14 +10,15 @@ namespace {
 constexpr double kGoesOn_m = 8.0;
 constexpr double kNarrowed = 0.77;
 
-/// Whether most of the line between both may be crossed.
+/// Whether most of the line between a lane and its neighbour may be crossed.
 bool is_crossable(const Neighbour& neighbour) {
   double crossable_m = 0.0;
   for (const Stretch& range : neighbour.crossable) crossable_m += range.length();
   return crossable_m > 0.5 * neighbour.range.length();
 }
 
-/// Where a lane ends, it narrows; where only the view of it ends, it does not.
+/// Whether a lane narrows at its end, as a lane does that really ends. A lane of which only the view ends
+/// does not narrow.
 bool narrows(const DirectedLane& lane) {
   Polyline left = lane.lane->left, right = lane.lane->right;
   if (lane.against) {

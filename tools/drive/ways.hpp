@@ -4,15 +4,15 @@
 
 #include "laneloom/lane_graph.hpp"
 
-/// What a driver makes of the lanes of a map.
+/// The ways that a driver sees in the lanes of a map.
 namespace laneloom {
 
-/// Where the map leads on from the end of a lane, with a path also across the gaps for which the map gives
-/// none.
+/// The passages from the end of a lane. They have a path also across gaps for which the map gives none.
 std::vector<Passage> passages(const LaneGraph& graph, const DirectedLane& lane);
 
-/// A lane beside `lane` to change to where that narrows and ends: same sense, not known to be oncoming,
-/// across a boundary that may be crossed, and going on for longer. It is null where there is none.
+/// A lane beside `lane` to change to if `lane` narrows and ends. It has the same sense, is not known to be
+/// oncoming, lies across a boundary that may be crossed, and goes on for longer. Its lane is null if there is
+/// none.
 DirectedLane lane_to_change_to(const LaneGraph& graph, const DirectedLane& lane);
 
 }  // namespace laneloom

@@ -16,8 +16,8 @@
 
 namespace laneloom {
 
-/// A publisher, a service and a planner of one vehicle, and more perceptions, as processes; each start of one
-/// is a session of its own.
+/// The processes of one vehicle: a publisher, a service, a planner, and further perceptions. Each start of a
+/// process is a session of its own.
 class Fleet {
  public:
   struct Spec {
@@ -26,36 +26,37 @@ class Fleet {
     DdsConfig dds;
     std::string scenario = "town";
     std::string noise = "inhouse";
-    /// More perceptions, of whatever vendor: each is run as PROGRAM DOMAIN VEHICLE_ID FILE, gives its frames
-    /// the stamps of poses and the program's name as their source, and writes to FILE what a
+    /// Programs of further perceptions, of any vendor. Each is run as PROGRAM DOMAIN VEHICLE_ID FILE. It
+    /// gives its frames the stamps of poses and the program's name as their source, and writes to FILE as a
     /// PublicationLogWriter does.
     std::vector<std::filesystem::path> perceptions;
   };
-  /// Starts all of them. Throws std::runtime_error where one cannot be started.
+  /// Starts all processes. Throws std::runtime_error if one cannot be started.
   explicit Fleet(Spec spec);
 
-  /// A process by its name: one of these three, or that of a perception's program.
+  /// The name of a process: one of the three below, or that of a perception's program.
   using Member = std::string;
   static constexpr const char* kPublisher = "publisher";
   static constexpr const char* kService = "service";
   static constexpr const char* kPlanner = "planner";
   std::vector<Member> members() const;
   void signal(const Member& member, int number);
-  /// Ends it at once, as a crash does, and starts it again.
+  /// Kills a process, as a crash would end it, and starts it again.
   void kill_and_restart(const Member& member);
-  /// Ends it as an operator does, and starts it again. Returns what was wrong with its end, in words.
+  /// Ends a process as an operator does, and starts it again. Returns the problem with its end, in words;
+  /// empty: there was none.
   std::string restart(const Member& member);
-  /// Ends it as an operator does. Returns likewise.
+  /// Ends a process as an operator does. Returns likewise.
   std::string stop(const Member& member);
-  /// Ends all who publish detections. Returns likewise, of each.
+  /// Ends all processes that publish detections. Returns the problems, in words.
   std::vector<std::string> stop_perceptions();
-  /// Those that have ended without being told to; they are started again.
+  /// Starts the processes again that have ended by themselves. Returns their names.
   std::vector<Member> restart_ended();
 
   /// Waits for a map at the planner, as wait_for_planner() does.
   bool planner_gets_maps(std::int64_t since_ns, std::chrono::milliseconds patience) const;
 
-  /// What all who published detections so far wrote down of themselves.
+  /// The logs of all processes that published detections so far.
   std::vector<PublicationLog> publications() const;
 
  private:
@@ -67,8 +68,8 @@ class Fleet {
 
   Spec spec_;
   WorkFolder folder_;
-  std::vector<std::string> logs_;                              ///< of those who publish, a file each
-  std::map<Member, std::unique_ptr<ChildProcess>> processes_;  ///< those that are to run
+  std::vector<std::string> logs_;                              ///< files of the publication logs
+  std::map<Member, std::unique_ptr<ChildProcess>> processes_;  ///< the processes that should run
 };
 
 }  // namespace laneloom

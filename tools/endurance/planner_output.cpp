@@ -11,7 +11,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// A line that is cut is none.
+/// Whether a line of the planner shows a map as wait_for_planner() wants it. A line that is cut off does not.
 bool is_fresh_map(const std::string& line, std::int64_t since_ns) {
   const auto update = nlohmann::json::parse(line, nullptr, false);
   if (!update.is_object() || update.value("event", "") != "map") return false;

@@ -20,7 +20,7 @@ using Member = Fleet::Member;
 
 struct Fault {
   std::string name;
-  /// Returns what went wrong, in words.
+  /// Makes the fault. Returns the problem, in words; empty: there was none.
   std::function<std::string(Fleet& fleet, Random& random)> make;
 };
 
@@ -55,14 +55,15 @@ std::vector<Fault> all_faults(const Fleet& fleet) {
   return faults;
 }
 
-/// Seconds until the planner has a map with a frame of now; none: not within `patience`.
+/// Seconds until the planner has a map with a frame from after this call. None: it has none within
+/// `patience`.
 std::optional<double> recovery_s(const Fleet& fleet, std::chrono::seconds patience) {
   const auto start = std::chrono::steady_clock::now();
   if (!fleet.planner_gets_maps(system_now_ns(), patience)) return std::nullopt;
   return Seconds(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Waits for what has to follow a fault, and returns what did not, in words; empty: all did.
+/// Waits for the maps that must follow a fault. Returns the problem, in words; empty: there was none.
 std::string follow(const SoakSpec& spec, const Watch& watch, const Fleet& fleet, FaultCount& count) {
   const std::optional<double> planner_s = recovery_s(fleet, spec.patience);
   if (!planner_s) return "the planner got no map";

@@ -14,19 +14,21 @@
 
 namespace laneloom {
 
-/// A planner that notes what it gets from all services of a vehicle, one after another. Thread-safe.
+/// A planner that notes the messages of all services of a vehicle, which run one after another. Thread-safe.
 class Watch {
  public:
   explicit Watch(const DdsConfig& dds);
 
-  /// Waits until a map that is OK and has lanes is published after this call; false: not within `patience`.
+  /// Waits for a map that is published after this call, is OK and has lanes. False: none came within
+  /// `patience`.
   bool wait_for_good_map(std::chrono::seconds patience) const;
-  /// Waits for a status that is written after this call, with nothing pending.
+  /// Waits for a status that is written after this call and has no pending frames. False: none came within
+  /// `patience`.
   bool wait_for_settled_status(std::chrono::seconds patience) const;
 
   struct Session {
     ServiceStatus last;
-    std::vector<SourceStatus> sources;  ///< of all its statuses, each as it was last
+    std::vector<SourceStatus> sources;  ///< of all its statuses, each in its last state
   };
   std::map<std::uint64_t, Session> sessions() const;
 

@@ -32,7 +32,8 @@ struct Nearest {
   double distance_m = kInfinity;
 };
 
-/// No line is nearer to another than their boxes are.
+/// The nearest truth line. Lines whose boxes are too far apart are skipped, because no line is nearer to
+/// another than their boxes are.
 Nearest nearest(const Resampled& prediction, const std::vector<Resampled>& truths) {
   Nearest best;
   for (std::size_t i = 0; i < truths.size(); ++i) {

@@ -23,7 +23,7 @@ namespace laneloom {
 
 inline constexpr std::array kApThresholds_m{0.5, 1.0, 1.5};
 
-/// Mean of both directions, horizontal, of lines with equally many points.
+/// The mean of both directions, horizontal. Both lines must have equally many points.
 double chamfer_distance_m(const Polyline& a, const Polyline& b);
 
 /// A prediction, rated.
@@ -32,14 +32,14 @@ struct RatedLine {
   bool right = false;
 };
 
-/// 0..1; 0 where there are no truths.
+/// The average precision, 0..1; 0 if there are no truths.
 double average_precision(std::vector<RatedLine> lines, std::size_t truths);
 
 /// Not thread-safe.
 class AveragePrecisionMeter {
  public:
   void add(const FrameComparison& frame, const std::vector<KindLine>& predictions);
-  /// The ratings of another drive.
+  /// Adds the ratings of another drive.
   void add(const AveragePrecisionMeter& other);
   std::size_t truths(LineKind kind) const { return kinds_[index(kind)].truths; }
   bool has_ids() const { return has_ids_; }

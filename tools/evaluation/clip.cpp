@@ -32,7 +32,7 @@ std::optional<Fractions> inside(const Point& from, const Point& to, const Point&
   return fractions;
 }
 
-/// Of a ring, the piece that ends at its seam goes on with the one that begins there.
+/// Joins two pieces of a ring that end and begin at its seam.
 void join_at_seam(const Polyline& line, std::vector<Polyline>& pieces) {
   if (pieces.size() < 2 || line.front() != line.back()) return;
   Polyline& first = pieces.front();

@@ -33,7 +33,7 @@ std::vector<LinePiece> pieces(const std::vector<KindLine>& lines, LineKind kind,
   return pieces;
 }
 
-/// The truth lines that one prediction could be a true positive of.
+/// Adds the truth lines of which a prediction could be a true positive.
 void add_candidates(const std::vector<LinePiece>& truths, const SampleGrid& grid, const Polyline& samples,
                     std::size_t prediction, std::vector<Candidate>& candidates) {
   constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -9,7 +9,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-/// How good a map is (paper, Sec. IV-B "Map Quality Metrics").
+/// The quality of a map (paper, Sec. IV-B "Map Quality Metrics").
 ///
 /// Per frame, truth and predictions are clipped to the map's range box in the body frame and sampled every
 /// 0.1 m. A predicted sample matches a truth line of its kind if the nearest sample of that line is less than
@@ -17,7 +17,7 @@
 /// samples. Precision, recall and F1 come from the counts over all frames; the ACD is the mean, over the true
 /// positives, of the mean distance of their matched samples.
 ///
-/// The paper leaves open, and here it is so:
+/// The paper leaves these open. Here they are:
 /// - Clipping: a line that leaves the box and comes back is several lines, in truth and prediction alike.
 /// - Minimum length: what is shorter than 1 m after clipping is left out, in truth and prediction alike.
 /// - Height: the box reaches 3 m up and down from the body's plane; matching distances are horizontal.
@@ -39,24 +39,24 @@ const char* name(LineKind kind);
 struct KindLine {
   LineKind kind = LineKind::laneline;
   Polyline points = {};                       ///< map frame
-  ElementId id = kNoElement;                  ///< none: has no identity from frame to frame
+  ElementId id = kNoElement;                  ///< kNoElement: no identity from frame to frame
   double confidence = -1.0;                   ///< 0..1, that it exists; -1: not given
-  std::vector<StyleRange> styles = {};        ///< along the points; none: unknown
+  std::vector<StyleRange> styles = {};        ///< along the points; empty: unknown
   std::vector<double> lateral_stddev_m = {};  ///< per point; empty: not given
 };
 
-/// What is left of a line within the range.
+/// A piece of a line within the range.
 struct LinePiece {
   std::size_t line = 0;  ///< index among the lines that were compared
   Polyline points;       ///< body frame
   Polyline samples;      ///< the same every 0.1 m
 };
 
-/// What is left of `points`, in the map frame, within the range; none shorter than what counts.
+/// The pieces of `points` (map frame) within the range that are long enough to count.
 std::vector<LinePiece> pieces_in_range(const Polyline& points, std::size_t line,
                                        const Eigen::Isometry3d& T_body_map, const RangeConfig& range);
 
-/// The longest of these; empty where there is none.
+/// The longest of these pieces. Empty: there is none.
 std::optional<LinePiece> longest_piece_in_range(const Polyline& points, std::size_t line,
                                                 const Eigen::Isometry3d& T_body_map,
                                                 const RangeConfig& range);
@@ -68,12 +68,13 @@ struct TruePositive {
   double chamfer_m = 0.0;      ///< mean distance of the matched samples
 };
 
+/// The pieces of one kind of line that are in range, and their matches.
 struct KindComparison {
   std::vector<LinePiece> truths, predictions;
   std::vector<TruePositive> matches;
 };
 
-/// One frame: which predictions are true positives of which truth lines.
+/// The comparison of one frame: which predictions are true positives of which truth lines.
 struct FrameComparison {
   std::int64_t stamp_ns = 0;
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
@@ -82,6 +83,7 @@ struct FrameComparison {
   const KindComparison& of(LineKind kind) const { return by_kind[index(kind)]; }
 };
 
+/// Counts of one kind of line, summed over frames.
 struct Score {
   std::uint64_t truths = 0;
   std::uint64_t predictions = 0;
@@ -95,6 +97,7 @@ struct Score {
   Score& operator+=(const Score& other);
 };
 
+/// The scores of all kinds of lines over a number of frames.
 struct MapScore {
   std::size_t frames = 0;
   std::array<Score, kLineKindCount> by_kind;
@@ -110,19 +113,19 @@ std::vector<Polyline> clip(const Polyline& line, const RangeConfig& range);
 /// Whether a point of the body frame is within the range box.
 bool in_range(const Point& point_body, const RangeConfig& range);
 
-/// Truth and predictions as seen from T_map_body.
+/// Compares truth and predictions, seen from T_map_body.
 FrameComparison compare(const std::vector<KindLine>& truth, const std::vector<KindLine>& predictions,
                         const Eigen::Isometry3d& T_map_body, const RangeConfig& range);
 
 void add(const FrameComparison& frame, MapScore& score);
 
-/// What became of one truth line in one frame, told by its longest piece within the range.
+/// The outcome of one truth line in one frame, told by its longest piece within the range.
 struct TruthOutcome {
   std::size_t truth = 0;                  ///< index of the line
-  const LinePiece* prediction = nullptr;  ///< its true positive; none: not found
+  const LinePiece* prediction = nullptr;  ///< its true positive; null: it was not found
 };
 
-/// One per truth line that is in range, by ascending index. They point into `frame`.
+/// The outcomes of the truth lines in range, by ascending index. They point into `comparison`.
 std::vector<TruthOutcome> truth_outcomes(const KindComparison& comparison);
 
 }  // namespace laneloom

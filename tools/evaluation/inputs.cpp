@@ -16,7 +16,7 @@ namespace {
 using VisitFrame = std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>;
 using VisitMap = std::function<void(const LocalMap&)>;
 
-/// Passes on what is later than all before it.
+/// Passes on frames that are later than all before them.
 class Ascending {
  public:
   explicit Ascending(const VisitFrame& visit) : visit_(visit) {}

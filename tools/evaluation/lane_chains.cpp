@@ -11,7 +11,7 @@ namespace {
 using Next = std::map<ElementId, ElementId>;
 using Chain = std::vector<ElementId>;
 
-/// The chain from `first` on, of lanes that are in none yet.
+/// The chain from `first` on, of lanes that are in no chain yet.
 Chain chain_from(ElementId first, const Next& next, std::set<ElementId>& used) {
   Chain chain;
   for (ElementId id = first; used.insert(id).second;) {
@@ -30,7 +30,7 @@ std::vector<Chain> chains(const Lanes& lanes, const Next& next) {
   std::vector<Chain> chains;
   for (const auto& [id, lane] : lanes)
     if (!continuing.contains(id)) chains.push_back(chain_from(id, next, used));
-  for (const auto& [id, lane] : lanes)  // what is left are rings
+  for (const auto& [id, lane] : lanes)  // the remaining lanes form rings
     if (!used.contains(id)) chains.push_back(chain_from(id, next, used));
   return chains;
 }
@@ -40,9 +40,9 @@ bool can_be_seen(const RoadLane& lane) {
   return is_marked && !lane.in_intersection;
 }
 
-using Links = std::map<ElementId, const Linkage*>;  ///< by where they begin
+using Links = std::map<ElementId, const Linkage*>;  ///< by the lane from which they lead
 
-/// What holds for all of a chain.
+/// Sets the id and the existence probability of a chain.
 void summarise(PublishedChain& chain) {
   double longest_m = -1.0, told_m = 0.0, sum_m = 0.0;
   for (const Lane* lane : chain.lanes) {

@@ -13,7 +13,7 @@ namespace laneloom {
 namespace {
 
 constexpr double kNearest_m = 6.0, kFarthest_m = 10.0;  // ahead: close by
-constexpr double kPointDistance_m = 0.5;                // between the points of what is seen close by
+constexpr double kPointDistance_m = 0.5;                // between the points of lines that are seen close by
 constexpr double kHalfLength_m = 2.0;                   // of a place, along the road
 constexpr double kHalfWidth_m = 12.0;                   // of a place, across the road
 constexpr double kGap_m = 0.6, kLargestSpread_m = 1.0;  // of the points of one line
@@ -36,7 +36,7 @@ Polyline transformed(const Polyline& points, const Eigen::Isometry3d& transform)
   return result;
 }
 
-/// Offsets at which a line crosses the road at a place.
+/// Adds the offsets at which a line crosses the road at a place.
 void add_crossings(const Polyline& line, const Eigen::Isometry3d& T_there_map, std::vector<double>& offsets) {
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Point from = T_there_map * line[i - 1], to = T_there_map * line[i];
@@ -76,7 +76,7 @@ bool seen_at(double offset, const std::vector<double>& points) {
   return std::lower_bound(first, points.end(), offset + kMatch_m) - first >= kFewestWitnesses;
 }
 
-/// How far the nearest line is from one seen later, where that is near enough.
+/// The distance of the nearest line from one seen later. None: no line is near enough.
 std::optional<double> error_at(double seen, const std::vector<double>& lines) {
   double least = kMatch_m;
   for (const double line : lines) least = std::min(least, std::abs(line - seen));
@@ -123,7 +123,7 @@ void LaterMeter::add(const DetectionFrame& frame, const Eigen::Isometry3d& T_map
   while (moments_.front().driven_m + kLaterDistances_m.back() <= driven_m) rate_first();
 }
 
-/// Where the vehicle was, so far after the first moment.
+/// The pose of the vehicle this distance after the first moment.
 Eigen::Isometry3d LaterMeter::pose_ahead(double distance_m) const {
   const double driven_m = moments_.front().driven_m + distance_m;
   const auto after = std::find_if(moments_.begin(), moments_.end(),
@@ -136,8 +136,8 @@ Eigen::Isometry3d LaterMeter::pose_ahead(double distance_m) const {
          rotation.slerp(share, Eigen::Quaterniond(to.T_map_body.linear()));
 }
 
-/// Offsets of the points of what is seen later, ascending. The vehicle has not come by the place yet where it
-/// sees it from close by.
+/// Offsets of the points that are seen later at a place, ascending. They are from moments before the vehicle
+/// passes the place.
 std::vector<double> LaterMeter::seen_later(MarkingType type, double distance_m,
                                            const Eigen::Isometry3d& T_there_map) const {
   std::vector<double> offsets;
@@ -153,7 +153,8 @@ std::vector<double> LaterMeter::seen_later(MarkingType type, double distance_m,
   return offsets;
 }
 
-/// Whether a later frame is of close by. Frames of a few a second pass over places.
+/// Whether a later frame has the place close ahead. With a few frames per second, some places are passed
+/// over.
 bool LaterMeter::looked_at(double distance_m) const {
   const double there_m = moments_.front().driven_m + distance_m;
   return std::any_of(std::next(moments_.begin()), moments_.end(), [&](const Moment& moment) {

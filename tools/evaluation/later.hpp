@@ -13,7 +13,7 @@
 #include "base/distribution.hpp"
 #include "laneloom/types.hpp"
 
-/// How good single detections and maps are, told without truth: by what the vehicle sees later from close by.
+/// The quality of single detections and maps, told without truth: by later detections from close by.
 ///
 /// A place ahead is on the way that the vehicle drove afterwards, where a later frame has it 6 to 10 m ahead.
 /// Lines are told by where they cross the road there, as their lateral offset from the vehicle's way.
@@ -35,56 +35,57 @@ namespace laneloom {
 inline constexpr std::array kLaterDistances_m{12.0, 20.0, 28.0};
 inline constexpr std::array kLaterTypes{MarkingType::laneline, MarkingType::roadedge};
 
-/// Of lines of one type, at one distance ahead, over all frames.
+/// The score of lines of one type, at one distance ahead, over all frames.
 struct LaterScore {
   struct Subject {
     std::size_t lines = 0;
-    std::size_t right = 0;            ///< of the lines
-    std::size_t found = 0;            ///< of the lines seen later
+    std::size_t right = 0;            ///< number of right lines
+    std::size_t found = 0;            ///< number of lines seen later that it found
     Distribution lateral_errors_m{};  ///< absolute, of the pairs
   };
-  /// Empty where nothing can be told.
+  /// The figures of a subject. None: the value cannot be told.
   struct Figures {
     std::optional<double> precision, recall;  ///< 0..1
     std::optional<double> rms_m, p95_m;       ///< of the pairs' lateral errors
   };
-  std::size_t seen_later = 0;  ///< lines
+  std::size_t seen_later = 0;  ///< number of lines seen later
   Subject single, map;
 
   Figures figures(const Subject& subject) const;  ///< of `single` or `map`
 };
 
+/// The steadiness of the lane that the vehicle is in.
 struct OwnLaneScore {
-  std::size_t frames = 0;  ///< that have an own lane
+  std::size_t frames = 0;  ///< number of frames with an own lane
   std::size_t id_changes = 0;
   Distribution widths_m;
 };
 
-/// Rates a drive frame by frame, as soon as what is ahead has been driven by; it remembers no more than that.
-/// Not thread-safe.
+/// Rates a drive frame by frame, as soon as the places ahead of a frame have been driven past. It remembers
+/// no more than these. Not thread-safe.
 class LaterMeter {
  public:
-  /// Single detections count from a confidence on.
+  /// Single detections of less confidence do not count.
   explicit LaterMeter(double min_confidence) : min_confidence_(min_confidence) {}
 
-  /// The next frame and the map after it, in order of stamps. Left out are the first two seconds, in which
-  /// the map is built, and frames less than 0.5 m after the one before. A step of 10 m or more begins a new
-  /// drive.
+  /// Adds the next frame and the map after it, in the order of stamps. The first two seconds, in which the
+  /// map is built, are left out, and so are frames less than 0.5 m after the one before. A step of 10 m or
+  /// more begins a new drive.
   void add(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, const LocalMap& map);
 
   const LaterScore& score(MarkingType type, std::size_t distance) const {
     return scores_[distance][index(type)];
   }
-  /// Whether any line was seen later, so that there is something to tell.
+  /// Whether any line was seen later, so that there are figures.
   bool any() const;
   const OwnLaneScore& own_lane() const { return own_lane_; }
-  std::size_t frames() const { return frames_; }  ///< that were rated
-  std::size_t lanes() const { return lanes_; }    ///< in all of their maps
+  std::size_t frames() const { return frames_; }  ///< number of frames that were rated
+  std::size_t lanes() const { return lanes_; }    ///< number of lanes in all of their maps
   double driven_m() const { return driven_m_; }   ///< between the frames that were rated
 
  private:
   using LinesByType = std::array<std::vector<Polyline>, kMarkingTypeCount>;
-  /// Between which offsets points were seen; at first none.
+  /// The outermost offsets at which points were seen. At first there is none.
   struct Sides {
     double right_m = std::numeric_limits<double>::infinity();
     double left_m = -std::numeric_limits<double>::infinity();
@@ -118,8 +119,8 @@ class LaterMeter {
   double driven_m_ = 0.0;
 };
 
-/// Throws std::runtime_error, whose text begins with `name`, where a drive was too short, or shows too
-/// little, to be rated.
+/// Throws std::runtime_error, whose text begins with `name`, if a drive was too short, or shows too little,
+/// to be rated.
 void require_rated(const LaterMeter& meter, const std::string& name);
 
 }  // namespace laneloom

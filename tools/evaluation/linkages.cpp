@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMatchShare = 0.75;
 constexpr double kStoplineGap_m = 3.0;
-constexpr double kLevel_m = 2.0;         // a lane on a bridge ends at no stopline below it
+constexpr double kLevel_m = 2.0;         // a lane on a bridge does not end at a stopline below it
 constexpr std::size_t kEndSamples = 50;  // 5 m
 
 double ratio(std::size_t part, std::size_t whole) {
@@ -27,7 +27,7 @@ Polyline prolonged(Polyline line) {
   return line;
 }
 
-/// The chains that follow `lane`, at once or across lanes that are in none.
+/// The chains that follow `lane`, directly or across lanes that are in no chain.
 std::set<std::size_t> following(const RoadLane& lane, const std::map<ElementId, const RoadLane*>& lanes,
                                 const std::map<ElementId, std::size_t>& chain_of) {
   std::set<std::size_t> chains;
@@ -47,11 +47,11 @@ std::set<std::size_t> following(const RoadLane& lane, const std::map<ElementId, 
   return chains;
 }
 
-/// Where a published lane lies.
+/// The place of a published lane.
 struct LanePlace {
   std::size_t truth = 0;  ///< index of the truth lane
-  double from_m = 0.0;    ///< where it begins and ends along the truth lane's piece in range
-  double to_m = 0.0;
+  double from_m = 0.0;    ///< its beginning, along the truth lane's piece in range
+  double to_m = 0.0;      ///< its end, likewise
   bool reversed() const { return to_m < from_m; }
 };
 
@@ -125,8 +125,8 @@ LanePieces lane_pieces(const LocalMap& map, const RangeConfig& range) {
   return lanes;
 }
 
-/// Where a published lane in range lies: as a whole, and its first and last few metres, which may be on other
-/// truth lanes.
+/// The places of a published lane in range: as a whole, and of its first and last few metres, which may be on
+/// other truth lanes.
 struct LanePlaces {
   std::optional<LanePlace> whole, begin, end;
 };
@@ -163,7 +163,8 @@ void add_directions(const LanePieces& pieces, const LaneFinder& finder, PairScor
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-/// The truth's pair that a linkage stands for, if it is right; of equals where it stays on one lane.
+/// The pair of truth lanes that a linkage stands for. None: the linkage is wrong. The two are equal if it
+/// stays on one lane.
 std::optional<Pair> truth_pair(const TruthTopology& truth, const std::optional<LanePlace>& from,
                                const std::optional<LanePlace>& to) {
   if (!from || !to || from->reversed() != to->reversed()) return std::nullopt;

@@ -9,7 +9,7 @@
 #include "evaluation/evaluation.hpp"
 #include "simulation/road.hpp"
 
-/// Whether lanes lead where they should: the project's definitions.
+/// The quality of linkages, directions and stoplines, by the project's definitions.
 ///
 /// A truth lane is a chain of lanes that only continue one another (lane_chains.hpp). Its successors are
 /// those that follow it, at once or across others (an intersection, or lanes that no markings bound).
@@ -30,25 +30,28 @@ namespace laneloom {
 inline constexpr std::size_t kLinkageKindCount = 5;
 const char* name(Linkage::Kind kind);
 
+/// The successors of the truth lanes, and the lanes that each stopline ends.
 struct TruthTopology {
-  using LaneIndex = std::size_t;  ///< of a chain, and of its line among the kind_lines()
+  using LaneIndex = std::size_t;  ///< index of a chain, and of its line among the kind_lines()
   std::set<std::pair<LaneIndex, LaneIndex>> successors;
   std::map<std::size_t, std::set<LaneIndex>> lanes_of_stopline;  ///< by index among the kind_lines()
 };
 
 TruthTopology truth_topology(const Road& truth);
 
+/// Counts of published statements and of true ones.
 struct PairScore {
   std::size_t published = 0;
-  std::size_t right = 0;  ///< of the published
+  std::size_t right = 0;  ///< number of the published that are right
   std::size_t truths = 0;
-  std::size_t found = 0;  ///< of the truths
+  std::size_t found = 0;  ///< number of the truths that were found
 
   double precision() const;  ///< 0..1
   double recall() const;     ///< 0..1
   double f1() const;         ///< 0..1
 };
 
+/// The scores of linkages, directions and lanes of stoplines, summed over frames.
 struct TopologyScore {
   PairScore linkages;
   std::array<PairScore, kLinkageKindCount> by_kind;  ///< precision only: the truth knows no kinds

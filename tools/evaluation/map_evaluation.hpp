@@ -14,10 +14,10 @@
 
 namespace laneloom {
 
-/// What is evaluated. Detections know no lanes, so that they can miss none.
+/// The subject of an evaluation. Detections have no lanes, so that they are not rated by them.
 enum class Subject : std::uint8_t { maps, detections };
 
-/// The outcome of an evaluation. Those of several drives add up.
+/// The outcome of an evaluation. Outcomes of several drives can be added.
 struct Measures {
   MapScore score;
   std::array<Stability, kLineKindCount> stability;
@@ -27,7 +27,7 @@ struct Measures {
   TopLl top_ll;
   AveragePrecisionMeter average_precision;
 
-  /// Of lanelines, roadedges and stoplines together.
+  /// The stability of lanelines, roadedges and stoplines together.
   Stability markings_stability() const;
   Measures& operator+=(const Measures& other);
 };
@@ -37,7 +37,8 @@ class MapEvaluation {
  public:
   MapEvaluation(const Road& truth, const RangeConfig& range, Subject subject);
 
-  /// The next frame, in order of stamps: maps or detections, as was said.
+  /// Adds the next frame, in the order of stamps. It is a map or a frame of detections, as the constructor
+  /// was told.
   void add(const LocalMap& map);
   void add(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, double min_confidence);
 

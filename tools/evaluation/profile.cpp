@@ -26,7 +26,7 @@ bool has_near(const SampleGrid& grid, const Point& sample) {
   return near;
 }
 
-/// Distance from the nearest of the lines that have a sample near by.
+/// The distance from the nearest of the lines that have a sample near by. None: there is no such line.
 std::optional<double> lateral_error_m(const SampleGrid& grid, const std::vector<MeasuredPolyline>& lines,
                                       const Point& sample) {
   std::optional<std::size_t> nearest;

@@ -7,7 +7,7 @@
 
 #include "evaluation/evaluation.hpp"
 
-/// Where and when a map is right, sample by sample.
+/// The places and times at which a map is right, sample by sample.
 ///
 /// The samples are those of evaluation.hpp: every 0.1 m of the lines in range, of all markings. A truth
 /// sample is found where a prediction of its kind has a sample less than 0.5 m away, and a predicted sample
@@ -16,6 +16,7 @@
 /// forward coordinate in the body frame.
 namespace laneloom {
 
+/// Numbers of samples of truth and map, summed over frames.
 struct SampleScore {
   std::size_t truths = 0;
   std::size_t found = 0;
@@ -34,7 +35,8 @@ class LateralErrors {
  public:
   void add(double error_m);
   std::size_t count() const { return count_; }
-  /// In metres: the smallest that at least the `share` (0..1) of all errors do not exceed; 0 without errors.
+  /// The smallest value in metres that at least the `share` (0..1) of all errors do not exceed; 0 without
+  /// errors.
   double quantile(double share) const;
 
  private:
@@ -63,7 +65,7 @@ class ProfileMeter {
   /// All markings, by bin: bin n is from n to n + 1 times kRangeBin_m ahead. The range's far end belongs to
   /// its last bin.
   const std::map<int, SampleScore>& over_range() const { return over_range_; }
-  /// Of a marking type, in each band of distance.
+  /// The errors of a marking type, in each band of distance.
   const std::array<LateralErrors, kErrorBands>& errors(MarkingType type) const {
     return errors_[index(type)];
   }

@@ -8,15 +8,15 @@
 
 namespace laneloom {
 
-/// Samples of lines in square cells, to find those near a point without looking at all of them.
+/// Samples of lines in square cells, so that samples near a point are found without visiting all.
 class SampleGrid {
  public:
   struct Sample {
     Eigen::Vector2d position;
-    std::size_t line = 0;  ///< that it belongs to
+    std::size_t line = 0;  ///< index of the line that it belongs to
   };
 
-  /// `radius_m` is the largest distance that will be asked for.
+  /// `radius_m` is the radius of all searches.
   SampleGrid(const std::vector<Polyline>& lines, double radius_m) : radius_m_(radius_m) {
     for (std::size_t i = 0; i < lines.size(); ++i)
       for (const Point& point : lines[i])

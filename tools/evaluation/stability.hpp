@@ -7,8 +7,8 @@
 #include "base/distribution.hpp"
 #include "evaluation/evaluation.hpp"
 
-/// How steady a map is from frame to frame. The paper claims stability and does not measure it; these are the
-/// project's definitions.
+/// The steadiness of a map from frame to frame. The paper claims stability without measuring it; these are
+/// the project's definitions.
 ///
 /// A truth line is told by its longest piece in range; it is right where that piece has a true positive.
 /// - Jitter: where a truth line is right in two consecutive frames, the lateral distance from the later true
@@ -22,13 +22,14 @@
 ///   which it is wrong.
 namespace laneloom {
 
+/// How steady the published lines of one kind are over a drive.
 struct Stability {
   Distribution jitter_m;
   std::size_t id_switches = 0;
   bool has_ids = false;
   double driven_past_m = 0.0;
   std::size_t was_right = 0;  ///< truth lines in range that were right the frame before, over all frames
-  std::size_t lost = 0;       ///< of those, wrong now
+  std::size_t lost = 0;       ///< number of these lines that are not right in the present frame
 
   double id_switches_per_km() const;
   double flicker() const;  ///< 0..1
@@ -38,15 +39,15 @@ struct Stability {
 class StabilityMeter {
  public:
   StabilityMeter(const std::vector<KindLine>& truth, const RangeConfig& range);
-  /// The next frame, compared with the truth given; `predictions` are what was compared.
+  /// Adds the next frame, which was compared with the truth; `predictions` are the lines that were compared.
   void add(const FrameComparison& frame, const std::vector<KindLine>& predictions);
-  /// Mean jitter of all markings frame by frame; nothing where none was right in two frames in a row.
+  /// The mean jitter of all markings, frame by frame. None: no marking was right in two frames in a row.
   const std::vector<std::optional<double>>& jitter_over_time_m() const { return jitter_over_time_m_; }
   const Stability& of(LineKind kind) const { return by_kind_[index(kind)]; }
 
  private:
   struct TruthState {
-    Polyline stations;  ///< not yet seen, in the middle of stretches of equal length
+    Polyline stations;  ///< middles of stretches of equal length that were not yet in range
     double stretch_m = 0.0;
     ElementId id = kNoElement;          ///< of the last true positive
     std::optional<Polyline> published;  ///< the frame before's true positive, map frame

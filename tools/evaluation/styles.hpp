@@ -4,13 +4,14 @@
 
 #include "evaluation/evaluation.hpp"
 
-/// Whether lanelines are told solid from dashed: the project's definition.
+/// How well solid lanelines are told from dashed ones, by the project's definition.
 ///
 /// Of the true positives among the lanelines, every metre in range that lies within 0.5 m of its truth line.
 /// Truth lines of unknown style do not count. Accuracy is the share with the truth's style among those with a
 /// known one; how much is unknown stands apart.
 namespace laneloom {
 
+/// Lengths of found lanelines by their published style.
 struct StyleScore {
   std::size_t right = 0;    ///< metres
   std::size_t wrong = 0;    ///< metres

@@ -31,7 +31,7 @@ Polyline resampled(const Polyline& points) {
   return result;
 }
 
-/// Truth lanes in range, by index among the truth's lines; the longest piece of each.
+/// The truth lanes in range, each by its longest piece and by its index among the truth's lines.
 std::map<std::size_t, Polyline> truth_vertices(const KindComparison& lanes) {
   std::map<std::size_t, const LinePiece*> longest;
   for (const LinePiece& piece : lanes.truths) {
@@ -63,7 +63,7 @@ class PublishedGraph {
     }
   }
 
-  /// Without points where nothing of it is in range.
+  /// The vertices. A vertex has no points if no part of its lane is in range.
   const std::vector<Vertex>& vertices() const { return vertices_; }
   double edge(std::size_t from, std::size_t to) const {
     const auto found = edges_.find({from, to});
@@ -166,7 +166,7 @@ void add_top_ll(const TruthTopology& truth, const FrameComparison& frame, const 
   const PublishedGraph graph(map, range);
   for (const double threshold_m : kThresholds_m) {
     const std::map<std::size_t, Taken> taken = take(truths, graph.vertices(), threshold_m);
-    // What the map says of an edge; of lanes that it lacks, the contrary of the truth, hardly sure.
+    // The map's confidence in an edge. For lanes that it lacks, it is the contrary of the truth, hardly sure.
     const auto told = [&](std::size_t from, std::size_t to, bool exists) {
       const auto a = taken.find(from), b = taken.find(to);
       if (a == taken.end() || b == taken.end()) return exists ? 0.0 : std::nextafter(kMinConfidence, 1.0);

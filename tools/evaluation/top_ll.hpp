@@ -5,8 +5,8 @@
 #include "evaluation/evaluation.hpp"
 #include "evaluation/linkages.hpp"
 
-/// OpenLane-V2's TOP_ll (Wang et al. 2023; development kit 2.1, openlanev2/centerline/evaluation): how well
-/// the graph of lanes is known.
+/// OpenLane-V2's TOP_ll (Wang et al. 2023; development kit 2.1, openlanev2/centerline/evaluation). It rates
+/// the graph of lanes.
 ///
 /// Lanes of truth and map are joined where they only continue one another, clipped to the range (the longest
 /// piece counts) and resampled to 11 points. At each threshold of 1, 2 and 3 m of discrete Fréchet distance,
@@ -21,6 +21,7 @@
 /// either sense. The linkages between two turned lanes turn with them.
 namespace laneloom {
 
+/// Sums over vertices, directions, frames and thresholds. Their mean is TOP_ll.
 struct TopLl {
   double average_precisions = 0.0;  ///< summed
   std::size_t vertices = 0;         ///< in each frame, threshold and direction

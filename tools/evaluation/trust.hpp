@@ -8,7 +8,7 @@
 #include "evaluation/evaluation.hpp"
 #include "laneloom/polyline.hpp"
 
-/// Whether what a map says of its own certainty can be believed, and how soon it knows.
+/// Whether a map's own statements on its certainty can be believed, and how soon it has a line.
 ///
 /// - Within 2 sigma: of the vertices of true positives that give a lateral standard deviation, lie in range
 ///   and beside the truth line (not beyond its ends), the share that is not farther from it than twice that.
@@ -23,6 +23,7 @@ namespace laneloom {
 
 inline constexpr std::size_t kCalibrationBins = 10;
 
+/// The lines whose confidence is in one interval.
 struct CalibrationBin {
   std::size_t count = 0;
   double confidences = 0.0;  ///< summed
@@ -34,6 +35,7 @@ struct CalibrationBin {
   }
 };
 
+/// The counts and distributions behind the figures explained above.
 struct Trust {
   std::size_t vertices = 0;  ///< with a standard deviation
   std::size_t vertices_within_2_sigma = 0;
@@ -51,7 +53,7 @@ class TrustMeter {
  public:
   TrustMeter(const std::vector<KindLine>& truth, const RangeConfig& range);
   void add(const FrameComparison& frame, const std::vector<KindLine>& predictions);
-  /// Of the markings, or of the lanes.
+  /// The trust of the markings, or of the lanes.
   Trust markings() const { return with_never_appeared(markings_, false); }
   Trust lanes() const { return with_never_appeared(lanes_, true); }
 
@@ -70,7 +72,7 @@ class TrustMeter {
 
   RangeConfig range_;
   std::vector<TruthState> truths_;
-  std::optional<Point> position_;  ///< of the frame before
+  std::optional<Point> position_;  ///< of the vehicle in the frame before
   double driven_m_ = 0.0;
   Trust markings_, lanes_;
 };

@@ -9,7 +9,7 @@
 namespace laneloom {
 namespace {
 
-// Steps short of what each figure alone would ask for, since they depend on one another.
+// Share of the change that each figure alone would need, since the figures depend on one another.
 constexpr double kDamping = 0.6;
 constexpr double kMaxMissedShare = 0.6;
 constexpr double kFramesPerSecond = 10.0;
@@ -33,7 +33,7 @@ void correct(const CalibrationStep& step, const CalibrationTarget& target, Noise
     if (should.precision <= 0.0 || is.truths == 0) continue;
     double& missed = noise.missed_share.at(index(type));
     missed = std::clamp(missed + kDamping * (is.recall() - should.recall), 0.0, kMaxMissedShare);
-    // A ghost is wrong in every frame of its life.
+    // A ghost is a wrong detection in every frame of its life.
     const double wrong = static_cast<double>(is.predictions - is.matches);
     const double wrong_should = static_cast<double>(is.matches) * (1.0 / should.precision - 1.0);
     double& ghosts = noise.ghost_rate_hz.at(index(type));

@@ -9,7 +9,8 @@
 
 namespace laneloom {
 
-/// What a network's single detections score; markings without a target have a precision of 0.
+/// The scores that a network's single detections should have. Markings without a target have a precision of
+/// 0.
 struct CalibrationTarget {
   struct Kind {
     double precision = 0.0, recall = 0.0;  ///< 0..1
@@ -19,10 +20,11 @@ struct CalibrationTarget {
   double jitter_m = 0.0;  ///< mean lateral displacement between consecutive frames, of all markings
 };
 
-/// What the paper reports of MapTR on its data sets "inhouse" and "av2" (Table I). The jitter is not in the
-/// paper: it is what single detections under another model of MapTR's noise were seen to have.
+/// The scores that the paper reports of MapTR on its data sets "inhouse" and "av2" (Table I). The jitter is
+/// not in the paper. It is that of single detections under another model of MapTR's noise.
 CalibrationTarget calibration_target(const std::string& data_set);
 
+/// A noise profile that was tried, and the scores under it.
 struct CalibrationStep {
   NoiseProfile noise;
   MapScore score;  ///< of single detections under this noise
@@ -30,8 +32,8 @@ struct CalibrationStep {
 };
 
 /// Changes a profile's missed shares (for the recall), ghost rates (precision), error factors (ACD) and
-/// flutter (jitter), step by step, until single detections score as the target says. `drives` name road, seed
-/// and duration. `tell` is told of every step; the last one is returned.
+/// flutter (jitter), in `steps` steps, so that single detections approach the target's scores. `drives` name
+/// road, seed and duration. `tell` is called with every step. Returns the last step.
 CalibrationStep calibrate(NoiseProfile start, const CalibrationTarget& target, std::vector<DriveSpec> drives,
                           const RangeConfig& range, int steps,
                           const std::function<void(const CalibrationStep&)>& tell);

@@ -19,21 +19,21 @@ struct DriveSpec {
   std::shared_ptr<const Road> road;
   NoiseProfile noise;
   std::uint64_t seed = 1;
-  double duration_s = 0.0;  ///< 0: the road's drive once; a drive that is not closed is never longer
+  double duration_s = 0.0;  ///< 0: once along the road's drive; a drive that is not closed is never longer
   double drift = 0.0;       ///< of the odometry, as a share of the distance driven
   SensorView view;
 };
 
-/// What a network and an odometry say at one instant, and what is true.
+/// The output of a network and an odometry at one instant, with the truth.
 struct SimulatedFrame {
   FrameRecord record;              ///< with the odometry's pose
-  std::vector<ElementId> sources;  ///< truth marking of every detection; none: a ghost
-  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< true
+  std::vector<ElementId> sources;  ///< true marking of every detection; kNoElement: it is a ghost
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< the true pose
 };
 
-/// Ten frames per second, from 0.1 s on and for ever; after the end of a drive that is not closed, the
-/// vehicle stands. The same spec gives the same frames. How an odometry drifts is in simulation/odometry.hpp.
-/// Not thread-safe.
+/// Simulates a drive with ten frames per second, from 0.1 s on, without end. At the end of a drive that is
+/// not closed, the vehicle stands. The same spec gives the same frames. simulation/odometry.hpp describes how
+/// the odometry drifts. Not thread-safe.
 class DriveSimulation {
  public:
   explicit DriveSimulation(const DriveSpec& spec);

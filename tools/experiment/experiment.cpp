@@ -14,7 +14,8 @@ void move(const Eigen::Isometry3d& T, Polyline& points) {
   for (Point& point : points) point = T * point;
 }
 
-/// A map of the odometry's world, as it lies on the true road: what counts is where the vehicle sees it.
+/// Takes a map from the odometry's frame to the true one, such that it lies about the true vehicle as it did
+/// about the odometry's.
 LocalMap in_true_frame(LocalMap map, const SimulatedFrame& frame) {
   const Eigen::Isometry3d T = frame.T_map_body * transform(frame.record.pose).inverse();
   for (Marking& boundary : map.boundaries) move(T, boundary.points);
@@ -75,7 +76,7 @@ class DriveRun {
     Oracle oracle(*drive_.road);
     for (const SimulatedFrame& frame : frames_) rated.add(oracle.update(frame));
     Measures measures = rated.measures();
-    // It knows no lanes, so that it can miss none.
+    // The oracle knows no lanes, so that it is not rated by them.
     measures.score.by_kind[index(LineKind::lane)] = {};
     measures.top_ll = {};
     return {"oracle", measures, {}};

@@ -9,37 +9,41 @@
 #include "experiment/peer.hpp"
 #include "laneloom/config.hpp"
 
-/// Drives through several subjects: all see the same frames, and are rated by the same truth.
+/// Experiments with several subjects. All get the same frames, and are rated by the same truth.
 namespace laneloom {
 
+/// A configuration of the mapper that is a subject.
 struct NamedConfig {
   std::string name;
   Config config;
 };
 
+/// The drives and the subjects of an experiment.
 struct ExperimentSpec {
   std::vector<DriveSpec> drives;
   std::vector<NamedConfig> configs;
   std::optional<Peer> peer;
   bool oracle = false;
-  RangeConfig range;            ///< that is rated
-  double min_confidence = 0.3;  ///< of the single detections that count
+  RangeConfig range;            ///< the range that is rated
+  double min_confidence = 0.3;  ///< single detections with less are not rated
 };
 
+/// The result of one subject.
 struct SubjectResult {
   std::string name;  ///< raw, a configuration's, peer, oracle
   Measures measures;
-  Distribution update_ms;  ///< of mappers only
+  Distribution update_ms;  ///< times of updates; only of mappers
 };
 
-/// Of one drive: raw, the configurations, peer, oracle; those that were asked for, in this order.
+/// The results of one drive: those of raw, the configurations, peer and oracle that were asked for, in this
+/// order.
 using DriveResults = std::vector<SubjectResult>;
 
-/// One per drive. They run on all cores at once; that changes no result but the times.
-/// Throws what a drive throws.
+/// Runs all drives, on all cores at once. This changes no result except the times. Returns the results per
+/// drive. Throws the exception of a drive that fails.
 std::vector<DriveResults> run(const ExperimentSpec& spec);
 
-/// Of all drives together.
+/// The results of all drives together.
 DriveResults sum(const std::vector<DriveResults>& drives);
 
 }  // namespace laneloom

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kSpacing_m = 1.0;
 constexpr double kMinLength_m = 0.001;  // a marking that has no length has no side either
-constexpr double kGate_m = 3.0;         // of a station from its detection; a ring comes past it twice
+constexpr double kGate_m = 3.0;         // of a station from a detection; a ring passes a place twice
 
 }  // namespace
 

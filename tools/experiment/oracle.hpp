@@ -8,9 +8,9 @@
 
 namespace laneloom {
 
-/// A causal fusion without any error of association: it is told which marking every detection is of, and what
-/// type that has, and gives the plain mean of all that was seen of it so far, metre by metre. It knows no
-/// lanes. Not thread-safe.
+/// A causal fusion without any error of association. It is told the true marking of every detection and its
+/// type. It gives the plain mean of all detections of a marking so far, metre by metre. It knows no lanes.
+/// Not thread-safe.
 class Oracle {
  public:
   explicit Oracle(const Road& truth);
@@ -22,7 +22,7 @@ class Oracle {
   struct Station {
     Point point = Point::Zero();  ///< on the marking
     Eigen::Vector2d left = Eigen::Vector2d::Zero();
-    double offsets_m = 0.0;  ///< summed
+    double offsets_m = 0.0;  ///< sum of all lateral offsets
     std::size_t count = 0;
   };
   struct Line {

@@ -14,7 +14,7 @@
 namespace laneloom {
 namespace {
 
-/// What it prints goes to standard error, as ours on standard output may be for a machine.
+/// Runs a command. Its output goes to standard error, because our standard output may be for a machine.
 void run(std::vector<std::string> command) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);

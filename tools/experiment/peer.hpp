@@ -16,18 +16,20 @@ struct Peer {
   std::string preset;  ///< inhouse or av2
 };
 
-/// One map per frame. Throws std::runtime_error where the program fails, or gives other maps than asked for.
+/// The peer's maps, one per frame. Throws std::runtime_error if the program fails, or gives other maps than
+/// asked for.
 std::vector<LocalMap> run_peer(const Peer& peer, const std::vector<SimulatedFrame>& frames);
 
-/// What the peer itself measured, per frame and without reading and writing:
-/// {"frames": n, "peak_rss_mb": x, "ms": {"total": {"mean", "p50", "p99", "max"}, …one entry per stage}}.
+/// The times that the peer itself measured, per frame and without reading and writing: {"frames": n,
+/// "peak_rss_mb": x, "ms": {"total": {"mean", "p50", "p99", "max"}, …one entry per stage}}.
 struct PeerReport {
   std::map<std::string, TimeSummary> stages;
   TimeSummary total;
   double peak_rss_mb = 0.0;
 };
 
-/// Throws std::runtime_error where the program fails, or has not reported on every frame.
+/// Lets the peer fuse the frames and returns its times. Throws std::runtime_error if the program fails, or
+/// has not reported on every frame.
 PeerReport time_peer(const Peer& peer, const std::vector<SimulatedFrame>& frames);
 
 }  // namespace laneloom

@@ -23,7 +23,7 @@ std::string precision(const PairScore& score, int decimals) {
 }
 std::string recall(const PairScore& score) { return number(score.truths > 0, 100 * score.recall(), 0); }
 
-/// The linkages over a gap, whatever they were confirmed by.
+/// The score of linkages across intersections, of all kinds.
 PairScore across_gaps(const TopologyScore& topology) {
   PairScore sum;
   for (const auto kind : {Linkage::Kind::intersection, Linkage::Kind::sd_map, Linkage::Kind::ego_track}) {

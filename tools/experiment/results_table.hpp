@@ -7,7 +7,7 @@
 
 namespace laneloom {
 
-/// A Markdown table with a row per subject. A dash stands for what is not defined: a share of nothing, or the
+/// A Markdown table with a row per subject. A dash stands for an undefined value: a share of nothing, or the
 /// mean of no values.
 std::string results_table(const std::vector<SubjectResult>& results);
 

@@ -21,7 +21,7 @@ class Spread {
     worst_ = value;
     worst_drive_ = title(drive);
   }
-  /// mean/worst decile/worst, in percent
+  /// A text "mean/worst decile/worst", in percent.
   std::string values() const {
     if (values_.count() == 0) return "-/-/-";
     return fmt::format("{:.1f}/{:.1f}/{:.1f}", 100 * values_.mean(), 100 * values_.quantile(0.1),

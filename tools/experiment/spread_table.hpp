@@ -7,11 +7,11 @@
 
 namespace laneloom {
 
-/// A Markdown table of how far the single drives are apart: mean, worst decile and worst of the F1 of
-/// markings and lanes, and of the way in F1 from single detections (0) to the oracle (1). A row for the
-/// single detections, every configuration and the peer. `results` are of `drives`, with the oracle. Drives
-/// whose oracle is less than ten points above the single detections have hardly a way to go, and do not count
-/// there.
+/// A Markdown table of the spread over single drives: mean, worst decile and worst of the F1 of markings and
+/// lanes, and of the way in F1 from single detections (0) to the oracle (1). It has a row for the single
+/// detections, each configuration and the peer. `results` are of `drives`, with the oracle. If the oracle is
+/// less than ten points above the single detections, the drive does not count for the way, because there is
+/// hardly one.
 std::string spread_table(const std::vector<DriveSpec>& drives, const std::vector<DriveResults>& results);
 
 }  // namespace laneloom

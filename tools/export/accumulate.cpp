@@ -11,12 +11,12 @@
 namespace laneloom {
 namespace {
 
-constexpr double kStep_m = 2.0;      // between the maps that are looked at
-constexpr double kMinCosine = 0.98;  // of a turn that is no step
-constexpr double kOverlap_m = 3.0;   // of what left the map with what is still in it, to join them by
+constexpr double kStep_m = 2.0;      // driven between the maps that are used
+constexpr double kMinCosine = 0.98;  // of the turn between two maps; with less, the later one is used
+constexpr double kOverlap_m = 3.0;   // of a stretch that left the map with the rest, by which they are joined
 constexpr double kSampleStep_m = 0.5;
 
-/// The lines of a map that were seen.
+/// The lines of a map that were seen, without inferred ones.
 std::vector<Marking> seen_lines(const LocalMap& map) {
   std::vector<Marking> lines;
   for (const Marking& boundary : map.boundaries)
@@ -32,7 +32,7 @@ bool is_step(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
          from.linear().col(0).dot(to.linear().col(0)) < kMinCosine;
 }
 
-/// The stretches of a line outside of the range, each with a bit of what is inside.
+/// The stretches of a line outside of the range, each with an overlap to the inside.
 std::vector<Stretch> stretches_outside(const MeasuredPolyline& line, const MapBox& range) {
   std::vector<Stretch> stretches;
   const Polyline samples = line.resample(kSampleStep_m);

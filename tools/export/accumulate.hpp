@@ -10,26 +10,28 @@
 
 namespace laneloom {
 
-/// What a whole drive knows, of its local maps: the lines, each place as the map had it when the place was
-/// last in it, and the way that the vehicle drove. What left the map because it was not there is left out;
-/// what left it because the vehicle drove on stays. Several passes of a place are one (line_archive.hpp).
-/// Inferred boundaries are left out: they follow from the lines. So are roadedges where the vehicle drove
-/// (driven_over.hpp). Not thread-safe.
+/// Collects the lines of a whole drive from its local maps, and the way that the vehicle drove. Each place is
+/// taken from the last map that it was in. Lines that left a map because the vehicle drove on are kept; lines
+/// that left it because they turned out not to be there are not. Several passes of a place are made one
+/// (line_archive.hpp). Inferred boundaries are left out, since they follow from the lines, and so are
+/// roadedges where the vehicle drove (driven_over.hpp). Not thread-safe.
 class DriveAccumulator {
  public:
-  /// `range` is the one of the maps: what is beyond it, with its margin, has left the map.
+  /// `range` is the range of the maps. A line beyond it and its margin has left the map because the vehicle
+  /// drove on.
   explicit DriveAccumulator(const RangeConfig& range) : range_(range) {}
 
-  /// The next map, in the order of stamps, in the frame of those before.
+  /// Adds the next map, in the order of stamps. It must be in the frame of those before.
   void add(const LocalMap& map);
-  /// The maps that follow know nothing of those before: the service was restarted, or its map cleared.
+  /// Notes that the maps that follow do not continue those before: the service was restarted, or its map
+  /// cleared.
   void begin_anew();
 
   struct Drive {
     std::vector<Marking> markings;         ///< lanelines, roadedges and stoplines, with ids from 1 on
     std::vector<Eigen::Isometry3d> poses;  ///< T_map_body, about every 2 m
   };
-  /// All that was added. Nothing may be added after it.
+  /// The drive of all maps that were added. Nothing may be added after it.
   Drive finish();
 
  private:
@@ -38,8 +40,8 @@ class DriveAccumulator {
 
   RangeConfig range_;
   LineArchive archive_;
-  std::optional<LocalMap> before_;  ///< the last map that was looked at,
-  std::optional<LocalMap> newest_;  ///< and a later one that differs little
+  std::optional<LocalMap> before_;  ///< the last map that was used
+  std::optional<LocalMap> newest_;  ///< a later map, which differs little
   std::vector<Eigen::Isometry3d> poses_;
   std::uint64_t pass_ = 0;
 };

@@ -9,7 +9,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kHalfBody_m = 0.8;  // a narrow car's, as a true edge may be near a broad one
+constexpr double kHalfBody_m = 0.8;  // of a narrow car, because a true edge may be near a broad one
 constexpr double kMaxStep_m = 5.0;   // between poses of one pass
 constexpr double kSampleStep_m = 0.5;
 constexpr double kMinLength_m = 2.0;
@@ -33,7 +33,7 @@ bool is_driven_over(const Point& point, const std::vector<MeasuredPolyline>& way
   });
 }
 
-/// What remains of a line; all of it, where nothing was driven over.
+/// The stretches of a line that were not driven over; the whole line if none of it was.
 std::vector<Stretch> remaining_stretches(const MeasuredPolyline& line,
                                          const std::vector<MeasuredPolyline>& ways) {
   std::vector<Stretch> stretches;

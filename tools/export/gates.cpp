@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kSnap_m = 2.0;           // cuts that are nearer are one
 constexpr double kMinStyle_m = 5.0;       // a shorter stretch of another style is noise
-constexpr double kMaxSkew_m = 8.0;        // of a gate
-constexpr std::size_t kCutsPerMetre = 2;  // more, and cuts chase one another round a road that meets itself
+constexpr double kMaxSkew_m = 8.0;        // along the lane, between the two cuts of a gate
+constexpr std::size_t kCutsPerMetre = 2;  // limit; cuts may chase one another round a road
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 

@@ -11,10 +11,10 @@
 
 namespace laneloom {
 
-/// Where the boundaries of a map are cut, so that each lane between two cuts has one stretch of boundary on
-/// each side, which its neighbours share. A gate is a cut on either side of a lane. What cuts a boundary cuts
-/// the lanes on both sides of it, and so the boundaries beyond. Cuts that would be nearer to each other than
-/// 2 m are one. Not thread-safe.
+/// Cuts the boundaries of a map, so that each lane between two cuts has one stretch of boundary on each side,
+/// which its neighbours share. A gate is a pair of cuts, one on either side of a lane. A cut of a boundary
+/// cuts the lanes on both sides of it, and thereby the boundaries beyond. Cuts that would be nearer to each
+/// other than 2 m are one. Not thread-safe.
 class Gates {
  public:
   struct Cut {
@@ -22,23 +22,23 @@ class Gates {
     double arc_m = 0.0;
   };
   struct Gate {
-    std::size_t left = 0, right = 0;  ///< cuts
+    std::size_t left = 0, right = 0;  ///< indices of cuts
     bool operator==(const Gate&) const = default;
   };
 
-  /// Gates at both ends of every lane. `map` keeps the contract of maps, and outlives this.
+  /// Makes gates at both ends of every lane. `map` must keep the contract of maps, and outlive this.
   explicit Gates(const LocalMap& map);
 
-  /// One more gate in a lane, this far behind its begin, but not beyond its middle.
+  /// Adds a gate to a lane, this far behind its beginning, but not beyond its middle.
   Gate add_within(std::size_t lane, double behind_begin_m);
-  /// Cuts boundaries beside lanes where their style changes for 5 m or more.
+  /// Cuts boundaries beside lanes where their style changes for at least 5 m.
   void cut_at_styles();
-  /// Carries all cuts across the lanes. Gates do not change after it.
+  /// Carries all cuts across the lanes. Gates do not change afterwards.
   void carry_across();
 
   const std::vector<Gate>& of_lane(std::size_t lane) const { return gates_[lane]; }
   const std::vector<Cut>& cuts() const { return cuts_; }
-  /// By arc length.
+  /// The cuts on a boundary, by arc length.
   const std::map<double, std::size_t>& on_boundary(std::size_t boundary) const { return order_[boundary]; }
   const MeasuredPolyline& course(std::size_t boundary) const { return courses_[boundary]; }
   Point position(std::size_t cut) const { return courses_[cuts_[cut].boundary].at(cuts_[cut].arc_m); }
@@ -54,9 +54,10 @@ class Gates {
   static std::size_t cut_of(const Gate& gate, bool left) { return left ? gate.left : gate.right; }
   double arc(const Gate& gate, bool left) const { return cuts_[cut_of(gate, left)].arc_m; }
   std::size_t create(std::size_t boundary, double arc_m);
-  /// The nearest cut within kSnap_m, strictly between two arcs; else a new one.
+  /// The nearest cut within kSnap_m that lies strictly between two arc lengths, or else a new one.
   std::size_t snap(std::size_t boundary, double arc_m, const Stretch& between);
-  /// Lets a lane have a gate at a cut on one of its sides; the gate, if the cut lies within the lane.
+  /// Makes a gate of a lane at a cut on one of its sides. Returns the gate; null: the cut does not lie within
+  /// the lane.
   const Gate* pass(std::size_t lane, bool left, std::size_t cut);
   double across(std::size_t lane, bool left, std::size_t cut, const Stretch& between, double share) const;
 
@@ -64,7 +65,7 @@ class Gates {
   std::vector<MeasuredPolyline> courses_;
   std::vector<std::vector<SideOfLane>> sides_;  // per lane: left, right
   std::vector<std::vector<std::pair<std::size_t, bool>>>
-      beside_;  // per boundary: lanes, and which side of each
+      beside_;  // per boundary: lanes, and the side of each on which it lies
   std::vector<Cut> cuts_;
   std::vector<std::map<double, std::size_t>> order_;
   std::vector<std::vector<Gate>> gates_;

@@ -30,7 +30,7 @@ class Geometry {
     for (const std::size_t node : way.nodes) positions.push_back(position(network_.nodes[node]));
     return {{"type", "LineString"}, {"coordinates", positions}};
   }
-  /// Counter-clockwise: along the right side, and back along the left one.
+  /// The outline of a lanelet, counter-clockwise: along the right side, and back along the left one.
   json area(const RoadNetwork::Lanelet& lanelet) const {
     Polyline ring = points(lanelet.right);
     const Polyline left = points(lanelet.left);

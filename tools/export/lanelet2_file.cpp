@@ -12,7 +12,7 @@ namespace {
 
 using Way = RoadNetwork::Way;
 
-/// Ids are unique over nodes, ways and relations, as Lanelet2 has it.
+/// Gives ids, which are unique over nodes, ways and relations, as Lanelet2 requires.
 class Ids {
  public:
   explicit Ids(const RoadNetwork& network)
@@ -108,7 +108,7 @@ const char* name(ElementStatus status) {
   return "inferred";
 }
 
-/// A u-turn goes round the side that it bends to.
+/// Whether a u-turn bends to the left.
 bool bends_left(const RoadNetwork& network, const RoadNetwork::Lanelet& lanelet) {
   const auto at = [&](bool at_back) -> const Point& {
     return network.nodes[end_node(network, lanelet.left, at_back)];

@@ -14,12 +14,12 @@ constexpr double kStep_m = 1.0;    // between vertices
 constexpr double kMinAlong = 0.9;  // cosine between a piece and the line that it lies along
 constexpr double kAtEnd_m = 1.5;   // a match that is nearer to the line's end leads beyond it
 constexpr double kMinLength_m = 2.0;
-constexpr double kShadow = 0.8;       // of a line that lies along another one
+constexpr double kShadow = 0.8;       // share of a shadow that lies along another line
 constexpr double kRepeated_m = 0.05;  // vertices that are nearer are one
 constexpr std::uint64_t kMinObservations = 15;
 constexpr double kMinExistence = 0.7;
 constexpr double kUnknownStddev_m = 0.3;
-constexpr double kMinShare = 0.5;  // of the votes that a style needs
+constexpr double kMinShare = 0.5;  // share of the votes that a style needs
 
 Eigen::AlignedBox2d box_of(const Polyline& points, double margin_m) {
   Eigen::AlignedBox2d box;
@@ -34,7 +34,8 @@ MarkingStyle style_at(const Marking& marking, double arc_m) {
   return marking.styles.empty() ? MarkingStyle::unknown : marking.styles.back().style;
 }
 
-/// Seen so seldom, or believed in so little, as what is not there is now and then.
+/// Whether a marking was seen as seldom, or is believed in as little, as lines that are not there sometimes
+/// are.
 bool is_doubtful(const Marking& marking) {
   const double existence = marking.existence_probability;
   return (existence >= 0.0 && existence < kMinExistence) || marking.status == ElementStatus::tentative ||
@@ -215,7 +216,7 @@ Marking LineArchive::marking_of(const Line& line) {
   return marking;
 }
 
-/// Lines that lie along longer ones, and that no map had beside those.
+/// The lines that lie along longer ones, and that no map had beside those.
 std::vector<std::size_t> LineArchive::shadows() const {
   std::vector<std::size_t> shadows;
   for (std::size_t i = 0; i < lines_.size(); ++i) {

@@ -15,37 +15,37 @@ namespace laneloom {
 /// A stretch of a line of a map.
 struct ArchivedPiece {
   Marking marking;                ///< map frame, with two points or more
-  std::uint64_t pass = 0;         ///< within which ids are valid
+  std::uint64_t pass = 0;         ///< the pass within which ids are valid
   std::vector<ElementId> beside;  ///< other lines of its type that the same map has within kSameLine_m of it
 };
 
-/// Pieces of lines that are nearer to one another are one line, if nothing else tells.
+/// Pieces of lines that are nearer to one another are one line, unless a map shows both.
 inline constexpr double kSameLine_m = 1.0;
 
-/// Pieces of lines that were seen at different times, made one by geometry. A piece that lies along a line of
+/// Joins pieces of lines that were seen at different times, by geometry. A piece that lies along a line of
 /// its type, at most kSameLine_m beside it and on its level, is the same line, unless one map has both side
-/// by side: where both lie, the place is their mean, weighed by their deviations; where the piece reaches
-/// beyond the line's end, the line grows. What lies along no line is a new one. Nothing is moved as a whole:
-/// poses that disagree by more give a line twice. Not thread-safe.
+/// by side. Where both lie, the place is their mean, weighed by their deviations. Where the piece reaches
+/// beyond the line's end, the line grows. A piece that lies along no line is a new line. No piece is moved as
+/// a whole, so that poses which disagree by more give a line twice. Not thread-safe.
 class LineArchive {
  public:
   void add(const ArchivedPiece& piece);
 
-  /// All lines of 2 m or more that are in doubt no more, but for shadows of others, in the order in which
-  /// they were first seen, then the stoplines; with ids from 1 on.
+  /// The markings, with ids from 1 on: first the lines of 2 m or more that are no longer in doubt and no
+  /// shadows of others, in the order in which they were first seen, and then the stoplines.
   std::vector<Marking> markings() const;
 
  private:
   using Source = std::pair<std::uint64_t, ElementId>;  ///< pass and id of a line of a map
-  /// What is known of one place on a line.
+  /// The knowledge of one place on a line.
   struct Vertex {
-    Source source;  ///< the last one
+    Source source;  ///< the last line that had it
     Point position = Point::Zero();
     double weight = 0.0;  ///< 1 / m^2, of the position
     double stddev_m = 0.0;
     double existence = -1.0;
     bool confirmed = false;
-    int as_double = 0;  ///< how often more maps had another line beside it than none
+    int as_double = 0;  ///< maps that had another line beside it minus maps that had none
     StyleVotes styles{};
   };
   struct Line {

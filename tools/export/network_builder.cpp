@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep_m = 1.0;     // between nodes of a virtual line
 constexpr double kMinStep_m = 0.3;  // nodes that are nearer, or go back, are left out
-constexpr double kMinEnd_m = 0.5;   // of what is left of a boundary
+constexpr double kMinEnd_m = 0.5;   // a shorter rest of a boundary is left out
 
 using Way = RoadNetwork::Way;
 

@@ -11,27 +11,27 @@
 
 namespace laneloom {
 
-/// Makes the nodes and ways of a network out of cuts: each node and each way once, however many lanelets
-/// share it. What it is given outlives it.
+/// Makes the nodes and ways of a network out of cuts. Each node and each way is made once, however many
+/// lanelets share it. The constructor's arguments must outlive it.
 class NetworkBuilder {
  public:
   using Side = RoadNetwork::Side;
 
   NetworkBuilder(const LocalMap& map, const Gates& gates, NodeGroups& groups);
 
-  /// The boundary between two cuts on it, which differ, as a side from the one to the other.
+  /// The stretch of a boundary between two different cuts on it, as a side from the one to the other.
   Side stretch(std::size_t from, std::size_t to);
-  /// The sides of a lanelet from gate to gate beside a path (empty: straight): the boundary where both cuts
-  /// are on one and it leads there, else a virtual line.
+  /// The sides of a lanelet from gate to gate beside a path (empty: straight). A side is a stretch of a
+  /// boundary if both cuts are on it and it leads there, or else a virtual line.
   std::pair<Side, Side> sides_between(const Gates::Gate& from, const Gates::Gate& to, const Polyline& path);
-  /// A marking of its own, as a way.
+  /// A way for a marking by itself. Returns its index.
   std::size_t free_way(const Marking& marking);
-  /// The last lanelet of a lane; it has one.
+  /// The last lanelet of a lane, which must have one.
   std::size_t last_of(ElementId lane) const { return last_.at(lane); }
 
   void add(const RoadNetwork::Lanelet& lanelet);
   void add(RoadNetwork::StopElement stop) { network_.stops.push_back(std::move(stop)); }
-  /// What was seen of boundaries, and bounds no lane.
+  /// Adds the stretches of boundaries that were seen and bound no lane.
   void add_rest();
   RoadNetwork take() { return std::move(network_); }
 

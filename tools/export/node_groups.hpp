@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// Which cuts are one node. Two cuts of one boundary never are.
+/// Groups of cuts that are one node. Two cuts of one boundary never are.
 class NodeGroups {
  public:
   explicit NodeGroups(const std::vector<Gates::Cut>& cuts) : cuts_(cuts) {}
@@ -33,7 +33,7 @@ class NodeGroups {
   }
 
  private:
-  /// Cuts are made all the time.
+  /// Takes in the cuts that were made since.
   void grow() {
     for (std::size_t cut = parent_.size(); cut < cuts_.size(); ++cut) {
       parent_.push_back(cut);

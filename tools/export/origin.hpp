@@ -2,7 +2,7 @@
 
 namespace laneloom {
 
-/// Where on earth the map frame's origin is: x points east, y north, on the tangent plane there. WGS84.
+/// The place on earth of the map frame's origin (WGS84). x points east, y north, on the tangent plane there.
 struct Origin {
   double latitude_deg = 0.0, longitude_deg = 0.0;
 };

@@ -8,9 +8,9 @@
 
 namespace laneloom {
 
-/// Lanes as Lanelet2 has them, whose topology is in shared elements alone: lanelets beside each other have a
-/// way in common, and one that follows another begins with the nodes that the other ends with. All references
-/// are indices. Points are in the map frame, in metres.
+/// Lanes in the form of Lanelet2, where shared elements alone tell the topology. Lanelets beside each other
+/// have a way in common. A lanelet that follows another begins with the nodes that the other ends with. All
+/// references are indices. Points are in the map frame, in metres.
 struct RoadNetwork {
   struct Way {
     enum class Kind : std::uint8_t { laneline, roadedge, stopline, virtual_line };
@@ -20,7 +20,7 @@ struct RoadNetwork {
     double existence_probability = -1.0;  ///< 0..1; -1: not estimated
     double lateral_stddev_m = -1.0;       ///< -1: not estimated
   };
-  /// A side runs as the lanelet where `reversed` is false, else against it.
+  /// A side of a lanelet. `reversed`: its way runs against the lanelet.
   struct Side {
     std::size_t way = 0;
     bool reversed = false;
@@ -28,9 +28,9 @@ struct RoadNetwork {
   struct Lanelet {
     Side left, right;
     bool one_way = true;                          ///< else its direction is not known
-    ElementId lane = kNoElement;                  ///< of the map; none: it is a linkage's
-    std::optional<std::size_t> linkage;           ///< index in the map
-    Linkage::Turn turn = Linkage::Turn::unknown;  ///< across an intersection; unknown: it lies in none
+    ElementId lane = kNoElement;                  ///< lane of the map; kNoElement: it is a linkage's lanelet
+    std::optional<std::size_t> linkage;           ///< index in the map's linkages
+    Linkage::Turn turn = Linkage::Turn::unknown;  ///< across an intersection; unknown: it is in none
     ElementStatus status = ElementStatus::confirmed;
     double existence_probability = -1.0;
   };

@@ -13,9 +13,10 @@ namespace laneloom {
 namespace {
 
 constexpr double kNear_m = 15.0;  // seen from above: as far as lanes reach
-constexpr std::size_t kStep = 4;  // of the vertices that are looked at
+constexpr std::size_t kStep = 4;  // only every so many-th vertex is used
 
-/// Half the way from where the boundary first is above or below itself to the nearest such place on it.
+/// The arc length of the middle between the first place that is above or below another one, and the nearest
+/// such other place. None: there is no such place.
 std::optional<double> cut_at(const Polyline& points) {
   const std::vector<double> arcs_m = arc_lengths(points);
   for (std::size_t i = 0; i < points.size(); i += kStep)
@@ -47,7 +48,7 @@ Boundaries cut_self_crossings(Boundaries all, IdSource& ids) {
     boundaries[i] = part_of(boundaries[i], {0.0, *at_m});
     rest.marking.id = ids.next();
     boundaries.push_back(std::move(rest));
-    --i;  // what is left may cross itself again
+    --i;  // the first part may cross itself again
   }
   return boundaries;
 }

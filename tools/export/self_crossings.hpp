@@ -5,8 +5,8 @@
 
 namespace laneloom {
 
-/// Cuts boundaries that pass over or under themselves, half the way between, so that beside each place there
-/// is one stretch of a boundary. No local map has such a one.
+/// Cuts boundaries that pass over or under themselves, in the middle between the two places, so that a place
+/// has one stretch of a boundary beside it. Local maps have no such boundaries.
 Boundaries cut_self_crossings(Boundaries all, IdSource& ids);
 
 }  // namespace laneloom

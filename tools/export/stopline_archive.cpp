@@ -9,7 +9,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kSame_m = 1.5;    // along the lane, between the middles
+constexpr double kSame_m = 1.5;    // along the lane, between the middles of two that are the same
 constexpr double kMinAlong = 0.9;  // cosine between two that are the same
 constexpr double kUnknownStddev_m = 0.3;
 

@@ -6,11 +6,11 @@
 
 namespace laneloom {
 
-/// The stoplines of a drive, each as it was known best. Of those that lie across one lane within 1.5 m, one
-/// is kept: the one with the smallest deviation. Not thread-safe.
+/// The stoplines of a drive. Of several that lie across one lane within 1.5 m, the one with the smallest
+/// deviation is kept. Not thread-safe.
 class StoplineArchive {
  public:
-  /// `stopline` is in the map frame and has a length.
+  /// Adds a stopline. It must be in the map frame and have a length.
   void add(const Marking& stopline);
   const std::vector<Marking>& markings() const { return markings_; }
 

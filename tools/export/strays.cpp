@@ -18,7 +18,7 @@ NodePair nodes_at(const RoadNetwork& network, const DirectedLanelet& directed, b
   return directed.backwards ? NodePair{right, left} : NodePair{left, right};
 }
 
-/// What the map lets follow.
+/// Tells which lanelets may follow each other by the map.
 class Allowed {
  public:
   explicit Allowed(const LocalMap& map) : map_(map) {
@@ -39,7 +39,7 @@ class Allowed {
   std::set<std::pair<ElementId, ElementId>> pairs_;
 };
 
-/// The same way with an end of its own.
+/// Gives a side a copy of its way, with an end node of its own.
 void own_end(RoadNetwork& network, NetworkSide& side, bool at_back) {
   RoadNetwork::Way way = network.ways[side.way];
   std::size_t& node = at_back != side.reversed ? way.nodes.back() : way.nodes.front();

@@ -8,20 +8,20 @@
 
 namespace laneloom {
 
-/// A lanelet as it may be driven.
+/// A lanelet with a direction in which it may be driven.
 struct DirectedLanelet {
   std::size_t lanelet = 0;
-  bool backwards = false;  ///< from its end to its begin: its direction is not known
+  bool backwards = false;  ///< from its end to its beginning, if its direction is not known
   bool operator<(const DirectedLanelet& other) const {
     return std::pair(lanelet, backwards) < std::pair(other.lanelet, other.backwards);
   }
 };
 
-/// What follows what, by shared nodes alone, as Lanelet2 has it.
+/// Pairs of lanelets of which the second follows the first, by shared nodes alone, as Lanelet2 reads them.
 std::set<std::pair<DirectedLanelet, DirectedLanelet>> followers(const RoadNetwork& network);
 
-/// Takes apart what follows by its nodes, but not by the map: the one that is followed gets nodes of its own
-/// at its end.
+/// Separates lanelets that follow each other by their nodes, but not by the map: the lanelet that is followed
+/// gets nodes of its own at its end.
 void separate_strays(const LocalMap& map, RoadNetwork& network);
 
 }  // namespace laneloom

@@ -25,7 +25,8 @@
 namespace laneloom {
 namespace {
 
-/// Between the ends of lines that are one. A local map sees more of such a line yet; a drive is over.
+/// Greatest gap between the ends of lines that are joined. It is larger than in a local map, which may yet
+/// see more of a line; here the drive is over.
 constexpr double kMaxGap_m = 12.0;
 
 using Poses = std::vector<Eigen::Isometry3d>;
@@ -40,7 +41,7 @@ bool is_in_a_lane(const Eigen::Isometry3d& pose, const std::vector<Lane>& lanes,
          std::ranges::any_of(lanes, [&](const Lane& lane) { return ego_sense(lane, pose) != 0.0; });
 }
 
-/// Beside one line, there is a lane where it is dashed, and where the vehicle drove.
+/// Lanes beside one line, where the line is dashed or the vehicle drove beside it.
 std::vector<InferredBoundary> lanes_beside_one_line(const SectionGraph& sections,
                                                     const std::vector<Lane>& lanes, const Poses& poses,
                                                     const LaneConfig& config, TakenSpace& taken) {

@@ -6,10 +6,10 @@
 
 namespace laneloom {
 
-/// The lanes of a whole drive and their linkages, by the same rules by which the mapper finds those of a
-/// local map: there is one map, whatever the local maps said at their rims. Directions and linkages that the
-/// vehicle drove count as driven. The result keeps the contract of a local map; its stamp and pose stay
-/// unset. `config` is valid; its range is not used.
+/// Finds the lanes of a whole drive and their linkages, by the rules of the mapper for a local map. The rims
+/// of the local maps do not matter. Directions and linkages that the vehicle drove count as driven. The
+/// result keeps the contract of a local map; its stamp and pose stay unset. `config` must be valid; its range
+/// is not used.
 LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config);
 
 }  // namespace laneloom

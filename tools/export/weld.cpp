@@ -15,17 +15,17 @@ namespace laneloom {
 namespace {
 
 constexpr double kWeld_m = 2.0;          // ends of borders that are nearer are moved together
-constexpr double kMinConnector_m = 2.0;  // a shorter way is none for a lanelet
-constexpr double kEntry_m = 8.0;         // a lane that begins beside another's end is entered so far on
+constexpr double kMinConnector_m = 2.0;  // a shorter linkage gets no lanelet
+constexpr double kEntry_m = 8.0;  // a lane that begins beside the end of another is entered this far on
 
-/// What becomes of a linkage.
+/// The treatment of a linkage.
 struct Joint {
-  std::size_t from = 0, to = 0;  ///< lanes
+  std::size_t from = 0, to = 0;  ///< indices of lanes
   bool welded = false;
-  Gates::Gate exit, entry;  ///< else: where its lanelet leaves the one and enters the other
+  Gates::Gate exit, entry;  ///< where its lanelet leaves the one and enters the other
 };
 
-/// Joins the lanes that meet, and finds where the others are left and entered.
+/// Joins lanes that meet, and finds the gates where other lanes are left and entered.
 class Joiner {
  public:
   Joiner(const LocalMap& map, Gates& gates, NodeGroups& groups) : map_(map), gates_(gates), groups_(groups) {
@@ -70,7 +70,7 @@ class Joiner {
   std::map<ElementId, std::size_t> index_;
 };
 
-/// The traffic that an intersection's linkage turns to. What only bridges a gap of the road does not turn.
+/// The turn of a linkage across an intersection. A linkage that only bridges a gap of the road has none.
 Linkage::Turn turn_of(const Linkage& linkage) {
   const bool along_markings =
       linkage.kind == Linkage::Kind::shared_boundary || linkage.kind == Linkage::Kind::geometric_alignment;

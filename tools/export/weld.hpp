@@ -5,11 +5,11 @@
 
 namespace laneloom {
 
-/// The lanes of a map, cut and welded so that what the map says of neighbours and linkages is in shared nodes
-/// and ways. A lane becomes a row of lanelets. Lanes that meet have both nodes in common there, and ends that
-/// lie up to 2 m beside each other are moved together for it; any other linkage becomes a lanelet of its own,
-/// between virtual lines where it runs along no boundary: one with a turn across an intersection, one without
-/// elsewhere. Where no linkage leads, no nodes are shared. `map` keeps the contract of maps.
+/// Cuts and welds the lanes of a map, so that shared nodes and ways tell the map's neighbours and linkages. A
+/// lane becomes a row of lanelets. Lanes that meet have both nodes in common there; ends that lie up to 2 m
+/// beside each other are moved together for this. Any other linkage becomes a lanelet of its own, between
+/// virtual lines where it runs along no boundary. It has a turn if it leads across an intersection. Lanes
+/// that are not linked share no nodes. `map` must keep the contract of maps.
 RoadNetwork weld(const LocalMap& map);
 
 }  // namespace laneloom

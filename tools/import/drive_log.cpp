@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kArgoverse2Ground_m = -0.33;
 
-/// None: `text` is no number.
+/// The number that a text is. None: it is no number.
 std::optional<std::int64_t> whole_number(std::string_view text) {
   std::int64_t number = 0;
   const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -24,7 +24,7 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
 /// Names the samples of a log of Argoverse 2.
 struct Argoverse2Samples {
   std::string log_id;
-  std::int64_t first_ns, last_ns;  ///< of its poses
+  std::int64_t first_ns, last_ns;  ///< stamps of its first and last pose
 
   std::optional<std::int64_t> operator()(const std::string& token) const {
     const std::string prefix = log_id + "_";

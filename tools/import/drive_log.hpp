@@ -11,32 +11,33 @@
 
 namespace laneloom {
 
-/// One drive of a data set: what the results of a network do not say of themselves.
+/// One drive of a data set. It has the data that the results of a network lack.
 struct DriveLog {
   std::string name;
   std::vector<VehiclePose> poses;  ///< stamps ascend
-  /// The stamp of a sample; nothing where it is of another drive.
+  /// The stamp of a sample. None: the sample belongs to another drive.
   std::function<std::optional<std::int64_t>(const std::string& sample_token)> stamp_ns_of;
   /// Takes the points of the results to the body frame.
   Eigen::Isometry3d T_body_points = Eigen::Isometry3d::Identity();
-  bool points_about_lidar = false;  ///< as nuScenes' in MapTR; else they are in the vehicle's frame
-  double ground_z_m = 0.0;          ///< of the road in the body frame: the height of points without one
+  /// The points are about the LiDAR, as nuScenes' in MapTR; else about the vehicle.
+  bool points_about_lidar = false;
+  double ground_z_m = 0.0;  ///< of the road in the body frame: the height of points without one
 };
 
-/// Of a log of Argoverse 2 (its directory, named by the log's id). Samples are called `<log id>_<stamp in
-/// ns>`, or by the stamp alone: then one is of this log where it lies between the log's poses. Points are in
-/// the vehicle's frame.
+/// The drive of a log of Argoverse 2 (its directory, named by the log's id). Samples are called `<log
+/// id>_<stamp in ns>`, or by the stamp alone: then a sample belongs to this log if it lies between the log's
+/// poses. Points are in the vehicle's frame.
 DriveLog argoverse2_drive(const std::filesystem::path& log_directory);
 
-/// Of a scene of nuScenes, from its folder of tables (v1.0-…). Points are in the frame of the LiDAR as a map
-/// has it: x right, y forward, level; it is turned by the LiDAR's yaw alone, and the road is at z = 0.
-/// Throws std::runtime_error naming file and key, or the scene where there is none of this name.
+/// The drive of a scene of nuScenes, from the folder of tables (v1.0-…). Points are in a level frame at the
+/// LiDAR: x right, y forward. It is turned by the LiDAR's yaw alone, and the road is at z = 0. Throws
+/// std::runtime_error naming file and key, or the scene if there is none of this name.
 DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& scene);
 
 enum class PointAxes : std::uint8_t { forward_left, right_forward };
 
-/// Of any other data set: poses as read_pose_table() reads them, and a table of samples with the columns
-/// token and timestamp_ns. Points are in the vehicle's frame, but for the names of its axes.
+/// A drive of any other data set, from poses as read_pose_table() reads them, and a table of samples with the
+/// columns token and timestamp_ns. Points are in the vehicle's frame, with axes as `axes` says.
 DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
                      PointAxes axes);
 

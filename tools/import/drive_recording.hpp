@@ -8,8 +8,8 @@
 
 namespace laneloom {
 
-/// Takes out the frames that no service could fuse, as they have no pose around them (SyncConfig), and
-/// returns how many these were. Stamps of `poses` ascend.
+/// Removes frames that no service could fuse, because there are no poses around their stamp (SyncConfig).
+/// Returns how many were removed. Stamps of `poses` must ascend.
 std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
                                      const std::vector<VehiclePose>& poses);
 

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// None: laneloom has no use for the class.
+/// The type of marking of a class. None: laneloom does not use the class.
 std::optional<MarkingType> type_of_class(const std::string& class_name) {
   if (class_name == "divider") return MarkingType::laneline;
   if (class_name == "boundary") return MarkingType::roadedge;

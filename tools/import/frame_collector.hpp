@@ -17,15 +17,16 @@ namespace laneloom {
 /// Results of a network as detections of one drive.
 struct ImportedFrames {
   std::vector<DetectionFrame> frames;           ///< stamps ascend
-  std::map<std::string, std::size_t> left_out;  ///< lines of classes that laneloom has no use for, by class
-  std::size_t other_drives = 0;                 ///< samples of other drives
+  std::map<std::string, std::size_t> left_out;  ///< number of lines of unused classes, by class
+  std::size_t other_drives = 0;                 ///< number of samples of other drives
 };
 
-/// Collects what a network that knows MapTR's classes saw in the samples of one drive. Not thread-safe. All
-/// but finish() throw JsonError.
+/// Collects the lines that a network with MapTR's classes saw in the samples of one drive. Not thread-safe.
+/// All functions except finish() throw JsonError.
 class FrameCollector {
  public:
-  /// `source` names the network. `T_drive_points` takes the network's points to those that `drive` speaks of.
+  /// `source` names the network. `T_drive_points` takes the network's points to the frame of points of
+  /// `drive`.
   FrameCollector(const DriveLog& drive, std::string source,
                  const Eigen::Isometry3d& T_drive_points = Eigen::Isometry3d::Identity());
 
@@ -37,7 +38,7 @@ class FrameCollector {
   /// Ends the frame. A frame that the service would refuse is an error.
   void end();
 
-  /// The frames. Throws std::runtime_error naming the file where there are none.
+  /// The frames. Throws std::runtime_error naming the file if there are none.
   ImportedFrames finish(const std::string& file) &&;
 
  private:

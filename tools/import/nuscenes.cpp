@@ -28,7 +28,7 @@ std::int64_t stamp_ns(const json& record) {
 
 Point translation(const json& record) { return required(record, "translation", point); }
 
-/// "rotation": w first.
+/// Reads "rotation", which has w first.
 Eigen::Quaterniond rotation(const json& record) {
   return required(record, "rotation", [](const json& value) {
     if (!value.is_array() || value.size() != 4) throw JsonError("must be [w, x, y, z]");
@@ -36,7 +36,7 @@ Eigen::Quaterniond rotation(const json& record) {
   });
 }
 
-/// The tables of one scene. Those that are large, as they hold every scene, are read record by record.
+/// Reads the tables of one scene. Large tables, which hold every scene, are read record by record.
 class SceneReader {
  public:
   SceneReader(std::filesystem::path tables, std::string scene)
@@ -84,7 +84,7 @@ class SceneReader {
     });
   }
 
-  /// All sensors' data have a pose; a sample is at the stamp of its LiDAR's sweep.
+  /// Reads a record of a sensor's data. Each has a pose. The stamp of a sample is that of its LiDAR's sweep.
   void read_sample_data(const json& record) {
     const auto sample = required(record, "sample_token", text);
     if (!samples_.contains(sample)) return;

@@ -16,10 +16,10 @@ namespace {
 
 using nlohmann::json;
 
-/// Forward, right, down to forward, left, up, and back.
+/// Takes forward, right, down to forward, left, up, and back.
 const Eigen::DiagonalMatrix<double, 3> kTurned(1.0, -1.0, -1.0);
 
-/// Of 64 bits, which Cap'n Proto writes as a text.
+/// Reads an integer of 64 bits, which Cap'n Proto writes as a text.
 std::int64_t long_integer(const json& value) {
   if (!value.is_string()) return integer(value);
   const auto& digits = value.get_ref<const std::string&>();
@@ -29,7 +29,7 @@ std::int64_t long_integer(const json& value) {
   return number;
 }
 
-/// [x, y, z], or an object of x, y and z.
+/// Reads a vector: [x, y, z], or an object of x, y and z.
 Eigen::Vector3d vector(const json& value) {
   if (value.is_array()) return point(value);
   return {required(value, "x", number), required(value, "y", number), required(value, "z", number)};
@@ -42,7 +42,8 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& roll_pitch_yaw) {
       .toRotationMatrix();
 }
 
-/// A value and whether openpilot believes it: of livePose it has x, y and z, of liveLocationKalman a list.
+/// A value, and whether openpilot believes it. It is an object of x, y and z in livePose, and a list in
+/// liveLocationKalman.
 struct Measurement {
   Eigen::Vector3d value;
   bool valid = false;
@@ -82,7 +83,7 @@ class LogReader {
   }
 
  private:
-  // Whether the event was of use.
+  // Each returns whether the event was used.
   bool read_model(const json& model, bool valid) {
     if (!valid) {
       ++drive_.invalid_frames;
@@ -152,7 +153,7 @@ class LogReader {
     return true;
   }
 
-  /// The newest at a stamp; before the first one it is the first one.
+  /// The newest calibration at a stamp. Before the first calibration, it is the first one.
   Eigen::Matrix3d T_device_calibrated(std::int64_t stamp_ns) const {
     if (calibrations_.empty()) return Eigen::Matrix3d::Identity();
     const auto after = calibrations_.upper_bound(stamp_ns);

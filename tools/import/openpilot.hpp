@@ -8,15 +8,15 @@
 
 namespace laneloom {
 
-/// A drive of openpilot: what its model saw, and where its odometry says the car was.
+/// A drive of openpilot: the detections of its model, and the poses of its odometry.
 struct OpenpilotDrive {
   std::vector<DetectionFrame> frames;  ///< stamps ascend
   std::vector<VehiclePose> poses;      ///< stamps ascend
-  std::size_t invalid_frames = 0;      ///< that openpilot itself marks as not valid; left out
+  std::size_t invalid_frames = 0;      ///< number that openpilot marks as not valid; they are left out
   std::size_t invalid_poses = 0;       ///< likewise
 };
 
-/// Reads a log of openpilot as JSON, one event a line, as Cap'n Proto's own tool makes it of the log and
+/// Reads a log of openpilot as JSON, one event per line. Cap'n Proto's own tool makes it from the log and
 /// openpilot's schema:
 ///
 ///     zstdcat rlog.zst | capnp convert --short binary:json openpilot/cereal/log.capnp Event > rlog.jsonl
@@ -36,8 +36,8 @@ struct OpenpilotDrive {
 /// in metres, and not below 0. The log has one standard deviation for a whole line, at the car: it is every
 /// point's.
 ///
-/// Throws std::runtime_error naming the file, the line and the key of what is malformed, and where no frame
-/// or fewer than two poses are left.
+/// Throws std::runtime_error naming file, line and key of a malformed value, and if no frame or fewer than
+/// two poses are left.
 OpenpilotDrive read_openpilot(const std::filesystem::path& path);
 
 }  // namespace laneloom

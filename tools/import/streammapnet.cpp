@@ -36,8 +36,9 @@ void read_sample(const std::string& token, const json& sample, FrameCollector& f
   frames.end();
 }
 
-/// MapTracker's points about the LiDAR of nuScenes are x forward, y left; MapTR's, which a drive speaks of, x
-/// right, y forward. Both are the same in the vehicle's frame of other drives.
+/// Takes points of a network to the frame of points of a drive. About the LiDAR of nuScenes, MapTracker's
+/// points are x forward, y left, but those of a drive are x right, y forward, as MapTR's. In other drives
+/// both are in the vehicle's frame.
 Eigen::Isometry3d T_drive_points(const DriveLog& drive, StreamNetwork network) {
   if (!drive.points_about_lidar) return Eigen::Isometry3d::Identity();
   if (network == StreamNetwork::streammapnet) return drive.T_body_points.inverse();

@@ -8,24 +8,25 @@
 
 namespace laneloom {
 
-/// Who wrote a file of results.
+/// The network that wrote a file of results.
 enum class StreamNetwork : std::uint8_t { streammapnet, maptracker };
 
-/// Reads what the evaluation of StreamMapNet and MapTracker writes (submission_vector.json):
+/// Reads the file that the evaluation of StreamMapNet and MapTracker writes (submission_vector.json):
 ///
 ///     {"meta": …, "results": {"<sample token>": {"vectors": [[[x, y], …], …], "scores": [0..1, …],
 ///                                                "labels": [0, …], …}, …}}
 ///
-/// As of format_results() in plugin/datasets/base_dataset.py of github.com/yuantianyuan01/StreamMapNet and
-/// github.com/woodfrog/maptracker, and the cat2id of their configurations: label 0 is ped_crossing, 1 divider
-/// and 2 boundary. Points are metres, x forward, y left (roi_size 60 x 30 or 100 x 50). With Argoverse 2, and
-/// with nuScenes in StreamMapNet, they are in the vehicle's frame; with nuScenes in MapTracker they are about
-/// the LiDAR, turned by its yaw. A sample of Argoverse 2 is called by its stamp in ns alone. What MapTracker
-/// says of its tracks is not read: laneloom makes ids of its own.
+/// This is the format of format_results() in plugin/datasets/base_dataset.py of
+/// github.com/yuantianyuan01/StreamMapNet and github.com/woodfrog/maptracker, and the cat2id of their
+/// configurations: label 0 is ped_crossing, 1 divider and 2 boundary. Points are metres, x forward, y left
+/// (roi_size 60 x 30 or 100 x 50). With Argoverse 2, and with nuScenes in StreamMapNet, they are in the
+/// vehicle's frame; with nuScenes in MapTracker they are about the LiDAR, turned by its yaw. A sample of
+/// Argoverse 2 is called by its stamp in ns alone. MapTracker's tracks are not read: laneloom makes ids of
+/// its own.
 ///
-/// Classes become types as FrameCollector says. Throws std::runtime_error naming the file and what is wrong:
-/// malformed, another label, lists of different lengths, a score out of 0..1, a sample of a stamp that
-/// another one has, or none of the drive.
+/// Classes become types as FrameCollector says. Throws std::runtime_error naming the file and the problem: it
+/// is malformed, has another label, lists of different lengths, a score out of 0..1, or two samples of one
+/// stamp, or has no sample of the drive.
 ImportedFrames read_streammapnet(const std::filesystem::path& path, const DriveLog& drive,
                                  StreamNetwork network);
 

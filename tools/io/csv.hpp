@@ -12,9 +12,9 @@
 /// Checked reading of comma-separated values without quotes.
 namespace laneloom {
 
-/// Calls visit(row) for every line but the first, which must name `columns`, and may name others behind them.
-/// Throws std::runtime_error naming the file where it cannot be read or has other columns, and file and line
-/// of what visit() throws as std::runtime_error.
+/// Calls visit(row) for every line except the first, which must name `columns`, and may name others behind
+/// them. Throws std::runtime_error naming the file if it cannot be read or has other columns. Adds file and
+/// line to a std::runtime_error that visit() throws.
 void for_each_csv_row(const std::filesystem::path& path, std::string_view columns,
                       const std::function<void(std::string_view)>& visit);
 
@@ -26,7 +26,7 @@ inline std::string_view take_field(std::string_view& row) {
   return field;
 }
 
-/// Likewise, as a finite number. Throws std::runtime_error where it is none.
+/// Takes the first field off a row, as a finite number. Throws std::runtime_error if it is none.
 template <typename Number>
 Number take_number(std::string_view& row) {
   const std::string_view field = take_field(row);

@@ -21,7 +21,7 @@ constexpr std::int64_t kPrefixBytes = 8;      // before a batch's metadata
 constexpr std::int64_t kMaxRows = 1'000'000;  // more than an hour of poses; bounds the memory
 constexpr std::size_t kMaxPaddingBytes = 64;  // of a column, as Arrow recommends
 
-/// At the beginning of the bytes.
+/// The number at the beginning of the bytes.
 template <class Number>
 Number number_in(const Bytes& bytes) {
   Number number{};
@@ -29,7 +29,7 @@ Number number_in(const Bytes& bytes) {
   return number;
 }
 
-/// Throws std::runtime_error where the metadata points out of itself.
+/// The root of metadata. Throws std::runtime_error if the metadata points outside of itself.
 template <class Root>
 const Root& verified(const Bytes& metadata) {
   flatbuffers::Verifier verifier(metadata.data(), metadata.size());
@@ -37,7 +37,7 @@ const Root& verified(const Bytes& metadata) {
   return *flatbuffers::GetRoot<Root>(metadata.data());
 }
 
-/// The verifier looks at the place of a list of structs, but not at their alignment.
+/// Whether a list of structs is misaligned. The verifier checks the list's place, but not the alignment.
 template <class List>
 bool is_misaligned(const List* list) {
   return list != nullptr && reinterpret_cast<std::uintptr_t>(list->Data()) % alignof(std::int64_t) != 0;
@@ -54,12 +54,13 @@ bool is_of(const arrow::Field& field) {
   }
 }
 
-/// Such columns have two buffers each: which cells are empty, and the numbers.
+/// Whether a column is of numbers. Such a column has two buffers: which cells are empty, and the numbers.
 bool is_of_numbers(const arrow::Field& field) {
   return field.type_type() == arrow::Type::Integer || field.type_type() == arrow::Type::FloatingPoint;
 }
 
-/// What a buffer has before it was compressed: its length, which is -1 where it is not, comes first.
+/// The content of a buffer, decompressed. The decompressed length comes first; it is -1 if the buffer is not
+/// compressed.
 Bytes decompressed(const Bytes& buffer, arrow::Codec codec, std::size_t expected) {
   if (buffer.size() < sizeof(std::int64_t)) throw std::runtime_error("a column is damaged");
   const auto length = number_in<std::int64_t>(buffer);
@@ -112,7 +113,7 @@ std::vector<Number> FeatherTable::column(const std::string& name) const {
   });
 }
 
-/// Batches follow one another, so that all of them together are no larger than the file.
+/// Adds a batch. Batches must follow one another in the file, so that all together are no larger than it.
 void FeatherTable::add_batch(const arrow::Block& block) {
   const std::int64_t metadata_length = block.metadata_length();
   if (block.offset() < end_of_batches_ || block.offset() > static_cast<std::int64_t>(file_.size()) ||

@@ -13,15 +13,15 @@ namespace arrow {
 struct Block;
 }
 
-/// A table of numbers in a file of Apache Arrow's IPC format (Feather V2), compressed or not. The file need
-/// not be whole: every length in it is checked before it is used. All throw std::runtime_error naming the
-/// file and what is wrong with it.
+/// A table of numbers in a file of Apache Arrow's IPC format (Feather V2), compressed or not. The file may be
+/// damaged: every length in it is checked before it is used. All throw std::runtime_error naming the file and
+/// the problem.
 class FeatherTable {
  public:
   explicit FeatherTable(const std::filesystem::path& path);
 
   std::size_t rows() const { return static_cast<std::size_t>(rows_); }
-  /// All rows of a column; `Number` is std::int64_t or double, and must be what the column has.
+  /// All rows of a column. `Number` is std::int64_t or double, and must be the type of the column.
   template <class Number>
   std::vector<Number> column(const std::string& name) const;
 

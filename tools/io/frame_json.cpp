@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMaxTime_s = 9e9;  // beyond, nanoseconds do not fit
+constexpr double kMaxTime_s = 9e9;  // nanoseconds of a later time do not fit
 
 json to_json(const Detection& detection) {
   json out{{"type", name(detection.type)},
@@ -74,7 +74,7 @@ FrameRecord frame_from_json(std::string_view text) {
   FrameRecord record;
   DetectionFrame& frame = record.frame;
   frame.stamp_ns = read_stamp_ns(object);
-  if (frame.stamp_ns == 0) frame.stamp_ns = 1;  // of a message, 0 says that it has none
+  if (frame.stamp_ns == 0) frame.stamp_ns = 1;  // a stamp of 0 would say that there is none
   record.pose = read_pose(object);
   frame.detections = required(object, "detections", [](const json& items) { return list(items, detection); });
   frame.sequence = optional(object, "sequence", count).value_or(0);

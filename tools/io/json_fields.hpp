@@ -15,10 +15,11 @@
 #include "laneloom/element_names.hpp"
 #include "laneloom/types.hpp"
 
-/// Checked reading of JSON: what is missing, of another type, or not finite is an error that names the key.
+/// Checked reading of JSON. A value that is missing, of another type, or not finite is an error that names
+/// the key.
 namespace laneloom {
 
-/// What() is "detections[3].points: must be an array".
+/// An error in JSON. what() reads "detections[3].points: must be an array".
 class JsonError : public std::runtime_error {
  public:
   JsonError(const std::string& key, const std::string& complaint);
@@ -30,14 +31,14 @@ class JsonError : public std::runtime_error {
   std::string key_, complaint_;
 };
 
-/// Throws JsonError where `text` is not JSON, or nested deeper than any of our formats.
+/// Parses a text. Throws JsonError if it is not JSON, or is nested deeper than any of our formats.
 nlohmann::json parse_json(std::string_view text);
 
-/// Throws std::runtime_error naming the file where it cannot be read, else as parse_json().
+/// Parses a file. Throws std::runtime_error naming the file if it cannot be read, or else as parse_json().
 nlohmann::json load_json(const std::filesystem::path& path);
 
 double number(const nlohmann::json& value);      ///< finite
-double coordinate(const nlohmann::json& value);  ///< within 10 000 km, as what is sampled must fit in memory
+double coordinate(const nlohmann::json& value);  ///< within 10 000 km, so that samples fit into memory
 double share(const nlohmann::json& value);       ///< 0..1
 std::int64_t integer(const nlohmann::json& value);
 std::uint64_t count(const nlohmann::json& value);  ///< an integer, not negative
@@ -49,11 +50,12 @@ Polyline line(const nlohmann::json& value);      ///< a polyline of at least two
 MarkingType marking_type(const nlohmann::json& value);
 MarkingStyle marking_style(const nlohmann::json& value);
 std::vector<double> numbers(const nlohmann::json& value);
-Eigen::Quaterniond quaternion(const nlohmann::json& value, std::size_t first);  ///< x, y, z, w from there on
+/// x, y, z, w, from index `first` on.
+Eigen::Quaterniond quaternion(const nlohmann::json& value, std::size_t first);
 
 nlohmann::json polyline_json(const Polyline& points);
 
-/// Every element of an array, read by `read`.
+/// The elements of an array, each read by `read`.
 template <typename Read>
 auto list(const nlohmann::json& value, Read read) {
   if (!value.is_array()) throw JsonError("must be an array");
@@ -69,7 +71,7 @@ auto list(const nlohmann::json& value, Read read) {
   return out;
 }
 
-/// A member of an object, read by `read`; nothing where it is absent or null.
+/// A member of an object, read by `read`. None: it is absent or null.
 template <typename Read>
 auto optional(const nlohmann::json& object, const char* key, Read read)
     -> std::optional<std::invoke_result_t<Read, const nlohmann::json&>> {

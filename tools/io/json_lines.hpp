@@ -10,7 +10,7 @@
 
 #include "laneloom/types.hpp"
 
-/// Frames and maps as JSON, one a line: the simple door for people with other tools.
+/// Frames and maps as JSON, one per line. It is the simple interface for other tools.
 ///
 /// A frame:
 ///
@@ -23,7 +23,7 @@
 ///
 /// The pose is T_map_body at t, points are in the body frame, metres. A detection's style and stddev, and
 /// everything from stamp_ns on, may be left out; stamp_ns is exact where t is rounded. Time 0 is read as 1
-/// ns, as the stamp 0 of a message is none. Coordinates are within 10 000 km.
+/// ns, because a stamp of 0 means that there is none. Coordinates are within 10 000 km.
 ///
 /// A map:
 ///
@@ -56,9 +56,8 @@ struct FrameRecord {
 std::string to_json_line(const FrameRecord& record);
 std::string to_json_line(const LocalMap& map);
 
-/// Throw std::runtime_error naming the key where `text` is not such a line. Whether ids that a map refers to
-/// are in it is not checked, and `lineage` and `markings` stay empty: what is read is boundaries, stoplines
-/// and lanes.
+/// Both throw std::runtime_error naming the key if `text` is not such a line. It is not checked whether ids
+/// that a map refers to are in it. `lineage` and `markings` of a map stay empty.
 FrameRecord frame_from_json(std::string_view text);
 LocalMap map_from_json(std::string_view text);
 
@@ -68,12 +67,12 @@ class JsonLinesReader {
   /// Throws std::runtime_error where the file cannot be read.
   explicit JsonLinesReader(const std::filesystem::path& path);
 
-  /// The next line's content; nothing at the end. Throw std::runtime_error naming file, line number and key;
-  /// reading may go on with the line after.
+  /// The content of the next line. None: the end. Both throw std::runtime_error naming file, line number and
+  /// key; reading may go on with the line after.
   std::optional<FrameRecord> next_frame();
   std::optional<LocalMap> next_map();
 
-  /// How much of the file was read, from 0 to 1.
+  /// The share of the file that was read, 0..1.
   double progress() const;
 
  private:
@@ -93,7 +92,7 @@ class JsonLinesWriter {
  public:
   /// Throws std::runtime_error where the file cannot be written.
   explicit JsonLinesWriter(const std::filesystem::path& path);
-  /// Throw std::runtime_error where writing fails.
+  /// All three throw std::runtime_error if writing fails.
   void write(const FrameRecord& record) { write_line(to_json_line(record)); }
   void write(const LocalMap& map) { write_line(to_json_line(map)); }
   void close();

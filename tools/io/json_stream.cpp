@@ -16,7 +16,7 @@ constexpr int kMaxDepth = 16;
 
 using Visit = std::function<void(const std::string& name, const json& value)>;
 
-/// What the objects are in.
+/// The kind of the container that holds the objects.
 enum class Container : std::uint8_t { array, object };
 
 /// Follows the parser: hands on the container's elements, and keeps nothing of the file.
@@ -29,7 +29,7 @@ class ElementVisitor {
         depth_(key.empty() ? 0 : 1),
         in_member_(key.empty()) {}
 
-  /// Whether the parser is to keep the value.
+  /// Takes an event of the parser. Returns whether the parser should keep the value.
   bool operator()(int depth, Event event, const json& value) {
     if (depth > kMaxDepth) throw JsonError("is nested too deeply");
     if (event == Event::key && depth == 1 && depth_ == 1) return in_member_ = value == key_;
@@ -69,11 +69,11 @@ class ElementVisitor {
   std::string key_;
   Container container_;
   const Visit& visit_;
-  int depth_;  ///< of the container, as the parser counts
+  int depth_;  ///< depth of the container, as the parser counts
   bool in_member_;
   bool found_ = false;
   std::size_t index_ = 0;
-  std::string name_;  ///< of the element, in an object
+  std::string name_;  ///< name of the element, if the container is an object
 };
 
 void for_each_element(const std::filesystem::path& path, const std::string& key, Container container,

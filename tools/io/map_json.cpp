@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// Reads one of the names.
+// A reader of one of the names.
 template <typename Enum, std::size_t N>
 auto one_of(const std::array<const char*, N>& names) {
   return [&names](const json& value) {
@@ -76,7 +76,7 @@ json to_json(const Lane& lane, const LocalMap& map) {
   return object;
 }
 
-/// -1 where it is not given.
+/// An existence probability; -1: not estimated.
 double existence(const json& value) {
   const double probability = number(value);
   if (probability != -1.0 && (probability < 0.0 || probability > 1.0))
@@ -174,7 +174,7 @@ std::vector<Linkage> linkages(const json& object) {
   return out;
 }
 
-// Of its marking, only the id.
+// Reads a stopline. Of its marking, only the id is read.
 Stopline stopline(const json& value) {
   Stopline out;
   out.marking.id = required(value, "id", count);

@@ -5,7 +5,7 @@
 
 namespace laneloom {
 
-/// What others call themselves, without what a terminal would obey.
+/// A name that others gave themselves, without characters that control a terminal.
 inline std::string printable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');

@@ -4,16 +4,16 @@
 
 #include "laneloom/types.hpp"
 
-/// What frames and maps have in common: "t", "stamp_ns" and "pose".
+/// The keys that frames and maps have in common: "t", "stamp_ns" and "pose".
 namespace laneloom {
 
 void put_stamp_and_pose(nlohmann::json& object, std::int64_t stamp_ns, const Point& position,
                         const Eigen::Quaterniond& orientation);
 
-/// stamp_ns where it is given, else t. Throws JsonError.
+/// The stamp: "stamp_ns" if it is given, or else "t". Throws JsonError.
 std::int64_t read_stamp_ns(const nlohmann::json& object);
 
-/// Position and orientation. Throws JsonError.
+/// Position and orientation of "pose". Throws JsonError.
 VehiclePose read_pose(const nlohmann::json& object);
 
 }  // namespace laneloom

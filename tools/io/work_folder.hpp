@@ -8,7 +8,7 @@
 
 namespace laneloom {
 
-/// A temporary folder that is gone when this ends.
+/// A temporary folder, which the destructor removes.
 class WorkFolder {
  public:
   /// Throws std::runtime_error where it cannot be made.

@@ -14,7 +14,8 @@ double width_at(const Lane& lane, const Point& point) {
          MeasuredPolyline(lane.right).project(point).distance_m;
 }
 
-/// Width at an arc length of the vehicle's lane and those that follow.
+/// Width at an arc length from the beginning of `first`, along it and the lanes ahead. Empty: they end
+/// before.
 std::optional<double> width_ahead(const DirectedLane& first, const std::vector<Passage>& ahead,
                                   double arc_m) {
   const auto width_within = [&arc_m](const DirectedLane& lane) -> std::optional<double> {

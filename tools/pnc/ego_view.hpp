@@ -11,9 +11,10 @@ namespace laneloom {
 
 inline constexpr std::array<double, 3> kLookahead_m{10.0, 20.0, 30.0};
 
+/// The lane of the vehicle, with its neighbours, its successors and the width ahead.
 struct EgoView {
-  ElementId lane = kNoElement;            ///< that the vehicle is in; none: in no lane of the map
-  ElementId left_neighbour = kNoElement;  ///< left as the vehicle looks, whatever way the lane is given
+  ElementId lane = kNoElement;            ///< the lane that the vehicle is in; kNoElement: it is in none
+  ElementId left_neighbour = kNoElement;  ///< on the left of the vehicle, whichever way the lane runs
   ElementId right_neighbour = kNoElement;
   std::vector<ElementId> successors;  ///< ahead of the vehicle, ascending
   double offset_m = 0.0;              ///< of the vehicle from the centerline, left is positive

@@ -36,7 +36,7 @@ PncUpdate judge(PublishedMap map, const PublishedMap* previous) {
   PncUpdate update;
   update.violations = check_contract(map, previous);
   update.missed = missed_maps(map, previous);
-  // What breaks the contract is not driven on.
+  // A planner does not drive on a map that breaks the contract.
   if (update.violations.empty()) update.ego = ego_view(map.map);
   update.map = std::move(map);
   return update;

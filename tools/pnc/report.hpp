@@ -11,22 +11,22 @@
 
 namespace laneloom {
 
-/// What the PnC participant made of one map.
+/// The findings of the PnC participant on one map.
 struct PncUpdate {
   PublishedMap map;
   EgoView ego;
   std::vector<Violation> violations;
-  std::uint64_t missed = 0;  ///< maps that were published since the last one received
+  std::uint64_t missed = 0;  ///< number of maps that were published since the one received before
 };
 
-/// Judges a map that came after `previous` (null for the first).
+/// Judges a map that came after `previous`; null for the first map.
 PncUpdate judge(PublishedMap map, const PublishedMap* previous);
 
-/// For people, several lines.
+/// A text for people, of several lines.
 std::string describe(const PncUpdate& update);
-/// The same in one line.
+/// A text for people, in one line.
 std::string summarise(const PncUpdate& update);
-/// For machines: one object; what is unknown is null.
+/// An object for machines. Unknown values are null.
 nlohmann::json to_json(const PncUpdate& update);
 
 }  // namespace laneloom

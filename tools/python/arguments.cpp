@@ -15,7 +15,8 @@ std::string shape_text(const std::vector<py::ssize_t>& shape) {
   return out + (shape.size() == 1 ? ",)" : ")");
 }
 
-/// Of real numbers: what numpy would make numbers of (bools, texts, complex ones) is refused.
+/// An array of real numbers. Values that numpy would convert to numbers (bools, texts, complex numbers) are
+/// refused.
 Array array(const py::handle& value, const std::string& name) {
   const py::array any = py::array::ensure(value);
   if (!any) refuse_type(name, "an array of numbers", value);
@@ -30,7 +31,7 @@ Array array(const py::handle& value, const std::string& name) {
   return numbers;
 }
 
-/// A size of -1 is any.
+/// An array of a given shape. A size of -1 stands for any size.
 Array shaped(const py::handle& value, const std::string& name, const std::vector<py::ssize_t>& shape) {
   Array numbers = array(value, name);
   const std::vector<py::ssize_t> given(numbers.shape(), numbers.shape() + numbers.ndim());

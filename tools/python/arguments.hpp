@@ -11,7 +11,7 @@
 
 #include "laneloom/types.hpp"
 
-/// Takes what Python passes apart. What is wrong with an argument is a TypeError or a ValueError whose text
+/// Converts arguments that Python passes. A wrong argument raises a TypeError or a ValueError whose text
 /// begins with the argument's name. All need the GIL.
 namespace laneloom::python {
 
@@ -23,7 +23,7 @@ namespace py = pybind11;
 double number(const py::handle& value, const std::string& name);         ///< finite
 std::int64_t integer(const py::handle& value, const std::string& name);  ///< no float, no bool
 std::uint64_t count(const py::handle& value, const std::string& name);   ///< not negative
-bool boolean(const py::handle& value, const std::string& name);          ///< True or False, nothing like it
+bool boolean(const py::handle& value, const std::string& name);          ///< exactly True or False
 std::string text(const py::handle& value, const std::string& name);      ///< a str
 std::string path(const py::handle& value, const std::string& name);      ///< a str or an os.PathLike
 Polyline polyline(const py::handle& value, const std::string& name);  ///< (N, 3), or nothing: an empty list
@@ -41,7 +41,7 @@ const T& instance(const py::handle& value, const std::string& name) {
   return py::cast<const T&>(value);
 }
 
-/// Every item of a sequence or another iterable, each read by `read(item, "name[i]")`.
+/// The items of a sequence or another iterable, each read by `read(item, "name[i]")`.
 template <class Read>
 auto list(const py::handle& value, const std::string& name, Read read) {
   if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
@@ -52,7 +52,7 @@ auto list(const py::handle& value, const std::string& name, Read read) {
   return items;
 }
 
-/// The enumerator whose name stands at its place in `names`.
+/// The enumerator of a word. `names` has the words in the order of the enumerators.
 template <class Enum, std::size_t N>
 Enum word(const py::handle& value, const std::string& name, const std::array<const char*, N>& names) {
   const std::string given = text(value, name);

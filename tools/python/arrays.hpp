@@ -7,7 +7,7 @@
 
 #include "laneloom/types.hpp"
 
-/// Values as numpy's arrays and Python's tuples, each a copy of its own. All need the GIL.
+/// Converts values to numpy's arrays and Python's tuples, which are copies. All need the GIL.
 namespace laneloom::python {
 
 namespace py = pybind11;
@@ -18,7 +18,7 @@ py::array_t<double> to_array(const Point& point);                     ///< (3,)
 py::array_t<double> to_array(const Eigen::Quaterniond& orientation);  ///< (4,): x, y, z, w
 py::array_t<double> to_array(const Eigen::Isometry3d& transform);     ///< (4, 4)
 
-/// One array or object per item: what cannot be changed without anyone's notice.
+/// A tuple with one array or object per item. A tuple can not be changed unnoticed.
 template <class T, class Convert>
 py::tuple to_tuple(const std::vector<T>& items, Convert convert) {
   py::tuple out(items.size());

@@ -20,7 +20,7 @@ preset: "inhouse" or "av2", the local range and alpha_n of the paper's data sets
 
 ValueError: the preset is unknown.)";
 
-/// Of a value as a configuration file has it.
+/// Converts the text of a value in a configuration file.
 py::object python_value(const std::string& text) {
   if (text == "true" || text == "false") return py::bool_(text == "true");
   try {

@@ -37,7 +37,7 @@ stamp_ns: time of the sensor in nanoseconds, above 0
 
 ValueError: the quaternion is not of unit length, or a coordinate is beyond 10 000 km.)";
 
-/// What a service would refuse is refused here.
+/// Refuses a message that a service would refuse.
 template <class T>
 T checked(T message, const char* name) {
   if (const auto why = defect(message, GateConfig{}); !why.empty())

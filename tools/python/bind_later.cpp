@@ -40,7 +40,7 @@ constexpr const char* kFiguresByPlaceDoc = R"(The LaterScore of the lines of one
 type: "laneline" or "roadedge"
 distance_m: 12, 20 or 28)";
 
-/// A value that Python knows as None where it is missing.
+/// A getter of a value, which is None in Python if it is missing.
 template <std::optional<double> LaterScore::Figures::*member>
 py::object figure(const LaterScore::Figures& figures) {
   const std::optional<double>& value = figures.*member;

@@ -22,7 +22,7 @@ constexpr const char* kUpdateDoc = R"(Fuses one frame and returns the map after 
 frame: Frame, as the network saw it
 pose: Pose of the vehicle at the frame's stamp. Poses of one drive are in one map frame)";
 
-/// A mapper that is used by one thread at a time, whichever it is.
+/// A mapper that several threads may use, one at a time.
 class SharedMapper {
  public:
   explicit SharedMapper(const MapperConfig& config) : mapper_(config) {}

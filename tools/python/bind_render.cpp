@@ -20,7 +20,7 @@ title: text above the picture
 
 The picture is about the map's pose; without a map, about the frame's. RuntimeError: it cannot be written.)";
 
-/// What there is to draw; null: not given.
+/// The things to draw; null: not given.
 struct Inputs {
   const LocalMap* map = nullptr;
   const Road* truth = nullptr;

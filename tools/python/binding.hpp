@@ -8,7 +8,7 @@
 #include "laneloom/types.hpp"
 
 /// The parts of the module, each in a file of its own. Objects of the module cannot be changed once they are
-/// made, so that threads may share them; but for Config and Mapper.
+/// made, so that threads may share them. Config and Mapper are exceptions.
 namespace laneloom::python {
 
 namespace py = pybind11;
@@ -29,9 +29,9 @@ struct SeenFrame {
   VehiclePose pose;
 };
 
-/// Of a pair (Frame, Pose), as read_frames() gives it.
+/// Converts a pair (Frame, Pose), as read_frames() gives it.
 SeenFrame seen_frame(const py::handle& value, const std::string& name);
-/// Of a list of such pairs, whose stamps ascend.
+/// Converts a list of such pairs, whose stamps must ascend.
 std::vector<SeenFrame> frames_in_order(const py::handle& value, const std::string& name);
 
 }  // namespace laneloom::python

@@ -14,6 +14,7 @@ namespace laneloom {
 using Pixel = Eigen::Vector2d;
 using Outline = std::vector<Pixel>;
 
+/// Colour, width (pixels) and dashes of a stroke.
 struct Pen {
   Colour colour;
   double width = 1.0;
@@ -22,11 +23,11 @@ struct Pen {
 
 enum class Align { left, centre, right };
 
-/// A sheet to draw on, x right, y down, one unit a pixel of a screen. PNG or SVG by the file's extension,
-/// from the same strokes.
+/// A sheet to draw on: x right, y down, in pixels of a screen. The file's extension tells whether it is PNG
+/// or SVG; both have the same strokes.
 class Canvas {
  public:
-  /// Throws std::runtime_error for another extension.
+  /// Throws std::runtime_error for an extension other than ".png" and ".svg".
   Canvas(const std::string& path, double width, double height);
 
   void stroke(const Outline& line, const Pen& pen);
@@ -34,7 +35,7 @@ class Canvas {
   /// `position` is the baseline's left end, middle or right end.
   void text(const Pixel& position, const std::string& text, double size, const Colour& colour,
             Align align = Align::left, bool bold = false);
-  /// Until unclip(), nothing is drawn outside of the rectangle.
+  /// Limits drawing to the rectangle, until unclip().
   void clip(const Pixel& top_left, const Pixel& size);
   void unclip();
 

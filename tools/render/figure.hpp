@@ -9,7 +9,7 @@
 /// Pictures of maps, seen from above with the vehicle's forward direction up.
 namespace laneloom {
 
-/// What one picture shows.
+/// A picture with its title.
 struct Panel {
   std::string title;
   Drawing drawing;
@@ -22,9 +22,10 @@ struct Moment {
   std::vector<Panel> panels;
 };
 
+/// A picture of moments, one below another.
 struct Figure {
   std::string title;
-  RangeConfig range;  ///< the map's range box: shown, with a little around it
+  RangeConfig range;  ///< the map's range box, which is shown with a little around it
   std::vector<Moment> moments;
 };
 

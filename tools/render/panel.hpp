@@ -5,7 +5,7 @@
 
 namespace laneloom {
 
-/// Where things of the map come to lie on the canvas: body frame, forward up.
+/// Takes places of the map to places on the canvas: body frame, forward up.
 class PanelView {
  public:
   PanelView(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, const Pixel& top_left);
@@ -19,16 +19,16 @@ class PanelView {
   Outline map(const Polyline& line) const;
 
  private:
-  Pixel origin_;  ///< the vehicle
+  Pixel origin_;  ///< place of the vehicle
   Pixel top_left_;
   Pixel size_;
   Eigen::Isometry3d T_body_map_;
 };
 
-/// The range's box with what of the drawing is in view.
+/// Draws the range's box, with the part of the drawing that is in view.
 void draw_panel(Canvas& canvas, const PanelView& view, const Drawing& drawing);
 
-/// The key to the colours, in as many lines as fit into `width`.
+/// Draws the legend of the colours, in as many columns as fit into `width`.
 void draw_legend(Canvas& canvas, const Pixel& top_left, double width);
 double legend_height(double width);
 

@@ -62,7 +62,7 @@ Interval y_interval(const Plot& plot) {
   return {0.0, std::ceil(highest / step) * step};
 }
 
-/// Where a plot's values are on the canvas.
+/// Takes a plot's values to places on the canvas.
 class Axes {
  public:
   Axes(const Plot& plot, const Pixel& sheet_top_left)
@@ -126,7 +126,7 @@ void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, bool marke
   Outline stretch;
   const auto finish_stretch = [&] {
     if (stretch.size() > 1) canvas.stroke(stretch, pen_of(curve));
-    // What stands alone could not be seen as a line.
+    // A single point could not be seen as a line.
     if (marked || stretch.size() == 1)
       for (const Pixel& pixel : stretch) draw_marker(canvas, pixel, curve.colour);
     stretch.clear();
@@ -141,7 +141,7 @@ void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, bool marke
   finish_stretch();
 }
 
-/// In one line that ends at the right.
+/// Draws the legend in one line, which ends at `right_end`.
 void draw_legend(Canvas& canvas, const std::vector<Curve>& curves, const Pixel& right_end) {
   constexpr double kSwatch = 26.0, kSpace = 5.0, kLetter = 7.0, kGap = 16.0;
   const auto width = [](const Curve& curve) {

@@ -10,16 +10,18 @@
 /// Curves over a common axis.
 namespace laneloom {
 
+/// One curve, in the units of its axes.
 struct Curve {
   std::string name;
   Colour colour;
   std::vector<Eigen::Vector2d> points;  ///< by ascending x; the curve has a gap where y is NaN
 };
 
+/// Curves over one pair of axes.
 struct Plot {
-  std::string title;  ///< what y is, with its unit
+  std::string title;  ///< the meaning of y, with its unit
   std::string x_label;
-  std::optional<double> y_max;  ///< of the axis, which begins at 0; none: what the curves need
+  std::optional<double> y_max;  ///< end of the axis, which begins at 0; none: as the curves need it
   bool binned = false;          ///< each point stands for an interval around it, and is marked
   std::vector<Curve> curves;    ///< y not negative
 };

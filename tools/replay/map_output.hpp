@@ -10,7 +10,7 @@
 
 namespace laneloom {
 
-/// 128 bits of XXH3, as 32 hexadecimal digits.
+/// A digest of 128 bits (XXH3), as 32 hexadecimal digits.
 class Digest {
  public:
   Digest();
@@ -26,19 +26,19 @@ class Digest {
   std::unique_ptr<State> state_;
 };
 
-/// Where a replay's maps go. Not thread-safe.
+/// The output of a replay's maps. Not thread-safe.
 class MapOutput {
  public:
   virtual ~MapOutput() = default;
-  /// Throw std::runtime_error naming the file when it cannot be written.
+  /// Both throw std::runtime_error naming the file when it cannot be written.
   virtual void write(const PublishedMap& map, std::int64_t log_time_ns) = 0;
   virtual void close() = 0;
 };
 
-/// A recording where `path` ends with ".mcap", else JSON lines.
+/// Creates a recording if `path` ends with ".mcap", or else JSON lines.
 std::unique_ptr<MapOutput> create_map_output(const std::string& path, Compression compression);
 
-/// The message that goes with the map on the topic road_markings.
+/// The message on the topic road_markings that belongs to a map.
 RoadMarkings road_markings(const PublishedMap& map);
 
 }  // namespace laneloom

@@ -58,7 +58,7 @@ class JsonLinesMessages : public MessageSource {
  private:
   JsonLinesReader reader_;
   std::string map_frame_id_;
-  std::optional<DetectionFrame> frame_;  ///< whose pose was given out
+  std::optional<DetectionFrame> frame_;  ///< the next message; its pose was given out before it
 };
 
 }  // namespace

@@ -13,23 +13,23 @@ class MessageSource {
  public:
   virtual ~MessageSource() = default;
 
-  /// None: the end. Throws std::runtime_error naming file and place of what is malformed.
+  /// The next message. None: the end. Throws std::runtime_error naming file and place of a malformed message.
   virtual std::optional<RecordedMessage> next() = 0;
-  /// The next detections or pose; what a service published is passed over unread.
+  /// The next detections or pose. Messages that a service published are passed over unread.
   virtual std::optional<RecordedMessage> next_input() = 0;
-  /// The next one as it goes over the wire.
+  /// The next message, as it goes over the wire.
   virtual std::optional<RawMessage> next_raw() = 0;
-  /// How much was read, from 0 to 1.
+  /// The share that was read, 0..1.
   virtual double progress() const = 0;
-  /// Messages that were passed over so far, as "<topic>: <reason>".
+  /// Counts of the messages that were refused so far, by "<topic>: <reason>".
   virtual Counters refused() const = 0;
-  /// The file ends before its end.
+  /// Whether the file is cut off.
   virtual bool cut_off() const = 0;
 };
 
-/// Opens a recording (MCAP), or frames with their poses as JSON lines (io/json_lines.hpp): the first bytes
-/// tell which. Of a line come the pose, then the frame, both at the frame's stamp. `map_frame_id` is the
-/// frame of the poses. Throws std::runtime_error where the file cannot be read.
+/// Opens a recording (MCAP), or frames with their poses as JSON lines (io/json_lines.hpp); the first bytes
+/// tell which. A line gives the pose and then the frame, both at the frame's stamp. `map_frame_id` is the
+/// frame of the poses. Throws std::runtime_error if the file cannot be read.
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id);
 
 }  // namespace laneloom

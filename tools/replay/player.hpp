@@ -16,17 +16,18 @@ class Player {
   /// `speed_up`: recorded seconds per second. Throws std::runtime_error where DDS refuses.
   Player(const DdsConfig& dds, double speed_up);
 
-  /// Of the topic that has fewer.
+  /// Number of readers, of the topic that has fewer.
   int readers() const { return std::min(detections_.matched(), poses_.matched()); }
 
-  /// When the message is due: the first one now, the others as long after it as they were recorded.
+  /// The time at which a message is due. The first one is due now, the others as long after it as they were
+  /// recorded, divided by `speed_up`.
   std::chrono::steady_clock::time_point due(const RawMessage& message);
-  /// Other topics than the inputs are passed over.
+  /// Publishes a message. Messages of other topics than the inputs are passed over.
   void publish(const RawMessage& message);
 
   std::uint64_t detections() const { return detections_published_; }
   std::uint64_t poses() const { return poses_published_; }
-  std::uint64_t not_taken() const { return not_taken_; }  ///< by DDS
+  std::uint64_t not_taken() const { return not_taken_; }  ///< number of messages that DDS did not take
 
  private:
   dds::Participant participant_;

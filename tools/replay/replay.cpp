@@ -8,9 +8,10 @@
 namespace laneloom {
 namespace {
 
-constexpr const char* kFrameId = "map";  // only says that both sides name the same
+constexpr const char* kFrameId = "map";  // any name; both sides have the same
 
-/// Over the wire and back, as what was live has gone: a pose's rotation may change in its last bits.
+/// The message after its way over the wire, which live messages have gone: a pose's rotation may change in
+/// its last bits.
 template <class T>
 T transmitted(const T& message) {
   std::vector<std::uint8_t> bytes;
@@ -75,7 +76,8 @@ void Replay::publish(const FusedFrame& fused, const LocalMap& map) {
 }
 
 void LiveComparison::add_live(const PublishedMap& map) {
-  // Several maps of one stamp differ only in what is left out; stamp 0 is no map yet.
+  // Several maps of one stamp differ only in fields that are left out. Stamp 0 means that there is no map
+  // yet.
   if (map.map.stamp_ns != 0) live_maps_[map.map.stamp_ns] = content_digest(map);
 }
 

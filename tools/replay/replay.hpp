@@ -13,11 +13,11 @@
 
 namespace laneloom {
 
-/// A map as the service publishes it, from a session that fused `fused` last.
+/// Takes a map as the service would publish it.
 using MapTaker = std::function<void(const PublishedMap& map, std::int64_t log_time_ns)>;
 
-/// Does with recorded messages what the service did with them when they arrived, and gives one map per fused
-/// frame. The log times are its clock. Not thread-safe.
+/// Processes recorded messages as the service did when they arrived, and gives one map per fused frame. The
+/// log times are its clock. Not thread-safe.
 class Replay {
  public:
   /// `config` must be valid. `observer` may be null.
@@ -27,9 +27,9 @@ class Replay {
 
   const Counters& counters() const { return session_.counters(); }
   std::size_t pending() const { return session_.pending(); }
-  /// What was learned of each source's network.
+  /// The values that were learned of each source's network.
   NetworkProfiles networks() const { return session_.mapper().profiles(); }
-  /// Of all maps so far, with their instances, as they go over the wire; but the times of arrival are left
+  /// A hash of all maps so far, with their markings, as they go over the wire. The times of arrival are left
   /// out.
   std::string hash() const { return digest_.text(); }
 
@@ -42,12 +42,12 @@ class Replay {
   std::int64_t now_ns_ = 0;
   std::uint64_t maps_ = 0;
   Digest digest_;
-  std::vector<std::uint8_t> cdr_;  // kept, so that its memory is used again
+  std::vector<std::uint8_t> cdr_;  // kept, so that its memory is reused
 };
 
-/// Compares maps that the live service published with those of a replay, by their stamps. What tells of the
-/// publication and not of the map is left out: sequence, session, age, state, and the lineage, which covers
-/// all frames since the map before.
+/// Compares maps that the live service published with those of a replay, by their stamps. Fields of the
+/// publication are left out: sequence, session, age, state, and the lineage, which covers all frames since
+/// the map before.
 class LiveComparison {
  public:
   void add_live(const PublishedMap& map);

@@ -14,7 +14,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::uint32_t kMatchingId = 0;
 constexpr std::uint32_t kNone = 0;  ///< the length of a list that is not used here
 
-/// Writes values one behind the other, as the IDL has them.
+/// Writes values one after the other, in the order of the IDL.
 class Writer {
  public:
   Writer() : cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR) {
@@ -42,7 +42,7 @@ class Writer {
     const auto whole_s = static_cast<std::int32_t>(duration_s);
     cdr_ << whole_s << static_cast<std::uint32_t>((duration_s - whole_s) * kSecond_ns);
   }
-  /// Each item is written by `write(item)`.
+  /// Writes a list. Each item is written by `write(item)`.
   template <class Item, class Write>
   void put_list(const std::vector<Item>& items, Write write) {
     cdr_ << static_cast<std::uint32_t>(items.size());

@@ -12,7 +12,7 @@ namespace {
 using foxglove::LineType;
 using foxglove::SceneEntity;
 
-constexpr double kLayerStep_m = 0.02;        ///< so much higher is what is painted later
+constexpr double kLayerStep_m = 0.02;        ///< by so much a shape that is painted later lies higher
 constexpr double kDashMetresPerPixel = 0.2;  ///< a dash is painted as long as a real one, about
 constexpr double kArrowMetresPerPixel = 0.1;
 constexpr double kOutlineWidth_px = 1.5;  ///< of an area that is not filled

@@ -11,7 +11,7 @@ namespace laneloom {
 namespace {
 
 constexpr const char* kBodyFrame = "body";
-/// A scene that is not updated goes, rather than being taken for a live one.
+/// A scene that is not updated disappears after this time, so that it is not taken for a live one.
 constexpr double kLifetime_s = 2.0;
 constexpr std::size_t kMaxWaiting = 32;
 

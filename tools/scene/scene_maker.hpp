@@ -16,7 +16,7 @@ namespace laneloom {
 
 enum class SceneTopic : std::uint8_t { map, detections, ids, transforms };
 
-/// In the order of SceneTopic: what a recording or a server has to announce.
+/// The topics that a recording or a server has to announce, in the order of SceneTopic.
 const std::vector<ExtraTopic>& scene_topics();
 
 /// A message of a scene topic, as CDR.
@@ -25,8 +25,8 @@ struct SceneMessage {
   std::vector<std::uint8_t> bytes;
 };
 
-/// What is drawn on one topic. Each update is complete, so that a panel may begin with any of them; what the
-/// update before had and this one has not is deleted. Not thread-safe.
+/// The updates of one topic. Each is complete, so that a panel may begin with any of them. Entities that are
+/// no longer in an update are deleted by it. Not thread-safe.
 class SceneStream {
  public:
   foxglove::SceneUpdate update(std::vector<foxglove::SceneEntity> entities, std::int64_t time_ns);
@@ -35,17 +35,18 @@ class SceneStream {
   std::set<std::string> ids_;
 };
 
-/// Makes scenes from the messages of a vehicle. Times in them are log times, as these are what a panel plays
-/// by, whatever clock the stamps are of. Not thread-safe.
+/// Makes scenes from the messages of a vehicle. Times in them are log times, because panels play by these;
+/// stamps may be of another clock. Not thread-safe.
 class SceneMaker {
  public:
   /// `map_frame_id`: the frame that poses are in.
   explicit SceneMaker(std::string map_frame_id) : map_frame_id_(std::move(map_frame_id)) {}
 
-  /// What the message, in the order of log times, has changed. One that is refused, or of which nothing is
-  /// drawn, changes nothing. Detections are drawn when the pose at their stamp is known.
+  /// Takes a message, in the order of log times, and returns the scenes that it changes. A message that is
+  /// refused, or of which nothing is drawn, changes none. Detections are drawn when the pose at their stamp
+  /// is known.
   std::vector<SceneMessage> take(const RawMessage& message);
-  /// Likewise, of a message that was not refused.
+  /// Does the same with a message that was not refused.
   std::vector<SceneMessage> take(const AnyMessage& message, std::int64_t log_time_ns);
 
  private:
@@ -61,7 +62,7 @@ class SceneMaker {
   PoseBuffer poses_{SyncConfig{}};
   std::uint64_t pose_session_ = 0;
   std::int64_t newest_pose_ns_ = 0;
-  std::deque<DetectionFrame> waiting_;  ///< for the pose at their stamp
+  std::deque<DetectionFrame> waiting_;  ///< frames that wait for the pose at their stamp
 };
 
 }  // namespace laneloom

@@ -8,18 +8,20 @@
 
 namespace laneloom {
 
-/// `to` has scene_topics() as its extra topics. Throws what it throws.
+/// Writes messages to a recording, which must have scene_topics() as its extra topics. Throws as
+/// RecordingWriter.
 void write_scene(const std::vector<SceneMessage>& messages, std::int64_t log_time_ns, RecordingWriter& to);
 
+/// Counts of add_scene().
 struct SceneRecordingReport {
   std::uint64_t messages = 0;  ///< of laneloom's topics
   std::uint64_t scenes = 0;    ///< messages of the scene topics
   Counters refused;            ///< messages that are not in the new recording, as RecordingReader counts them
-  bool cut_off = false;        ///< `from` ends before its end
+  bool cut_off = false;        ///< `from` is cut off
 };
 
-/// Writes the recording `from` anew as `to`: laneloom's messages byte for byte, with scenes made from them.
-/// Throws std::runtime_error naming the file where one cannot be read or written, or `to` exists.
+/// Copies the recording `from` to `to`: laneloom's messages byte for byte, with scenes made from them. Throws
+/// std::runtime_error naming the file if one cannot be read or written, or `to` exists.
 SceneRecordingReport add_scene(const std::string& from, const std::string& to,
                                const std::string& map_frame_id);
 

@@ -6,7 +6,7 @@ namespace laneloom {
 
 std::vector<std::uint32_t> strip_triangles(const Polyline& left, const Polyline& right) {
   const std::vector<double> left_arc_m = arc_lengths(left), right_arc_m = arc_lengths(right);
-  // Whichever side is behind, by its share of the way, goes on to its next point.
+  // The side that is behind, by the share of its length, goes on to its next point.
   const auto left_is_behind = [&](std::size_t l, std::size_t r) {
     if (r + 1 == right.size()) return true;
     return l + 1 < left.size() &&

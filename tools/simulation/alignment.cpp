@@ -12,7 +12,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kParallel_rad = 0.01;
 
-// 0 to 1 with no slope at either end.
+// From 0 to 1, with no slope at either end.
 double smooth_step(double share) { return share * share * (3.0 - 2.0 * share); }
 
 Frame advance(const Frame& start, const Segment& segment, double along_m) {
@@ -87,7 +87,7 @@ Frame Alignment::at(double s_m) const {
 Polyline bridge(const Frame& from, const Frame& to, double step_m) {
   const double turn_rad = std::remainder(to.heading_rad - from.heading_rad, 2.0 * std::numbers::pi);
   if (std::abs(turn_rad) < kParallel_rad) return s_curve(from, to, step_m);
-  // Where the line ahead of `from` meets the line behind `to`.
+  // Distances to the point where the line ahead of `from` meets the line behind `to`.
   const Eigen::Vector2d between = (to.position - from.position).head<2>();
   const double ahead_m = cross(between, to.direction()) / cross(from.direction(), to.direction());
   const double behind_m = cross(from.direction(), between) / cross(from.direction(), to.direction());

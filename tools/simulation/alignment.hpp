@@ -5,7 +5,7 @@
 
 #include "laneloom/types.hpp"
 
-/// The reference line of a street and what varies along it.
+/// The reference line of a street, and values that vary along it.
 namespace laneloom {
 
 /// A place in the map with a horizontal heading.
@@ -14,9 +14,9 @@ struct Frame {
   double heading_rad = 0.0;
 
   Eigen::Vector2d direction() const;
-  /// Left of the heading.
+  /// The unit direction to the left of the heading.
   Eigen::Vector2d normal() const;
-  /// `left_m` to the left, `ahead_m` further on.
+  /// The frame, moved `left_m` to the left and `ahead_m` forwards.
   Frame moved(double left_m, double ahead_m = 0.0) const;
   Frame turned(double angle_deg) const;
 };
@@ -25,7 +25,7 @@ struct Frame {
 class Profile {
  public:
   Profile(double value = 0.0) : knots_{{0.0, value}} {}  // NOLINT(google-explicit-constructor)
-  /// (s, value), in ascending order of s.
+  /// `knots` are (s, value), in ascending order of s.
   explicit Profile(std::vector<std::pair<double, double>> knots) : knots_(std::move(knots)) {}
   double at(double s_m) const;
 
@@ -33,7 +33,7 @@ class Profile {
   std::vector<std::pair<double, double>> knots_;
 };
 
-/// A piece of constant curvature.
+/// A piece of a reference line with constant curvature.
 struct Segment {
   double length_m = 0.0;
   double turn_deg = 0.0;  ///< over the length, to the left
@@ -48,7 +48,7 @@ class Alignment {
   double length() const { return length_m_; }
   Frame at(double s_m) const;
   Frame end() const { return at(length_m_); }
-  /// The point beside it; left is positive.
+  /// The point beside the line at `s_m`; left is positive.
   Point point(double s_m, double left_m) const { return at(s_m).moved(left_m).position; }
 
  private:

@@ -23,7 +23,7 @@ constexpr double kJoinEdges_m = 1.5;  // outlines end a little before the area t
 constexpr double kAlongEdge_m = 0.5;
 constexpr std::int64_t kPosePeriod_ns = 10'000'000;
 constexpr std::int64_t kMaxDrive_ns = 3'600'000'000'000;
-constexpr int kMaxDepth = 3;  // of logs in a directory: <data set>/sensor/val/<log id>
+constexpr int kMaxDepth = 3;  // of logs below a directory: <data set>/sensor/val/<log id>
 
 Point xyz(const json& value) {
   return {required(value, "x", coordinate), required(value, "y", coordinate),
@@ -44,7 +44,8 @@ std::optional<MarkingStyle> painted_style(const std::string& mark, bool left_bor
   if (dashed == std::string::npos && solid == std::string::npos) return MarkingStyle::unknown;
   if (dashed == std::string::npos) return MarkingStyle::solid;
   if (solid == std::string::npos) return MarkingStyle::dashed;
-  // Of both, the one on this lane's side: the last of a left border, the first of a right one.
+  // A double line has the style of its line on this lane's side: the last of a left border, the first of a
+  // right one.
   return (left_border ? dashed > solid : dashed < solid) ? MarkingStyle::dashed : MarkingStyle::solid;
 }
 
@@ -160,7 +161,7 @@ Drive resampled(std::vector<VehiclePose> poses) {
   return Drive::recorded(std::move(clean));
 }
 
-/// None where a directory has no poses, and so is no log.
+/// The file of poses in a directory. None: the directory has no poses, and therefore is no log.
 std::optional<std::filesystem::path> pose_table(const std::filesystem::path& directory) {
   for (const char* const ending : {".feather", ".csv"}) {
     const std::filesystem::path file = directory / (std::string("city_SE3_egovehicle") + ending);

@@ -7,20 +7,20 @@
 
 namespace laneloom {
 
-/// The Argoverse 2 logs in a directory, in the order of their names: the directory itself where it has a
-/// log's poses, else those below it, as in `sensor/val/<log id>`. Throws std::runtime_error naming the
-/// directory where there is none.
+/// The Argoverse 2 logs in a directory, in the order of their names: the directory itself if it has a log's
+/// poses, or else those below it, as in `sensor/val/<log id>`. Throws std::runtime_error naming the directory
+/// if there is none.
 std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& directory);
 
 /// Loads an Argoverse 2 sensor log as it is distributed: its vector map (map/log_map_archive_*.json) and the
-/// recorded poses (city_SE3_egovehicle.feather). The map may also lie beside the poses, and these may be
-/// a .csv with the same columns. Coordinates are the city's, as they are; the vehicle's origin is about 0.33
-/// m above the surface.
+/// recorded poses (city_SE3_egovehicle.feather). The map may also lie beside the poses, and these may be a
+/// .csv with the same columns. Coordinates are the city's, unchanged; the vehicle's origin is about 0.33 m
+/// above the surface.
 ///
-/// Lanelines are the painted borders of the lanes, bicycle lanes included; of a double line with two styles,
-/// the style of the nearer one. Roadedges are the outlines of the drivable areas where no other area adjoins.
-/// There are no stoplines in such a map. Lanes are the vehicle and bus lanes. The poses, which come in pairs
-/// 1 ns apart, are resampled to 100 Hz.
+/// Lanelines are the painted borders of the lanes, bicycle lanes included. A double line with two styles has
+/// the style of the nearer line. Roadedges are the outlines of the drivable areas where no other area
+/// adjoins. There are no stoplines in such a map. Lanes are the vehicle and bus lanes. The poses, which come
+/// in pairs 1 ns apart, are resampled to 100 Hz.
 ///
 /// Throws std::runtime_error naming file and key, or file and line.
 Road load_argoverse2(const std::filesystem::path& log_directory);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMinAlignment = 0.9;  // cosine between the directions of lines that continue one another
 
-constexpr double kRepeated_m = 0.05;  // a joint's point, given by both lines
+constexpr double kRepeated_m = 0.05;  // two points of a joint that are nearer are one
 
 struct MarkingEnd {
   std::size_t marking = 0;
@@ -28,7 +28,7 @@ bool is_ring(const Polyline& points) {
   return points.size() > 3 && (points.front() - points.back()).norm() < 1e-6;
 }
 
-// The only other end at `end`, which must continue it; else `end` itself.
+// The only other end at `end`, if it continues `end`, or else `end` itself.
 MarkingEnd continuation(const std::vector<RoadMarking>& markings, const MarkingEnd& end, double tolerance_m) {
   MarkingEnd partner = end;
   int others = 0;
@@ -98,7 +98,7 @@ Polyline midway(const Polyline& left, const Polyline& right, double step_m) {
 
 void join_markings(Road& road, double tolerance_m) {
   std::vector<RoadMarking>& markings = road.markings;
-  std::map<ElementId, ElementId> joined_into;  // id before, id of what it was appended to
+  std::map<ElementId, ElementId> joined_into;  // former id, id of the marking that it was appended to
   for (std::size_t i = 0; i < markings.size(); ++i) {
     for (const bool at_back : {true, false}) {
       while (!markings[i].points.empty() && !is_ring(markings[i].points)) {

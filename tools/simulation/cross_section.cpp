@@ -54,7 +54,7 @@ class SideBorders {
     knots_.emplace_back(change.at_m + change.taper_m, offset_m(change.lanes));
   }
 
-  // The edge jumps; beside the gore, between this street and the one that leaves or comes, it is a solid
+  // Lets the edge jump. Beside the gore, between this street and the one that leaves or joins, it is a solid
   // line.
   void cut_edge(int lanes, const LaneChange& change) {
     const bool exit = change.lanes < lanes;
@@ -172,7 +172,7 @@ std::vector<LaneStretch> lane_stretches(const std::vector<Border>& borders, doub
   std::vector<LaneStretch> out;
   for (const bool forward : {true, false}) {
     std::vector<std::pair<std::size_t, std::size_t>> before;
-    std::size_t first = out.size();  // of the stretches that go on
+    std::size_t first = out.size();  // index of the first stretch that goes on
     for (std::size_t i = 1; i < all.size(); ++i) {
       const Slice slice = slice_between(borders, all[i - 1], all[i]);
       const auto& now = forward ? slice.forward : slice.backward;

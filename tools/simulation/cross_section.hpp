@@ -5,25 +5,25 @@
 
 #include "simulation/road_builder.hpp"
 
-/// From a street's section to the lines along it and the lanes between them.
+/// Makes the lines along a street, and the lanes between them, of the street's section.
 namespace laneloom {
 
-inline constexpr double kMinLaneWidth_m = 2.5;  // narrower, between two borders, is no lane
+inline constexpr double kMinLaneWidth_m = 2.5;  // a narrower strip between two borders is no lane
 
 /// One line along a street.
 struct Border {
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::solid;
-  Profile left_m;  ///< beside the reference line
+  Profile left_m;  ///< offset from the reference line
   double from_m = 0.0;
   double to_m = 0.0;
-  bool painted = true;  ///< there is something to be seen
+  bool painted = true;  ///< whether there is something to be seen
 };
 
-/// All lines of a street of that length.
+/// All lines of a street of a given length.
 std::vector<Border> borders(const Section& section, double length_m);
 
-/// Where along a street a lane runs between two of its borders.
+/// A stretch of a street along which a lane runs between two of its borders.
 struct LaneStretch {
   std::size_t left_border = 0;  ///< as seen along the reference line
   std::size_t right_border = 0;
@@ -34,7 +34,7 @@ struct LaneStretch {
 /// The lanes between neighbouring borders, cut where any lane of their direction begins or ends.
 std::vector<LaneStretch> lane_stretches(const std::vector<Border>& borders, double length_m);
 
-/// Samples along a street: every metre or less, and wherever a border of them begins or ends.
+/// Samples along a street: every metre or less, and wherever one of the borders begins or ends.
 std::vector<double> stations(const std::vector<Border>& borders, double from_m, double to_m);
 
 }  // namespace laneloom

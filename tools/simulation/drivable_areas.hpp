@@ -7,8 +7,8 @@
 namespace laneloom {
 
 /// The parts of the areas' outlines where no other area (at about the same height) adjoins or overlaps. An
-/// outline that nothing adjoins is a ring, whose last point is its first. Outlines need not repeat their
-/// first point.
+/// outline that no area adjoins is a ring, whose last point is its first. `areas` need not repeat their first
+/// point.
 std::vector<Polyline> outer_edges(const std::vector<Polyline>& areas);
 
 }  // namespace laneloom

@@ -21,10 +21,10 @@ std::int64_t nanoseconds(double t_s) { return static_cast<std::int64_t>(std::llr
 
 bool is_ring(const Polyline& path) { return (path.front() - path.back()).norm() < kClosed_m; }
 
-// The mean over the neighbours either way; round the ring, or over a window that shrinks to nothing at an
-// end.
+// Replaces points by the mean over the neighbours either way. On a ring the window goes round; otherwise it
+// shrinks to nothing at an end.
 Polyline moving_average(const Polyline& path, bool ring) {
-  const int last = static_cast<int>(path.size()) - 1;  // of a ring, the first point again
+  const int last = static_cast<int>(path.size()) - 1;  // on a ring, it is the first point again
   const int reach = std::min(kSmoothingSteps, last / 2);
   Polyline out(path.size());
   for (int i = 0; i <= last; ++i) {

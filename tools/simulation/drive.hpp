@@ -7,29 +7,30 @@
 
 namespace laneloom {
 
-/// How the vehicle moves over a road: timed poses T_map_body, interpolated between (linear and slerp).
+/// The motion of the vehicle over a road: timed poses T_map_body, with interpolation between them (linear and
+/// slerp).
 class Drive {
  public:
   Drive() = default;
 
-  /// At constant speed along a path in the map frame (at least two points apart), which is smoothed first so
-  /// that the yaw is continuous; yaw follows the path and pitch its slope. A path that ends where it starts
-  /// is smoothed round.
-  /// Throws std::invalid_argument where the path has no length or the speed is not positive.
+  /// A drive at constant speed along a path in the map frame, of at least two different points. The path is
+  /// smoothed first, so that the yaw is continuous; a path that ends where it starts is smoothed round. Yaw
+  /// follows the path, and pitch its slope. Throws std::invalid_argument if the path has no length or the
+  /// speed is not positive.
   static Drive along(const Polyline& path, double speed_mps);
 
-  /// Of recorded poses in ascending stamp order; their first stamp becomes time 0.
-  /// Throws std::invalid_argument where the stamps do not ascend.
+  /// A drive of recorded poses in ascending order of stamps; their first stamp becomes time 0. Throws
+  /// std::invalid_argument if the stamps do not ascend.
   static Drive recorded(std::vector<VehiclePose> poses);
 
-  /// Of one lap where the drive is closed. 0 for an empty drive.
+  /// The duration; of a closed drive, that of one lap. 0 for an empty drive.
   double duration_s() const;
 
-  /// It ends as it starts, so that it can be driven round and round without a pose jump.
+  /// Whether the drive ends as it starts, so that it can be repeated without a jump of the pose.
   bool closed() const;
 
   /// The pose at a time since the start; its stamp is that time. Beyond its end a closed drive begins anew,
-  /// any other stays where it is. The drive must not be empty.
+  /// and any other stands still. The drive must not be empty.
   VehiclePose pose_at(double t_s) const;
 
   /// Stamps are times since the start.

@@ -24,8 +24,8 @@ void FrameNoise::step(double dt_s, const NoiseProfile& noise, Random& random) {
 }
 
 Point FrameNoise::seen(const Point& point) const {
-  // A network that takes the ground for flat puts what it sees farther away, and wider apart, the farther it
-  // is; behind the vehicle nearer.
+  // A network that takes the ground for flat puts points farther away and wider apart, the farther they are;
+  // behind the vehicle it puts them nearer.
   constexpr double kMaxScale = 0.5;
   Point scaled = point;
   scaled.head<2>() *= 1.0 + std::clamp(scale_per_m_ * point.x(), -kMaxScale, kMaxScale);

@@ -7,15 +7,15 @@
 
 namespace laneloom {
 
-/// What is wrong with a frame as a whole.
+/// The errors of a frame as a whole.
 class FrameNoise {
  public:
   explicit FrameNoise(Random& random);
   void step(double dt_s, const NoiseProfile& noise, Random& random);
 
-  /// Where a point of the body frame is said to be.
+  /// The place at which a network sees a point of the body frame.
   Point seen(const Point& point) const;
-  /// What is added to every confidence.
+  /// The error that is added to every confidence.
   double confidence() const { return confidence_; }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// Anywhere before the vehicle: about along it, a stopline across.
+// A line anywhere ahead of the vehicle: roughly along its heading, or across it for a stopline.
 Polyline anywhere(MarkingType type, const SensorView& view, Random& random) {
   const Point begin(random.uniform(view.forward_min_m, 0.6 * view.forward_max_m),
                     random.uniform(-0.6, 0.6) * view.side_max_m, 0.0);
@@ -22,7 +22,7 @@ Polyline anywhere(MarkingType type, const SensorView& view, Random& random) {
   return {begin, begin + length_m * Point(std::cos(heading_rad), std::sin(heading_rad), 0.0)};
 }
 
-// Along part of a marking, as a kerb's shadow or a repaired crack.
+// A line beside a part of a marking, like a kerb's shadow or a repaired crack.
 Polyline beside(const Polyline& marking, Random& random) {
   const MeasuredPolyline measured(marking);
   const double length_m = random.uniform(0.3, 1.0) * measured.length();
@@ -68,7 +68,7 @@ void Ghosts::appear_at_intersection(const VehiclePose& pose, const NoiseProfile&
     if (crossing.may_be_near(pose.position, view.side_max_m)) in_view.push_back(&crossing);
   }
   const MarkingType type = random.chance(0.4) ? MarkingType::roadedge : MarkingType::laneline;
-  // At intersections networks go on with lines where none are.
+  // At intersections, networks continue lines where there are none.
   if (!in_view.empty() && view.detects(type))
     appear(type, in_view[random.below(in_view.size())]->line.points(), noise, random);
 }

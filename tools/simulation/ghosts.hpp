@@ -14,11 +14,11 @@ class Ghosts {
  public:
   explicit Ghosts(const Road& road);
 
-  /// Some go, others come. `in_view` is what is in view of markings along roads (body frame).
+  /// Lets ghosts come and go. `in_view` are the parts in view of markings along roads (body frame).
   void step(const VehiclePose& pose, const std::vector<Polyline>& in_view, double dt_s,
             const NoiseProfile& noise, const SensorView& view, Random& random);
 
-  /// What is seen of them (body frame).
+  /// The detections of the ghosts (body frame).
   std::vector<Detection> detections(const VehiclePose& pose, const NoiseProfile& noise,
                                     const SensorView& view, Random& random) const;
 

@@ -126,8 +126,8 @@ Way reversed(Way way) {
   return way;
 }
 
-// As Lanelet2's geometry::align(): each border is turned so that the middle of the other is on its proper
-// side.
+// Turns each border so that the middle of the other is on its proper side, as Lanelet2's geometry::align()
+// does.
 void align(Way& left, Way& right) {
   const auto middle = [](const Polyline& points) -> Point {
     return points.size() > 2 ? points[points.size() / 2] : Point(0.5 * (points.front() + points.back()));
@@ -198,7 +198,8 @@ void add_successors(const std::vector<Lanelet>& lanelets, Road& road) {
   }
 }
 
-// Lanes of opposite directions share their left borders; where they share their right ones, it is left-hand.
+// In right-hand traffic, lanes of opposite directions share their left borders; in left-hand traffic, their
+// right ones.
 bool is_right_hand(const std::vector<Lanelet>& lanelets) {
   const auto shared_with_opposite = [&](Way Lanelet::*side) {
     std::set<std::vector<OsmId>> borders;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDenseStep_m = 0.5;
 constexpr std::size_t kNetworkPoints = 20;
-constexpr double kNetworkStep_m = 2.5;  // at most, however long the line
+constexpr double kNetworkStep_m = 2.5;  // greatest distance between points, also of long lines
 constexpr double kMinLength_m = 1.0;
 
 Eigen::Vector2d left_normal(const MeasuredPolyline& line, double arc_m) {
@@ -20,7 +20,7 @@ Eigen::Vector2d left_normal(const MeasuredPolyline& line, double arc_m) {
   return {-direction.y(), direction.x()};
 }
 
-// 1 at the end, 0 from `reach_m` on.
+// A weight that is 1 at the end, and 0 from `reach_m` on.
 double end_weight(double from_end_m, double reach_m) {
   const double share = std::max(0.0, 1.0 - from_end_m / reach_m);
   return share * share;
@@ -129,7 +129,7 @@ void LineNoise::step(double dt_s, const NoiseProfile& noise, double distance_m, 
 
 double LineNoise::offset_m(double range_m, double arc_m, const NoiseProfile& noise,
                            const Places& places) const {
-  // Nothing that a network would take for the line is farther off for long.
+  // A network does not take a detection that is farther off for the line for long.
   static constexpr double kMaxStddevs = 1.5;
   constexpr double kFar_m = 30.0;
   const auto bounded = [](double value) { return std::clamp(value, -kMaxStddevs, kMaxStddevs); };

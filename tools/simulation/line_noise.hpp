@@ -9,23 +9,23 @@
 
 namespace laneloom {
 
-/// What is wrong with the detections of one line, over the frames in which it is in view; what lasts longer
-/// is the line's `Places`.
+/// The errors of the detections of one line, over the frames in which it is in view. Errors that last longer
+/// are the line's `Places`.
 class LineNoise {
  public:
   struct Seen {
     Detection detection;  ///< its confidence may be beyond 0..1
-    bool of_line = true;  ///< a duplicate is not
+    bool of_line = true;  ///< false: it is a duplicate
   };
 
   /// The line's share of missed frames depends on its type and distance.
   LineNoise(const NoiseProfile& noise, MarkingType type, double distance_m, Random& random);
   void step(double dt_s, const NoiseProfile& noise, double distance_m, Random& random);
 
-  /// For a while; where it is for the whole drive, Places tell.
+  /// Whether the line is missed for a while. Places tell where it is missed for the whole drive.
   bool missed() const { return missed_.on(); }
 
-  /// A piece of the line as it is detected now: one or two lines, and perhaps a duplicate.
+  /// The detections of a piece of the line: one or two lines, and perhaps a duplicate.
   std::vector<Seen> detect(const VisiblePiece& truth, MarkingStyle style, const NoiseProfile& noise,
                            const Places& places, Random& random) const;
 
@@ -64,7 +64,7 @@ void make_zigzag(Polyline& line, double stddev_m, Random& random);
 /// Shifts a line to its left.
 void shift_left(Polyline& line, double left_m);
 
-/// How far a confidence is off; `held` is what of that stays with the line for a while.
+/// The error of a confidence. `held` is the part of it that stays with the line for a while.
 double confidence_error(const NoiseProfile& noise, const Wander& held, Random& random);
 
 }  // namespace laneloom

@@ -45,7 +45,7 @@ Road entry_road(double speed_mps, const Ramp& shape) {
   section.forward = {.lanes = 3,
                      .changes = {{.at_m = entry_at_m, .lanes = 4, .taper_m = 0.0, .gore_m = kGore_m},
                                  {.at_m = 220.0, .lanes = 3}}};
-  // Laid out backwards from where it joins, for its start.
+  // The ramp is laid out backwards from the place where it joins, to find its start.
   const Alignment back(way.at(entry_at_m).moved(-kMainWidth_m).turned(180.0),
                        {bend(shape.radius_m, shape.turn_deg), straight(kRampEnd_m)});
   const Alignment ramp(back.end().turned(180.0),
@@ -69,7 +69,7 @@ Road divided_road(const DividedRoad& divided, double speed_mps) {
   RoadBuilder builder("median");
   builder.add_street(way, section);
   if (divided.oncoming) {
-    // Backwards: the same bend turns the other way, and is further out or in by the median.
+    // Laid out backwards: the same bend turns the other way, and its radius differs by the median.
     const double inner_m = 200.0 - divided.median_m;
     const std::vector<Segment> back =
         divided.curved ? std::vector{straight(60.0), bend(inner_m, -40.0), straight(60.0)} : course;

@@ -5,7 +5,7 @@
 /// Made-up roads whose carriageways lie apart.
 namespace laneloom {
 
-/// How a ramp turns off from the road.
+/// The shape of a ramp that turns off from the road.
 struct Ramp {
   double radius_m = 300.0;
   double turn_deg = 14.0;
@@ -16,21 +16,21 @@ struct Ramp {
 /// diverge from there.
 Road exit_road(double speed_mps, const Ramp& shape = {});
 
-/// The same the other way round: a ramp joins three lanes, between solid lines that converge.
+/// The reverse: a ramp joins three lanes, between solid lines that converge.
 Road entry_road(double speed_mps, const Ramp& shape = {});
 
 /// Two one-way carriageways with a median between them.
 struct DividedRoad {
   int lanes = 2;          ///< each way, divided by dashes
   double median_m = 1.0;  ///< from one carriageway's left border to the other's
-  bool kerbs = false;     ///< at the median, edges; else solid lines
-  bool oncoming = true;   ///< else the other carriageway does not exist
+  bool kerbs = false;     ///< there are edges at the median; else solid lines
+  bool oncoming = true;   ///< else there is no other carriageway
   bool curved = false;
-  int driven = 1;  ///< lane, counted from the median
+  int driven = 1;  ///< lane that is driven, counted from the median
 };
 Road divided_road(const DividedRoad& divided, double speed_mps);
 
-/// Mirrored on the x axis: traffic keeps to the other side.
+/// The road mirrored on the x axis, so that traffic keeps to the other side.
 Road mirrored(Road road);
 
 }  // namespace laneloom

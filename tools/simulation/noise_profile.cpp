@@ -89,7 +89,7 @@ NoiseProfile av2() {
   return profile;
 }
 
-/// As by cameras that swing and clocks that differ: whole frames are turned, scaled and shifted.
+/// Whole frames are turned, scaled and shifted, as by cameras that swing and clocks that differ.
 NoiseProfile shaken() {
   NoiseProfile profile = inhouse();
   profile.name = "shaken";

@@ -8,8 +8,8 @@ namespace laneloom {
 namespace {
 
 constexpr double kShadow_m = 100.0;  // beyond every sensor's range
-constexpr double kNear_m = 4.0;      // nobody comes closer ahead or behind
-constexpr double kBeside_m = 1.5;    // or beside
+constexpr double kNear_m = 4.0;      // no vehicle comes closer ahead or behind
+constexpr double kBeside_m = 1.5;    // no vehicle comes closer beside
 constexpr double kSplitStep_m = 0.25;
 
 double turn(const Point& a, const Point& b, const Point& c) {

@@ -9,12 +9,13 @@
 
 namespace laneloom {
 
-/// Other vehicles that come, move along and go, and what they hide from the sensor at the body's origin.
+/// Other vehicles that come, move along and go, and the areas that they hide from the sensor at the body's
+/// origin.
 class Occluders {
  public:
   void step(double dt_s, const NoiseProfile& noise, Random& random);
 
-  /// Where each of them stands and what is behind it: convex, counter-clockwise, body frame.
+  /// The area of each vehicle and the area behind it: convex, counter-clockwise, body frame.
   const std::vector<Polyline>& areas() const { return areas_; }
 
   /// The parts of a piece of a line that are outside of all areas.

@@ -24,7 +24,7 @@ double distance_m(const Polyline& line) {
   return nearest_m;
 }
 
-// Of pieces of a line; `period_m` is a ring's length, else 0.
+// The overlap of two pieces of a line. `period_m` is a ring's length, or else 0.
 double overlap_m(const Stretch& a, const Stretch& b, double period_m) {
   double most_m = -1.0;
   for (const double shift_m : {-period_m, 0.0, period_m})
@@ -72,7 +72,8 @@ double Perception::step_time(std::int64_t stamp_ns) {
   return dt_s > 0.0 && dt_s <= kMaxStep_s ? dt_s : kFramePeriod_s;
 }
 
-// The piece's errors are those of the piece of the same marking that it overlaps most in the frame before.
+// The errors of a piece. It continues those of the piece of the same marking that it overlaps most in the
+// frame before.
 Perception::Track& Perception::follow(std::vector<Track>& now, std::size_t marking, const VisiblePiece& piece,
                                       double dt_s) {
   const double away_m = distance_m(piece.points);
@@ -95,7 +96,7 @@ Perception::Track& Perception::follow(std::vector<Track>& now, std::size_t marki
   return now.back();
 }
 
-// What of a piece is not missed for the whole drive.
+// The parts of a piece that are not missed for the whole drive.
 std::vector<VisiblePiece> Perception::found_parts(std::size_t marking, const VisiblePiece& piece) const {
   const Places& places = places_[marking];
   const std::size_t type = index(markings_[marking].type);
@@ -104,7 +105,7 @@ std::vector<VisiblePiece> Perception::found_parts(std::size_t marking, const Vis
   const MeasuredPolyline measured(piece.points);
   std::vector<Stretch> found;
   for (double from_m = piece.arc.from_m; from_m < piece.arc.to_m;) {
-    // Rounding must not leave us where we are.
+    // Rounding must not stop the progress.
     const double to_m = std::min(piece.arc.to_m, std::max(places.stretch_end_m(from_m), from_m + 1e-6));
     if (!places.among(share, Trait::missed, from_m)) {
       if (!found.empty() && found.back().to_m == from_m) {

@@ -16,18 +16,19 @@
 
 namespace laneloom {
 
-/// Sees a road as a network does: every marking in view, as lines of about twenty points in the body frame,
-/// with errors that last over frames (see NoiseProfile). The same road, profile, view, seed and poses give
-/// the same frames. Not thread-safe.
+/// Simulates the detections of a network: every marking in view, as lines of about twenty points in the body
+/// frame, with errors that last over frames (see NoiseProfile). The same road, profile, view, seed and poses
+/// give the same frames. Not thread-safe.
 class Perception {
  public:
   Perception(const Road& road, NoiseProfile noise, SensorView view, std::uint64_t seed);
 
-  /// The frame seen from `pose`, at its stamp. Sequences count from 1. Poses come in stamp order; where they
-  /// do not (a new lap, say), or after a second's gap, the errors go on as if a tenth of a second had passed.
+  /// The frame seen from `pose`, at its stamp. Sequences count from 1. Poses come in the order of stamps. If
+  /// one does not (in a new lap, say), or after a gap of a second, the errors go on as if a tenth of a second
+  /// had passed.
   DetectionFrame observe(const VehiclePose& pose);
 
-  /// Of every detection of the last frame: the marking that it is of. None: a ghost.
+  /// The true marking of every detection of the last frame. kNoElement: it is a ghost.
   const std::vector<ElementId>& sources() const { return sources_; }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace laneloom {
 
-/// What a network gets wrong at a place for as long as a drive lasts, however often it comes by.
+/// An error of a network at a place that lasts for a whole drive, however often the place is passed.
 enum class Trait : std::uint8_t {
   missed,
   poor,
@@ -19,21 +19,21 @@ enum class Trait : std::uint8_t {
   offset
 };
 
-/// The places along one line. What is drawn for a place depends on the drive's seed, the line and the place
-/// alone, so that it is the same from wherever and whenever it is seen. Arc lengths are in metres; those of a
-/// ring may be below 0 or beyond its length.
+/// The places along one line. A random value of a place depends on the drive's seed, the line and the place
+/// alone, so that it is the same from wherever and whenever the place is seen. Arc lengths are in metres;
+/// those of a ring may be below 0 or beyond its length.
 class Places {
  public:
-  /// `line` tells the line from others; a line without length is one place.
+  /// `line` tells the line from others. A line without length is one place.
   Places(std::uint64_t seed, std::uint64_t line, double length_m, bool ring);
 
-  /// In [0, 1), the same all along a stretch of some 25 m.
+  /// A random value in [0, 1), the same all along a stretch of some 25 m.
   double uniform(Trait trait, double arc_m) const;
-  /// Whether the stretch is one of a share of all.
+  /// Whether the stretch is among a random share of all stretches.
   bool among(double share, Trait trait, double arc_m) const { return uniform(trait, arc_m) < share; }
-  /// Standard deviation 1; changes smoothly, over some 25 m.
+  /// A random value of standard deviation 1, which changes smoothly, over some 25 m.
   double wave(Trait trait, double arc_m) const;
-  /// Where the stretch of a place ends.
+  /// The end of the stretch of a place.
   double stretch_end_m(double arc_m) const;
 
  private:
@@ -42,8 +42,8 @@ class Places {
   double normal(Trait trait, std::int64_t knot) const;
 
   std::uint64_t key_;
-  std::int64_t count_;  ///< of stretches
-  double step_m_;       ///< their length
+  std::int64_t count_;  ///< number of stretches
+  double step_m_;       ///< length of a stretch
   bool ring_;
 };
 

@@ -13,7 +13,7 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// In [0, 1).
+  /// A uniform number in [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   bool chance(double probability) { return uniform() < probability; }
@@ -21,7 +21,8 @@ class Random {
     return static_cast<std::size_t>(uniform() * static_cast<double>(count));
   }
 
-  /// Mean 0, standard deviation 1; nearly normal, and never beyond 6 (the sum of twelve uniform numbers).
+  /// A number of mean 0 and standard deviation 1. It is nearly normal, and never beyond 6 (the sum of twelve
+  /// uniform numbers).
   double normal() {
     double sum = -6.0;
     for (int i = 0; i < 12; ++i) sum += uniform();

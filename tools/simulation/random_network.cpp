@@ -12,7 +12,7 @@ class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
   double uniform(double low, double high) { return random_.uniform(low, high); }
-  /// Of which the logarithm is uniform.
+  /// A number whose logarithm is uniform.
   double log_uniform(double low, double high) { return low * std::exp(uniform() * std::log(high / low)); }
   Defect defect(double low_share, double high_share, double high_lasting, double high_dwell_s) {
     Defect defect;

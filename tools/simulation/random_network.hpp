@@ -6,8 +6,8 @@
 
 namespace laneloom {
 
-/// A network that nobody tuned for, drawn at random: how far and for how long it errs, what it misses and
-/// invents, and what its confidences tell. The same seed gives the same network on every host. The
+/// A network drawn at random, for which no value was tuned: how far and for how long it errs, what it misses
+/// and invents, and how well its confidences tell. The same seed gives the same network on every host. The
 /// distributions are in README.md of this folder. Networks of odd seeds do not tell their field of view.
 NoiseProfile random_network(std::uint64_t seed);
 

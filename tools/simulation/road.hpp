@@ -7,10 +7,10 @@
 #include "laneloom/types.hpp"
 #include "simulation/drive.hpp"
 
-/// The truth of a road: what is painted on it, where its lanes are, and how it is driven.
+/// The truth of a road: its markings, its lanes, and a drive over it.
 namespace laneloom {
 
-/// A painted marking or an edge of the road. What is not painted, or only virtual, is no marking.
+/// A painted marking or an edge of the road. A virtual line is no marking.
 struct RoadMarking {
   ElementId id = kNoElement;
   MarkingType type = MarkingType::laneline;
@@ -23,12 +23,13 @@ struct RoadMarking {
 struct RoadLane {
   ElementId id = kNoElement;
   Polyline left{}, right{}, centerline{};  ///< map frame, in driving direction
-  ElementId left_marking = kNoElement;     ///< that the left border is on; none: unpainted
+  ElementId left_marking = kNoElement;     ///< marking that the left border is on; kNoElement: unpainted
   ElementId right_marking = kNoElement;    ///< likewise
   bool in_intersection = false;
   std::vector<ElementId> successors{};  ///< ascending
 };
 
+/// The truth of one road, in the map frame.
 struct Road {
   std::string name;
   bool right_hand_traffic = true;
@@ -37,7 +38,7 @@ struct Road {
   Drive drive;
 };
 
-/// Throws std::runtime_error where an id of a marking or a lane is 0 or given twice, or a lane refers to one
+/// Throws std::runtime_error if an id of a marking or a lane is 0 or given twice, or a lane refers to an id
 /// that the road does not have.
 void check_references(const Road& road);
 
@@ -51,13 +52,13 @@ void check_references(const Road& road);
 ///      "drive": [[t, x, y, z, qx, qy, qz, qw], …]}
 ///
 /// Coordinates are metres in the map frame, times are seconds since the drive's start, and the quaternion
-/// turns body into map. A marking 0 is none. Throws std::runtime_error naming the file if it cannot be
-/// written.
+/// turns body into map. A marking of 0 means that there is none. Throws std::runtime_error naming the file if
+/// it cannot be written.
 void save_truth(const std::filesystem::path& path, const Road& road);
 
-/// Reads what save_truth() wrote. Throws std::runtime_error naming file and key, where it cannot be read, a
-/// key is missing or of another type, a number is not finite, a coordinate too far away, the lines are too
-/// long in sum, or an id is unknown or given twice.
+/// Reads a file of save_truth(). Throws std::runtime_error naming file and key if it cannot be read, a key is
+/// missing or of another type, a number is not finite, a coordinate is too far away, the lines are too long
+/// in sum, or an id is unknown or given twice.
 Road load_truth(const std::filesystem::path& path);
 
 }  // namespace laneloom

@@ -32,7 +32,7 @@ bool continues(const RoadLane& from, const RoadLane& to) {
   return coincide(from.left.back(), to.left.front()) && coincide(from.right.back(), to.right.front());
 }
 
-// `to` opens beside the end of `from`, or `from` closes beside the start of `to`.
+// Whether `to` opens beside the end of `from`, or `from` closes beside the start of `to`.
 bool adjoins(const RoadLane& from, const RoadLane& to) {
   const bool touches =
       coincide(from.left.back(), to.right.front()) || coincide(from.right.back(), to.left.front());

@@ -11,9 +11,10 @@
 /// Right-hand traffic.
 namespace laneloom {
 
-/// From `at_m` on, a side has `lanes` lanes. Over a taper its edge moves outwards or inwards, and the new (or
-/// ending) lane is beside the edge. Without a taper another street takes the lane away or brings it: the edge
-/// jumps, and the lane's border is painted solid along the gore on the side that has fewer lanes.
+/// A change in the number of lanes: from `at_m` on, a side has `lanes` lanes. Over a taper its edge moves
+/// outwards or inwards, and the new (or ending) lane is beside the edge. Without a taper another street takes
+/// the lane away or brings it: the edge jumps, and the lane's border is painted solid along the gore on the
+/// side that has fewer lanes.
 struct LaneChange {
   double at_m = 0.0;
   int lanes = 1;
@@ -37,22 +38,22 @@ struct Section {
   RoadHalf backward{.lanes = 0, .changes = {}};  ///< 0: one-way, and the reference line is the left edge
   CentreLine centre = CentreLine::solid;
   double lane_width_m = 3.5;
-  int solid_after = 0;        ///< so many lanes from the reference line, the border is solid; 0: none is
+  int solid_after = 0;        ///< the border after so many lanes from the reference line is solid; 0: none
   double shoulder_m = 0.0;    ///< below 2.5; from a solid line to the edge, where no lane begins or ends
-  bool visible_edges = true;  ///< else it ends in grass
-  double gore_begin_m = 0.0;  ///< of a one-way street: its left edge is painted solid up to here (an exit)
+  bool visible_edges = true;  ///< else the street ends in grass
+  double gore_begin_m = 0.0;  ///< a one-way street's left edge is painted solid up to here (an exit)
   double gore_end_m = 0.0;    ///< likewise over this last length (an entry)
 };
 Section two_way(int forward, int backward, CentreLine centre);
-/// From the reference line to the outer border of so many lanes.
+/// The distance from the reference line to the outer border of `lanes` lanes.
 double half_width_m(int lanes, CentreLine centre, double lane_width_m = 3.5);
 
-/// Where a street meets an intersection: the end of its reference line there, heading away from the
-/// intersection.
+/// The mouth of a street at an intersection. `outward` is the end of its reference line there, heading away
+/// from the intersection.
 struct Mouth {
   Frame outward;
-  int leaving = 1;   ///< lanes
-  int arriving = 1;  ///< lanes
+  int leaving = 1;   ///< number of lanes away from the intersection
+  int arriving = 1;  ///< number of lanes towards it
   CentreLine centre = CentreLine::solid;
   double lane_width_m = 3.5;
 };
@@ -60,6 +61,7 @@ struct Mouth {
 Mouth mouth_at_start(const Alignment& alignment, const Section& section);
 Mouth mouth_at_end(const Alignment& alignment, const Section& section);
 
+/// Builds a road from streets and intersections. Not thread-safe.
 class RoadBuilder {
  public:
   explicit RoadBuilder(std::string name) { road_.name = std::move(name); }
@@ -73,7 +75,7 @@ class RoadBuilder {
   void add_intersection(const std::vector<Mouth>& mouths, bool stoplines = true);
 
   /// Joins markings, finds successors, and drives through the lanes nearest to the `waypoints`, in order.
-  /// Throws std::logic_error where no way leads from one waypoint to the next.
+  /// Throws std::logic_error if no way leads from one waypoint to the next.
   Road build(const Polyline& waypoints, double speed_mps) &&;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr int kMaxPasses = 2;
 constexpr int kTriesPerLane = 20;
-constexpr double kUnmarkedShare = 0.2;  // that a metre of a lane without lanelines counts
+constexpr double kUnmarkedShare = 0.2;  // weight of a metre of a lane without lanelines
 
 std::map<ElementId, std::size_t> index_by_id(const Road& road) {
   std::map<ElementId, std::size_t> index;
@@ -23,7 +23,7 @@ std::map<ElementId, std::size_t> index_by_id(const Road& road) {
   return index;
 }
 
-// Goes on at random among the successors passed least often.
+// A random way, which goes on among the successors passed least often.
 std::vector<std::size_t> wander(const std::vector<std::vector<std::size_t>>& successors, std::size_t from,
                                 Random& random) {
   std::vector<int> passes(successors.size(), 0);

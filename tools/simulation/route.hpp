@@ -7,16 +7,16 @@
 /// Ways through a road's lanes.
 namespace laneloom {
 
-/// The lane whose centerline is nearest to a point, heights included; the first of equals. The road has
-/// lanes.
+/// The lane whose centerline is nearest to a point, heights included; of equals, the first. The road must
+/// have lanes.
 std::size_t nearest_lane(const Road& road, const Point& point);
 
-/// Indices of the lanes from one lane to another by successors, the fewest possible, both included; empty
-/// where there is no way. From a lane to itself it is the shortest round.
+/// Indices of the fewest lanes that lead from one lane to another by successors, both included. Empty: there
+/// is no way. From a lane to itself it is the shortest round.
 std::vector<std::size_t> shortest_way(const Road& road, std::size_t from, std::size_t to);
 
 /// A long way by successors that passes no lane more than twice: the longest of many seeded tries, the same
-/// every time. The road has lanes.
+/// every time. The road must have lanes.
 std::vector<std::size_t> long_way(const Road& road);
 
 /// The centerlines of successive lanes as one path.

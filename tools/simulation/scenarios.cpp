@@ -49,7 +49,7 @@ Road street(double speed_mps) {
       {marked.point(10.0, -0.5 * kWidth_m), unmarked.point(200.0, -0.5 * kWidth_m)}, speed_mps);
 }
 
-// Over land, where nothing but the line between the directions is to be seen.
+// A road over land, where only the line between the directions can be seen.
 Road country_road(double speed_mps) {
   const Alignment edged({}, {straight(60.0)});
   const Alignment open(edged.end(), {straight(60.0), bend(60.0, -45.0), straight(120.0)});
@@ -82,7 +82,7 @@ Road merge(double speed_mps) {
   const Alignment way({}, {straight(300.0)});
   Section section = two_way(1, 1, CentreLine::solid);
   section.forward.changes = {{.at_m = entry_at_m, .lanes = 2, .taper_m = 0.0}, {.at_m = 190.0, .lanes = 1}};
-  // Laid out backwards from where it joins, for its start.
+  // The ramp is laid out backwards from the place where it joins, to find its start.
   const Alignment back(way.at(entry_at_m).moved(-kWidth_m).turned(180.0), {bend(60.0, 40.0), straight(60.0)});
   const Alignment ramp(back.end().turned(180.0), {straight(60.0), bend(60.0, -40.0)});
   RoadBuilder builder("merge");
@@ -109,7 +109,7 @@ struct Crossroads {
     builder.add_intersection(mouths);
   }
 
-  // In by one street, out by the other.
+  // A drive in by one street and out by the other.
   Road drive(std::size_t in, std::size_t out, double speed_mps) && {
     return std::move(builder).build(
         {streets[in].point(90.0, 0.5 * kWidth_m), streets[out].point(90.0, -0.5 * kWidth_m)}, speed_mps);
@@ -124,7 +124,7 @@ Road intersection(double speed_mps) {
   return Crossroads("intersection", {0.0, 90.0, 180.0, 270.0}).drive(2, 1, speed_mps);
 }
 
-// Up and down again with 8 % at the steepest, a crest between two sags.
+// A road up and down again with 8 % at the steepest: a crest between two sags.
 Road hill(double speed_mps) {
   const Profile elevation({{60.0, 0.0}, {210.0, 8.0}, {360.0, 0.0}});
   const Alignment way({}, {straight(420.0)}, elevation);
@@ -133,7 +133,7 @@ Road hill(double speed_mps) {
   return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m)}, speed_mps);
 }
 
-// Over a bridge 6 m high, round three quarters of a circle, and through under the bridge.
+// A road over a bridge 6 m high, round three quarters of a circle, and through under the bridge.
 Road overpass(double speed_mps) {
   const double radius_m = 50.0, before_m = 120.0, after_m = 50.0;
   const Profile elevation({{before_m + 60.0, 6.0}, {before_m + 60.0 + 190.0, 0.0}});

@@ -7,7 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/road.hpp"
 
-/// What of a road is before the sensors.
+/// The parts of a road that are before the sensors.
 namespace laneloom {
 
 /// A box in the body frame. It is flat, so that a road above or below another is not seen from there.
@@ -16,15 +16,15 @@ struct SensorView {
   double forward_max_m = 50.0;
   double side_max_m = 20.0;
   double height_max_m = 3.0;
-  std::vector<MarkingType> detected_types;  ///< what the network can detect; empty: every type
+  std::vector<MarkingType> detected_types;  ///< types that the network can detect; empty: every type
 
   Polyline polygon() const;  ///< body frame, counter-clockwise
   bool detects(MarkingType type) const;
-  /// The shares of a segment between which it is in the box.
+  /// The shares of a segment between which it is in the box. None: it is outside.
   std::optional<std::pair<double, double>> clip(const Point& from, const Point& to) const;
 };
 
-/// A line in the map, ready to be looked at again and again.
+/// A line in the map, prepared for repeated views.
 struct ViewedLine {
   explicit ViewedLine(const Polyline& points);
   bool may_be_near(const Point& position, double distance_m) const;
@@ -37,7 +37,7 @@ struct ViewedLine {
 
 /// A piece of a line in view.
 struct VisiblePiece {
-  Stretch arc;      ///< on the line; of a ring, a piece over its seam begins below 0
+  Stretch arc;      ///< on the line; a piece over the seam of a ring begins below 0
   Polyline points;  ///< body frame
 };
 

@@ -13,10 +13,10 @@ constexpr double kCornerRadius_m = 8.0;
 constexpr double kSideStreet_m = 60.0;
 constexpr double kWideBend_m = 42.0;  // radius
 
-// From an intersection's centre to its mouths.
+// The distance from an intersection's centre to its mouths.
 double reach_m(int lanes, CentreLine centre) { return half_width_m(lanes, centre) + kCornerRadius_m; }
 
-// The middle of the leftmost lane, which leads round the town.
+// A point in the middle of the leftmost lane, which leads round the town.
 Point on_lane(const Alignment& way, double s_m, const Section& section) {
   return way.point(s_m, -half_width_m(0, section.centre) - 0.5 * kWidth_m);
 }

@@ -56,7 +56,7 @@ VehiclePose pose(const json& value) {
           .orientation = quaternion(value, 4)};
 }
 
-/// Reads lines as long as they are not too long in sum.
+/// A reader of lines, which refuses them once they are too long in sum.
 auto lines_within(LengthLimit& limit) {
   return [&limit](const json& value) {
     Polyline points = line(value);
@@ -72,7 +72,7 @@ RoadMarking marking(const json& value, LengthLimit& limit) {
           .points = required(value, "points", lines_within(limit))};
 }
 
-/// A road that an importer took has no more of each.
+/// Limits on a road's borders and centerlines. Every road that an importer accepts is within them.
 struct LaneLimits {
   LengthLimit borders, centerlines;
 };

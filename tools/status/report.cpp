@@ -33,7 +33,7 @@ json time_json(const TimeSummary& time) {
   return {{"mean", time.mean_ms}, {"p50", time.p50_ms}, {"p99", time.p99_ms}, {"max", time.max_ms}};
 }
 
-/// Those that are not zero, a line each, with what they rose by.
+/// The counters that are not zero, a line each, with their rise.
 std::string counter_lines(const ServiceStatus& status, const std::map<std::string, std::uint64_t>& risen) {
   std::string text;
   for (const auto& [counter, total] : status.counters) {
@@ -45,7 +45,7 @@ std::string counter_lines(const ServiceStatus& status, const std::map<std::strin
   return text;
 }
 
-/// What was learned of a network, in a line a subject; empty where nothing was.
+/// The values that were learned of a network, a line for each subject. Empty: nothing was learned.
 std::string learned_lines(const SourceStatus& source) {
   const std::map<std::string, double> learned(source.learned.begin(), source.learned.end());
   std::string text;

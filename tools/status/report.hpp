@@ -9,12 +9,13 @@
 
 namespace laneloom {
 
-/// By how much each counter rose since `previous`, of the same session. What did not rise is left out.
+/// The rise of each counter since `previous`, which is of the same session. Counters that did not rise are
+/// left out.
 std::map<std::string, std::uint64_t> rises(const ServiceStatus& status, const ServiceStatus& previous);
 
-/// For people, several lines; `previous` (null for the first) is of the same session.
+/// A text for people, of several lines. `previous` is of the same session; null for the first status.
 std::string describe(const ServiceStatus& status, const ServiceStatus* previous);
-/// For machines: one object; what is unknown is null.
+/// An object for machines. Unknown values are null.
 nlohmann::json to_json(const ServiceStatus& status, const ServiceStatus* previous);
 
 }  // namespace laneloom

@@ -7,8 +7,9 @@
 
 namespace laneloom {
 
-/// When each detection frame of a session was handed to DDS, as a table "session_id,sequence,published_ns"
-/// (system clock). Written through: what a killed publisher wrote is there.
+/// Writes a table "session_id,sequence,published_ns" with the time (system clock) at which each detection
+/// frame of a session was handed to DDS. Each line is flushed, so that the table of a killed publisher is
+/// complete.
 class PublicationLogWriter {
  public:
   /// Throws std::runtime_error where the file cannot be written.
@@ -23,12 +24,13 @@ class PublicationLogWriter {
   std::ofstream out_;
 };
 
+/// The publication times of one session, in nanoseconds of the system clock.
 struct PublicationLog {
   std::uint64_t session_id = 0;
   std::map<std::uint64_t, std::int64_t> times_ns;  ///< by sequence
 };
 
-/// Throws std::runtime_error naming file and line.
+/// Reads such a table. Throws std::runtime_error naming file and line.
 PublicationLog read_publication_log(const std::filesystem::path& path);
 
 }  // namespace laneloom

@@ -9,7 +9,7 @@
 
 namespace laneloom {
 
-/// Mean, p50, p99 and maximum, by nearest rank. 0 where there are none.
+/// Mean, p50, p99 and maximum, by nearest rank. All are 0 if there are no values.
 TimeSummary summarise(std::vector<double> values_ms);
 
 /// Measures the mapper's stages, frame by frame.
@@ -18,10 +18,10 @@ class StageTimer : public StageObserver {
   void update_begins() override;
   void stage_done(Stage stage) override;
 
-  /// Over all frames. What a frame did not reach counts as no time.
+  /// The times of a stage over all frames. A frame that did not reach it counts with a time of 0.
   TimeSummary stage(Stage stage) const;
   TimeSummary total() const;
-  /// Whether any frame reached it.
+  /// Whether any frame reached a stage.
   bool reached(Stage stage) const;
 
  private:

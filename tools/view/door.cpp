@@ -10,7 +10,7 @@
 namespace laneloom {
 namespace {
 
-/// "[::1]:8642" is "::1".
+/// The host without its port: "::1" for "[::1]:8642".
 std::string_view without_port(std::string_view host) {
   if (!host.empty() && host.front() == '[') {
     const auto end = host.find(']');
@@ -25,7 +25,7 @@ bool is_ip_address(std::string_view text) {
   return inet_pton(AF_INET, copy.c_str(), &bytes) == 1 || inet_pton(AF_INET6, copy.c_str(), &bytes) == 1;
 }
 
-/// Takes as long for any text of one length.
+/// Whether two secrets are equal. It takes the same time for all texts of one length.
 bool equal_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -33,7 +33,7 @@ bool equal_secret(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-/// The value of `key` in "key=value; other=value", whatever separates.
+/// The value of `key` in "key=value; other=value", with any separator.
 std::string_view value_of(std::string_view list, std::string_view key, char separator) {
   while (!list.empty()) {
     std::string_view item = list.substr(0, list.find(separator));
@@ -63,7 +63,8 @@ unsigned Door::judge(const Knock& knock) const {
   return token_.empty() || brings_token(knock) ? 200 : 401;
 }
 
-/// The port is of no account: a tunnel (ssh -L) may have another at its other end.
+/// Whether a name is one of this server's. The port does not matter: a tunnel (ssh -L) may have another one
+/// at its other end.
 bool Door::is_own_host(std::string_view host) const {
   const std::string_view name = without_port(host);
   if (name == address_ || name == "localhost" || is_loopback(name)) return true;
@@ -71,7 +72,8 @@ bool Door::is_own_host(std::string_view host) const {
   return on_every_address && is_ip_address(name);
 }
 
-/// What is no browser sends no Origin, and what a browser asks of its own page needs none.
+/// Whether a request comes from an own page or from no page. Programs that are no browsers send no Origin,
+/// and neither does a browser for requests of the page itself.
 bool Door::is_own_origin(const Knock& knock) const {
   if (knock.origin.empty() || knock.origin == "http://" + std::string(knock.host)) return true;
   return knock.is_for_programs &&

@@ -4,24 +4,24 @@
 #include <string_view>
 #include <vector>
 
-/// Who may ask the viewer's web server for what.
+/// The rules that decide who may ask the viewer's web server for what.
 namespace laneloom {
 
-/// What of a request decides whether the request is answered. What a request does not have is empty.
+/// The parts of a request that decide whether it is answered. A part that the request lacks is empty.
 struct Knock {
   std::string_view method, target, host, origin, cookie, authorization;
-  bool is_for_programs = false;  ///< asks for the stream that other programs' pages may be allowed to read
+  bool is_for_programs = false;  ///< whether it asks for the stream that pages of other programs may read
 };
 
 /// Decides by the rules of one server. Immutable, so thread-safe.
 ///
-/// A page of another site can make a browser send requests here. Such a page is told apart by `Origin`, and
-/// one that has its own name point to this host (DNS rebinding) by `Host`.
+/// A page of another site can make a browser send requests here. Such a page is recognised by `Origin`. A
+/// page whose own name points to this host (DNS rebinding) is recognised by `Host`.
 class Door {
  public:
-  /// `address` is what the server listens on. Where `token` is not empty, every request has to bring the
-  /// token: in the target (`?token=`), in the cookie `cookie_name()`, or as `Authorization: Bearer`. Pages of
-  /// `program_origins` get the stream for programs, and nothing else.
+  /// `address` is the address that the server listens on. If `token` is not empty, every request must bring
+  /// the token: in the target (`?token=`), in the cookie `cookie_name()`, or as `Authorization: Bearer`.
+  /// Pages of `program_origins` get the stream for programs, and nothing else.
   Door(std::string address, std::string token, std::vector<std::string> program_origins = {});
 
   /// The status of HTTP that the request deserves: 200, 401 (no token), 403 (foreign Host or Origin), or 405
@@ -43,16 +43,16 @@ class Door {
 /// A target is its path and the values after it: "/frame?number=7".
 struct Target {
   explicit Target(std::string_view target);
-  /// The value of `key`; empty where there is none. Nothing is decoded: no value of ours needs that.
+  /// The value of `key`; empty if there is none. Values are not decoded, since none of ours needs it.
   std::string_view value(std::string_view key) const;
 
   std::string_view path, query;
 };
 
-/// 128 random bits in hexadecimal. Throws std::exception where the system gives none.
+/// 128 random bits in hexadecimal. Throws std::exception if the system gives none.
 std::string random_token();
 
-/// Whether nobody but this host reaches the address.
+/// Whether only this host reaches the address.
 bool is_loopback(std::string_view address);
 
 }  // namespace laneloom

@@ -14,14 +14,14 @@ struct ViewEvent {
   std::string text;  ///< for people
 };
 
-/// Finds what happened, moment by moment. Not thread-safe.
+/// Finds events from moment to moment. Not thread-safe.
 class EventFinder {
  public:
-  /// What happened since the moment before; nothing at the first.
+  /// The events since the moment before; none at the first moment.
   std::vector<ViewEvent> next(const ViewMoment& moment);
 
  private:
-  /// What a moment is compared by.
+  /// The parts by which moments are compared.
   struct Seen {
     bool alive = true;
     std::uint64_t session_id = 0, map_id = 0;

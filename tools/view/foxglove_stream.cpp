@@ -8,11 +8,11 @@ namespace {
 
 using nlohmann::json;
 
-/// The first is preferred: Foxglove's own programs take no other.
+/// The subprotocols, the preferred one first. Foxglove's own programs take only that one.
 constexpr std::array<std::string_view, 2> kSubprotocols{"foxglove.sdk.v1", "foxglove.websocket.v1"};
 constexpr std::size_t kMaxSubscriptions = 64;
 
-// Slots of an outbox. Those of subscriptions are the subscriptions' numbers.
+// Slots of an outbox. The slot of a subscription is the subscription's number.
 constexpr std::uint64_t kServerInfoSlot = 1ULL << 32U, kAdvertiseSlot = kServerInfoSlot + 1,
                         kStatusSlot = kServerInfoSlot + 2;
 
@@ -37,7 +37,7 @@ void append_little_endian(Number number, std::string& to) {
     to += static_cast<char>((number >> (8U * byte)) & 0xFFU);
 }
 
-/// Of a message with data: its kind, the subscription, and the log time.
+/// The header of a message with data: its kind, the subscription, and the log time.
 std::string header_of(std::uint32_t subscription, std::int64_t log_time_ns) {
   constexpr char kMessageData = 1;
   std::string header(1, kMessageData);
@@ -52,7 +52,7 @@ void complain(const std::string& text, Outbox& outbox) {
              {.header = {}, .body = shared({{"op", "status"}, {"level", kError}, {"message", text}})});
 }
 
-/// A number of `object` that has 32 bits and no sign.
+/// An unsigned number of 32 bits in `object`. None: it has no such number.
 std::optional<std::uint32_t> number_in(const json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   if (!object.is_object() || found == object.end() || !found->is_number_unsigned()) return std::nullopt;
@@ -96,7 +96,7 @@ void FoxgloveStream::open(const NewestPublications&, Outbox& outbox) {
   outbox.put(kAdvertiseSlot, {.header = {}, .body = greeting_.advertise});
 }
 
-/// Operations that are not offered here, as others' servers have them, are passed over.
+/// Operations of other servers that are not offered here are passed over.
 bool FoxgloveStream::receive(std::string_view text, const NewestPublications& newest, Outbox& outbox) {
   const json message = json::parse(text, nullptr, false);
   if (!message.is_object() || !message.contains("op")) return false;

@@ -11,14 +11,14 @@
 
 namespace laneloom {
 
-/// The newest of Foxglove's subprotocols among those offered (Sec-WebSocket-Protocol); empty: none is. What a
-/// server sends is the same in all of them.
+/// The newest of Foxglove's subprotocols among those offered (Sec-WebSocket-Protocol). Empty: none is
+/// offered. The messages of a server are the same in all of them.
 std::string_view foxglove_subprotocol(std::string_view offered);
 
-/// What clients of Foxglove's WebSocket protocol are told first. Immutable.
+/// The first messages to clients of Foxglove's WebSocket protocol. Immutable.
 struct FoxgloveGreeting {
-  /// Clients that come back to another `session` forget what they were shown before. The channels of the
-  /// topics, whose messages are CDR, begin at `first_channel`.
+  /// Clients that come back to another `session` forget all that they showed. The channels of the topics,
+  /// whose messages are CDR, begin at `first_channel`.
   FoxgloveGreeting(const std::vector<ExtraTopic>& topics, std::size_t first_channel,
                    const std::string& session);
 

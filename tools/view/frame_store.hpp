@@ -16,16 +16,16 @@ class FrameStore {
  public:
   /// `summary` is a JSON object.
   void add(std::string summary, std::string_view frame);
-  /// Nothing more will be added; `error` says why that is less than there should be, or is empty.
+  /// Notes that no more frames will be added. `error` says why frames are missing; empty: none are.
   void finish(const std::string& error = "");
 
   std::size_t size() const;
-  /// Why there is nothing to show, and never will be; empty while there is, or may be.
+  /// The reason why there will never be a frame to show. Empty: there is one, or there may still be.
   std::string failure() const;
-  /// None: there is no such frame.
+  /// The frame of a number. None: there is no such frame.
   std::optional<std::string> frame(std::size_t number) const;
-  /// The summaries from a number on, as many as one answer takes:
-  /// {"complete": true, "error": "", "frames": [summary, …]}. It is complete when it holds the last one.
+  /// The summaries from a number on, as many as fit into one answer: {"complete": true, "error": "",
+  /// "frames": [summary, …]}. It is complete if it holds the last one.
   std::string summaries(std::size_t from) const;
 
  private:

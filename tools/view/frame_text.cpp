@@ -53,7 +53,7 @@ double setting(const ServiceStatus& status, std::string_view key, double otherwi
   return otherwise;
 }
 
-/// As the service has it, where its status tells.
+/// The range of the service, if its status tells it, or else `range`.
 RangeConfig range_of(const ViewMoment& moment, RangeConfig range) {
   if (!moment.status) return range;
   range.forward_min_m = setting(*moment.status, "mapper.range.forward_min_m", range.forward_min_m);

@@ -8,20 +8,21 @@
 #include "view/events.hpp"
 #include "view/moment.hpp"
 
-/// What the page is sent of a moment, as JSON.
+/// The messages to the page about a moment, as JSON.
 namespace laneloom {
 
-/// Where a frame stands among the others of its view.
+/// The place of a frame among the frames of its view.
 struct FramePlace {
-  std::uint64_t number = 0;  ///< counts up by one: a viewer sees which ones it lost
+  std::uint64_t number = 0;  ///< counts up by one, so that a viewer sees which frames it lost
   std::vector<ViewEvent> events;
 };
 
-/// One object with what the strips and the list of events need: stamps, state, times, lineage.
+/// A summary as one object with the data for the strips and the list of events: stamps, state, times,
+/// lineage.
 std::string summary_text(const ViewMoment& moment, const FramePlace& place);
 
-/// The summary with the elements to draw, of the maps to compare with likewise, and the status. `range` is
-/// the map's range box, for where the status does not tell it.
+/// A frame: the summary, the elements to draw of the map and of the maps to compare with, and the status.
+/// `range` is the map's range box, in case that the status does not tell it.
 std::string frame_text(const ViewMoment& moment, const FramePlace& place, const RangeConfig& range);
 
 }  // namespace laneloom

@@ -14,7 +14,7 @@ namespace {
 
 using Labels = std::vector<std::pair<std::string_view, std::string>>;
 
-/// What others call themselves, as the value of a label: ASCII, with the escapes of the format.
+/// A name that others gave themselves, as the value of a label: ASCII, with the escapes of the format.
 std::string label_text(const std::string& text) {
   std::string escaped;
   for (const char c : printable(text)) {
@@ -67,7 +67,7 @@ void add_times(Text& text, std::string_view name, std::string_view help, const T
     text.sample(milliseconds / 1e3, {{"statistic", statistic}});
 }
 
-/// One family: a value of each source.
+/// Adds one family with a value of each source.
 template <class Value>
 void add_sources(Text& text, const std::vector<SourceStatus>& sources, const Value& value) {
   for (const SourceStatus& source : sources)

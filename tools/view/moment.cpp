@@ -5,7 +5,7 @@
 namespace laneloom {
 namespace {
 
-/// More than the service lets wait for their poses.
+/// Number of frames that are kept: more than the service lets wait for their poses.
 constexpr std::size_t kFrames = 64;
 
 }  // namespace

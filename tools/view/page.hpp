@@ -6,6 +6,7 @@
 
 namespace laneloom {
 
+/// One file of the page.
 struct PageFile {
   std::string type;  ///< of HTTP's Content-Type
   std::string text;

@@ -12,7 +12,8 @@
 namespace laneloom {
 namespace {
 
-/// A status comes every second; metrics of a service that is gone must not look alive.
+/// Metrics are of a status that is at most this old. A status comes every second, and metrics of a service
+/// that is gone must not look alive.
 constexpr std::chrono::seconds kStatusLasts{5};
 
 WebAnswer not_found() { return {404, "text/plain", "not found\n"}; }

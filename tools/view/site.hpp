@@ -13,13 +13,14 @@
 
 namespace laneloom {
 
-/// What a viewer asks for by HTTP, live and of a recording alike: the page with its modules, `/info`,
-/// `/palette`, `/truth`, `/metrics`, and of a recording `/recording?from=` and `/frame?number=`. Thread-safe.
+/// The answers to a viewer's requests by HTTP, both live and of a recording: the page with its modules,
+/// `/info`, `/palette`, `/truth`, `/metrics`, and of a recording `/recording?from=` and `/frame?number=`.
+/// Thread-safe.
 class Site {
  public:
-  /// `title` names the vehicle or the recording. `recording` is null for a live view, and else outlives this.
-  /// `truth` are elements to draw in every frame, as JSON. `names` are those of the maps that are compared;
-  /// none: there is one map.
+  /// `title` names the vehicle or the recording. `recording` is null for a live view; otherwise it must
+  /// outlive this. `truth` has elements to draw in every frame, as JSON. `names` are the names of the maps
+  /// that are compared; empty: there is one map.
   Site(std::string title, std::string truth, const FrameStore* recording,
        std::vector<std::string> names = {});
 

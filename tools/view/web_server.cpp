@@ -1,4 +1,4 @@
-// The one source that knows Boost.Beast, which takes half a minute to compile.
+// The only source that includes Boost.Beast, which takes half a minute to compile.
 #include "view/web_server.hpp"
 
 #include <boost/asio/post.hpp>
@@ -11,7 +11,7 @@ namespace laneloom {
 namespace {
 
 constexpr std::uint32_t kMaxHeaderBytes = 8192;
-constexpr int kSendBufferBytes = 1 << 17;  // of the kernel: a tab that was suspended sees few old frames
+constexpr int kSendBufferBytes = 1 << 17;  // the kernel's; a tab that was suspended sees few old frames
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -24,7 +24,7 @@ Knock knock_of(const Request& request) {
           .authorization = view_of(request[http::field::authorization])};
 }
 
-/// One connection over which requests come, one after another.
+/// A connection over which requests come, one after another.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Tcp::socket&& socket, Hub& hub) : stream_(std::move(socket)), hub_(hub), place_(hub) {}
@@ -41,7 +41,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
  private:
   void on_read(error_code error) {
     if (error == beast::error::timeout || error == http::error::end_of_stream) return end();
-    // Of what is no request, or one with a body, the rest is not read.
+    // The rest of a malformed request, or of one with a body, is not read.
     if (error)
       return refuse(error == http::error::header_limit ? 431 : error == http::error::body_limit ? 413 : 400);
     const Request& request = parser_->get();
@@ -55,7 +55,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     answer(hub_.handler(view_of(request.target())), request.keep_alive());
   }
 
-  /// Empty: the request is for the page, or for nothing that there is.
+  /// The subprotocol of Foxglove that a request asks for. Empty: it asks for none.
   std::string_view foxglove_protocol(const Request& request) const {
     if (!hub_.foxglove || !websocket::is_upgrade(request)) return {};
     return foxglove_subprotocol(view_of(request[http::field::sec_websocket_protocol]));
@@ -166,7 +166,7 @@ class WebServer::Impl {
     });
   }
 
-  /// The process may be out of file descriptors for a moment.
+  /// Accepts again after a pause: the process may be out of file descriptors for a moment.
   void retry() {
     pause_.expires_after(std::chrono::milliseconds(100));
     pause_.async_wait([this](error_code) { accept(); });

@@ -12,15 +12,16 @@
 
 namespace laneloom {
 
+/// Address, limits and offered protocols of a web server.
 struct WebServerConfig {
-  std::string address = "127.0.0.1";          ///< a number, no name
-  std::uint16_t port = 0;                     ///< 0: one that is free
-  std::string token;                          ///< that every request has to bring; empty: none
-  std::size_t max_viewers = 64;               ///< WebSockets; one more is answered with 503
-  std::size_t max_connections = 256;          ///< of both kinds; one more is closed
-  double patience_s = 15.0;                   ///< for a whole request, and for a client to take its answer
-  std::vector<ExtraTopic> foxglove_topics;    ///< for clients of Foxglove's protocol; none: it is not spoken
-  std::vector<std::string> foxglove_origins;  ///< pages of other origins that may be such clients
+  std::string address = "127.0.0.1";        ///< as a number, not a name
+  std::uint16_t port = 0;                   ///< 0: a free one
+  std::string token;                        ///< must be brought by every request; empty: there is none
+  std::size_t max_viewers = 64;             ///< WebSockets; a further one is answered with 503
+  std::size_t max_connections = 256;        ///< HTTP and WebSockets; a further one is closed
+  double patience_s = 15.0;                 ///< for a whole request, and for a client to take its answer
+  std::vector<ExtraTopic> foxglove_topics;  ///< for clients of Foxglove's protocol; empty: it is not offered
+  std::vector<std::string> foxglove_origins;  ///< origins of other pages that may be such clients
 };
 
 /// The answer to a GET.
@@ -34,15 +35,15 @@ struct WebAnswer {
 /// WebSocket of any path that asks for it), in a thread of its own.
 ///
 /// Only GET is answered, only to its own pages (view/door.hpp), and with a policy (CSP) that lets a page load
-/// nothing from elsewhere. Of what clients send over their WebSockets, only Foxglove's subscriptions are
-/// looked at. Each client has a slot for one frame, or one of each topic: where a client is slow, a newer
-/// message takes the place of the one that waits.
+/// nothing from elsewhere. Of the messages that clients send over their WebSockets, only Foxglove's
+/// subscriptions are read. Each client has a slot for one frame, or one for each topic: if a client is slow,
+/// a newer message replaces the one that waits.
 class WebServer {
  public:
   /// Answers a GET of `target`. Called by the server's thread; must not throw, nor take long.
   using Handler = std::function<WebAnswer(std::string_view target)>;
 
-  /// Throws std::runtime_error where the address cannot be listened on.
+  /// Throws std::runtime_error if it can not listen on the address.
   WebServer(const WebServerConfig& config, Handler handler);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
@@ -50,9 +51,11 @@ class WebServer {
   ~WebServer();
 
   std::uint16_t port() const;
-  /// Gives the frame to all viewers, and to those who come later until there is a newer one. Thread-safe.
+  /// Sends the frame to all viewers, and to viewers that come later until there is a newer frame.
+  /// Thread-safe.
   void publish(std::string frame);
-  /// Gives the message of `foxglove_topics[topic]`, as CDR, to its subscribers, likewise.
+  /// Sends a message of `foxglove_topics[topic]`, as CDR, to its subscribers, and to later ones likewise.
+  /// Thread-safe.
   void publish(std::size_t topic, std::int64_t log_time_ns, std::string message);
 
  private:

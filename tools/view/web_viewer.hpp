@@ -1,6 +1,7 @@
 #pragma once
 
-// A part of web_server.cpp, and of no other source: Boost.Beast takes half a minute to compile.
+// A part of web_server.cpp. No other source may include it, because Boost.Beast takes half a minute to
+// compile.
 
 #include <array>
 #include <boost/asio/ip/tcp.hpp>
@@ -33,7 +34,7 @@ inline constexpr std::size_t kPageChannel = 0, kFirstTopicChannel = 1;
 
 class Viewer;
 
-/// What all connections share. Only the server's thread has to do with it.
+/// The state that all connections share. Only the server's thread uses it.
 struct Hub {
   Hub(const WebServerConfig& server, WebServer::Handler answer)
       : config(server),
@@ -125,7 +126,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     });
   }
 
-  /// For subscriptions, pongs and the end.
+  /// Reads on, for subscriptions, pongs and the end.
   void listen() {
     socket_.async_read(inbox_, [self = shared_from_this()](error_code error, std::size_t) {
       if (error || !self->take()) return self->leave();
@@ -133,7 +134,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     });
   }
 
-  /// A message of the client; one that is no text is dropped.
+  /// Takes a message of the client. A message that is no text is dropped. Returns false if the client must be
+  /// disconnected.
   bool take() {
     const auto bytes = inbox_.cdata();
     const std::string_view text(static_cast<const char*>(bytes.data()), bytes.size());
@@ -143,14 +145,14 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     return good;
   }
 
-  /// Ends a write that may wait for a viewer who takes nothing.
+  /// Closes the socket. This ends a write that may wait for a viewer which reads nothing.
   void leave() {
     error_code ignored;
     beast::get_lowest_layer(socket_).socket().close(ignored);
   }
 
-  static constexpr std::size_t kMaxMessageBytes = 16384;  // of what a client sends
-  /// After which a client that answers no ping is gone.
+  static constexpr std::size_t kMaxMessageBytes = 16384;  // of a message that a client sends
+  /// A client that answers no ping for this long is gone.
   static constexpr std::chrono::seconds kSilence{60};
 
   websocket::stream<beast::tcp_stream> socket_;

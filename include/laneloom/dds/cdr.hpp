@@ -8,27 +8,29 @@
 #include <string_view>
 #include <vector>
 
-/// Messages as bytes, exactly as they go over the wire: plain CDR behind its encapsulation header.
-/// T is DetectionFrame, VehiclePose, PublishedMap, RoadMarkings or ServiceStatus.
+/// Messages as bytes, exactly as they go over the wire: plain CDR behind its encapsulation header. T is
+/// DetectionFrame, VehiclePose, PublishedMap, RoadMarkings or ServiceStatus.
 namespace laneloom::dds {
 
-/// Returns how many elements were left out, because they exceed the bounds of the IDL or refer to what does.
-/// `map_frame_id` is the frame that poses are in.
+/// Writes `from` as bytes to `to`. Returns how many elements were left out because they exceed the bounds of
+/// the IDL, or refer to an element that does. `map_frame_id` is the frame that poses are in.
 template <class T>
 std::size_t to_cdr(const T& from, const std::string& map_frame_id, std::vector<std::uint8_t>& to);
 
-/// Why the bytes are refused, by the names that a Reader uses; empty: they are not, and `to` is set.
+/// Reads `to` from bytes. Returns why the bytes are refused, by the names that ReaderCallbacks::refused
+/// lists; empty: they are valid, and `to` is set.
 template <class T>
 std::string_view from_cdr(std::span<const std::uint8_t> from, const std::string& map_frame_id, T& to);
 
-/// What every message begins with.
+/// The beginning of every message.
 struct CdrHeader {
-  std::int64_t stamp_ns = 0;
-  std::uint64_t sequence = 0;
-  std::uint64_t session_id = 0;
+  std::int64_t stamp_ns = 0;     ///< sensor clock
+  std::uint64_t sequence = 0;    ///< counts up by one per message
+  std::uint64_t session_id = 0;  ///< of the writer's run; another value means that it was restarted
 };
 
-/// None: the bytes are too short, or no plain CDR. Whether the rest is well formed is not looked at.
+/// Reads the header of a message. Empty: the bytes are too short, or are not plain CDR. The bytes behind the
+/// header are not checked.
 std::optional<CdrHeader> header_of(std::span<const std::uint8_t> message);
 
 }  // namespace laneloom::dds

@@ -12,34 +12,35 @@ namespace laneloom::dds {
 
 /// A participant as others see it.
 struct Peer {
-  std::string id;       ///< its GUID's prefix
-  std::string name;     ///< what it calls itself; may be empty, and is no more than its word
-  std::string address;  ///< the first that it receives data at; empty: it told none
+  std::string id;       ///< the prefix of its GUID
+  std::string name;     ///< the name that it gives itself, unchecked; may be empty
+  std::string address;  ///< the first address at which it receives data; empty: it told none
 };
 
 /// A writer's durability tells how long it keeps samples for readers that come later. A later value offers
 /// more.
 enum class Durability { volatile_, transient_local, transient, persistent };
-/// A writer's liveliness tells who says that it is alive. A later value offers more.
+/// A writer's liveliness tells who asserts that it is alive. A later value offers more.
 enum class Liveliness { automatic, manual_by_participant, manual_by_topic };
 
 /// A writer or a reader of another participant, with the quality of service that decides on a match.
 struct Endpoint {
-  bool is_writer = false;
-  Peer participant;
-  std::string topic, type;
-  std::vector<std::string> partitions;  ///< none: the default one, whose name is empty
-  bool reliable = false;
+  bool is_writer = false;               ///< else it is a reader
+  Peer participant;                     ///< whose endpoint it is
+  std::string topic, type;              ///< names as on DDS
+  std::vector<std::string> partitions;  ///< empty: the default partition
+  bool reliable = false;                ///< else best effort
   Durability durability = Durability::volatile_;
-  std::optional<double> deadline_s;  ///< none: infinite
+  std::optional<double> deadline_s;  ///< between two samples; none: infinite
   Liveliness liveliness = Liveliness::automatic;
   std::optional<double> lease_s;  ///< of the liveliness; none: infinite
-  bool exclusive = false;         ///< ownership
-  WriterId id{};                  ///< of a writer
+  bool exclusive = false;         ///< ownership of samples is exclusive, else shared
+  WriterId id{};                  ///< only of a writer
 };
 
-/// Who else is in the domain, in any partition, and what they write and read. It has a participant of its
-/// own, which sees all but itself. With DDS-Security, endpoints of others show once they trust this one.
+/// Finds the other participants of the domain, in any partition, and their writers and readers. It has a
+/// participant of its own, which sees all but itself. With DDS-Security, endpoints of others show once they
+/// trust this participant.
 class Discovery {
  public:
   /// `name` is shown to others. Throws as Participant does.
@@ -48,9 +49,9 @@ class Discovery {
   Discovery& operator=(Discovery&&) noexcept;
   ~Discovery();
 
-  /// Those who are there now. May be called from any thread.
+  /// The participants that are there now. May be called from any thread.
   std::vector<Peer> participants() const;
-  /// Their writers and readers that are there now. May be called from any thread.
+  /// The writers and readers that are there now. May be called from any thread.
   std::vector<Endpoint> endpoints() const;
 
  private:

@@ -17,7 +17,7 @@ using WriterId = std::array<std::uint8_t, 16>;
 
 /// Opens the files that the configuration names, as a participant would. Throws ConfigError
 /// (laneloom/error.hpp) when the profile is missing or invalid, or a file of security is unreadable; whether
-/// DDS believes what is in the latter only shows when there is a participant. Thread-safe.
+/// DDS trusts the files of security only shows when there is a participant. Thread-safe.
 void check_files(const DdsConfig& config);
 
 /// The longest datagram, in bytes, that a participant with this configuration receives whole. Fast DDS cuts
@@ -28,7 +28,7 @@ std::uint32_t largest_datagram(const DdsConfig& config);
 /// others. The list is empty where the participant finds them by itself. Throws as check_files().
 std::vector<std::string> discovery_servers(const DdsConfig& config);
 
-/// DDS does not believe the files of security, or they do not permit what is wanted.
+/// Is thrown where DDS does not trust the files of security, or they do not permit what is wanted.
 struct NotPermitted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -37,7 +37,7 @@ struct NotPermitted : std::runtime_error {
 /// Not thread-safe; not to be used within a reader's callback.
 class Participant {
  public:
-  /// A hidden one is only to see what DDS refuses, and neither hears nor is heard.
+  /// A hidden participant neither hears others nor is heard. It only serves to see what DDS refuses.
   enum class Presence { shown, hidden };
   /// `name` is shown to others. Throws ConfigError as check_files(), NotPermitted where there is security and
   /// DDS refuses, else std::runtime_error.

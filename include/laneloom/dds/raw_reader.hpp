@@ -19,7 +19,7 @@ class RawReader {
   /// Called by threads of DDS, as the callbacks of a Reader are.
   using Callback = std::function<void(const WriterId& writer, std::vector<std::uint8_t>&& message)>;
 
-  /// `callback` may be called from then on.
+  /// `callback` may be called before the constructor returns.
   RawReader(const Participant& participant, Callback callback);
   RawReader(RawReader&&) noexcept;
   RawReader& operator=(RawReader&&) noexcept;

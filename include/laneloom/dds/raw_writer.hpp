@@ -8,9 +8,9 @@
 
 namespace laneloom::dds {
 
-/// Writes the topic of T (as for Writer) from messages as they go over the wire, well-formed or not: what a
-/// RawReader once received. No RawWriter shares its topic with another reader or writer of one participant.
-/// Not thread-safe; throws std::runtime_error when it can't be made.
+/// Writes the topic of T (as for Writer) from messages as they go over the wire, well-formed or not, such as
+/// a RawReader received. No RawWriter shares its topic with another reader or writer of one participant. Not
+/// thread-safe; throws std::runtime_error when it can't be made.
 template <class T>
 class RawWriter {
  public:
@@ -20,9 +20,10 @@ class RawWriter {
   RawWriter& operator=(RawWriter&&) noexcept;
   ~RawWriter();
 
-  /// False when DDS did not take it, as when it is longer than any message of the topic can be.
+  /// Returns false when DDS did not take the message, for example because it is longer than any message of
+  /// the topic can be.
   bool write(const std::vector<std::uint8_t>& message);
-  /// Readers that are matched now. May be called from any thread.
+  /// Number of readers that are matched now. May be called from any thread.
   int matched() const;
 
  private:

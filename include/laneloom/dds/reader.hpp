@@ -9,19 +9,20 @@
 
 namespace laneloom::dds {
 
-/// Called by threads of DDS. They must return quickly, not make or end readers or writers, and not throw
-/// (what they throw is swallowed). Any of them may be empty.
+/// Functions that threads of DDS call. They must return quickly, must not make or end readers or writers, and
+/// must not throw (an exception is swallowed). Any of them may be empty.
 template <class T>
 struct ReaderCallbacks {
-  std::function<void(T&&)> sample;
-  /// A sample that is no valid T, with a stable name of the reason:
-  /// crc, data_id, malformed, unknown_enum, not_text, not_finite, not_a_rotation, wrong_frame, wrong_size.
+  std::function<void(T&&)> sample;  ///< a valid sample
+  /// A sample that is no valid T. `reason` is one of these stable names: crc, data_id, malformed,
+  /// unknown_enum, not_text, not_finite, not_a_rotation, wrong_frame, wrong_size.
   std::function<void(std::string_view reason)> refused;
-  /// Before each of these: who wrote it, and the number that it has among its writer's samples.
+  /// Is called before each `sample` or `refused`: `writer` wrote it, as its sample of this `number`. Is also
+  /// called for a message by which a writer only tells that it ends.
   std::function<void(const WriterId& writer, std::uint64_t number)> numbered;
-  std::function<void(int writers)> matched;            ///< writers that are matched now
-  std::function<void(int writers)> alive;              ///< writers that assert their liveliness now
-  std::function<void(std::uint64_t)> deadline_missed;  ///< in total
+  std::function<void(int writers)> matched;            ///< number of writers that are matched now
+  std::function<void(int writers)> alive;              ///< number of writers that assert their liveliness now
+  std::function<void(std::uint64_t)> deadline_missed;  ///< number of deadlines missed, in total
 };
 
 /// Reads one topic; T as for Writer. Input topics are read best effort, so that writers of both kinds match.
@@ -29,13 +30,13 @@ struct ReaderCallbacks {
 template <class T>
 class Reader {
  public:
-  /// `callbacks` may be called from then on.
+  /// `callbacks` may be called before the constructor returns.
   Reader(const Participant& participant, ReaderCallbacks<T> callbacks);
   Reader(Reader&&) noexcept;
   Reader& operator=(Reader&&) noexcept;
   ~Reader();
 
-  /// Writers that are matched now. May be called from any thread.
+  /// Number of writers that are matched now. May be called from any thread.
   int matched() const;
 
  private:

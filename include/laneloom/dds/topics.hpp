@@ -9,7 +9,7 @@ inline constexpr const char* kLaneMapTopic = "laneloom/v2/lane_map";
 inline constexpr const char* kRoadMarkingsTopic = "laneloom/v2/road_markings";
 inline constexpr const char* kStatusTopic = "laneloom/v2/status";
 
-/// Their types, by the names that go over the wire.
+/// The types of the topics, by the names that go over the wire.
 inline constexpr const char* kDetectionsType = "laneloom::msg::Detections";
 inline constexpr const char* kVehiclePoseType = "laneloom::msg::VehiclePose";
 inline constexpr const char* kLaneMapType = "laneloom::msg::LaneMap";

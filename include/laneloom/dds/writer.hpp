@@ -18,13 +18,13 @@ class Writer {
   Writer& operator=(Writer&&) noexcept;
   ~Writer();
 
-  /// False when DDS did not take it. What exceeds the bounds of the IDL is left out: an element as a whole,
-  /// and whatever refers to it. Never waits for a reader for longer than 50 ms.
+  /// Returns false when DDS did not take the message. An element that exceeds the bounds of the IDL is left
+  /// out as a whole, and so are all that refer to it. Never waits for a reader for longer than 50 ms.
   bool write(const T& message);
 
-  /// Elements that were left out so far, and sources whose names were cut.
+  /// Number of elements that were left out so far, and of sources whose names were cut.
   std::uint64_t left_out() const;
-  /// Readers that are matched now. May be called from any thread.
+  /// Number of readers that are matched now. May be called from any thread.
   int matched() const;
 
  private:

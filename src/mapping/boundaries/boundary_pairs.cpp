@@ -8,15 +8,15 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kMaxBetween = 1;      // boundaries: (b_i, b_i+1) and (b_i, b_i+2) of the paper
-constexpr std::size_t kTooManyBetween = 7;  // for a pair of any kind
-constexpr double kMinBetween = 0.15;        // of the stretch; a shorter boundary only touches it
-constexpr double kMinBesideEdge = 0.5;      // of that line
+constexpr std::size_t kMaxBetween = 1;      // of a near pair: (b_i, b_i+1) and (b_i, b_i+2) of the paper
+constexpr std::size_t kTooManyBetween = 7;  // boundaries, for a pair of any kind
+constexpr double kMinBetween = 0.15;        // share of the pair's stretch; a shorter boundary only touches it
+constexpr double kMinBesideEdge = 0.5;      // share of a line that lies along an edge
 
-/// How many boundaries lie between one and another beside it.
+/// Numbers of boundaries that lie between one boundary and another beside it.
 struct CountBetween {
   std::size_t all = 0;
-  std::size_t lasting = 0;  ///< those that are beside both over much of the stretch
+  std::size_t lasting = 0;  ///< number of those that lie beside both over much of the stretch
 };
 
 CountBetween count_between(const SectionGraph& graph, std::size_t one, const SideBySide& other) {
@@ -34,7 +34,8 @@ CountBetween count_between(const SectionGraph& graph, std::size_t one, const Sid
   return count;
 }
 
-/// At which sides of the boundaries the road ends: they are edges, or have one along them there.
+/// The sides of boundaries at which the road ends: of edges both sides, of a line the side on which an edge
+/// runs along it.
 class KerbSides {
  public:
   explicit KerbSides(const SectionGraph& graph) : kerbs_(graph.boundaries.size()) {
@@ -78,7 +79,7 @@ BoundaryPair pair_of(std::size_t one, const SideBySide& other, const SectionGrap
 
 std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph) {
   const KerbSides kerbs(graph);
-  // Those with nothing between, then those with what only touches either.
+  // Pairs with nothing between, then pairs with boundaries between that only touch them, then all others.
   std::array<std::vector<BoundaryPair>, 3> by_rank;
   for (std::uint32_t section = 0; section < graph.sections.size(); ++section) {
     for (const std::size_t one : graph.sections[section].boundaries) {

@@ -8,27 +8,29 @@
 
 namespace laneloom {
 
-/// From an edge to the line that is painted along it, at most.
+/// Greatest distance between an edge and a line that is painted along it.
 inline constexpr double kAlongEdge_m = 1.0;
 
-/// Two boundaries, by their indices, that may bound a lane. It runs as the one does that is not reversed.
+/// Two boundaries, by their indices, that may bound a lane. The lane runs as the boundary does that is not
+/// reversed.
 struct BoundaryPair {
   std::size_t left = 0, right = 0;
   bool left_reversed = false, right_reversed = false;
-  bool adjacent = false;  ///< no other boundary between them, but for what only touches either
-  bool near = false;      ///< at most one other
-  bool left_kerb = false, right_kerb = false;  ///< an edge, or the line that is painted along it
-  bool crosses_kerb = false;                   ///< one is a line along an edge that lies between them
-  std::uint32_t section = 0;
+  bool adjacent = false;  ///< no other boundary lies between them for more than a short piece
+  bool near = false;      ///< at most one other boundary lies between them, likewise
+  bool left_kerb = false, right_kerb = false;  ///< an edge, or a line that is painted along an edge outside
+  bool crosses_kerb = false;  ///< one of them is a line along an edge that lies between the two
+  std::uint32_t section = 0;  ///< index of the road section
 
   std::size_t index(Side side) const { return side == Side::left ? left : right; }
   bool reversed(Side side) const { return side == Side::left ? left_reversed : right_reversed; }
-  /// The side of the boundary, as it runs itself, on which the lane lies.
+  /// The side of a boundary on which the lane lies, as the boundary itself runs.
   Side inner(Side side) const { return as_seen(opposite(side), reversed(side)); }
 };
 
-/// Each boundary with those on its right (paper, Sec. III-D-3), but where a whole row of others lies between.
-/// Neighbours first; of two that are opposed, the lane runs as the older one.
+/// Pairs of each boundary with the boundaries on its right (paper, Sec. III-D-3), except where seven or more
+/// others lie between. Pairs with nothing between come first. Between two boundaries that run against each
+/// other, the lane runs as the older one does.
 std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph);
 
 }  // namespace laneloom

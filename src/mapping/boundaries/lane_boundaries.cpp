@@ -12,12 +12,12 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMinGap_m = 1.0;      // a shorter one is no more than the distance between vertices
-constexpr double kMeeting_m = 1.5;     // ends that are nearer meet,
-constexpr double kMaxBend_deg = 40.0;  // and there a line may bend as it does round a corner of 8 m
-constexpr double kChange_m = 0.5;      // over which the one changes to the other where they overlap
+constexpr double kMinGap_m = 1.0;      // a shorter gap is no more than the distance between vertices
+constexpr double kMeeting_m = 1.5;     // ends that are nearer meet;
+constexpr double kMaxBend_deg = 40.0;  // there a line may bend as much as round a corner of 8 m
+constexpr double kChange_m = 0.5;      // where two markings overlap, the change from one to the other
 
-/// One end of a marking, as it looks.
+/// One end of a marking.
 struct Tip {
   const Marking& marking;
   End end;
@@ -40,13 +40,13 @@ bool are_aligned(const Tip& a, const Tip& b, const BoundaryConfig& config) {
   return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
 }
 
-/// Whether one line changes its style there: a network sees it as two.
+/// Whether the two ends differ in style: a network sees a line that changes its style as two.
 bool is_style_change(const Tip& a, const Tip& b) {
   const MarkingStyle one = a.style(), other = b.style();
   return one != other && one != MarkingStyle::unknown && other != MarkingStyle::unknown;
 }
 
-/// Whether two ends with a small gap between them are one place of one boundary.
+/// Whether two ends with a gap of `gap_m` between them may be joined.
 bool may_join(const Tip& a, const Tip& b, double gap_m, const PairHistories& joints,
               const BoundaryConfig& config) {
   const PairHistory* joint = find(joints, a.id(), b.id());
@@ -74,7 +74,8 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHi
   return joins;
 }
 
-/// The part of `next` that lies ahead of the end of `line`; the two may overlap at their ends. Empty: none.
+/// The part of `next` that lies ahead of the end of `line`. The two may overlap at their ends. Empty: no part
+/// of `next` does.
 std::optional<Marking> ahead_of(const Marking& line, const Marking& next) {
   const MeasuredPolyline measured(next.points);
   const double foot_m = measured.project(line.points.back()).arc_m;

@@ -10,13 +10,13 @@
 
 namespace laneloom {
 
-/// A continuous lane boundary, made of one or more instances.
+/// A continuous lane boundary, made of one or more markings.
 struct LaneBoundary {
   Marking marking;                 ///< has the id of its oldest member
   std::vector<ElementId> members;  ///< ids of the markings that it is made of, ascending
   std::vector<Stretch> bridged{};  ///< the gaps between them, along the marking
-  bool two_way = false;            ///< inferred, on a road from kerb to kerb: there traffic is taken to meet
-  MeasuredPolyline course{};       ///< through the marking's points; Boundaries measures it
+  bool two_way = false;            ///< inferred between two kerbs: opposite directions of traffic meet here
+  MeasuredPolyline course{};       ///< the marking's points, measured by Boundaries
 
   bool is_edge() const { return marking.type == MarkingType::roadedge; }
   bool is_confirmed() const { return marking.status == ElementStatus::confirmed; }
@@ -33,11 +33,11 @@ class Boundaries {
   auto begin() const { return all_.begin(); }
   auto end() const { return all_.end(); }
   const LaneBoundary& operator[](std::size_t index) const { return all_[index]; }
-  /// Where a boundary is. There has to be one of that id.
+  /// The index of the boundary of an id, which must exist.
   std::size_t index_of(ElementId id) const;
   const LaneBoundary& of(ElementId id) const { return all_[index_of(id)]; }
 
-  /// Lets one run in the other direction.
+  /// Lets a boundary run in the other direction.
   void reverse(std::size_t index);
   void insert(std::vector<LaneBoundary> boundaries);
   std::vector<LaneBoundary> take() && { return std::move(all_); }
@@ -46,8 +46,8 @@ class Boundaries {
   std::vector<LaneBoundary> all_;
 };
 
-/// Groups lanelines and roadedges, respectively, whose end points are close and aligned into continuous
-/// boundaries (paper, Sec. III-D-1), but those that are known to be separate. Close ends that detections ran
+/// Joins lanelines, and joins roadedges, whose ends are close and aligned to continuous boundaries (paper,
+/// Sec. III-D-1). Ends that `joints` shows to be separate are not joined. Close ends that detections ran
 /// through are joined at any angle: round a hairpin or the tip of an island. The nearest ends are joined
 /// first, each end once. Stoplines are left out.
 Boundaries lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kSampleStep_m = 2.0;  // half of the shortest lane
 constexpr double kAlignedCosine =
-    0.2;  // with the heading: below, a road crosses the vehicle's rather than follows it
+    0.2;  // with the vehicle's heading; a road with less crosses the vehicle's way
 
-/// A boundary's points, evenly spaced, with the directions in which it leaves them.
+/// Evenly spaced points of a boundary, and its direction behind each of them.
 struct Samples {
   Polyline points;
   std::vector<Eigen::Vector2d> directions;
@@ -32,8 +32,8 @@ Samples sample(const MeasuredPolyline& line) {
   return samples;
 }
 
-/// How `b` lies beside `a`; empty where no point of `a` has its foot inside of `b`, near and in a similar
-/// direction.
+/// How `b` lies beside `a`. Empty: no point of `a` has a foot inside `b` that is near and where the two run
+/// in a similar direction.
 std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline& b,
                                        const SectionConfig& config) {
   const double min_cosine = cos_degrees(config.max_angle_deg);
@@ -50,7 +50,7 @@ std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline&
   }
   if (count == 0) return std::nullopt;
   const bool opposed = cosine_sum < 0.0;
-  const double lateral_m = lateral_sum_m / count;  // of `a`, as `b` runs
+  const double lateral_m = lateral_sum_m / count;  // of `a`, positive on the left of `b`
   return SideBySide{.lateral_m = opposed ? lateral_m : -lateral_m,
                     .length_m = a.length_m * count / static_cast<double>(a.points.size()),
                     .opposed = opposed};
@@ -88,7 +88,7 @@ double along_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_ma
   return line.direction(line.project(T_map_body.translation())).dot(heading) / heading.norm();
 }
 
-/// What is nearer to the vehicle is joined first.
+/// Joins boundaries that overlap, those nearest to the vehicle first.
 OrientedGroups join_sections(const SectionGraph& graph, const Point& vehicle) {
   struct Pair {
     std::size_t a, b;
@@ -120,8 +120,8 @@ std::vector<RoadSection> sections_of(const OrientedGroups& groups, std::size_t c
   return sections;
 }
 
-/// Whether a section runs against the vehicle in the direction of one of its boundaries. All have a say, by
-/// their lengths, as one alone may turn off into another road.
+/// Whether a section runs against the vehicle, if it is given the direction of `boundary`. All boundaries
+/// have a say, weighted by length, since a single one may turn off into another road.
 bool against_heading(const RoadSection& section, std::size_t boundary, const Boundaries& boundaries,
                      const OrientedGroups& groups, const Eigen::Isometry3d& T_map_body) {
   double sum_m = 0.0, total_m = 0.0;

@@ -12,10 +12,10 @@ class MapBox {
  public:
   MapBox(const RangeConfig& config, const Eigen::Isometry3d& T_map_body);
 
-  /// Within the box plus its margin, where voxels gather evidence.
+  /// Whether a point lies in the box or its margin, where evidence is gathered.
   bool keeps(const Point& point_map) const;
 
-  /// Within the box itself.
+  /// Whether a point lies in the box itself.
   bool shows(const Point& point_map) const;
 
   const Eigen::Isometry3d& T_map_body() const { return T_map_body_; }

@@ -5,23 +5,23 @@
 
 namespace laneloom {
 
-/// Which of some elements belong together, and which run against each other there.
+/// Groups of elements that belong together. Within a group it is known which elements run against each other.
 class OrientedGroups {
  public:
   explicit OrientedGroups(std::size_t count);
 
-  /// The groups of `a` and `b` become one. Where they are one already, what is known of their directions
-  /// stays.
+  /// Makes one group of the groups of `a` and `b`. If they are in one group already, nothing changes,
+  /// whatever `opposed` says.
   void join(std::size_t a, std::size_t b, bool opposed);
 
-  /// The smallest index of the element's group.
+  /// The group of an element, named by the smallest index in it.
   std::size_t group(std::size_t element) const { return group_[element]; }
-  /// Whether two of one group run against each other.
+  /// Whether two elements of one group run against each other.
   bool opposed(std::size_t a, std::size_t b) const { return opposed_[a] != opposed_[b]; }
 
  private:
   std::vector<std::size_t> group_;
-  std::vector<bool> opposed_;  ///< to the other members, as a whole either way
+  std::vector<bool> opposed_;  ///< only whether two members of a group differ matters
 };
 
 }  // namespace laneloom

@@ -9,16 +9,16 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kBlock = 8;  // segments that are bounded together
+constexpr std::size_t kBlock = 8;  // segments in one bounding box
 
 constexpr double kCoincident_m = 1e-9;
 
-constexpr double kMargin_m = 1e-6;       // far above rounding: what is as near is compared to the last bit
+constexpr double kMargin_m = 1e-6;       // far above rounding errors, so that no equally near foot is skipped
 constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away further is searched by blocks
 
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
 
-/// Squared; what is further off than this is further than `distance_m` also after rounding.
+/// A squared distance. A foot beyond it is further away than `distance_m`, whatever the rounding errors.
 double squared_bound_m2(double distance_m) { return (distance_m + kMargin_m) * (distance_m + kMargin_m); }
 
 }  // namespace
@@ -102,7 +102,7 @@ Eigen::Vector2d MeasuredPolyline::direction(const Projection& foot) const {
 
 /// The nearest foot so far.
 struct MeasuredPolyline::Nearest {
-  double bound_m2 = 0.0;  ///< what is further off, squared, need not be considered
+  double bound_m2 = 0.0;  ///< squared distance; a foot beyond it need not be considered
   double distance_m = std::numeric_limits<double>::infinity();
   std::size_t segment = std::numeric_limits<std::size_t>::max();
   double share = 0.0;  ///< of the segment; beyond 0..1 where the foot is at its end
@@ -122,8 +122,9 @@ void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest
   nearest = {squared_bound_m2(distance_m), distance_m, segment, share};
 }
 
-/// From where the point is along the course to both sides. All of the line lies within a cone about the
-/// course from any of its vertices. Once the point lies behind that, what follows is further than the vertex.
+/// Searches from the place of the point along the course to both sides. From each vertex on, the line stays
+/// within a cone about the course. Once the point lies behind that cone, the rest of the line is further away
+/// than the vertex.
 void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest) const {
   const auto ahead = [&](const Point& vertex) { return course_.dot((point - vertex).head<2>()); };
   const auto is_behind = [&](const Point& vertex, double sense) {
@@ -148,7 +149,7 @@ void MeasuredPolyline::consider_block(std::size_t block, const Point& point, Nea
   for (std::size_t i = block * kBlock; i < end; ++i) consider(i, point, nearest);
 }
 
-/// The block that is nearest mostly holds the foot. Few of the others are as near as that foot.
+/// Searches the nearest block first. It mostly holds the foot, and few other blocks are as near as that foot.
 void MeasuredPolyline::search_blocks(const Point& point, Nearest& nearest) const {
   const Eigen::Vector2d place = point.head<2>();
   std::size_t first = 0;

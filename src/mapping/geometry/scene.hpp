@@ -6,7 +6,7 @@
 
 namespace laneloom {
 
-/// Where and when the map is made: at the newest pose so far, which may be newer than the frame that is
+/// The place and time of the map: those of the newest frame so far, which may be newer than the frame that is
 /// fused.
 struct Scene {
   MapBox box;                 ///< about the vehicle

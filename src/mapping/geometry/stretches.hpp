@@ -8,12 +8,12 @@
 /// Stretches of a line, by arc length.
 namespace laneloom {
 
-/// What both have in common; of negative length where that is nothing.
+/// The overlap of two stretches. Its length is negative where they do not overlap.
 inline Stretch common(const Stretch& a, const Stretch& b) {
   return {std::max(a.from_m, b.from_m), std::min(a.to_m, b.to_m)};
 }
 
-/// The same place on a line of `total_m` that runs the other way.
+/// The same stretch on the reversed line, which is `total_m` long.
 inline Stretch reversed(const Stretch& stretch, double total_m) {
   return {total_m - stretch.to_m, total_m - stretch.from_m};
 }
@@ -23,7 +23,7 @@ inline void reverse(std::vector<Stretch>& stretches, double total_m) {
   for (Stretch& stretch : stretches) stretch = reversed(stretch, total_m);
 }
 
-/// Whether the place lies within one of them, not at its end.
+/// Whether an arc length lies inside one of the stretches, and not at its end.
 inline bool contains(const std::vector<Stretch>& stretches, double arc_m) {
   return std::ranges::any_of(stretches, [&](const Stretch& s) { return s.from_m < arc_m && arc_m < s.to_m; });
 }

@@ -10,12 +10,12 @@
 namespace laneloom {
 namespace {
 
-constexpr double kNarrow_m = 2.5;  // narrower are lanes that are so from end to end
+constexpr double kNarrow_m = 2.5;  // a lane is narrower only if it is so from end to end
 constexpr double kMinAlong = 0.9;  // cosine between a line and the boundaries that it runs along
-constexpr double kTaper_m = 0.3;   // by which what is not so grows beyond that
+constexpr double kTaper_m = 0.3;   // a run that grows this much beyond kNarrow_m loses its narrow ends
 
-/// The end of the longest run from `begin` in which the width varies little and the left boundary is
-/// followed.
+/// The end of the longest run from `begin` in which the width varies little and the left boundary is followed
+/// forwards.
 std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin, double max_variation_m) {
   double narrowest = std::numeric_limits<double>::infinity(), widest = 0.0;
   std::size_t end = begin;
@@ -30,7 +30,7 @@ std::size_t run_end(const std::vector<CrossSection>& sections, std::size_t begin
   return end;
 }
 
-/// The last range grows by the stretch, if that follows it.
+/// Appends a stretch. Extends the last range if the stretch follows it directly.
 void append(std::vector<Stretch>& ranges, const Stretch& stretch) {
   if (!ranges.empty() && ranges.back().to_m == stretch.from_m) {
     ranges.back().to_m = stretch.to_m;
@@ -39,7 +39,7 @@ void append(std::vector<Stretch>& ranges, const Stretch& stretch) {
   }
 }
 
-/// How sure a lane is that lies between two markings.
+/// Gives a lane the status and existence probability of the less sure of its two markings.
 void set_trust(const Marking& left, const Marking& right, Lane& lane) {
   const auto either = [&](ElementStatus status) { return left.status == status || right.status == status; };
   lane.status = either(ElementStatus::inferred)    ? ElementStatus::inferred
@@ -129,7 +129,7 @@ Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const 
             .left_reversed = left.reversed(),
             .right_reversed = right.reversed()};
   set_trust(left.marking(), right.marking(), lane);
-  // Sides and centerline all go through the cross-sections, so that the one is left of the other wherever the
+  // Sides and centerline have their points at the cross-sections, so that they never cross, wherever the
   // boundaries' own vertices are.
   for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) line->reserve(run.size());
   double width_sum_m = 0.0, arc_m = 0.0;

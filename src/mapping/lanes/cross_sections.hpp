@@ -9,13 +9,14 @@
 #include "laneloom/types.hpp"
 #include "mapping/boundaries/boundary_pairs.hpp"
 
-/// What lies between two boundaries, across them, and the lanes that it makes.
+/// Cross-sections of the space between two boundaries, and the lanes that are made of them.
 namespace laneloom {
 
-/// Which stretches of a boundary's one side belong to a lane already.
+/// Stretches of one side of a boundary that belong to a lane already.
 using Occupied = std::vector<Stretch>;
 
-/// A boundary, as a lane beside it runs. Refers to what it is made of.
+/// A boundary, seen in the direction in which a lane beside it runs. It refers to the constructor's
+/// arguments.
 class LaneBorder {
  public:
   LaneBorder(const LaneBoundary& boundary, bool reversed, const Occupied& occupied);
@@ -24,7 +25,7 @@ class LaneBorder {
   bool reversed() const { return reversed_; }
   bool is_free(double arc_m) const;
   bool is_bridged(double arc_m) const;
-  /// On the boundary as it runs itself.
+  /// The same stretch, on the boundary as it runs itself.
   Stretch own(const Stretch& range) const {
     return reversed_ ? Stretch{own(range.to_m), own(range.from_m)} : range;
   }
@@ -40,44 +41,45 @@ class LaneBorder {
 
 /// A sample on the right boundary with its foot on the left one.
 struct CrossSection {
-  double left_arc_m = 0.0;
-  double right_arc_m = 0.0;
-  double width_m = 0.0;
-  bool wide = false;  ///< more than lanes between lines are
-  Point left = Point::Zero();
-  Point right = Point::Zero();
-  bool valid = false;
+  double left_arc_m = 0.0;      ///< on the left border, as the lane runs
+  double right_arc_m = 0.0;     ///< on the right border, as the lane runs
+  double width_m = 0.0;         ///< distance of the two points
+  bool wide = false;            ///< wider than LaneConfig::max_width_m
+  Point left = Point::Zero();   ///< map frame
+  Point right = Point::Zero();  ///< map frame
+  bool valid = false;           ///< the section may be part of a lane
 
   Point middle() const { return 0.5 * (left + right); }
 };
 
-/// What lies between two boundaries.
+/// A boundary that lies between two others.
 struct Between {
-  bool is_edge = false;
-  double share = 0.0;  ///< its distance from the left one, as a share of the width
+  bool is_edge = false;  ///< else it is a line
+  double share = 0.0;    ///< its distance from the left boundary, as a share of the width
 };
 
-/// An edge, however sure, or else a confirmed line that runs along the pair's boundaries: between them, but
-/// beside neither. Empty: there is none.
+/// Finds an edge, confirmed or not, or else a confirmed line, that lies between the boundaries of a pair. It
+/// is not close beside either of them; a line must run along them. Empty: there is none.
 std::optional<Between> find_between(const CrossSection& section, const BoundaryPair& pair,
                                     const Boundaries& boundaries);
 
+/// The narrowest and the widest lane that is looked for.
 struct WidthLimits {
   double min_m = 0.0, max_m = 0.0;
 };
 
-/// Along the right border, where both are free and their distance lies within the limits; elsewhere not
-/// valid.
+/// Cross-sections along the right border. They are valid where both borders are free and their distance lies
+/// within the limits.
 std::vector<CrossSection> cross_sections(const LaneBorder& left, const LaneBorder& right,
                                          const WidthLimits& limits, const LaneConfig& config);
 
-/// The next run from `begin` on, which is moved behind it: the width varies by no more than is said, and the
-/// left boundary is followed. Without its narrow ends where it is wider elsewhere: there a lane opens or
-/// closes beside another.
+/// The next run of cross-sections from `begin` on; `begin` is moved behind it. In a run the width varies by
+/// no more than `max_variation_m`, and the left boundary is followed forwards. Narrow ends of a run that is
+/// wider elsewhere are left out: there a lane opens or closes beside another.
 std::span<const CrossSection> next_run(const std::vector<CrossSection>& sections, std::size_t& begin,
                                        double max_variation_m);
 
-/// Along the left boundary.
+/// Length of a run along the left border.
 inline double length_of(std::span<const CrossSection> run) {
   return run.back().left_arc_m - run.front().left_arc_m;
 }

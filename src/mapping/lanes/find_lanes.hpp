@@ -7,8 +7,8 @@
 
 namespace laneloom {
 
-/// The lanes of a road: those between boundaries (paper, Sec. III-D-3) but the shoulders, and those that are
-/// inferred, on roads without lines and beside one line.
+/// Finds the lanes of a road: lanes between boundaries (paper, Sec. III-D-3) without the shoulders, and
+/// inferred lanes on roads without lines and beside single lines.
 FoundLanes find_lanes(SectionGraph road, const Scene& scene, const LaneConfig& config);
 
 }  // namespace laneloom

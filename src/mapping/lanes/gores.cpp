@@ -11,10 +11,10 @@ namespace laneloom {
 namespace {
 
 constexpr double kMeeting_m = 1.0;       // borders that are nearer at their end meet there
-constexpr double kGrowthFrom_m = 15.0;   // the stretch at the end from which the growth of the width is taken
-constexpr double kMinEarlyGrowth = 0.4;  // of it, on its nearer half; with less, a lane begins to widen there
+constexpr double kGrowthFrom_m = 15.0;   // at the end of a run; over it the growth of the width is measured
+constexpr double kMinEarlyGrowth = 0.4;  // share on its nearer half; with less, a lane opens there
 constexpr double kMaxAhead_m = 60.0;     // from the end to where borders that converge would meet
-constexpr double kMinEntry_m = 1.5;      // width; into less, no one turns across dashes
+constexpr double kMinEntry_m = 1.5;      // width; nobody turns across dashes into less
 constexpr double kStyleReach_m = 5.0;    // either way; shorter patches of another style are noise
 
 bool may_be_crossed(const LaneBorder& border, double arc_m) {

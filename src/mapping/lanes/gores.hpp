@@ -6,9 +6,9 @@
 
 namespace laneloom {
 
-/// Takes out the cross-sections of a gore, where roads split or join: the space between two borders that meet
-/// at one of its ends, or that would if they were seen as far, from there to where one of the two may be
-/// crossed. What the vehicle drives in is none. Ours.
+/// Makes the cross-sections of a gore invalid. A gore is the wedge between two borders that meet, or would
+/// meet not far beyond where they are seen: there roads split or join. It ends where one of the two borders
+/// may be crossed. Sections in which the vehicle drives are no gore. Ours.
 void remove_gores(const LaneBorder& left, const LaneBorder& right, const Point& vehicle,
                   std::vector<CrossSection>& sections);
 

@@ -13,60 +13,64 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/lane_layout.hpp"
 
-/// Boundaries that nobody saw, with the lanes beside them: ours.
+/// Inferred boundaries: no detection showed them, but there is room for the lanes beside them. Ours.
 namespace laneloom {
 
-/// What is shorter is a bay, or the mouth of a street.
+/// Least length of an inferred boundary. A shorter space is a bay, or the mouth of a street.
 inline constexpr double kMinInferredLength_m = 8.0;
 
+/// An inferred boundary, with the lanes beside it.
 struct InferredBoundary {
-  /// A lane beside it.
+  /// A lane beside the inferred boundary.
   struct Beside {
-    std::size_t boundary = 0;            ///< the lane's other one
-    bool reversed = false;               ///< that runs against the inferred one
-    std::vector<CrossSection> sections;  ///< one at every point of the inferred one
+    std::size_t boundary = 0;            ///< index of the lane's other boundary
+    bool reversed = false;               ///< the other boundary runs against the inferred one
+    std::vector<CrossSection> sections;  ///< one at every point of the inferred boundary
   };
   Marking marking;
-  std::optional<Beside> on_left, on_right;  ///< as it runs; one at least
-  bool two_way = false;                     ///< on a road from kerb to kerb: there traffic is taken to meet
-  std::uint32_t section = 0;                ///< of the road
+  std::optional<Beside> on_left, on_right;  ///< sides as it runs; at least one is set
+  bool two_way = false;                     ///< between two kerbs: opposite directions of traffic meet here
+  std::uint32_t section = 0;                ///< index of the road section
 };
 
-/// A marking without an id.
+/// A marking of status inferred through `points`, without an id.
 Marking inferred_marking(const Polyline& points);
 
-/// Around all that is so near to a line, on its level: for seeing quickly that something is not.
+/// Bounds everything within `margin_m` of a line, on its level. It serves to exclude quickly what is further
+/// away.
 using Box = Eigen::AlignedBox3d;
 Box box_around(const Polyline& line, double margin_m = 0.0);
 
-/// What lanes take of the boundaries' sides, and of the road.
+/// The space that is taken by lanes: stretches along the sides of boundaries, and strips of the road.
 class TakenSpace {
  public:
   explicit TakenSpace(const std::vector<Lane>& lanes);
-  /// Stretches of the boundary, as it runs itself.
+  /// Taken stretches along one side of a boundary, as it runs itself.
   Occupied& beside(const BoundarySide& side) { return sides_[side]; }
   void add(const Polyline& line, double half_width_m);
   bool contains(const Point& point) const;
 
  private:
+  /// The strip along a line, to half of its width on either side.
   struct Strip {
     MeasuredPolyline line;
     double half_width_m = 0.0;
-    Box box;
+    Box box;  ///< around the strip
   };
   std::map<BoundarySide, Occupied> sides_;
   std::vector<Strip> strips_;
 };
 
-/// Lanes that were found, and what is inferred beside them. The inferred boundaries are without ids, and the
-/// lanes beside them are not yet among the lanes.
+/// Lanes that were found, and inferred boundaries. The inferred boundaries have no ids, and the lanes beside
+/// them are not yet among the lanes.
 struct FoundLanes {
   Boundaries boundaries;
   std::vector<Lane> lanes;
   std::vector<InferredBoundary> inferred;
 };
 
-/// Adds the inferred boundaries, which have ids now, to the others, and the lanes beside them to the lanes.
+/// Adds the inferred boundaries to the boundaries, and the lanes beside them to the lanes. The inferred
+/// boundaries must have ids by now.
 LaneLayout laid_out(FoundLanes found);
 
 }  // namespace laneloom

@@ -9,9 +9,9 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter
+constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter leg
 
-/// A cubic that leaves and enters in the lanes' directions.
+/// A cubic that begins and ends in the directions of the lanes.
 Polyline straight_path(const Lane& from, const Lane& to) {
   const Point a = from.centerline.back(), b = to.centerline.front();
   const double length_m = (b - a).head<2>().norm();
@@ -30,11 +30,11 @@ Polyline straight_path(const Lane& from, const Lane& to) {
 
 Point moved(const Point& point, const Eigen::Vector2d& by) { return point + Point(by.x(), by.y(), 0.0); }
 
-/// Straight on from the end that is much further from where the lanes' extensions meet, then about that
-/// corner: Bezier's cubic, which is nearest to an arc where both are as far. A way that cut the corner would
-/// lead over the kerb.
+/// A Bezier cubic about the corner. It is nearest to an arc if both lanes are equally far from the corner. If
+/// one is much further, the path runs straight on from there first: a path that cut the corner would lead
+/// over the kerb.
 Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
-  constexpr double kArc = 0.55;  // of the way to the corner, for a quarter of a circle
+  constexpr double kArc = 0.55;  // share of the way to the corner, for a quarter of a circle
   const double reach_m = kMaxLongerLeg * std::min(corner.before_m, corner.after_m);
   const double before_m = std::min(corner.before_m, reach_m), after_m = std::min(corner.after_m, reach_m);
   const Point &start = from.centerline.back(), &end = to.centerline.front();

@@ -10,10 +10,10 @@
 #include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
 
-/// How a lane lies to its boundaries, and to another that it leads into.
+/// How a lane lies along its boundaries, and how it leads into another lane.
 namespace laneloom {
 
-/// How many points of `line` lie nearer than `max_distance_m` beside `other`, on its level.
+/// Number of points of `line` that lie beside `other`, nearer than `max_distance_m` and on its level.
 std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m);
 
 /// One side of a boundary.
@@ -25,10 +25,10 @@ struct BoundarySide {
   auto operator<=>(const BoundarySide&) const = default;
 };
 
-/// The left or the right side of a lane, along the boundary there.
+/// The left or right side of a lane: a stretch of the boundary there.
 struct LaneSide {
-  BoundarySide of;  ///< where the lane lies
-  Stretch range;
+  BoundarySide of;        ///< the boundary, and the side of it on which the lane lies
+  Stretch range;          ///< on the boundary, as it runs itself
   bool reversed = false;  ///< the boundary runs against the lane
 
   double begin_m() const { return reversed ? range.to_m : range.from_m; }
@@ -36,46 +36,47 @@ struct LaneSide {
 };
 LaneSide lane_side(const Lane& lane, Side side);
 
-/// The lane that lies the longest along the same stretch of the boundary, on its other side; null: there is
-/// none.
+/// The lane on the other side of the boundary that shares the longest stretch of it. Null: there is none.
 const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes);
 
 bool are_neighbours(const Lane& a, const Lane& b);
 
-/// The neighbour of the longest stretch on a side; kNoElement: there is none.
+/// The neighbour on a side that shares the longest stretch. kNoElement: there is none.
 ElementId main_neighbour(const Lane& lane, Side side);
 
-/// 1: the vehicle drives along the lane, -1: against it, 0: it is elsewhere or crosses it.
+/// The sense in which the vehicle drives in the lane. 1: along it; -1: against it; 0: the vehicle is
+/// elsewhere or crosses the lane.
 double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body);
 
 /// Unit direction in which a lane is left at its end, or entered at its start; map frame, horizontal.
 Eigen::Vector2d leaving(const Lane& lane);
 Eigen::Vector2d entering(const Lane& lane);
 
-/// From the end of `from` to the start of `to`; map frame, horizontal, in metres.
+/// The vector from the end of `from` to the start of `to`; map frame, horizontal, in metres.
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to);
 
-/// By which a lane may begin before the end of the one that it continues, in metres.
+/// Greatest overlap of a lane with the lane that it continues, in metres.
 inline constexpr double kMaxOverlap_m = 2.0;
 
-/// Where the extensions of two lanes meet: so far ahead of the one and before the other, in metres.
+/// The point where the extensions of two lanes meet: `before_m` ahead of the end of the one, and `after_m`
+/// before the start of the other. Negative: the extensions meet within the lane or behind it.
 struct Corner {
   double before_m, after_m;
 };
 
-/// Empty where the lanes do not turn.
+/// The corner of a left or right turn from one lane into another. Empty: the turn between them is neither.
 std::optional<Corner> corner_between(const Lane& from, const Lane& to);
 
-/// Between vertices of a path, in metres.
+/// Distance between the vertices of a path, in metres.
 inline constexpr double kPathStep_m = 1.0;
-/// A shorter gap, in metres, is no more than the distance between vertices: the ends meet.
+/// Two lanes with a shorter gap, in metres, meet: it is no more than the distance between vertices.
 inline constexpr double kMinGap_m = 1.0;
 
-/// From the end of one lane to the start of another: straight on a cubic that leaves and enters in their
-/// directions, round a corner on an arc.
+/// A path from the end of one lane to the start of another, map frame. Round a corner it is an arc; otherwise
+/// it is a cubic that begins and ends in the directions of the lanes.
 Polyline path_between(const Lane& from, const Lane& to);
 
-/// The same straight on, empty where `to` begins no further on than `from` ends: the lanes meet.
+/// As path_between(), but empty where `to` begins no further on than `from` ends: there the lanes meet.
 Polyline path_ahead(const Lane& from, const Lane& to);
 
 }  // namespace laneloom

@@ -14,12 +14,12 @@ struct LaneLayout {
   Boundaries boundaries;
   std::vector<Lane> lanes;
 
-  /// Null: there is no lane of that id.
+  /// The lane of an id. Null: there is none.
   const Lane* find(ElementId id) const {
     const auto found = std::ranges::find(lanes, id, &Lane::id);
     return found == lanes.end() ? nullptr : &*found;
   }
-  /// There has to be a lane of that id.
+  /// The lane of an id, which must exist.
   const Lane& lane(ElementId id) const {
     const auto found = std::ranges::find(lanes, id, &Lane::id);
     assert(found != lanes.end());

@@ -13,9 +13,9 @@
 namespace laneloom {
 namespace {
 
-constexpr double kSameInferred_m = 1.5;  // from where an inferred boundary was
+constexpr double kSameInferred_m = 1.5;  // a nearer inferred boundary is taken for a known one
 
-/// How much of a known element a found one covers.
+/// The number of a found element's points that cover a known element; `found` and `known` are indices.
 struct Cover {
   std::size_t points = 0, found = 0, known = 0;
 };
@@ -26,7 +26,7 @@ class Recognition {
   Recognition(std::size_t found, std::size_t known) : known_of_(found), taken_(known, false) {}
 
   bool is_open(std::size_t found, std::size_t known) const { return !known_of_[found] && !taken_[known]; }
-  /// Those that cover most come first.
+  /// Takes found elements for known ones; those that cover most come first.
   void settle(std::vector<Cover> covers) {
     std::ranges::stable_sort(covers, std::greater{}, &Cover::points);
     for (const Cover& cover : covers) {
@@ -76,7 +76,8 @@ bool has_same_boundaries(const Lane& lane, const KnownLane& known) {
   return boundary_pair(lane) == std::pair(known.boundary_a, known.boundary_b);
 }
 
-/// What is open yet of the lanes between the same boundaries, or of all others.
+/// The covers of known lanes by lanes that are not yet recognised. Only pairs between the same boundaries are
+/// compared if `same_boundaries`, else only pairs between others.
 std::vector<Cover> covers_of(const std::vector<Lane>& lanes, const std::vector<KnownLane>& known,
                              const Recognition& recognition, double max_distance_m, bool same_boundaries) {
   std::vector<Cover> covers;
@@ -95,7 +96,7 @@ std::vector<Cover> covers_of(const std::vector<Lane>& lanes, const std::vector<K
   return covers;
 }
 
-/// Between the same boundaries first, then wherever a lane has been.
+/// Recognises lanes between the same boundaries first, and then lanes that lie where a known lane lay.
 Recognition recognised(const std::vector<Lane>& lanes, const std::vector<KnownLane>& known,
                        const LaneConfig& config) {
   Recognition recognition(lanes.size(), known.size());

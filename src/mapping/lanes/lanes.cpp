@@ -13,12 +13,13 @@
 namespace laneloom {
 namespace {
 
-constexpr double kDashedWidening = 1.15;       // of the widest lane
-constexpr double kEdgesWidening = 1.25;        // of the narrowest
+constexpr double kDashedWidening = 1.15;       // factor on the width of the widest lane
+constexpr double kEdgesWidening = 1.25;        // factor on the width of the narrowest lane
 constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a road splits or ends
 
-/// How wide a lane between two boundaries may be. Between edges it needs room to either. Between dashes in a
-/// bend it is wider than elsewhere; what is so wide between solid lines rather is a median.
+/// The limits for the width of a lane between two boundaries. Between edges a lane needs room to either.
+/// Between dashes it may be wider, as lanes widen in bends; a strip of that width between solid lines rather
+/// is a median.
 LaneConfig limits_between(const Marking& left, const Marking& right, LaneConfig config) {
   const auto is_dashed = [](const Marking& marking) {
     return marking.type == MarkingType::laneline &&
@@ -35,15 +36,15 @@ Occupied joined(Occupied a, const Occupied& b) {
   return a;
 }
 
-/// Per boundary, what of its sides belongs to lanes.
+/// Per boundary, the stretches of its sides that belong to lanes.
 class UsedSides {
  public:
   explicit UsedSides(std::size_t boundaries) : used_(boundaries) {}
-  /// On the side of a pair's boundary where the pair lies.
+  /// Stretches on the inner side of one boundary of a pair.
   Occupied& within(const BoundaryPair& pair, Side border) {
     return used_[pair.index(border)][index(pair.inner(border))];
   }
-  /// On the other side of that boundary.
+  /// Stretches on the outer side of one boundary of a pair.
   const Occupied& beyond(const BoundaryPair& pair, Side border) const {
     return used_[pair.index(border)][index(opposite(pair.inner(border)))];
   }
@@ -52,7 +53,7 @@ class UsedSides {
   std::vector<std::array<Occupied, 2>> used_;
 };
 
-/// Finds the lanes, pair by pair of boundaries.
+/// Finds the lanes of one pair of boundaries after the other.
 class LaneFinder {
  public:
   LaneFinder(const Boundaries& boundaries, const Point& vehicle, const LaneConfig& config)
@@ -62,8 +63,8 @@ class LaneFinder {
     add(pair, used_.within(pair, Side::left), used_.within(pair, Side::right));
   }
 
-  /// What lies beyond the edge of a road with lanes is a verge, a pavement or a cycle track: nothing between
-  /// edges is a lane where lanes lie on the other side of one.
+  /// Adds lanes between two edges, but not where lanes lie on the other side of one of them: beyond the edge
+  /// of a road with lanes lies a verge, a pavement or a cycle track.
   void add_between_edges(const std::vector<BoundaryPair>& pairs) {
     const UsedSides roads = used_;
     for (const BoundaryPair& pair : pairs)
@@ -91,7 +92,7 @@ class LaneFinder {
 
   std::vector<CrossSection> sections_between(const BoundaryPair& pair, const LaneBorder& left,
                                              const LaneBorder& right) const {
-    // Between two edges so far apart, there rather is a verge.
+    // Between two kerbs that are as far apart, there rather is a verge.
     const bool kerb = pair.adjacent && pair.left_kerb != pair.right_kerb;
     const LaneConfig limits = limits_between(left.marking(), right.marking(), config_);
     const double max_width_m = kerb ? limits.max_kerb_width_m : limits.max_width_m;

@@ -8,11 +8,11 @@
 
 namespace laneloom {
 
-/// Lanes between pairs of boundaries (paper, Sec. III-D-3): each boundary with the two next ones on its
-/// right, where their distance lies in the configured interval and varies little over a long enough range.
-/// The nearer boundary comes first, so that lanes do not overlap; where an edge bounds the lanes of a road,
-/// what lies beyond it up to another edge is none; nor is a gore. A lane runs as its boundaries do; of two
-/// that are opposed, as the older one. Without ids and neighbours, in a deterministic order.
+/// Finds lanes between a boundary and the next two on its right (paper, Sec. III-D-3), where the distance
+/// lies within the configured limits and varies little over a long enough range. Nearer boundaries come
+/// first, so that lanes do not overlap. Neither a gore is a lane, nor a strip between two edges of which one
+/// bounds the lanes of a road on its other side. A lane runs as its boundaries do, or as the older one if the
+/// two are opposed. The lanes have no ids and neighbours, and a deterministic order.
 std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs, const Boundaries& boundaries,
                                  const Point& vehicle, const LaneConfig& config);
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMinBeside_m = 1.0;  // a shorter stretch is where one lane ends and the next begins
 
-/// Takes stretches of one side of a lane to its centerline, which runs as far in the same time.
+/// Takes stretches of one side of a lane to its centerline, by scaling: both run from the lane's start to its
+/// end.
 class SideToCenterline {
  public:
   SideToCenterline(const LaneSide& side, double centerline_m)

@@ -4,8 +4,8 @@
 
 namespace laneloom {
 
-/// Names for every lane all lanes on the other side of its boundaries, each with the stretch along which the
-/// two lie side by side. Each of two neighbours names the other.
+/// Sets the neighbours of every lane: the lanes on the other side of its boundaries, each with the stretch
+/// along which the two lie side by side. Each of two neighbours names the other.
 void find_neighbours(LaneLayout& layout);
 
 }  // namespace laneloom

@@ -13,27 +13,28 @@ namespace laneloom {
 namespace {
 
 constexpr double kChord_m = 3.0;        // either way, for a direction without noise
-constexpr double kMinAdvance = 0.3;     // of the step; less is the inside of a bend that is too tight
+constexpr double kMinAdvance = 0.3;     // share of the step; less is the inside of a bend that is too tight
 constexpr double kStyleReach_m = 5.0;   // either way; shorter patches of another style are noise
-constexpr double kMinBetween_m = 20.0;  // where there is something before and behind it
-constexpr double kBeyondEnd_m = 10.0;   // so far before or behind a line the vehicle drives beside it
+constexpr double kMinBetween_m = 20.0;  // length of a lane with something before and behind it
+constexpr double kBeyondEnd_m = 10.0;   // up to here before or behind a line, the vehicle counts as beside it
 constexpr double kMinAlong = 0.9;       // cosine between its heading and the line
-// From the line, as shares of the lane's width.
+// Distances from the line, as shares of the lane's width.
 constexpr double kDrivenFrom = 0.25, kDrivenTo = 0.75;
-constexpr double kSpared = 0.75;  // up to here no other lane is
-constexpr double kOwn = 0.8;      // of the room's half, which the line itself may come near to
+constexpr double kSpared = 0.75;  // up to here there must be no other lane
+constexpr double kOwn = 0.8;      // share of half the room; the line itself may come as near as this
 
 /// One side of a line.
 struct OpenSide {
   std::size_t line = 0;     ///< index of the boundary
-  Side side = Side::right;  ///< as that runs
+  Side side = Side::right;  ///< as the line runs
 
   bool is_left() const { return side == Side::left; }
   const Point& border(const CrossSection& section) const { return is_left() ? section.left : section.right; }
   const Point& at_line(const CrossSection& section) const { return is_left() ? section.right : section.left; }
 };
 
-/// A strip on a side of a line; both arcs are the line's. Not valid where it would fold.
+/// Cross-sections of a strip on a side of a line. Both arc lengths are the line's. A section is not valid
+/// where the strip would fold.
 std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenSide& side, double width_m,
                                        double step_m) {
   const Polyline points = line.resample(step_m);
@@ -58,7 +59,7 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
   return strip;
 }
 
-/// Finds the lanes, side by side of the lines.
+/// Finds the lanes on one side of a line after the other.
 class OneSidedLanes {
  public:
   OneSidedLanes(const Boundaries& boundaries, const MapBox& map_box, const LaneConfig& config,
@@ -93,7 +94,7 @@ class OneSidedLanes {
   std::vector<InferredBoundary> take() { return std::move(found_); }
 
  private:
-  /// Whether there is something else just before and just behind a run.
+  /// Whether something else lies just before and just behind a run.
   bool is_gap(const OpenSide& side, const std::vector<std::size_t>& others,
               const std::vector<CrossSection>& sections, std::span<const CrossSection> run) const {
     const auto first = static_cast<std::size_t>(run.data() - sections.data()), end = first + run.size();
@@ -122,7 +123,7 @@ class OneSidedLanes {
     return sections;
   }
 
-  /// The vehicle is on that side, as in the lane.
+  /// Whether the vehicle drives on that side of the line as in a lane.
   bool is_driven_along(const OpenSide& side) const {
     const MeasuredPolyline& line = boundaries_[side.line].course;
     const Eigen::Isometry3d& vehicle = map_box_.T_map_body();
@@ -136,7 +137,7 @@ class OneSidedLanes {
     return std::abs(line.direction(foot).dot(heading)) > kMinAlong * heading.norm();
   }
 
-  /// The boundaries that could be in the room beside a line; also itself.
+  /// The boundaries that could lie in the room beside a line, the line itself included.
   std::vector<std::size_t> others_near(std::size_t line) const {
     const Box reach = box_around(boundaries_[line].course.points(), config_.max_kerb_width_m);
     std::vector<std::size_t> others;

@@ -10,7 +10,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMaxWidth = 0.95;  // of the lane beside it; more is a difference by chance
+constexpr double kMaxWidth = 0.95;  // share of the other lane's width; more is a difference by chance
 
 bool share_a_side(const Lane& a, const Lane& b) {
   for (const Side side_a : kSides)
@@ -19,7 +19,7 @@ bool share_a_side(const Lane& a, const Lane& b) {
   return false;
 }
 
-/// Tells shoulders among lanes.
+/// Tells which lanes are shoulders.
 class Shoulders {
  public:
   Shoulders(const std::vector<Lane>& lanes, const std::vector<BoundaryPair>& pairs,

@@ -10,12 +10,12 @@
 namespace laneloom {
 namespace {
 
-constexpr double kReach_m = 6.0;  // beyond a stretch, in which a line is looked for that it continues
+constexpr double kReach_m = 6.0;  // beyond a run, where the divider may continue a line
 constexpr double kReachStep_m = 2.0;
-constexpr double kFlare_m = 0.3;  // by which a road is wider than usual, as it opens into an intersection
-constexpr double kBeyondEdge_m = kAlongEdge_m + 1.2;  // where half a lane is, beside a line along the edge
+constexpr double kFlare_m = 0.3;  // a road that is this much wider than usual opens into an intersection
+constexpr double kBeyondEdge_m = kAlongEdge_m + 1.2;  // in the middle of a lane, beside a line along the edge
 
-/// The share of the width at which a line begins or ends beyond the last cross-section of a run.
+/// The share of the width at which a line lies beyond the last cross-section of a run. Empty: there is none.
 std::optional<double> line_beyond(const CrossSection& last, const CrossSection& before,
                                   const BoundaryPair& pair, const Boundaries& boundaries) {
   const Point onwards = (last.middle() - before.middle()).normalized();
@@ -41,7 +41,7 @@ std::span<const CrossSection> without_flares(std::span<const CrossSection> run) 
   return run;
 }
 
-/// How wide the lane on the left and the one on the right of a divider may be.
+/// The greatest widths of the lanes on the left and on the right of a divider.
 struct MaxWidths {
   double left_m, right_m;
 };
@@ -52,7 +52,7 @@ struct Halves {
   Polyline divider;
 };
 
-/// Empty where a lane would be too narrow or too wide.
+/// Divides a run. Empty: a lane would be too narrow or too wide.
 std::optional<Halves> divide(std::span<const CrossSection> run, double share_at_begin, double share_at_end,
                              double min_width_m, const MaxWidths& max_width) {
   Halves halves;
@@ -72,7 +72,7 @@ std::optional<Halves> divide(std::span<const CrossSection> run, double share_at_
   return halves;
 }
 
-/// Finds what can be divided, pair by pair of boundaries.
+/// Divides the roads between one pair of boundaries after the other.
 class Divisions {
  public:
   Divisions(const Boundaries& boundaries, const LaneConfig& config, TakenSpace& taken)
@@ -108,7 +108,8 @@ class Divisions {
   std::vector<InferredBoundary> take() { return std::move(found_); }
 
  private:
-  /// Sections without an edge, a confirmed line or a lane in them, that are not a median.
+  /// Cross-sections of a pair. They are valid where no edge, confirmed line or lane lies in them and they are
+  /// not a verge.
   std::vector<CrossSection> unmarked(const BoundaryPair& pair, const LaneBorder& left,
                                      const LaneBorder& right) const {
     const bool two_kerbs = pair.left_kerb && pair.right_kerb;
@@ -121,13 +122,13 @@ class Divisions {
     return sections;
   }
 
-  /// Beyond the edge of a road with lanes is a verge, a pavement or a cycle track.
+  /// Whether lanes lie beyond a border: then the section is a verge, a pavement or a cycle track.
   bool is_beside_lanes(const CrossSection& section) const {
     const Point out = kBeyondEdge_m * (section.right - section.left).normalized();
     return lanes_.contains(section.left - out) || lanes_.contains(section.right + out);
   }
 
-  /// At the lines that it continues, or in the middle.
+  /// Divides a run at the lines that the divider continues, or in the middle.
   std::optional<Halves> divide(std::span<const CrossSection> run, const BoundaryPair& pair) const {
     const auto before = line_beyond(run.front(), run[1], pair, boundaries_);
     const auto after = line_beyond(run.back(), run[run.size() - 2], pair, boundaries_);
@@ -139,7 +140,7 @@ class Divisions {
 
   const Boundaries& boundaries_;
   const LaneConfig& config_;
-  const TakenSpace lanes_;  ///< that were seen
+  const TakenSpace lanes_;  ///< the lanes between detected boundaries
   TakenSpace& taken_;
   std::vector<InferredBoundary> found_;
 };

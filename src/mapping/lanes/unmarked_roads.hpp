@@ -8,10 +8,11 @@
 
 namespace laneloom {
 
-/// Lanes on roads without lines, ours: where confirmed boundaries, one of them at least an edge or a line
-/// along one, leave room for two lanes, and no lane, edge or confirmed line lies between them, the boundary
-/// between the two is inferred. It continues a line that begins or ends there; else it lies in the middle.
-/// What lies between roads with lanes is none. The space is `taken` then. Without ids.
+/// Finds lanes on roads without lines, ours. A boundary is inferred between two confirmed boundaries that
+/// leave room for two lanes, with no lane, edge or confirmed line between them. At least one of the two is an
+/// edge, or a line along one. The inferred boundary continues a line that begins or ends there, or else lies
+/// in the middle. A strip between roads with lanes is not divided. The lanes are added to `taken`. The
+/// boundaries have no ids.
 std::vector<InferredBoundary> divide_unmarked(const std::vector<BoundaryPair>& pairs,
                                               const Boundaries& boundaries, const LaneConfig& config,
                                               TakenSpace& taken);

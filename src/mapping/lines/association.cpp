@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMaxStations = 3.0;  // between the feet of two samples that follow one another
 
-/// Per sample what was given per vertex.
+/// The deviations per sample, interpolated from those that were given per vertex.
 std::vector<double> deviations(const ObservedMarking& marking, const SampledDetection& detection) {
   const std::vector<double> arc_m = arc_lengths(marking.points);
   std::vector<double> result;
@@ -29,13 +29,13 @@ Eigen::Vector2d direction_of(const Polyline& samples, std::size_t i) {
   return (samples[after] - samples[before]).head<2>().normalized();
 }
 
-/// The station that a sample observes; of two equally near ones the former.
+/// The station that a sample observes: the nearest one, and of two equally near ones the first.
 std::size_t observed_station(const SampleMatch& s) {
   constexpr double kTie = 1e-6;
   return static_cast<std::size_t>(std::lround(std::max(0.0, s.foot.index - kTie)));
 }
 
-/// Which samples of the detections are matched, and which stations of the lines are observed.
+/// Records which samples of the detections are matched, and which stations of the lines are observed.
 class Claims {
  public:
   Claims(const std::vector<SampledDetection>& detections, const std::vector<Line>& lines)
@@ -48,7 +48,8 @@ class Claims {
     return matched_[match.detection][s.sample] || observed_[match.line][observed_station(s)];
   }
 
-  /// Also the stations between two samples that follow one another.
+  /// Claims the samples and stations of a match, and the stations between two samples that follow one
+  /// another.
   void claim(const LineMatch& match) {
     for (std::size_t i = 0; i < match.samples.size(); ++i) {
       const SampleMatch& s = match.samples[i];
@@ -101,7 +102,7 @@ LineMatcher::LineMatcher(const std::vector<Line>& lines, const FusionConfig& con
   for (const Line& line : lines) courses_.emplace_back(line);
 }
 
-/// The foot of a sample on a line that it lies beside, and that runs alike.
+/// The foot of a sample on a line that it lies beside and that runs alike. Empty: it does not lie so.
 std::optional<StationFoot> LineMatcher::foot(const NearestStation& nearest, const Point& sample,
                                              const Eigen::Vector2d& direction) const {
   const Course& course = courses_[nearest.line];
@@ -113,7 +114,7 @@ std::optional<StationFoot> LineMatcher::foot(const NearestStation& nearest, cons
   return is_beside ? std::optional(foot) : std::nullopt;
 }
 
-/// All lines that a detection's samples lie beside, with the samples that do.
+/// Finds all lines that samples of a detection lie beside, with these samples.
 void LineMatcher::find_candidates(std::size_t index, const SampledDetection& detection, std::size_t stride,
                                   Candidates& candidates) {
   NearestStations& nearest_stations = is_stopline(detection.type) ? across_ : along_;
@@ -133,7 +134,7 @@ void LineMatcher::find_candidates(std::size_t index, const SampledDetection& det
   group_hits(index, candidates);
 }
 
-/// By line, and of each line in the order of the samples.
+/// Groups the hits by line. Within a line they keep the order of the samples.
 void LineMatcher::group_hits(std::size_t detection, Candidates& candidates) {
   std::size_t from = candidates.samples.size();
   candidates.samples.resize(from + hits_.size());

@@ -15,31 +15,32 @@ namespace laneloom {
 
 /// A sample of a detection with its foot on a line.
 struct SampleMatch {
-  std::size_t sample = 0;
+  std::size_t sample = 0;  ///< index of the sample in its detection
   StationFoot foot;
 };
 
-/// Whether the line leads from the one foot to the other. It does not where a closed line ends and begins.
+/// Whether the line leads from one foot to the other. It does not where the feet lie at the two ends of a
+/// closed line.
 bool is_led_through(const SampleMatch& from, const SampleMatch& to);
 
-/// What one detection says of one line.
+/// A detection that observes a line, with the samples that do.
 struct LineMatch {
-  std::size_t detection = 0;
-  std::size_t line = 0;
-  std::vector<SampleMatch> samples;  ///< ascending; at least two
+  std::size_t detection = 0;         ///< index
+  std::size_t line = 0;              ///< index
+  std::vector<SampleMatch> samples;  ///< in ascending order; at least two
 };
 
 /// A detection, sampled evenly.
 struct SampledDetection {
   Polyline samples;        ///< map frame, evenly spaced
-  double spacing_m = 0.0;  ///< of the samples along the detection, at most `sample_step_m`
+  double spacing_m = 0.0;  ///< between samples along the detection, at most `sample_step_m`
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
   double confidence = 0.0;
-  std::vector<double> stddev_m{};  ///< per sample, lateral; empty: not given
-  std::vector<bool> explained{};   ///< per sample: some line accounts for it
+  std::vector<double> stddev_m{};  ///< lateral standard deviation per sample; empty: not given
+  std::vector<bool> explained{};   ///< per sample: a line observed it, or was extended by it
 
-  /// How much of the detection a sample stands for, in metres: half of the way to either neighbour.
+  /// The length of the detection that a sample stands for, in metres: half of the way to each neighbour.
   double share_m(std::size_t sample) const {
     return sample == 0 || sample + 1 == samples.size() ? 0.5 * spacing_m : spacing_m;
   }
@@ -48,7 +49,7 @@ struct SampledDetection {
 std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,
                                                 const FusionConfig& config);
 
-/// What one frame says of the lines.
+/// The detections of a frame, and the lines that they observe.
 struct Association {
   std::vector<SampledDetection> detections;
   std::vector<LineMatch> matches;
@@ -57,12 +58,12 @@ struct Association {
 /// Tells which detection observes which of the lines of one instant. Not thread-safe.
 class LineMatcher {
  public:
-  /// `lines` have to stay as they are.
+  /// `lines` must outlive this and stay unchanged.
   LineMatcher(const std::vector<Line>& lines, const FusionConfig& config);
 
-  /// Pairs that lie close and run alike, the best fit first. No place of a line is observed by two detections
-  /// of one frame, since what is seen side by side is not one line; no sample observes two lines. Looks at
-  /// every `stride`-th sample only.
+  /// Matches detections with lines that lie close and run alike, the best fit first. No place of a line is
+  /// observed by two detections of one frame, because lines that are seen side by side are two. No sample
+  /// observes two lines. Only every `stride`-th sample is used.
   std::vector<LineMatch> match(const std::vector<SampledDetection>& detections, std::size_t stride = 1);
 
   const std::vector<Line>& lines() const { return lines_; }
@@ -71,22 +72,24 @@ class LineMatcher {
  private:
   /// A line that a detection lies beside, with `count` samples from `from` on.
   struct Candidate {
-    double score = 0.0;
-    std::size_t detection = 0, line = 0;
-    std::size_t from = 0, count = 0;
+    double score = 0.0;                   ///< see Found
+    std::size_t detection = 0, line = 0;  ///< indices
+    std::size_t from = 0, count = 0;      ///< its place in Candidates::samples
   };
+  /// The candidates of a frame.
   struct Candidates {
     std::vector<Candidate> all;
-    std::vector<SampleMatch> samples;
+    std::vector<SampleMatch> samples;  ///< of all candidates, one after the other
   };
-  /// Of one detection on one line, so far.
+  /// Sums over one detection's samples on one line.
   struct Found {
-    double score = 0.0;
-    std::size_t samples = 0;
-    std::size_t next = 0;  ///< place of the next sample among those of all candidates
+    double score = 0.0;       ///< grows with the number of samples and their fit
+    std::size_t samples = 0;  ///< number of samples
+    std::size_t next = 0;     ///< place of the next sample among those of all candidates
   };
+  /// A sample that lies on a line.
   struct Hit {
-    std::uint32_t line = 0;
+    std::uint32_t line = 0;  ///< index
     SampleMatch sample;
   };
 
@@ -101,7 +104,7 @@ class LineMatcher {
   double min_cosine_;
   NearestStations along_, across_;
   std::vector<Course> courses_;  ///< of the lines
-  // Of one detection, and empty between two of them.
+  // Scratch for one detection; empty between two of them.
   std::vector<Found> found_;  ///< by line
   std::vector<Hit> hits_;
 };

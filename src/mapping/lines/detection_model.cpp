@@ -10,28 +10,28 @@ namespace laneloom {
 namespace {
 
 constexpr double kRing_m = 10.0;   // width of a range bin of the rates
-constexpr double kRange_m = 12.0;  // likewise of the confidences
+constexpr double kRange_m = 12.0;  // width of a range bin of the confidences
 constexpr double kMinRate = 0.02, kMaxRate = 0.95;
 constexpr double kMinVariance = 1e-4;
 constexpr double kMinLasting = 0.02;
 constexpr double kMaxDeficit = 0.3;
-constexpr double kLeastConfidences = 10.0;            // to tell their level
-constexpr double kMinWrongHits = 3.0;                 // a single one is told by its lack of company
+constexpr double kLeastConfidences = 10.0;  // number that is needed to know their level
+constexpr double kMinWrongHits = 3.0;       // number of hits; lines with fewer are told by that alone
 constexpr double kMostAgainst = 4.0, kMostFor = 1.0;  // log odds: many wrong lines look right, too
 
-// Priors: of networks in general, worth some seconds of driving.
+// Priors that hold for networks in general. They weigh as much as some seconds of driving.
 constexpr double kRateAhead = 0.9, kRateLossPerRing = 0.06, kRateBehind = 0.05, kRateWeight = 200.0;
 constexpr double kLevelWeight = 20.0;
 constexpr LearnedMean kVariance{0.12 * 0.12, 50.0}, kLasting{0.3, 10.0}, kDeficit{0.1, 10.0};
 
-// How much is remembered.
+// Largest weights of what is learned. Beyond them, old values are forgotten.
 constexpr double kMostViews = 3000.0, kMostConfidences = 1000.0, kMostLines = 100.0;
 
 std::size_t bin(double range_m, double width_m, std::size_t count) {
   return std::min(static_cast<std::size_t>(range_m / width_m), count - 1);
 }
 
-/// Rings around the vehicle, ahead and behind.
+/// The bin of a place: rings ahead of the vehicle come first, then rings behind it.
 std::size_t place(const Point& point_body, std::size_t rings) {
   const std::size_t ring = bin(point_body.head<2>().norm(), kRing_m, rings);
   return point_body.x() >= 0.0 ? ring : rings + ring;
@@ -108,14 +108,15 @@ void DetectionModel::learn_confidence(MarkingType type, double range_m, double c
 bool DetectionModel::knows_confidences() const { return level_.weight >= kLeastConfidences; }
 
 double DetectionModel::surplus(MarkingType type, double range_m, double confidence) const {
-  // Where little is known yet, the level of all stands in.
+  // While little is known of this range, the level of all ranges stands in.
   const LearnedMean& there = levels_[index(type)][bin(range_m, kRange_m, kRanges)];
   const double share = there.weight / (there.weight + kLevelWeight);
   return confidence - (share * there.mean + (1.0 - share) * level_.mean);
 }
 
 void DetectionModel::learn_right(const Confidences& confidences) {
-  // The mean of independent values varies by a share of 1 / count; what it varies beyond lasts.
+  // The mean of independent values would have a share of 1 / count of their variance. The rest of the mean's
+  // variance is common to all confidences of the line.
   const double noise = 1.0 / confidences.count;
   const double share = confidences.mean * confidences.mean / std::max(kMinVariance, variance_.mean);
   lasting_.add((share - noise) / (1.0 - noise), kMostLines);
@@ -132,7 +133,7 @@ double DetectionModel::variance_of_mean(double count) const {
 
 double DetectionModel::log_odds(MarkingType type, const Confidences& confidences) const {
   if (confidences.count <= 0.0) return 0.0;
-  // Right and wrong lines as two normal distributions that differ in their mean alone.
+  // Right and wrong lines are taken as two normal distributions that differ in their mean alone.
   const double deficit = std::clamp(deficits_[index(type)].mean, 0.0, kMaxDeficit);
   const double ratio = deficit * (confidences.mean + 0.5 * deficit) / variance_of_mean(confidences.count);
   return std::clamp(ratio, -kMostAgainst, kMostFor);

@@ -9,15 +9,15 @@ namespace laneloom {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kLasting = 0.02;      // share of a new frame in what lasts: 5 s at 10 Hz
-constexpr double kLineStddev_m = 0.2;  // of one line's own error, which its samples have in common
-constexpr double kOutlier_m = 0.15;    // from which a line says little of the frame
-constexpr int kRounds = 3;             // of weighing the lines anew
-constexpr std::size_t kStride = 4;     // between the samples that are looked at
-const FrameError kExpected{0.3, 0.03, 0.6 * kDegree};  // standard deviations
+constexpr double kLasting = 0.02;      // weight of a new frame in the lasting error: 5 s at 10 Hz
+constexpr double kLineStddev_m = 0.2;  // error that all samples of one line have in common
+constexpr double kOutlier_m = 0.15;    // lateral; a line that is further off weighs little
+constexpr int kRounds = 3;             // each weighs the lines anew
+constexpr std::size_t kStride = 4;     // only every so many-th sample is used
+const FrameError kExpected{0.3, 0.03, 0.6 * kDegree};  // standard deviations before a frame is seen
 const FrameError kLimit{0.5, 0.3, 2.0 * kDegree};
 
-/// One sample's say: lateral_m = row * error.
+/// The equation of one sample: lateral_m = row * error.
 struct Equation {
   Eigen::RowVector3d row;
   double lateral_m;

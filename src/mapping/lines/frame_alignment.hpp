@@ -9,22 +9,23 @@
 
 namespace laneloom {
 
-/// What all detections of a frame have in common of their error: how far they lie ahead and to the left of
-/// their places, in the body frame in metres, and how far they are turned about the vehicle, in radians.
+/// The error that all detections of a frame have in common, in the body frame: metres ahead and to the left
+/// of their true places, and radians by which they are turned about the vehicle.
 using FrameError = Eigen::Vector3d;
 
-/// How far the frame as a whole lies beside the lines that it was matched with, as far as these are reliable
-/// and agree: robust, and drawn towards none where little tells.
+/// Estimates the error of a frame from the lines that it was matched with. Only stations with log odds of at
+/// least `min_log_odds` count. Lines that disagree with the others weigh little. With little evidence the
+/// estimate stays near zero.
 FrameError estimate_error(const std::vector<LineMatch>& matches,
                           const std::vector<SampledDetection>& detections, const std::vector<Line>& lines,
                           const Eigen::Isometry3d& T_map_body, double min_log_odds);
 
-/// How far a place of the map lies beside where it would without that error, horizontally.
+/// The horizontal offset, map frame, by which that error moves a place of the map.
 Eigen::Vector2d shifted_by(const FrameError& error, const Point& point, const Eigen::Isometry3d& T_map_body);
 
-/// Takes the share `gain` of a frame's error out of its detections, but for what lasts: that is a drift of
-/// the poses, with which the map has to go. `lasting` is its running mean. Returns the error without it.
-/// `matcher` is of the map's lines. Ours.
+/// Takes the share `gain` of a frame's error out of its detections. The part of the error that lasts is left
+/// in: it is a drift of the poses, with which the map has to go. `lasting` is its running mean. Returns the
+/// error without the lasting part. `matcher` holds the map's lines. Ours.
 FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMatcher& matcher,
                        std::vector<SampledDetection>& detections, FrameError& lasting);
 

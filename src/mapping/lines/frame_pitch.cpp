@@ -9,15 +9,15 @@
 namespace laneloom {
 namespace {
 
-constexpr double kFurthest_m = 60.0;       // ahead; further samples say little
-constexpr double kMinLength_m = 8.0;       // ahead, of a line that says something
-constexpr double kMaxSlope = 0.5;          // of a line that runs ahead
+constexpr double kFurthest_m = 60.0;       // ahead; further samples are left out
+constexpr double kMinLength_m = 8.0;       // shorter lines are left out
+constexpr double kMaxSlope = 0.5;          // lines that run more across are left out
 constexpr double kExpected_per_m = 0.006;  // standard deviation of the stretch
 constexpr double kLimit_per_m = 0.012;
-constexpr double kStddevPer_m2 = 0.0003;  // of a sample: grows with the square of its distance
+constexpr double kStddevPer_m2 = 0.0003;  // of a sample, by the square of its distance
 constexpr double kStddev_m = 0.03;
-constexpr double kCorrelated = 8.0;  // samples that err alike
-constexpr double kOutlier = 2.0;     // deviations, from which a sample says little
+constexpr double kCorrelated = 8.0;  // number of neighbouring samples that err alike
+constexpr double kOutlier = 2.0;     // in deviations; a sample that is further off weighs little
 constexpr int kRounds = 4;
 
 /// A place of a line in the body frame.
@@ -25,10 +25,10 @@ struct Place {
   double x_m, y_m;
 };
 
-/// A line that runs ahead, and how far it runs to the left of the course that all lines have in common.
+/// A line that runs ahead.
 struct LineAhead {
   std::vector<Place> places;
-  double offset_m = 0.0;
+  double offset_m = 0.0;  ///< to the left of the course that all lines have in common
 
   bool says_something() const {
     if (places.empty()) return false;
@@ -54,10 +54,11 @@ std::vector<LineAhead> lines_ahead(const std::vector<SampledDetection>& detectio
   return lines;
 }
 
-/// What all lines have in common: the stretch, and the coefficients of a cubic course in units of 10 m.
+/// The unknowns that all lines have in common: the stretch, and the coefficients of a cubic course in units
+/// of 10 m.
 using Common = Eigen::Vector4d;
 
-/// The normal equations of one line about an estimate, for what is common and for the line's offset.
+/// The normal equations of one line at an estimate, for the common unknowns and the line's own offset.
 struct Equations {
   Eigen::Matrix4d common = Eigen::Matrix4d::Zero();
   Common cross = Common::Zero();

@@ -8,9 +8,9 @@
 namespace laneloom {
 namespace {
 
-constexpr double kEndStations = 3.0;  // from an end, within which a detection saw it
+constexpr double kEndStations = 3.0;  // a detection that came this near to an end saw it
 
-/// The detections that saw each end of a line: its first station and its last one.
+/// The detections that saw each end of a line, the front and the back.
 using Views = std::array<std::vector<std::size_t>, 2>;
 
 std::vector<Views> views_of_ends(const std::vector<LineMatch>& matches, const std::vector<Line>& lines) {
@@ -25,7 +25,7 @@ std::vector<Views> views_of_ends(const std::vector<LineMatch>& matches, const st
   return views;
 }
 
-/// An end of a line that may meet another one's, seen from above.
+/// An end of a line that may meet an end of another line, seen from above.
 struct LineEnd {
   ElementId line = kNoElement;
   End end = End::front;
@@ -35,7 +35,7 @@ struct LineEnd {
   ElementId id() const { return end_id(line, end); }
 };
 
-/// In the order of their ids. Stoplines do not go on, so that they have none.
+/// The ends of the lines, by ascending id. Stoplines are left out, since nothing continues them.
 std::vector<LineEnd> ends_of(const std::vector<Line>& lines, const std::vector<Views>& views) {
   std::vector<LineEnd> ends;
   ends.reserve(2 * lines.size());

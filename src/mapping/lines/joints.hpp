@@ -9,8 +9,8 @@
 
 namespace laneloom {
 
-/// Counts for the ends of lines that lie within `max_gap_m` of each other how the frame's detections saw
-/// them: as places of one marking that runs through both (together), or of two that meet (apart).
+/// Counts how a frame's detections saw ends of lines that lie within `max_gap_m` of each other. `together`:
+/// one detection ran through both ends. `apart`: two detections saw one end each.
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
                   PairHistories& joints);
 

@@ -10,11 +10,11 @@
 namespace laneloom {
 namespace {
 
-constexpr std::size_t kMaxLines = 256;  // a flood of ghosts must not make frames slow
-constexpr double kStandingShare = 0.3;  // of a view's evidence, for and against what is not confirmed
+constexpr std::size_t kMaxLines = 256;  // a flood of false detections must not make frames slow
+constexpr double kStandingShare = 0.3;  // least share of a view's evidence, while a station is not confirmed
 constexpr std::array kMilestones{8.0, 16.0, 32.0, 64.0};
 
-/// By crossings of a ray (even-odd).
+/// Whether a polygon contains a point, by the number of its crossings of a ray (even-odd rule).
 bool contains(const Polyline& polygon, const Point& point) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -57,7 +57,7 @@ double mean_range_m(const SampledDetection& detection, const Point& origin) {
   return sum_m / static_cast<double>(detection.samples.size());
 }
 
-/// By how often it was seen alone.
+/// Whether a line is confirmed by its stations alone, without its confidences.
 bool is_established(const Line& line, const FusionConfig& config) {
   return existence(line.stations, {}) >= config.confirm_log_odds;
 }
@@ -66,7 +66,8 @@ double hit(const SampledDetection& detection, const FusionConfig& config) {
   return config.hit_log_odds * 4.0 * detection.confidence * detection.confidence;
 }
 
-/// How far standing raises the evidence: a line may come to be published, but not confirmed.
+/// The limit up to which a standing vehicle raises the evidence: a line may come to be published, but not
+/// confirmed.
 double standing_limit(const FusionConfig& config) {
   return 0.5 * (config.publish_log_odds + config.confirm_log_odds);
 }
@@ -87,7 +88,8 @@ void credit_stations(const LineMatch& match, double log_odds, double news, const
   }
 }
 
-/// Counts at which a line's confidences are looked at: each twice the one before.
+/// Whether a line's confidences reach a count at which the model learns from them. Each such count is twice
+/// the one before.
 bool reaches_milestone(double count, double news) {
   return std::ranges::any_of(kMilestones, [=](double m) { return count < m && count + news >= m; });
 }
@@ -141,7 +143,7 @@ void discount_unobserved(const View& view, const MapBox& range, const FusionConf
 
 namespace {
 
-/// What is left of a line, in order.
+/// The pieces of a line that are left without its dead stations, in order.
 std::vector<Line> living_pieces(Line& line, const MapBox& range, const FusionConfig& config) {
   const auto dead = [&](const Station& s) {
     return s.log_odds < config.min_log_odds || !range.keeps(s.position);

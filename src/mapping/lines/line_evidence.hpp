@@ -14,41 +14,44 @@
 
 namespace laneloom {
 
-/// What a frame can say of the map.
+/// The view of a frame on the map.
 struct View {
   Eigen::Isometry3d T_body_map = Eigen::Isometry3d::Identity();
-  const DetectionFrame* frame = nullptr;
-  double news = 1.0;  ///< how much of it is: evidence counts by independent views, not by frames
+  const DetectionFrame* frame = nullptr;  ///< the frame that sees
+  double news = 1.0;  ///< 0..1; 1 is an independent view. Evidence counts by independent views, not by frames
 
   bool is_independent() const { return news >= 1.0; }
   /// Whether the network detects markings of `type`.
   bool detects(MarkingType type) const;
-  /// Whether nothing is told of places that it cannot see.
+  /// Whether the frame names neither a field of view nor occluded areas.
   bool unlimited() const;
 
   /// Whether a marking of `type` at a point of the map would have been seen.
   bool sees(const Point& point_map, MarkingType type, const MapBox& range) const;
 };
 
-/// Log odds that a line exists: what its stations say on average, and what its confidences say.
+/// Log odds that a line exists: the mean of its stations plus those of its confidences.
 double existence(std::span<const Station> stations, const Confidences& confidences);
 
-/// Notes one more confidence of a line.
+/// Adds the confidence of one more detection to a line.
 void add_confidence(const SampledDetection& detection, const Point& origin, double news,
                     const DetectionModel& model, Line& line);
 
-/// Raises the evidence of what was observed. The model learns the confidences of established lines.
+/// Raises the evidence of the stations that were observed. The model learns the confidences of established
+/// lines.
 void credit_observed(const View& view, const Association& association, const FusionConfig& config,
                      DetectionModel& model, std::vector<Line>& lines);
 
-/// Lowers the evidence of the stations that were in view and not observed, as far as the network sees what is
-/// there. The model learns how often it sees established lines, within the range and its margin.
+/// Lowers the evidence of the stations that were in view and not observed, the more the more reliably the
+/// network sees lines there. The model learns how often it sees established lines, within the range and its
+/// margin.
 void discount_unobserved(const View& view, const MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines);
 
-/// Takes away what has lost its evidence or left the range: ends are cut, a line that is lost in between is
-/// split. Its longest piece keeps the id; returns the others, each with the line that it was cut off from.
-/// The model learns which lines were wrong. Of more than 256 lines, those that are believed least go.
+/// Removes stations that have lost their evidence or left the range. A line that loses stations in between is
+/// split; its longest piece keeps the id. Returns the other pieces, each with the line that it was cut off
+/// from. The model learns which lines were wrong. Of more than 256 lines, those of the least evidence are
+/// removed.
 std::vector<Relative> prune_lines(const MapBox& range, const FusionConfig& config, DetectionModel& model,
                                   std::vector<Line>& lines, IdSource& ids);
 

@@ -9,25 +9,26 @@
 namespace laneloom {
 namespace {
 
-constexpr double kTypeMemory = 0.98;  // per observation: the border of a road may become another
+constexpr double kTypeMemory = 0.98;  // factor per observation; the border of a road may change its type
 
-/// Whether a detection was seen on a line from the one sample to the next that matched.
+/// Whether a detection ran on a line from one matched sample to the next.
 bool is_seen_through(const SampleMatch& from, const SampleMatch& to) {
   return to.sample <= from.sample + 2 && is_led_through(from, to);
 }
 
-/// What a detection says of a line. All of it is gathered before any is applied: a station that has moved
-/// would turn its neighbours' normals.
+/// The observations of a line by a detection. All are gathered before any is applied, because a station that
+/// has moved would turn its neighbours' normals.
 class Observations {
  public:
   Observations(const SampledDetection& detection, Line& line) : detection_(detection), line_(line) {}
 
-  /// Leaves out what is observed already, and marks the rest.
+  /// Gathers the observations by matched samples. Stations that are observed already are left out; the others
+  /// are marked as observed.
   void gather(const std::vector<SampleMatch>& samples) {
     for (std::size_t i = 1; i < samples.size(); ++i) {
       const SampleMatch &a = samples[i - 1], &b = samples[i];
       if (!is_seen_through(a, b)) continue;
-      // Where it begins and ends, the nearest station is seen, too.
+      // At the detection's ends, the nearest station is observed too.
       const double before = i > 1 && is_seen_through(samples[i - 2], a) ? 0.0 : 0.5;
       const double after = i + 1 < samples.size() && is_seen_through(b, samples[i + 1]) ? 0.0 : 0.5;
       const bool forwards = a.foot.index <= b.foot.index;
@@ -43,7 +44,7 @@ class Observations {
   const std::vector<Observation>& all() const { return all_; }
 
  private:
-  /// What two samples that follow one another say at a station.
+  /// The observation of a station, interpolated between two samples that follow one another.
   Observation between(const SampleMatch& a, const SampleMatch& b, std::size_t station) const {
     const double run = b.foot.index - a.foot.index;
     const double share =

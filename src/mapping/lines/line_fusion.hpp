@@ -11,8 +11,8 @@
 
 namespace laneloom {
 
-/// Moves the observed stations towards what was seen, weighing each observation by its deviation, and raises
-/// their evidence. Teaches the networks.
+/// Moves the observed stations towards the observations, each weighed by its deviation. Counts the votes for
+/// types and styles. Teaches the networks.
 void fuse_matches(const Association& association, const Viewpoint& from, const FusionConfig& config,
                   Networks& networks, std::vector<Line>& lines);
 

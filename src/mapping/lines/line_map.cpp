@@ -8,7 +8,7 @@
 namespace laneloom {
 namespace {
 
-constexpr double kCell_m = 1.0;  // about a gate and a station's spacing: what is looked for is in few cells
+constexpr double kCell_m = 1.0;  // as the gate and the spacing of stations: searches meet few cells
 
 }  // namespace
 
@@ -80,7 +80,7 @@ StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
   if (all.empty()) return;
   origin_ = bounds.min();
   size_ = (bounds.sizes() / kCell_m).array().floor().cast<int>() + 1;
-  // Counting sort by cell; within a cell by line and station.
+  // A counting sort by cell. Within a cell, stations keep the order of line and station.
   starts_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
   std::vector<std::size_t> cells;
   cells.reserve(all.size());
@@ -95,8 +95,8 @@ StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
 }
 
 Eigen::Vector2i StationGrid::cell_of(const Eigen::Vector2d& place) const {
-  // Clamped, so that what is far away does not overflow. Truncated, as a place before the first cell may
-  // count to that; adding one first would round the end of the last cell up to beyond it.
+  // Clamped, so that a far place does not overflow. Truncated, since a place before the first cell may count
+  // as in it; adding one first would round the end of the last cell up to the cell beyond.
   const Eigen::Vector2d cells = (place - origin_) / kCell_m;
   return cells.cwiseMax(0.0).cwiseMin(size_.cast<double>()).cast<int>();
 }

@@ -13,18 +13,18 @@
 
 namespace laneloom {
 
-/// What a frame says of a place on a line.
+/// How a frame saw a place on a line.
 enum class Sight : std::uint8_t { out_of_view, missed, observed };
 
-/// A place on a line, about every metre, with what is known of the line there.
+/// A place on a line, about a metre from the next, with the knowledge of the line there.
 struct Station {
   Point position = Point::Zero();  ///< map frame
-  LateralFilter lateral;           ///< how well it is known
+  LateralFilter lateral;           ///< estimate of the position across the line
   double log_odds = 0.0;           ///< that the line is there, by how often it was seen
-  StyleVotes style_votes{};
-  double moved_m = 0.0;                                            ///< to the left, since it was born
-  std::array<FarView, NetworkModel::kNodes_m.size()> far_views{};  ///< the first one at each range
-  Sight sight = Sight::out_of_view;                                ///< in this frame; not kept
+  StyleVotes style_votes{};        ///< one vote per observation
+  double moved_m = 0.0;            ///< to the left, since the station was made
+  std::array<FarView, NetworkModel::kNodes_m.size()> far_views{};  ///< the first view at each range
+  Sight sight = Sight::out_of_view;                                ///< in the present frame; not saved
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -34,9 +34,9 @@ struct Station {
 
 /// The confidences with which a line was detected.
 struct Confidences {
-  double count = 0.0;     ///< of independent views
-  double mean = 0.0;      ///< surplus over the confidences of established lines
-  double log_odds = 0.0;  ///< what they say of the line's existence
+  double count = 0.0;     ///< number of independent views
+  double mean = 0.0;      ///< mean surplus over the confidences of established lines
+  double log_odds = 0.0;  ///< that the line exists, by the confidences alone
 
   void add(double surplus, double news) {
     count += news;
@@ -51,14 +51,14 @@ struct Confidences {
 /// A marking that is followed over time.
 struct Line {
   ElementId id = kNoElement;
-  std::vector<Station> stations;  ///< in order along the line
-  std::array<double, kMarkingTypeCount> type_votes{};
-  std::uint64_t observations = 0;
-  std::int64_t first_seen_ns = 0;
-  std::int64_t last_seen_ns = 0;
+  std::vector<Station> stations;                       ///< in order along the line
+  std::array<double, kMarkingTypeCount> type_votes{};  ///< samples by type; old votes fade
+  std::uint64_t observations = 0;                      ///< number of detections that observed it
+  std::int64_t first_seen_ns = 0;                      ///< stamp of the frame that made it
+  std::int64_t last_seen_ns = 0;                       ///< stamp of the newest frame that observed it
   Confidences confidences{};
 
-  /// The most voted type; the first one of equals.
+  /// The type with most votes; of equals, the first one.
   MarkingType type() const;
 
   template <class Archive>
@@ -67,40 +67,42 @@ struct Line {
   }
 };
 
-/// Lanelines and roadedges are told apart by vote, stoplines from the start: they cross the others.
+/// Whether a type is matched apart from the others. Stoplines are, because they cross the others; lanelines
+/// and roadedges are told apart by vote.
 inline bool is_stopline(MarkingType type) { return type == MarkingType::stopline; }
 
 /// The foot of a point on a line.
 struct StationFoot {
-  double index = 0.0;      ///< of the foot between stations: 2.5 is halfway between the third and the fourth
-  double lateral_m = 0.0;  ///< of the point; left of the line is positive
+  double index = 0.0;      ///< place between stations: 2.5 is halfway between the third and the fourth
+  double lateral_m = 0.0;  ///< distance of the point; left of the line is positive
   double height_m = 0.0;   ///< of the point above the foot
-  bool inside = false;     ///< not beyond one of the line's ends
+  bool inside = false;     ///< the foot is not beyond one of the line's ends
 };
 
-/// Foot of `point` on the two segments at station `nearest`. The line has at least two stations.
+/// The foot of `point` on the two segments at station `nearest`. The line has at least two stations.
 StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point);
 
 /// Horizontal unit direction of the line at a station.
 Eigen::Vector2d direction_at(const Line& line, std::size_t station);
 
-/// Where a line runs, without what else its stations know: for feet that are looked for again and again. The
-/// line has at least two stations, and is not needed later on.
+/// The positions and directions of a line's stations, for quick repeated searches of feet. The line has at
+/// least two stations. It is copied.
 class Course {
  public:
   explicit Course(const Line& line);
 
   std::size_t size() const { return places_.size(); }
-  /// As foot_at() of the line.
+  /// The same as foot_at() of the line.
   StationFoot foot(std::size_t nearest, const Point& point) const;
-  /// As direction_at() of the line.
+  /// The same as direction_at() of the line.
   const Eigen::Vector2d& direction(std::size_t station) const { return places_[station].direction; }
 
  private:
+  /// A station, reduced to what Course::foot() needs.
   struct Place {
     Point position;
     Eigen::Vector2d direction;
-    double ahead_m;  ///< to the next one, horizontally
+    double ahead_m;  ///< horizontal distance to the next place
   };
   std::vector<Place> places_;
 };
@@ -110,13 +112,13 @@ inline Eigen::Vector2d left_of(const Eigen::Vector2d& direction) { return {-dire
 /// Finds stations by place: a uniform grid over the stations of one instant.
 class StationGrid {
  public:
-  /// What is asked of a station again and again lies together, in the order in which it is walked.
+  /// A station, reduced to what searches need. Entries lie in the order in which they are visited.
   struct Entry {
-    Point position = Point::Zero();
-    std::uint32_t line = 0;
-    std::uint32_t station = 0;
+    Point position = Point::Zero();  ///< map frame
+    std::uint32_t line = 0;          ///< index of its line
+    std::uint32_t station = 0;       ///< index in that line
   };
-  /// Of all stoplines, or of all other lines.
+  /// Holds the stations of all stoplines, or of all other lines.
   StationGrid(const std::vector<Line>& lines, bool of_stoplines);
 
   /// Calls `visit(entry)` for every station that is within `reach_m` of `point`, and for some that are little

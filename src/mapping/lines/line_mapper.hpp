@@ -16,14 +16,14 @@
 
 namespace laneloom {
 
-/// Our method of fusion: lines that are followed over time, each station of a line with its own position and
-/// evidence. A value.
+/// Our method of fusion. It follows lines over time; each station of a line has its own position and
+/// evidence. A value type.
 class LineMapper {
  public:
   FusedMarkings fuse(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
                      IdSource& ids, const StageLog& log);
 
-  /// Forgets all but what was learned of the networks.
+  /// Forgets everything except what was learned of the networks.
   void reset();
 
   const std::vector<Line>& lines() const { return lines_; }
@@ -39,10 +39,10 @@ class LineMapper {
                          Viewpoint& from);
 
   std::vector<Line> lines_;
-  PairHistories doubles_;  ///< of lines that lie side by side
-  PairHistories joints_;   ///< of ends of lines that lie near each other
-  FrameError lasting_error_ = FrameError::Zero();
-  Networks networks_;  ///< what was learned of the sources
+  PairHistories doubles_;                          ///< how lines that lie side by side were seen
+  PairHistories joints_;                           ///< how ends of lines that lie near each other were seen
+  FrameError lasting_error_ = FrameError::Zero();  ///< running mean, see align_frame()
+  Networks networks_;                              ///< what was learned of the sources
 };
 
 }  // namespace laneloom

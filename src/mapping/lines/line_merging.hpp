@@ -9,12 +9,13 @@
 
 namespace laneloom {
 
-/// What a line weighs against another one in its place: its length times the evidence for it.
+/// The weight of a line against another one in its place: its length times its evidence.
 double weight(const Line& line, const FusionConfig& config);
 
-/// Counts which neighbouring lines are seen in the same frame, as two real lines are, and which in different
-/// ones, as a line and its double are. Of two that are, the one with less evidence goes. Returns what went,
-/// each with the line that stays.
+/// Counts for neighbouring lines in how many frames both were seen, and in how many only one of them. Two
+/// real lines are seen together; a line and its double take turns. Two road edges that lie within 0.3 m of
+/// each other are doubles however often they are seen together. Of a line and its double, the one of less
+/// weight is removed. Returns the removed lines, each with the line that stays.
 std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
                                     PairHistories& doubles);
 

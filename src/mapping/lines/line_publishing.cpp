@@ -15,8 +15,8 @@ namespace {
 
 using Stations = std::span<const Station>;
 
-/// From the first to the last place where the line may be. What is weak in between has been seen and is about
-/// to be seen again, or else the line is cut there.
+/// The stations from the first to the last one of enough evidence. Weak stations in between are kept: either
+/// they are soon seen again, or the line is cut there.
 Stations published_stretch(const Line& line, const FusionConfig& config) {
   const auto enough = [&](const Station& station) { return station.log_odds >= config.extent_log_odds; };
   const auto begin = std::ranges::find_if(line.stations, enough);
@@ -25,7 +25,7 @@ Stations published_stretch(const Line& line, const FusionConfig& config) {
   return {begin, end};
 }
 
-/// Twice by the neighbours; the ends stay.
+/// The stations' positions, smoothed twice with their neighbours. The ends stay unchanged.
 Polyline smoothed(Stations stations) {
   Polyline points;
   points.reserve(stations.size());
@@ -47,25 +47,26 @@ std::vector<StyleRange> styles_along(Stations stations, const Polyline& points, 
   return styles;
 }
 
-/// An observation's noise averages out; the network's bias towards a line, which lasts, does not.
+/// The published deviation. It includes the network's lasting bias, which does not average out as the noise
+/// of observations does.
 double lateral_stddev_m(const Station& station, const FusionConfig& config) {
   return std::sqrt(config.bias_stddev_m * config.bias_stddev_m + station.lateral.variance_m2());
 }
 
-/// Grows with the evidence between what is published and what is certain.
+/// The published probability. It grows with the evidence from existence_at_publish to existence_at_max.
 double existence_probability(double log_odds, const FusionConfig& config) {
   const double span = std::max(1e-9, config.max_log_odds - config.publish_log_odds);
   const double share = std::clamp((log_odds - config.publish_log_odds) / span, 0.0, 1.0);
   return config.existence_at_publish + share * (config.existence_at_max - config.existence_at_publish);
 }
 
-/// The lines that lie so near a stronger one of their type that each is taken for a shadow of it until the
-/// two are seen together.
+/// The lines that lie beside a stronger one of their type. Each is taken for a double of it until the two are
+/// seen together.
 std::vector<ElementId> shadows(const std::vector<Line>& lines, const PairHistories& doubles,
                                const FusionConfig& config) {
   std::vector<ElementId> held_back;
   for (const PairHistory& pair : doubles) {
-    // Lines that converge come near each other all of a sudden.
+    // Two lines that converge were seen together from the start on.
     const bool never_apart = pair.apart == 0.0 && pair.together > 0.0;
     if (never_apart || seen_together(pair)) continue;
     const auto a = std::ranges::find(lines, pair.a, &Line::id),

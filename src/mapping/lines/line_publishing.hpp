@@ -9,9 +9,9 @@
 
 namespace laneloom {
 
-/// The lines that exist by all that is known of them as markings, as far as their stations tell that they
-/// reach: also beyond the local range. Of `doubles`, lines that lie side by side, the weaker one of a type is
-/// held back until the two are seen together.
+/// Makes markings of the lines whose evidence suffices, from their first to their last station of enough
+/// evidence. They may reach beyond the local range. `doubles` are lines that lie side by side: of two of one
+/// type, the weaker one is held back until both are seen together.
 std::vector<Marking> publish_lines(const std::vector<Line>& lines, const PairHistories& doubles,
                                    const MapperConfig& config);
 

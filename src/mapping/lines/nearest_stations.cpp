@@ -10,11 +10,11 @@ namespace laneloom {
 namespace {
 
 constexpr double kRounding = 1.0 + 1e-9;
-constexpr double kMaxOutside_m = 2.0;  // of a bend, from its station
+constexpr double kMaxOutside_m = 2.0;  // greatest distance outside of a bend, from its station
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// How far a point that lies on a line may be from the nearest station: its foot is at most half a segment
-/// away from it, or, outside of a bend, at the station itself.
+/// The greatest squared distance of a point on a line from the nearest station. Its foot is at most half a
+/// segment away from the station, or, outside of a bend, at the station itself.
 double squared_reach_m2(const Line& line, double gate_m) {
   double longest_m = 0.0, least_cosine = 1.0;
   Eigen::Vector2d before = Eigen::Vector2d::Zero();

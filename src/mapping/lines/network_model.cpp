@@ -11,16 +11,16 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMemory = 20000.0;    // views; those of neighbouring stations are hardly different ones
-constexpr double kPriorViews = 50.0;   // that the configured deviation counts for
-constexpr double kPriorGain = 100.0;   // squared deviations that speak against any suspicion
-constexpr double kPriorPairs = 100.0;  // that the correlation below counts for
+constexpr double kMemory = 20000.0;    // views; those of neighbouring stations are nearly the same
+constexpr double kPriorViews = 50.0;   // weight of the configured deviation, in views
+constexpr double kPriorGain = 100.0;   // evidence that speaks against any suspicion, in squared deviations
+constexpr double kPriorPairs = 100.0;  // weight of the correlation below, in pairs
 constexpr double kPriorCorrelation_m = 10.0, kPriorDistance_m = 8.0;
 constexpr double kMinStddev_m = 0.02, kMaxStddev_m = 1.0;
 constexpr double kMinCorrelation_m = 2.0, kMaxCorrelation_m = 15.0;
-constexpr double kOutlier = 3.0;  // deviations, from which an error counts as no larger
+constexpr double kOutlier = 3.0;  // deviations; a larger error counts as this
 
-/// The nodes that a range lies between, and its share of the way to the further one.
+/// A range between two nodes: the nearer node, and the share of the way to the next one.
 struct Between {
   std::size_t node;
   double share;
@@ -97,7 +97,7 @@ double NetworkModel::error_m(const FarView& view, double near_m) const {
 
 void NetworkModel::learn(const FarView& view, double near_m) {
   const double stddev_m = this->stddev_m(view.range_m), error_m = this->error_m(view, near_m);
-  // Each explains what the other one leaves.
+  // Each gain learns from the error that the other one leaves.
   const double stretched = view.stretched_m / stddev_m, misplaced = view.misplaced_m / stddev_m;
   const double left = error_m / stddev_m;
   pitch_.learn(stretched, left + pitch_gain() * stretched);

@@ -10,14 +10,14 @@
 
 namespace laneloom {
 
-/// What was said of a place from far, until it is seen from near.
+/// A view of a place from far, kept until the place is seen from near.
 struct FarView {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t source = kNone;  ///< its number among the networks
-  double range_m = 0.0;          ///< from where
-  double lateral_m = 0.0;        ///< to the left of a mark that stays
-  double stretched_m = 0.0;      ///< of these, how far the frame's pitch is suspected to have moved it
-  double misplaced_m = 0.0;      ///< likewise the frame's pose
+  std::uint32_t source = kNone;  ///< number of the network
+  double range_m = 0.0;          ///< from the vehicle to the place
+  double lateral_m = 0.0;        ///< to the left of where the station was made
+  double stretched_m = 0.0;      ///< part of it that is suspected to come from the frame's pitch
+  double misplaced_m = 0.0;      ///< part of it that is suspected to come from the frame's pose
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -25,16 +25,16 @@ struct FarView {
   }
 };
 
-/// How much of what was suspected has proved true: a regression through 0.
+/// The share of suspected errors that proved true: a regression through 0.
 class Gain {
  public:
-  /// 0 to 1; at first 0.
+  /// The share, 0..1. It is 0 at first.
   double value() const;
-  /// How many squared deviations were suspected.
+  /// Sum of the squares of the suspected errors.
   double evidence() const { return evidence_; }
-  /// Of so many, such a share is taken to have come true.
+  /// Starts with a share (`value`) and the evidence for it (`weight`) that are known already.
   void start_with(const LearnedValue& known);
-  /// Both in standard deviations of what else moves the proof.
+  /// Learns from a suspected and a proved error. Both are in standard deviations of a view.
   void learn(double suspected, double proved);
 
   template <class Archive>
@@ -46,36 +46,37 @@ class Gain {
   double evidence_ = 0.0, effect_ = 0.0;
 };
 
-/// What the detections of one network have proved to be worth. Every place that is seen from far is seen
-/// again from near, which tells how wrong it was from far. From that is learned the standard deviation by
-/// range, over which distance driven an error becomes another one, and how much is true of what whole frames
-/// are suspected of: a wrong pitch, a wrong pose.
+/// Learns how one network errs in the lateral place of lines. Every place that is seen from far is seen again
+/// from near, which tells how wrong the far view was. From that it learns the standard deviation by range,
+/// the distance driven over which an error changes, and how much is true of the pitch and the pose errors
+/// that are suspected of whole frames.
 class NetworkModel {
  public:
-  /// Share of a view's variance that fades; the rest is new in every frame.
+  /// Share of a view's variance that fades with the distance driven; the rest is new in every frame.
   static constexpr double kShared = 0.9;
+  /// Ranges at which the standard deviation is learned.
   static constexpr std::array<double, 6> kNodes_m{8.0, 12.0, 18.0, 26.0, 36.0, 48.0};
 
   NetworkModel() = default;
-  /// Before anything is learned: the deviations of the configuration, and no pitch is believed. What
-  /// `profile` knows stands in their place.
+  /// Starts with the deviations of the configuration and gains of 0. Values in `profile` replace them.
   explicit NetworkModel(const FusionConfig& config, const NetworkProfile& profile = {});
 
-  /// Lateral standard deviation of a sample from so far away.
+  /// Lateral standard deviation of a sample that is seen from `range_m` away.
   double stddev_m(double range_m) const;
-  /// Distance driven in which the correlation of the errors falls to 1/e.
+  /// Distance driven over which the correlation of the errors falls to 1/e.
   double correlation_m() const;
-  /// Which share of a frame's suspected pitch is to be taken out: 0 to 1.
+  /// Share of a frame's suspected pitch that is to be taken out, 0..1.
   double pitch_gain() const { return pitch_.value(); }
-  /// Likewise of a frame's suspected error of the pose.
+  /// Share of a frame's suspected pose error that is to be taken out, 0..1.
   double alignment_gain() const { return alignment_.value(); }
 
-  /// From near, the place of a view has proved to be at `near_m`.
+  /// Learns from a view whose place has proved, from near, to lie at `near_m`, in the terms of
+  /// FarView::lateral_m.
   void learn(const FarView& view, double near_m);
-  /// Likewise the place of two views, of which one is the next after the other.
+  /// Learns likewise from two views of a place, at ranges that follow one another.
   void learn(const FarView& one, const FarView& other, double near_m);
 
-  /// What was learned, as the constructor takes it.
+  /// The values that were learned, in the form that the constructor takes.
   NetworkProfile profile() const;
 
   template <class Archive>
@@ -86,7 +87,7 @@ class NetworkModel {
  private:
   double error_m(const FarView& view, double near_m) const;
 
-  // Sums of what was seen, older views counting less.
+  // Sums over views; older views count less.
   std::array<double, kNodes_m.size()> views_{}, squares_m2_{};  ///< at each range
   double pairs_ = 0.0, products_ = 0.0,
          distances_m_ = 0.0;  ///< of errors in deviations, and between the views

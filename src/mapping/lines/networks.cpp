@@ -33,7 +33,7 @@ NetworkProfile Network::profile() const {
 std::size_t Networks::number(const std::string& source, std::uint64_t frame, const MapperConfig& config) {
   auto network = std::ranges::find(networks_, source, &Network::source);
   if (network == networks_.end()) {
-    if (networks_.size() < kSourcesAtATime) networks_.emplace_back();  // of frame 0: before all others
+    if (networks_.size() < kSourcesAtATime) networks_.emplace_back();  // its frame 0 makes it the oldest
     network = std::ranges::min_element(networks_, {}, &Network::frame);
     const auto known = config.networks.find(source);
     const NetworkProfile profile = known != config.networks.end() ? known->second : NetworkProfile{};

@@ -12,11 +12,11 @@
 
 namespace laneloom {
 
-/// Tells how much of a frame is news. Views from one place err alike: from where the vehicle stands, all of
-/// them together count as less than two.
+/// Tells how much of a frame is news. Views from one place err alike. All views from where the vehicle stands
+/// together count less than two.
 class Standpoint {
  public:
-  /// 1: an independent view.
+  /// The weight of a view from `origin`, 0..1. 1 is an independent view.
   double news(const Point& origin);
 
   template <class Archive>
@@ -26,16 +26,16 @@ class Standpoint {
 
  private:
   Point place_ = Point::Zero();
-  double views_ = 0.0;  ///< from there
+  double views_ = 0.0;  ///< number of views from that place
 };
 
-/// What is known of a source of detections.
+/// A source of detections, with the models of its network.
 struct Network {
-  std::string source;
-  std::uint64_t frame = 0;   ///< the newest one
-  NetworkModel lateral;      ///< where its lines lie
-  DetectionModel detection;  ///< whether there are lines
-  Standpoint standpoint;
+  std::string source;        ///< name that its frames carry
+  std::uint64_t frame = 0;   ///< number of its newest frame
+  NetworkModel lateral;      ///< how it errs in the lateral place of lines
+  DetectionModel detection;  ///< how well it tells whether there are lines
+  Standpoint standpoint;     ///< of its views
 
   NetworkProfile profile() const;
 
@@ -45,11 +45,11 @@ struct Network {
   }
 };
 
-/// The sources of detections, by number. Of too many sources, the one that was not heard of for longest is
+/// The sources of detections, by number. When there are too many, the one that was silent for longest is
 /// forgotten.
 class Networks {
  public:
-  /// The number of a source, from which the `frame`-th frame comes.
+  /// The number of the source from which frame number `frame` comes. A source that is not known is added.
   std::size_t number(const std::string& source, std::uint64_t frame, const MapperConfig& config);
   Network& operator[](std::size_t number) { return networks_[number]; }
   /// Null: nothing is known of that source.
@@ -65,7 +65,7 @@ class Networks {
   std::vector<Network> networks_;
 };
 
-/// Throws ConfigError where a profile of `config` has a value that no network has.
+/// Throws ConfigError where a profile of `config` names a value that no network has.
 void check_profiles(const MapperConfig& config);
 
 }  // namespace laneloom

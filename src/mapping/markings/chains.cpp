@@ -9,7 +9,7 @@
 namespace laneloom {
 namespace {
 
-/// For every end of every line the end that it is joined to.
+/// The end that each end of each line is joined to.
 class Joined {
  public:
   explicit Joined(std::size_t count) : ends_(count) {}

@@ -11,15 +11,15 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMaxDash_m = 9.0;      // of the longest that are painted, which may be seen too long
-constexpr double kMaxGap_m = 13.0;      // between the longest that are painted
-constexpr double kMaxLateral_m = 0.5;   // from the extension of either line
+constexpr double kMaxDash_m = 9.0;      // the longest dashes are painted shorter, but may be seen too long
+constexpr double kMaxGap_m = 13.0;      // the longest gaps that are painted
+constexpr double kMaxLateral_m = 0.5;   // of an end from the extension of the other line
 constexpr double kMaxAngle_deg = 20.0;  // a dash of a metre hardly tells its direction
 constexpr std::size_t kMinDashes = 3;   // two may be pieces of one solid line
 
 bool is_dash(const ObservedMarking& marking) { return length(marking.points) <= kMaxDash_m; }
 
-/// An end of a line that may go on beyond a gap.
+/// An end of a laneline that may continue beyond a gap.
 struct Tip {
   LineEnd id;
   bool of_dash = false;

@@ -6,13 +6,13 @@
 
 namespace laneloom {
 
-/// Joins what lies in a row, where a network shows each painted dash by itself: lanelines with gaps between
-/// them, of two neighbours at least one as short as a dash. A row becomes one laneline that runs through the
-/// gaps, and a dashed one if it has three dashes or one of its pieces is said to be dashed.
+/// Joins lanelines that lie in a row, because some networks show each painted dash by itself. Of two
+/// neighbours in a row, at least one is as short as a dash. A row becomes one laneline that runs through the
+/// gaps. It is dashed if it has three dashes or one of its pieces is said to be dashed.
 ///
-/// The row is wrong only if all of its pieces are: ghosts do not lie in rows. Its doubt (1 - confidence) is
-/// the product of theirs. A laneline that is joined with nothing, and each line of another type, stays as it
-/// is.
+/// The doubt of a row, 1 minus its confidence, is the product of its pieces' doubts: false detections do not
+/// lie in rows, so a row is wrong only if all of its pieces are. A laneline that is in no row, and each
+/// marking of another type, stays unchanged.
 std::vector<ObservedMarking> join_dashes(std::vector<ObservedMarking> markings);
 
 }  // namespace laneloom

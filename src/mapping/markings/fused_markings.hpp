@@ -8,11 +8,11 @@
 
 namespace laneloom {
 
-/// What a method of fusion makes of all frames so far.
+/// The result of a method of fusion after a frame.
 struct FusedMarkings {
-  std::vector<Marking> markings;
-  PairHistories joints;             ///< of ends of markings that lie near each other
-  std::vector<Relative> relatives;  ///< what became of markings in this frame
+  std::vector<Marking> markings;    ///< the map's markings, from all frames so far
+  PairHistories joints;             ///< how ends of markings that lie near each other were seen
+  std::vector<Relative> relatives;  ///< markings that merged or were split in this frame
 };
 
 }  // namespace laneloom

@@ -8,7 +8,7 @@
 namespace laneloom {
 namespace {
 
-/// The mean of both, by their lengths; not estimated where one of them is not.
+/// The mean of both existence probabilities, weighted by length; -1 where one of them is not estimated.
 double joint_existence(const Marking& a, double a_m, const Marking& b, double b_m) {
   if (a.existence_probability < 0.0 || b.existence_probability < 0.0 || a_m + b_m <= 0.0) return -1.0;
   return (a.existence_probability * a_m + b.existence_probability * b_m) / (a_m + b_m);

@@ -6,10 +6,10 @@
 namespace laneloom {
 namespace {
 
-constexpr double kMemory = 0.97;       // of the counts, per frame
+constexpr double kMemory = 0.97;       // factor by which the counts fade per frame
 constexpr double kMinFrames = 4.0;     // before a pair is judged
-constexpr double kMinTogether = 1.9;   // frames: two, one after the other
-constexpr double kMaxTogether = 0.25;  // share of the frames
+constexpr double kMinTogether = 1.9;   // frames; reached by two that follow one another
+constexpr double kMaxTogether = 0.25;  // share of the frames, of a pair seen apart
 
 std::pair<ElementId, ElementId> key_of(const PairHistory& history) { return {history.a, history.b}; }
 

@@ -6,13 +6,13 @@
 
 namespace laneloom {
 
-/// How often two lines were seen as one and as two, fading over about 30 frames. What the paper's
-/// co-observation is to voxels, this is to lines.
+/// How often two lines were seen as one and as two, fading over about 30 frames. It does for lines what the
+/// paper's co-observation does for voxels.
 struct PairHistory {
   ElementId a = kNoElement;  ///< the smaller id
   ElementId b = kNoElement;
-  double together = 0.0;  ///< frames
-  double apart = 0.0;     ///< frames
+  double together = 0.0;  ///< faded number of frames that saw them together
+  double apart = 0.0;     ///< faded number of frames that saw them apart
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -20,17 +20,17 @@ struct PairHistory {
   }
 };
 
-/// Names an end of a line.
+/// An id for an end of a line.
 constexpr ElementId end_id(ElementId line, End end) { return 2 * line + index(end); }
 
-/// In the order of their ids.
+/// Histories of pairs, sorted by the ids `a` and then `b`.
 using PairHistories = std::vector<PairHistory>;
 void sort(PairHistories& histories);
 
-/// Null: the two have none.
+/// The history of two ids. Null: they have none.
 const PairHistory* find(const PairHistories& histories, ElementId a, ElementId b);
 
-/// How a frame shows two lines; neither, where it does not show both.
+/// How one frame shows two lines: as one, as two, or neither, if the frame does not show both.
 struct PairSighting {
   ElementId a = kNoElement;  ///< the smaller id
   ElementId b = kNoElement;
@@ -38,17 +38,17 @@ struct PairSighting {
   bool apart = false;
 };
 
-/// What is known of the two, with one more frame.
+/// The history of the two, continued by one frame.
 PairHistory continued(const PairHistories& histories, const PairSighting& sighting);
 
-/// The same of every pair that is in `sightings`, which are in the order of their ids; the others are
-/// forgotten.
+/// The histories of the pairs in `sightings`, continued by one frame. All other pairs are forgotten.
+/// `sightings` are sorted by their ids.
 PairHistories continued(const PairHistories& histories, const std::vector<PairSighting>& sightings);
 
-/// Whether they were seen long enough, and too seldom together.
+/// Whether the two were seen in enough frames, and in few of these together.
 bool seen_apart(const PairHistory& history);
 
-/// Whether they were seen together often enough.
+/// Whether the two were seen together often enough, and not less often than apart.
 bool seen_together(const PairHistory& history);
 
 }  // namespace laneloom

@@ -11,19 +11,20 @@ namespace laneloom {
 struct ObservedMarking {
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
-  double confidence = 0.0;
+  double confidence = 0.0;         ///< 0..1
   Polyline points;                 ///< map frame
-  std::vector<double> stddev_m{};  ///< per point, lateral; empty: not given
+  std::vector<double> stddev_m{};  ///< lateral standard deviation per point; empty: not given
 };
 
-/// A frame that passed the filters. Refers to the frame as it came.
+/// A frame with those of its detections that passed the filters.
 struct ObservedFrame {
-  const DetectionFrame& frame;
-  Eigen::Isometry3d T_map_body;  ///< from where it was seen
+  const DetectionFrame& frame;   ///< as it was received
+  Eigen::Isometry3d T_map_body;  ///< pose at the frame's stamp
   std::vector<ObservedMarking> markings;
 };
 
-/// Rejects what is likely wrong, by confidence and zigzag, and transforms the rest (paper, Sec. III-A).
+/// Rejects detections of low confidence and zigzagging ones, and transforms the rest to the map frame (paper,
+/// Sec. III-A).
 std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                                         const PreprocessConfig& config);
 

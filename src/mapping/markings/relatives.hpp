@@ -4,7 +4,7 @@
 
 namespace laneloom {
 
-/// A line that was cut off from another, or has merged into it.
+/// A line `id` that was cut off from the line `other`, or has merged into it.
 struct Relative {
   ElementId id = kNoElement, other = kNoElement;
 };

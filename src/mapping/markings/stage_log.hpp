@@ -4,7 +4,7 @@
 
 namespace laneloom {
 
-/// Tells an observer of an update's begin and of its stages' ends; nobody, where there is no observer.
+/// Tells an observer, if there is one, when an update begins and when its stages end.
 class StageLog {
  public:
   explicit StageLog(StageObserver* observer) : observer_(observer) {
@@ -14,7 +14,7 @@ class StageLog {
   void done(Stage stage) const {
     if (observer_ != nullptr) observer_->stage_done(stage);
   }
-  /// Passes on what the stage made.
+  /// Reports that the stage ended, and returns its result.
   template <class Result>
   Result done(Stage stage, Result result) const {
     done(stage);

@@ -19,18 +19,18 @@ namespace {
 // Log odds that a lane runs along its centerline.
 constexpr double kEgoEvidence = 0.5;       // per frame
 constexpr double kStoplineEvidence = 0.3;  // per frame
-constexpr double kMemory = 0.98;           // per frame beside it: the vehicle may have overtaken there
+constexpr double kMemory = 0.98;  // factor per frame beside the lane, where the vehicle may have overtaken
 constexpr double kMaxEvidence = 6.0;
-constexpr double kEdgeEvidence = 1.0;      // of the edge beside the outermost lane
-constexpr double kEdgeLineEvidence = 0.5;  // of a solid line there
-constexpr double kWrongSide = -6.0;        // that traffic keeps to the other side
-constexpr double kKnown = 1.5;             // from which the direction is said
-constexpr double kSure = 3.0;              // from which it is kept,
-constexpr double kKeptEvidence = 3.0;      // with so much
+constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
+constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
+constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
+constexpr double kKnown = 1.5;             // from here on, a direction is published
+constexpr double kSure = 3.0;              // from here on, it is kept
+constexpr double kKeptEvidence = 3.0;      // of a direction that is kept
 
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
 
-/// 1: stoplines lie at the lane's end, -1: at its start, 0: at none or both.
+/// The end of a lane at which stoplines lie. 1: its end; -1: its start; 0: neither or both.
 double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, const StoplineConfig& config) {
   double sense = 0.0;
   for (const Marking& marking : markings) {
@@ -41,12 +41,13 @@ double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, co
   return std::clamp(sense, -1.0, 1.0);
 }
 
-/// Lanes that continue one another, or lie along the same side of one boundary: one variable of the model.
+/// Groups lanes that continue one another, or lie along the same side of one boundary. A group is one
+/// variable of the model.
 OrientedGroups group(const RoadGraph& road) {
   const std::vector<Lane>& lanes = road.lanes;
   struct First {
     std::size_t lane;
-    bool reversed;  ///< the boundary runs against it
+    bool reversed;  ///< the boundary runs against the lane
   };
   OrientedGroups groups(lanes.size());
   std::map<ElementId, std::size_t> index;
@@ -79,33 +80,34 @@ struct Mean {
   double value() const { return count == 0 ? 0.0 : sum / count; }
 };
 
-/// Two groups side by side, with what tells that they run against each other.
+/// Two groups side by side.
 struct SideBySideGroups {
   std::size_t left, right;
-  double opposed;
-  bool may_part;                         ///< they may be of two roads
-  double to_left = 0.0, to_right = 0.0;  ///< messages
+  double opposed;                        ///< log odds that they run against each other
+  bool may_part;                         ///< they may belong to two roads
+  double to_left = 0.0, to_right = 0.0;  ///< messages of belief propagation
 };
 
 struct Model {
-  std::vector<double> evidence;  ///< per group
+  std::vector<double> evidence;  ///< per group: log odds that it runs along its first lane
   std::vector<SideBySideGroups> pairs;
 };
 
-/// 1 where traffic keeps right, -1 where it keeps left, 0 where that is not said.
+/// The driving side as a sign. 1: traffic keeps right; -1: it keeps left; 0: it is not known.
 double driving_side(const DirectionConfig& config) {
   if (config.driving_side == DrivingSide::unknown) return 0.0;
   return config.driving_side == DrivingSide::right ? 1.0 : -1.0;
 }
 
-/// What the outer border of a road says of the lane at it, where traffic keeps to that side.
+/// Log odds by the outer border of a road that the lane beside it runs along its centerline, if traffic keeps
+/// to that side.
 double border_evidence(const Marking& border, const Stretch& range) {
   if (border.status == ElementStatus::inferred) return 0.0;
   if (border.type == MarkingType::roadedge) return kEdgeEvidence;
   return dashed_excess_m(border, range) < 0.0 ? kEdgeLineEvidence : 0.0;
 }
 
-/// Per lane, what the borders of the road say of its direction, where traffic keeps right.
+/// Per lane, the log odds of its direction by the borders of the road, if traffic keeps right.
 std::vector<double> outermost_evidence(const LaneLayout& layout, const std::vector<SideBySideLanes>& pairs) {
   const std::vector<Lane>& lanes = layout.lanes;
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
@@ -122,7 +124,7 @@ std::vector<double> outermost_evidence(const LaneLayout& layout, const std::vect
   return evidence;
 }
 
-/// What is remembered of each group: what was observed of its lanes, and which way they were said to run.
+/// Per group, the log odds of its direction by remembered observations and by directions that are kept.
 std::vector<double> remembered_evidence(const std::vector<Lane>& lanes, const OrientedGroups& groups,
                                         const LaneMemory& memory) {
   std::vector<double> observed(lanes.size(), 0.0);
@@ -177,14 +179,15 @@ Model build_model(const LaneLayout& layout, const OrientedGroups& groups, const 
   return model;
 }
 
-/// Log odds that each group runs along its centerlines, at their best (max-product; maxima and sums only, so
-/// that it is the same to the last bit on every host).
+/// Per group, the log odds of its direction in the most likely solution (max-product). Only maxima and sums
+/// are computed, so that the result is the same to the last bit on every host.
 std::vector<double> beliefs(Model model, double side) {
   std::vector<double> belief = model.evidence;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> next = model.evidence;
     for (SideBySideGroups& pair : model.pairs) {
-      // Left against and right along is how right-hand traffic meets.
+      // `meeting`: the left group runs against its first lane and the right one along its own, as right-hand
+      // traffic meets. `parting`: the reverse.
       const double wrong = pair.may_part ? std::min(0.0, pair.opposed) : kWrongSide;
       const double meeting = side < 0.0 ? wrong : pair.opposed;
       const double parting = side > 0.0 ? wrong : pair.opposed;
@@ -199,7 +202,7 @@ std::vector<double> beliefs(Model model, double side) {
   return belief;
 }
 
-/// Keeps which way a lane runs, once that is sure, until it is no longer known.
+/// Keeps the direction of a lane, once it is sure, until it is no longer known.
 void keep_direction(double log_odds, ElementId lane, LaneMemory& memory) {
   KnownLane* remembered = memory.find(lane);
   if (remembered == nullptr) return;

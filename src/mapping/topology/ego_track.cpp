@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kConfidence = 0.95;
 
-/// Whether `to` begins where `from` ends or further on. What lies behind was not driven into: the vehicle is
-/// where both meet.
+/// Whether `to` begins where `from` ends or further on. The vehicle did not drive from `from` into a lane
+/// that begins behind its end.
 bool leads_ahead(const Lane& from, const Lane& to) {
   return gap_between(from, to).dot(leaving(from)) > -kMaxOverlap_m;
 }

@@ -10,7 +10,7 @@ namespace laneloom {
 /// The way that the vehicle took through the lanes.
 struct EgoTrack {
   using Step = std::pair<ElementId, ElementId>;  ///< from one lane into another
-  ElementId lane = kNoElement;                   ///< that it was in last
+  ElementId lane = kNoElement;                   ///< the lane that the vehicle was in last
   std::vector<Step> steps;                       ///< each once, between lanes that are still in the map
 
   template <class Archive>
@@ -19,9 +19,9 @@ struct EgoTrack {
   }
 };
 
-/// Follows the vehicle. Where it left one lane and came into another that is neither beside it nor linked by
-/// markings, that is a linkage: it has been driven. One across an intersection that was a hypothesis is
-/// confirmed. Ours, beyond the paper.
+/// Follows the vehicle. If it left one lane and came into another that is neither beside the first nor linked
+/// to it, the two are linked, because the way has been driven. A linkage across an intersection that was
+/// inferred is confirmed if it was driven. Ours, beyond the paper.
 void link_ego_track(const Eigen::Isometry3d& T_map_body, EgoTrack& track, RoadGraph& road);
 
 }  // namespace laneloom

@@ -20,18 +20,18 @@ using Turn = Linkage::Turn;
 constexpr double kMisfit = 1.0;
 
 struct Crossing {
-  double misfit = 0.0;  ///< 0: as it should be; kMisfit: just acceptable
+  double misfit = 0.0;  ///< 0: a perfect fit; kMisfit: just acceptable without an SD map
   std::size_t from = 0, to = 0;
   Turn turn = Turn::straight;
   bool confirmed = false;  ///< by the SD map
 };
 
-/// Beyond which no way leads from one lane into another.
+/// Greatest gap between two lanes that may be linked.
 double max_gap_m(const LinkageConfig& config) {
   return std::max(config.max_crossing_gap_m, 2.0 * config.max_turn_gap_m);
 }
 
-/// How badly `to` lies ahead of `from`; empty: it does not.
+/// The misfit of `to` as the lane straight ahead of `from`. Empty: it is not ahead.
 std::optional<double> straight_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
   if (!config.straight_across) return std::nullopt;
   const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
@@ -41,29 +41,29 @@ std::optional<double> straight_misfit(const Lane& from, const Lane& to, const Li
   if (a.dot(b) <= 0.0 || angle > max_angle) return std::nullopt;
   const double along_m = gap.dot(a);
   if (along_m <= config.max_gap_m || along_m > config.max_crossing_gap_m) return std::nullopt;
-  // From either end, so that a bend within the intersection is shared between them.
+  // Measured from either end, so that a bend within the intersection is shared between them.
   const double lateral_m = 0.5 * std::abs(cross(a, gap) + cross(b, gap));
   if (lateral_m > config.max_crossing_lateral_m) return std::nullopt;
   return 0.5 * (lateral_m / config.max_crossing_lateral_m + angle / max_angle);
 }
 
-/// How badly one turns from `from` into `to`; empty: not at all.
+/// The misfit of a left or right turn from `from` into `to`. Empty: there is none.
 std::optional<double> turn_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
   const auto corner = corner_between(from, to);
   if (!corner) return std::nullopt;
   const double shorter_m = std::min(corner->before_m, corner->after_m);
   const double longer_m = std::max(corner->before_m, corner->after_m);
-  // A circle that touches both lanes' extensions has radius * tan(angle / 2) to either point of contact.
+  // A circle touches the extensions of both lanes at a distance of radius * tan(angle / 2) from their corner.
   const Eigen::Vector2d a = leaving(from), b = entering(to);
   const double tangent = (1.0 - a.dot(b)) / std::abs(cross(a, b));
   if (shorter_m < config.min_turn_radius_m * tangent || longer_m > config.max_turn_gap_m) return std::nullopt;
   return longer_m / config.max_turn_gap_m;
 }
 
-/// The ways by which lanes are left and entered already.
+/// The turns by which lanes are left and entered already.
 class Taken {
  public:
-  /// `linkages` are those by markings.
+  /// `linkages` are those that follow from markings.
   explicit Taken(const std::vector<Linkage>& linkages) {
     for (const Linkage& linkage : linkages) {
       take(linkage.from, linkage.to, linkage.turn);
@@ -84,20 +84,20 @@ class Taken {
   std::set<std::pair<ElementId, Turn>> left_, entered_;
 };
 
-/// How much more of the line along a lane's side is dashed than solid.
+/// Length of dashed minus solid stretches of the line along a lane's side.
 double dashed_excess_m(const LaneSide& side, const RoadGraph& road) {
   return laneloom::dashed_excess_m(road.boundaries.of(side.of.boundary).marking, side.range);
 }
 
-/// Whether no lane that runs alike lies beside it, on the side that is turned to: none that is known to, and
-/// none of unknown direction across dashes.
+/// Whether the lane is the outermost of its direction on the side that is turned to. A lane beside it counts
+/// if it is known to run alike, or if its direction is unknown and dashes lie between the two.
 bool is_outermost(const Lane& lane, Turn turn, const RoadGraph& road) {
   const Side side = turn == Turn::left ? Side::left : Side::right;
   const Lane* beside = road.find(main_neighbour(lane, side));
   if (beside == nullptr) return true;
   if (beside->direction == Lane::Direction::unknown)
     return dashed_excess_m(lane_side(lane, side), road) <= 0.0;
-  // Of lanes that run against each other, each has the other on the same side.
+  // Two lanes that run against each other have one another on the same side.
   return main_neighbour(*beside, side) == lane.id;
 }
 
@@ -106,7 +106,8 @@ bool can_turn(const Lane& from, const Lane& to, Turn turn, const RoadGraph& road
   return known && is_outermost(from, turn, road) && is_outermost(to, turn, road);
 }
 
-/// How `to` may follow `from` by what they look like, if at all. What does not fit takes an SD map's word.
+/// The crossing from `from` into `to`, by their geometry. A misfit above kMisfit needs the confirmation of an
+/// SD map. Empty: there is none.
 std::optional<Crossing> crossing(const Lane& from, const Lane& to, const RoadGraph& road,
                                  const LinkageConfig& config) {
   if (const auto straight = straight_misfit(from, to, config))
@@ -149,15 +150,16 @@ bool crosses_edge(const Polyline& path, const Boundaries& boundaries) {
   });
 }
 
-/// Whether it lies between solid lines with lanes beyond: in the middle of a road, as lanes for turning do.
-/// What lies ahead of one may be that of the other direction.
+/// Whether a lane lies between two solid lines with lanes beyond, as lanes for turning do in the middle of a
+/// road. The lane ahead of such a lane may be the turning lane of the other direction.
 bool is_enclosed(const Lane& lane, const RoadGraph& road) {
   if (lane.left_neighbours.empty() || lane.right_neighbours.empty()) return false;
   return std::ranges::all_of(kSides,
                              [&](Side side) { return dashed_excess_m(lane_side(lane, side), road) < 0.0; });
 }
 
-/// Lanes that lead into each other straight on run the same way.
+/// Gives the direction of one lane to the other, if it is unknown: lanes that are linked straight on run the
+/// same way.
 void agree_on_direction(Lane& from, Lane& to, const RoadGraph& road) {
   using Direction = Lane::Direction;
   if (from.direction == Direction::unknown && to.direction == Direction::unknown) return;
@@ -176,7 +178,7 @@ Lane reversed(Lane lane) {
   return lane;
 }
 
-/// The lanes that continue one another with `lane`.
+/// The lane and all lanes that are linked with it, directly or through others.
 std::vector<ElementId> linked_with(ElementId lane, const std::vector<Linkage>& linkages) {
   std::vector<ElementId> ids{lane};
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -189,8 +191,8 @@ std::vector<ElementId> linked_with(ElementId lane, const std::vector<Linkage>& l
   return ids;
 }
 
-/// Beyond an intersection, a lane of unknown direction may run towards the one that leads into it: it is
-/// turned with those that it is linked with.
+/// Turns lanes of unknown direction beyond an intersection that run towards a lane which would lead into
+/// them. A lane is turned together with those that it is linked with.
 void turn_unknown_ahead(const LinkageConfig& config, RoadGraph& road) {
   const auto is_unknown = [](const Lane& lane) { return lane.direction == Lane::Direction::unknown; };
   const auto leads_into = [&](const Lane& to) {
@@ -227,7 +229,7 @@ void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config,
                              .confidence = confidence(crossing),
                              .path = std::move(path)});
   };
-  // Straight on first: what that tells of directions, turns depend on.
+  // Straight on comes first: it tells directions, on which turns depend.
   for (const Crossing& crossing : possible_crossings(road, sd_map, config))
     if (crossing.turn == Turn::straight) link(crossing);
   for (const Crossing& crossing : possible_crossings(road, sd_map, config))

@@ -12,8 +12,8 @@
 namespace laneloom {
 namespace {
 
-/// From the end of one lane to the start of another along the boundary that both lie beside; empty where
-/// there is none or `to` does not follow.
+/// The gap from the end of one lane to the start of another, along the boundary that both lie beside. Empty:
+/// they share no boundary, or `to` does not follow.
 std::optional<double> shared_gap(const LaneSide& from, const LaneSide& to, double max_gap_m) {
   if (from.of != to.of || from.reversed != to.reversed) return std::nullopt;
   const double sense = from.reversed ? -1.0 : 1.0;
@@ -23,8 +23,8 @@ std::optional<double> shared_gap(const LaneSide& from, const LaneSide& to, doubl
   return follows ? std::optional(std::max(gap_m, 0.0)) : std::nullopt;
 }
 
-/// From the end of `from` to the start of `to`, beside the boundary that they share, between the arc lengths
-/// on it.
+/// The path from the end of `from` to the start of `to`, beside the boundary that they share between its arc
+/// lengths `from_m` and `to_m`.
 Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m, const Lane& from,
                     const Lane& to) {
   const Point &start = from.centerline.back(), &end = to.centerline.front();
@@ -43,7 +43,7 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
   return path;
 }
 
-/// The way to the lane that comes next along one side of `from`.
+/// The linkage to the next lane along one side of `from`.
 std::optional<Linkage> link_along(const Lane& from, Side side, const LaneLayout& layout,
                                   const LinkageConfig& config) {
   const LaneSide begun = lane_side(from, side);
@@ -68,7 +68,7 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const LaneLayout&
   return linkage;
 }
 
-/// Confidence that `to` continues `from` by the geometry of their centerlines; empty: it does not.
+/// The confidence that `to` continues `from`, by the alignment of their centerlines. Empty: it does not.
 std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageConfig& config) {
   const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
   if (a.dot(b) < cos_degrees(config.max_angle_deg)) return std::nullopt;

@@ -40,8 +40,8 @@ void RoadGraph::turn(const std::vector<ElementId>& ids) {
   const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
   for (Lane& lane : lanes)
     if (turned(lane.id)) laneloom::turn(lane);
-  // Where directions contradict one another, one of two linked lanes may be turned alone: it is not entered
-  // so.
+  // Where directions contradict one another, one of two linked lanes may be turned alone. The linkage does
+  // not hold then.
   std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
   for (Linkage& linkage : linkages) {
     if (!turned(linkage.from)) continue;

@@ -6,14 +6,14 @@
 
 namespace laneloom {
 
-/// Lanes, and which of them continue which.
+/// Lanes and the linkages between them.
 struct RoadGraph : LaneLayout {
-  std::vector<Linkage> linkages;  ///< between lanes that are there
+  std::vector<Linkage> linkages;  ///< only between lanes of this graph
 
-  /// By the ids of the lanes, then by kind.
+  /// Sorts the linkages by the ids of their lanes, then by kind.
   void sort_linkages();
-  /// Lets lanes run the other way, with their sides and neighbours, and the linkages between them. A linkage
-  /// of which one lane is turned and the other is not goes.
+  /// Lets lanes run the other way, with their sides, neighbours and linkages. A linkage between a lane that
+  /// is turned and one that is not is removed.
   void turn(const std::vector<ElementId>& ids);
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kCell_m = 50.0;
 constexpr double kMaxDistance_m = 15.0;  // of a lane from the middle of its street
-constexpr double kMinCosine = 0.8;       // between a lane and its street
-constexpr double kMaxWay_m = 80.0;       // between the two lanes, beyond what a straight line needs
+constexpr double kMinCosine = 0.8;       // of the angle between a lane and its street
+constexpr double kMaxWay_m = 80.0;       // greatest detour between the two lanes
 
 struct Foot {
   double distance_m, along_m;
@@ -55,7 +55,8 @@ SdMap::SdMap(std::vector<SdWay> ways, const std::vector<SdRestriction>& restrict
   }
 }
 
-// Piece by piece: the box around a long slanting segment would hold the square of its cells.
+// A segment is entered piece by piece: the box around a long slanting one would hold far more cells than it
+// crosses.
 void SdMap::enter_into_cells(std::size_t index) {
   const Eigen::Vector2d from = segments_[index].from, along = segments_[index].to - from;
   const int pieces = std::max(1, static_cast<int>(std::ceil(along.norm() / kCell_m)));
@@ -109,7 +110,7 @@ SdMap::Verdict SdMap::verdict(const Polyline& from, const Polyline& to) const {
   const double entered_at_m = foot_on(entered->from, entered->to, begin).along_m;
   if (left == entered) return entered_at_m > left_at_m ? Verdict::connected : Verdict::forbidden;
 
-  // Dijkstra's search over segments, by the way to their beginning.
+  // Dijkstra's search over segments, by the length of the way to their beginning.
   const double max_m = (begin - end).norm() + kMaxWay_m;
   using Open = std::pair<double, const Segment*>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;

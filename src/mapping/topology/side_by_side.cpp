@@ -17,26 +17,29 @@ namespace {
 constexpr double kSolidEvidence = 0.5;
 constexpr double kMiddleEvidence = 1.0;  // of a solid line in the middle of the road
 constexpr double kDashedEvidence = -0.9;
-constexpr double kTwoWayEvidence = 1.0;     // of nothing painted from kerb to kerb
-constexpr double kUnmarkedEvidence = -0.9;  // elsewhere
-constexpr double kMedianEvidence = 2.0;     // also of an edge
+constexpr double kTwoWayEvidence = 1.0;     // of an unmarked road from kerb to kerb
+constexpr double kUnmarkedEvidence = -0.9;  // of an inferred boundary elsewhere
+constexpr double kMedianEvidence = 2.0;     // of a median, or of an edge
 
-constexpr double kDoubleLine_m = 0.8;  // between its two lines
+constexpr double kDoubleLine_m = 0.8;  // greatest distance between its two lines
 constexpr double kMaxMedian_m = 16.0;
 constexpr double kNarrow_m = 2.0;               // a narrower median divides one road
-constexpr double kMinMedian_m = 12.0;           // its length
-constexpr double kMaxVariation_m = 0.4;         // of its width,
-constexpr double kMaxDoubleVariation_m = 0.15;  // of a double line: what varies more, begins to diverge
+constexpr double kMinMedian_m = 12.0;           // length of a median
+constexpr double kMaxVariation_m = 0.4;         // of the width of a median
+constexpr double kMaxDoubleVariation_m = 0.15;  // of a double line; with more, its lines diverge
 constexpr double kMedianStep_m = 3.0;
 
-/// Of three lanes, which direction has two is open; of five, a middle one for turning may be on either side.
+/// Whether a boundary with `left` and `right` lanes on its two sides lies in the middle of a road. If a road
+/// has three lanes, either direction may have two of them: no boundary counts as its middle. If it has five,
+/// the middle lane may be a turning lane of either direction: both its boundaries count.
 bool is_middle(std::size_t left, std::size_t right) {
   const std::size_t more = std::max(left, right), fewer = std::min(left, right);
   return more == fewer || (more == fewer + 1 && fewer > 1);
 }
 
+/// The strip between a lane and the next lane on its right.
 struct Median {
-  std::size_t right = 0;  ///< the lane beyond it
+  std::size_t right = 0;  ///< index of the lane beyond the median
   double width_m = std::numeric_limits<double>::infinity();
 };
 
@@ -44,7 +47,7 @@ bool may_be_crossed(const Marking& border, const Stretch& range) {
   return border.type != MarkingType::roadedge && dashed_excess_m(border, range) >= 0.0;
 }
 
-/// What the boundary that two lanes share says.
+/// Log odds of opposite directions by the boundary that two lanes share.
 double boundary_evidence(const LaneBoundary& boundary, const Stretch& range, bool in_middle) {
   const Marking& marking = boundary.marking;
   if (marking.status == ElementStatus::inferred)
@@ -78,7 +81,7 @@ class SideBySide {
   }
 
  private:
-  /// The lane that runs alike across the boundary on that side.
+  /// The lane across the boundary on a side, if its centerline runs alike.
   std::optional<std::size_t> across(std::size_t i, Side side) const {
     const Lane& lane = lanes_[i];
     const auto other = std::ranges::find(lanes_, main_neighbour(lane, side), &Lane::id);
@@ -88,14 +91,14 @@ class SideBySide {
     return alike ? std::optional(static_cast<std::size_t>(other - lanes_.begin())) : std::nullopt;
   }
 
-  /// How many lanes there are beside one, to the end of the road.
+  /// Number of lanes on a side of a lane, to the end of the road.
   std::size_t lanes_on(std::size_t i, Side side) const {
     std::size_t count = 0;
     for (auto next = across(i, side); next && count < lanes_.size(); next = across(*next, side)) ++count;
     return count;
   }
 
-  /// The nearest lane beyond the right side of one, where nothing else lies between.
+  /// The median on the right of a lane, up to the nearest lane beyond it. Empty: there is none.
   std::optional<Median> median_right_of(std::size_t i) const {
     const MeasuredPolyline side(lanes_[i].right);
     const double middle_m = 0.5 * side.length();

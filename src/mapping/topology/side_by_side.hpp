@@ -7,18 +7,18 @@
 
 namespace laneloom {
 
-/// Two lanes, by their indices, that lie side by side and run alike as they are given.
+/// Two lanes that lie side by side, by their indices. Their centerlines run alike.
 struct SideBySideLanes {
   std::size_t left = 0, right = 0;
   double opposed = 0.0;   ///< log odds that their traffic runs in opposite directions
-  bool may_part = false;  ///< they may be of two roads, each with its own left and right
+  bool may_part = false;  ///< they may belong to two roads, each with its own driving side
 };
 
-/// The lanes side by side, with what the boundary between two of them says of their directions: a solid line
-/// speaks for opposite ones, most of all in the middle of the road (elsewhere it may divide off lanes for
-/// buses or for turning); a dashed line speaks against them, an edge for them. So do two solid lines or edges
-/// with nothing but a median between them, which run parallel: what diverges are the roads of an exit. Beyond
-/// a wide median there may also be another road. Ours.
+/// Finds lanes side by side, and the evidence of the boundary between them on their directions. A solid line
+/// speaks for opposite directions, most of all in the middle of the road; elsewhere it may divide off lanes
+/// for buses or for turning. A dashed line speaks against opposite directions, an edge for them. Two parallel
+/// solid lines or edges with only a median between them speak for them too; if they diverge, they belong to
+/// the roads of an exit. Beyond a wide median there may also be another road. Ours.
 std::vector<SideBySideLanes> side_by_side(const LaneLayout& layout);
 
 }  // namespace laneloom

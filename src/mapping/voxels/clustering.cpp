@@ -5,7 +5,8 @@
 namespace laneloom {
 namespace {
 
-/// h_k of the paper, for every instance: how many of its voxels were seen together with `voxel` often enough.
+/// h_k of the paper, for every instance: the number of its voxels that were seen together with voxel `id`
+/// often enough.
 std::vector<int> count_likely(VoxelId id, const ClusteringConfig& config, const VoxelMap& map,
                               CoObservation& co_observation, const Instances& instances) {
   const MarkingType type = map[id].likely_type();
@@ -15,14 +16,16 @@ std::vector<int> count_likely(VoxelId id, const ClusteringConfig& config, const 
     if (voxel.instance == kNoElement) continue;
     const std::size_t position = instances.position(voxel.instance);
     if (instances.all()[position].type != type) continue;
-    // max(A / n_j, A / n_k) is A over the smaller count; 0 where all that was seen as this type is forgotten.
+    // max(A / n_j, A / n_k) is A over the smaller count. A count is 0 if all detections of this type are
+    // forgotten.
     const auto fewer = std::min(voxel.count(type), map[id].count(type));
     if (other.count > config.min_probability * fewer && fewer > 0) ++likely[position];
   }
   return likely;
 }
 
-/// The instance with the highest count that satisfies beta_n or beta_r; the oldest of equals; null: none.
+/// The instance with the highest count that satisfies beta_n or beta_r; of equals, the oldest. Null: there is
+/// none.
 Instance* best_match(const std::vector<int>& likely, const ClusteringConfig& config, Instances& instances) {
   Instance* best = nullptr;
   int best_count = 0;
@@ -37,8 +40,8 @@ Instance* best_match(const std::vector<int>& likely, const ClusteringConfig& con
   return best;
 }
 
-/// Of the instances that were seen together with `voxel` at all: the one that has the nearest voxel (the
-/// paper's ablation, Sec. IV-F); null: none.
+/// The instance with the nearest voxel, among the instances that were ever seen together with voxel `id` (the
+/// paper's ablation, Sec. IV-F). Null: there is none.
 Instance* nearest_match(VoxelId id, const VoxelMap& map, CoObservation& co_observation,
                         Instances& instances) {
   const Point center = map.center(map[id]);

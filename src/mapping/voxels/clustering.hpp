@@ -9,8 +9,8 @@
 
 namespace laneloom {
 
-/// Gives every newly reliable voxel to the instance of its type that it was most often seen with, or to a new
-/// one (paper, Sec. III-C-1). A voxel whose likely type has changed leaves its former instance.
+/// Gives every newly reliable voxel to the instance of its type with which it was seen most, or to a new
+/// instance (paper, Sec. III-C-1). A voxel whose likely type has changed leaves its former instance.
 void cluster(const std::vector<VoxelId>& reliable, const ClusteringConfig& config, std::int64_t stamp_ns,
              SemanticMap& semantic_map, IdSource& ids);
 

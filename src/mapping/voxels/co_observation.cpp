@@ -42,7 +42,7 @@ void CoObservation::record(MarkingType type, MarkingStyle style, std::vector<Vox
 void CoObservation::append(VoxelId voxel, ObservationId observation) {
   if (born_[voxel] == kNeverBorn) born_[voxel] = observation;
   auto& seen = seen_in_[voxel];
-  if (seen.size() == seen.capacity()) {  // before it grows: drop what is forgotten
+  if (seen.size() == seen.capacity()) {  // forgotten detections are dropped before it grows
     seen.erase(seen.begin(), std::lower_bound(seen.begin(), seen.end(), first_));
   }
   seen.push_back(observation);

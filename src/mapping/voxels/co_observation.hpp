@@ -8,7 +8,7 @@
 
 namespace laneloom {
 
-/// A voxel that was seen together with another one.
+/// A voxel that was seen together with a given one.
 struct CoObserved {
   VoxelId voxel = kNoVoxel;
   std::uint32_t count = 0;  ///< A(v_p, v_q)
@@ -24,13 +24,13 @@ struct CoObserved {
 /// stands still.
 class CoObservation {
  public:
-  /// Starts a frame: forgets what is older than `remembered_frames`, in A and in the counts of `map`.
+  /// Starts a frame. Forgets detections older than `remembered_frames`, in A and in the counts of `map`.
   void begin_frame(int remembered_frames, VoxelMap& map);
 
   /// Records one detection: its voxels, each once, in A and in the counts of `map`.
   void record(MarkingType type, MarkingStyle style, std::vector<VoxelId> voxels, VoxelMap& map);
 
-  /// The voxel left the map; its slot may be used again.
+  /// Forgets a voxel that left the map, so that its slot may be used again.
   void erase(VoxelId id);
 
   /// The row of A that belongs to a voxel: every living voxel that was seen with it, itself left out, in a
@@ -38,7 +38,7 @@ class CoObservation {
   const std::vector<CoObserved>& row(VoxelId id);
 
   std::uint64_t frame() const { return frame_; }
-  /// Entries that are stored, for tests and benchmarks of the memory's bound.
+  /// Number of entries that are stored, for tests and benchmarks of the memory's bound.
   std::size_t stored_entries() const;
 
   template <class Archive>
@@ -49,8 +49,9 @@ class CoObservation {
  private:
   using ObservationId = std::uint64_t;  ///< counts up by one per recorded detection
 
+  /// A remembered detection.
   struct Observation {
-    std::uint64_t frame = 0;
+    std::uint64_t frame = 0;  ///< number of the frame that it belongs to
     MarkingType type = MarkingType::laneline;
     MarkingStyle style = MarkingStyle::unknown;
     std::vector<VoxelId> voxels;
@@ -61,15 +62,15 @@ class CoObservation {
   };
 
   ObservationId next() const { return first_ + observations_.size(); }
-  /// A slot that is used again has not seen what its former voxel saw.
+  /// Whether a detection touched the present voxel of a slot, and not a former one.
   bool has_seen(VoxelId voxel, ObservationId observation) const { return observation >= born_[voxel]; }
   void append(VoxelId voxel, ObservationId observation);
 
   std::uint64_t frame_ = 0;
-  ObservationId first_ = 0;  ///< the oldest one that is remembered
+  ObservationId first_ = 0;  ///< the oldest detection that is remembered
   std::deque<Observation> observations_;
   std::vector<std::vector<ObservationId>> seen_in_;  ///< per voxel, ascending; may begin with forgotten ones
-  std::vector<ObservationId> born_;                  ///< per voxel: the first one that it can have seen
+  std::vector<ObservationId> born_;                  ///< per voxel: the first detection that touched it
 
   std::vector<std::uint32_t> counts_;  ///< scratch of row(), all zero in between
   std::vector<CoObserved> row_;

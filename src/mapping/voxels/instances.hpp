@@ -13,14 +13,14 @@ struct Instance {
   ElementId id = kNoElement;
   MarkingType type = MarkingType::laneline;
   std::vector<VoxelId> voxels;
-  std::uint64_t observations = 0;  ///< detections that touched it
-  std::int64_t first_seen_ns = 0;
+  std::uint64_t observations = 0;  ///< number of detections that touched it
+  std::int64_t first_seen_ns = 0;  ///< stamp of the frame that made it
 
   bool dirty = true;               ///< its voxels changed since the polyline was estimated
   Polyline points;                 ///< map frame; empty: too small to be vectorised
   std::vector<StyleRange> styles;  ///< along the points
-  /// Where the line leaves the local range and comes back, its stretches have ids of their own: the first one
-  /// that was published has the instance's, these are the others'.
+  /// Ids of further stretches of a line that leaves the local range and comes back. The first stretch has the
+  /// id of the instance.
   std::vector<ElementId> extra_ids;
 
   template <class Archive>
@@ -35,13 +35,13 @@ class Instances {
   const std::vector<Instance>& all() const { return instances_; }
   std::vector<Instance>& all() { return instances_; }
 
-  /// The instance with an id that exists.
+  /// The instance of an id, which must exist.
   Instance& operator[](ElementId id) { return instances_[position(id)]; }
   const Instance& operator[](ElementId id) const { return instances_[position(id)]; }
-  /// Where in all() an existing id is.
+  /// The place in all() of an id, which must exist.
   std::size_t position(ElementId id) const;
 
-  /// `id` must be greater than every other.
+  /// Adds an empty instance. `id` must be greater than all others.
   Instance& create(ElementId id, MarkingType type, std::int64_t stamp_ns);
   void add(Instance& instance, VoxelId voxel, VoxelMap& map);
   /// Takes a voxel out of its instance; the instance may be left empty.

@@ -14,7 +14,7 @@ namespace {
 using Points = std::vector<WeightedPoint>;
 
 constexpr std::size_t kMinGroup = 3;      // points that make a quadrant worth a polyline
-constexpr double kMinVariance_m2 = 0.05;  // along a group: below, its direction is not determined
+constexpr double kMinVariance_m2 = 0.05;  // along a group; with less, its direction is not determined
 
 /// Principal components, by descending eigenvalue.
 struct PrincipalAxes {
@@ -96,7 +96,7 @@ Polyline connect(const std::vector<LineFit>& fits, double start, double group_m)
   return line;
 }
 
-/// Case 1: groups of about `segment_m` along PC1, a line for each.
+/// Case 1: groups of about `segment_m` along the first principal component, with a line for each.
 Polyline fit_along_first_component(const Points& points, const PrincipalAxes& pca, double segment_m) {
   Polyline local(points.size());
   std::ranges::transform(points, local.begin(), [&](const auto& p) { return pca.to_local(p.point); });
@@ -116,7 +116,7 @@ Polyline fit_along_first_component(const Points& points, const PrincipalAxes& pc
   return line;
 }
 
-/// Puts the pieces in the order and the directions that leave the shortest gaps between them.
+/// Puts the pieces into the order and directions that leave the shortest gaps between them.
 std::vector<Polyline> chain(const std::vector<Polyline>& pieces) {
   std::vector<std::size_t> order(pieces.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -145,7 +145,7 @@ std::vector<Polyline> chain(const std::vector<Polyline>& pieces) {
   return best;
 }
 
-/// Case 2: each quadrant on its own, then joined end to end; ends that are close meet halfway.
+/// Case 2: each quadrant on its own. The lines are then joined end to end; ends that are close meet halfway.
 Polyline fit_quadrants(const Points& points, const PrincipalAxes& pca, double segment_m) {
   std::array<Points, 4> quadrants;
   for (const auto& p : points) {

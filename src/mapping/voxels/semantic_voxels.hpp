@@ -10,7 +10,7 @@
 
 namespace laneloom {
 
-/// Which voxels one frame touched.
+/// The voxels that one frame touched.
 struct TouchedVoxels {
   std::vector<VoxelId> all;                        ///< each once, in the order of the first touch
   std::vector<std::vector<VoxelId>> by_detection;  ///< parallel to the road markings
@@ -21,7 +21,7 @@ struct TouchedVoxels {
 TouchedVoxels update_voxels(const std::vector<ObservedMarking>& markings, const MapBox& range,
                             const VoxelMapConfig& config, VoxelMap& map, CoObservation& co_observation);
 
-/// Of the touched voxels those with n* > alpha_n (paper, eq. 4) that are not yet in an instance of type l*.
+/// The touched voxels with n* > alpha_n (paper, eq. 4) that are not yet in an instance of type l*.
 std::vector<VoxelId> reliable_voxels(const std::vector<VoxelId>& touched, const VoxelMap& map,
                                      const Instances& instances, int min_detections);
 

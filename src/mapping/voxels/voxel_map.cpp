@@ -93,7 +93,7 @@ void VoxelMap::rebuild_hash() {
 }
 
 std::size_t VoxelMap::KeyHash::operator()(const VoxelIndex& key) const {
-  // The primes of Niessner et al. 2013, as the paper's voxel hashing.
+  // The primes of Niessner et al. 2013, whose voxel hashing the paper uses.
   const auto part = [](int value, std::size_t prime) { return static_cast<std::size_t>(value) * prime; };
   return part(key.x(), 73856093U) ^ part(key.y(), 19349669U) ^ part(key.z(), 83492791U);
 }

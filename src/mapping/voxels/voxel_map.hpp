@@ -16,16 +16,16 @@ inline constexpr VoxelId kNoVoxel = 0xffffffff;
 
 using VoxelIndex = Eigen::Vector3i;  ///< floor(point / voxel size), per axis
 
-/// Paper, eq. 2. The counts are of the detections that are remembered.
+/// A voxel (paper, eq. 2). It counts the detections that are remembered.
 struct Voxel {
   VoxelIndex index = VoxelIndex::Zero();
-  std::array<std::uint32_t, kMarkingTypeCount> detections{};  ///< n_o
-  std::array<std::uint32_t, kMarkingStyleCount> styles{};
-  ElementId instance = kNoElement;
-  std::uint64_t last_frame = 0;  ///< that touched it
-  bool alive = false;
+  std::array<std::uint32_t, kMarkingTypeCount> detections{};  ///< n_o: count by type
+  std::array<std::uint32_t, kMarkingStyleCount> styles{};     ///< count by style
+  ElementId instance = kNoElement;                            ///< the instance that it belongs to
+  std::uint64_t last_frame = 0;                               ///< the last frame that touched it
+  bool alive = false;                                         ///< else the slot is free
 
-  /// The most likely marking type l*; the first one of equals.
+  /// The most likely marking type l*; of equals, the first one.
   MarkingType likely_type() const;
   std::uint32_t count(MarkingType type) const { return detections[laneloom::index(type)]; }
 
@@ -44,15 +44,15 @@ class VoxelMap {
   VoxelIndex index_of(const Point& point) const;
   Point center(const Voxel& voxel) const;
 
-  /// The voxel at `index`; allocated where nothing was observed before.
+  /// The voxel at `index`. It is allocated if nothing was observed there before.
   VoxelId find_or_allocate(const VoxelIndex& index);
-  /// kNoVoxel where nothing was observed.
+  /// The voxel at `index`. kNoVoxel: nothing was observed there.
   VoxelId find(const VoxelIndex& index) const;
   void erase(VoxelId id);
 
   Voxel& operator[](VoxelId id) { return voxels_[id]; }
   const Voxel& operator[](VoxelId id) const { return voxels_[id]; }
-  /// Slots, of living voxels and of free ones.
+  /// Number of slots, of living voxels and free ones.
   VoxelId slots() const { return static_cast<VoxelId>(voxels_.size()); }
   std::size_t living() const { return voxels_.size() - free_voxels_.size(); }
   std::size_t blocks() const { return blocks_.size() - free_blocks_.size(); }
@@ -72,10 +72,11 @@ class VoxelMap {
   static constexpr int kBlockMask = (1 << kBlockBits) - 1;
   static constexpr std::size_t kBlockVoxels = 1U << (3 * kBlockBits);
 
+  /// A cube of voxels.
   struct Block {
-    VoxelIndex key = VoxelIndex::Zero();
-    std::uint32_t used = 0;
-    std::array<VoxelId, kBlockVoxels> slots{};
+    VoxelIndex key = VoxelIndex::Zero();        ///< index of its voxels without their lowest bits
+    std::uint32_t used = 0;                     ///< number of its voxels that are alive
+    std::array<VoxelId, kBlockVoxels> slots{};  ///< kNoVoxel: not allocated
     template <class Archive>
     void serialize(Archive& archive) {
       archive(key, used, slots);

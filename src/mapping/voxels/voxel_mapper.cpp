@@ -24,7 +24,7 @@ FusedMarkings VoxelMapper::fuse(const ObservedFrame& observed, const Scene& scen
   return log.done(Stage::polylines, FusedMarkings{std::move(markings), {}, {}});
 }
 
-/// Clears what lies outside of the local range and its margin (paper, Sec. IV-C).
+/// Removes voxels outside of the local range and its margin (paper, Sec. IV-C).
 void VoxelMapper::clear_outside(const MapBox& box) {
   auto& [voxels, co_observation, instances] = map_;
   for (VoxelId id = 0; id < voxels.slots(); ++id) {

@@ -10,7 +10,7 @@
 
 namespace laneloom {
 
-/// The paper's method of fusion, by voxels (Sec. III-B and III-C). A value.
+/// The paper's method of fusion, by voxels (Sec. III-B and III-C). A value type.
 class VoxelMapper {
  public:
   explicit VoxelMapper(const VoxelMapConfig& config) : map_{VoxelMap(config)} {}

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
     DetectionFrame frame{
         .stamp_ns = pose.stamp_ns, .sequence = number / kPosesPerFrame, .session_id = session};
     frame.source = "example";
-    frame.detected_types = {laneloom::MarkingType::laneline};  // that nothing else was seen means nothing
+    frame.detected_types = {laneloom::MarkingType::laneline};  // it does not look for other types
     frame.detections = {laneline(1.75, laneloom::MarkingStyle::dashed),
                         laneline(-1.75, laneloom::MarkingStyle::solid),
                         laneline(5.25, laneloom::MarkingStyle::solid)};

@@ -1,4 +1,4 @@
-// Says in what state the map is, and makes a stream that stands still look so.
+// Shows the state of the map, and makes a stream that stands still look so.
 
 const STALE_MS = 450;  // without a frame, where ten a second should come
 const byId = (id) => document.getElementById(id);
@@ -8,7 +8,7 @@ export class Banner {
     Object.assign(this, {feed, player});
   }
 
-  /** To be called often: time passes also where nothing comes. */
+  /** To be called often, because a map grows old also when nothing comes. */
   update() {
     const {state, reasons, frozen} = this.#judge();
     document.body.dataset.state = state;
@@ -38,7 +38,7 @@ export class Banner {
     return `${player.playing ? 'behind' : 'paused'} ${(feed.last.time_s - player.summary.time_s).toFixed(1)} s`;
   }
 
-  /** What does not change is not touched: screen readers say what does. */
+  /** Leaves a node alone if its text stays the same, because screen readers read out every change. */
   #put(id, text) {
     const node = byId(id);
     if (node.textContent !== text) node.textContent = text;

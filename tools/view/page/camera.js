@@ -1,4 +1,4 @@
-// Where things of the map frame come to lie on the screen.
+// The projection of the map frame onto the screen.
 const DEFAULT_SCALE = 13;  // pixels per metre
 const AHEAD = 0.72;        // how far down the screen the vehicle is, heading up
 
@@ -31,12 +31,12 @@ export class Camera {
     return [this.x + right * sin + ahead * cos, this.y - right * cos + ahead * sin];
   }
 
-  /** On the screen (clockwise from the right), of a direction in the map frame. */
+  /** The angle on the screen (clockwise from the right) of a direction in the map frame. */
   angle(direction) {
     return this.up - direction - Math.PI / 2;
   }
 
-  /** By pixels; whoever moves the map no longer follows. */
+  /** Moves the map by pixels. The camera follows the vehicle no longer. */
   pan(dx, dy) {
     this.mode = 'free';
     const [x, y] = this.unproject(this.width / 2 - dx, this.height / 2 - dy);
@@ -44,7 +44,7 @@ export class Camera {
     this.y = y;
   }
 
-  /** What lies at the pixel stays there. */
+  /** Zooms about a pixel: the point of the map there stays there. */
   zoom(factor, [px, py] = [this.width / 2, this.height / 2]) {
     const [x, y] = this.unproject(px, py);
     this.scale = Math.min(200, Math.max(0.5, this.scale * factor));

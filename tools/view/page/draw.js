@@ -20,7 +20,7 @@ export class Painter {
     pen.fillRect(0, 0, camera.width, camera.height);
   }
 
-  /** The elements, which are in the order of painting, of the layers that are shown. */
+  /** Draws those elements whose layer is shown. They must be in the order of painting. */
   draw(pen, camera, elements, shown) {
     for (const element of elements) {
       const layer = shown.get(element.layer);
@@ -71,7 +71,7 @@ export class Painter {
     this.polygon(pen, [tip, at(1, 0.45), at(0.7, 0), at(1, -0.45)], colour);
   }
 
-  /** Of pixels. */
+  /** Fills a polygon whose corners are pixels. */
   polygon(pen, corners, colour) {
     pen.beginPath();
     corners.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
@@ -80,7 +80,7 @@ export class Painter {
     pen.fill();
   }
 
-  /** With a seam in the colour of the ground, to be readable on anything. */
+  /** Writes a text with a seam in the colour of the ground, so that it can be read on anything. */
   write(pen, text, [x, y], {size = 12, colour = this.theme().text, align = 'center'} = {}) {
     pen.font = `${size}px system-ui, "DejaVu Sans", sans-serif`;
     pen.textAlign = align;
@@ -91,7 +91,7 @@ export class Painter {
     pen.fillText(text, x, y);
   }
 
-  /** Around what is selected or under the pointer. */
+  /** Outlines an element: strongly if it is selected, weakly if it is under the pointer. */
   highlight(pen, camera, element, strong) {
     const colour = this.dark ? '#ffd54a' : '#e08a00';
     pen.globalAlpha = strong ? 0.85 : 0.5;
@@ -113,7 +113,7 @@ export class Painter {
     this.write(pen, `${metres} m`, [(x + end) / 2, y - 8]);
   }
 
-  /** What a column, or each of the maps that lie over one another, is called. */
+  /** Writes the name of a column, or those of all maps that lie over one another. */
   names(pen, camera, names, tint) {
     names.forEach((name, i) => this.write(pen, name, [camera.width / 2, 20 + 17 * i], {size: 13, colour: i ? tint : undefined}));
   }
@@ -125,7 +125,7 @@ export class Painter {
     this.write(pen, 'N', to(25, 0), {size: 11});
   }
 
-  /** A line through points of the map frame, with the way so far at each. */
+  /** Draws a line through points of the map frame, with its length so far at each point. */
   measure(pen, camera, points) {
     if (!points.length) return;
     const colour = this.dark ? '#7db0ff' : '#1f5fd0';

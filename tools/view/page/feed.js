@@ -1,4 +1,4 @@
-// Where frames come from: the live stream with a ring of the last minutes, or a recording.
+// Sources of frames: the live stream with a ring of the last minutes, or a recording.
 // A feed has `summaries` in the order of time, whose `index` counts up by one, and gives the frame of each.
 
 const RING_S = 300;
@@ -13,7 +13,7 @@ class Feed extends EventTarget {
 
   at(index) { return this.summaries[index - (this.first?.index ?? 0)]; }
 
-  /** The last one that is not later than `time_s`; the first, if all are. */
+  /** The last summary that is not later than `time_s`; if all are later, the first one. */
   atTime(time_s) {
     let low = 0, high = this.summaries.length;
     while (high - low > 1) {
@@ -60,14 +60,14 @@ export class LiveFeed extends Feed {
   #add(text) {
     const frame = JSON.parse(text);
     if (this.#number !== null) this.lost += Math.max(0, frame.number - this.#number - 1);
-    // After a reconnection comes what was there before, until there is news.
+    // After a reconnection the first frame may be one that is known already.
     const known = this.#number === null && this.last?.time_s === frame.time_s && this.last.alive === frame.alive;
     this.#number = frame.number;
     if (known) return;
     this.arrival_ms = performance.now();
     const {elements, status, ...summary} = frame;
     summary.index = this.#next++;
-    // Of one that is shown again, as the service went, the time is now.
+    // A frame that comes again because the service went has its old time, but times must ascend.
     if (summary.time_s <= this.last?.time_s) summary.time_s = this.last.time_s + 1e-3;
     this.summaries.push(summary);
     this.#texts.set(summary.index, text);

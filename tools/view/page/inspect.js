@@ -1,4 +1,4 @@
-// What is known of the selected element, in words, and what became of it.
+// The properties of the selected element, in words, and its history.
 
 const NAMES = {existence_probability: 'existence', lateral_stddev_mean_m: 'σ lateral (mean)', lateral_stddev_max_m: 'σ lateral (max)',
   age_s: 'age', unseen_s: 'last seen before', inferred_m: 'inferred at', observations: 'observations'};
@@ -41,7 +41,7 @@ export class Inspector {
     this.node.replaceChildren(make('p', {textContent: 'Click something on the map, or find it by its id.'}));
   }
 
-  /** `element` is null where the selected one is not in this frame. */
+  /** Shows the element `selected`. `element` is the same in the present frame, or null if it is not there. */
   show(selected, element, history) {
     const parts = [make('h2', {id: 'selected', textContent: titleOf(selected)})];
     if (!element) parts.push(make('p', {textContent: 'It is not in this frame.'}));
@@ -89,7 +89,7 @@ export class Inspector {
   }
 }
 
-/** Remembers of each element when its status changed, from the frames that were seen. */
+/** Remembers the times at which the status of each element changed, from the frames that were shown. */
 export class Memory {
   #tracks = new Map();
 
@@ -107,7 +107,7 @@ export class Memory {
       if (track.at(-1).summary.index < before) this.#tracks.delete(key);
   }
 
-  /** What happened to the element, in the order of time. */
+  /** The events in the life of an element, in the order of time. */
   history(element, summaries, first) {
     const found = [], statuses = (this.#tracks.get(element.key) ?? []).map(({status, summary}) => ({summary, text: `is ${status}`}));
     if (element.type !== 'lane')

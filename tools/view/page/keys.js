@@ -1,4 +1,4 @@
-// Keys of the page: each does what a button does, or what has none.
+// Keys of the page. Some have a button that does the same.
 
 const ACTIONS = {
   ' ': 'play', l: 'live', Home: 'begin', h: 'heading', n: 'north', f: 'free', '+': 'zoomIn', '=': 'zoomIn', '-': 'zoomOut', r: 'reset',

@@ -108,7 +108,7 @@ class App {
     };
   }
 
-  // What is seen.
+  // Drawing.
 
   #newFrame() {
     const {frame, summary} = this.player;
@@ -133,7 +133,7 @@ class App {
     });
   }
 
-  /** What lies over the map, in a column that `has` elements. */
+  /** Draws the marks over the map in one column. `has` tells whether an element is in the column. */
   #mark(pen, has) {
     const {painter, camera} = this;
     this.selection.paint(pen, painter, has);
@@ -167,7 +167,7 @@ class App {
     byId('clock').textContent = player.summary ? this.when(player.summary, true) : '';
   }
 
-  /** Of a recording, time since its begin; live, the time of day. */
+  /** The time as a text: since the begin of a recording, or the time of day of a live frame. */
   when(summary, exactly = false) {
     if (!this.info.live) return `${(summary.time_s - this.feed.first.time_s).toFixed(exactly ? 2 : 1)} s`;
     return new Date(summary.time_s * 1e3).toLocaleTimeString('en-GB', {hour: '2-digit', minute: '2-digit', second: '2-digit', fractionalSecondDigits: exactly ? 2 : 1});
@@ -189,7 +189,7 @@ class App {
     else this.#toast(`Nothing here has the id ${id}.`);
   }
 
-  /** Side by side, or over one another. */
+  /** Switches between maps side by side and maps over one another. */
   #compare() {
     this.panes.over = this.panes.several && !this.panes.over;
     this.selection.hover(null);
@@ -207,7 +207,7 @@ class App {
     this.#changed();
   }
 
-  /** Of the view: it is drawn anew, and remembered. */
+  /** The view has changed: draws it anew and remembers it. */
   #changed() {
     if (this.player.frame) this.camera.follow(this.player.frame.pose);
     this.#dirty = true;

@@ -1,8 +1,8 @@
-// The lists beside the map: layers, events, and what the service says of itself.
+// The lists beside the map: layers, events, and the service's status.
 
 const EVENTS = 200;
 
-/** Checkboxes; `shown` is a map of the layers that are shown, by name. */
+/** The checkboxes of the layers. `shown` is a map of the layers that are shown, by name. */
 export class Layers {
   constructor(node, palette, painter, changed) {
     Object.assign(this, {node, palette, painter, changed});
@@ -43,7 +43,7 @@ export class Layers {
   }
 }
 
-/** What happened, newest first; a click goes there. */
+/** The list of events, newest first. A click goes to the time of the event. */
 export class Events {
   #index = -1;
 
@@ -74,7 +74,7 @@ export class Events {
   }
 }
 
-/** The newest status, as it is. */
+/** Lists all values of a status. */
 export function showService(node, status) {
   const rows = [];
   const put = (key, value) => {

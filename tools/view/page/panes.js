@@ -3,7 +3,7 @@
 export class Panes {
   over = false;
 
-  /** `names` of what is compared; of one map alone: none. `lists` has the elements of each. */
+  /** `names`: of the maps that are compared; empty if there is one map alone. `lists`: the elements of each map. */
   constructor(names = []) {
     this.names = names;
     this.lists = Array.from({length: Math.max(1, names.length)}, () => []);
@@ -11,7 +11,7 @@ export class Panes {
 
   get several() { return this.lists.length > 1; }
 
-  /** Beside each other. */
+  /** The number of columns side by side. */
   get columns() { return this.over ? 1 : this.lists.length; }
 
   set(lists) {
@@ -19,10 +19,10 @@ export class Panes {
     lists.forEach((elements, pane) => pane && elements.forEach((element) => (element.pane = pane)));
   }
 
-  /** The same one in a newer frame. */
+  /** The same element in the present frame. */
   find({key, pane = 0}) { return this.lists[pane]?.find((element) => element.key === key); }
 
-  /** What lies in the column of a pixel, and where in the column the pixel is. */
+  /** The elements in the column of a pixel, and the place of the pixel within the column. */
   at([x, y], {width}) {
     const column = Math.min(this.columns - 1, Math.max(0, Math.floor(x / width)));
     return {elements: this.over ? this.lists.flat() : this.lists[column], pixel: [x - column * width, y]};

@@ -1,4 +1,4 @@
-// Which element lies under a point of the map frame. Coordinates of shapes are flat: [x, y, x, y, …].
+// Finds the element under a point of the map frame. Coordinates of shapes are flat: [x, y, x, y, …].
 
 function distanceToSegment(px, py, ax, ay, bx, by) {
   const dx = bx - ax, dy = by - ay, squared = dx * dx + dy * dy;
@@ -26,7 +26,7 @@ const UNPICKED = new Set(['vehicle', 'range', 'field_of_view', 'occlusions', 'id
 
 export const pickable = (elements, shown) => elements.filter(({layer}) => shown.has(layer) && !UNPICKED.has(layer));
 
-/** The nearest line within reach, else the area that the point is in; null: none. Lanes are areas. */
+/** The element of the nearest line within reach, else of the topmost area around the point, else null. Lanes are areas. */
 export function pick(elements, shown, point, reach_m) {
   let best = null, least = reach_m;
   const candidates = pickable(elements, shown);
@@ -40,7 +40,7 @@ export function pick(elements, shown, point, reach_m) {
   return best ?? candidates.findLast(({shapes}) => shapes.some(({area}) => area && contains(area, point))) ?? null;
 }
 
-/** Somewhere on an element, to bring it into view. */
+/** A point on an element, for bringing it into view. */
 export function middle(element) {
   for (const {line, area} of [...element.shapes].sort((a) => (a.line ? -1 : 1))) {
     const flat = line ?? area;

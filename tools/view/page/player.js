@@ -1,6 +1,6 @@
-// Which frame is shown: follows the live end, stands still, or plays through the ring or the recording.
+// Chooses the frame that is shown: follows the live end, stands still, or plays through the ring or the recording.
 
-/** Events: frame (`frame` and `summary` are what is shown now), mode. */
+/** Events: frame (another one is shown: `frame`, with its `summary`), mode. */
 export class Player extends EventTarget {
   frame = null;
   summary = null;
@@ -34,7 +34,7 @@ export class Player extends EventTarget {
     this.dispatchEvent(new Event('frame'));
   }
 
-  /** Of those wanted while one is loaded, the last is loaded next. */
+  /** Loads a frame and shows it. If several are wanted while one is loading, only the last of them is loaded next. */
   async #want(summary) {
     this.#wanted = summary;
     this.#time_s = summary.time_s;
@@ -79,7 +79,7 @@ export class Player extends EventTarget {
     this.#arrived();
   }
 
-  /** Pauses a live view; a recording plays on. */
+  /** Goes to a frame. A live view pauses there; a recording plays on. */
   seek(summary) {
     if (!summary) return;
     this.#mode(this.playing && !this.feed.live, false);

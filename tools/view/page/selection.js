@@ -1,4 +1,4 @@
-// What is under the pointer, what is chosen, and what is told of it.
+// The element under the pointer, the selected element, and the text about it.
 import {Inspector, Memory, titleOf} from './inspect.js';
 import {middle, pick, pickable} from './pick.js';
 
@@ -44,7 +44,7 @@ export class Selection {
     this.view.changed();
   }
 
-  /** Returns where the element with this id is; null: there is none. */
+  /** Selects the element with this id. Returns a point on it; null if there is no such element. */
   selectById(id) {
     const found = this.find(id);
     if (!found) return null;
@@ -52,14 +52,14 @@ export class Selection {
     return middle(found);
   }
 
-  /** The next or the one before, of those with an id. */
+  /** Selects the next (`by` 1) or previous (-1) element among those with an id. */
   cycle(by) {
     const all = pickable(this.view.panes.lists[0], this.view.layers.shown).filter(({id}) => id !== undefined);
     const now = all.findIndex((element) => isSame(element, this.element));
     if (all.length) this.select(all[(Math.max(now, by > 0 ? -1 : 0) + by + all.length) % all.length]);
   }
 
-  /** `pixel` is null where the pointer is elsewhere. */
+  /** `pixel` is the place of the pointer; null if it is not on the map. */
   hover(pixel) {
     this.hovered = pixel && this.pick(pixel);
     const tip = byId('tip');
@@ -72,14 +72,14 @@ export class Selection {
     this.view.changed();
   }
 
-  /** Around both, where the column that is painted `has` them. */
+  /** Outlines both elements if the column that is painted `has` them. */
   paint(pen, painter, has) {
     const {hovered, element, view: {camera}} = this;
     if (hovered && !isSame(hovered, element) && has(hovered)) painter.highlight(pen, camera, hovered, false);
     if (element && this.seen && has(element)) painter.highlight(pen, camera, element, true);
   }
 
-  /** To be called often: what is told is put on the page where it is news. */
+  /** Updates the text on the page if it has changed. To be called often. */
   tell() {
     const {element, inspector, seen, view: {feed, when}} = this;
     if (feed.first) this.#memory.forget(feed.first.index);

@@ -1,9 +1,9 @@
-// A link to the view and time, what is remembered, and pictures of what is seen.
+// Links to the view and time, the remembered view, and pictures of the view.
 import {SvgPen} from './svg.js';
 
 const KEY = 'laneloom view';
 
-/** As of a link (#…), else as it was left here. */
+/** The state in the link (#…), else the one that was remembered in this browser. */
 export function restore() {
   const linked = Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
   if (Object.keys(linked).length) return linked;
@@ -21,7 +21,7 @@ export function remember(state) {
   }
 }
 
-/** Of the page: the view, and with `linked` the time and what is selected. */
+/** The state of the page: the view, and with `linked` also the time and the selected element. */
 export function stateOf({camera, layers, player, theme, selection: {element}}, linked) {
   const state = {mode: camera.mode, scale: camera.scale.toFixed(2), layers: [...layers.shown.keys()].join(), theme};
   if (!linked) return state;
@@ -52,7 +52,7 @@ function selectOnceSeen({player, panes, selection}, wanted) {
   player.addEventListener('frame', look);
 }
 
-/** Live, only what came since the page was opened is known. */
+/** Goes to a time of a recording once it is loaded. A live view has no frames from before the page was opened. */
 function goOnceKnown({feed, player}, time_s) {
   if (feed.live) return;
   player.playing = false;

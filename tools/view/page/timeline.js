@@ -92,7 +92,7 @@ export class Timeline {
     pen.fillText(`${most.toPrecision(2)} ${unit}`, width - RIGHT, top + 10);
   }
 
-  /** A band of the states, with a mark where something happened. */
+  /** Draws a band of the states, with a mark at each event. */
   #states({pen, x, colour}) {
     const {summaries} = this.feed;
     summaries.forEach((summary, i) => {
