@@ -13,10 +13,11 @@ namespace laneloom {
 namespace {
 
 constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
+constexpr double kKerb_m = 0.3;     // two road edges nearer to each other are one
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
-/// The lines' stations, one after the other without what else is known of them.
+/// The positions of the lines' stations.
 std::vector<Polyline> courses_of(const std::vector<Line>& lines) {
   std::vector<Polyline> courses;
   courses.reserve(lines.size());
@@ -28,7 +29,7 @@ std::vector<Polyline> courses_of(const std::vector<Line>& lines) {
   return courses;
 }
 
-/// Whether a line passes within `distance_m` of a point, at one of its stations or between that and the next.
+/// Whether a line passes within `distance_m` of a point, at a station or on the two segments at it.
 bool passes(const Polyline& course, std::size_t station, const Point& point, double distance_m) {
   const auto is_near = [&](const Point& place) {
     return (place - point).head<2>().squaredNorm() < distance_m * distance_m && same_level(place, point);
@@ -44,21 +45,21 @@ bool passes(const Polyline& course, std::size_t station, const Point& point, dou
          (station + 1 < course.size() && is_near_between(course[station], course[station + 1]));
 }
 
-/// Finds for a line the longer ones that it lies beside.
+/// Finds the longer lines that a line lies beside.
 class BesideSearch {
  public:
-  BesideSearch(const std::vector<Line>& lines, const FusionConfig& config)
+  BesideSearch(const std::vector<Line>& lines, double distance_m, const FusionConfig& config)
       : along_(lines, false),
         across_(lines, true),
         courses_(courses_of(lines)),
         others_(lines.size()),
-        distance_m_(config.merge_distance_m),
+        distance_m_(distance_m),
         // A line that passes this near has a station within reach, unless its stations are more than twice
         // as far apart as wanted.
-        reach_m_(std::sqrt(config.merge_distance_m * config.merge_distance_m +
-                           config.station_spacing_m * config.station_spacing_m)) {}
+        reach_m_(std::sqrt(distance_m * distance_m + config.station_spacing_m * config.station_spacing_m)) {}
 
-  /// Calls `found(other)`. Of equally long ones, the first ones count as longer.
+  /// Calls `found(other)` for each longer line that `line` lies beside. Of equally long lines, the first one
+  /// counts as longer.
   template <class Found>
   void beside(std::size_t line, bool is_stopline, Found&& found) {
     const Polyline& course = courses_[line];
@@ -85,10 +86,10 @@ class BesideSearch {
 
  private:
   static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
-  /// What is open about one of the other lines.
+  /// The state of the search for one of the other lines.
   struct Other {
-    std::size_t needed = 0;     ///< stations that have to be beside it yet
-    std::size_t next = kNever;  ///< station that has to be looked at next
+    std::size_t needed = 0;     ///< number of stations that must still be found beside it
+    std::size_t next = kNever;  ///< the next station to look at
   };
 
   StationGrid along_, across_;
@@ -97,9 +98,9 @@ class BesideSearch {
   double distance_m_, reach_m_;
 };
 
-/// Pairs of lines of which the shorter one lies beside the other along enough of it, in order.
+/// Pairs of lines that lie side by side along enough of the shorter one, in ascending order.
 std::vector<IndexPair> side_by_side(const std::vector<Line>& lines, const FusionConfig& config) {
-  BesideSearch search(lines, config);
+  BesideSearch search(lines, config.merge_distance_m, config);
   std::vector<IndexPair> pairs;
   for (std::size_t i = 0; i < lines.size(); ++i)
     search.beside(i, is_stopline(lines[i].type()),
@@ -108,7 +109,22 @@ std::vector<IndexPair> side_by_side(const std::vector<Line>& lines, const Fusion
   return pairs;
 }
 
-/// As far as it is in view.
+/// Pairs of road edges that are one kerb, in ascending order.
+std::vector<IndexPair> doubled_kerbs(const std::vector<Line>& lines, const FusionConfig& config) {
+  const auto is_kerb = [&](std::size_t i) { return lines[i].type() == MarkingType::roadedge; };
+  BesideSearch search(lines, kKerb_m, config);
+  std::vector<IndexPair> pairs;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!is_kerb(i)) continue;
+    search.beside(i, false, [&](std::size_t j) {
+      if (is_kerb(j)) pairs.emplace_back(std::minmax(i, j));
+    });
+  }
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+/// Whether the present frame observed more stations of the line than it missed.
 bool mostly_observed(const Line& line) {
   const auto count = [&](Sight sight) { return std::ranges::count(line.stations, sight, &Station::sight); };
   return count(Sight::observed) > count(Sight::missed);
@@ -126,12 +142,13 @@ std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line
   PairHistories kept;
   std::vector<Relative> merged;
   std::vector<bool> gone(lines.size(), false);
+  const std::vector<IndexPair> kerbs = doubled_kerbs(lines, config);
   for (const auto& [i, j] : side_by_side(lines, config)) {
     if (gone[i] || gone[j]) continue;
     const bool i_seen = mostly_observed(lines[i]), j_seen = mostly_observed(lines[j]);
     const auto [a, b] = std::minmax(lines[i].id, lines[j].id);
     const PairHistory history = continued(doubles, PairSighting{a, b, i_seen && j_seen, i_seen != j_seen});
-    if (!seen_apart(history)) {
+    if (!seen_apart(history) && !std::ranges::binary_search(kerbs, IndexPair(i, j))) {
       kept.push_back(history);
       continue;
     }

@@ -50,6 +50,22 @@ TEST_F(LineMerging, WhatIsOutOfViewDoesNotTell) {
   EXPECT_EQ(lines_.size(), 2U) << "both are seen as far as the camera looks";
 }
 
+TEST_F(LineMerging, TwoRoadEdgesWithoutRoomBetweenThemAreOne) {
+  for (Line& line : lines_) line.type_votes[index(MarkingType::roadedge)] = 1.0e6;
+  frame(true, true);
+  EXPECT_EQ(lines_.size(), 2U) << "0.4 m apart";
+  for (Station& station : lines_[1].stations) station.position.y() = 0.25;
+  frame(true, true);
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(lines_[0].id, 1U);
+}
+
+TEST_F(LineMerging, ThePaintOfADoubleLineStays) {
+  for (Station& station : lines_[1].stations) station.position.y() = 0.25;
+  for (int i = 0; i < 100; ++i) frame(true, true);
+  EXPECT_EQ(lines_.size(), 2U);
+}
+
 TEST_F(LineMerging, LinesApartAreNoPair) {
   for (Station& station : lines_[1].stations) station.position.y() = 1.5;
   for (int i = 0; i < 100; ++i) frame(i % 2 == 0, i % 2 != 0);
