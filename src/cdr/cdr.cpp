@@ -1,5 +1,7 @@
 #include "laneloom/dds/cdr.hpp"
 
+#include <utility>
+
 #include "cdr/convert.hpp"
 #include "cdr/message_of.hpp"
 #include "cdr/serialise.hpp"
@@ -18,7 +20,7 @@ template <class T>
 std::string_view from_cdr(std::span<const std::uint8_t> from, const std::string& map_frame_id, T& to) {
   MessageOf<T> message;
   const auto why = deserialise(from, message);
-  return why.empty() ? from_msg(message, map_frame_id, to) : why;
+  return why.empty() ? from_msg(std::move(message), map_frame_id, to) : why;
 }
 
 std::optional<CdrHeader> header_of(std::span<const std::uint8_t> message) {

@@ -13,7 +13,8 @@ constexpr const char* kBodyFrame = "body";
 
 constexpr std::size_t kMaxName = std::remove_cvref_t<decltype(msg::Detections().source())>::max_size;
 
-/// An empty list would mean every type; of a long one, all but one of each kind say nothing more.
+/// Types that fit into a message. A list that is too long is reduced to one of each type. It must not become
+/// empty, which would mean every type.
 std::vector<MarkingType> fitting(std::vector<MarkingType> types) {
   static_assert(kMarkingTypeCount <= msg::MAX_TYPES);
   if (types.size() <= msg::MAX_TYPES) return types;
@@ -56,7 +57,7 @@ Detection from_msg(const msg::Detection& from, Intake& intake) {
 std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id*/, msg::Detections& to) {
   std::size_t left_out = 0;
   to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, kBodyFrame));
-  to.source(from.source.c_str());  // is cut; readers may then take two sources for one
+  to.source(from.source.c_str());  // cut to its bound; readers may then take two sources for one
   left_out += from.source.size() <= kMaxName ? 0U : 1U;
   to.detected_types(convert_all<msg::MarkingType>(
       fitting(from.detected_types), [](MarkingType type) { return enum_to_msg<msg::MarkingType>(type); }));
@@ -79,9 +80,10 @@ std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id
   return left_out;
 }
 
-Refusal from_msg(const msg::Detections& from, const std::string& map_frame_id, DetectionFrame& to) {
+Refusal from_msg(msg::Detections&& from, const std::string& map_frame_id, DetectionFrame& to) {
   Intake intake;
-  // The body frame may have any name, but coordinates of the map would be taken to be about the vehicle.
+  // The body frame may have any other name. Coordinates in the map frame would be taken for ones about the
+  // vehicle.
   if (intake.text(from.header().frame_id().to_string()) == map_frame_id) intake.refuse("wrong_frame");
   to.stamp_ns = from.header().stamp_ns();
   to.sequence = from.header().sequence_number();
@@ -93,8 +95,12 @@ Refusal from_msg(const msg::Detections& from, const std::string& map_frame_id, D
   to.field_of_view = intake.polyline(from.field_of_view());
   to.occluded_areas = convert_all<Polyline>(
       from.occluded_areas(), [&](const msg::Area& area) { return intake.polyline(area.outline()); });
-  to.detections = convert_all<Detection>(
-      from.detections(), [&](const msg::Detection& detection) { return from_msg(detection, intake); });
+  to.detections.clear();
+  to.detections.reserve(from.detections().size());
+  for (msg::Detection& detection : from.detections()) {
+    to.detections.push_back(from_msg(detection, intake));
+    detection = msg::Detection();
+  }
   return intake.refusal();
 }
 
@@ -110,7 +116,7 @@ Refusal from_msg(const msg::VehiclePose& from, const std::string& map_frame_id, 
   to.stamp_ns = from.header().stamp_ns();
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();
-  // A map in another frame than the one that it says would be taken at face value.
+  // A pose in another frame would give a map that names a wrong frame.
   if (from.header().frame_id().to_string() != map_frame_id) intake.refuse("wrong_frame");
   to.position = intake.point(from.pose().position());
   to.orientation = intake.rotation(from.pose().orientation());

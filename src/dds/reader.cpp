@@ -23,7 +23,7 @@ class Reader<T>::Impl {
   using Readers = TopicReader<Received>;
 
   typename Readers::Take take() {
-    return [this](const WriterId& writer, std::uint64_t number, const Received* sample) {
+    return [this](const WriterId& writer, std::uint64_t number, Received* sample) {
       call(callbacks_.numbered, writer, number);
       if (sample != nullptr) receive(*sample);
     };
@@ -35,11 +35,11 @@ class Reader<T>::Impl {
     };
     return {matched, callbacks_.alive, callbacks_.deadline_missed};
   }
-  void receive(const Received& sample) noexcept {
+  void receive(Received& sample) noexcept {
     try {
       T message;
       const auto refusal =
-          sample.refusal.empty() ? from_msg(sample.message, frame_id_, message) : sample.refusal;
+          sample.refusal.empty() ? from_msg(std::move(sample.message), frame_id_, message) : sample.refusal;
       if (refusal.empty()) {
         call(callbacks_.sample, std::move(message));
       } else {
@@ -53,7 +53,7 @@ class Reader<T>::Impl {
   ReaderCallbacks<T> callbacks_;
   std::string frame_id_;
   std::atomic<int> matched_ = 0;
-  Readers reader_;  // last: nothing calls into what is already gone
+  Readers reader_;  // last, so that no callback meets a destroyed member
 };
 
 template <class T>

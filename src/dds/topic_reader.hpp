@@ -13,12 +13,13 @@
 
 #include "dds/participant_impl.hpp"
 #include "dds/sample_numbers.hpp"
+#include "dds/take_all.hpp"
 #include "dds/topic_traits.hpp"
 #include "dds/writer_id.hpp"
 
 namespace laneloom::dds {
 
-/// Nothing may be thrown into DDS: it would end the process.
+/// Calls a callback, and swallows what it throws: an exception within DDS would end the process.
 template <class... Arguments, class... Values>
 void call(const std::function<void(Arguments...)>& callback, Values&&... values) noexcept {
   if (!callback) return;
@@ -28,14 +29,15 @@ void call(const std::function<void(Arguments...)>& callback, Values&&... values)
   }
 }
 
-/// The DDS readers of one topic; one for each reliability that reader_reliabilities() names. A sample that
-/// several of them receive is handed on once, one at a time.
+/// The DDS readers of one topic, one for each reliability that reader_reliabilities() names. A sample that
+/// several of them receive is handed on once. Samples are handed on one at a time.
 template <class Sample>
 class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
  public:
   using DataReader = eprosima::fastdds::dds::DataReader;
-  /// `sample` is null where the writer only told of its end.
+  /// Takes a sample. `sample` is null if the writer only told of its end.
   using Take = std::function<void(const WriterId& writer, std::uint64_t number, Sample* sample)>;
+  /// Callbacks with the meaning of those in ReaderCallbacks.
   struct Events {
     std::function<void(int writers)> matched, alive;
     std::function<void(std::uint64_t)> deadline_missed;
@@ -66,14 +68,12 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
   Participant::Impl& participant() const { return *participant_; }
 
   void on_data_available(DataReader* reader) override {
-    Sample sample;
-    eprosima::fastdds::dds::SampleInfo info;
-    while (reader->take_next_sample(&sample, &info) == ReturnCode::RETCODE_OK) {
+    take_all<Sample>(*reader, [this](Sample& sample, const eprosima::fastdds::dds::SampleInfo& info) {
       const WriterId writer = id_of(info.sample_identity.writer_guid());
       const std::uint64_t number = info.sample_identity.sequence_number().to64long();
       const std::lock_guard lock(mutex_);
       if (numbers_.is_new(writer, number)) call(take_, writer, number, info.valid_data ? &sample : nullptr);
-    }
+    });
   }
   void on_subscription_matched(DataReader* reader,
                                const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override {
@@ -89,9 +89,8 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
   }
 
  private:
-  using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
-
-  /// The first reader matches every writer that another one matches.
+  /// Whether the events of a reader are reported: only those of the first one, which matches every writer
+  /// that another one matches.
   bool tells(const DataReader* reader) const {
     return reader->get_qos().reliability().kind == reader_reliabilities(kind_).front();
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "AutowareMaplessPlanningMsgsPubSubTypes.h"
@@ -61,10 +62,10 @@ class Endpoints::Impl {
                     relative<dds::CheckedType<msg::DetectionsPubSubType>>(kDetectionsTopic, kDetectionsType,
                                                                           TopicKind::detections),
                     std::move(inputs.detections),
-                    in_map_frame<msg::Detections, DetectionFrame>(dds::from_msg)),
+                    in_map_frame<msg::Detections&&, DetectionFrame>(dds::from_msg)),
         odometry_(participant_,
                   relative<OdometryType>(config.ros2.odometry_topic, kOdometryType, TopicKind::poses),
-                  std::move(inputs.poses), in_map_frame<Odometry_, VehiclePose>(from_ros)) {
+                  std::move(inputs.poses), in_map_frame<const Odometry_&, VehiclePose>(from_ros)) {
     if (config.ros2.announce) announcement_ = announce(participant_, config.ros2);
   }
 
@@ -88,23 +89,23 @@ class Endpoints::Impl {
   dds::TopicDescription relative(const std::string& name, std::string_view ros_type, TopicKind kind) const {
     return topic<Type>(dds_topic(config_.ros2, name), ros_type, kind);
   }
-  template <class Message, class T>
-  typename Input<Message, T>::Convert in_map_frame(std::string_view (*convert)(const Message&,
-                                                                               const std::string&,
-                                                                               T&)) const {
-    return [convert, frame = config_.dds.map_frame_id](const Message& from, T& to) {
-      return convert(from, frame, to);
+  /// `From` is a message as `convert` takes it.
+  template <class From, class T>
+  typename Input<std::remove_cvref_t<From>, T>::Convert in_map_frame(
+      std::string_view (*convert)(From, const std::string&, T&)) const {
+    return [convert, frame = config_.dds.map_frame_id](std::remove_cvref_t<From>&& from, T& to) {
+      return convert(std::move(from), frame, to);
     };
   }
 
   Config config_;
   std::shared_ptr<dds::Participant::Impl> participant_;
   Markers markers_;
-  dds::Sample<msg::LaneMap> map_sample_;  // kept, so that its memory is used again
+  dds::Sample<msg::LaneMap> map_sample_;  // kept, so that its memory is reused
   dds::TopicWriter map_, markers_writer_, segments_, diagnostics_;
   Input<msg::Detections, DetectionFrame> detections_;
   Input<Odometry_, VehiclePose> odometry_;
-  std::unique_ptr<dds::TopicWriter> announcement_;  ///< null: none
+  std::unique_ptr<dds::TopicWriter> announcement_;  ///< null: there is none
 };
 
 Endpoints::Endpoints(const Config& config, Inputs inputs, dds::Participant::Presence presence)

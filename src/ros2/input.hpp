@@ -14,7 +14,7 @@
 
 namespace laneloom::ros2 {
 
-/// The generated type support of an odometry, made safe as dds::CheckedType.
+/// The generated type support of an odometry, made safe as dds::CheckedType does.
 class OdometryType : public nav_msgs::msg::dds_::Odometry_PubSubType {
  public:
   using Base = nav_msgs::msg::dds_::Odometry_PubSubType;
@@ -41,8 +41,8 @@ class OdometryType : public nav_msgs::msg::dds_::Odometry_PubSubType {
 template <class Message, class T>
 class Input {
  public:
-  /// Returns why the message is refused; empty: it is not.
-  using Convert = std::function<std::string_view(const Message&, T&)>;
+  /// Converts a message. Returns why it is refused; empty: it is not refused.
+  using Convert = std::function<std::string_view(Message&&, T&)>;
 
   Input(std::shared_ptr<dds::Participant::Impl> participant, const dds::TopicDescription& topic,
         dds::ReaderCallbacks<T> callbacks, Convert convert)
@@ -55,15 +55,16 @@ class Input {
   using Readers = dds::TopicReader<Received>;
 
   typename Readers::Take take() {
-    return [this](const dds::WriterId& writer, std::uint64_t number, const Received* sample) {
+    return [this](const dds::WriterId& writer, std::uint64_t number, Received* sample) {
       dds::call(callbacks_.numbered, writer, number);
       if (sample != nullptr) receive(writer, number, *sample);
     };
   }
-  void receive(const dds::WriterId& writer, std::uint64_t number, const Received& sample) noexcept {
+  void receive(const dds::WriterId& writer, std::uint64_t number, Received& sample) noexcept {
     try {
       T message;
-      const auto refusal = sample.refusal.empty() ? convert_(sample.message, message) : sample.refusal;
+      const auto refusal =
+          sample.refusal.empty() ? convert_(std::move(sample.message), message) : sample.refusal;
       if (!refusal.empty()) return dds::call(callbacks_.refused, refusal);
       if (message.session_id == 0) {
         message.session_id = session_of(writer);
@@ -77,7 +78,7 @@ class Input {
 
   dds::ReaderCallbacks<T> callbacks_;
   Convert convert_;
-  Readers reader_;  // last: nothing calls into what is already gone
+  Readers reader_;  // last, so that no callback meets a destroyed member
 };
 
 }  // namespace laneloom::ros2

@@ -16,7 +16,7 @@ const double kNaN = std::numeric_limits<double>::quiet_NaN();
 template <class Plain, class Message>
 Message through_plain(const Message& message, const std::string& map_frame_id) {
   Plain plain;
-  EXPECT_EQ(from_msg(message, map_frame_id, plain), "");
+  EXPECT_EQ(from_msg(Message(message), map_frame_id, plain), "");
   Message result;
   EXPECT_EQ(to_msg(plain, map_frame_id, result), 0U);
   return result;
@@ -116,19 +116,19 @@ TEST(Refuse, NumbersThatAreNotFinite) {
   for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
     auto message = RandomMessages(2).detections();
     message.detections()[0].points()[0].y(bad);
-    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
     message = RandomMessages(2).detections();
     message.detections()[0].confidence(bad);
-    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
     message = RandomMessages(2).detections();
     message.detections()[0].stddev_m()[0] = bad;
-    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
     message = RandomMessages(2).detections();
     message.occluded_areas()[0].outline()[0].z(bad);
-    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
     message = RandomMessages(2).detections();
     message.field_of_view()[0].x(bad);
-    EXPECT_EQ(from_msg(message, "map", frame), "not_finite");
+    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
   }
 }
 
@@ -136,35 +136,35 @@ TEST(Refuse, UnknownEnumerations) {
   DetectionFrame frame;
   auto message = RandomMessages(3).detections();
   message.detections()[0].type(static_cast<msg::MarkingType>(3));
-  EXPECT_EQ(from_msg(message, "map", frame), "unknown_enum");
+  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
   message = RandomMessages(3).detections();
   message.detections()[0].style(static_cast<msg::MarkingStyle>(0xffffffff));
-  EXPECT_EQ(from_msg(message, "map", frame), "unknown_enum");
+  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
   message = RandomMessages(3).detections();
   message.detected_types()[0] = static_cast<msg::MarkingType>(77);
-  EXPECT_EQ(from_msg(message, "map", frame), "unknown_enum");
+  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
 }
 
 TEST(Refuse, DeviationsThatMatchNoPoints) {
   DetectionFrame frame;
   auto message = RandomMessages(4).detections();
   message.detections()[0].stddev_m().push_back(0.1);
-  EXPECT_EQ(from_msg(message, "map", frame), "wrong_size");
+  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "wrong_size");
   message.detections()[0].stddev_m().clear();
-  EXPECT_EQ(from_msg(message, "map", frame), "");
+  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "");
 }
 
 TEST(Refuse, NamesThatAreNotUtf8) {
   DetectionFrame frame;
   auto message = RandomMessages(4).detections();
   message.source("Kamera f\xc3\xbcr vorn");
-  EXPECT_EQ(from_msg(message, "map", frame), "");
+  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "");
   for (const char* bad : {"\xff", "cut \xc3", "long form of / \xc0\xaf", "half a pair \xed\xa0\x80"}) {
     message.source(bad);
-    EXPECT_EQ(from_msg(message, "map", frame), "not_text") << bad;
+    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_text") << bad;
     message.source("camera");
     message.header().frame_id(bad);
-    EXPECT_EQ(from_msg(message, "map", frame), "not_text") << bad;
+    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_text") << bad;
     message.header().frame_id("body");
   }
 }
@@ -173,8 +173,8 @@ TEST(Refuse, DetectionsInTheMapFrame) {
   DetectionFrame frame;
   auto message = RandomMessages(4).detections();
   message.header().frame_id("map");
-  EXPECT_EQ(from_msg(message, "map", frame), "wrong_frame");
-  EXPECT_EQ(from_msg(message, "utm", frame), "");
+  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "wrong_frame");
+  EXPECT_EQ(from_msg(msg::Detections(message), "utm", frame), "");
 }
 
 TEST(Convert, ManyDetectedTypesStaySome) {

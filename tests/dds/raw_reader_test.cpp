@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-DetectionFrame frame_of(std::uint64_t sequence) {
+DetectionFrame whole_frame(std::uint64_t sequence) {
   DetectionFrame frame{.stamp_ns = 5, .sequence = sequence, .session_id = 7, .source = "test"};
   frame.detections.push_back(Detection{.confidence = 0.5, .points = {{0, 0, 0}, {1, 2, 3}}});
   return frame;
@@ -47,15 +47,15 @@ TEST(RawReader, MessagesComeAsTheyWentOverTheWire) {
   };
   // What is written before the reader knows its writer is lost.
   for (int i = 0; i < 2000 && !arrives(0, std::chrono::milliseconds(10)); ++i)
-    ASSERT_TRUE(writer.write(frame_of(0)));
-  ASSERT_TRUE(writer.write(frame_of(1)) && writer.write(frame_of(2)));
+    ASSERT_TRUE(writer.write(whole_frame(0)));
+  ASSERT_TRUE(writer.write(whole_frame(1)) && writer.write(whole_frame(2)));
   ASSERT_TRUE(arrives(2, std::chrono::seconds(20)));
 
   const std::lock_guard lock(mutex);
   messages.erase(messages.begin(), messages.end() - 2);
   for (std::uint64_t i = 0; i < 2; ++i) {
     Bytes expected;
-    EXPECT_EQ(to_cdr(frame_of(i + 1), config.map_frame_id, expected), 0U);
+    EXPECT_EQ(to_cdr(whole_frame(i + 1), config.map_frame_id, expected), 0U);
     EXPECT_EQ(messages[i], expected);
     const auto header = header_of(messages[i]);
     ASSERT_TRUE(header);
