@@ -28,7 +28,7 @@ void serialize(Archive& archive, Isometry3d& transform) {
 
 namespace laneloom {
 
-// A member that is forgotten in a structured binding, or in a table of fields, is an error of the compiler.
+// A member that is missing in a structured binding, or in a table of fields, is an error of the compiler.
 
 template <class Archive>
 void serialize(Archive& archive, Stretch& range) {
@@ -91,7 +91,7 @@ void serialize(Archive& archive, LocalMap& map) {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x37'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x38'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 

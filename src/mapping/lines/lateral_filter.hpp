@@ -1,23 +1,26 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 namespace laneloom {
 
 /// One view of a place on a line.
 struct LateralView {
-  double lateral_m = 0.0;  ///< left of the place as it is known so far
-  double stddev_m = 0.0;
-  double correlation_m = 1.0;  ///< driven, over which the network's error becomes another one
-  Eigen::Vector2d seen_from = Eigen::Vector2d::Zero();  ///< map frame
+  double lateral_m = 0.0;      ///< of the view, left of the place as it is known so far
+  double stddev_m = 0.0;       ///< of the view
+  double correlation_m = 1.0;  ///< distance driven over which the network's error changes
+  Eigen::Vector2d seen_from = Eigen::Vector2d::Zero();  ///< place of the vehicle, map frame
+  std::int64_t stamp_ns = 0;                            ///< of the frame
 };
 
-/// How well the lateral place of a station is known: a Kalman filter of two states, the place itself and the
-/// error that the network makes about it at the moment. So views from places that are near each other count
-/// little more than one of them, and the views of a standing vehicle hardly at all.
+/// Estimates the lateral place of a station. It is a Kalman filter of two states: the place itself and the
+/// error that the network makes about it at the moment. Thereby several views from nearby places count little
+/// more than one of them. The views of a standing vehicle count less still, but an error does not last for as
+/// long as the vehicle stands: what is seen for seconds from near moves a place that was learned from far.
 class LateralFilter {
  public:
-  /// After the first view.
+  /// The state after the first view.
   explicit LateralFilter(const LateralView& first = {});
 
   /// Takes in another view. Returns how far to the left the place moves.
@@ -27,16 +30,17 @@ class LateralFilter {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(error_m_, covariance_, seen_from_, stddev_m_);
+    archive(error_m_, covariance_, seen_from_, stamp_ns_, stddev_m_);
   }
 
  private:
   void predict(const LateralView& view);
 
-  double error_m_ = 0.0;        ///< of the network
-  Eigen::Matrix2d covariance_;  ///< of the place and of that error
-  Eigen::Vector2d seen_from_;   ///< of the last view
-  double stddev_m_;             ///< likewise
+  double error_m_ = 0.0;        ///< present error of the network
+  Eigen::Matrix2d covariance_;  ///< of the place and the network's error
+  Eigen::Vector2d seen_from_;   ///< where the last view was seen from
+  std::int64_t stamp_ns_;       ///< of the newest view
+  double stddev_m_;             ///< of the last view
 };
 
 }  // namespace laneloom

@@ -5,21 +5,21 @@
 #include <utility>
 
 #include "mapping/lines/line_evidence.hpp"
-#include "mapping/lines/station_update.hpp"
 
 namespace laneloom {
 namespace {
 
-/// Between stations; the last one may be nearer, so that a line reaches as far as it was seen.
+/// The least distance between stations. The last one may be nearer, so that a line reaches as far as it was
+/// seen.
 double min_spacing(bool is_last, const FusionConfig& config) {
   return is_last ? 0.5 * config.station_spacing_m : config.station_spacing_m - 0.5 * config.sample_step_m;
 }
 
-/// Extends lines by what detections saw beyond their ends.
+/// Extends lines by the samples of detections beyond their ends.
 class Growth {
  public:
-  Growth(const Point& origin, const MapBox& box, const FusionConfig& config)
-      : origin_(origin), box_(box), config_(config) {}
+  Growth(const Viewpoint& from, const MapBox& box, const FusionConfig& config)
+      : from_(from), box_(box), config_(config) {}
 
   void extend(const LineMatch& match, End end, SampledDetection& detection, Line& line) const {
     const auto by_index = [](const SampleMatch& s) { return s.foot.index; };
@@ -43,8 +43,8 @@ class Growth {
  private:
   static constexpr double kMaxFromEnd = 1.5;  // stations
 
-  /// The unexplained samples in the range that follow `from`, marked as explained. They follow in the order
-  /// of the detection where `step` is 1, against it where it is -1.
+  /// The unexplained samples in the range that follow `from`: in the order of the detection if `step` is 1,
+  /// against it if `step` is -1. Marks them as explained.
   std::vector<std::size_t> take_following(std::size_t from, int step, SampledDetection& detection) const {
     std::vector<std::size_t> ahead;
     const auto count = static_cast<std::ptrdiff_t>(detection.samples.size());
@@ -57,8 +57,8 @@ class Growth {
     return ahead;
   }
 
-  /// Appends stations at the back of `line` along `ahead`, the samples that follow. The offset between the
-  /// fused end and this one detection fades out.
+  /// Appends stations to the back of `line` along `ahead`, the numbers of the samples that follow. The offset
+  /// of the detection from the line's end fades out.
   void extend_back(const std::vector<std::size_t>& ahead, const Point& offset,
                    const SampledDetection& detection, Line& line) const {
     const Point& first = detection.samples[ahead.front()];
@@ -71,13 +71,13 @@ class Growth {
       if (gap_m < min_spacing(i + 1 == ahead.size(), config_)) continue;
       if (!left_end && is_before_end(ahead, i, detection, line)) continue;
       left_end = true;
-      line.stations.push_back(
-          new_station(corrected, origin_, detection, ahead[i], config_.extension_log_odds));
+      line.stations.push_back(new_station(corrected, from_, detection, ahead[i], config_.extension_log_odds));
     }
   }
 
-  /// Whether a detection has not yet left the end of `line` with its sample `i`: it lies behind the end, and
-  /// the detection runs on towards it. Beyond a sharp tip it lies behind, too, but runs away.
+  /// Whether a detection with its sample `i` has not yet passed the end of `line`: the sample lies behind the
+  /// end, and the detection runs on towards the end. Beyond a sharp tip a sample lies behind the end too, but
+  /// the detection runs away from it.
   static bool is_before_end(const std::vector<std::size_t>& ahead, std::size_t i,
                             const SampledDetection& detection, const Line& line) {
     const Point& sample = detection.samples[ahead[i]];
@@ -87,7 +87,7 @@ class Growth {
     return (detection.samples[ahead[i + 1]] - sample).head<2>().dot(direction) > 0.0;
   }
 
-  const Point& origin_;
+  const Viewpoint& from_;
   const MapBox& box_;
   const FusionConfig& config_;
 };
@@ -102,9 +102,9 @@ std::size_t unexplained_end(const SampledDetection& detection, std::size_t begin
 
 }  // namespace
 
-void extend_lines(const Point& origin, const MapBox& box, const FusionConfig& config,
+void extend_lines(const Viewpoint& from, const MapBox& box, const FusionConfig& config,
                   Association& association, std::vector<Line>& lines) {
-  const Growth growth(origin, box, config);
+  const Growth growth(from, box, config);
   // The matches know the stations by number: the front ends come last, and each end is extended once.
   for (const End end : {End::back, End::front}) {
     std::vector<std::size_t> before;
@@ -118,7 +118,7 @@ void extend_lines(const Point& origin, const MapBox& box, const FusionConfig& co
   }
 }
 
-std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, const Point& origin,
+std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, const Viewpoint& from,
                             const MapBox& box, const FusionConfig& config, const DetectionModel& model) {
   std::vector<Line> lines;
   for (const SampledDetection& detection : detections) {
@@ -132,11 +132,11 @@ std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, con
         const bool near =
             !line.stations.empty() &&
             (sample - line.stations.back().position).head<2>().norm() < min_spacing(i + 1 == end, config);
-        if (!near) line.stations.push_back(new_station(sample, origin, detection, i, config.birth_log_odds));
+        if (!near) line.stations.push_back(new_station(sample, from, detection, i, config.birth_log_odds));
       }
       if (line.stations.size() < 2 || length_m < config.min_birth_length_m) continue;
       line.type_votes[index(detection.type)] = static_cast<double>(end - begin);
-      add_confidence(detection, origin, 1.0, model, line);
+      add_confidence(detection, from.T_map_body.translation(), 1.0, model, line);
       lines.push_back(std::move(line));
     }
   }

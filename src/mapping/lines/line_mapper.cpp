@@ -18,6 +18,7 @@ namespace {
 
 Viewpoint viewpoint(const ObservedFrame& observed, std::size_t source, const NetworkModel& network) {
   return {.T_map_body = observed.T_map_body,
+          .stamp_ns = observed.frame.stamp_ns,
           .source = static_cast<std::uint32_t>(source),
           .correlation_m = network.correlation_m(),
           .pitch_gain = network.pitch_gain(),
@@ -43,8 +44,8 @@ FusedMarkings LineMapper::fuse(const ObservedFrame& observed, const Scene& scene
   discount_unobserved(view, scene.box, fusion, network.detection, lines_);
   log.done(Stage::line_update);
 
-  extend_lines(origin, scene.box, fusion, association, lines_);
-  for (Line& line : new_lines(association.detections, origin, scene.box, fusion, network.detection)) {
+  extend_lines(from, scene.box, fusion, association, lines_);
+  for (Line& line : new_lines(association.detections, from, scene.box, fusion, network.detection)) {
     line.id = ids.next();
     line.first_seen_ns = line.last_seen_ns = observed.frame.stamp_ns;
     lines_.push_back(std::move(line));
@@ -58,7 +59,8 @@ FusedMarkings LineMapper::fuse(const ObservedFrame& observed, const Scene& scene
                   FusedMarkings{publish_lines(lines_, doubles_, config), joints_, std::move(relatives)});
 }
 
-/// Takes out what the frame as a whole is suspected of, and notes it in `from`.
+/// Samples the detections, takes the suspected pitch and pose error of the frame out of them, and matches
+/// them with the lines. Notes the suspected errors in `from`.
 Association LineMapper::associated(const ObservedFrame& observed, const Network& network,
                                    const FusionConfig& config, Viewpoint& from) {
   const Eigen::Isometry3d& T_map_body = observed.T_map_body;

@@ -7,12 +7,12 @@
 namespace laneloom {
 namespace {
 
-constexpr double kNear_m = 10.0;       // from within, a place is seen as it is
-constexpr double kMinStddev_m = 0.02;  // of an observation, whatever is said of it
+constexpr double kNear_m = 10.0;       // a view from within this range is taken as right
+constexpr double kMinStddev_m = 0.02;  // least deviation of a sample, whatever its network says
 
 double distance(const Point& point, const Point& origin) { return (point - origin).head<2>().norm(); }
 
-/// The last node of the model that a view reaches.
+/// The furthest node of the model that is not beyond a range.
 std::size_t ring(double range_m) {
   const auto& nodes_m = NetworkModel::kNodes_m;
   return static_cast<std::size_t>(std::upper_bound(nodes_m.begin() + 1, nodes_m.end(), range_m) -
@@ -30,9 +30,11 @@ void weigh(const NetworkModel& network, const Point& origin, std::vector<Sampled
   }
 }
 
-Station new_station(const Point& position, const Point& origin, const SampledDetection& detection,
+Station new_station(const Point& position, const Viewpoint& from, const SampledDetection& detection,
                     std::size_t sample, double log_odds) {
-  const LateralView first{.stddev_m = detection.stddev_m[sample], .seen_from = origin.head<2>()};
+  const LateralView first{.stddev_m = detection.stddev_m[sample],
+                          .seen_from = from.T_map_body.translation().head<2>(),
+                          .stamp_ns = from.stamp_ns};
   Station station{.position = position, .lateral = LateralFilter(first), .log_odds = log_odds};
   station.style_votes[index(detection.style)] += 1.0;
   return station;
@@ -42,7 +44,8 @@ void observe(const Observation& seen, const Viewpoint& from, Station& station) {
   const double step_m = station.lateral.update({.lateral_m = seen.lateral_m,
                                                 .stddev_m = seen.stddev_m,
                                                 .correlation_m = from.correlation_m,
-                                                .seen_from = from.T_map_body.translation().head<2>()});
+                                                .seen_from = from.T_map_body.translation().head<2>(),
+                                                .stamp_ns = from.stamp_ns});
   station.moved_m += step_m;
   station.position.head<2>() += step_m * left_of(seen.direction);
   const double share = seen.lateral_m != 0.0 ? std::clamp(step_m / seen.lateral_m, 0.0, 1.0) : 0.0;

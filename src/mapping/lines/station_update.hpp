@@ -11,34 +11,35 @@
 
 namespace laneloom {
 
-/// From where a frame was seen, by which network, and what is known of its error.
+/// The viewpoint of a frame: its pose and network, and the errors that are suspected of it.
 struct Viewpoint {
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+  std::int64_t stamp_ns = 0;
   std::uint32_t source = 0;               ///< number of the network
-  double correlation_m = 1.0;             ///< of its errors
+  double correlation_m = 1.0;             ///< of the network's errors, see NetworkModel::correlation_m()
   double stretch_per_m = 0.0;             ///< suspected of this frame, see estimate_stretch_per_m()
-  double pitch_gain = 0.0;                ///< how much of that was taken out
-  FrameError error = FrameError::Zero();  ///< suspected of the frame's pose
-  double alignment_gain = 0.0;            ///< how much of that was taken out
+  double pitch_gain = 0.0;                ///< share of the stretch that was taken out
+  FrameError error = FrameError::Zero();  ///< suspected of the frame's pose, without the lasting part
+  double alignment_gain = 0.0;            ///< share of the error that was taken out
 };
 
-/// What a frame says of a station.
+/// The observation of a station by a frame. Lateral and height are those of the detection, from the station.
 struct Observation {
-  std::size_t station = 0;
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< of the line there
-  double lateral_m = 0.0, height_m = 0.0, stddev_m = 0.0;
+  std::size_t station = 0;                                 ///< index in its line
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();    ///< of the line there
+  double lateral_m = 0.0, height_m = 0.0, stddev_m = 0.0;  ///< lateral is left of the line
 };
 
-/// Gives every sample its deviation, unless its network did.
+/// Sets the deviation of every sample, unless its network gave it.
 void weigh(const NetworkModel& network, const Point& origin, std::vector<SampledDetection>& detections);
 
-Station new_station(const Point& position, const Point& origin, const SampledDetection& detection,
+Station new_station(const Point& position, const Viewpoint& from, const SampledDetection& detection,
                     std::size_t sample, double log_odds);
 
-/// Moves a station as far towards what was seen as that is worth.
+/// Moves a station towards an observation, as far as its deviation warrants.
 void observe(const Observation& seen, const Viewpoint& from, Station& station);
 
-/// Remembers what was seen from far. What is seen from near tells the networks how wrong they were from far.
+/// Remembers a view from far. A view from near tells the networks how wrong their far views were.
 void learn(const Observation& seen, const Viewpoint& from, Station& station, Networks& networks);
 
 }  // namespace laneloom

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <utility>
 
@@ -15,7 +16,7 @@ namespace {
 class Place : public ::testing::Test {
  protected:
   void see(double at_m, double stddev_m, double driven_m) {
-    const LateralView view{at_m - estimate_m_, stddev_m, correlation_m_, {driven_m, 0.0}};
+    const LateralView view{at_m - estimate_m_, stddev_m, correlation_m_, {driven_m, 0.0}, stamp_ns_};
     if (std::exchange(seen_, true)) {
       estimate_m_ += filter_.update(view);
     } else {
@@ -26,6 +27,7 @@ class Place : public ::testing::Test {
   double stddev_m() const { return std::sqrt(filter_.variance_m2()); }
 
   double correlation_m_ = 10.0;
+  std::int64_t stamp_ns_ = 0;
   double estimate_m_ = 0.0;
   bool seen_ = false;
   LateralFilter filter_;
@@ -55,6 +57,25 @@ TEST_F(Place, IsNeverKnownWorseThanByItsBestView) {
 
 TEST_F(Place, AStandingVehicleLearnsHardlyMore) {
   for (int i = 0; i < 1000; ++i) see(0.1, 0.2, 0.0);
+  EXPECT_GT(stddev_m(), 0.9 * 0.2);
+}
+
+TEST_F(Place, AVehicleThatStandsForSecondsFollowsWhatItSees) {
+  for (int i = 0; i < 40; ++i) see(0.4, 0.1, 1.0 * i);
+  for (int i = 0; i < 100; ++i) {
+    stamp_ns_ += 100'000'000;
+    see(0.0, 0.1, 39.0);
+  }
+  EXPECT_LT(estimate_m_, 0.2);
+}
+
+TEST_F(Place, ViewsOfOneMomentDoNotFade) {
+  stamp_ns_ = 5'000'000'000;
+  see(0.1, 0.2, 0.0);
+  for (int i = 0; i < 100; ++i) {
+    stamp_ns_ = i % 2 == 0 ? 4'900'000'000 : 5'000'000'000;  // of two sources, of which one is late
+    see(0.1, 0.2, 0.0);
+  }
   EXPECT_GT(stddev_m(), 0.9 * 0.2);
 }
 

@@ -31,8 +31,8 @@ class LineFusion : public ::testing::Test {
     const View view{Eigen::Isometry3d::Identity(), &frame_};
     credit_observed(view, association, config_, model_, lines_);
     discount_unobserved(view, range_, config_, model_, lines_);
-    extend_lines(Point::Zero(), range_, config_, association, lines_);
-    for (Line& line : new_lines(association.detections, Point::Zero(), range_, config_, model_)) {
+    extend_lines(Viewpoint{}, range_, config_, association, lines_);
+    for (Line& line : new_lines(association.detections, Viewpoint{}, range_, config_, model_)) {
       line.id = ids_.next();
       lines_.push_back(std::move(line));
     }
@@ -168,7 +168,7 @@ TEST_F(LineFusion, ALineGrowsNoFurtherThanTheRange) {
   see({straight({0, 0, 0}, {20, 0, 0})});
   Association association = associated(
       {{MarkingType::laneline, MarkingStyle::solid, 0.8, {{0, 0, 0}, {20, 0, 0}, {9000, 900, 0}}}});
-  extend_lines(Point::Zero(), range_, config_, association, lines_);
+  extend_lines(Viewpoint{}, range_, config_, association, lines_);
   EXPECT_GT(lines_[0].stations.back().position.x(), 50.0);
   for (const Station& station : lines_[0].stations) EXPECT_TRUE(range_.keeps(station.position));
 }
