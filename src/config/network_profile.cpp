@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -11,7 +12,10 @@
 namespace laneloom {
 namespace {
 
-/// Tells of a file where it is not as it should be.
+// Far beyond what is ever learned, and small enough that the mapper's sums and squares stay finite.
+constexpr double kMaxNumber = 1e9;
+
+/// Reads a profile. Its errors name the file and the line.
 class ProfileReader {
  public:
   explicit ProfileReader(std::string file) : file_(std::move(file)) {}
@@ -28,10 +32,11 @@ class ProfileReader {
 
  private:
   [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
-    throw ConfigError(file_ + ":" + std::to_string(node.Mark().line + 1) + ": " + what);
+    const int line = std::max(node.Mark().line, 0);  // an empty file has none
+    throw ConfigError(file_ + ":" + std::to_string(line + 1) + ": " + what);
   }
 
-  /// The entries of a map, each key once.
+  /// Visits the entries of a map. Each key may be given once.
   void each(const YAML::Node& node, const std::string& what, const auto& visit) const {
     if (!node.IsMap()) fail(node, what + " is not a map of keys and values");
     std::set<std::string> keys;
@@ -48,16 +53,17 @@ class ProfileReader {
     LearnedValue learned;
     each(node, name, [&](const std::string& key, const YAML::Node& number) {
       if (key != "value" && key != "weight") fail(number, name + "." + key + " is not a known key");
-      (key == "value" ? learned.value : learned.weight) = finite(number, name + "." + key);
+      (key == "value" ? learned.value : learned.weight) = number_in(number, name + "." + key);
     });
     if (learned.weight <= 0.0) fail(node, name + ".weight is not above 0");
     return learned;
   }
 
-  double finite(const YAML::Node& node, const std::string& name) const {
+  double number_in(const YAML::Node& node, const std::string& name) const {
     double number = 0.0;
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, number) || !std::isfinite(number))
       fail(node, name + " is not a finite number");
+    if (std::abs(number) > kMaxNumber) fail(node, name + " is beyond 1e9");
     return number;
   }
 

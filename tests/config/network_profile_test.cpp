@@ -47,11 +47,14 @@ TEST_F(NetworkProfileFile, TellsWhereItIsWrong) {
   EXPECT_THAT(error_of("a: {b: {value: x, weight: 1}}"), EndsWith("1: a.b.value is not a finite number"));
   EXPECT_THAT(error_of("a: {b: {value: .nan, weight: 1}}"), EndsWith("1: a.b.value is not a finite number"));
   EXPECT_THAT(error_of("a: {b: {value: [1], weight: 1}}"), EndsWith("1: a.b.value is not a finite number"));
+  EXPECT_THAT(error_of("a: {b: {value: -1e10, weight: 1}}"), EndsWith("1: a.b.value is beyond 1e9"));
+  EXPECT_THAT(error_of("a: {b: {value: 1, weight: 1e160}}"), EndsWith("1: a.b.weight is beyond 1e9"));
   EXPECT_THAT(error_of("a: {b: {mean: 1, weight: 1}}"), EndsWith("1: a.b.mean is not a known key"));
   EXPECT_THAT(error_of("a: {b: {value: 1, value: 2, weight: 1}}"),
               EndsWith("1: value is given twice in a.b"));
   EXPECT_THAT(error_of("a: 1"), EndsWith("1: a is not a map of keys and values"));
   EXPECT_THAT(error_of("- a"), EndsWith("1: the profile is not a map of keys and values"));
+  EXPECT_THAT(error_of(""), EndsWith("1: the profile is not a map of keys and values"));
   EXPECT_THAT(error_of("a: {b: "), testing::HasSubstr("bad YAML"));
 }
 
