@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "milliseconds.hpp"
+
 namespace laneloom {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
 using Reasons = std::vector<StateReason>;
 
 class HealthTest : public ::testing::Test {

@@ -11,7 +11,7 @@ namespace laneloom {
 namespace {
 
 /// Lane 1 comes along x to the origin; straight on is 2, to the left 3, to the right 4.
-LocalMap crossing() {
+LocalMap crossing_lanes() {
   LocalMap map;
   map.lanes = {
       lane_of(1, straight_line({-30, 0, 0}, {-10, 0, 0})), lane_of(2, straight_line({10, 0, 0}, {30, 0, 0})),
@@ -28,7 +28,7 @@ ElementId chosen(const LocalMap& map, Linkage::Turn wanted) {
 }
 
 TEST(Ways, TheWantedTurnIsTaken) {
-  const LocalMap map = crossing();
+  const LocalMap map = crossing_lanes();
   EXPECT_EQ(chosen(map, Linkage::Turn::straight), 2U);
   EXPECT_EQ(chosen(map, Linkage::Turn::left), 3U);
   EXPECT_EQ(chosen(map, Linkage::Turn::right), 4U);
@@ -41,7 +41,7 @@ TEST(Ways, TheWantedTurnIsTaken) {
 }
 
 TEST(Ways, TurnsThatTheMapDoesNotNameAreSeenFromTheLanes) {
-  LocalMap map = crossing();
+  LocalMap map = crossing_lanes();
   for (Linkage& linkage : map.linkages) linkage.turn = Linkage::Turn::unknown;
   EXPECT_EQ(chosen(map, Linkage::Turn::straight), 2U);
   EXPECT_EQ(chosen(map, Linkage::Turn::left), 3U);
@@ -49,7 +49,7 @@ TEST(Ways, TurnsThatTheMapDoesNotNameAreSeenFromTheLanes) {
 }
 
 TEST(Ways, AmongEqualsTheLikelierIsTaken) {
-  LocalMap map = crossing();
+  LocalMap map = crossing_lanes();
   map.linkages = {link(1, 3, Linkage::Turn::straight), link(1, 2, Linkage::Turn::straight)};
   map.linkages[0].confidence = 0.4;
   map.linkages[1].confidence = 0.9;
@@ -57,7 +57,7 @@ TEST(Ways, AmongEqualsTheLikelierIsTaken) {
 }
 
 TEST(Ways, AreWalkedAgainstTheLanesToo) {
-  const LocalMap map = crossing();
+  const LocalMap map = crossing_lanes();
   const std::vector<Passage> back =
       passages(LaneGraph(map), {&map.lanes[2], true});  // out of lane 3, southwards
   ASSERT_EQ(back.size(), 1U);

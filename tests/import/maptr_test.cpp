@@ -6,22 +6,13 @@
 #include <fstream>
 #include <numbers>
 
+#include "sampled_drive.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
 
 using testing::HasSubstr;
-
-/// Samples are called drive_<stamp>.
-DriveLog drive() {
-  DriveLog drive{.name = "drive"};
-  drive.stamp_ns_of = [](const std::string& token) -> std::optional<std::int64_t> {
-    if (!token.starts_with("drive_")) return std::nullopt;
-    return std::stoll(token.substr(6));
-  };
-  return drive;
-}
 
 std::string vector(const std::string& class_name, const std::string& points = "[[1,2],[3,4]]",
                    const std::string& confidence = "0.5") {

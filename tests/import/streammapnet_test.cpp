@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "sampled_drive.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {
@@ -13,23 +14,13 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Samples are called drive_<stamp>.
-DriveLog drive() {
-  DriveLog drive{.name = "drive", .ground_z_m = -0.3};
-  drive.stamp_ns_of = [](const std::string& token) -> std::optional<std::int64_t> {
-    if (!token.starts_with("drive_")) return std::nullopt;
-    return std::stoll(token.substr(6));
-  };
-  return drive;
-}
-
 constexpr const char* kThree =
     R"("vectors": [[[1, 2], [3, 4]], [[5, 6], [7, 8]], [[0, 1], [0, 2]]], "scores": [0.5, 0.25, 1], "labels": [1, 2, 0])";
 
 class StreamMapNet : public testing::Test {
  protected:
   /// `samples` are the members of results.
-  ImportedFrames read(const std::string& samples, const DriveLog& of = drive(),
+  ImportedFrames read(const std::string& samples, const DriveLog& of = drive(-0.3),
                       StreamNetwork network = StreamNetwork::streammapnet) {
     std::ofstream(folder_.file("submission_vector.json"))
         << R"({"meta": {"output_format": "vector"}, "results": {)" << samples << "}}";
@@ -69,7 +60,7 @@ TEST_F(StreamMapNet, LabelsBecomeTypesAndOthersAreCounted) {
 }
 
 TEST_F(StreamMapNet, OfNuScenesThePointsOfBothNetworksComeToTheBodyFrame) {
-  DriveLog scene = drive();  // the LiDAR, x right and y forward, is 1 m ahead of the body's origin
+  DriveLog scene = drive(-0.3);  // the LiDAR, x right and y forward, is 1 m ahead of the body's origin
   scene.T_body_points =
       Eigen::Translation3d(1.0, 0.0, 2.0) * Eigen::AngleAxisd(-std::numbers::pi / 2, Point::UnitZ());
   scene.points_about_lidar = true;

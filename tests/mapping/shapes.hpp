@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "laneloom/polyline.hpp"
@@ -44,6 +45,12 @@ inline Marking marking(ElementId id, Polyline points, MarkingType type = Marking
 inline LaneBoundary boundary(ElementId id, Polyline points, MarkingType type = MarkingType::laneline) {
   return {marking(id, std::move(points), type), {id}};
 }
+
+inline Lane lane(ElementId id, Polyline centerline) {
+  return {.id = id, .centerline = std::move(centerline), .width_m = 3.5};
+}
+
+inline Lane lane(ElementId id, const Point& from, const Point& to) { return lane(id, straight(from, to)); }
 
 /// A line with a station at every vertex.
 inline Line line(ElementId id, const Polyline& points, MarkingType type = MarkingType::laneline) {

@@ -41,7 +41,7 @@ MessageOf<T> random_message(unsigned seed) {
 template <class T>
 T plain(const MessageOf<T>& message) {
   T result;
-  EXPECT_EQ(dds::from_msg(message, kMapFrame, result), "");
+  EXPECT_EQ(dds::from_msg(MessageOf<T>(message), kMapFrame, result), "");
   return result;
 }
 

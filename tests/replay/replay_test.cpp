@@ -6,13 +6,12 @@
 
 #include "io/json_lines.hpp"
 #include "laneloom/dds/cdr.hpp"
+#include "milliseconds.hpp"
 #include "replay/message_source.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 VehiclePose pose_at(std::int64_t stamp_ms) {
   return {.stamp_ns = stamp_ms * kMs,

@@ -96,7 +96,7 @@ std::vector<Drive> medians() {
 }
 
 /// Where a road is seen from one side of a line alone, the direction beyond it may be either.
-std::vector<Drive> drives() {
+std::vector<Drive> roads() {
   using enum CentreLine;
   std::vector<Drive> drives = medians();
   const std::vector<Drive> others{
@@ -123,7 +123,7 @@ std::vector<Drive> drives() {
   return drives;
 }
 
-INSTANTIATE_TEST_SUITE_P(Roads, Directions, ::testing::ValuesIn(drives()),
+INSTANTIATE_TEST_SUITE_P(Roads, Directions, ::testing::ValuesIn(roads()),
                          [](const auto& drive) { return drive.param.name; });
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 constexpr double kFork_m = 155.0;      // where the lines of the gore meet
 constexpr double kOnLane_m = 0.8;      // from the centre of a lane of the truth, at most
 constexpr double kBesideFork_m = 3.0;  // within which the borders are hardly apart
-constexpr double kSpeed_mps = 10.0;
+constexpr double kRampSpeed_mps = 10.0;
 
 struct Gore {
   std::string name;
@@ -74,13 +74,13 @@ std::vector<Gore> gores() {
                                     {"steep", Ramp{.radius_m = 20.0, .turn_deg = 8.0}}}) {
     const std::string name = shape;
     const Ramp driven{ramp.radius_m, ramp.turn_deg, true};
-    gores.push_back({name + "_exit", exit_road(kSpeed_mps, ramp), 1.0});
-    gores.push_back({name + "_exit_taken", exit_road(kSpeed_mps, driven), 1.0});
-    gores.push_back({name + "_exit_on_the_left", other_side(exit_road(kSpeed_mps, ramp)), 1.0});
-    gores.push_back({name + "_exit_in_left_hand_traffic", mirrored(exit_road(kSpeed_mps, ramp)), 1.0});
-    gores.push_back({name + "_entry", entry_road(kSpeed_mps, ramp), -1.0});
-    gores.push_back({name + "_entry_taken", entry_road(kSpeed_mps, driven), -1.0});
-    gores.push_back({name + "_entry_on_the_left", other_side(entry_road(kSpeed_mps, ramp)), -1.0});
+    gores.push_back({name + "_exit", exit_road(kRampSpeed_mps, ramp), 1.0});
+    gores.push_back({name + "_exit_taken", exit_road(kRampSpeed_mps, driven), 1.0});
+    gores.push_back({name + "_exit_on_the_left", other_side(exit_road(kRampSpeed_mps, ramp)), 1.0});
+    gores.push_back({name + "_exit_in_left_hand_traffic", mirrored(exit_road(kRampSpeed_mps, ramp)), 1.0});
+    gores.push_back({name + "_entry", entry_road(kRampSpeed_mps, ramp), -1.0});
+    gores.push_back({name + "_entry_taken", entry_road(kRampSpeed_mps, driven), -1.0});
+    gores.push_back({name + "_entry_on_the_left", other_side(entry_road(kRampSpeed_mps, ramp)), -1.0});
   }
   return gores;
 }

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "milliseconds.hpp"
+
 namespace laneloom {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 /// A clock that only moves when it is slept on, or when a task takes its time.
 class SimulatedTime {

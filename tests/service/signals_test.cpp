@@ -5,10 +5,11 @@
 
 #include <csignal>
 
+#include "milliseconds.hpp"
+
 namespace laneloom {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kLong_ns = 60'000 * kMs;
 
 TEST(Signals, SleepsUntilTheDeadline) {

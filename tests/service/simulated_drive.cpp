@@ -4,14 +4,10 @@
 #include <utility>
 
 #include "laneloom/state_names.hpp"
+#include "milliseconds.hpp"
 #include "service/executor.hpp"
 
 namespace laneloom {
-namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
-
-}  // namespace
 
 SimulatedDrive::SimulatedDrive(const Config& config, std::int64_t frame_period_ms)
     : frame_period_ms_(frame_period_ms), config_(config), queue_(config) {

@@ -4,10 +4,11 @@
 
 #include <limits>
 
+#include "milliseconds.hpp"
+
 namespace laneloom {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
 using Verdict = Gate::Verdict;
 
 StreamPoint at(std::int64_t stamp_ms, double x = 0.0, std::uint64_t session = 1) {

@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "mapping/state.hpp"
+#include "milliseconds.hpp"
 
 namespace laneloom {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 VehiclePose pose(std::int64_t stamp_ms, std::uint64_t session = 1) {
   return {.stamp_ns = stamp_ms * kMs,

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "milliseconds.hpp"
+
 namespace laneloom {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 Eigen::Quaterniond about(const Point& axis, double angle_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis.normalized()));

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "straight_lines.hpp"
+
 namespace laneloom {
 namespace {
 
-const RangeConfig kRange;
-
-KindLine straight(double y, double confidence = -1.0, ElementId id = kNoElement) {
+KindLine scored(double y, double confidence = -1.0, ElementId id = kNoElement) {
   return {.kind = LineKind::laneline, .points = {{0, y, 0}, {20, y, 0}}, .id = id, .confidence = confidence};
 }
 
@@ -33,14 +33,14 @@ TEST(AveragePrecision, IsTheAreaUnderTheMonotonicCurve) {
 }
 
 TEST(AveragePrecision, APerfectMapScoresPerfectly) {
-  const std::vector<KindLine> truth{straight(0, -1, 1), straight(4, -1, 2)};
+  const std::vector<KindLine> truth{scored(0, -1, 1), scored(4, -1, 2)};
   const AveragePrecisionMeter meter = measure(truth, {truth, truth});
   EXPECT_DOUBLE_EQ(meter.map(), 1.0);
   EXPECT_DOUBLE_EQ(meter.c_map(), 1.0);
 }
 
 TEST(AveragePrecision, TheThresholdDecides) {
-  const AveragePrecisionMeter meter = measure({straight(0)}, {{straight(0.8)}});
+  const AveragePrecisionMeter meter = measure({scored(0)}, {{scored(0.8)}});
   EXPECT_EQ(meter.ap(LineKind::laneline, 0), 0.0);
   EXPECT_EQ(meter.ap(LineKind::laneline, 1), 1.0);
   EXPECT_EQ(meter.ap(LineKind::laneline, 2), 1.0);
@@ -49,15 +49,14 @@ TEST(AveragePrecision, TheThresholdDecides) {
 
 TEST(AveragePrecision, TheMoreConfidentTakesTheTruth) {
   // The first in order is less sure: a false positive below the true one, which costs no area.
-  EXPECT_EQ(measure({straight(0)}, {{straight(0.1, 0.3), straight(0.2, 0.9)}}).ap(LineKind::laneline, 0),
-            1.0);
+  EXPECT_EQ(measure({scored(0)}, {{scored(0.1, 0.3), scored(0.2, 0.9)}}).ap(LineKind::laneline, 0), 1.0);
   // A sure false positive does.
-  EXPECT_EQ(measure({straight(0)}, {{straight(0.1, 0.3), straight(9, 0.9)}}).ap(LineKind::laneline, 0), 0.5);
+  EXPECT_EQ(measure({scored(0)}, {{scored(0.1, 0.3), scored(9, 0.9)}}).ap(LineKind::laneline, 0), 0.5);
 }
 
 TEST(AveragePrecision, AnotherIdIsInconsistent) {
   const AveragePrecisionMeter meter =
-      measure({straight(0)}, {{straight(0, 0.9, 1)}, {straight(0, 0.8, 2)}, {straight(0, 0.7, 1)}});
+      measure({scored(0)}, {{scored(0, 0.9, 1)}, {scored(0, 0.8, 2)}, {scored(0, 0.7, 1)}});
   EXPECT_EQ(meter.ap(LineKind::laneline, 0), 1.0);
   // right, wrong, right of 3 truths.
   EXPECT_NEAR(meter.c_ap(LineKind::laneline, 0), (1.0 + 2.0 / 3.0) / 3.0, 1e-12);

@@ -4,14 +4,10 @@
 
 #include <numbers>
 
+#include "straight_lines.hpp"
+
 namespace laneloom {
 namespace {
-
-const RangeConfig kRange;  // -5..30 m, +-15 m
-
-KindLine straight(double y, double from_x, double to_x, LineKind kind = LineKind::laneline) {
-  return {kind, {{from_x, y, 0.0}, {to_x, y, 0.0}}};
-}
 
 MapScore score(const std::vector<KindLine>& truth, const std::vector<KindLine>& predictions,
                const Eigen::Isometry3d& T_map_body = Eigen::Isometry3d::Identity()) {

@@ -6,7 +6,8 @@
 namespace laneloom {
 namespace {
 
-RoadLane lane(ElementId id, double from_x, std::vector<ElementId> successors, ElementId right_marking = 1) {
+RoadLane road_lane(ElementId id, double from_x, std::vector<ElementId> successors,
+                   ElementId right_marking = 1) {
   RoadLane l;
   l.id = id;
   l.centerline = {{from_x, 0, 0}, {from_x + 10, 0, 0}};
@@ -25,26 +26,26 @@ std::vector<std::size_t> points_per_lane(const Road& truth) {
 
 TEST(TruthLines, JoinLanesThatOnlyContinue) {
   Road truth;
-  truth.lanes = {lane(1, 0, {2}), lane(2, 10, {3}), lane(3, 20, {})};
+  truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {3}), road_lane(3, 20, {})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(6u));
 }
 
 TEST(TruthLines, KeepLanesApartWhereTheySplitAndMerge) {
   Road truth;
-  truth.lanes = {lane(1, 0, {2, 3}), lane(2, 10, {4}), lane(3, 10, {4}), lane(4, 20, {})};
+  truth.lanes = {road_lane(1, 0, {2, 3}), road_lane(2, 10, {4}), road_lane(3, 10, {4}), road_lane(4, 20, {})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(2u, 2u, 2u, 2u));
 }
 
 TEST(TruthLines, HoldLanesWithAMarkingOnOneSide) {
   Road truth;
-  truth.lanes = {lane(1, 0, {2}), lane(2, 10, {3}, kNoElement), lane(3, 20, {})};
+  truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {3}, kNoElement), road_lane(3, 20, {})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(6u));
 }
 
 TEST(TruthLines, LeaveOutLanesThatNobodySeesAndCutThere) {
   Road truth;
-  truth.lanes = {lane(1, 0, {2}), lane(2, 10, {3}, kNoElement), lane(3, 20, {4}), lane(4, 30, {5}),
-                 lane(5, 40, {})};
+  truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {3}, kNoElement), road_lane(3, 20, {4}),
+                 road_lane(4, 30, {5}), road_lane(5, 40, {})};
   truth.lanes[1].left_marking = kNoElement;
   truth.lanes[3].in_intersection = true;
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(2u, 2u, 2u));
@@ -52,7 +53,7 @@ TEST(TruthLines, LeaveOutLanesThatNobodySeesAndCutThere) {
 
 TEST(TruthLines, TakeARingOnce) {
   Road truth;
-  truth.lanes = {lane(1, 0, {2}), lane(2, 10, {1})};
+  truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {1})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(4u));
 }
 

@@ -23,7 +23,7 @@ RoadLane truth_lane(ElementId id, Polyline centerline, std::vector<ElementId> su
 }
 
 /// Lane 1 splits into 2 (straight on) and 3 (beside it); 4 follows 2 across the unpainted 9.
-Road fork() {
+Road forking_road() {
   Road road;
   road.lanes = {truth_lane(1, {{-5, 0, 0}, {5, 0, 0}}, {2, 3}), truth_lane(2, {{5, 0, 0}, {15, 0, 0}}, {9}),
                 truth_lane(3, {{5, 1, 0}, {15, 4, 0}}, {}),
@@ -40,7 +40,7 @@ Lane lane(ElementId id, Polyline centerline) {
   return result;
 }
 
-Linkage link(ElementId from, ElementId to) {
+Linkage linked(ElementId from, ElementId to) {
   Linkage linkage;
   linkage.from = from;
   linkage.to = to;
@@ -49,28 +49,28 @@ Linkage link(ElementId from, ElementId to) {
 
 LocalMap perfect() {
   LocalMap map;
-  for (const RoadLane& truth : fork().lanes)
+  for (const RoadLane& truth : forking_road().lanes)
     if (truth.left_marking != kNoElement) map.lanes.push_back(lane(10 + truth.id, truth.centerline));
-  map.linkages = {link(11, 12), link(11, 13), link(12, 14)};
+  map.linkages = {linked(11, 12), linked(11, 13), linked(12, 14)};
   map.linkages[2].path = {{15, 0, 0}, {20, 0, 0}};
   map.linkages[2].kind = Linkage::Kind::intersection;
   Stopline stopline;
   stopline.marking.type = MarkingType::stopline;
-  stopline.marking.points = fork().markings[0].points;
+  stopline.marking.points = forking_road().markings[0].points;
   stopline.lanes = {12};
   map.stoplines = {stopline};
   return map;
 }
 
 TopologyScore score(const LocalMap& map) {
-  MapEvaluation evaluation(fork(), RangeConfig{}, Subject::maps);
+  MapEvaluation evaluation(forking_road(), RangeConfig{}, Subject::maps);
   evaluation.add(map);
   return evaluation.topology();
 }
 
 TEST(TruthTopology, LooksAcrossLanesThatNobodySees) {
   // Chains in order of ids: 1, 2, 3, 4.
-  const TruthTopology topology = truth_topology(fork());
+  const TruthTopology topology = truth_topology(forking_road());
   EXPECT_THAT(topology.successors, ElementsAre(Pair(0, 1), Pair(0, 2), Pair(1, 3)));
   // The markings' lines come after the four chains; the stopline is 1 m behind the end of lane 2.
   EXPECT_THAT(topology.lanes_of_stopline, ElementsAre(Pair(4, ElementsAre(1))));
@@ -87,7 +87,7 @@ TEST(Linkages, APerfectMapScoresPerfectly) {
 
 TEST(Linkages, WrongAndMissingOnesCount) {
   LocalMap map = perfect();
-  map.linkages = {link(11, 12), link(13, 14)};
+  map.linkages = {linked(11, 12), linked(13, 14)};
   map.linkages[1].kind = Linkage::Kind::intersection;
   const TopologyScore wrong = score(map);
   EXPECT_DOUBLE_EQ(wrong.linkages.precision(), 0.5);
@@ -119,7 +119,7 @@ TEST(Linkages, MayRunAgainstTheTruthWhereTheDirectionIsUnknown) {
 TEST(Linkages, PiecesOfOneTruthLaneMayBeLinkedInOrder) {
   LocalMap map;
   map.lanes = {lane(1, {{-5, 0, 0}, {0, 0, 0}}), lane(2, {{0, 0, 0}, {5, 0, 0}})};
-  map.linkages = {link(1, 2), link(2, 1)};
+  map.linkages = {linked(1, 2), linked(2, 1)};
   const PairScore linkages = score(map).linkages;
   EXPECT_EQ(linkages.published, 2u);
   EXPECT_EQ(linkages.right, 1u);
@@ -129,7 +129,7 @@ TEST(Linkages, AreJudgedByTheEndsThatMeet) {
   LocalMap map = perfect();
   map.lanes[0].centerline = {{0, 0, 0}, {11, 0, 0}};  // as long on truth lane 1 as on 2
   map.lanes[1].centerline = {{11, 0, 0}, {15, 0, 0}};
-  map.linkages = {link(11, 12)};
+  map.linkages = {linked(11, 12)};
   EXPECT_EQ(score(map).linkages.precision(), 1.0);
 }
 
@@ -163,7 +163,7 @@ TEST(FrechetDistance, IsTheLongestLeashOfTheBestWalk) {
 }
 
 double top_ll(const LocalMap& map) {
-  MapEvaluation evaluation(fork(), RangeConfig{}, Subject::maps);
+  MapEvaluation evaluation(forking_road(), RangeConfig{}, Subject::maps);
   evaluation.add(map);
   return evaluation.top_ll().value();
 }
@@ -174,7 +174,7 @@ TEST(TopLl, JoinsLanesThatOnlyContinue) {
   LocalMap map = perfect();
   map.lanes[0].centerline = {{-5, 0, 0}, {0, 0, 0}};
   map.lanes.push_back(lane(20, {{0, 0, 0}, {5, 0, 0}}));
-  map.linkages = {link(11, 20), link(20, 12), link(20, 13), link(12, 14)};
+  map.linkages = {linked(11, 20), linked(20, 12), linked(20, 13), linked(12, 14)};
   map.linkages[3].kind = Linkage::Kind::intersection;
   EXPECT_DOUBLE_EQ(top_ll(map), 1.0);
 }
@@ -193,7 +193,7 @@ TEST(TopLl, LanesOfUnknownDirectionMayTurn) {
 
 TEST(TopLl, AMissingEdgeCostsBothItsLanes) {
   LocalMap map = perfect();
-  map.linkages = {link(11, 12), link(12, 14)};
+  map.linkages = {linked(11, 12), linked(12, 14)};
   for (Linkage& linkage : map.linkages) linkage.kind = Linkage::Kind::intersection;
   // Out of 1: one of two, 1/2. Into 3: none of one, 0. The six others are 1.
   EXPECT_DOUBLE_EQ(top_ll(map), 6.5 / 8.0);
@@ -201,7 +201,7 @@ TEST(TopLl, AMissingEdgeCostsBothItsLanes) {
 
 TEST(TopLl, AWrongEdgeCountsByItsConfidence) {
   LocalMap map = perfect();
-  map.linkages.push_back(link(11, 14));
+  map.linkages.push_back(linked(11, 14));
   for (std::size_t i = 0; i < 3; ++i) map.linkages[i].confidence = 0.8;
   // Out of 1: the wrong one comes first, (1/2 + 2/3) / 2. Into 4: the wrong one comes first, 1/2. The six
   // others are 1.
@@ -213,7 +213,7 @@ TEST(TopLl, AWrongEdgeCountsByItsConfidence) {
 TEST(TopLl, AMissingLaneTakesItsNeighboursAlong) {
   LocalMap map = perfect();
   std::erase_if(map.lanes, [](const Lane& l) { return l.id == 13; });
-  map.linkages = {link(11, 12), link(12, 14)};
+  map.linkages = {linked(11, 12), linked(12, 14)};
   for (Linkage& linkage : map.linkages) linkage.kind = Linkage::Kind::intersection;
   // Lane 3's edges are told the wrong way round. Out of: 1 one of two, 1/2; 2 right, then wrong, 1;
   // 3 none exist and three are told, 0; 4 likewise, 0. Into: 1, likewise, 0; 2 and 4 right, then wrong, 1;

@@ -2,14 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "straight_lines.hpp"
+
 namespace laneloom {
 namespace {
-
-const RangeConfig kRange;  // -5..30 m, +-15 m
-
-KindLine straight(double y, double from_x, double to_x, LineKind kind = LineKind::laneline) {
-  return {.kind = kind, .points = {{from_x, y, 0}, {to_x, y, 0}}};
-}
 
 ProfileMeter meter_of(const std::vector<KindLine>& truth, const std::vector<KindLine>& predictions) {
   ProfileMeter meter(kRange);

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "straight_lines.hpp"
+
 namespace laneloom {
 namespace {
 
-const RangeConfig kRange;  // -5..30 m, +-15 m
-
-KindLine straight(double y, double from_x, double to_x, ElementId id = kNoElement) {
+KindLine identified(double y, double from_x, double to_x, ElementId id = kNoElement) {
   return {.kind = LineKind::laneline, .points = {{from_x, y, 0}, {to_x, y, 0}}, .id = id};
 }
 
@@ -24,7 +24,7 @@ Stability drive(const std::vector<KindLine>& truth, const std::vector<std::vecto
 }
 
 TEST(Stability, APerfectMapDoesNotMove) {
-  const std::vector<KindLine> truth{straight(0, -20, 100, 7), straight(3, -20, 100, 8)};
+  const std::vector<KindLine> truth{identified(0, -20, 100, 7), identified(3, -20, 100, 8)};
   const Stability stability = drive(truth, {truth, truth, truth}, 10.0);
   EXPECT_GT(stability.jitter_m.count(), 100u);
   EXPECT_NEAR(stability.jitter_m.quantile(1.0), 0.0, 1e-12);
@@ -38,8 +38,8 @@ TEST(Stability, APerfectMapDoesNotMove) {
 TEST(Stability, JitterIsTheSidewaysStepInTheMapFrame) {
   // 0.1 m to the left, then 0.3 m to the right: of 35 m each, 36 places a frame.
   const Stability stability =
-      drive({straight(0, -20, 100)},
-            {{straight(0, -20, 100)}, {straight(0.1, -20, 100)}, {straight(-0.2, -20, 100)}});
+      drive({identified(0, -20, 100)},
+            {{identified(0, -20, 100)}, {identified(0.1, -20, 100)}, {identified(-0.2, -20, 100)}});
   EXPECT_EQ(stability.jitter_m.count(), 72u);
   EXPECT_NEAR(stability.jitter_m.quantile(0.5), 0.1, 1e-9);
   EXPECT_NEAR(stability.jitter_m.quantile(0.95), 0.3, 1e-9);
@@ -47,11 +47,11 @@ TEST(Stability, JitterIsTheSidewaysStepInTheMapFrame) {
 }
 
 TEST(Stability, JitterFrameByFrameIsTheMeanOfItsMarkings) {
-  const std::vector<KindLine> truth{straight(0, -20, 100), straight(5, -20, 100)};
+  const std::vector<KindLine> truth{identified(0, -20, 100), identified(5, -20, 100)};
   StabilityMeter meter(truth, kRange);
-  const std::vector<std::vector<KindLine>> frames{{straight(0, -20, 100)},
-                                                  {straight(0.1, -20, 100), straight(5, -20, 100)},
-                                                  {straight(0.3, -20, 100), straight(5.1, -20, 100)},
+  const std::vector<std::vector<KindLine>> frames{{identified(0, -20, 100)},
+                                                  {identified(0.1, -20, 100), identified(5, -20, 100)},
+                                                  {identified(0.3, -20, 100), identified(5.1, -20, 100)},
                                                   {}};
   for (const auto& lines : frames)
     meter.add(compare(truth, lines, Eigen::Isometry3d::Identity(), kRange), lines);
@@ -66,26 +66,26 @@ TEST(Stability, JitterFrameByFrameIsTheMeanOfItsMarkings) {
 TEST(Stability, JitterComparesOnlyPlacesOfBoth) {
   // The second begins at x = -2 and has 33 places; the first ends at x = 25: those up to 25 remain.
   const Stability stability =
-      drive({straight(0, -20, 100)}, {{straight(0, -5, 25)}, {straight(0.1, -2, 30)}});
+      drive({identified(0, -20, 100)}, {{identified(0, -5, 25)}, {identified(0.1, -2, 30)}});
   EXPECT_EQ(stability.jitter_m.count(), 28u);
 }
 
 TEST(Stability, AnIdSwitchCountsAlsoAcrossAGap) {
-  const KindLine truth = straight(0, -20, 100);
-  const Stability stability =
-      drive({truth}, {{straight(0, -5, 30, 1)}, {}, {straight(0, -5, 30, 2)}, {straight(0, -5, 30, 2)}});
+  const KindLine truth = identified(0, -20, 100);
+  const Stability stability = drive(
+      {truth}, {{identified(0, -5, 30, 1)}, {}, {identified(0, -5, 30, 2)}, {identified(0, -5, 30, 2)}});
   EXPECT_EQ(stability.id_switches, 1u);
   EXPECT_NEAR(stability.driven_past_m, 35.0, 1e-9);
   EXPECT_NEAR(stability.id_switches_per_km(), 1000.0 / 35.0, 1e-9);
 }
 
 TEST(Stability, LinesWithoutIdsHaveNoSwitches) {
-  const KindLine truth = straight(0, -20, 100);
-  EXPECT_FALSE(drive({truth}, {{straight(0, -5, 30)}, {straight(0, -5, 30)}}).has_ids);
+  const KindLine truth = identified(0, -20, 100);
+  EXPECT_FALSE(drive({truth}, {{identified(0, -5, 30)}, {identified(0, -5, 30)}}).has_ids);
 }
 
 TEST(Stability, FlickerIsRightThenWrong) {
-  const KindLine truth = straight(0, -20, 100);
+  const KindLine truth = identified(0, -20, 100);
   // right, wrong, right, right, right: of the three frames after a right one, one is wrong.
   const Stability stability = drive({truth}, {{truth}, {}, {truth}, {truth}, {truth}});
   EXPECT_EQ(stability.was_right, 3u);
@@ -93,7 +93,7 @@ TEST(Stability, FlickerIsRightThenWrong) {
 }
 
 TEST(Stability, ALineThatLeavesTheRangeDoesNotFlicker) {
-  const KindLine truth = straight(0, -20, 20);
+  const KindLine truth = identified(0, -20, 20);
   const Stability stability = drive({truth}, {{truth}, {}}, 100.0);
   EXPECT_EQ(stability.was_right, 0u);
 }

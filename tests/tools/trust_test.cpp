@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "straight_lines.hpp"
+
 namespace laneloom {
 namespace {
 
-const RangeConfig kRange;  // -5..30 m, +-15 m
-
-KindLine straight(double y, double from_x, double to_x, double confidence = -1.0) {
+KindLine trusted(double y, double from_x, double to_x, double confidence = -1.0) {
   return {.kind = LineKind::laneline, .points = {{from_x, y, 0}, {to_x, y, 0}}, .confidence = confidence};
 }
 
@@ -18,7 +18,7 @@ TEST(Trust, CountsVerticesWithinTwoSigmaBesideTheTruth) {
                 .points = {{-4, 0.1, 0}, {1, 0.1, 0}, {10, 0.3, 0}, {20, 0.1, 0}, {40, 0.1, 0}},
                 .lateral_stddev_m = {0.1, 0.1, 0.1, 0.06, 0.1}};
   // The first lies beyond the truth's end, the last out of range; 0.3 is more than 2 * 0.1.
-  const std::vector<KindLine> truth{straight(0, 0, 50)}, lines{line};
+  const std::vector<KindLine> truth{trusted(0, 0, 50)}, lines{line};
   TrustMeter meter(truth, kRange);
   meter.add(compare(truth, lines, at_x(0), kRange), lines);
   EXPECT_EQ(meter.markings().vertices, 3u);
@@ -26,10 +26,10 @@ TEST(Trust, CountsVerticesWithinTwoSigmaBesideTheTruth) {
 }
 
 TEST(Trust, CalibrationComparesConfidenceWithPrecision) {
-  const std::vector<KindLine> truth{straight(0, 0, 20), straight(4, 0, 20)};
+  const std::vector<KindLine> truth{trusted(0, 0, 20), trusted(4, 0, 20)};
   // 0.95 right, 0.75 right, 0.75 wrong, one that says nothing.
-  const std::vector<KindLine> lines{straight(0, 0, 20, 0.95), straight(4, 0, 20, 0.75),
-                                    straight(8, 0, 20, 0.75), straight(12, 0, 20)};
+  const std::vector<KindLine> lines{trusted(0, 0, 20, 0.95), trusted(4, 0, 20, 0.75), trusted(8, 0, 20, 0.75),
+                                    trusted(12, 0, 20)};
   TrustMeter meter(truth, kRange);
   meter.add(compare(truth, lines, at_x(0), kRange), lines);
   const Trust trust = meter.markings();
@@ -42,8 +42,8 @@ TEST(Trust, CalibrationComparesConfidenceWithPrecision) {
 }
 
 TEST(Trust, WhatIsNoProbabilityIsNotCalibrated) {
-  const std::vector<KindLine> truth{straight(0, 0, 20)};
-  const std::vector<KindLine> lines{straight(0, 0, 20, 1e300), straight(4, 0, 20, 1.0)};
+  const std::vector<KindLine> truth{trusted(0, 0, 20)};
+  const std::vector<KindLine> lines{trusted(0, 0, 20, 1e300), trusted(4, 0, 20, 1.0)};
   TrustMeter meter(truth, kRange);
   meter.add(compare(truth, lines, at_x(0), kRange), lines);
   EXPECT_EQ(meter.markings().calibration[9].count, 1u);
@@ -51,7 +51,7 @@ TEST(Trust, WhatIsNoProbabilityIsNotCalibrated) {
 }
 
 TEST(Trust, APerfectMapIsCertainAndRight) {
-  std::vector<KindLine> truth{straight(0, 0, 20, 1.0)};
+  std::vector<KindLine> truth{trusted(0, 0, 20, 1.0)};
   truth[0].lateral_stddev_m = {0.0, 0.0};
   TrustMeter meter(truth, kRange);
   meter.add(compare(truth, truth, at_x(0), kRange), truth);
@@ -63,7 +63,7 @@ TEST(Trust, APerfectMapIsCertainAndRight) {
 
 TEST(Trust, FirstAppearanceCountsFromComingIntoRange) {
   // Comes into range at x = 10, where 30 m ahead is x = 40; found at x = 30.
-  const std::vector<KindLine> truth{straight(0, 35, 60), straight(5, 35, 60), straight(5, 500, 600)};
+  const std::vector<KindLine> truth{trusted(0, 35, 60), trusted(5, 35, 60), trusted(5, 500, 600)};
   TrustMeter meter(truth, kRange);
   for (int i = 0; i < 4; ++i) {
     const std::vector<KindLine> lines = i == 3 ? std::vector<KindLine>{truth[0]} : std::vector<KindLine>{};

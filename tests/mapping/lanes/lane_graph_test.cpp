@@ -9,16 +9,11 @@
 namespace laneloom {
 namespace {
 
+using test::lane;
 using test::straight;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Turn = Linkage::Turn;
-
-Lane lane(ElementId id, Polyline centerline) {
-  Lane l{.id = id, .centerline = std::move(centerline)};
-  l.width_m = 3.5;
-  return l;
-}
 
 Linkage link(ElementId from, ElementId to, Turn turn, double confidence = 1.0) {
   return {.from = from, .to = to, .turn = turn, .confidence = confidence, .path = {}};

@@ -12,7 +12,7 @@ namespace {
 using test::boundary;
 using test::straight;
 
-LaneBoundary edge(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
+LaneBoundary road_edge(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
   return boundary(id, straight({from_x, y, 0}, {to_x, y, 0}), MarkingType::roadedge);
 }
 
@@ -65,7 +65,7 @@ class Dividers : public ::testing::Test {
 };
 
 TEST_F(Dividers, TwoLanesFillARoadWithoutALine) {
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   ASSERT_EQ(lanes_.size(), 2U);
   ASSERT_EQ(inferred().size(), 2U);
   const Lane &left = lanes_[0], &right = lanes_[1];
@@ -83,7 +83,7 @@ TEST_F(Dividers, TwoLanesFillARoadWithoutALine) {
 }
 
 TEST_F(Dividers, SayThatNothingIsPaintedThere) {
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   EXPECT_EQ(divider().type, MarkingType::laneline);
   EXPECT_EQ(divider().first_seen_ns, 1);
   EXPECT_EQ(divider().observations, 0U);
@@ -93,7 +93,7 @@ TEST_F(Dividers, SayThatNothingIsPaintedThere) {
 }
 
 TEST_F(Dividers, AreNotSaidToBeLikely) {
-  std::vector<LaneBoundary> edges{edge(1, 9), edge(2, 0)};
+  std::vector<LaneBoundary> edges{road_edge(1, 9), road_edge(2, 0)};
   for (LaneBoundary& edge : edges) edge.marking.existence_probability = 0.9;
   map(edges);
   EXPECT_EQ(divider().existence_probability, -1.0);
@@ -105,20 +105,20 @@ TEST_F(Dividers, NeedRoomForTwoLanes) {
     map({std::move(left), std::move(right)});
     return inferred().size();
   };
-  EXPECT_EQ(lanes_between(edge(1, 6.4), edge(2, 0)), 0U);
-  EXPECT_EQ(lanes_between(edge(1, 6.6), edge(2, 0)), 2U);
-  EXPECT_EQ(lanes_between(edge(1, 12.9), edge(2, 0)), 2U) << "with room to park on both sides";
-  EXPECT_EQ(lanes_between(edge(1, 13.1), edge(2, 0)), 0U);
-  EXPECT_EQ(lanes_between(line(1, 8.9), edge(2, 0)), 2U);
-  EXPECT_EQ(lanes_between(line(1, 9.1), edge(2, 0)), 0U) << "beside a line, three lanes";
+  EXPECT_EQ(lanes_between(road_edge(1, 6.4), road_edge(2, 0)), 0U);
+  EXPECT_EQ(lanes_between(road_edge(1, 6.6), road_edge(2, 0)), 2U);
+  EXPECT_EQ(lanes_between(road_edge(1, 12.9), road_edge(2, 0)), 2U) << "with room to park on both sides";
+  EXPECT_EQ(lanes_between(road_edge(1, 13.1), road_edge(2, 0)), 0U);
+  EXPECT_EQ(lanes_between(line(1, 8.9), road_edge(2, 0)), 2U);
+  EXPECT_EQ(lanes_between(line(1, 9.1), road_edge(2, 0)), 0U) << "beside a line, three lanes";
   EXPECT_EQ(lanes_between(line(1, 8), line(2, 0)), 0U) << "between lines, a median";
-  EXPECT_EQ(lanes_between(edge(1, 9, 0, 7.5), edge(2, 0)), 0U) << "too short";
+  EXPECT_EQ(lanes_between(road_edge(1, 9, 0, 7.5), road_edge(2, 0)), 0U) << "too short";
   config_.unmarked_roads = false;
-  EXPECT_EQ(lanes_between(edge(1, 9), edge(2, 0)), 0U) << "turned off";
+  EXPECT_EQ(lanes_between(road_edge(1, 9), road_edge(2, 0)), 0U) << "turned off";
 }
 
 TEST_F(Dividers, NeedConfirmedBoundaries) {
-  std::vector<LaneBoundary> edges{edge(1, 9), edge(2, 0)};
+  std::vector<LaneBoundary> edges{road_edge(1, 9), road_edge(2, 0)};
   edges[0].marking.status = ElementStatus::tentative;
   map(edges);
   EXPECT_TRUE(lanes_.empty());
@@ -126,7 +126,7 @@ TEST_F(Dividers, NeedConfirmedBoundaries) {
 
 TEST_F(Dividers, AreNotWhereAnotherBoundaryIs) {
   // Too far from the edges for lanes of so little length.
-  const LaneBoundary edges[]{edge(1, 12), edge(2, 0)};
+  const LaneBoundary edges[]{road_edge(1, 12), road_edge(2, 0)};
   const auto lanes_with = [&](LaneBoundary middle, ElementStatus status) {
     middle.marking.status = status;
     map({edges[0], edges[1], middle});
@@ -134,22 +134,22 @@ TEST_F(Dividers, AreNotWhereAnotherBoundaryIs) {
   };
   EXPECT_EQ(lanes_with(line(3, 6, 26, 34), ElementStatus::confirmed), 4U) << "before and behind the line";
   EXPECT_EQ(lanes_with(line(3, 6, 26, 34), ElementStatus::tentative), 2U);
-  EXPECT_EQ(lanes_with(edge(3, 6, 26, 34), ElementStatus::confirmed), 4U) << "an island";
-  EXPECT_EQ(lanes_with(edge(3, 6, 26, 34), ElementStatus::tentative), 4U) << "maybe an island";
+  EXPECT_EQ(lanes_with(road_edge(3, 6, 26, 34), ElementStatus::confirmed), 4U) << "an island";
+  EXPECT_EQ(lanes_with(road_edge(3, 6, 26, 34), ElementStatus::tentative), 4U) << "maybe an island";
   EXPECT_EQ(lanes_with(boundary(3, straight({30, 2, 0}, {30, 10, 0})), ElementStatus::confirmed), 2U)
       << "a line across the road divides nothing";
 }
 
 TEST_F(Dividers, DoNotCountALineAlongAnEdgeAsOne) {
-  map({edge(1, 9), edge(2, 0), line(3, 0.5)});
+  map({road_edge(1, 9), road_edge(2, 0), line(3, 0.5)});
   EXPECT_EQ(inferred().size(), 2U);
-  map({edge(1, 9), edge(2, 0), line(3, 0.5), line(4, 8.5)});
+  map({road_edge(1, 9), road_edge(2, 0), line(3, 0.5), line(4, 8.5)});
   EXPECT_EQ(inferred().size(), 2U) << "neither twice";
 }
 
 TEST_F(Dividers, AreNotInAMedian) {
   const auto road = [this](double from_y, double to_y) {  // a lane beyond either edge
-    map({line(1, 12), line(2, to_y), edge(3, 8), edge(4, 0), line(5, from_y), line(6, -4)});
+    map({line(1, 12), line(2, to_y), road_edge(3, 8), road_edge(4, 0), line(5, from_y), line(6, -4)});
     EXPECT_EQ(lanes_.size(), 2U + inferred().size());
     return inferred().size();
   };
@@ -158,12 +158,12 @@ TEST_F(Dividers, AreNotInAMedian) {
 }
 
 TEST_F(Dividers, DoNotCrossAKerb) {
-  map({edge(1, 11.2), line(2, 8), edge(3, 7.6), edge(4, 0), line(5, -3.2)});
+  map({road_edge(1, 11.2), line(2, 8), road_edge(3, 7.6), road_edge(4, 0), line(5, -3.2)});
   EXPECT_TRUE(inferred().empty());
 }
 
 TEST_F(Dividers, LieBetweenBoundariesThatRunAgainstEachOther) {
-  SectionGraph graph{.boundaries = std::vector{edge(1, 9), edge(2, 0)},
+  SectionGraph graph{.boundaries = std::vector{road_edge(1, 9), road_edge(2, 0)},
                      .sections = {{{0, 1}}},
                      .beside = {{{1, 9.0, 60.0, true}}, {{0, 9.0, 60.0, true}}}};
   graph.boundaries.reverse(0);
@@ -202,7 +202,7 @@ TEST_F(Dividers, EndWhereTheRoadOpensIntoAnIntersection) {
 }
 
 TEST_F(Dividers, ContinueALineThatEnds) {
-  map({edge(1, 9), edge(2, 0), line(3, 5.5, 0, 20)});
+  map({road_edge(1, 9), road_edge(2, 0), line(3, 5.5, 0, 20)});
   EXPECT_EQ(lanes_.size(), 4U);
   ASSERT_EQ(inferred().size(), 2U);
   for (const Point& point : divider().points) EXPECT_NEAR(point.y(), 5.5, 1e-9);
@@ -210,34 +210,34 @@ TEST_F(Dividers, ContinueALineThatEnds) {
 }
 
 TEST_F(Dividers, LeadFromOneLineToTheNext) {
-  map({edge(1, 9), edge(2, 0), line(3, 5.5, 0, 20), line(4, 3.5, 40, 60)});
+  map({road_edge(1, 9), road_edge(2, 0), line(3, 5.5, 0, 20), line(4, 3.5, 40, 60)});
   ASSERT_EQ(inferred().size(), 2U);
   EXPECT_NEAR(divider().points.front().y(), 5.5, 1e-9);
   EXPECT_NEAR(divider().points.back().y(), 3.5, 1e-9);
 }
 
 TEST_F(Dividers, LeaveNoLaneTooNarrowOrTooWide) {
-  map({edge(1, 8), edge(2, 0), line(3, 1.5, 0, 20)});
+  map({road_edge(1, 8), road_edge(2, 0), line(3, 1.5, 0, 20)});
   EXPECT_TRUE(inferred().empty()) << "1.5 m";
-  map({edge(1, 12), edge(2, 0), line(3, 2.5, 0, 20)});
+  map({road_edge(1, 12), road_edge(2, 0), line(3, 2.5, 0, 20)});
   EXPECT_TRUE(inferred().empty()) << "9.5 m";
 }
 
 TEST_F(Dividers, BeyondTheEdgeOfARoadWithLanesAreNone) {
-  map({line(1, 12.5), edge(2, 9), edge(3, 0)});
+  map({line(1, 12.5), road_edge(2, 9), road_edge(3, 0)});
   EXPECT_EQ(lanes_.size(), 1U);
   EXPECT_TRUE(inferred().empty());
 }
 
 TEST_F(Dividers, OfTwoRoadsWithACommonEdgeAreTwo) {
-  map({edge(1, 16), edge(2, 8), edge(3, 0)});
+  map({road_edge(1, 16), road_edge(2, 8), road_edge(3, 0)});
   EXPECT_EQ(inferred().size(), 4U);
 }
 
 TEST_F(Dividers, DoNotTakeAnIdForAPointInCommon) {
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   const ElementId id = divider().id;
-  map({edge(1, 9, 57, 117), edge(2, 0, 57, 117)});
+  map({road_edge(1, 9, 57, 117), road_edge(2, 0, 57, 117)});
   EXPECT_NE(divider().id, id);
 }
 
@@ -245,29 +245,29 @@ TEST_F(Dividers, AreOfTwoWaysBetweenKerbsOnly) {
   const auto two_way = [this] {
     return std::ranges::any_of(boundaries_, [](const LaneBoundary& b) { return b.two_way; });
   };
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   EXPECT_TRUE(two_way());
-  map({edge(1, 9.5), line(2, 9), line(3, 0.5), edge(4, 0)});
+  map({road_edge(1, 9.5), line(2, 9), line(3, 0.5), road_edge(4, 0)});
   EXPECT_TRUE(two_way());
-  map({line(1, 8), edge(2, 0)});
+  map({line(1, 8), road_edge(2, 0)});
   ASSERT_EQ(inferred().size(), 2U);
   EXPECT_FALSE(two_way());
 }
 
 TEST_F(Dividers, KeepTheirIdAsTheWindowMoves) {
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   const ElementId id = divider().id;
-  map({edge(1, 9.2, 10, 70), edge(2, 0.2, 10, 70)});
+  map({road_edge(1, 9.2, 10, 70), road_edge(2, 0.2, 10, 70)});
   EXPECT_EQ(divider().id, id);
   EXPECT_EQ(divider().first_seen_ns, 1);
-  map({edge(1, 9, 200, 260), edge(2, 0, 200, 260)});
+  map({road_edge(1, 9, 200, 260), road_edge(2, 0, 200, 260)});
   EXPECT_NE(divider().id, id);
 }
 
 TEST_F(Dividers, OnTheBridgeIsAnotherThanBelow) {
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   const ElementId id = divider().id;
-  std::vector<LaneBoundary> above{edge(1, 9), edge(2, 0)};
+  std::vector<LaneBoundary> above{road_edge(1, 9), road_edge(2, 0)};
   for (LaneBoundary& boundary : above)
     for (Point& point : boundary.marking.points) point.z() = 6.0;
   map(above);
@@ -275,16 +275,16 @@ TEST_F(Dividers, OnTheBridgeIsAnotherThanBelow) {
 }
 
 TEST_F(Dividers, AreForgottenAfterAWhile) {
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   const ElementId id = divider().id;
   for (int i = 0; i <= config_.id_memory_frames; ++i) map({});
-  map({edge(1, 9), edge(2, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
   EXPECT_NE(divider().id, id);
 }
 
 TEST_F(Dividers, AreAmongTheBoundariesByTheirId) {
-  map({edge(1, 9), edge(2, 0)});
-  map({edge(1, 9), edge(200, 0)});
+  map({road_edge(1, 9), road_edge(2, 0)});
+  map({road_edge(1, 9), road_edge(200, 0)});
   std::vector<ElementId> ids;
   for (const LaneBoundary& boundary : boundaries_) ids.push_back(boundary.marking.id);
   EXPECT_THAT(ids, testing::ElementsAre(1U, 100U, 200U));

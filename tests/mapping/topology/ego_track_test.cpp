@@ -7,14 +7,9 @@
 namespace laneloom {
 namespace {
 
+using test::lane;
 using test::straight;
 using ::testing::IsEmpty;
-
-Lane lane(ElementId id, const Point& from, const Point& to) {
-  Lane lane{.id = id, .centerline = straight(from, to)};
-  lane.width_m = 3.5;
-  return lane;
-}
 
 /// Lane 1 leads east to an intersection; 2 goes on straight, 3 to the left, 4 lies beside 1.
 class EgoTrackTest : public ::testing::Test {

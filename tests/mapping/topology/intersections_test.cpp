@@ -9,18 +9,12 @@
 namespace laneloom {
 namespace {
 
+using test::lane;
 using test::straight;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Direction = Lane::Direction;
 using Pair = std::pair<ElementId, ElementId>;
-
-Lane lane(ElementId id, Polyline centerline) {
-  Lane l;
-  l.id = id;
-  l.centerline = std::move(centerline);
-  return l;
-}
 
 std::vector<Linkage> crossings(std::vector<Lane> lanes, std::vector<Linkage> known = {},
                                const LinkageConfig& config = {},
@@ -34,7 +28,7 @@ std::vector<Linkage> crossings(std::vector<Lane> lanes, std::vector<Linkage> kno
 
 /// Whose driving direction is known.
 Lane driven(ElementId id, const Point& from, const Point& to) {
-  Lane l = lane(id, straight(from, to));
+  Lane l = lane(id, from, to);
   l.direction = Lane::Direction::along_centerline;
   return l;
 }

@@ -11,7 +11,7 @@ using test::straight;
 using Verdict = SdMap::Verdict;
 
 /// A main street from west to east through (0, 0), and a side street to the north.
-std::vector<SdWay> streets() {
+std::vector<SdWay> crossing_streets() {
   return {{.id = 1, .nodes = {10, 11, 12}, .points = {{-100, 0}, {0, 0}, {100, 0}}},
           {.id = 2, .nodes = {11, 13}, .points = {{0, 0}, {0, 100}}}};
 }
@@ -21,24 +21,24 @@ const Polyline kFromWest = straight({-30, -2, 0}, {-10, -2, 0}), kToEast = strai
                kToWest = straight({-10, 2, 0}, {-30, 2, 0});
 
 TEST(SdMap, StreetsThatMeetAreConnected) {
-  const SdMap map(streets(), {});
+  const SdMap map(crossing_streets(), {});
   EXPECT_EQ(map.verdict(kFromWest, kToEast), Verdict::connected);
   EXPECT_EQ(map.verdict(kFromWest, kToNorth), Verdict::connected);
   EXPECT_EQ(map.verdict(kFromNorth, kToWest), Verdict::connected);
 }
 
 TEST(SdMap, AboutTurnsAreForbidden) {
-  EXPECT_EQ(SdMap(streets(), {}).verdict(kFromWest, kToWest), Verdict::forbidden);
+  EXPECT_EQ(SdMap(crossing_streets(), {}).verdict(kFromWest, kToWest), Verdict::forbidden);
 }
 
 TEST(SdMap, StreetsThatDoNotMeetAreNotConnected) {
-  std::vector<SdWay> ways = streets();
+  std::vector<SdWay> ways = crossing_streets();
   ways[1].nodes = {99, 13};  // a bridge over the main street
   EXPECT_EQ(SdMap(ways, {}).verdict(kFromWest, kToNorth), Verdict::forbidden);
 }
 
 TEST(SdMap, AOnewayStreetIsNotEnteredAgainstItsSense) {
-  std::vector<SdWay> ways = streets();
+  std::vector<SdWay> ways = crossing_streets();
   ways[1].oneway = true;  // leads north
   EXPECT_EQ(SdMap(ways, {}).verdict(kFromWest, kToNorth), Verdict::connected);
   EXPECT_EQ(SdMap(ways, {}).verdict(kFromNorth, kToWest), Verdict::unknown);  // no such lane can be
@@ -46,15 +46,15 @@ TEST(SdMap, AOnewayStreetIsNotEnteredAgainstItsSense) {
 
 TEST(SdMap, RestrictionsHold) {
   const SdRestriction no_left{.from_way = 1, .via_node = 11, .to_way = 2};
-  EXPECT_EQ(SdMap(streets(), {no_left}).verdict(kFromWest, kToNorth), Verdict::forbidden);
-  EXPECT_EQ(SdMap(streets(), {no_left}).verdict(kFromWest, kToEast), Verdict::connected);
+  EXPECT_EQ(SdMap(crossing_streets(), {no_left}).verdict(kFromWest, kToNorth), Verdict::forbidden);
+  EXPECT_EQ(SdMap(crossing_streets(), {no_left}).verdict(kFromWest, kToEast), Verdict::connected);
   const SdRestriction only_straight{.from_way = 1, .via_node = 11, .to_way = 1, .only = true};
-  EXPECT_EQ(SdMap(streets(), {only_straight}).verdict(kFromWest, kToNorth), Verdict::forbidden);
-  EXPECT_EQ(SdMap(streets(), {only_straight}).verdict(kFromWest, kToEast), Verdict::connected);
+  EXPECT_EQ(SdMap(crossing_streets(), {only_straight}).verdict(kFromWest, kToNorth), Verdict::forbidden);
+  EXPECT_EQ(SdMap(crossing_streets(), {only_straight}).verdict(kFromWest, kToEast), Verdict::connected);
 }
 
 TEST(SdMap, LanesBesideEveryStreetAreUnknown) {
-  const SdMap map(streets(), {});
+  const SdMap map(crossing_streets(), {});
   EXPECT_EQ(map.verdict(straight({-30, -40, 0}, {-10, -40, 0}), kToEast), Verdict::unknown);
   EXPECT_EQ(SdMap().verdict(kFromWest, kToEast), Verdict::unknown);
 }

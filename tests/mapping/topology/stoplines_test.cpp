@@ -7,15 +7,9 @@
 namespace laneloom {
 namespace {
 
+using test::lane;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-Lane lane(ElementId id, const Point& from, const Point& to) {
-  Lane l;
-  l.id = id;
-  l.centerline = test::straight(from, to);
-  return l;
-}
 
 Stopline tie(const Polyline& stopline, const std::vector<Lane>& lanes) {
   return tie_stoplines({test::marking(1, stopline, MarkingType::stopline)}, lanes, {}).at(0);
