@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/lines/line_evidence.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom {
 namespace {
 
 constexpr double kMaxStations = 3.0;  // between the feet of two samples that follow one another
+constexpr double kGoodFit = 0.5;      // mean over the samples, which 0.7 of the gate would have
 
 /// The deviations per sample, interpolated from those that were given per vertex.
 std::vector<double> deviations(const ObservedMarking& marking, const SampledDetection& detection) {
@@ -99,7 +101,11 @@ LineMatcher::LineMatcher(const std::vector<Line>& lines, const FusionConfig& con
       across_(lines, true, config.gate_m),
       found_(lines.size()) {
   courses_.reserve(lines.size());
-  for (const Line& line : lines) courses_.emplace_back(line);
+  confirmed_.reserve(lines.size());
+  for (const Line& line : lines) {
+    courses_.emplace_back(line);
+    confirmed_.push_back(existence(line.stations, line.confidences) >= config.confirm_log_odds);
+  }
 }
 
 /// The foot of a sample on a line that it lies beside and that runs alike. Empty: it does not lie so.
@@ -141,7 +147,9 @@ void LineMatcher::group_hits(std::size_t detection, Candidates& candidates) {
   for (std::size_t line = 0; line < found_.size(); ++line) {
     Found& found = found_[line];
     if (found.samples == 0) continue;
-    candidates.all.push_back({found.score, detection, line, from, found.samples});
+    const bool fits_well = found.score > kGoodFit * static_cast<double>(found.samples);
+    candidates.all.push_back(
+        {confirmed_[line] && fits_well, found.score, detection, line, from, found.samples});
     found.next = from;
     from += found.samples;
   }
@@ -153,7 +161,8 @@ std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& d
                                           std::size_t stride) {
   Candidates candidates;
   for (std::size_t i = 0; i < detections.size(); ++i) find_candidates(i, detections[i], stride, candidates);
-  std::ranges::stable_sort(candidates.all, std::ranges::greater{}, &Candidate::score);
+  std::ranges::stable_sort(candidates.all, std::ranges::greater{},
+                           [](const Candidate& c) { return std::pair(c.is_first, c.score); });
 
   Claims claims(detections, lines_);
   std::vector<LineMatch> matches;

@@ -61,9 +61,10 @@ class LineMatcher {
   /// `lines` must outlive this and stay unchanged.
   LineMatcher(const std::vector<Line>& lines, const FusionConfig& config);
 
-  /// Matches detections with lines that lie close and run alike, the best fit first. No place of a line is
-  /// observed by two detections of one frame, because lines that are seen side by side are two. No sample
-  /// observes two lines. Only every `stride`-th sample is used.
+  /// Matches detections with lines that lie close and run alike. Confirmed lines that fit well come first,
+  /// then the better fit: else a long false line would win against the pieces of a true one. No place of a
+  /// line is observed by two detections of one frame, because lines that are seen side by side are two. No
+  /// sample observes two lines. Only every `stride`-th sample is used.
   std::vector<LineMatch> match(const std::vector<SampledDetection>& detections, std::size_t stride = 1);
 
   const std::vector<Line>& lines() const { return lines_; }
@@ -72,6 +73,7 @@ class LineMatcher {
  private:
   /// A line that a detection lies beside, with `count` samples from `from` on.
   struct Candidate {
+    bool is_first = false;                ///< the line is confirmed and fits well
     double score = 0.0;                   ///< see Found
     std::size_t detection = 0, line = 0;  ///< indices
     std::size_t from = 0, count = 0;      ///< its place in Candidates::samples
@@ -104,6 +106,7 @@ class LineMatcher {
   double min_cosine_;
   NearestStations along_, across_;
   std::vector<Course> courses_;  ///< of the lines
+  std::vector<bool> confirmed_;  ///< by line
   // Scratch for one detection; empty between two of them.
   std::vector<Found> found_;  ///< by line
   std::vector<Hit> hits_;

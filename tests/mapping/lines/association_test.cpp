@@ -75,6 +75,19 @@ TEST(Association, WhatIsSeenSideBySideIsNotOneLine) {
       2U);
 }
 
+TEST(Association, ConfirmedPiecesWinAgainstALongLineThatIsNotConfirmed) {
+  std::vector<Line> lines{line(1, straight({0, 0, 0}, {14, 0, 0}, 15)),
+                          line(2, straight({16, 0, 0}, {30, 0, 0}, 15)),
+                          line(3, straight({0, 0.4, 0}, {30, 0.4, 0}, 31))};
+  const auto detections = detect({straight({0, 0.2, 0}, {30, 0.2, 0})});
+  EXPECT_THAT(matched(lines, detections), ElementsAre(Pair(0, 2))) << "none is confirmed";
+  for (std::size_t i : {0U, 1U})
+    for (Station& station : lines[i].stations) station.log_odds = 5.0;
+  EXPECT_THAT(matched(lines, detections), ElementsAre(Pair(0, 0), Pair(0, 1)));
+  // At 0.5 m the confirmed lines do not fit well.
+  EXPECT_THAT(matched(lines, detect({straight({0, 0.5, 0}, {30, 0.5, 0})})), ElementsAre(Pair(0, 2)));
+}
+
 TEST(Association, OneDetectionMayObserveTwoLinesInARow) {
   const std::vector<Line> lines{line(1, straight({0, 0, 0}, {10, 0, 0}, 11)),
                                 line(2, straight({14, 0, 0}, {30, 0, 0}, 17))};
