@@ -55,9 +55,10 @@ inline Lane lane(ElementId id, const Point& from, const Point& to) { return lane
 /// A line with a station at every vertex.
 inline Line line(ElementId id, const Polyline& points, MarkingType type = MarkingType::laneline) {
   Line result{.id = id, .stations = {}};
-  for (const Point& point : points)
+  for (const Point& point : points) {
     result.stations.push_back({.position = point, .lateral = LateralFilter({.stddev_m = 1.0})});
-  result.type_votes[index(type)] = 1.0;
+    result.stations.back().type_votes[index(type)] = 1.0;
+  }
   return result;
 }
 

@@ -9,8 +9,6 @@
 namespace laneloom {
 namespace {
 
-constexpr double kTypeMemory = 0.98;  // factor per observation; the border of a road may change its type
-
 /// Whether a detection ran on a line from one matched sample to the next.
 bool is_seen_through(const SampleMatch& from, const SampleMatch& to) {
   return to.sample <= from.sample + 2 && is_led_through(from, to);
@@ -62,12 +60,6 @@ class Observations {
   std::vector<Observation> all_;
 };
 
-void vote(const SampledDetection& detection, double samples, Line& line) {
-  for (double& votes : line.type_votes) votes *= kTypeMemory;
-  line.type_votes[index(detection.type)] += samples;
-  ++line.observations;
-}
-
 }  // namespace
 
 void fuse_matches(const Association& association, const Viewpoint& from, const FusionConfig& config,
@@ -83,9 +75,10 @@ void fuse_matches(const Association& association, const Viewpoint& from, const F
       Station& station = line.stations[observation.station];
       if (config.learn) learn(observation, from, station, networks);
       observe(observation, from, station);
+      station.type_votes[index(detection.type)] += 1.0;
       station.style_votes[index(detection.style)] += 1.0;
     }
-    vote(detection, static_cast<double>(match.samples.size()), line);
+    ++line.observations;
   }
 }
 

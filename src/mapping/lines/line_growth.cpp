@@ -135,7 +135,6 @@ std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, con
         if (!near) line.stations.push_back(new_station(sample, from, detection, i, config.birth_log_odds));
       }
       if (line.stations.size() < 2 || length_m < config.min_birth_length_m) continue;
-      line.type_votes[index(detection.type)] = static_cast<double>(end - begin);
       add_confidence(detection, from.T_map_body.translation(), 1.0, model, line);
       lines.push_back(std::move(line));
     }

@@ -13,7 +13,10 @@ constexpr double kCell_m = 1.0;  // as the gate and the spacing of stations: sea
 }  // namespace
 
 MarkingType Line::type() const {
-  return static_cast<MarkingType>(std::ranges::max_element(type_votes) - type_votes.begin());
+  std::array<double, kMarkingTypeCount> votes{};
+  for (const Station& station : stations)
+    for (std::size_t i = 0; i < votes.size(); ++i) votes[i] += station.type_votes[i];
+  return static_cast<MarkingType>(std::ranges::max_element(votes) - votes.begin());
 }
 
 StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point) {

@@ -18,17 +18,18 @@ enum class Sight : std::uint8_t { out_of_view, missed, observed };
 
 /// A place on a line, about a metre from the next, with the knowledge of the line there.
 struct Station {
-  Point position = Point::Zero();  ///< map frame
-  LateralFilter lateral;           ///< estimate of the position across the line
-  double log_odds = 0.0;           ///< that the line is there, by how often it was seen
-  StyleVotes style_votes{};        ///< one vote per observation
-  double moved_m = 0.0;            ///< to the left, since the station was made
+  Point position = Point::Zero();                      ///< map frame
+  LateralFilter lateral;                               ///< estimate of the position across the line
+  double log_odds = 0.0;                               ///< that the line is there, by how often it was seen
+  std::array<double, kMarkingTypeCount> type_votes{};  ///< one vote per observation
+  StyleVotes style_votes{};                            ///< one vote per observation
+  double moved_m = 0.0;                                ///< to the left, since the station was made
   std::array<FarView, NetworkModel::kNodes_m.size()> far_views{};  ///< the first view at each range
   Sight sight = Sight::out_of_view;                                ///< in the present frame; not saved
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(position, lateral, log_odds, style_votes, moved_m, far_views);
+    archive(position, lateral, log_odds, type_votes, style_votes, moved_m, far_views);
   }
 };
 
@@ -51,19 +52,18 @@ struct Confidences {
 /// A marking that is followed over time.
 struct Line {
   ElementId id = kNoElement;
-  std::vector<Station> stations;                       ///< in order along the line
-  std::array<double, kMarkingTypeCount> type_votes{};  ///< samples by type; old votes fade
-  std::uint64_t observations = 0;                      ///< number of detections that observed it
-  std::int64_t first_seen_ns = 0;                      ///< stamp of the frame that made it
-  std::int64_t last_seen_ns = 0;                       ///< stamp of the newest frame that observed it
+  std::vector<Station> stations;   ///< in order along the line
+  std::uint64_t observations = 0;  ///< number of detections that observed it
+  std::int64_t first_seen_ns = 0;  ///< stamp of the frame that made it
+  std::int64_t last_seen_ns = 0;   ///< stamp of the newest frame that observed it
   Confidences confidences{};
 
-  /// The type with most votes; of equals, the first one.
+  /// The type with most votes of all stations; of equals, the first one.
   MarkingType type() const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(id, stations, type_votes, observations, first_seen_ns, last_seen_ns, confidences);
+    archive(id, stations, observations, first_seen_ns, last_seen_ns, confidences);
   }
 };
 

@@ -281,9 +281,20 @@ TEST_F(LineFusion, TheTypeIsThatOfMostObservations) {
   EXPECT_EQ(lines_[0].type(), MarkingType::laneline);
 }
 
-TEST_F(LineFusion, ALineThatBecomesAnEdgeIsOneSoon) {
-  for (int i = 0; i < 600; ++i) see({straight({0, 0, 0}, {20, 0, 0})});
-  for (int i = 0; i < 40; ++i) see({straight({0, 0, 0}, {20, 0, 0})}, MarkingType::roadedge);
+TEST_F(LineFusion, APlaceThatIsConfusedForSecondsKeepsItsType) {
+  for (int i = 0; i < 60; ++i) see({straight({0, 0, 0}, {20, 0, 0})});
+  for (int i = 0; i < 50; ++i) see({straight({0, 0, 0}, {20, 0, 0})}, MarkingType::roadedge);
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(lines_[0].type(), MarkingType::laneline);
+}
+
+TEST_F(LineFusion, ALineThatBecomesAnEdgeIsOneWhereTheVehicleHasArrived) {
+  for (int i = 0; i < 600; ++i) see({straight({-10, 0, 0}, {10, 0, 0})});
+  see({straight({-10, 0, 0}, {10, 0, 0})});
+  for (double x = 10; x < 60; x += 1.0) {
+    range_ = MapBox(RangeConfig{}, Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)));
+    see({straight({x, 0, 0}, {x + 20, 0, 0})}, MarkingType::roadedge);
+  }
   ASSERT_EQ(lines_.size(), 1U);
   EXPECT_EQ(lines_[0].type(), MarkingType::roadedge);
 }

@@ -51,7 +51,8 @@ TEST_F(LineMerging, WhatIsOutOfViewDoesNotTell) {
 }
 
 TEST_F(LineMerging, TwoRoadEdgesWithoutRoomBetweenThemAreOne) {
-  for (Line& line : lines_) line.type_votes[index(MarkingType::roadedge)] = 1.0e6;
+  for (Line& line : lines_)
+    for (Station& station : line.stations) station.type_votes[index(MarkingType::roadedge)] = 1.0e6;
   frame(true, true);
   EXPECT_EQ(lines_.size(), 2U) << "0.4 m apart";
   for (Station& station : lines_[1].stations) station.position.y() = 0.25;

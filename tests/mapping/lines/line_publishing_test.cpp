@@ -68,7 +68,7 @@ TEST_F(LinePublishing, ANearParallelIsHeldBackUntilBothAreSeenTogether) {
   EXPECT_EQ(count(3.0, 1.0), 2U);
   EXPECT_EQ(count(3.0, 6.0), 1U);
   EXPECT_EQ(publish_lines({line_, parallel}, {{.a = 4, .b = 5}}, {})[0].id, 4U) << "the longer one stays";
-  parallel.type_votes = {0.0, 1.0, 0.0};
+  for (Station& station : parallel.stations) station.type_votes = {0.0, 1.0, 0.0};
   EXPECT_EQ(count(0.0, 0.0), 2U) << "a line along a kerb";
 }
 
