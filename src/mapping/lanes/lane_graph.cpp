@@ -14,7 +14,7 @@ namespace {
 using Turn = Linkage::Turn;
 
 constexpr double kMinAlongLane = 0.7;  // cosine between the vehicle's heading and a lane that it drives in
-constexpr double kMinTurnSine = 0.77;  // of the angle between the lanes: a turn is one of 50 to 130 degrees
+constexpr double kMinTurnSine = 0.77;  // of the angle between the lanes: left and right are 50 to 130 degrees
 
 Polyline walked(Polyline line, bool against) {
   if (against) std::ranges::reverse(line);
@@ -42,9 +42,9 @@ bool DirectedLane::oncoming() const {
 }
 
 Linkage::Turn turn_between(const Eigen::Vector2d& leaving, const Eigen::Vector2d& entering) {
-  if (leaving.dot(entering) < -kMinTurnSine) return Turn::u_turn;
-  if (std::abs(cross(leaving, entering)) < kMinTurnSine) return Turn::straight;
-  return cross(leaving, entering) > 0.0 ? Turn::left : Turn::right;
+  const double sine = cross(leaving, entering);
+  if (std::abs(sine) >= kMinTurnSine) return sine > 0.0 ? Turn::left : Turn::right;
+  return leaving.dot(entering) < 0.0 ? Turn::u_turn : Turn::straight;
 }
 
 Linkage::Turn turn_between(const Lane& from, const Lane& to) {

@@ -138,7 +138,13 @@ TEST(TurnBetween, TellsTurnsByTheAngle) {
   EXPECT_EQ(turn(55), Turn::left);
   EXPECT_EQ(turn(125), Turn::left);
   EXPECT_EQ(turn(-90), Turn::right);
+  EXPECT_EQ(turn(135), Turn::u_turn);
+  EXPECT_EQ(turn(-135), Turn::u_turn);
   EXPECT_EQ(turn(170), Turn::u_turn);
+}
+
+TEST(TurnBetween, LanesWithoutADirectionGoStraightOn) {
+  EXPECT_EQ(turn_between(Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 0)), Turn::straight);
 }
 
 }  // namespace
