@@ -1,7 +1,9 @@
 #include "simulation/sensor_view.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
+
+#include "mapping/geometry/clip_segment.hpp"
 
 namespace laneloom {
 namespace {
@@ -22,21 +24,8 @@ bool SensorView::detects(MarkingType type) const {
          std::find(detected_types.begin(), detected_types.end(), type) != detected_types.end();
 }
 
-std::optional<std::pair<double, double>> SensorView::clip(const Point& from, const Point& to) const {
-  const Point low(forward_min_m, -side_max_m, -height_max_m), high(forward_max_m, side_max_m, height_max_m);
-  double enter = 0.0, leave = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double along = to[axis] - from[axis];
-    if (along == 0.0) {
-      if (from[axis] < low[axis] || from[axis] > high[axis]) return std::nullopt;
-      continue;
-    }
-    const double a = (low[axis] - from[axis]) / along, b = (high[axis] - from[axis]) / along;
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  if (enter >= leave) return std::nullopt;
-  return std::pair(enter, leave);
+Eigen::AlignedBox3d SensorView::box() const {
+  return {Point(forward_min_m, -side_max_m, -height_max_m), Point(forward_max_m, side_max_m, height_max_m)};
 }
 
 ViewedLine::ViewedLine(const Polyline& points)
@@ -58,13 +47,14 @@ std::vector<VisiblePiece> visible_pieces(const ViewedLine& viewed, const SensorV
                                          const Eigen::Isometry3d& T_body_map) {
   std::vector<VisiblePiece> pieces;
   const Polyline& points = viewed.line.points();
+  const Eigen::AlignedBox3d box = view.box();
   double arc_m = 0.0;
   bool open = false;  // the last piece goes on
   Point to = T_body_map * points.front();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Point from = std::exchange(to, T_body_map * points[i]);
     const double segment_m = (points[i] - points[i - 1]).head<2>().norm();
-    if (const auto inside = view.clip(from, to)) {
+    if (const auto inside = clip_segment(from, to, box)) {
       const auto [enter, leave] = *inside;
       if (!open || enter > 0.0)
         pieces.push_back({{arc_m + enter * segment_m, 0.0}, {from + enter * (to - from)}});

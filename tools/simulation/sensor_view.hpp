@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "laneloom/polyline.hpp"
@@ -20,8 +18,7 @@ struct SensorView {
 
   Polyline polygon() const;  ///< body frame, counter-clockwise
   bool detects(MarkingType type) const;
-  /// The shares of a segment between which it is in the box. None: it is outside.
-  std::optional<std::pair<double, double>> clip(const Point& from, const Point& to) const;
+  Eigen::AlignedBox3d box() const;
 };
 
 /// A line in the map, prepared for repeated views.

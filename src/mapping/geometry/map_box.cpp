@@ -1,33 +1,11 @@
 #include "mapping/geometry/map_box.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/clip_segment.hpp"
 
 namespace laneloom {
-namespace {
-
-/// The part of the segment a..b that lies in the box, as shares of the segment (Liang and Barsky's clipping).
-std::optional<Stretch> clip(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                            const Eigen::AlignedBox2d& box) {
-  double from = 0.0, to = 1.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double delta = b[axis] - a[axis];
-    if (delta == 0.0) {
-      if (a[axis] < box.min()[axis] || a[axis] > box.max()[axis]) return std::nullopt;
-      continue;
-    }
-    const double at_min = (box.min()[axis] - a[axis]) / delta;
-    const double at_max = (box.max()[axis] - a[axis]) / delta;
-    from = std::max(from, std::min(at_min, at_max));
-    to = std::min(to, std::max(at_min, at_max));
-  }
-  if (from >= to) return std::nullopt;
-  return Stretch{from, to};
-}
-
-}  // namespace
 
 MapBox::MapBox(const RangeConfig& config, const Eigen::Isometry3d& T_map_body)
     : T_map_body_(T_map_body),
@@ -52,12 +30,12 @@ std::vector<Stretch> MapBox::inside(const Polyline& line_map) const {
   Eigen::Vector2d previous = (T_body_map_ * line_map.front()).head<2>();
   for (std::size_t i = 1; i < line_map.size(); ++i) {
     const Eigen::Vector2d current = (T_body_map_ * line_map[i]).head<2>();
-    const std::optional<Stretch> part = clip(previous, current, box_);
+    const std::optional<SegmentPart> part = clip_segment(previous, current, box_);
     previous = current;
     if (!part) continue;
     const double segment_m = arc[i] - arc[i - 1];
-    const Stretch stretch{arc[i - 1] + part->from_m * segment_m, arc[i - 1] + part->to_m * segment_m};
-    const bool continues = part->from_m == 0.0 && !stretches.empty() && stretches.back().to_m == arc[i - 1];
+    const Stretch stretch{arc[i - 1] + part->from * segment_m, arc[i - 1] + part->to * segment_m};
+    const bool continues = part->from == 0.0 && !stretches.empty() && stretches.back().to_m == arc[i - 1];
     if (continues) {
       stretches.back().to_m = stretch.to_m;
     } else {
