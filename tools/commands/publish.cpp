@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "base/random_id.hpp"
@@ -17,8 +17,8 @@
 #include "commands/stop_signal.hpp"
 #include "io/json_lines.hpp"
 #include "laneloom/dds/writer.hpp"
+#include "simulation/network_delay.hpp"
 #include "simulation/noise_profile.hpp"
-#include "simulation/random.hpp"
 #include "simulation/scenarios.hpp"
 #include "support/publication_log.hpp"
 
@@ -52,7 +52,7 @@ class Publisher {
         road_(road),
         from_s_(options.from_s),
         perception_(options.source.perception(road)),
-        delays_(options.source.seed),
+        network_(options.source.seed),
         session_id_(random_id()),
         start_ns_(system_now_ns()) {
     if (!options.frames.empty()) record_ = std::make_unique<JsonLinesWriter>(options.frames);
@@ -67,15 +67,8 @@ class Publisher {
     const std::int64_t now_ns = step * kPosePeriod_ns;
     const VehiclePose pose = pose_at(step);
     if (!poses_.write(pose)) ++not_taken_;
-    if (step % kPosesPerFrame == 0) {
-      // A network's latency; frames keep their order, as the longest is only a period more than the shortest.
-      const auto delay_ns = static_cast<std::int64_t>(delays_.uniform(50e6, 150e6));
-      in_network_.push_back({now_ns + delay_ns, observe(pose)});
-    }
-    while (!in_network_.empty() && in_network_.front().due_ns <= now_ns) {
-      deliver(in_network_.front().record);
-      in_network_.pop_front();
-    }
+    if (step % kPosesPerFrame == 0) network_.put(observe(pose), now_ns);
+    while (const std::optional<FrameRecord> record = network_.take(now_ns)) deliver(*record);
   }
 
   void finish() {
@@ -87,11 +80,6 @@ class Publisher {
   }
 
  private:
-  struct Pending {
-    std::int64_t due_ns;
-    FrameRecord record;
-  };
-
   VehiclePose pose_at(std::int64_t step) const {
     const double t_s = from_s_ + static_cast<double>(step) * static_cast<double>(kPosePeriod_ns) * 1e-9;
     VehiclePose pose = road_.drive.pose_at(std::fmod(t_s, road_.drive.duration_s()));
@@ -121,10 +109,9 @@ class Publisher {
   const Road& road_;
   double from_s_;
   Perception perception_;
-  Random delays_;
+  NetworkDelay<FrameRecord> network_;
   std::uint64_t session_id_;
   std::int64_t start_ns_;
-  std::deque<Pending> in_network_;
   std::unique_ptr<JsonLinesWriter> record_;
   std::unique_ptr<PublicationLogWriter> times_;
   std::uint64_t delivered_ = 0;

@@ -38,7 +38,7 @@ ClosedLoop::ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& servic
       lanes_(road),
       navigator_(road, lanes_),
       perception_(road, spec_.noise, SensorView{}, spec_.seed),
-      delays_(spec_.seed) {
+      network_(spec_.seed) {
   restart(navigator_.at_begin());
 }
 
@@ -53,7 +53,7 @@ void ClosedLoop::restart(const Navigator::Start& start) {
   lanes_.place(start.lane);
   vehicle_ = start.vehicle;
   odometry_.emplace(lanes_.on_surface(vehicle_), spec_.drift);
-  in_network_.clear();
+  network_.clear();
   begun_ns_ = now_ns();
   started_ = false;
   plan_ = {};
@@ -95,14 +95,9 @@ void ClosedLoop::sense() {
     pose.orientation = Eigen::Quaterniond(T_map_body.linear()).normalized();
     DetectionFrame frame = perception_.observe(pose);
     frame.session_id = spec_.session_id;
-    // A network's latency; frames keep their order, as the longest is only a period more than the shortest.
-    const auto delay_ns = static_cast<std::int64_t>(delays_.uniform(50e6, 150e6));
-    in_network_.push_back({now_ns() + delay_ns, std::move(frame)});
+    network_.put(std::move(frame), now_ns());
   }
-  while (!in_network_.empty() && in_network_.front().due_ns <= now_ns()) {
-    service_.send(in_network_.front().frame, now_ns());
-    in_network_.pop_front();
-  }
+  while (const std::optional<DetectionFrame> frame = network_.take(now_ns())) service_.send(*frame, now_ns());
 }
 
 void ClosedLoop::plan() {

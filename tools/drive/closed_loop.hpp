@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <iosfwd>
 #include <optional>
 
@@ -8,6 +7,7 @@
 #include "drive/map_service.hpp"
 #include "drive/navigator.hpp"
 #include "drive/path_planner.hpp"
+#include "simulation/network_delay.hpp"
 #include "simulation/noise_profile.hpp"
 #include "simulation/odometry.hpp"
 #include "simulation/perception.hpp"
@@ -53,11 +53,6 @@ class ClosedLoop {
   const Bicycle& vehicle() const { return vehicle_; }
 
  private:
-  struct Pending {
-    std::int64_t due_ns = 0;
-    DetectionFrame frame;
-  };
-
   std::int64_t now_ns() const;
   double now_s() const { return static_cast<double>(steps_) * kPeriod_s; }
   void restart(const Navigator::Start& start);
@@ -75,13 +70,12 @@ class ClosedLoop {
   LaneTracker lanes_;
   Navigator navigator_;
   Perception perception_;
-  Random delays_;
+  NetworkDelay<DetectionFrame> network_;
   std::int64_t steps_ = 0;
   // Since the last restart.
   Bicycle vehicle_;  ///< the true state
   Bicycle told_;     ///< the state by the odometry
   std::optional<Odometry> odometry_;
-  std::deque<Pending> in_network_;
   std::int64_t begun_ns_ = 0;
   bool started_ = false;
   Plan plan_;
