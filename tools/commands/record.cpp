@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <ctime>
 #include <deque>
@@ -13,12 +12,13 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/system_clock.hpp"
 #include "commands/commands.hpp"
+#include "commands/inbox.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
 #include "laneloom/dds/raw_reader.hpp"
@@ -34,7 +34,6 @@ using SteadyClock = std::chrono::steady_clock;
 
 /// The greatest stretch that is lost if the process is killed.
 constexpr std::chrono::seconds kFlushPeriod{1};
-constexpr std::size_t kInboxBytes = 256U << 20U;
 constexpr double kBytesPerMB = 1e6;
 
 struct Options {
@@ -51,45 +50,42 @@ struct Options {
 constexpr std::array kTopics{dds::kDetectionsTopic, dds::kVehiclePoseTopic, dds::kLaneMapTopic,
                              dds::kRoadMarkingsTopic, dds::kStatusTopic};
 
-/// Passes messages from DDS's threads to ours, so that none of them ever waits for the disk. When it is full,
-/// messages are dropped and counted.
-class Inbox {
+using Counts = std::array<std::uint64_t, kTopics.size()>;
+
+/// The messages that are not written yet, so that none of DDS's threads ever waits for the disk. When it is
+/// full, messages are dropped and counted.
+class Unwritten {
  public:
-  void put(std::size_t topic, std::vector<std::uint8_t>&& message) {
-    const std::lock_guard lock(mutex_);
-    const std::chrono::nanoseconds now = std::chrono::system_clock::now().time_since_epoch();
-    // A recording is read in the order of log times. It stays the order of arrival even if the clock is set
-    // back.
-    log_time_ns_ = std::max(log_time_ns_ + 1, std::int64_t{now.count()});
-    if (bytes_ + message.size() > kInboxBytes) {
-      ++dropped_[topic];
+  bool empty() const { return messages_.empty(); }
+
+  /// Sets the message's log time. A recording is read in the order of log times, which stays the order of
+  /// arrival even if the clock is set back.
+  void push(RawMessage message) {
+    log_time_ns_ = std::max(log_time_ns_ + 1, system_now_ns());
+    message.log_time_ns = log_time_ns_;
+    if (bytes_ + message.bytes.size() > kCapacityBytes) {
+      ++dropped_.at(message.topic);
       return;
     }
-    bytes_ += message.size();
-    arrivals_.push_back({log_time_ns_, topic, std::move(message)});
-    arrived_.notify_one();
+    bytes_ += message.bytes.size();
+    messages_.push_back(std::move(message));
   }
 
-  /// Takes all messages that have arrived. Waits for one no longer than `patience`.
-  std::deque<RawMessage> take(std::chrono::milliseconds patience) {
-    std::unique_lock lock(mutex_);
-    arrived_.wait_for(lock, patience, [&] { return !arrivals_.empty(); });
+  struct Taken {
+    std::deque<RawMessage> messages;
+    Counts dropped;  ///< since the start, per topic
+  };
+  Taken take() {
     bytes_ = 0;
-    return std::exchange(arrivals_, {});
-  }
-
-  std::array<std::uint64_t, kTopics.size()> dropped() {
-    const std::lock_guard lock(mutex_);
-    return dropped_;
+    return {std::exchange(messages_, {}), dropped_};
   }
 
  private:
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::deque<RawMessage> arrivals_;
+  static constexpr std::size_t kCapacityBytes = 256U << 20U;
+  std::deque<RawMessage> messages_;
   std::size_t bytes_ = 0;
   std::int64_t log_time_ns_ = 0;
-  std::array<std::uint64_t, kTopics.size()> dropped_{};
+  Counts dropped_{};
 };
 
 /// Records all messages that a vehicle's participants exchange.
@@ -110,7 +106,9 @@ class Recorder {
 
   /// Writes all messages that have arrived. Waits for one no longer than `patience`.
   void step(std::chrono::milliseconds patience) {
-    for (const RawMessage& arrival : inbox_.take(patience)) {
+    const auto [messages, dropped] = inbox_.take(patience);
+    dropped_ = dropped;
+    for (const RawMessage& arrival : messages) {
       writer_.write_raw(arrival);
       if (scene_) write_scene(scene_->take(arrival), arrival.log_time_ns, writer_);
       ++written_.at(arrival.topic);
@@ -124,11 +122,10 @@ class Recorder {
   void finish() {
     step(std::chrono::milliseconds(0));
     writer_.close();
-    const auto dropped = inbox_.dropped();
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
       fmt::print("{:<26} {:>8} messages\n", kTopics.at(i), written_.at(i));
-      if (dropped.at(i) > 0)
-        fmt::print(stderr, "laneloom: the disk was too slow: {} of {} were dropped\n", dropped.at(i),
+      if (dropped_.at(i) > 0)
+        fmt::print(stderr, "laneloom: the disk was too slow: {} of {} were dropped\n", dropped_.at(i),
                    kTopics.at(i));
     }
   }
@@ -136,14 +133,14 @@ class Recorder {
  private:
   dds::RawReader<DetectionFrame>::Callback into_inbox(std::size_t topic) {
     return [this, topic](const dds::WriterId& /*writer*/, std::vector<std::uint8_t>&& message) {
-      inbox_.put(topic, std::move(message));
+      inbox_.put({.topic = topic, .bytes = std::move(message)});
     };
   }
 
   RecordingWriter writer_;
   std::optional<SceneMaker> scene_;
-  Inbox inbox_;
-  std::array<std::uint64_t, kTopics.size()> written_{};
+  Inbox<RawMessage, Unwritten> inbox_;
+  Counts written_{}, dropped_{};
   SteadyClock::time_point next_flush_ = SteadyClock::now() + kFlushPeriod;
   dds::Participant participant_;
   // In the order of kTopics. They end before the inbox that they fill.
