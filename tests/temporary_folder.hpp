@@ -39,6 +39,11 @@ inline std::vector<std::uint8_t> bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+inline std::string content(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 inline void write_bytes(const std::string& path, const std::vector<std::uint8_t>& bytes) {
   std::filesystem::remove(path);  // file systems put on disk at once what is written over
   std::ofstream out(path, std::ios::binary);

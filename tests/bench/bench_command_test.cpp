@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "own_domain.hpp"
+#include "support/child_process.hpp"
 #include "temporary_folder.hpp"
-#include "tools/process.hpp"
 
 namespace laneloom {
 namespace {
@@ -20,7 +20,7 @@ class BenchCommand : public testing::Test {
  protected:
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_LAB, "bench"});
-    return Process(arguments, file_).wait();
+    return ChildProcess(arguments, file_).wait();
   }
   std::string output() const { return content(file_); }
 
@@ -153,7 +153,7 @@ TEST_F(BenchCommand, OptionsBeforeASubcommandAreRefused) {
 }
 
 TEST_F(BenchCommand, MicroBenchmarksHaveEveryStage) {
-  ASSERT_EQ(Process({LANELOOM_MICROBENCH, "--benchmark_list_tests"}, file_).wait(), 0);
+  ASSERT_EQ(ChildProcess({LANELOOM_MICROBENCH, "--benchmark_list_tests"}, file_).wait(), 0);
   for (const char* one : {"lines/association", "lines/linkages", "voxels/clustering", "map_to_cdr"})
     EXPECT_THAT(output(), HasSubstr(one));
 }

@@ -20,28 +20,28 @@ TEST_F(Status, NobodyIsHeard) {
 }
 
 TEST_F(Status, TheExitCodeIsTheState) {
-  const Process running(service(), file("service.log"));
+  const ChildProcess running(service(), file("service.log"));
   ASSERT_TRUE(run_until(once(), [](int code) { return code == 4; })) << output();
   EXPECT_EQ(json().at("state"), "STALE");
   EXPECT_THAT(json().at("reasons"), testing::Contains("no_detections"));
   EXPECT_TRUE(json().at("detections_age_s").is_null());
 
-  const Process publishing(command(publisher()), file("publish.log"));
+  const ChildProcess publishing(command(publisher()), file("publish.log"));
   ASSERT_TRUE(run_until(once(), [](int code) { return code == 0; })) << output();
   EXPECT_EQ(json().at("state"), "OK");
   EXPECT_GT(json().at("counters").at("frames_fused"), 0);
   EXPECT_EQ(json().at("sources").at(0).at("source"), "laneloom publish");
 
-  const Process other(service(), file("other.log"));
+  const ChildProcess other(service(), file("other.log"));
   EXPECT_TRUE(run_until(once(), [&](int code) {
     return code == 2 && json().at("reasons") == nlohmann::json{"another_service"};
   })) << output();
 }
 
 TEST_F(Status, FollowsAllServicesOfAVehicle) {
-  const Process one(service(), file("one.log"));
-  const Process other(service(), file("other.log"));
-  Process status(command({LANELOOM_COMMAND, "status", "--json"}), file("status.log"));
+  const ChildProcess one(service(), file("one.log"));
+  const ChildProcess other(service(), file("other.log"));
+  ChildProcess status(command({LANELOOM_COMMAND, "status", "--json"}), file("status.log"));
   std::set<std::uint64_t> sessions;
   bool rose = false;
   for (int i = 0; i < 600 && !(rose && sessions.size() == 2); ++i) {
@@ -60,11 +60,12 @@ TEST_F(Status, FollowsAllServicesOfAVehicle) {
 }
 
 TEST_F(Status, IsRedrawnInPlaceOnATerminal) {
-  const Process one(service(), file("one.log"));
-  const Process other(service(), file("other.log"));
+  const ChildProcess one(service(), file("one.log"));
+  const ChildProcess other(service(), file("other.log"));
   const std::string status = std::string(LANELOOM_COMMAND) + " status --domain " + std::to_string(domain_) +
                              " --vehicle-id " + vehicle_;
-  const Process terminal({"/usr/bin/script", "-q", "-f", "-c", status, "/dev/null"}, file("terminal.log"));
+  const ChildProcess terminal({"/usr/bin/script", "-q", "-f", "-c", status, "/dev/null"},
+                              file("terminal.log"));
   const auto shown = [&] { return content(file("terminal.log")); };
   for (int i = 0; i < 600 && shown().find("2 SERVICES OF ONE VEHICLE") == std::string::npos; ++i)
     usleep(50'000);

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "own_domain.hpp"
+#include "support/child_process.hpp"
 #include "temporary_folder.hpp"
-#include "tools/process.hpp"
 
 namespace laneloom {
 namespace {
@@ -19,7 +19,7 @@ class DriveCommand : public testing::Test {
  protected:
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_LAB, "drive"});
-    return Process(arguments, file_).wait();
+    return ChildProcess(arguments, file_).wait();
   }
   std::string output() const { return content(file_); }
 
@@ -72,7 +72,7 @@ TEST_F(DriveCommand, WrongInputIsNamed) {
 TEST_F(DriveCommand, DrivesOnTheMapOfARunningService) {
   const std::string domain = std::to_string(own_domain());
   const std::string log = folder_.file("log");
-  const Process service({LANELOOM_SERVICE, "--domain", domain, "--vehicle-id", "test"}, log);
+  const ChildProcess service({LANELOOM_SERVICE, "--domain", domain, "--vehicle-id", "test"}, log);
   ASSERT_EQ(run({"--scenario", "straight", "--noise", "none", "--duration", "10", "--dds", "--domain", domain,
                  "--vehicle-id", "test", "--json", "--require-lane"}),
             0)

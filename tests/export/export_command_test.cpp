@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/lanelet2.hpp"
+#include "support/child_process.hpp"
 #include "temporary_folder.hpp"
-#include "tools/process.hpp"
 
 namespace laneloom {
 namespace {
@@ -19,7 +19,7 @@ class ExportCommand : public testing::Test {
   std::string file(const std::string& name) const { return folder_.file(name); }
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), LANELOOM_COMMAND);
-    return Process(arguments, file("output")).wait();
+    return ChildProcess(arguments, file("output")).wait();
   }
   std::string output() const { return content(file("output")); }
   void simulate(const std::string& scenario) {
@@ -54,7 +54,7 @@ TEST_F(ExportCommand, OsmiumFindsEveryReference) {
   simulate("intersection");
   ASSERT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--lanelet2", file("map.osm")}), 0)
       << output();
-  EXPECT_EQ(Process({"/usr/bin/osmium", "check-refs", "-r", file("map.osm")}, file("output")).wait(), 0)
+  EXPECT_EQ(ChildProcess({"/usr/bin/osmium", "check-refs", "-r", file("map.osm")}, file("output")).wait(), 0)
       << output();
   EXPECT_THAT(output(), HasSubstr("Ways      in relations missing: 0"));
 }

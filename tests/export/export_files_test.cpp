@@ -14,7 +14,6 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/lanelet2.hpp"
 #include "temporary_folder.hpp"
-#include "tools/process.hpp"
 
 namespace laneloom {
 namespace {

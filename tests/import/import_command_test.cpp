@@ -6,8 +6,8 @@
 
 #include "recording/recording.hpp"
 #include "simulation/road.hpp"
+#include "support/child_process.hpp"
 #include "temporary_folder.hpp"
-#include "tools/process.hpp"
 
 namespace laneloom {
 namespace {
@@ -37,7 +37,7 @@ class ImportCommand : public testing::Test {
   std::string file(const std::string& name) const { return folder_.file(name); }
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "import"});
-    return Process(arguments, file("output")).wait();
+    return ChildProcess(arguments, file("output")).wait();
   }
   std::string output() const { return content(file("output")); }
 

@@ -10,8 +10,8 @@
 #include "laneloom/element_names.hpp"
 #include "recording/recording.hpp"
 #include "scene/scene_recording.hpp"
+#include "support/child_process.hpp"
 #include "temporary_folder.hpp"
-#include "tools/process.hpp"
 
 // A drive through the town as a recording with scenes, and what npm's readers find in it.
 namespace laneloom {
@@ -68,12 +68,12 @@ class SceneRecording : public ::testing::Test {
   std::string file(const std::string& name) const { return folder_.file(name); }
   void laneloom(std::vector<std::string> words) {
     words.insert(words.begin(), LANELOOM_COMMAND);
-    ASSERT_EQ(Process(words, file("log")).wait(), 0) << content(file("log"));
+    ASSERT_EQ(ChildProcess(words, file("log")).wait(), 0) << content(file("log"));
   }
   int compare() {
-    return Process({"/usr/bin/env", "node", std::string(INDEPENDENT_FOLDER) + "/scene.mjs",
-                    file("scene.mcap"), file("expected.jsonl")},
-                   file("log"))
+    return ChildProcess({"/usr/bin/env", "node", std::string(INDEPENDENT_FOLDER) + "/scene.mjs",
+                         file("scene.mcap"), file("expected.jsonl")},
+                        file("log"))
         .wait();
   }
   std::string output() const { return content(file("log")).substr(0, 4000); }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "support/child_process.hpp"
 #include "temporary_folder.hpp"
-#include "tools/process.hpp"
 
 namespace laneloom {
 
@@ -33,7 +33,7 @@ class Commands : public testing::Test {
   int run(const std::string& program, const std::vector<std::string>& arguments) const {
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    return Process(words, file("output")).wait();
+    return ChildProcess(words, file("output")).wait();
   }
 
   const TemporaryFolder folder_;

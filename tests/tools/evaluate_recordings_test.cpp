@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "io/json_lines.hpp"
-#include "process.hpp"
 #include "recording/recording.hpp"
 #include "simulation/road.hpp"
+#include "support/child_process.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {
@@ -57,7 +57,7 @@ class EvaluateRecordings : public testing::Test {
   int evaluate(std::vector<std::string> inputs) {
     inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--truth", file("truth.json"), "--json",
                                    file("score.json")});
-    return Process(inputs, file("output")).wait();
+    return ChildProcess(inputs, file("output")).wait();
   }
   json score(const std::string& who) const { return json::parse(content(file("score.json"))).at(who); }
   std::string output() const { return content(file("output")); }
@@ -227,7 +227,7 @@ class EvaluateLater : public EvaluateRecordings {
   }
   int later(std::vector<std::string> inputs) const {
     inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--later", "--json", file("score.json")});
-    return Process(inputs, file("output")).wait();
+    return ChildProcess(inputs, file("output")).wait();
   }
   json at_20_m() const { return score("laneline").at("20"); }
 };

@@ -66,12 +66,12 @@ TEST_F(Loopback, ADriveBeginsWhereItIsTold) {
 }
 
 TEST_F(Loopback, LanesReachThePlanner) {
-  Process service(command({LANELOOM_SERVICE}), file("service.log"));
-  Process publisher(
+  ChildProcess service(command({LANELOOM_SERVICE}), file("service.log"));
+  ChildProcess publisher(
       command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop", "--wait-for-readers", "1",
                "--frames", file("frames.jsonl"), "--truth", file("truth.json")}),
       file("publish.log"));
-  Process planner(
+  ChildProcess planner(
       command({LANELOOM_COMMAND, "pnc", "--json", "--require-lanes", "--record", file("map.jsonl")}),
       file("pnc.log"));
   ASSERT_TRUE(wait_for("pnc.log", kOk, 100)) << content(file("pnc.log"));
@@ -95,12 +95,12 @@ TEST_F(Loopback, LanesReachThePlanner) {
 class RecordedLoopback : public Loopback {
  protected:
   void record(std::vector<std::string> driver, const std::string& name) {
-    Process service(command({LANELOOM_SERVICE}), file("service.log"));
-    Process recorder(command({LANELOOM_COMMAND, "record", "--out", file(name)}), file("record.log"));
+    ChildProcess service(command({LANELOOM_SERVICE}), file("service.log"));
+    ChildProcess recorder(command({LANELOOM_COMMAND, "record", "--out", file(name)}), file("record.log"));
     ASSERT_TRUE(eventually([&] { return newest_map(file(name)).has_value(); }));
     driver.insert(driver.begin(), LANELOOM_COMMAND);
     driver.insert(driver.end(), {"--wait-for-readers", "2"});
-    Process publisher(command(driver), file("publish.log"));
+    ChildProcess publisher(command(driver), file("publish.log"));
     ASSERT_EQ(publisher.wait(), 0) << content(file("publish.log"));
     ASSERT_TRUE(eventually([&] { return tells_of_the_end(*newest_map(file(name))); }));
     recorder.signal(SIGTERM);
@@ -139,15 +139,15 @@ TEST_F(RecordedLoopback, AReplayMakesTheMapsThatTheServicePublished) {
 }
 
 TEST_F(Loopback, ThePlannerOutlivesTheService) {
-  Process publisher(command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop"}),
-                    file("publish.log"));
-  Process planner(command({LANELOOM_COMMAND, "pnc", "--json"}), file("pnc.log"));
-  auto service = std::make_unique<Process>(command({LANELOOM_SERVICE}), file("service.log"));
+  ChildProcess publisher(command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop"}),
+                         file("publish.log"));
+  ChildProcess planner(command({LANELOOM_COMMAND, "pnc", "--json"}), file("pnc.log"));
+  auto service = std::make_unique<ChildProcess>(command({LANELOOM_SERVICE}), file("service.log"));
   ASSERT_TRUE(wait_for("pnc.log", kOk, 1));
   service.reset();  // kill -9
   ASSERT_TRUE(wait_for("pnc.log", "liveliness_lost", 1));
   const int before = seen("pnc.log", kOk);
-  service = std::make_unique<Process>(command({LANELOOM_SERVICE}), file("service.log"));
+  service = std::make_unique<ChildProcess>(command({LANELOOM_SERVICE}), file("service.log"));
   EXPECT_TRUE(wait_for("pnc.log", kOk, before + 1));
   planner.signal(SIGTERM);
   EXPECT_EQ(planner.wait(), 0) << content(file("pnc.log")).substr(0, 4000);

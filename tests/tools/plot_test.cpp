@@ -8,7 +8,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "process.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom {

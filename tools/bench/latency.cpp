@@ -16,11 +16,11 @@
 #include <unordered_map>
 
 #include "base/system_clock.hpp"
-#include "bench/child_process.hpp"
 #include "bench/process_usage.hpp"
 #include "bench/view_readers.hpp"
 #include "io/work_folder.hpp"
 #include "laneloom/dds/reader.hpp"
+#include "support/child_process.hpp"
 #include "support/publication_log.hpp"
 #include "support/stage_timer.hpp"
 

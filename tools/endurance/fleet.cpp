@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -55,7 +54,7 @@ void Fleet::start(const Member& member) {
   processes_[member] = std::make_unique<ChildProcess>(command_of(member), output_of(member));
 }
 
-void Fleet::signal(const Member& member, int number) { kill(processes_.at(member)->id(), number); }
+void Fleet::signal(const Member& member, int number) { processes_.at(member)->signal(number); }
 
 void Fleet::kill_and_restart(const Member& member) {
   processes_.erase(member);

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/child_process.hpp"
 #include "endurance/planner_output.hpp"
 #include "io/work_folder.hpp"
 #include "laneloom/config.hpp"
+#include "support/child_process.hpp"
 #include "support/publication_log.hpp"
 
 namespace laneloom {

@@ -1,35 +1,20 @@
 #include "experiment/peer.hpp"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "io/json_lines.hpp"
 #include "io/work_folder.hpp"
+#include "support/child_process.hpp"
 
 namespace laneloom {
 namespace {
 
 /// Runs a command. Its output goes to standard error, because our standard output may be for a machine.
-void run(std::vector<std::string> command) {
-  std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (std::string& word : command) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t redirection;
-  posix_spawn_file_actions_init(&redirection);
-  posix_spawn_file_actions_adddup2(&redirection, STDERR_FILENO, STDOUT_FILENO);
-  pid_t id = 0;
-  const int error = posix_spawn(&id, arguments[0], &redirection, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&redirection);
-  if (error != 0) throw std::runtime_error(command[0] + ": cannot be run");
-  int status = 0;
-  if (waitpid(id, &status, 0) != id || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(command[0] + ": failed");
+void run(const std::vector<std::string>& command) {
+  ChildProcess process(command);
+  if (process.wait() != 0) throw std::runtime_error(command[0] + ": " + process.failure());
 }
 
 /// Lets the peer fuse the frames into the files out.jsonl and report.json of the folder.

@@ -1,4 +1,4 @@
-#include "bench/child_process.hpp"
+#include "support/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace laneloom {
 namespace {
@@ -28,24 +29,38 @@ void become(char* const* arguments, int output, int complaints) {
   _exit(127);
 }
 
+/// A file to write, open as long as this.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {
+    if (descriptor_ < 0) throw std::runtime_error(path + ": cannot be written");
+  }
+  ~OpenFile() { close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
 }  // namespace
 
-ChildProcess::ChildProcess(std::vector<std::string> command, const std::string& output) {
+ChildProcess::ChildProcess(std::vector<std::string> command, const std::string& output)
+    : ChildProcess(std::move(command), OpenFile(output).descriptor()) {}
+
+ChildProcess::ChildProcess(std::vector<std::string> command, int output) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (file < 0) throw std::runtime_error(output + ": cannot be written");
   std::array<int, 2> complaints{};
-  if (pipe2(complaints.data(), O_CLOEXEC) != 0) {
-    close(file);
+  if (pipe2(complaints.data(), O_CLOEXEC) != 0)
     throw std::system_error(errno, std::generic_category(), "pipe");
-  }
   id_ = fork();
-  if (id_ == 0) become(arguments.data(), file, complaints[1]);
+  if (id_ == 0) become(arguments.data(), output, complaints[1]);
   int error = errno;
-  close(file);
   close(complaints[1]);
   const bool failed = id_ < 0 || read(complaints[0], &error, sizeof error) > 0;
   close(complaints[0]);
@@ -57,12 +72,22 @@ ChildProcess::ChildProcess(std::vector<std::string> command, const std::string& 
 ChildProcess::~ChildProcess() {
   if (id_ <= 0) return;
   kill(id_, SIGKILL);
-  waitpid(id_, nullptr, 0);
+  wait();
+}
+
+void ChildProcess::signal(int number) const {
+  if (id_ > 0) kill(id_, number);
 }
 
 bool ChildProcess::running() {
   if (id_ > 0 && waitpid(id_, &status_, WNOHANG) == id_) id_ = -1;
   return id_ > 0;
+}
+
+int ChildProcess::wait() {
+  while (id_ > 0)
+    if (waitpid(id_, &status_, 0) == id_ || errno != EINTR) id_ = -1;
+  return WIFSIGNALED(status_) ? -WTERMSIG(status_) : WEXITSTATUS(status_);
 }
 
 std::string ChildProcess::failure() const {
@@ -78,8 +103,7 @@ std::string ChildProcess::stop(std::chrono::milliseconds patience) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   if (!running()) return failure();
   kill(id_, SIGKILL);
-  waitpid(id_, &status_, 0);
-  id_ = -1;
+  wait();
   return fmt::format("did not end within {} ms, and was killed", patience.count());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sys/types.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <string>
@@ -11,15 +12,20 @@ namespace laneloom {
 /// A program that runs beside this one. It is ended at the latest when this process ends.
 class ChildProcess {
  public:
-  /// Starts a program, whose output goes to the file `output`. Throws std::runtime_error if it cannot be
+  /// Starts a program, whose output goes to the open file `output`. Throws std::runtime_error if it cannot be
   /// started.
+  explicit ChildProcess(std::vector<std::string> command, int output = STDERR_FILENO);
+  /// The same, with the output to the file at the path `output`.
   ChildProcess(std::vector<std::string> command, const std::string& output);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t id() const { return id_; }
+  void signal(int number) const;
   bool running();
+  /// Waits until it has ended. Returns its exit code, or minus the signal that ended it.
+  int wait();
   /// Asks the program to end (SIGTERM), and kills it if it has not ended after `patience`. Returns the
   /// problem with its end; empty: it ended when asked, with exit code 0.
   std::string stop(std::chrono::milliseconds patience = std::chrono::seconds(10));

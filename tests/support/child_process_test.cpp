@@ -1,4 +1,4 @@
-#include "bench/child_process.hpp"
+#include "support/child_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
