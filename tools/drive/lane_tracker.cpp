@@ -1,4 +1,5 @@
 #include "drive/lane_tracker.hpp"
+#include "mapping/geometry/left_of.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +135,7 @@ Eigen::Isometry3d LaneTracker::on_surface(const Bicycle& vehicle) const {
   const Lines& lane = lines_[*std::ranges::min_element(lanes_, {}, distance)];
   const Projection foot = lane.centre.project(on_ground(vehicle.rear_axle));
   const Point left = lane.left.project(foot.foot).foot, right = lane.right.project(foot.foot).foot;
-  const Eigen::Vector2d along = lane.centre.direction(foot.arc_m), across(-along.y(), along.x());
+  const Eigen::Vector2d along = lane.centre.direction(foot.arc_m), across = left_of(along);
   const Eigen::Vector2d gradient =
       grade_along(lane.centre, foot.arc_m) * along +
       (left.z() - right.z()) / std::max(1.0, (left - right).head<2>().norm()) * across;

@@ -9,6 +9,7 @@
 #include "drive/lines.hpp"
 #include "drive/ways.hpp"
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/left_of.hpp"
 
 namespace laneloom {
 namespace {
@@ -228,9 +229,7 @@ void approach(const MeasuredPolyline& track, double from_m, double blend_m, cons
   const Eigen::Vector2d along = line.direction(foot.arc_m), now = track.direction(from_m);
   const Blend blend(foot.lateral_m, cross(along, now) / std::max(0.1, along.dot(now)), blend_m);
   for (double arc_m = foot.arc_m; arc_m <= line.length(); arc_m += kStep_m) {
-    const Eigen::Vector2d ahead = line.direction(arc_m);
-    const Point left(-ahead.y(), ahead.x(), 0.0);
-    plan.path.emplace_back(line.at(arc_m) + blend.offset_at(arc_m - foot.arc_m) * left);
+    plan.path.push_back(beside(line.at(arc_m), line.direction(arc_m), blend.offset_at(arc_m - foot.arc_m)));
     plan.support.push_back(way.support_at(line.at(arc_m)));
   }
 }

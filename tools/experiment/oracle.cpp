@@ -1,4 +1,5 @@
 #include "experiment/oracle.hpp"
+#include "mapping/geometry/left_of.hpp"
 
 #include <algorithm>
 
@@ -18,8 +19,7 @@ Oracle::Oracle(const Road& truth) {
     Line& line = lines_.emplace_back(Line{marking.id, marking.type, marking.style, {}});
     const double spacing_m = std::min(kSpacing_m, 0.5 * measured.length());
     for (double arc_m = 0.0; arc_m <= measured.length(); arc_m += spacing_m) {
-      const Eigen::Vector2d direction = measured.direction(arc_m);
-      line.stations.push_back({measured.at(arc_m), {-direction.y(), direction.x()}, 0.0, 0});
+      line.stations.push_back({measured.at(arc_m), left_of(measured.direction(arc_m)), 0.0, 0});
     }
   }
 }

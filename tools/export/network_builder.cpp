@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "mapping/geometry/left_of.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom {
@@ -117,7 +118,7 @@ RoadNetwork::Side NetworkBuilder::virtual_side(std::size_t from, std::size_t to,
     const Eigen::Vector2d along =
         (path.at(arc_m + kStep_m) - path.at(arc_m - kStep_m)).head<2>().normalized();
     const double lateral_m = from_m + share * (to_m - from_m);
-    const Point point = path.at(arc_m) + lateral_m * Point(-along.y(), along.x(), 0.0);
+    const Point point = beside(path.at(arc_m), along, lateral_m);
     const Point& last = points.empty() ? begin : points.back();
     if ((point - last).head<2>().dot(along) > kMinStep_m && (end - point).head<2>().dot(along) > kMinStep_m)
       points.push_back(point);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mapping/geometry/left_of.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kLegendEntries = 9.0;
 
 /// An arrow head with its tip at `tip`.
 Outline arrow_head(const Pixel& tip, const Pixel& direction, double size) {
-  const Pixel along = direction.normalized() * size, across(-along.y(), along.x());
+  const Pixel along = direction.normalized() * size, across = left_of(along);
   return {tip, tip - along + 0.45 * across, tip - 0.7 * along, tip - along - 0.45 * across, tip};
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/left_of.hpp"
 
 namespace laneloom {
 namespace {
@@ -16,8 +17,7 @@ constexpr double kNetworkStep_m = 2.5;  // greatest distance between points, als
 constexpr double kMinLength_m = 1.0;
 
 Eigen::Vector2d left_normal(const MeasuredPolyline& line, double arc_m) {
-  const Eigen::Vector2d direction = line.direction(arc_m);
-  return {-direction.y(), direction.x()};
+  return left_of(line.direction(arc_m));
 }
 
 // A weight that is 1 at the end, and 0 from `reach_m` on.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/left_of.hpp"
 #include "mapping/geometry/levels.hpp"
 #include "mapping/markings/markings.hpp"
 
@@ -44,8 +45,7 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
         line.length() * static_cast<double>(strip.size()) / static_cast<double>(points.size() - 1);
     const Eigen::Vector2d along =
         (line.at(arc_m + kChord_m) - line.at(arc_m - kChord_m)).head<2>().normalized();
-    const Point left(-along.y(), along.x(), 0.0);
-    const Point border = point + (side.is_left() ? width_m : -width_m) * left;
+    const Point border = beside(point, along, side.is_left() ? width_m : -width_m);
     CrossSection section{.left_arc_m = arc_m,
                          .right_arc_m = arc_m,
                          .width_m = width_m,

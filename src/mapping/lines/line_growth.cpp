@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mapping/geometry/left_of.hpp"
 #include "mapping/lines/line_evidence.hpp"
 
 namespace laneloom {

@@ -107,8 +107,6 @@ class Course {
   std::vector<Place> places_;
 };
 
-inline Eigen::Vector2d left_of(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
-
 /// Finds stations by place: a uniform grid over the stations of one instant.
 class StationGrid {
  public:

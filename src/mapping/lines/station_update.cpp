@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mapping/geometry/left_of.hpp"
 #include "mapping/lines/frame_pitch.hpp"
 
 namespace laneloom {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/left_of.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 
 namespace laneloom {
@@ -37,7 +38,7 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
     const Eigen::Vector2d along =
         (boundary.at(arc_m + kPathStep_m) - boundary.at(arc_m - kPathStep_m)).head<2>().normalized();
     const double lateral_m = start_m + share * (end_m - start_m);
-    path.push_back(boundary.at(arc_m) + lateral_m * Point(-along.y(), along.x(), 0.0));
+    path.push_back(beside(boundary.at(arc_m), along, lateral_m));
   }
   path.push_back(end);
   return path;
