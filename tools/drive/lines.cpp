@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drive/steering.hpp"
+#include "mapping/geometry/smooth_step.hpp"
 
 namespace laneloom {
 namespace {
@@ -30,11 +31,6 @@ Point fitted(const Polyline& line, int at, int reach) {
 }
 
 }  // namespace
-
-double smooth_step(double share) {
-  const double t = std::clamp(share, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 void append(Polyline& line, const Polyline& next) {
   if (next.empty()) return;

@@ -5,9 +5,6 @@
 /// Operations of a planner on lines.
 namespace laneloom {
 
-/// A smooth step from 0 to 1 while `share` goes from 0 to 1.
-double smooth_step(double share);
-
 /// Appends the part of `next` that lies ahead of the end of `line`.
 void append(Polyline& line, const Polyline& next);
 

@@ -10,6 +10,7 @@
 #include "drive/ways.hpp"
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/left_of.hpp"
+#include "mapping/geometry/smooth_step.hpp"
 
 namespace laneloom {
 namespace {

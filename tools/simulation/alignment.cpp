@@ -5,15 +5,13 @@
 #include <numbers>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/smooth_step.hpp"
 
 namespace laneloom {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kParallel_rad = 0.01;
-
-// From 0 to 1, with no slope at either end.
-double smooth_step(double share) { return share * share * (3.0 - 2.0 * share); }
 
 Frame advance(const Frame& start, const Segment& segment, double along_m) {
   const double turn_rad = segment.turn_deg * kDegree * along_m / segment.length_m;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mapping/geometry/levels.hpp"
+#include "mapping/geometry/smooth_step.hpp"
 #include "mapping/geometry/stretches.hpp"
 
 namespace laneloom {
@@ -20,8 +21,7 @@ Polyline straight_path(const Lane& from, const Lane& to) {
   Polyline path;
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    const double blend = t * t * (3.0 - 2.0 * t);  // Hermite's basis
-    Point point = a + blend * (b - a);
+    Point point = a + smooth_step(t) * (b - a);  // Hermite's basis
     point.head<2>() += t * (1.0 - t) * ((1.0 - t) * begin - t * end);
     path.push_back(point);
   }
