@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "laneloom/polyline.hpp"
 
@@ -65,43 +66,18 @@ Eigen::Vector2d direction_at(const Line& line, std::size_t station) {
   return (line.stations[after].position - line.stations[before].position).head<2>().normalized();
 }
 
-StationGrid::StationGrid(const std::vector<Line>& lines, bool of_stoplines) {
+StationGrid station_grid(const std::vector<Line>& lines, bool of_stoplines) {
   const auto wanted = [&](const Line& line) { return is_stopline(line.type()) == of_stoplines; };
   std::size_t count = 0;
   for (const Line& line : lines) count += wanted(line) ? line.stations.size() : 0U;
-  std::vector<Entry> all;
+  std::vector<StationPlace> all;
   all.reserve(count);
-  Eigen::AlignedBox2d bounds;
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
     if (!wanted(lines[i])) continue;
     const auto& stations = lines[i].stations;
-    for (std::uint32_t k = 0; k < stations.size(); ++k) {
-      bounds.extend(stations[k].position.head<2>());
-      all.push_back({stations[k].position, i, k});
-    }
+    for (std::uint32_t k = 0; k < stations.size(); ++k) all.push_back({stations[k].position, i, k});
   }
-  if (all.empty()) return;
-  origin_ = bounds.min();
-  size_ = (bounds.sizes() / kCell_m).array().floor().cast<int>() + 1;
-  // A counting sort by cell. Within a cell, stations keep the order of line and station.
-  starts_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
-  std::vector<std::size_t> cells;
-  cells.reserve(all.size());
-  for (const Entry& entry : all) {
-    cells.push_back(cell_number(cell_of(entry.position.head<2>())));
-    ++starts_[cells.back() + 1];
-  }
-  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  entries_.resize(all.size());
-  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  for (std::size_t i = 0; i < all.size(); ++i) entries_[next[cells[i]]++] = all[i];
-}
-
-Eigen::Vector2i StationGrid::cell_of(const Eigen::Vector2d& place) const {
-  // Clamped, so that a far place does not overflow. Truncated, since a place before the first cell may count
-  // as in it; adding one first would round the end of the last cell up to the cell beyond.
-  const Eigen::Vector2d cells = (place - origin_) / kCell_m;
-  return cells.cwiseMax(0.0).cwiseMin(size_.cast<double>()).cast<int>();
+  return {std::move(all), kCell_m};
 }
 
 }  // namespace laneloom

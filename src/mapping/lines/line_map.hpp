@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "laneloom/types.hpp"
+#include "mapping/geometry/point_grid.hpp"
 #include "mapping/lines/lateral_filter.hpp"
 #include "mapping/lines/network_model.hpp"
 #include "mapping/markings/markings.hpp"
@@ -107,46 +108,17 @@ class Course {
   std::vector<Place> places_;
 };
 
-/// Finds stations by place: a uniform grid over the stations of one instant.
-class StationGrid {
- public:
-  /// A station, reduced to what searches need. Entries lie in the order in which they are visited.
-  struct Entry {
-    Point position = Point::Zero();  ///< map frame
-    std::uint32_t line = 0;          ///< index of its line
-    std::uint32_t station = 0;       ///< index in that line
-  };
-  /// Holds the stations of all stoplines, or of all other lines.
-  StationGrid(const std::vector<Line>& lines, bool of_stoplines);
-
-  /// Calls `visit(entry)` for every station that is within `reach_m` of `point`, and for some that are little
-  /// further, in a fixed order.
-  template <class Visit>
-  void around(const Point& point, double reach_m, Visit&& visit) const {
-    if (entries_.empty()) return;
-    const Eigen::Vector2d reach(reach_m, reach_m);
-    const Eigen::Vector2i first = cell_of(point.head<2>() - reach).cwiseMax(0);
-    const Eigen::Vector2i last = cell_of(point.head<2>() + reach).cwiseMin(size_ - Eigen::Vector2i::Ones());
-    if (first.x() > last.x()) return;
-    for (int y = first.y(); y <= last.y(); ++y) {
-      // The cells of a row follow one another.
-      const Entry* const end = entries_.data() + starts_[cell_number({last.x(), y}) + 1];
-      for (const Entry* entry = entries_.data() + starts_[cell_number({first.x(), y})]; entry != end; ++entry)
-        visit(*entry);
-    }
-  }
-
- private:
-  Eigen::Vector2i cell_of(const Eigen::Vector2d& place) const;
-  std::size_t cell_number(const Eigen::Vector2i& cell) const {
-    return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(size_.x()) +
-           static_cast<std::size_t>(cell.x());
-  }
-
-  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2i size_ = Eigen::Vector2i::Zero();
-  std::vector<std::uint32_t> starts_;
-  std::vector<Entry> entries_;
+/// A station, reduced to what searches need.
+struct StationPlace {
+  Point position = Point::Zero();  ///< map frame
+  std::uint32_t line = 0;          ///< index of its line
+  std::uint32_t station = 0;       ///< index in that line
 };
+
+/// Finds the stations of one instant by place.
+using StationGrid = PointGrid<StationPlace>;
+
+/// The stations of all stoplines, or of all other lines.
+StationGrid station_grid(const std::vector<Line>& lines, bool of_stoplines);
 
 }  // namespace laneloom

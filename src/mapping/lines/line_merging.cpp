@@ -49,8 +49,8 @@ bool passes(const Polyline& course, std::size_t station, const Point& point, dou
 class BesideSearch {
  public:
   BesideSearch(const std::vector<Line>& lines, double distance_m, const FusionConfig& config)
-      : along_(lines, false),
-        across_(lines, true),
+      : along_(station_grid(lines, false)),
+        across_(station_grid(lines, true)),
         courses_(courses_of(lines)),
         others_(lines.size()),
         distance_m_(distance_m),
@@ -70,7 +70,7 @@ class BesideSearch {
     }
     for (std::size_t k = 0; k < course.size(); ++k) {
       const Point& point = course[k];
-      (is_stopline ? across_ : along_).around(point, reach_m_, [&](const StationGrid::Entry& entry) {
+      (is_stopline ? across_ : along_).around(point, reach_m_, [&](const StationPlace& entry) {
         Other& other = others_[entry.line];
         if (other.next > k || (entry.position - point).head<2>().squaredNorm() >= reach_m_ * reach_m_) return;
         if (other.needed > course.size() - k) {

@@ -35,7 +35,7 @@ double squared_reach_m2(const Line& line, double gate_m) {
 }  // namespace
 
 NearestStations::NearestStations(const std::vector<Line>& lines, bool of_stoplines, double gate_m)
-    : grid_(lines, of_stoplines), slots_(lines.size(), kNone) {
+    : grid_(station_grid(lines, of_stoplines)), slots_(lines.size(), kNone) {
   squared_reach_m2_.reserve(lines.size());
   for (const Line& line : lines) {
     const bool wanted = is_stopline(line.type()) == of_stoplines;
@@ -48,7 +48,7 @@ const std::vector<NearestStation>& NearestStations::around(const Point& point) {
   for (const NearestStation& nearest : near_) slots_[nearest.line] = kNone;
   near_.clear();
   const double* const reach_m2 = squared_reach_m2_.data();
-  grid_.around(point, furthest_m_, [this, reach_m2, center = point](const StationGrid::Entry& entry) {
+  grid_.around(point, furthest_m_, [this, reach_m2, center = point](const StationPlace& entry) {
     const Point offset = entry.position - center;
     const double squared_m2 = offset.head<2>().squaredNorm();
     if (squared_m2 > reach_m2[entry.line] || !same_level(entry.position, center)) return;
