@@ -1,7 +1,6 @@
 #include "evaluation/evaluation.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -36,24 +35,11 @@ std::vector<LinePiece> pieces(const std::vector<KindLine>& lines, LineKind kind,
 /// Adds the truth lines of which a prediction could be a true positive.
 void add_candidates(const std::vector<LinePiece>& truths, const SampleGrid& grid, const Polyline& samples,
                     std::size_t prediction, std::vector<Candidate>& candidates) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::vector<Candidate> pairs(truths.size());
-  std::vector<double> nearest_m(truths.size(), kNone);
-  for (const Point& sample : samples) {
-    std::fill(nearest_m.begin(), nearest_m.end(), kNone);
-    grid.visit_near(sample, [&](std::size_t truth, double distance_m) {
-      nearest_m[truth] = std::min(nearest_m[truth], distance_m);
-    });
-    for (std::size_t truth = 0; truth < truths.size(); ++truth) {
-      if (nearest_m[truth] == kNone) continue;
-      ++pairs[truth].matched;
-      pairs[truth].chamfer_m += nearest_m[truth];
-    }
-  }
+  const auto near = grid.nearness(samples);
   for (std::size_t truth = 0; truth < truths.size(); ++truth) {
-    const auto matched = static_cast<double>(pairs[truth].matched);
+    const auto matched = static_cast<double>(near[truth].count);
     if (matched > kMatchShare * static_cast<double>(truths[truth].samples.size()))
-      candidates.push_back({truth, prediction, pairs[truth].matched, pairs[truth].chamfer_m / matched});
+      candidates.push_back({truth, prediction, near[truth].count, near[truth].distances_m / matched});
   }
 }
 

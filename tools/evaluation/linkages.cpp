@@ -1,7 +1,6 @@
 #include "evaluation/linkages.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -63,7 +62,7 @@ class LaneFinder {
   std::optional<LanePlace> place(const LinePiece& piece, Lane::Direction direction) const {
     std::optional<std::tuple<std::size_t, double>> best;  // samples, minus their mean distance
     std::optional<LanePlace> place;
-    const std::vector<Near> near = near_truths(piece.samples);
+    const auto near = grid_.nearness(piece.samples);
     for (std::size_t i = 0; i < truths_.size(); ++i) {
       const auto count = static_cast<double>(near[i].count);
       if (near[i].count == 0 || count < kMatchShare * static_cast<double>(piece.samples.size())) continue;
@@ -80,32 +79,11 @@ class LaneFinder {
   }
 
  private:
-  struct Near {
-    std::size_t count = 0;
-    double distances_m = 0.0;
-  };
   static std::vector<Polyline> samples(const std::vector<LinePiece>& pieces) {
     std::vector<Polyline> all;
     all.reserve(pieces.size());
     for (const LinePiece& piece : pieces) all.push_back(piece.samples);
     return all;
-  }
-  std::vector<Near> near_truths(const Polyline& samples) const {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    std::vector<Near> near(truths_.size());
-    std::vector<double> nearest_m(truths_.size());
-    for (const Point& sample : samples) {
-      std::fill(nearest_m.begin(), nearest_m.end(), kNone);
-      grid_.visit_near(sample, [&](std::size_t truth, double distance_m) {
-        nearest_m[truth] = std::min(nearest_m[truth], distance_m);
-      });
-      for (std::size_t i = 0; i < near.size(); ++i) {
-        if (nearest_m[i] == kNone) continue;
-        ++near[i].count;
-        near[i].distances_m += nearest_m[i];
-      }
-    }
-    return near;
   }
 
   const std::vector<LinePiece>& truths_;

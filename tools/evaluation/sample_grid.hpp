@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "laneloom/types.hpp"
@@ -13,7 +15,31 @@ class SampleGrid {
  public:
   /// `radius_m` is the radius of all searches.
   SampleGrid(const std::vector<Polyline>& lines, double radius_m)
-      : radius_m_(radius_m), samples_(samples_of(lines), radius_m) {}
+      : radius_m_(radius_m), lines_(lines.size()), samples_(samples_of(lines), radius_m) {}
+
+  /// How near other samples are to one of the lines.
+  struct Nearness {
+    std::size_t count = 0;     ///< number of the samples that are closer than the radius
+    double distances_m = 0.0;  ///< sum of their distances
+  };
+  /// The nearness of `samples` to each line.
+  std::vector<Nearness> nearness(const Polyline& samples) const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    std::vector<Nearness> result(lines_);
+    std::vector<double> nearest_m(lines_);
+    for (const Point& sample : samples) {
+      std::ranges::fill(nearest_m, kNone);
+      visit_near(sample, [&](std::size_t line, double distance_m) {
+        nearest_m[line] = std::min(nearest_m[line], distance_m);
+      });
+      for (std::size_t line = 0; line < lines_; ++line) {
+        if (nearest_m[line] == kNone) continue;
+        ++result[line].count;
+        result[line].distances_m += nearest_m[line];
+      }
+    }
+    return result;
+  }
 
   /// Calls visit(line, distance_m) for every sample closer than the radius, with the index of its line.
   template <typename Visit>
@@ -37,6 +63,7 @@ class SampleGrid {
   }
 
   double radius_m_;
+  std::size_t lines_;  ///< number of lines
   PointGrid<Sample> samples_;
 };
 
