@@ -1,10 +1,11 @@
 #include "cdr/convert_parts.hpp"
 
+#include "base/unit_rotation.hpp"
+
 namespace laneloom::dds {
 namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
-constexpr double kUnitTolerance = 1e-3;
 
 /// The stamp that was `age_s` before `stamp_ns`.
 std::int64_t stamp_before(std::int64_t stamp_ns, double age_s, Intake& intake) {
@@ -27,8 +28,7 @@ Polyline Intake::polyline(const std::vector<msg::Point>& from) {
 
 Eigen::Quaterniond Intake::rotation(const msg::Quaternion& from) {
   const Eigen::Quaterniond q(number(from.w()), number(from.x()), number(from.y()), number(from.z()));
-  const bool unit = std::abs(q.norm() - 1.0) <= kUnitTolerance;
-  if (!unit) {
+  if (!is_unit(q)) {
     refuse("not_a_rotation");
     return Eigen::Quaterniond::Identity();
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/unit_rotation.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -96,8 +98,7 @@ std::string_view defect(const DetectionFrame& frame, const GateConfig& config) {
 std::string_view defect(const VehiclePose& pose, const GateConfig& config) {
   if (!plausible_stamp(pose.stamp_ns)) return "stamp";
   if (!within(pose.position, config.max_coordinate_m)) return "coordinate";
-  const bool unit = std::abs(pose.orientation.norm() - 1.0) <= 1e-3;  // false for NaN
-  return unit ? std::string_view() : "not_a_rotation";
+  return is_unit(pose.orientation) ? std::string_view() : "not_a_rotation";
 }
 
 }  // namespace laneloom

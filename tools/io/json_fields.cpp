@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/unit_rotation.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -116,7 +118,7 @@ std::vector<double> numbers(const json& value) { return list(value, number); }
 Eigen::Quaterniond quaternion(const json& value, std::size_t first) {
   const Eigen::Quaterniond q(number(value[first + 3]), number(value[first]), number(value[first + 1]),
                              number(value[first + 2]));
-  if (!(std::abs(q.norm() - 1.0) < 1e-3)) throw JsonError("must have a quaternion of unit length");
+  if (!is_unit(q)) throw JsonError("must have a quaternion of unit length");
   return q.normalized();
 }
 

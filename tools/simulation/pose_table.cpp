@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "base/unit_rotation.hpp"
 #include "io/csv.hpp"
 #include "io/feather.hpp"
 
@@ -19,7 +19,7 @@ using Numbers = std::array<double, 7>;  // qw to tz_m
 VehiclePose checked_pose(std::int64_t stamp_ns, const Numbers& v) {
   if (stamp_ns < 0) throw std::runtime_error("a stamp of 0 or more is expected");
   const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
-  if (!(std::abs(q.norm() - 1.0) < 1e-3)) throw std::runtime_error("a quaternion of unit length is expected");
+  if (!is_unit(q)) throw std::runtime_error("a quaternion of unit length is expected");
   VehiclePose pose{.stamp_ns = stamp_ns, .position = {v[4], v[5], v[6]}, .orientation = q.normalized()};
   if (!pose.position.allFinite()) throw std::runtime_error("a finite number is expected");
   return pose;
