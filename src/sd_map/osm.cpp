@@ -14,11 +14,10 @@
 #include <system_error>
 
 #include "sd_map/osm.hpp"
+#include "sd_map/osm_elements.hpp"
 
 namespace laneloom {
 namespace {
-
-using OsmId = std::int64_t;
 
 /// Values of the tag highway of streets for motor vehicles. Their links have the suffix "_link".
 const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",     "secondary",
@@ -28,17 +27,8 @@ constexpr double kMaxDistance_m = 1e6;  // from the origin; further away the pro
 constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;  // in memory a file takes a few times as much
 constexpr double kMaxStreets_m = 2e7;  // all streets; a few bytes can name streets that take all memory
 
-std::string_view tag(const pugi::xml_node& element, const char* key) {
-  return element.find_child_by_attribute("tag", "k", key).attribute("v").as_string();
-}
-
 [[noreturn]] void refuse(const pugi::xml_node& element, const std::string& complaint) {
-  throw std::runtime_error(std::string(element.name()) + " " + element.attribute("id").as_string() + " " +
-                           complaint);
-}
-
-OsmId id_of(const pugi::xml_node& element, const char* attribute = "id") {
-  return element.attribute(attribute).as_llong();
+  throw std::runtime_error(name_of(element) + " " + complaint);
 }
 
 std::map<OsmId, Eigen::Vector2d> read_nodes(const pugi::xml_node& osm, const SdMapConfig& config) {

@@ -12,30 +12,20 @@
 #include <string_view>
 
 #include "laneloom/polyline.hpp"
+#include "sd_map/osm_elements.hpp"
 #include "simulation/borders.hpp"
 #include "simulation/route.hpp"
 
 namespace laneloom {
 namespace {
 
-using OsmId = long long;
-
 constexpr double kJoin_m = 0.01;
 constexpr double kMaxCoordinate_m = 1e7;
 constexpr std::array kEdgeTypes{"curbstone", "road_border", "wall", "fence", "guard_rail"};
 constexpr std::array kLaneSubtypes{"road", "highway", "bus_lane", "play_street", "emergency_lane"};
 
-std::string_view tag(const pugi::xml_node& element, const char* key) {
-  return element.find_child_by_attribute("tag", "k", key).attribute("v").as_string();
-}
-
-OsmId id_of(const pugi::xml_node& element, const char* attribute = "id") {
-  return element.attribute(attribute).as_llong();
-}
-
 [[noreturn]] void refuse(const pugi::xml_node& element, const std::string& complaint) {
-  throw std::runtime_error(std::string(element.name()) + " " + element.attribute("id").as_string() + ": " +
-                           complaint);
+  throw std::runtime_error(name_of(element) + ": " + complaint);
 }
 
 double coordinate(const pugi::xml_node& node, std::string_view text, const char* key) {
