@@ -4,9 +4,10 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <stdexcept>
 
+#include "base/random_id.hpp"
+#include "base/system_clock.hpp"
 #include "commands/drive_tables.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/lab_commands.hpp"
@@ -84,10 +85,8 @@ std::vector<DriveResult> drive_over_dds(const std::vector<DriveSpec>& drives, co
   DdsMapService service(options.dds);
   connect(service);
   ClosedLoopSpec spec = loop_spec(drives.front(), options);
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  spec.start_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-  std::random_device device;
-  spec.session_id = (std::uint64_t{device()} << 32U) + 1U;
+  spec.start_ns = system_now_ns();
+  spec.session_id = random_id();
   ClosedLoop loop(*drives.front().road, spec, service);
   for (auto due = SteadyClock::now(); !is_over(options, loop) && sleep_until(due);
        due += std::chrono::milliseconds(10))

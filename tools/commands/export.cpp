@@ -144,7 +144,7 @@ void add_export(CLI::App& app) {
       ->required();
   command->add_option("--config", options->config, "Configuration that the maps are made with (.yaml)");
   command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
-      ->check(CLI::IsMember({"inhouse", "av2"}));
+      ->check(CLI::IsMember(preset_names()));
   CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
   CLI::Option* lanelet2 =
       outputs->add_option("--lanelet2", options->lanelet2, "Lanelet2 map to write (.osm)");

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/system_clock.hpp"
 #include "doctor/host.hpp"
 #include "laneloom/error.hpp"
 
@@ -18,14 +19,8 @@ constexpr std::size_t kMaxSessions = 64;
 /// Most names of sources, or writers of a source, that are told apart. A perception stack has a few.
 constexpr std::size_t kMaxTold = 64;
 
-template <class Clock>
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
-}
-
 double offset_s(const ServiceStatus& status) {
-  return static_cast<double>(now_ns<std::chrono::system_clock>()) / 1e9 -
-         static_cast<double>(status.published_ns) / 1e9;
+  return static_cast<double>(system_now_ns()) / 1e9 - static_cast<double>(status.published_ns) / 1e9;
 }
 
 std::string setting(const ServiceStatus& status, std::string_view wanted) {
@@ -60,7 +55,8 @@ void Observer::Stream::note(const dds::WriterId& by, const std::optional<dds::Cd
   const bool same = newest->sequence == header.sequence && newest->session_id == header.session_id;
   if (!is_first && same) ++observed.unnumbered;
   header = *newest;
-  observed.newest = {newest->stamp_ns, now_ns<SteadyClock>()};
+  observed.newest = {newest->stamp_ns,
+                     std::chrono::nanoseconds(SteadyClock::now().time_since_epoch()).count()};
 }
 
 InputObserved Observer::Stream::until(SteadyClock::time_point now) const {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "laneloom/lane_graph.hpp"
+#include "mapping/geometry/levels.hpp"
 #include "simulation/route.hpp"
 
 namespace laneloom {
@@ -28,7 +29,7 @@ std::size_t lane_of(const Road& road, const LaneTracker& lanes, const VehiclePos
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     if (road.lanes[i].in_intersection) continue;
     const Projection foot = lanes.centerline(i).project(pose.position);
-    if (!foot.inside || foot.distance_m >= best_m || std::abs(foot.foot.z() - pose.position.z()) > 2.0 ||
+    if (!foot.inside || foot.distance_m >= best_m || !same_level(foot.foot, pose.position) ||
         lanes.centerline(i).direction(foot.arc_m).dot(direction) < kMinAlignment)
       continue;
     best = i;
