@@ -10,8 +10,7 @@
 
 #include "laneloom/types.hpp"
 
-/// What perception and odometry of a car on a straight road with one lane tell, and what goes wrong on the
-/// way.
+/// Messages of a car's perception and odometry on a straight road with one lane, and faults on their way.
 namespace laneloom {
 
 constexpr std::int64_t kPosePeriod_ms = 10;
@@ -25,7 +24,7 @@ inline VehiclePose pose_on_straight_road(std::int64_t time_ms) {
           .position = {5.0 * static_cast<double>(time_ms) / 1e3, 0.0, 0.0}};
 }
 
-/// As a network does, it delivers late: 40 ms after its stamp.
+/// A frame that comes late, as a network delivers it: 40 ms after its stamp.
 inline DetectionFrame frame_on_straight_road(std::int64_t time_ms, std::int64_t period_ms) {
   DetectionFrame frame{.stamp_ns = pose_on_straight_road(time_ms - 40).stamp_ns,
                        .sequence = static_cast<std::uint64_t>(time_ms / period_ms),
@@ -36,7 +35,7 @@ inline DetectionFrame frame_on_straight_road(std::int64_t time_ms, std::int64_t 
   return frame;
 }
 
-/// What is sent instead of a message; empty: it is lost.
+/// Gives the messages that are sent instead of one; empty: it is lost.
 template <class T>
 using Channel = std::function<std::vector<T>(T)>;
 
@@ -67,7 +66,7 @@ Channel<T> bunch(std::size_t messages) {
   };
 }
 
-/// What another perception stack makes of the same images.
+/// The frame that another perception stack makes of the same images.
 inline DetectionFrame of_source(DetectionFrame frame, const std::string& source, std::uint64_t session) {
   frame.source = source;
   frame.session_id = session;

@@ -19,7 +19,7 @@ class RandomMessages {
   msg::RoadMarkings road_markings();
   msg::ServiceStatus service_status();
 
-  // By type, for typed tests.
+  // Typed tests choose the message by its type.
   void fill(msg::Detections& m) { m = detections(); }
   void fill(msg::VehiclePose& m) { m = vehicle_pose(); }
   void fill(msg::LaneMap& m) { m = lane_map(); }

@@ -27,7 +27,7 @@ class ConfigFile : public ::testing::Test {
     std::ofstream(path) << text;
     return path;
   }
-  /// What is said about a file with this text, without the file's name.
+  /// The complaint about a file with this text, without the file's name.
   std::string error_of(const std::string& text) {
     const auto path = write(text);
     try {
@@ -198,7 +198,7 @@ TEST(SetValue, RefusesWhatAFileMayNotSayAndChangesNothing) {
   }
 }
 
-// What the mapper divides by.
+// The mapper divides by these limits.
 TEST(SetValue, RefusesLimitsThatLeaveNothing) {
   Config config;
   for (const char* assignment : {"mapper.lane.min_length_m=0.4", "mapper.linkage.max_angle_deg=0",

@@ -23,7 +23,7 @@ namespace {
 using namespace std::chrono_literals;
 namespace fastdds = eprosima::fastdds::dds;
 
-/// What came, for a test to wait for. Thread-safe.
+/// The messages that came, for a test to wait for. Thread-safe.
 template <class T>
 class Received {
  public:

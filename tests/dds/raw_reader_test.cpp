@@ -45,7 +45,7 @@ TEST(RawReader, MessagesComeAsTheyWentOverTheWire) {
       return !messages.empty() && header_of(messages.back()).value().sequence == sequence;
     });
   };
-  // What is written before the reader knows its writer is lost.
+  // Messages that are written before the reader knows its writer are lost.
   for (int i = 0; i < 2000 && !arrives(0, std::chrono::milliseconds(10)); ++i)
     ASSERT_TRUE(writer.write(whole_frame(0)));
   ASSERT_TRUE(writer.write(whole_frame(1)) && writer.write(whole_frame(2)));

@@ -10,7 +10,7 @@
 #include "dds/qos.hpp"
 #include "temporary_folder.hpp"
 
-// What becomes of dds.security_directory; tests/end_to_end has what Fast DDS does with it.
+// The settings that follow from dds.security_directory. tests/end_to_end tests what Fast DDS does with them.
 namespace laneloom::dds {
 namespace {
 

@@ -112,7 +112,7 @@ TEST(Observer, TakesTheMapFrameFromTheService) {
   EXPECT_THAT(seen.poses.refused, testing::IsEmpty());
 }
 
-// As real messages, with real writers.
+// The messages and their writers are real.
 TEST(Observer, SeesTwoWritersOfOneSource) {
   const DdsConfig config = private_config();
   const dds::Participant front(config, "front"), rear(config, "rear"), side(config, "side");

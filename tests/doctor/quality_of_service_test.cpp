@@ -9,7 +9,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// What is found when the planner's reader is changed.
+/// The findings when the planner's reader is changed.
 Findings with_planner(const std::function<void(dds::Endpoint&)>& change) {
   Observed seen = healthy();
   change(seen.endpoints[3]);

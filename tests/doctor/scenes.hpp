@@ -9,7 +9,7 @@
 #include "doctor/findings.hpp"
 #include "laneloom/dds/topics.hpp"
 
-/// What a doctor sees, put together by hand.
+/// Observations of a doctor, put together by hand.
 namespace laneloom {
 
 inline dds::Endpoint endpoint(bool is_writer, const char* name, const char* topic, const char* type) {

@@ -19,7 +19,7 @@ class Identities {
   /// can't be made.
   explicit Identities(const Edit& edit = {}, const std::vector<std::string>& options = {});
 
-  /// Where its folders are; there is room for more.
+  /// The folder that holds a folder for each identity; there is room for more.
   const std::filesystem::path& folder() const { return folder_; }
   /// `config` of one who has this identity.
   DdsConfig as(const std::string& identity, DdsConfig config) const;

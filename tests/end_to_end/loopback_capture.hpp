@@ -9,14 +9,14 @@ namespace laneloom {
 /// Looks at every packet between the processes of this host.
 class LoopbackCapture {
  public:
-  /// What to look for. Throws std::system_error when this user may not see packets.
+  /// Looks for `marker`. Throws std::system_error when this user may not see packets.
   explicit LoopbackCapture(std::string marker);
   ~LoopbackCapture();
   LoopbackCapture(const LoopbackCapture&) = delete;
   LoopbackCapture& operator=(const LoopbackCapture&) = delete;
 
   bool marker_seen() const { return marker_seen_; }
-  /// Of DDS.
+  /// The number of DDS's packets.
   int packets() const { return packets_; }
 
  private:

@@ -26,7 +26,7 @@ class StraightRoad {
   explicit StraightRoad(const DdsConfig& config, int frame_period_ms = 100);
   ~StraightRoad();
 
-  /// What goes wrong on the way from now on; an empty function: nothing.
+  /// Sets what goes wrong on the way from now on; an empty function: nothing.
   void send_frames(Channel<DetectionFrame> channel);
   void send_poses(Channel<VehiclePose> channel);
   std::uint64_t frames_written() const { return frames_written_; }

@@ -10,8 +10,8 @@
 
 #include "faults.hpp"
 
-// What the planner sees of processes that are killed, hang or are there twice; deploy/README.md,
-// "When things go wrong".
+// The planner gets a map, or is told why not, when processes are killed, hang or are there twice;
+// deploy/README.md, "When things go wrong".
 namespace laneloom {
 namespace {
 

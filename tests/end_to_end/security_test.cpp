@@ -103,7 +103,7 @@ bool permitted(const Make& make) {
   }
 }
 
-/// What this identity may do with T: "w", "r", "" or both.
+/// The rights of this identity to T: "w", "r", "" or both.
 template <class T>
 std::string rights(const dds::Participant& participant) {
   std::string result;
@@ -186,7 +186,7 @@ Identities::Edit trust_perception_in(const std::string& first, const std::string
 }
 
 TEST(Security, PermissionsAreCheckedByThoseWhoListen) {
-  // Of its own rules, Fast DDS 2.9 does not look at the domains.
+  // Fast DDS 2.9 does not look at the domains of its own rules.
   const Identities trusted_elsewhere(trust_perception_in("200", "232"));
   expect_heard(1, trusted_elsewhere, "perception");
   const Identities trusted_here(trust_perception_in("0", "232"));

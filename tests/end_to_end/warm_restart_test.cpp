@@ -5,7 +5,7 @@
 
 #include "faults.hpp"
 
-// What a service that was killed goes on with; deploy/README.md, "After a crash".
+// A service that was killed goes on with its snapshot; deploy/README.md, "After a crash".
 namespace laneloom {
 namespace {
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kUntilFound(30), kInVain(1);
 
-/// What was there before, what comes then, and whether that is a map to wait for.
+/// Whether `then`, written after `before`, is a map to wait for.
 bool waits_for(const std::string& before, const std::string& then, std::chrono::seconds patience) {
   const WorkFolder folder;
   const std::string file = folder.file("planner");

@@ -10,8 +10,8 @@
 #include "io/work_folder.hpp"
 #include "own_domain.hpp"
 
-// What a soak finds wrong with real processes; that it finds nothing wrong with healthy ones is the test
-// `soak`.
+// A soak finds what is wrong with real processes. The test `soak` shows that it finds nothing wrong with
+// healthy ones.
 namespace laneloom {
 namespace {
 

@@ -16,7 +16,7 @@ Process service() {
   return Process({LANELOOMD, "--domain", std::to_string(own_domain()), "--vehicle-id", kVehicle});
 }
 
-/// What it prints can be waited for.
+/// The command of an example, all of whose output can be waited for.
 std::vector<std::string> example(const std::string& program, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words{"/bin/sh", "-c", R"(exec "$0" "$@" >&2)", program};
   words.insert(words.end(), {std::to_string(own_domain()), kVehicle});

@@ -217,7 +217,7 @@ TEST(Calibration, MovesTheProfileToItsTarget) {
   EXPECT_NEAR(score.recall(), 0.8, 0.06);
   EXPECT_NEAR(score.acd_m(), 0.1, 0.03);
   EXPECT_GT(last.noise.missed_share[index(MarkingType::laneline)], 0.05);
-  // What has no target stays as it was.
+  // A share without a target stays as it was.
   EXPECT_EQ(last.noise.missed_share[index(MarkingType::roadedge)], 0.0);
 }
 

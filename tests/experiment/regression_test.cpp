@@ -11,7 +11,7 @@
 namespace laneloom {
 namespace {
 
-/// What was measured, in percent. Differences of libm move it by a small part of the margin.
+/// The measured figures, in percent. Differences of libm move them by a small part of the margin.
 struct Figures {
   double f1, lanes_f1, direction_precision;
 };

@@ -9,7 +9,7 @@ void decode(std::span<const std::uint8_t> bytes) {
   T message;
   const std::string_view refusal = laneloom::dds::from_cdr(bytes, "map", message);
   if (!refusal.empty()) return;
-  // What is taken can be sent again.
+  // A message that is taken can be sent again.
   std::vector<std::uint8_t> again;
   laneloom::dds::to_cdr(message, "map", again);
 }

@@ -10,7 +10,7 @@ namespace {
 
 using namespace laneloom;
 
-/// As the target `cdr` reads it: a byte that tells the type, and the message.
+/// Writes a seed as the target `cdr` reads it: a byte that tells the type, and the message.
 template <class T>
 void write(const std::string& file, char type, const T& message) {
   std::vector<std::uint8_t> bytes;

@@ -27,7 +27,7 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// What a reader may do with any input: take it, or say what is wrong with it. All else is a finding.
+/// A reader may take any input, or say what is wrong with it. All else is a finding.
 template <class Read>
 void take_or_refuse(const Read& read) {
   try {

@@ -29,7 +29,7 @@ void check(const Mapper& mapper) {
 
 }  // namespace
 
-/// What a mapper makes of a profile that it takes.
+/// A mapper works with any profile that is taken.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const MemoryFile file(data, size);
   take_or_refuse([&] {

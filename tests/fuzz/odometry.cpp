@@ -5,7 +5,7 @@
 #include "ros2/input.hpp"
 #include "ros2/odometry.hpp"
 
-/// What a reader of odometry makes of any payload.
+/// A reader of odometry takes or refuses any payload.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using laneloom::ros2::OdometryType;
   std::vector<std::uint8_t> bytes(data, data + size);

@@ -62,8 +62,8 @@ bool receive(int socket, std::string& to) {
 
 }  // namespace
 
-/// What one connection sends. What follows a request is sent once it is answered, as messages of a WebSocket
-/// are; the server has to end each connection that its client ended.
+/// The input is all that one connection sends. The bytes after a request are sent once it is answered, as
+/// messages of a WebSocket are. The server has to end each connection that its client ended.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Viewer viewer;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

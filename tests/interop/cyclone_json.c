@@ -3,7 +3,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-// Of the struct m: its first field, or one more, by the function that prints it.
+// These print a field of the struct m with a function for its type: the first field, or a further one.
 #define FIRST(field, print) (fputs("{\"" #field "\":", stdout), print(m->field))
 #define NEXT(field, print) (fputs(",\"" #field "\":", stdout), print(m->field))
 #define FIRST_STRUCT(field, print) (fputs("{\"" #field "\":", stdout), print(&m->field))

@@ -34,7 +34,7 @@ static dds_qos_t* partition_qos(const char* vehicle_id) {
   return qos;
 }
 
-/// What a planner asks for: the map in time, and to learn that the service hangs.
+/// A planner asks for the map in time, and wants to learn that the service hangs.
 static dds_qos_t* map_qos(void) {
   dds_qos_t* qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(50));
@@ -109,7 +109,7 @@ static void write_frame(dds_entity_t writer, int64_t time_ms) {
   laneloom_msg_MarkingType types[] = {laneloom_msg_LANELINE, laneloom_msg_ROADEDGE};
   laneloom_msg_Area occluded[] = {{.outline = SEQUENCE(car)}};
   laneloom_msg_Detections frame = {
-      // As a network does, it delivers late.
+      // The frame comes late, as a network delivers it.
       .header = header(kStart_ns + DDS_MSECS(time_ms - 40), time_ms / frame_period_ms, 6, "base_link"),
       .source = "cyclone",
       .detected_types = SEQUENCE(types),

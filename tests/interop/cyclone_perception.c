@@ -56,7 +56,7 @@ static int64_t newest_stamp_ns(dds_entity_t poses, int64_t before) {
 static void perceive(dds_entity_t poses, dds_entity_t detections, FILE* log) {
   static laneloom_msg_Point points[kPaddingPoints];
   for (int i = 0; i < kPaddingPoints; ++i) points[i].x = 0.01 * i;
-  // Of a line that nobody trusts.
+  // The padding is a line that nobody trusts.
   laneloom_msg_Detection padding = {.type = laneloom_msg_LANELINE,
                                     .confidence = 0.05,
                                     .points = {._length = kPaddingPoints, ._buffer = points}};

@@ -43,7 +43,7 @@ class CycloneRosNode : public ::testing::Test {
     service_ = std::make_unique<Process>(command(config_, {"--config", service_config_.path}));
   }
 
-  /// What the node read so far. Its newest line may not be whole yet.
+  /// The messages that the node has read so far. Its newest line may not be whole yet.
   std::vector<json> read(const std::string& topic) const {
     std::vector<json> found;
     std::ifstream file(output_.path);

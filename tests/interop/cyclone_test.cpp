@@ -47,7 +47,7 @@ json json_of_cdr(std::span<const std::uint8_t> bytes) {
   return json_of(message);
 }
 
-/// What Fast DDS received of one topic.
+/// The messages of one topic that Fast DDS received.
 template <class T>
 class OurReader {
  public:
@@ -81,7 +81,8 @@ class Cyclone : public ::testing::Test {
 #endif
   }
 
-  /// What Cyclone wrote to or received of a topic so far. Its newest line may not be whole yet.
+  /// The messages of a topic that Cyclone has written or received so far. Its newest line may not be whole
+  /// yet.
   std::vector<json> cyclone(std::string_view topic) const {
     std::vector<json> found;
     std::ifstream file(output_.path);

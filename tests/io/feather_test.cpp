@@ -18,7 +18,7 @@ class Feather : public testing::Test {
   void write(const Bytes& bytes) const { write_bytes(file_, bytes); }
   FeatherTable open() const { return FeatherTable(file_); }
 
-  /// What is wrong with the file of these bytes; empty where nothing is.
+  /// The complaint about the file of these bytes; empty: there is none.
   std::string refusal(const Bytes& bytes) const {
     write(bytes);
     try {

@@ -6,7 +6,7 @@
 
 namespace laneloom {
 
-/// As if the disk were full at this size of any file, here and in processes that are started.
+/// Makes the disk seem full at this size of any file, here and in processes that are started.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

@@ -97,7 +97,7 @@ class McapTest : public ::testing::Test {
     }
   }
 
-  /// What went to disk with each chunk: the file's size after it, and how many messages it has until then.
+  /// The end of a chunk on disk: the file's size after it, and the number of messages until then.
   struct ChunkEnd {
     std::uint64_t size;
     std::size_t messages;

@@ -73,7 +73,7 @@ static json of(const LineageEvent& m) {
   return {{"kind", of(m.kind())}, {"id", of(m.id())}, {"other", of(m.other())}};
 }
 
-/// By the names of the table, which the decoders of others compare with the IDL's.
+/// The members by the names of the table. The decoders of others compare these with the IDL's.
 template <class Plain>
 static json of_fields(const auto& m) {
   json object;

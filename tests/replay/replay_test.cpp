@@ -130,7 +130,7 @@ TEST(Replay, RawMessagesOfLinesAreThoseOfTheirRecording) {
   EXPECT_FALSE(from_lines->next_raw());
 }
 
-/// As it arrives.
+/// The map as it arrives at a reader.
 PublishedMap received(const PublishedMap& map) {
   std::vector<std::uint8_t> bytes;
   dds::to_cdr(map, "map", bytes);

@@ -64,7 +64,7 @@ class Decoders : public ::testing::Test {
     dds::deserialise(bytes, with_checksum);
     write(type, bytes, json_of(with_checksum));
   }
-  /// What the script says, with its errors.
+  /// The output of the script, with its errors.
   std::string run(const std::string& arguments) const {
     std::string said;
     FILE* pipe = popen(("node " + kFolder + "/decode.mjs " + arguments + " 2>&1").c_str(), "r");

@@ -21,7 +21,7 @@ TEST(Names, AreMangledAsRosDoes) {
   EXPECT_EQ(dds_type("nav_msgs/msg/Odometry"), "nav_msgs::msg::dds_::Odometry_");
 }
 
-// As rosidl's own generator gives them for the .msg files of Jazzy.
+// These are the hashes that rosidl's own generator gives for the .msg files of Jazzy.
 TEST(TypeHashes, AreThoseOfRos) {
   const auto hash = [](const char* type) { return user_data(type); };
   EXPECT_EQ(hash("nav_msgs/msg/Odometry"),

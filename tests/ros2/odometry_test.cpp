@@ -27,7 +27,7 @@ Odometry_ odometry() {
   return message;
 }
 
-/// What a reader makes of these bytes.
+/// The sample that a reader makes of these bytes.
 OdometryType::Sample read(std::vector<std::uint8_t> bytes) {
   OdometryType type;
   OdometryType::Sample sample;

@@ -78,7 +78,7 @@ Road street(int forward, int backward, CentreLine centre, int solid_after, int d
   return std::move(builder).build({way.point(10.0, -3.5 * (driven - 0.5))}, kSpeed_mps);
 }
 
-/// What lies beyond a wide median is out of range from the outer lane.
+/// The lanes beyond a wide median are out of range from the outer lane.
 std::vector<Drive> medians() {
   std::vector<Drive> drives;
   for (const double median_m : {0.3, 1.0, 3.0, 6.5, 15.0}) {
@@ -95,7 +95,7 @@ std::vector<Drive> medians() {
   return drives;
 }
 
-/// Where a road is seen from one side of a line alone, the direction beyond it may be either.
+/// The direction beyond a line may be either where the road is seen from one side of it alone.
 std::vector<Drive> roads() {
   using enum CentreLine;
   std::vector<Drive> drives = medians();

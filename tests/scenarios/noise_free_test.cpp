@@ -86,7 +86,7 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
   void count_views() {
     for (TruthLane& truth : truth_) {
       for (CrossSection& section : truth.sections) {
-        // What left the range was cleared, and is new when it comes again.
+        // A section that left the range was cleared, and is new when it comes again.
         section.frames_in_view =
             in_range(section, -config_.range.margin_side_m) ? section.frames_in_view + 1 : 0;
       }
@@ -159,9 +159,9 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
     }
   }
 
-  /// By linkages, in either direction: where nothing tells how traffic runs, lanes run as the section does.
-  /// Or side by side: once the line between them has begun, a lane that opens or ends is reached by changing
-  /// to it.
+  /// Whether `to` continues `from`. Linkages count in either direction: where nothing tells how traffic runs,
+  /// lanes run as the section does. A lane that lies beside counts as well: once the line between them has
+  /// begun, a lane that opens or ends is reached by changing to it.
   static bool continues(const LocalMap& map, const Lane& from, const Lane& to) {
     const bool beside = names(from.left_neighbours, to.id) || names(from.right_neighbours, to.id);
     return beside || reaches(map, from.id, to.id) || reaches(map, to.id, from.id);
@@ -228,7 +228,7 @@ TEST_P(NoiseFree, EveryLaneIsFoundRightlyLinkedAndNoneInvented) {
   }
 }
 
-/// By voxels, lines that diverge as slowly as those of an exit are not told apart.
+/// The method of voxels does not tell lines apart that diverge as slowly as those of an exit.
 std::vector<ScenarioAndMethod> drives() {
   std::vector<ScenarioAndMethod> drives;
   for (const std::string& name : scenario_names()) {

@@ -15,7 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Of all triangles together, each counter-clockwise or clockwise.
+/// The area of all triangles together. Each is counter-clockwise or clockwise.
 double area(const Polyline& points, const std::vector<std::uint32_t>& indices) {
   double sum = 0.0;
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {

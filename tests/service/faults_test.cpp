@@ -6,8 +6,8 @@
 
 #include "simulated_drive.hpp"
 
-// What the planner sees of wrong, late and missing messages, and which counter tells; deploy/README.md,
-// "When things go wrong".
+// The planner gets a map in spite of wrong, late and missing messages, and a counter tells of them;
+// deploy/README.md, "When things go wrong".
 namespace laneloom {
 namespace {
 
@@ -15,7 +15,7 @@ using States = std::vector<std::string>;
 
 constexpr std::int64_t kHour_ms = 3'600'000;
 
-/// Of each pair the second arrives first.
+/// The second message of each pair arrives first.
 template <class T>
 Channel<T> swap_pairs() {
   return [pairs = bunch<T>(2)](T message) {

@@ -77,7 +77,7 @@ TEST(Overload, AFrameThatTakesLongerThanATickHoldsUpOneTickAlone) {
     EXPECT_EQ(state.find("no_detections"), std::string::npos) << "they do come";
 }
 
-// What arrives while a tick works is newer than its start.
+// A message that arrives while a tick works is newer than its start.
 TEST(Overload, NoAgeIsNegative) {
   SimulatedDrive drive(Config{}, 25);
   drive.fusion_ms = 70;

@@ -26,15 +26,15 @@ class SimulatedDrive : private StageObserver {
   /// Goes on for so long; maps and statuses are those of this time.
   void run_for(std::int64_t duration_ms);
 
-  /// Of each map its state with the reasons, where these are others than those of the map before.
+  /// The state and reasons of each map where they differ from those of the map before.
   std::vector<std::string> states() const;
-  /// Of the newest map.
+  /// The state and reasons of the newest map.
   std::string state() const;
   const std::vector<PublishedMap>& maps() const { return maps_; }
   const std::vector<ServiceStatus>& statuses() const { return statuses_; }
-  /// Of all frames of these maps, in the order of fusion.
+  /// The frames that were fused into these maps, in the order of fusion.
   std::vector<FusedFrame> fused() const;
-  /// As of the newest status; 0 where it was never counted.
+  /// The counter in the newest status; 0 where it was never counted.
   std::uint64_t counter(const std::string& name) const;
   const std::optional<Snapshot>& snapshot() const { return snapshot_; }  ///< the newest one
 

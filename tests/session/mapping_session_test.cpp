@@ -255,7 +255,7 @@ TEST_F(MappingSessionTest, AMapOfAnotherPoseFrameIsNotGoneOnWith) {
   }
 }
 
-// What the service drained in bites, a replay feeds in one go.
+// A replay feeds in one go the messages that the service drained in bites.
 TEST_F(MappingSessionTest, TheMapDependsOnTheOrderOfMessagesOnly) {
   MappingSession other{Config{}};
   for (std::int64_t t = 10'000; t < 12'000; t += 10) {

@@ -8,7 +8,7 @@
 #include "simulation/perception.hpp"
 #include "simulation/scenarios.hpp"
 
-/// What real networks get wrong, on a straight road whose lines run along x.
+/// The errors of real networks, on a straight road whose lines run along x.
 namespace laneloom {
 namespace {
 
@@ -44,7 +44,8 @@ TEST(NetworkNoise, WhatIsMissedForGoodIsMissedInEveryFrame) {
   NoiseProfile noise;
   noise.missed_share = {0.3, 0.3, 0.3};
   noise.missed_lasting = {1.0, 1.0, 1.0};
-  // By line and metre of the road: how often in view, and how often seen. Ten metres from the view's ends.
+  // Counts by line and metre of the road: how often in view, and how often seen. The view's last ten metres
+  // at either end do not count.
   std::map<std::pair<ElementId, int>, std::pair<int, int>> places;
   const std::size_t lines = make_scenario("straight").markings.size();
   for (const Seen& seen : drive(noise)) {
@@ -118,7 +119,7 @@ TEST(NetworkNoise, PitchScalesTheScene) {
   NoiseProfile noise;
   noise.frame_scale_stddev_per_m = 0.001;
   for (const Seen& seen : drive(noise)) {
-    // What a pitch makes of one line tells what it makes of all others.
+    // A pitch widens or narrows all lines alike.
     std::vector<double> scales;
     for (const Detection& detection : seen.frame.detections) {
       const double near_m = y_at(detection, 0.0), far_m = y_at(detection, 30.0);
@@ -165,7 +166,8 @@ TEST(NetworkNoise, GhostsStayInTheirPlaces) {
   EXPECT_GT(last_m(15), 2) << "some stay";
 }
 
-/// Of consecutive confidences of the same line: how much of the scatter of one is found in the next.
+/// The correlation of consecutive confidences of the same line: how much of the scatter of one is in the
+/// next.
 double correlation(const NoiseProfile& noise) {
   std::map<ElementId, double> before;
   double products = 0.0, squares = 0.0;

@@ -9,7 +9,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/road.hpp"
 
-/// What holds for every lane of every road.
+/// Checks of every lane of every road.
 namespace laneloom {
 
 inline const RoadLane& lane_of(const Road& road, ElementId id) {

@@ -18,7 +18,7 @@ using testing::ThrowsMessage;
 
 class Child : public testing::Test {
  protected:
-  /// What stop() says of a shell that runs this; it is told to end once it has printed something.
+  /// The answer of stop() for a shell that runs this. The shell is told to end once it has printed something.
   std::string stop(const std::string& script, milliseconds patience = std::chrono::seconds(10)) {
     ChildProcess child({"/bin/sh", "-c", script}, output_);
     while (std::ifstream(output_).peek() == EOF) std::this_thread::sleep_for(milliseconds(5));

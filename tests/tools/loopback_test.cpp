@@ -108,7 +108,8 @@ class RecordedLoopback : public Loopback {
   }
 
  private:
-  /// As far as it is written; none: no map came yet. The service publishes maps before it gets any input.
+  /// The newest map that is written; none: no map came yet. The service publishes maps before it gets any
+  /// input.
   static std::optional<PublishedMap> newest_map(const std::string& recording) {
     std::optional<PublishedMap> newest;
     if (content(recording).empty()) return newest;

@@ -8,7 +8,7 @@
 
 #include "tools/commands.hpp"
 
-// What the commands say of words, files and numbers that are wrong.
+// The commands name the word, file or number that is wrong.
 namespace laneloom {
 namespace {
 

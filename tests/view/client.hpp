@@ -35,7 +35,7 @@ class Client {
 
   void send(const std::string& bytes) const { ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL); }
 
-  /// What came until `end` was among it. Throws std::runtime_error where it does not come in time.
+  /// The bytes that come until `end` is among them. Throws std::runtime_error if it does not come in time.
   std::string receive_until(const std::string& end) {
     std::string bytes;
     while (bytes.find(end) == std::string::npos) {
@@ -44,7 +44,7 @@ class Client {
     return bytes;
   }
 
-  /// What came until the server ended the connection.
+  /// The bytes that come until the server ends the connection.
   std::string receive_all() {
     std::string bytes;
     while (receive(bytes)) {

@@ -34,7 +34,7 @@ class Server : public testing::Test {
  protected:
   void start(WebServerConfig config = {}) { server_ = std::make_unique<WebServer>(config, echo); }
   Client client() const { return Client(server_->port()); }
-  /// What the server says to the bytes until it ends the connection.
+  /// The server's answer to the bytes, until it ends the connection.
   std::string answer_to(const std::string& bytes) const {
     Client one = client();
     one.send(bytes);

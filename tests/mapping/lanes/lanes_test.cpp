@@ -152,7 +152,7 @@ TEST(Lanes, AWideOneEndsWhereALineLiesInIt) {
     const Lane* lane = between(lanes, 1, 2);
     return lane == nullptr ? Stretch{} : lane->right_range;
   };
-  // What only touches it at the end does not take it away.
+  // A line that only touches the end of the lane does not take the lane away.
   EXPECT_NEAR(lane_beside(4.0).from_m, 4.5, 1.0);
   EXPECT_NEAR(lane_beside(4.0).to_m, 60.0, 1e-6);
   EXPECT_EQ(lane_beside(30.0).length(), 0.0);

@@ -12,7 +12,8 @@ namespace {
 using test::boundary;
 using test::straight;
 
-/// Of what a street of 40 m along x is made, from left to right: a boundary, and what lies on its right.
+/// A strip of a street of 40 m along x, whose strips run from left to right: a boundary, and what lies on its
+/// right.
 struct Strip {
   MarkingType type;
   MarkingStyle style;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kGate_m = 0.6;
 
-/// Which lines a point lies on, and at which station.
+/// The lines that a point lies on, each with the nearest station.
 using Places = std::map<std::uint32_t, std::uint32_t>;
 
 bool lies_on(const Line& line, std::size_t nearest, const Point& point) {

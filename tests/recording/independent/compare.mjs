@@ -11,7 +11,7 @@ import { decompressHandlers, readable } from "./files.mjs";
 const [recording, expectedFile] = process.argv.slice(2);
 const expected = readFileSync(expectedFile, "utf8").trim().split("\n").map((line) => JSON.parse(line));
 
-/// As JSON has it: numbers of 64 bits as text, typed arrays as lists.
+/// The value as JSON has it: numbers of 64 bits as text, typed arrays as lists.
 function plain(value) {
   if (typeof value === "bigint") return value.toString();
   if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value, plain);
@@ -63,7 +63,7 @@ assert.equal(count, expected.length);
 for (const [id, channel] of indexed.channelsById) {
   const ofTopic = expected.filter((message) => message.topic === channel.topic);
   assert.equal(indexed.statistics.channelMessageCounts.get(id), BigInt(ofTopic.length));
-  // By the message indexes alone.
+  // The message indexes alone lead to the same messages.
   let ofIndex = 0;
   for await (const _ of indexed.readMessages({ topics: [channel.topic] })) ofIndex += 1;
   assert.equal(ofIndex, ofTopic.length);

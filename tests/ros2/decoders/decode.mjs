@@ -59,7 +59,7 @@ function definitions(distribution, folder, type) {
   return standard(distribution, type);
 }
 
-/// As JSON has it: numbers of 64 bits as text, typed arrays as lists.
+/// The value as JSON has it: numbers of 64 bits as text, typed arrays as lists.
 function plain(value) {
   if (typeof value === "bigint") return value.toString();
   if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value, plain);

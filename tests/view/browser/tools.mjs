@@ -1,4 +1,4 @@
-// What the tests of the page have in common.
+// Functions that the tests of the page share.
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {once} from 'node:events';
