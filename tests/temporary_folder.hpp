@@ -40,8 +40,8 @@ inline std::vector<std::uint8_t> bytes_of(const std::string& path) {
 }
 
 inline std::string content(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::vector<std::uint8_t> bytes = bytes_of(path);
+  return {bytes.begin(), bytes.end()};
 }
 
 inline void write_bytes(const std::string& path, const std::vector<std::uint8_t>& bytes) {

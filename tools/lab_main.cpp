@@ -2,7 +2,7 @@
 #include "commands/program.hpp"
 
 int main(int argc, char** argv) {
-  using namespace laneloom;
+  using namespace laneloom::commands;
   return run_program({.name = "laneloom-lab",
                       .description = "laneloom-lab: measures laneloom on simulated drives and under faults",
                       .commands = {add_experiment, add_calibrate, add_drive, add_bench, add_soak},

@@ -2,7 +2,7 @@
 #include "commands/program.hpp"
 
 int main(int argc, char** argv) {
-  using namespace laneloom;
+  using namespace laneloom::commands;
   return run_program(
       {.name = "laneloom",
        .description = "laneloom: drives, watches, draws and rates the lane map service",

@@ -11,7 +11,7 @@
 
 /// Configuration files: YAML, one map per section, the keys named as the members of Config. All functions are
 /// pure, except for the file that is read, and may be called from any thread.
-namespace laneloom {
+namespace laneloom::config {
 
 /// The configuration in a file; a key that is missing keeps its default. Throws ConfigError for an unreadable
 /// file, bad YAML, an unknown or repeated key, a wrong type, and values that validate() refuses.
@@ -48,4 +48,4 @@ std::vector<std::string> changed_keys(const Config& before, const Config& after)
 /// Names the values of a configuration: 16 hexadecimal digits, the same on every host.
 std::string config_hash(const Config& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::config

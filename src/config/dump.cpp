@@ -9,8 +9,7 @@
 #include "schema.hpp"
 #include "text.hpp"
 
-namespace laneloom {
-namespace config {
+namespace laneloom::config {
 namespace {
 
 /// A text as lines of a comment.
@@ -137,21 +136,20 @@ List list(const Config& config) {
 }
 
 }  // namespace
-}  // namespace config
 
 std::string dump(const Config& config) {
-  config::Dump result;
-  config::visit(result, config);
+  Dump result;
+  visit(result, config);
   return result.text;
 }
 
 std::vector<std::pair<std::string, std::string>> settings(const Config& config) {
-  return config::list(config).values;
+  return list(config).values;
 }
 
 std::vector<std::string> changed_keys(const Config& before, const Config& after) {
-  const auto old_values = config::list(before).values;
-  auto new_values = config::list(after).values;
+  const auto old_values = list(before).values;
+  auto new_values = list(after).values;
   std::vector<std::string> result;
   for (std::size_t i = 0; i < new_values.size(); ++i) {
     if (new_values[i] != old_values[i]) result.push_back(std::move(new_values[i].first));
@@ -160,11 +158,11 @@ std::vector<std::string> changed_keys(const Config& before, const Config& after)
 }
 
 std::string config_hash(const Config& config) {
-  config::Hash hash;
-  config::visit(hash, config);
+  Hash hash;
+  visit(hash, config);
   std::ostringstream text;
   text << std::hex << std::setfill('0') << std::setw(16) << hash.value;
   return text.str();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::config

@@ -8,8 +8,7 @@
 #include "schema.hpp"
 #include "validate.hpp"
 
-namespace laneloom {
-namespace config {
+namespace laneloom::config {
 namespace {
 
 /// A problem, with its line in the file. Line 0: it is not known.
@@ -126,12 +125,11 @@ Config parse(const std::string& text, Config config = {}) {
 }
 
 }  // namespace
-}  // namespace config
 
 Config load_config(const std::filesystem::path& path) {
   try {
-    return config::parse(config::read_text(path));
-  } catch (const config::LocatedProblem& error) {
+    return parse(read_text(path));
+  } catch (const LocatedProblem& error) {
     std::string where = path.string();
     if (error.line > 0) where += ":" + std::to_string(error.line);
     if (!error.problem.key.empty()) where += ": " + error.problem.key;
@@ -159,10 +157,10 @@ void set_value(Config& config, std::string_view assignment) {
     key = key.substr(0, dot);
   }
   try {
-    config = config::parse(text, config);
-  } catch (const config::LocatedProblem& error) {
+    config = parse(text, config);
+  } catch (const LocatedProblem& error) {
     throw ConfigError(std::string(assignment) + ": " + error.problem.key + " " + error.problem.what);
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::config

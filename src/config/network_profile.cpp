@@ -9,7 +9,7 @@
 
 #include "read_text.hpp"
 
-namespace laneloom {
+namespace laneloom::config {
 namespace {
 
 // Far beyond what is ever learned, and small enough that the mapper's sums and squares stay finite.
@@ -97,4 +97,4 @@ std::string dump(const NetworkProfiles& profiles) {
   return std::string(yaml.c_str()) + "\n";
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::config

@@ -8,7 +8,7 @@
 
 /// Files with profiles of networks: YAML, a map of sources, each a map of values by name:
 ///     front: {stddev_at_8_m: {value: 0.03, weight: 5400}, …}
-namespace laneloom {
+namespace laneloom::config {
 
 /// Throws ConfigError naming file, line and key for an unreadable file, bad YAML, a key that is unknown or
 /// given twice, a value that is no number or beyond 1e9, and a weight that is not above 0. Mapper checks
@@ -18,4 +18,4 @@ NetworkProfiles load_network_profiles(const std::filesystem::path& path);
 /// The text of profiles, as load_network_profiles() reads it back.
 std::string dump(const NetworkProfiles& profiles);
 
-}  // namespace laneloom
+}  // namespace laneloom::config

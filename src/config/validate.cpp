@@ -7,8 +7,7 @@
 #include "schema.hpp"
 #include "text.hpp"
 
-namespace laneloom {
-namespace config {
+namespace laneloom::config {
 namespace {
 
 class RangeCheck {
@@ -146,11 +145,8 @@ std::optional<Problem> find_problem(const Config& config) {
   return check.problem ? check.problem : find_contradiction(config);
 }
 
-}  // namespace config
-
 void validate(const Config& config) {
-  if (const auto problem = config::find_problem(config))
-    throw ConfigError(problem->key + ": " + problem->what);
+  if (const auto problem = find_problem(config)) throw ConfigError(problem->key + ": " + problem->what);
 }
 
 std::vector<std::string> preset_names() { return {"inhouse", "av2"}; }
@@ -171,4 +167,4 @@ void apply_preset(Config& config, std::string_view preset) {
   range.side_max_m = 15.0;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::config

@@ -9,7 +9,7 @@
 #include "laneloom/messages.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::core {
 
 /// A message and the time of its arrival, by the steady clock.
 struct Arrival {
@@ -30,4 +30,4 @@ struct Arrivals {
   std::vector<SourceStatus> sources;  ///< the newest sessions, in the order of their beginning
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::core

@@ -1,6 +1,6 @@
 #include "core/health.hpp"
 
-namespace laneloom {
+namespace laneloom::core {
 namespace {
 
 constexpr double kRecent_s = 1.0;
@@ -40,4 +40,4 @@ Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {
   return verdict;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::core

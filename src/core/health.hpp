@@ -8,7 +8,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::core {
 
 /// The facts that the health of a map is judged by. Ages are seconds since an arrival, by the steady clock;
 /// -1: nothing came yet.
@@ -51,4 +51,4 @@ class Health {
 /// Seconds since an arrival; -1: never.
 double age_s(std::int64_t now_ns, const std::optional<std::int64_t>& arrival_ns);
 
-}  // namespace laneloom
+}  // namespace laneloom::core

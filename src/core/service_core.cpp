@@ -6,7 +6,7 @@
 #include "config/config_file.hpp"
 #include "laneloom/state_names.hpp"
 
-namespace laneloom {
+namespace laneloom::core {
 namespace {
 
 constexpr double kSourceRemembered_s = 10.0;  // a source that is silent for longer is not missed any more
@@ -19,7 +19,7 @@ std::int64_t nanoseconds(double duration_s) { return static_cast<std::int64_t>(d
 std::string maker_of_maps(Config config) {
   config.service = {};
   config.ros2 = {};
-  return std::string(version()) + " " + config_hash(config);
+  return std::string(version()) + " " + config::config_hash(config);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ const char* version() { return LANELOOM_VERSION; }
 ServiceCore::ServiceCore(const Config& config, Surroundings surroundings)
     : config_(config),
       surroundings_(std::move(surroundings)),
-      config_hash_(config_hash(config)),
+      config_hash_(config::config_hash(config)),
       maker_(maker_of_maps(config)),
       session_id_(surroundings_.new_id()),
       map_id_(surroundings_.new_id()),
@@ -39,12 +39,12 @@ ServiceCore::ServiceCore(const Config& config, Surroundings surroundings)
       next_status_ns_(started_ns_),
       next_snapshot_ns_(started_ns_) {}
 
-void ServiceCore::resume(Snapshot&& snapshot) {
+void ServiceCore::resume(snapshot::Snapshot&& snapshot) {
   session_.resume(snapshot.checkpoint, std::move(snapshot.state));
   map_id_ = snapshot.map_id;
 }
 
-SnapshotStamp ServiceCore::snapshot_stamp() const {
+snapshot::SnapshotStamp ServiceCore::snapshot_stamp() const {
   return {maker_, surroundings_.steady_now_ns(), surroundings_.system_now_ns()};
 }
 
@@ -100,7 +100,7 @@ bool ServiceCore::source_not_fused(std::int64_t now_ns) const {
   const auto crowded_out_ns = session_.crowded_out_ns();
   if (crowded_out_ns && age_s(now_ns, crowded_out_ns) < kSourceRemembered_s) return true;
   const auto sources = session_.sources();
-  return sources.size() > 1 && std::ranges::any_of(sources, [&](const SourceProgress& source) {
+  return sources.size() > 1 && std::ranges::any_of(sources, [&](const session::SourceProgress& source) {
            return age_s(now_ns, source.arrival_ns) < kSourceRemembered_s &&
                   (!source.fused_arrival_ns ||
                    age_s(now_ns, source.fused_arrival_ns) > config_.service.stale_after_s);
@@ -126,7 +126,7 @@ void ServiceCore::note_incidents(const Tick& tick, const Arrivals& arrivals, std
   if (overload > std::exchange(overload_seen_, overload)) health_.note_overload(tick.start_ns);
 }
 
-PublishedMap ServiceCore::published_map(MappingSession::Progress&& progress) {
+PublishedMap ServiceCore::published_map(session::MappingSession::Progress&& progress) {
   PublishedMap map;
   map.sequence = map_sequence_++;
   map.session_id = session_id_;
@@ -162,13 +162,13 @@ ServiceStatus ServiceCore::status(const Arrivals& arrivals, const HealthInputs& 
   for (SourceStatus& source : status.sources) add_progress(source);
   status.version = version();
   status.config_hash = config_hash_;
-  status.configuration = settings(config_);
+  status.configuration = config::settings(config_);
   return status;
 }
 
 void ServiceCore::add_progress(SourceStatus& source) const {
   const auto all = session_.sources();
-  const auto found = std::ranges::find_if(all, [&](const SourceProgress& progress) {
+  const auto found = std::ranges::find_if(all, [&](const session::SourceProgress& progress) {
     return progress.source == source.source && progress.session_id == source.session_id;
   });
   if (found == all.end()) return;
@@ -179,11 +179,11 @@ void ServiceCore::add_progress(SourceStatus& source) const {
   source.lag_s = *lag_s + static_cast<double>(session_.map().stamp_ns - *found->fused_stamp_ns) / 1e9;
 }
 
-std::optional<Snapshot> ServiceCore::snapshot_if_due(std::int64_t now_ns) {
+std::optional<snapshot::Snapshot> ServiceCore::snapshot_if_due(std::int64_t now_ns) {
   const auto checkpoint = session_.checkpoint();
   if (config_.service.snapshot_file.empty() || !checkpoint || now_ns < next_snapshot_ns_) return std::nullopt;
   next_snapshot_ns_ = now_ns + nanoseconds(config_.service.snapshot_period_s);
-  return Snapshot{snapshot_stamp(), map_id_, *checkpoint, session_.mapper().state()};
+  return snapshot::Snapshot{snapshot_stamp(), map_id_, *checkpoint, session_.mapper().state()};
 }
 
 std::string ServiceCore::summary() const {
@@ -192,4 +192,4 @@ std::string ServiceCore::summary() const {
          std::to_string(session_.map().lanes.size()) + " lanes";
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::core

@@ -14,7 +14,7 @@
 #include "session/mapping_session.hpp"
 #include "snapshot/snapshot_file.hpp"
 
-namespace laneloom {
+namespace laneloom::core {
 
 /// The version of laneloom.
 const char* version();
@@ -31,8 +31,8 @@ struct Messages {
   PublishedMap map;
   RoadMarkings road_markings;
   std::optional<ServiceStatus> status;  ///< without its fields tick and tick_delay; none: it is not due
-  std::optional<Snapshot> snapshot;     ///< to be kept for a restart; none: it is not due
-  bool state_changed = false;           ///< the state or its reasons differ from those of the tick before
+  std::optional<snapshot::Snapshot> snapshot;  ///< to be kept for a restart; none: it is not due
+  bool state_changed = false;  ///< the state or its reasons differ from those of the tick before
 };
 
 /// The work of the service: takes the messages that came, updates the map, judges how far it can be relied
@@ -48,13 +48,13 @@ class ServiceCore {
   Messages tick(const Tick& tick, Arrivals&& arrivals);
 
   /// Goes on with the map of a former service. Is to be called before the first tick.
-  void resume(Snapshot&& snapshot);
+  void resume(snapshot::Snapshot&& snapshot);
   /// The stamp of a snapshot made now. A snapshot with another maker is of no use to this service.
-  SnapshotStamp snapshot_stamp() const;
+  snapshot::SnapshotStamp snapshot_stamp() const;
 
   /// Names this run of the service.
   std::uint64_t session_id() const { return session_id_; }
-  const MappingSession& session() const { return session_; }
+  const session::MappingSession& session() const { return session_; }
   /// Lets `observer` be told of the stages of every fused frame.
   void observe(StageObserver* observer) { session_.observe(observer); }
   /// State and numbers in one line, for people.
@@ -67,10 +67,10 @@ class ServiceCore {
   /// Whether one of several sources that was heard a moment ago does not go into the map.
   bool source_not_fused(std::int64_t now_ns) const;
   void note_incidents(const Tick& tick, const Arrivals& arrivals, std::uint64_t resets);
-  PublishedMap published_map(MappingSession::Progress&& progress);
+  PublishedMap published_map(session::MappingSession::Progress&& progress);
   ServiceStatus status(const Arrivals& arrivals, const HealthInputs& inputs);
   void add_progress(SourceStatus& source) const;
-  std::optional<Snapshot> snapshot_if_due(std::int64_t now_ns);
+  std::optional<snapshot::Snapshot> snapshot_if_due(std::int64_t now_ns);
 
   Config config_;
   Surroundings surroundings_;
@@ -79,7 +79,7 @@ class ServiceCore {
   std::uint64_t session_id_;
   std::uint64_t map_id_;  ///< ids of elements are valid while it stays
   std::int64_t started_ns_;
-  MappingSession session_;
+  session::MappingSession session_;
   Health health_;
   Verdict verdict_;
   Counters counters_;  ///< of events in the core
@@ -91,4 +91,4 @@ class ServiceCore {
   std::int64_t next_snapshot_ns_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::core

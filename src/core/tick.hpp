@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace laneloom {
+namespace laneloom::core {
 
 /// One run of a periodic task, by the steady clock.
 struct Tick {
@@ -11,4 +11,4 @@ struct Tick {
   std::uint64_t missed = 0;      ///< number of deadlines without a tick since the tick before
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::core

@@ -15,7 +15,7 @@ ElementId element_of(const Membership& membership, ElementId marking) {
 /// The element of a marking, or else that of its nearest relative that has one. Relatives are followed on,
 /// because a line may have merged into a line that merged into another one later.
 ElementId element_of(const Membership& membership, ElementId marking,
-                     const std::vector<Relative>& relatives) {
+                     const std::vector<markings::Relative>& relatives) {
   for (auto relative = relatives.begin(); relative != relatives.end(); ++relative) {
     if (relative->id != marking) continue;
     if (const ElementId element = element_of(membership, marking); element != kNoElement) return element;
@@ -32,9 +32,9 @@ std::set<ElementId> elements(const Membership& membership) {
 
 }  // namespace
 
-Membership membership(const Boundaries& boundaries, const std::vector<Stopline>& stoplines) {
+Membership membership(const boundaries::Boundaries& boundaries, const std::vector<Stopline>& stoplines) {
   Membership result;
-  for (const LaneBoundary& boundary : boundaries) {
+  for (const boundaries::LaneBoundary& boundary : boundaries) {
     for (const ElementId member : boundary.members) result.emplace_back(member, boundary.marking.id);
   }
   for (const Stopline& stopline : stoplines) result.emplace_back(stopline.marking.id, stopline.marking.id);
@@ -43,7 +43,7 @@ Membership membership(const Boundaries& boundaries, const std::vector<Stopline>&
 }
 
 std::vector<LineageEvent> lineage(const Membership& before, const Membership& now,
-                                  const std::vector<Relative>& relatives) {
+                                  const std::vector<markings::Relative>& relatives) {
   using Kind = LineageEvent::Kind;
   const std::set<ElementId> ids_before = elements(before), ids_now = elements(now);
   std::vector<LineageEvent> events;

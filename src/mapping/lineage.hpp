@@ -13,11 +13,11 @@ namespace laneloom {
 using Membership = std::vector<std::pair<ElementId, ElementId>>;
 
 /// The membership of boundaries, each with its members, and of stoplines, each of which is its own member.
-Membership membership(const Boundaries& boundaries, const std::vector<Stopline>& stoplines);
+Membership membership(const boundaries::Boundaries& boundaries, const std::vector<Stopline>& stoplines);
 
 /// The events of published ids from one map to the next, by ascending id. `relatives` are the lines that
 /// merged or were split in between.
 std::vector<LineageEvent> lineage(const Membership& before, const Membership& now,
-                                  const std::vector<Relative>& relatives);
+                                  const std::vector<markings::Relative>& relatives);
 
 }  // namespace laneloom

@@ -23,22 +23,22 @@ namespace {
 
 /// The scene of the next map. A frame may come after newer ones of another source: it is fused as it was
 /// seen, into the present map.
-Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, const RangeConfig& range,
-                 MapperState& state) {
+geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
+                           const RangeConfig& range, MapperState& state) {
   const bool newest = frame.stamp_ns >= state.map.stamp_ns;
-  return {.box = MapBox(range, newest ? T_map_body : state.map.T_map_body),
+  return {.box = geometry::MapBox(range, newest ? T_map_body : state.map.T_map_body),
           .stamp_ns = newest ? frame.stamp_ns : state.map.stamp_ns,
           .frame = ++state.frame};
 }
 
 /// The map of a frame. `published` is the membership of the map before, and is set to that of this map.
-LocalMap assembled(const Scene& scene, FusedMarkings fused, RoadGraph road, const StoplineConfig& config,
-                   Membership& published) {
+LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, topology::RoadGraph road,
+                   const StoplineConfig& config, Membership& published) {
   LocalMap map{.stamp_ns = scene.stamp_ns, .T_map_body = scene.T_map_body()};
-  map.stoplines = tie_stoplines(fused.markings, road.lanes, config);
+  map.stoplines = topology::tie_stoplines(fused.markings, road.lanes, config);
   const Membership before = std::exchange(published, membership(road.boundaries, map.stoplines));
   map.lineage = lineage(before, published, fused.relatives);
-  for (LaneBoundary& boundary : std::move(road.boundaries).take())
+  for (boundaries::LaneBoundary& boundary : std::move(road.boundaries).take())
     map.boundaries.push_back(std::move(boundary.marking));
   map.markings = std::move(fused.markings);
   map.lanes = std::move(road.lanes);
@@ -58,7 +58,7 @@ const char* name(Stage stage) {
 
 Mapper::Mapper(const MapperConfig& config, SdMap sd_map)
     : config_(config), sd_map_(std::move(sd_map)), state_(std::make_unique<MapperState>(config)) {
-  check_profiles(config_);
+  lines::check_profiles(config_);
 }
 Mapper::~Mapper() = default;
 Mapper::Mapper(Mapper&&) noexcept = default;
@@ -66,23 +66,28 @@ Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
 const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                                StageObserver* observer) {
-  const StageLog log(observer);
+  const markings::StageLog log(observer);
   MapperState& state = *state_;
-  const Scene scene = next_scene(frame, T_map_body, config_.range, state);
-  const ObservedFrame observed{
+  const geometry::Scene scene = next_scene(frame, T_map_body, config_.range, state);
+  const markings::ObservedFrame observed{
       frame, T_map_body,
-      log.done(Stage::preprocess, preprocess(frame, T_map_body, config_.preprocess))};  // paper, III-A
-  FusedMarkings fused = state.fusion.update(observed, scene, config_, state.ids, log);  // III-B and III-C
-  Boundaries boundaries = log.done(Stage::lane_boundaries,                              // III-D-1
-                                   lane_boundaries(fused.markings, fused.joints, config_.boundary));
-  SectionGraph sections =
+      log.done(Stage::preprocess,
+               markings::preprocess(frame, T_map_body, config_.preprocess))};  // paper, III-A
+  markings::FusedMarkings fused =
+      state.fusion.update(observed, scene, config_, state.ids, log);  // III-B and III-C
+  boundaries::Boundaries boundaries =
+      log.done(Stage::lane_boundaries,  // III-D-1
+               boundaries::lane_boundaries(fused.markings, fused.joints, config_.boundary));
+  boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config_.section));  // III-D-2
-  LaneLayout layout = log.done(  // III-D-3, and ours
-      Stage::lanes, state.lane_memory.recognise(find_lanes(std::move(sections), scene, config_.lane), scene,
-                                                config_.lane, state.ids));
-  RoadGraph road = link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
-  observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline, state.lane_memory);
+  lanes::LaneLayout layout = log.done(  // III-D-3, and ours
+      Stage::lanes, state.lane_memory.recognise(lanes::find_lanes(std::move(sections), scene, config_.lane),
+                                                scene, config_.lane, state.ids));
+  topology::RoadGraph road =
+      topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
+  topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
+                               state.lane_memory);
   find_directions(config_.direction, state.lane_memory, road);
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
@@ -94,8 +99,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
 const LocalMap& Mapper::map() const { return state_->map; }
 
 std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& source) const {
-  const LineMapper* lines = state_->fusion.lines();
-  const Network* network = lines != nullptr ? lines->networks().find(source) : nullptr;
+  const lines::LineMapper* lines = state_->fusion.lines();
+  const lines::Network* network = lines != nullptr ? lines->networks().find(source) : nullptr;
   std::vector<std::pair<std::string, double>> values;
   if (network == nullptr) return values;
   for (const auto& [name, learned] : network->profile()) values.emplace_back(name, learned.value);
@@ -104,15 +109,16 @@ std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& s
 
 NetworkProfiles Mapper::profiles() const {
   NetworkProfiles profiles;
-  if (const LineMapper* lines = state_->fusion.lines())
-    for (const Network& network : lines->networks().all()) profiles[network.source] = network.profile();
+  if (const lines::LineMapper* lines = state_->fusion.lines())
+    for (const lines::Network& network : lines->networks().all())
+      profiles[network.source] = network.profile();
   return profiles;
 }
 
 void Mapper::reset() {
   MapperState fresh(config_);
   fresh.ids = state_->ids;
-  if (LineMapper* lines = state_->fusion.lines()) {
+  if (lines::LineMapper* lines = state_->fusion.lines()) {
     lines->reset();
     fresh.fusion = std::move(state_->fusion);
   }

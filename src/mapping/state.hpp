@@ -21,18 +21,19 @@ namespace laneloom {
 class Fusion {  // NOLINT(bugprone-exception-escape)
  public:
   explicit Fusion(const MapperConfig& config) {
-    if (config.method == FusionMethod::voxels) method_.emplace<VoxelMapper>(config.voxel_map);
+    if (config.method == FusionMethod::voxels) method_.emplace<voxels::VoxelMapper>(config.voxel_map);
   }
 
-  FusedMarkings update(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
-                       IdSource& ids, const StageLog& log) {
+  markings::FusedMarkings update(const markings::ObservedFrame& observed, const geometry::Scene& scene,
+                                 const MapperConfig& config, markings::IdSource& ids,
+                                 const markings::StageLog& log) {
     return std::visit([&](auto& method) { return method.fuse(observed, scene, config, ids, log); }, method_);
   }
 
   /// The state of the method `lines` or `voxels`. Null: the mapper uses the other method.
-  const LineMapper* lines() const { return std::get_if<LineMapper>(&method_); }
-  LineMapper* lines() { return std::get_if<LineMapper>(&method_); }
-  const VoxelMapper* voxels() const { return std::get_if<VoxelMapper>(&method_); }
+  const lines::LineMapper* lines() const { return std::get_if<lines::LineMapper>(&method_); }
+  lines::LineMapper* lines() { return std::get_if<lines::LineMapper>(&method_); }
+  const voxels::VoxelMapper* voxels() const { return std::get_if<voxels::VoxelMapper>(&method_); }
 
   /// Throws std::runtime_error where the archive holds the other method.
   template <class Archive>
@@ -44,7 +45,7 @@ class Fusion {  // NOLINT(bugprone-exception-escape)
   }
 
  private:
-  std::variant<LineMapper, VoxelMapper> method_;
+  std::variant<lines::LineMapper, voxels::VoxelMapper> method_;
 };
 
 /// The whole knowledge of a mapper. It is a value without pointers, which can be copied, saved and loaded.
@@ -53,10 +54,10 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
 
   std::uint64_t frame = 0;  ///< number of fused frames
   Fusion fusion;
-  LaneMemory lane_memory;
-  EgoTrack ego_track;
+  lanes::LaneMemory lane_memory;
+  topology::EgoTrack ego_track;
   Membership published;  ///< membership in the last map
-  IdSource ids;
+  markings::IdSource ids;
   LocalMap map;  ///< the last map
 
   template <class Archive>

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// Values as MCAP serialises them: little endian, with the length in bytes before texts and lists.
-namespace laneloom {
+namespace laneloom::recording {
 
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
@@ -65,4 +65,4 @@ class ByteReader {
   ByteView from_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

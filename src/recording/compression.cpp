@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 constexpr int kZstdLevel = 1;
@@ -104,4 +104,4 @@ void decompress(Compression compression, ByteView from, std::span<std::uint8_t> 
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -6,7 +6,7 @@
 #include "recording/bytes.hpp"
 #include "recording/recording.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 
 /// The name of a compression in MCAP; empty for none.
 std::string_view name_of(Compression compression);
@@ -22,4 +22,4 @@ void compress(Compression compression, ByteView from, Bytes& to);
 /// `from` is malformed or of another size. Allocates nothing that grows with the input.
 void decompress(Compression compression, ByteView from, std::span<std::uint8_t> to);
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
@@ -66,4 +66,4 @@ void InputFile::read(std::uint64_t offset, std::span<std::uint8_t> to) const {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

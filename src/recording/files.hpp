@@ -6,7 +6,7 @@
 
 /// Files by their descriptors, which are closed by the destructors. All throw std::runtime_error naming the
 /// file.
-namespace laneloom {
+namespace laneloom::recording {
 
 class FileDescriptor {
  public:
@@ -56,4 +56,4 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace laneloom {
+namespace laneloom::recording {
 
 void McapCatalogue::count(std::size_t bytes) {
   bytes_ += bytes;
@@ -51,4 +51,4 @@ const McapChannel& McapCatalogue::channel(std::uint16_t id) const {
   return found->second;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

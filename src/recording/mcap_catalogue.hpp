@@ -5,7 +5,7 @@
 
 #include "recording/mcap_format.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 
 /// The schemas and channels of an MCAP file, gathered as their records are met. Throws std::runtime_error
 /// where they contradict each other, or take more than `max_bytes` in all.
@@ -29,4 +29,4 @@ class McapCatalogue {
   std::map<std::uint16_t, McapChannel> channels_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -10,7 +10,7 @@
 ///
 /// A file is: magic, Header, data section, DataEnd, summary section, summary offsets, Footer, magic. Each
 /// record is an opcode, the length of its content, and the content.
-namespace laneloom {
+namespace laneloom::recording {
 
 inline constexpr std::array<std::uint8_t, 8> kMcapMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
@@ -50,4 +50,4 @@ struct McapChannel {
   bool operator==(const McapChannel&) const = default;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

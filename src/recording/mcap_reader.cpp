@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 constexpr std::uint64_t kMaxCatalogueBytes = 64U << 20U;
@@ -100,4 +100,4 @@ void McapReader::advance_first() {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

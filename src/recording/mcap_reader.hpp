@@ -6,7 +6,7 @@
 
 #include "recording/mcap_section.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 
 /// A message of an MCAP file.
 struct McapMessage {
@@ -63,4 +63,4 @@ class McapReader {
   std::uint64_t count_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -7,7 +7,7 @@
 
 #include "recording/compression.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 using Buffer = std::unique_ptr<std::uint8_t[]>;  // NOLINT(*-avoid-c-arrays)
@@ -98,4 +98,4 @@ LoadedSection load(const InputFile& file, const McapSection& section, const Reco
   return loaded;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

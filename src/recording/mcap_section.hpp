@@ -5,7 +5,7 @@
 
 #include "recording/mcap_sections.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 
 /// The messages of a section, in memory and in the order of their log times.
 struct LoadedSection {
@@ -26,4 +26,4 @@ struct LoadedSection {
 LoadedSection load(const InputFile& file, const McapSection& section, const RecordingLimits& limits,
                    std::uint64_t open_bytes, McapCatalogue& catalogue);
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 constexpr std::uint64_t kWindowBytes = 4096;
@@ -146,4 +146,4 @@ McapContents list_contents(const InputFile& file, const RecordingLimits& limits,
   return Walk(file, limits, catalogue).contents();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -8,7 +8,7 @@
 #include "recording/mcap_catalogue.hpp"
 #include "recording/recording.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 
 /// A chunk, or a stretch of messages outside of chunks.
 struct McapSection {
@@ -41,4 +41,4 @@ auto at_offset(const InputFile& file, std::uint64_t offset, Work work) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

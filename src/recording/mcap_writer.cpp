@@ -6,7 +6,7 @@
 
 #include "recording/compression.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 std::uint32_t crc_of(ByteView bytes, std::uint32_t before = 0) {
@@ -226,4 +226,4 @@ void McapWriter::close() {
   file_.append(end);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -9,7 +9,7 @@
 #include "recording/mcap_format.hpp"
 #include "recording/recording.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 
 /// Writes an indexed MCAP file, chunk by chunk. Not thread-safe. All throw std::runtime_error naming the
 /// file, which then ends with the last record that was whole, and stays readable.
@@ -72,4 +72,4 @@ class McapWriter {
   std::uint32_t data_crc_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -10,7 +10,7 @@
 #include "recording/recording.hpp"
 #include "recording/topics.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 constexpr std::string_view kForeignTopic = "not a topic of laneloom";
@@ -122,4 +122,4 @@ const Counters& RecordingReader::refused() const { return impl_->refused(); }
 bool RecordingReader::cut_off() const { return impl_->cut_off(); }
 double RecordingReader::progress() const { return impl_->progress(); }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

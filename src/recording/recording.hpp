@@ -15,7 +15,7 @@
 
 /// Recordings of laneloom's topics: MCAP files (mcap.dev) with messages in CDR, as they go over the wire, and
 /// the IDL that describes them.
-namespace laneloom {
+namespace laneloom::recording {
 
 enum class Compression : std::uint8_t { none, lz4, zstd };
 
@@ -135,4 +135,4 @@ class RecordingReader {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

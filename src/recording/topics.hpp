@@ -4,7 +4,7 @@
 #include "laneloom/messages.hpp"
 
 /// The topics of laneloom as a recording describes them.
-namespace laneloom {
+namespace laneloom::recording {
 
 /// The IDL of a message as one text: included files are inserted, and there is no line for a preprocessor,
 /// which readers of recordings do not have. Made from idl/ by flatten_idl.cmake.
@@ -47,4 +47,4 @@ inline RecordedTopic topic_of<ServiceStatus>() {
   return {dds::kStatusTopic, dds::kStatusType, kServiceStatusIdl};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

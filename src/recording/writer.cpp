@@ -10,7 +10,7 @@
 #include "recording/recording.hpp"
 #include "recording/topics.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 constexpr std::string_view kExtension = ".mcap";
@@ -177,4 +177,4 @@ template void RecordingWriter::write_cdr<RoadMarkings>(std::span<const std::uint
 template void RecordingWriter::write(const ServiceStatus&, std::int64_t);
 template void RecordingWriter::write_cdr<ServiceStatus>(std::span<const std::uint8_t>, std::int64_t);
 
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -16,7 +16,7 @@
 #include "sd_map/osm.hpp"
 #include "sd_map/osm_elements.hpp"
 
-namespace laneloom {
+namespace laneloom::sd_map {
 namespace {
 
 /// Values of the tag highway of streets for motor vehicles. Their links have the suffix "_link".
@@ -147,4 +147,4 @@ SdMap load_sd_map(const SdMapConfig& config) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::sd_map

@@ -4,7 +4,7 @@
 #include "laneloom/error.hpp"
 #include "laneloom/sd_map.hpp"
 
-namespace laneloom {
+namespace laneloom::sd_map {
 
 /// Reads an OpenStreetMap extract (XML): its highways for motor vehicles, one-way streets and turn
 /// restrictions, with the map frame's origin as configured: x east, y north. An empty file name gives an
@@ -12,4 +12,4 @@ namespace laneloom {
 /// more than 20000 km of them. The error names the file and, if possible, the element.
 SdMap load_sd_map(const SdMapConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::sd_map

@@ -6,7 +6,7 @@
 #include <string_view>
 
 /// Elements of OpenStreetMap's XML, which Lanelet2 uses as well.
-namespace laneloom {
+namespace laneloom::sd_map {
 
 using OsmId = std::int64_t;
 
@@ -24,4 +24,4 @@ inline std::string name_of(const pugi::xml_node& element) {
   return std::string(element.name()) + " " + element.attribute("id").as_string();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::sd_map

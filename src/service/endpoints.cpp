@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 dds::ReaderCallbacks<DetectionFrame> take_detections(IngestionQueue& queue,
@@ -52,4 +52,4 @@ Endpoints::Endpoints(const Config& config, std::uint64_t session_id, IngestionQu
       config, ros2::Endpoints::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns)}, presence);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

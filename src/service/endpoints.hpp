@@ -12,7 +12,7 @@
 #include "ros2/endpoints.hpp"
 #include "service/ingestion_queue.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// All DDS endpoints of the service, as one object that can be made anew while the map lives on.
 class Endpoints {
@@ -38,4 +38,4 @@ class Endpoints {
   dds::Reader<ServiceStatus> services_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-namespace laneloom {
+namespace laneloom::service {
 
 void run_periodically(std::int64_t period_ns, const Timing& timing,
-                      const std::function<void(const Tick&)>& task) {
-  Tick tick;
+                      const std::function<void(const core::Tick&)>& task) {
+  core::Tick tick;
   tick.deadline_ns = timing.now_ns();
   while (timing.sleep_until(tick.deadline_ns)) {
     tick.start_ns = timing.now_ns();
@@ -18,4 +18,4 @@ void run_periodically(std::int64_t period_ns, const Timing& timing,
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

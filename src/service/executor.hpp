@@ -5,7 +5,7 @@
 
 #include "core/tick.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// The steady clock of an executor.
 struct Timing {
@@ -17,6 +17,6 @@ struct Timing {
 /// Calls `task` at absolute deadlines, `period_ns` apart, until sleep_until() returns false. A slow task
 /// never shifts the deadlines: deadlines that pass meanwhile are missed, and counted.
 void run_periodically(std::int64_t period_ns, const Timing& timing,
-                      const std::function<void(const Tick&)>& task);
+                      const std::function<void(const core::Tick&)>& task);
 
-}  // namespace laneloom
+}  // namespace laneloom::service

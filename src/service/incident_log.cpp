@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 bool is_incident(std::string_view counter) {
@@ -32,4 +32,4 @@ void IncidentLog::note(const ServiceStatus& status, std::int64_t now_ns) {
   reported_ = seen;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

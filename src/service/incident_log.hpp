@@ -5,7 +5,7 @@
 #include "laneloom/counters.hpp"
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// Logs the rise of counters that should not rise in normal operation. It does so once per period, so that no
 /// message of others can flood the log.
@@ -21,4 +21,4 @@ class IncidentLog {
   Counters reported_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::service

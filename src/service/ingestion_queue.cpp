@@ -11,7 +11,7 @@
 #include "session/admission.hpp"
 #include "session/gate.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 constexpr std::size_t kMaxSources = 16;
@@ -27,8 +27,8 @@ IngestionQueue::IngestionQueue(const Config& config) : config_(config.sync), gat
 
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
   // Checked before the frame is thinned: the defect may be in a detection that would be left out.
-  const std::string_view refusal = defect(frame, gate_);
-  const std::size_t left_out = refusal.empty() ? admit(gate_, frame) : 0;
+  const std::string_view refusal = session::defect(frame, gate_);
+  const std::size_t left_out = refusal.empty() ? session::admit(gate_, frame) : 0;
   const std::lock_guard lock(mutex_);
   count_frame();
   state_.newest_frame_ns = arrival_ns;
@@ -120,8 +120,8 @@ void IngestionQueue::number_pose(const dds::WriterId& writer, std::uint64_t numb
   lost_poses_.note(writer, number);
 }
 
-Arrivals IngestionQueue::take() {
-  Arrivals arrivals;
+core::Arrivals IngestionQueue::take() {
+  core::Arrivals arrivals;
   Queue frames, poses;
   {
     const std::lock_guard lock(mutex_);
@@ -142,4 +142,4 @@ Arrivals IngestionQueue::take() {
   return arrivals;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

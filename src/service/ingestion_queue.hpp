@@ -12,7 +12,7 @@
 #include "laneloom/types.hpp"
 #include "service/lost_messages.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// The queue between the threads of DDS, which push, and the executor, which takes. It is bounded: for a new
 /// pose the oldest pose is dropped, for a new frame the oldest frame of the source that has the most. Both
@@ -37,17 +37,17 @@ class IngestionQueue {
   void number_pose(const dds::WriterId& writer, std::uint64_t number);
 
   /// Takes the messages since the call before, with the counters since the start.
-  Arrivals take();
+  core::Arrivals take();
 
  private:
   /// A queued message.
   struct Numbered {
     std::uint64_t order = 0;  ///< its place in the order of arrival
-    Arrival arrival;
+    core::Arrival arrival;
   };
   using Queue = std::deque<Numbered>;
 
-  void push(Queue& queue, Arrival&& arrival) { queue.push_back({next_order_++, std::move(arrival)}); }
+  void push(Queue& queue, core::Arrival&& arrival) { queue.push_back({next_order_++, std::move(arrival)}); }
   void drop_oldest_of_most();
   void note_source(const DetectionFrame& frame);
   void count_frame();
@@ -65,7 +65,7 @@ class IngestionQueue {
   // every instant.
   std::uint64_t frames_lost_ = 0;
   std::uint64_t poses_lost_ = 0;
-  Arrivals state_;  ///< without messages, which are in the queues
+  core::Arrivals state_;  ///< without messages, which are in the queues
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::service

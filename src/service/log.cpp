@@ -13,7 +13,7 @@
 #include <sstream>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 /// Whether standard error is the journal. systemd names the stream that it connected, so that a stream which
@@ -50,4 +50,4 @@ void print_error(const std::string& text) {
 
 void set_log_level(const std::string& level) { spdlog::set_level(spdlog::level::from_str(level)); }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// Makes the log of the process. If standard error is connected to the journal, the log goes there with
 /// priorities; otherwise it goes to standard error with times.
@@ -15,4 +15,4 @@ void print_error(const std::string& text);
 /// Sets the least severe level that is logged: "debug", "info", "warn", "error" or "off".
 void set_log_level(const std::string& level);
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -6,7 +6,7 @@
 
 #include "laneloom/dds/reader.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// Counts the messages that never arrived, by the numbers that their writers gave them. A message that comes
 /// after newer ones is no longer counted as lost.
@@ -43,4 +43,4 @@ class LostMessages {
   std::uint64_t of_forgotten_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -22,7 +22,7 @@
 #include "service/signals.hpp"
 #include "session/mapping_session.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 struct Options {
@@ -38,11 +38,11 @@ struct Options {
 /// The configuration of the file, overridden by the preset, overridden by the other options of the command
 /// line.
 Config configure(const Options& options) {
-  Config config = resolve_config(options.config_file, options.preset);
+  Config config = config::resolve_config(options.config_file, options.preset);
   if (options.vehicle_id) config.dds.vehicle_id = *options.vehicle_id;
   if (options.domain) config.dds.domain = *options.domain;
   if (options.snapshot_file) config.service.snapshot_file = *options.snapshot_file;
-  validate(config);
+  config::validate(config);
   return config;
 }
 
@@ -65,7 +65,7 @@ std::string profile_of(const Config& config) {
 void reconfigure(Running& running, const Options& options) try {
   const auto wanted = configure(options);
   auto& config = running.config;
-  for (const auto& key : changed_keys(config, wanted)) {
+  for (const auto& key : config::changed_keys(config, wanted)) {
     if (key == "service.log_level") {
       config.service.log_level = wanted.service.log_level;
       set_log_level(config.service.log_level);
@@ -100,11 +100,11 @@ void run(const Config& config, const Options& options) {
   const Signals signals;
   Running running{config, profile_of(config)};
   Service service(config, steady_now_ns);
-  spdlog::info("event=started version={} config={} domain={} vehicle={}", version(), config_hash(config),
-               config.dds.domain, config.dds.vehicle_id);
+  spdlog::info("event=started version={} config={} domain={} vehicle={}", core::version(),
+               config::config_hash(config), config.dds.domain, config.dds.vehicle_id);
 
   bool ready = false;
-  const auto tick = [&](const Tick& now) {
+  const auto tick = [&](const core::Tick& now) {
     service.tick(now);
     if (!ready) sd_notify(0, "READY=1");
     ready = true;
@@ -125,13 +125,13 @@ void run(const Config& config, const Options& options) {
 int start(const Options& options) {
   const Config config = configure(options);
   if (options.dump_only) {
-    std::printf("%s", dump(config).c_str());
+    std::printf("%s", config::dump(config).c_str());
     return EX_OK;
   }
   if (options.check_only) {
-    const MappingSession session(config);  // checks the files that the configuration names
+    const session::MappingSession session(config);  // checks the files that the configuration names
     dds::check_files(config.dds);
-    std::printf("configuration %s is valid\n", config_hash(config).c_str());
+    std::printf("configuration %s is valid\n", config::config_hash(config).c_str());
     return EX_OK;
   }
   set_up_log(config.service.log_level);
@@ -140,10 +140,10 @@ int start(const Options& options) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service
 
 int main(int argc, char** argv) try {
-  laneloom::Options options;
+  laneloom::service::Options options;
   CLI::App app("Fuses road-marking detections into a local lane map, over DDS.", "laneloomd");
   app.add_option("--config", options.config_file,
                  "Configuration file (YAML); keys that it lacks have their defaults");
@@ -156,23 +156,23 @@ int main(int argc, char** argv) try {
   app.add_flag("--check-config", options.check_only, "Check the configuration and exit");
   app.add_flag("--dump-config", options.dump_only,
                "Print every key of the configuration with its value, unit, range and meaning, and exit");
-  app.set_version_flag("--version", laneloom::version());
+  app.set_version_flag("--version", laneloom::core::version());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {
     std::ostringstream complaint;
     const int code = app.exit(end, std::cout, complaint);
-    laneloom::print_error(complaint.str());
+    laneloom::service::print_error(complaint.str());
     return code == EX_OK ? EX_OK : EX_CONFIG;
   }
-  return laneloom::start(options);
+  return laneloom::service::start(options);
 } catch (const laneloom::ConfigError& error) {
-  laneloom::print_error(error.what());
+  laneloom::service::print_error(error.what());
   return EX_CONFIG;  // systemd does not start the service again: it would be refused again
 } catch (const laneloom::dds::NotPermitted& error) {
-  laneloom::print_error(error.what());
+  laneloom::service::print_error(error.what());
   return EX_NOPERM;  // systemd starts the service again: the clock may be wrong yet
 } catch (const std::exception& error) {
-  laneloom::print_error(error.what());
+  laneloom::service::print_error(error.what());
   return EXIT_FAILURE;
 }

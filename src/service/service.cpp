@@ -14,7 +14,7 @@
 #include "laneloom/error.hpp"
 #include "laneloom/state_names.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 constexpr double kStatisticsWindow_s = 10.0;
@@ -38,7 +38,7 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
   reopen();  // first: if it throws, the snapshot is kept, which resume() removes
   if (!config.service.snapshot_file.empty()) {
     resume();
-    snapshots_ = std::make_unique<SnapshotWriter>(config.service.snapshot_file);
+    snapshots_ = std::make_unique<snapshot::SnapshotWriter>(config.service.snapshot_file);
   }
 }
 
@@ -76,8 +76,8 @@ void Service::reopen() {
   endpoints_ = std::make_unique<Endpoints>(config_, core_.session_id(), queue_, now_ns_);
 }
 
-void Service::tick(const Tick& tick) {
-  Messages messages = core_.tick(tick, take_arrivals());
+void Service::tick(const core::Tick& tick) {
+  core::Messages messages = core_.tick(tick, take_arrivals());
   publish(messages.map, messages.road_markings);
   if (messages.snapshot) snapshots_->write(std::move(*messages.snapshot));
   work_.add(milliseconds(now_ns_() - tick.start_ns));
@@ -90,8 +90,8 @@ void Service::tick(const Tick& tick) {
   incidents_.note(*messages.status, tick.start_ns);
 }
 
-Arrivals Service::take_arrivals() {
-  Arrivals arrivals = queue_.take();
+core::Arrivals Service::take_arrivals() {
+  core::Arrivals arrivals = queue_.take();
   arrivals.counters.add(counters_);
   if (snapshots_) {
     const auto snapshots = snapshots_->totals();
@@ -119,7 +119,7 @@ void Service::publish(const ServiceStatus& status) {
   if (endpoints_->ros2) counters_.add("writes_failed", endpoints_->ros2->write(status));
 }
 
-void Service::log_tick(const Tick& tick, const Messages& messages) const {
+void Service::log_tick(const core::Tick& tick, const core::Messages& messages) const {
   const PublishedMap& map = messages.map;
   if (messages.state_changed)
     spdlog::info("state={} session={}", state_text(map.state, map.reasons), map.session_id);
@@ -129,4 +129,4 @@ void Service::log_tick(const Tick& tick, const Messages& messages) const {
                 system_now_ns() - (now_ns_() - tick.start_ns), tick.start_ns - tick.deadline_ns, tick.missed);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

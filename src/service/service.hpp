@@ -14,7 +14,7 @@
 #include "service/time_window.hpp"
 #include "snapshot/snapshot_writer.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// Connects the core with DDS, files, clocks and the log. One thread calls it; the threads of DDS only reach
 /// its queue.
@@ -24,7 +24,7 @@ class Service {
   /// configuration names is missing or invalid, and std::runtime_error when DDS can't be set up.
   Service(const Config& config, std::function<std::int64_t()> now_ns);
 
-  void tick(const Tick& tick);
+  void tick(const core::Tick& tick);
   /// Makes all DDS endpoints anew; the map and the queued messages stay. Throws ConfigError, and keeps the
   /// present endpoints, when a file of the profile or of security is missing or invalid, or DDS does not
   /// trust it. If it throws std::runtime_error because DDS refuses, nothing else may be called.
@@ -38,23 +38,23 @@ class Service {
   /// Goes on with the map of a former service, if that left a snapshot.
   void resume();
   /// The arrivals through DDS, with the counters of this class added.
-  Arrivals take_arrivals();
+  core::Arrivals take_arrivals();
   void publish(const PublishedMap& map, const RoadMarkings& markings);
   void publish(const ServiceStatus& status);
-  void log_tick(const Tick& tick, const Messages& messages) const;
+  void log_tick(const core::Tick& tick, const core::Messages& messages) const;
   template <class T>
   void write(dds::Writer<T>& writer, const T& message);
 
   Config config_;
   std::function<std::int64_t()> now_ns_;
-  ServiceCore core_;
+  core::ServiceCore core_;
   IngestionQueue queue_;
   TimeWindow work_;
   TimeWindow delay_;
   Counters counters_;  ///< of events in this class
   IncidentLog incidents_;
-  std::unique_ptr<SnapshotWriter> snapshots_;  ///< null: no snapshots are kept
-  std::unique_ptr<Endpoints> endpoints_;       ///< last, so that no callback meets a destroyed member
+  std::unique_ptr<snapshot::SnapshotWriter> snapshots_;  ///< null: no snapshots are kept
+  std::unique_ptr<Endpoints> endpoints_;  ///< last, so that no callback meets a destroyed member
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -10,7 +10,7 @@
 #include <csignal>
 #include <system_error>
 
-namespace laneloom {
+namespace laneloom::service {
 
 Signals::Signals() {
   sigset_t signals;
@@ -44,4 +44,4 @@ std::int64_t steady_now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// The event that ended a sleep.
 enum class Wake { deadline, stop, reload };
@@ -27,4 +27,4 @@ class Signals {
 /// Nanoseconds of the steady clock.
 std::int64_t steady_now_ns();
 
-}  // namespace laneloom
+}  // namespace laneloom::service

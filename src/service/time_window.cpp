@@ -2,7 +2,7 @@
 
 #include "base/distribution.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 void TimeWindow::add(double value_ms) {
   if (values_ms_.size() < capacity_) {
@@ -18,4 +18,4 @@ TimeSummary TimeWindow::summary() const {
   return {times_ms.mean(), times_ms.quantile(0.5), times_ms.quantile(0.99), times_ms.quantile(1.0)};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -5,7 +5,7 @@
 
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// Summarises the last `capacity` durations. Does not allocate once it is full.
 class TimeWindow {
@@ -22,4 +22,4 @@ class TimeWindow {
   std::vector<double> values_ms_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::service

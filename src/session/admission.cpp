@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 double length_3d(const Polyline& line) {
@@ -65,4 +65,4 @@ std::size_t admit(const GateConfig& config, DetectionFrame& frame) {
   return admitted.size() - count;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -5,7 +5,7 @@
 
 #include "base/unit_rotation.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 constexpr int kOutliersToBelieve = 3;
@@ -101,4 +101,4 @@ std::string_view defect(const VehiclePose& pose, const GateConfig& config) {
   return is_unit(pose.orientation) ? std::string_view() : "not_a_rotation";
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::session

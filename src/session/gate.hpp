@@ -8,7 +8,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 
 /// A message's place in its stream.
 struct StreamPoint {
@@ -53,4 +53,4 @@ class Gate {
 std::string_view defect(const DetectionFrame& frame, const GateConfig& config);
 std::string_view defect(const VehiclePose& pose, const GateConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::session

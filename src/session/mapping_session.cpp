@@ -12,7 +12,7 @@
 #include "session/sources.hpp"
 #include "session/synchroniser.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 using Checkpoint = MappingSession::Checkpoint;
@@ -28,7 +28,7 @@ bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateCo
 }
 
 MapperConfig with_profiles(MapperConfig config) {
-  for (auto& [source, profile] : load_network_profiles(config.fusion.profile_file))
+  for (auto& [source, profile] : config::load_network_profiles(config.fusion.profile_file))
     config.networks[source] = std::move(profile);
   return config;
 }
@@ -57,7 +57,7 @@ struct MappingSession::State {
         pose_gate(c.gate),
         sources(c.gate),
         synchroniser(c.sync),
-        mapper(with_profiles(c.mapper), load_sd_map(c.sd_map)) {}
+        mapper(with_profiles(c.mapper), sd_map::load_sd_map(c.sd_map)) {}
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
@@ -221,4 +221,4 @@ void MappingSession::observe(std::function<void(const FusedFrame&, const LocalMa
   state_->map_observer = std::move(observer);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -13,7 +13,7 @@
 #include "laneloom/mapper.hpp"
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 
 /// The progress of one source of detections since its session began.
 struct SourceProgress {
@@ -68,6 +68,12 @@ class MappingSession {
     std::int64_t pose_stamp_ns = 0;     ///< of the newest pose
     std::uint64_t pose_session_id = 0;  ///< of the newest pose
     Point position = Point::Zero();     ///< of the newest pose, map frame
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(frame_stamp_ns, frame_arrival_ns, pose_stamp_ns, pose_session_id, position.x(), position.y(),
+              position.z());
+    }
   };
   /// The checkpoint of the present map. None: this session has not yet fused a frame into it.
   std::optional<Checkpoint> checkpoint() const;
@@ -108,4 +114,4 @@ class MappingSession {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
@@ -61,4 +61,4 @@ PoseBuffer::Answer PoseBuffer::at(std::int64_t stamp_ns, Eigen::Isometry3d& T_ma
   return Answer::found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -6,7 +6,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 
 /// The newest poses. Interpolates between them, and never extrapolates.
 class PoseBuffer {
@@ -35,4 +35,4 @@ class PoseBuffer {
 /// Uses no function whose last bits depend on the CPU.
 Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to, double share);
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -4,7 +4,7 @@
 
 #include "laneloom/limits.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 constexpr std::int64_t kIdle_ns = 2'000'000'000;  // not longer: a stack may take a new name with every run
@@ -68,4 +68,4 @@ bool Sources::make_room(std::int64_t arrival_ns) {
   return true;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -13,7 +13,7 @@
 #include "session/gate.hpp"
 #include "session/mapping_session.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 
 /// Decides which frames of each source of detections are believed, and keeps the sources' progress. No source
 /// affects another one. There is room for eight sources. A further source takes the place of one of which
@@ -52,4 +52,4 @@ class Sources {
   std::optional<std::int64_t> crowded_out_ns_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::session {
 
 std::optional<SynchronisedFrame> Synchroniser::next(std::size_t& refused) {
   while (!pending_.empty()) {
@@ -58,4 +58,4 @@ std::size_t Synchroniser::clear_frames() {
   return count;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::session

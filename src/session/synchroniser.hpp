@@ -10,7 +10,7 @@
 #include "laneloom/types.hpp"
 #include "session/pose_buffer.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 
 /// A frame that waits for its poses.
 struct PendingFrame {
@@ -56,4 +56,4 @@ class Synchroniser {
   std::multimap<std::int64_t, PendingFrame> pending_;  ///< by stamp
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace laneloom {
+namespace laneloom::snapshot {
 namespace {
 
 struct Close {
@@ -83,4 +83,4 @@ std::string read_private_file(const std::string& file) {
   return bytes;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

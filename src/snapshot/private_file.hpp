@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace laneloom {
+namespace laneloom::snapshot {
 
 /// Writes a file that only this user can read, and puts it in the place of `file` as a whole. It is safe in a
 /// folder into which others may write. Throws std::runtime_error, also if a folder of the path is a link of
@@ -14,4 +14,4 @@ void replace_private_file(const std::string& file, std::string_view bytes);
 /// file, for one that cannot be read, and if a folder of the path is a link of another user.
 std::string read_private_file(const std::string& file);
 
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

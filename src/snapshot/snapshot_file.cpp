@@ -11,17 +11,11 @@
 #include "mapping/state_bytes.hpp"
 #include "snapshot/private_file.hpp"
 
-namespace laneloom {
+namespace laneloom::snapshot {
 
 template <class Archive>
 void serialize(Archive& archive, SnapshotStamp& stamp) {
   archive(stamp.maker, stamp.steady_ns, stamp.system_ns);
-}
-
-template <class Archive>
-void serialize(Archive& archive, MappingSession::Checkpoint& c) {
-  archive(c.frame_stamp_ns, c.frame_arrival_ns, c.pose_stamp_ns, c.pose_session_id, c.position.x(),
-          c.position.y(), c.position.z());
 }
 
 namespace {
@@ -71,4 +65,4 @@ Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double
   return snapshot;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

@@ -7,7 +7,7 @@
 #include "mapping/state.hpp"
 #include "session/mapping_session.hpp"
 
-namespace laneloom {
+namespace laneloom::snapshot {
 
 /// The maker and the time of a snapshot.
 struct SnapshotStamp {
@@ -19,8 +19,8 @@ struct SnapshotStamp {
 /// The data with which a restarted service goes on.
 struct Snapshot {  // NOLINT(bugprone-exception-escape): as the state
   SnapshotStamp stamp;
-  std::uint64_t map_id = 0;               ///< the ids in the state belong to it
-  MappingSession::Checkpoint checkpoint;  ///< the newest inputs of the map
+  std::uint64_t map_id = 0;                        ///< the ids in the state belong to it
+  session::MappingSession::Checkpoint checkpoint;  ///< the newest inputs of the map
   MapperState state;
 };
 
@@ -33,4 +33,4 @@ void write_snapshot(const std::string& file, const Snapshot& snapshot);
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,
                        const MapperConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::snapshot {
 
 SnapshotWriter::SnapshotWriter(std::string file)
     : file_(std::move(file)), thread_([this](const std::stop_token& stopped) { run(stopped); }) {}
@@ -44,4 +44,4 @@ void SnapshotWriter::write_now(const Snapshot& snapshot) {
   if (failure.empty()) ++totals_.written;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

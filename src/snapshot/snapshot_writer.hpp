@@ -9,7 +9,7 @@
 
 #include "snapshot/snapshot_file.hpp"
 
-namespace laneloom {
+namespace laneloom::snapshot {
 
 /// Writes snapshots in a thread of its own, so that a slow disk holds up no caller. Thread-safe.
 class SnapshotWriter {
@@ -38,4 +38,4 @@ class SnapshotWriter {
   std::jthread thread_;  ///< last, because it uses all of the above
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

@@ -5,7 +5,7 @@
 #include <new>
 #include <thread>
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 // Called as functions, operators `new` and `delete` are never optimised away.
@@ -61,4 +61,4 @@ TEST(Allocations, OfOtherThreadsAreNotCounted) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench

@@ -9,7 +9,7 @@
 #include "support/child_process.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 using nlohmann::json;
@@ -20,7 +20,7 @@ class BenchCommand : public testing::Test {
  protected:
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_LAB, "bench"});
-    return ChildProcess(arguments, file_).wait();
+    return support::ChildProcess(arguments, file_).wait();
   }
   std::string output() const { return content(file_); }
 
@@ -153,10 +153,10 @@ TEST_F(BenchCommand, OptionsBeforeASubcommandAreRefused) {
 }
 
 TEST_F(BenchCommand, MicroBenchmarksHaveEveryStage) {
-  ASSERT_EQ(ChildProcess({LANELOOM_MICROBENCH, "--benchmark_list_tests"}, file_).wait(), 0);
+  ASSERT_EQ(support::ChildProcess({LANELOOM_MICROBENCH, "--benchmark_list_tests"}, file_).wait(), 0);
   for (const char* one : {"lines/association", "lines/linkages", "voxels/clustering", "map_to_cdr"})
     EXPECT_THAT(output(), HasSubstr(one));
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench

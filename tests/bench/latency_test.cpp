@@ -11,7 +11,7 @@
 #include "support/publication_log.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 using testing::HasSubstr;
@@ -81,15 +81,15 @@ TEST_F(LogFile, AMalformedTickIsNamed) {
 }
 
 TEST_F(LogFile, PublicationsAreReadAsTheyWereWritten) {
-  PublicationLogWriter writer(file_, 77);
+  support::PublicationLogWriter writer(file_, 77);
   writer.add(1, 1'700'000'000'000'000'001);
   writer.add(2, 5);
   const std::map<std::uint64_t, std::int64_t> expected{{1, 1'700'000'000'000'000'001}, {2, 5}};
-  const auto log = read_publication_log(file_);  // as if the writer had been killed
+  const auto log = support::read_publication_log(file_);  // as if the writer had been killed
   EXPECT_EQ(log.session_id, 77U);
   EXPECT_EQ(log.times_ns, expected);
   writer.close();
-  EXPECT_THROW(PublicationLogWriter("/nowhere/times.csv", 1), std::runtime_error);
+  EXPECT_THROW(support::PublicationLogWriter("/nowhere/times.csv", 1), std::runtime_error);
 }
 
 TEST(MeasureLatency, NamesAServiceThatEndsByItself) {
@@ -100,4 +100,4 @@ TEST(MeasureLatency, NamesAServiceThatEndsByItself) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench

@@ -6,29 +6,30 @@
 #include "bench/process_usage.hpp"
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
-std::vector<SimulatedFrame> frames(double duration_s) {
-  return simulate({.road = std::make_shared<const Road>(make_scenario("straight")),
-                   .noise = noise_profile("none"),
-                   .duration_s = duration_s});
+std::vector<experiment::SimulatedFrame> frames(double duration_s) {
+  return experiment::simulate(
+      {.road = std::make_shared<const simulation::Road>(simulation::make_scenario("straight")),
+       .noise = simulation::noise_profile("none"),
+       .duration_s = duration_s});
 }
 
 TEST(Summarise, ByNearestRank) {
   std::vector<double> values;
   for (int i = 200; i >= 1; --i) values.push_back(i);
-  const TimeSummary summary = summarise(values);
+  const TimeSummary summary = support::summarise(values);
   EXPECT_DOUBLE_EQ(summary.mean_ms, 100.5);
   EXPECT_DOUBLE_EQ(summary.p50_ms, 100.0);
   EXPECT_DOUBLE_EQ(summary.p99_ms, 198.0);
   EXPECT_DOUBLE_EQ(summary.max_ms, 200.0);
-  EXPECT_DOUBLE_EQ(summarise({}).max_ms, 0.0);
-  EXPECT_DOUBLE_EQ(summarise({4.0}).p99_ms, 4.0);
+  EXPECT_DOUBLE_EQ(support::summarise({}).max_ms, 0.0);
+  EXPECT_DOUBLE_EQ(support::summarise({4.0}).p99_ms, 4.0);
 }
 
 TEST(MapperCost, HasEveryUpdateAndWhatItAllocated) {
-  const std::vector<SimulatedFrame> drive = frames(3.0);
+  const std::vector<experiment::SimulatedFrame> drive = frames(3.0);
   const MapperCost cost = measure(MapperConfig{}, drive);
   ASSERT_EQ(cost.update_ms.size(), 30U);
   ASSERT_EQ(cost.allocations.size(), 30U);
@@ -45,8 +46,8 @@ TEST(MapperCost, HasEveryUpdateAndWhatItAllocated) {
 
 TEST(MapperMeter, StartsAnewWhenItsCostIsTaken) {
   MapperMeter meter(MapperConfig{}, true);
-  const std::vector<SimulatedFrame> drive = frames(0.5);
-  for (const SimulatedFrame& frame : drive) meter.update(frame.record);
+  const std::vector<experiment::SimulatedFrame> drive = frames(0.5);
+  for (const experiment::SimulatedFrame& frame : drive) meter.update(frame.record);
   EXPECT_EQ(meter.take_cost().update_ms.size(), 5U);
   meter.update(drive.back().record);
   const MapperCost last = meter.take_cost();
@@ -69,4 +70,4 @@ TEST(ProcessUsage, GrowsWithWhatIsUsed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench

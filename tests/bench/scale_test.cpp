@@ -5,7 +5,7 @@
 
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 using testing::ElementsAre;
@@ -28,14 +28,15 @@ TEST(Scaled, ToEverySide) {
   EXPECT_DOUBLE_EQ(range.forward_min_m, -20.0);
   EXPECT_DOUBLE_EQ(range.forward_max_m, 120.0);
   EXPECT_DOUBLE_EQ(range.side_max_m, 60.0);
-  const SensorView view = scaled(SensorView{}, 2.0);
+  const simulation::SensorView view = scaled(simulation::SensorView{}, 2.0);
   EXPECT_DOUBLE_EQ(view.forward_max_m, 100.0);
   EXPECT_DOUBLE_EQ(view.side_max_m, 40.0);
 }
 
 TEST(DriveMinutes, HaveSixHundredFramesEach) {
-  const DriveSpec drive{.road = std::make_shared<const Road>(make_scenario("straight")),
-                        .noise = noise_profile("none")};
+  const experiment::DriveSpec drive{
+      .road = std::make_shared<const simulation::Road>(simulation::make_scenario("straight")),
+      .noise = simulation::noise_profile("none")};
   std::vector<std::size_t> minutes, frames;
   drive_minutes(MapperConfig{}, drive, 2, [&](const MinuteCost& minute) {
     minutes.push_back(minute.minute);
@@ -47,11 +48,12 @@ TEST(DriveMinutes, HaveSixHundredFramesEach) {
 }
 
 TEST(Standing, StaysWhereTheDriveIsThen) {
-  const Road road = make_scenario("straight", 10.0);
+  const simulation::Road road = simulation::make_scenario("straight", 10.0);
   const VehiclePose there = road.drive.pose_at(3.0);
-  DriveSimulation simulation({.road = std::make_shared<const Road>(standing(road, 3.0))});
+  experiment::DriveSimulation simulation(
+      {.road = std::make_shared<const simulation::Road>(standing(road, 3.0))});
   for (int i = 1; i <= 20; ++i) {
-    const SimulatedFrame frame = simulation.next();
+    const experiment::SimulatedFrame frame = simulation.next();
     EXPECT_EQ(frame.record.pose.position, there.position);
     EXPECT_EQ(frame.record.frame.stamp_ns, i * 100'000'000);
     EXPECT_FALSE(frame.record.frame.detections.empty());
@@ -59,10 +61,11 @@ TEST(Standing, StaysWhereTheDriveIsThen) {
 }
 
 TEST(TimeVehicles, HasAllTheirUpdates) {
-  const auto frames =
-      simulate({.road = std::make_shared<const Road>(make_scenario("straight")), .duration_s = 1.0});
+  const auto frames = experiment::simulate(
+      {.road = std::make_shared<const simulation::Road>(simulation::make_scenario("straight")),
+       .duration_s = 1.0});
   EXPECT_GT(time_vehicles(MapperConfig{}, frames, 3).max_ms, 0.0);
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 std::vector<std::uint8_t> frame(std::uint8_t kind, std::size_t size) {
@@ -37,4 +37,4 @@ TEST(WebSocketCounter, CountsMessagesInPartsOfAnySize) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench

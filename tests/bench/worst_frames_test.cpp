@@ -8,7 +8,7 @@
 #include "session/admission.hpp"
 #include "session/gate.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 // Else it would not be the worst that a service can get.
@@ -17,7 +17,7 @@ TEST(WorstFrames, FillAMessageAndPassTheGate) {
     DetectionFrame frame = worst_frame(kind, 3);
     frame.stamp_ns = 1;
     EXPECT_EQ(frame.detections.size(), 512U) << name(kind);
-    EXPECT_EQ(defect(frame, GateConfig{}), "") << name(kind);
+    EXPECT_EQ(session::defect(frame, GateConfig{}), "") << name(kind);
     std::vector<std::uint8_t> bytes;
     EXPECT_EQ(dds::to_cdr(frame, "map", bytes), 0U) << name(kind);
   }
@@ -27,9 +27,9 @@ TEST(WorstFrames, AreThinnedToTheBoundsOfTheGate) {
   const GateConfig gate;
   for (const WorstKind kind : kWorstKinds) {
     DetectionFrame frame = worst_frame(kind, 3);
-    EXPECT_GT(admit(gate, frame), 0U) << name(kind);
+    EXPECT_GT(session::admit(gate, frame), 0U) << name(kind);
     EXPECT_LE(frame.detections.size(), static_cast<std::size_t>(gate.max_frame_detections)) << name(kind);
-    EXPECT_LE(length_of_markings(frame), gate.max_frame_length_m) << name(kind);
+    EXPECT_LE(session::length_of_markings(frame), gate.max_frame_length_m) << name(kind);
   }
 }
 
@@ -40,4 +40,4 @@ TEST(WorstFrames, AreTimed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench

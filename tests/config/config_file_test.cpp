@@ -12,7 +12,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::config {
 namespace {
 
 using ::testing::HasSubstr;
@@ -318,4 +318,4 @@ TEST(ShippedFiles, PaperYamlHasNothingBeyondThePaper) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::config

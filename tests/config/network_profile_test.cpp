@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::config {
 namespace {
 
 using testing::EndsWith;
@@ -64,4 +64,4 @@ TEST_F(NetworkProfileFile, AFileThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::config

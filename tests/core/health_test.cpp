@@ -4,7 +4,7 @@
 
 #include "milliseconds.hpp"
 
-namespace laneloom {
+namespace laneloom::core {
 namespace {
 
 using Reasons = std::vector<StateReason>;
@@ -92,4 +92,4 @@ TEST(Age, IsMinusOneBeforeTheFirst) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::core

@@ -1,6 +1,6 @@
 #include "processes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::Contains;
@@ -32,8 +32,8 @@ class Doctor : public Processes {
 };
 
 TEST_F(Doctor, FindsNothingWhereNothingIsWrong) {
-  const ChildProcess running(service(), file("service.log"));
-  const ChildProcess publishing(command(publisher()), file("publish.log"));
+  const support::ChildProcess running(service(), file("service.log"));
+  const support::ChildProcess publishing(command(publisher()), file("publish.log"));
   EXPECT_TRUE(run_until(doctor(), [](int code) { return code == 0; })) << output();
   EXPECT_TRUE(json().at("findings").empty());
   EXPECT_EQ(json().at("participants").size(), 2U);
@@ -42,8 +42,8 @@ TEST_F(Doctor, FindsNothingWhereNothingIsWrong) {
 }
 
 TEST_F(Doctor, FindsAWrongPartition) {
-  const ChildProcess running(service(), file("service.log"));
-  const ChildProcess publishing(command(publisher(), domain_, "other"), file("publish.log"));
+  const support::ChildProcess running(service(), file("service.log"));
+  const support::ChildProcess publishing(command(publisher(), domain_, "other"), file("publish.log"));
   const auto partition = AllOf(HasSubstr("\"laneloom publish\""),
                                HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\""));
   const auto others = testing::IsSupersetOf({"no_detections", "no_poses", "state_no_detections"});
@@ -83,9 +83,10 @@ class DoctorBehindAServer : public Doctor {
 };
 
 TEST_F(DoctorBehindAServer, SeesEverybody) {
-  const ChildProcess serving(server(), file("server.log"));
-  const ChildProcess running(configured(service()), file("service.log"));
-  const ChildProcess publishing(command(profiled(publisher()), domain_, "other"), file("publish.log"));
+  const support::ChildProcess serving(server(), file("server.log"));
+  const support::ChildProcess running(configured(service()), file("service.log"));
+  const support::ChildProcess publishing(command(profiled(publisher()), domain_, "other"),
+                                         file("publish.log"));
   EXPECT_TRUE(run_until_found(configured(doctor()), "wrong_partition",
                               HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\"")))
       << output();
@@ -95,19 +96,19 @@ TEST_F(DoctorBehindAServer, FindsThatTheServerDoesNotAnswer) {
   EXPECT_EQ(run(configured(doctor())), 2);
   EXPECT_THAT(ids(), ElementsAre("no_discovery_server"));
   EXPECT_THAT(found("no_discovery_server"), HasSubstr("127.0.0.1:" + port_));
-  const ChildProcess serving(server(), file("server.log"));
+  const support::ChildProcess serving(server(), file("server.log"));
   EXPECT_TRUE(run_until_found(configured(doctor()), "no_service")) << output();
 }
 
 TEST_F(Doctor, FindsAServiceOfAnotherVehicle) {
-  const ChildProcess running(service(), file("service.log"));
+  const support::ChildProcess running(service(), file("service.log"));
   EXPECT_TRUE(run_until_found(command({LANELOOM_COMMAND, "doctor", "--json"}, domain_, "other"), "no_service",
                               HasSubstr("services in the partition \"" + vehicle_ + "\"")))
       << output();
 }
 
 TEST_F(Doctor, FindsAWrongDomain) {
-  const ChildProcess running(service(), file("service.log"));
+  const support::ChildProcess running(service(), file("service.log"));
   const DomainLease empty;
   const auto words =
       command({LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"}, empty.number(), vehicle_);
@@ -118,8 +119,8 @@ TEST_F(Doctor, FindsAWrongDomain) {
 }
 
 TEST_F(Doctor, FindsTwoServicesAndWhatTheySay) {
-  const ChildProcess one(service(), file("one.log"));
-  const ChildProcess other(service(), file("other.log"));
+  const support::ChildProcess one(service(), file("one.log"));
+  const support::ChildProcess other(service(), file("other.log"));
   ASSERT_TRUE(run_until_found(doctor(), "two_services")) << output();
   EXPECT_TRUE(run_until_found(doctor(), "state_another_service")) << output();
 }
@@ -128,8 +129,8 @@ TEST_F(Doctor, FindsPosesInAnotherFrame) {
   std::ofstream(file("config.yaml")) << "dds:\n  map_frame_id: utm\n";
   auto words = service();
   words.insert(words.end(), {"--config", file("config.yaml")});
-  const ChildProcess running(words, file("service.log"));
-  const ChildProcess publishing(command(publisher()), file("publish.log"));
+  const support::ChildProcess running(words, file("service.log"));
+  const support::ChildProcess publishing(command(publisher()), file("publish.log"));
   ASSERT_TRUE(run_until_found(doctor(), "poses_refused_wrong_frame")) << output();
   EXPECT_THAT(found("poses_refused_wrong_frame"), HasSubstr("The service refused"));
 }
@@ -161,4 +162,4 @@ TEST_F(Doctor, OptionsOverrideTheConfigurationWhereverTheyStand) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

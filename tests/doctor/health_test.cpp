@@ -2,7 +2,7 @@
 
 #include "doctor/refusals.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -112,4 +112,4 @@ TEST(HealthFindings, WhatAServiceWouldRefuse) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

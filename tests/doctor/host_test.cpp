@@ -9,7 +9,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -83,4 +83,4 @@ TEST(Host, SharedMemoryOfAUserWhoseMappingsAreHidden) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -14,7 +14,7 @@
 #include "scenes.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -187,4 +187,4 @@ TEST(Observer, LooksIntoTheProfileOfTheService) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

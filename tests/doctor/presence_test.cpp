@@ -1,6 +1,6 @@
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::AllOf;
@@ -62,4 +62,4 @@ TEST(Presence, AWildcardPartitionIsOfEveryVehicle) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

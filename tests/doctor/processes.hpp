@@ -39,7 +39,9 @@ class Processes : public testing::Test {
   }
 
   /// Runs it until it ends; tells its exit code. What it wrote is output().
-  int run(const std::vector<std::string>& words) const { return ChildProcess(words, file("output")).wait(); }
+  int run(const std::vector<std::string>& words) const {
+    return support::ChildProcess(words, file("output")).wait();
+  }
   std::string output() const { return content(file("output")); }
   nlohmann::json json() const { return nlohmann::json::parse(output()); }
 

@@ -2,7 +2,7 @@
 
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -72,4 +72,4 @@ TEST(QualityOfService, OnlyOfPairsThatWouldMatchOtherwise) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -6,7 +6,7 @@
 
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -32,4 +32,4 @@ TEST(DoctorReport, ListsWhatWasFound) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

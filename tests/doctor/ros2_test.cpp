@@ -2,7 +2,7 @@
 
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -71,4 +71,4 @@ TEST(Ros2, ServicesThatTakeTheirOwnTopicsNeedNoNodes) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -42,8 +42,8 @@ inline dds::Endpoint map_reader() {
 }
 
 /// Service, perception, odometry and planner of the vehicle "ego", all well, watched for 3 s.
-inline Observed healthy() {
-  Observed seen;
+inline doctor::Observed healthy() {
+  doctor::Observed seen;
   seen.dds.domain = 3;
   seen.dds.vehicle_id = "ego";
   seen.duration_s = 3.0;
@@ -66,9 +66,9 @@ inline Observed healthy() {
   return seen;
 }
 
-inline std::vector<std::string> ids(const Findings& found) {
+inline std::vector<std::string> ids(const doctor::Findings& found) {
   std::vector<std::string> result;
-  for (const Finding& finding : found) result.push_back(finding.id);
+  for (const doctor::Finding& finding : found) result.push_back(finding.id);
   return result;
 }
 

@@ -1,6 +1,6 @@
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -31,4 +31,4 @@ TEST(SharedMemory, DoesNotMatterWhereItIsNotUsed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -1,6 +1,6 @@
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -57,4 +57,4 @@ TEST(SourceFindings, AFieldOfViewThatIsNeverGivenIsAdvisedAndNotWrong) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

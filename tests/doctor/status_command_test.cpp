@@ -4,7 +4,7 @@
 
 #include "processes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -20,28 +20,28 @@ TEST_F(Status, NobodyIsHeard) {
 }
 
 TEST_F(Status, TheExitCodeIsTheState) {
-  const ChildProcess running(service(), file("service.log"));
+  const support::ChildProcess running(service(), file("service.log"));
   ASSERT_TRUE(run_until(once(), [](int code) { return code == 4; })) << output();
   EXPECT_EQ(json().at("state"), "STALE");
   EXPECT_THAT(json().at("reasons"), testing::Contains("no_detections"));
   EXPECT_TRUE(json().at("detections_age_s").is_null());
 
-  const ChildProcess publishing(command(publisher()), file("publish.log"));
+  const support::ChildProcess publishing(command(publisher()), file("publish.log"));
   ASSERT_TRUE(run_until(once(), [](int code) { return code == 0; })) << output();
   EXPECT_EQ(json().at("state"), "OK");
   EXPECT_GT(json().at("counters").at("frames_fused"), 0);
   EXPECT_EQ(json().at("sources").at(0).at("source"), "laneloom publish");
 
-  const ChildProcess other(service(), file("other.log"));
+  const support::ChildProcess other(service(), file("other.log"));
   EXPECT_TRUE(run_until(once(), [&](int code) {
     return code == 2 && json().at("reasons") == nlohmann::json{"another_service"};
   })) << output();
 }
 
 TEST_F(Status, FollowsAllServicesOfAVehicle) {
-  const ChildProcess one(service(), file("one.log"));
-  const ChildProcess other(service(), file("other.log"));
-  ChildProcess status(command({LANELOOM_COMMAND, "status", "--json"}), file("status.log"));
+  const support::ChildProcess one(service(), file("one.log"));
+  const support::ChildProcess other(service(), file("other.log"));
+  support::ChildProcess status(command({LANELOOM_COMMAND, "status", "--json"}), file("status.log"));
   std::set<std::uint64_t> sessions;
   bool rose = false;
   for (int i = 0; i < 600 && !(rose && sessions.size() == 2); ++i) {
@@ -60,12 +60,12 @@ TEST_F(Status, FollowsAllServicesOfAVehicle) {
 }
 
 TEST_F(Status, IsRedrawnInPlaceOnATerminal) {
-  const ChildProcess one(service(), file("one.log"));
-  const ChildProcess other(service(), file("other.log"));
+  const support::ChildProcess one(service(), file("one.log"));
+  const support::ChildProcess other(service(), file("other.log"));
   const std::string status = std::string(LANELOOM_COMMAND) + " status --domain " + std::to_string(domain_) +
                              " --vehicle-id " + vehicle_;
-  const ChildProcess terminal({"/usr/bin/script", "-q", "-f", "-c", status, "/dev/null"},
-                              file("terminal.log"));
+  const support::ChildProcess terminal({"/usr/bin/script", "-q", "-f", "-c", status, "/dev/null"},
+                                       file("terminal.log"));
   const auto shown = [&] { return content(file("terminal.log")); };
   for (int i = 0; i < 600 && shown().find("2 SERVICES OF ONE VEHICLE") == std::string::npos; ++i)
     usleep(50'000);
@@ -74,4 +74,4 @@ TEST_F(Status, IsRedrawnInPlaceOnATerminal) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -1,6 +1,6 @@
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -131,4 +131,4 @@ TEST(Streams, AHostWithAnotherClock) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -1,6 +1,6 @@
 #include "scenes.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using testing::ElementsAre;
@@ -91,4 +91,4 @@ TEST(Topics, APlannerOfAnotherVehicleIsWhereItBelongs) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::doctor

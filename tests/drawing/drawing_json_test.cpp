@@ -8,7 +8,7 @@
 #include "drawing/map_elements.hpp"
 #include "small_map.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 using nlohmann::json;
@@ -86,15 +86,15 @@ TEST(DrawingJson, PaletteHasEveryStyleAndLayerOnce) {
 /// A style's name belongs to its colours: the order of the tables is that of the enumerators.
 TEST(Palette, StylesAreWhatTheyAreCalled) {
   using palette::of;
-  EXPECT_STREQ(of(Style::laneline_unknown).name, "laneline_unknown");
-  EXPECT_STREQ(of(Style::stopline).name, "stopline");
-  EXPECT_STREQ(of(palette::lane_style(6)).name, "lane_c");
-  EXPECT_STREQ(of(palette::course_style(7)).name, "course_d");
-  EXPECT_STREQ(of(Style::uncertainty).name, "uncertainty");
-  EXPECT_STREQ(of(Style::id).name, "id");
-  EXPECT_STREQ(of(Layer::boundaries).name, "boundaries");
-  EXPECT_STREQ(of(Layer::vehicle).name, "vehicle");
+  EXPECT_STREQ(palette::of(Style::laneline_unknown).name, "laneline_unknown");
+  EXPECT_STREQ(palette::of(Style::stopline).name, "stopline");
+  EXPECT_STREQ(palette::of(palette::lane_style(6)).name, "lane_c");
+  EXPECT_STREQ(palette::of(palette::course_style(7)).name, "course_d");
+  EXPECT_STREQ(palette::of(Style::uncertainty).name, "uncertainty");
+  EXPECT_STREQ(palette::of(Style::id).name, "id");
+  EXPECT_STREQ(palette::of(Layer::boundaries).name, "boundaries");
+  EXPECT_STREQ(palette::of(Layer::vehicle).name, "vehicle");
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drawing

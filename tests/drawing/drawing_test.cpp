@@ -10,7 +10,7 @@
 #include "drawing/truth.hpp"
 #include "small_map.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 const Element& element(const Drawing& drawing, const std::string& key) {
@@ -144,7 +144,7 @@ TEST(Drawing, FramesAreTakenToTheMapFrame) {
 }
 
 TEST(Drawing, TruthLiesBeneathAsThinLines) {
-  Road truth;
+  simulation::Road truth;
   truth.markings = {{.id = 3, .style = MarkingStyle::dashed, .points = {{0, 0, 0}, {5, 0, 0}}}};
   Drawing drawing;
   add_truth(truth, drawing);
@@ -165,4 +165,4 @@ TEST(LinkagePath, LeadsFromEndToBeginWhateverWayTrafficRuns) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -7,7 +7,7 @@
 
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 void run(ClosedLoop& loop, double duration_s) {
@@ -17,7 +17,7 @@ void run(ClosedLoop& loop, double duration_s) {
 class BuiltInRoad : public testing::TestWithParam<std::string> {};
 
 TEST_P(BuiltInRoad, WithoutNoiseTheLaneIsNeverLeft) {
-  const Road road = make_scenario(GetParam());
+  const simulation::Road road = simulation::make_scenario(GetParam());
   LocalMapService service{Config{}};
   ClosedLoop loop(road, {}, service);
   run(loop, 100.0);
@@ -31,7 +31,7 @@ TEST_P(BuiltInRoad, WithoutNoiseTheLaneIsNeverLeft) {
 }
 
 std::vector<std::string> all_but_the_town() {
-  std::vector<std::string> names = scenario_names();
+  std::vector<std::string> names = simulation::scenario_names();
   std::erase(names, "town");
   return names;
 }
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(All, BuiltInRoad, testing::ValuesIn(all_but_the_town())
 
 // In the town's wide intersection, the map's path for the turn cuts the corner.
 TEST(ClosedLoop, WithoutNoiseTheTownsLanesAreLeftInTurnsAtMost) {
-  const Road road = make_scenario("town");
+  const simulation::Road road = simulation::make_scenario("town");
   LocalMapService service{Config{}};
   ClosedLoop loop(road, {}, service);
   run(loop, 300.0);
@@ -52,7 +52,7 @@ TEST(ClosedLoop, WithoutNoiseTheTownsLanesAreLeftInTurnsAtMost) {
 
 TEST(ClosedLoop, SaysHowFarItDroveByLanesThatAreInferred) {
   const auto inferred_share = [](const char* name) {
-    const Road road = make_scenario(name);
+    const simulation::Road road = simulation::make_scenario(name);
     LocalMapService service{Config{}};
     ClosedLoop loop(road, {}, service);
     run(loop, 60.0);
@@ -64,10 +64,11 @@ TEST(ClosedLoop, SaysHowFarItDroveByLanesThatAreInferred) {
 }
 
 TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
-  const Road road = make_scenario("split");
+  const simulation::Road road = simulation::make_scenario("split");
   const auto drive = [&](std::uint64_t seed) {
     LocalMapService service{Config{}};
-    ClosedLoop loop(road, {.noise = noise_profile("inhouse"), .seed = seed, .drift = 0.01}, service);
+    ClosedLoop loop(road, {.noise = simulation::noise_profile("inhouse"), .seed = seed, .drift = 0.01},
+                    service);
     run(loop, 40.0);
     return std::pair(loop.vehicle().rear_axle, loop.driven_m());
   };
@@ -77,14 +78,15 @@ TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
 
 // Else a drive of so many kilometres would never end.
 TEST(ClosedLoop, ARoadTooShortToDriveOnIsAnError) {
-  Road road{.name = "stub"};
+  simulation::Road road{.name = "stub"};
   road.lanes.push_back({.id = 1,
                         .left = {{0, 2, 0}, {1.2, 2, 0}},
                         .right = {{0, -2, 0}, {1.2, -2, 0}},
                         .centerline = {{0, 0, 0}, {1.2, 0, 0}}});
-  road.drive = Drive::recorded({{.stamp_ns = 0}, {.stamp_ns = 1'000'000'000, .position = {1.2, 0, 0}}});
+  road.drive =
+      simulation::Drive::recorded({{.stamp_ns = 0}, {.stamp_ns = 1'000'000'000, .position = {1.2, 0, 0}}});
   LocalMapService service{Config{}};
-  ClosedLoop loop(road, {.noise = noise_profile("none")}, service);
+  ClosedLoop loop(road, {.noise = simulation::noise_profile("none")}, service);
   try {
     run(loop, 100.0);
     FAIL() << loop.score().road_ends << " ends of the road in " << loop.driven_m() << " m";
@@ -113,7 +115,7 @@ class SlippingMap : public LocalMapService {
 };
 
 TEST(ClosedLoop, AWrongMapLeadsOutOfTheLaneAndThatIsSeen) {
-  const Road road = make_scenario("straight");
+  const simulation::Road road = simulation::make_scenario("straight");
   SlippingMap service{Config{}};
   ClosedLoop loop(road, {}, service);
   run(loop, 30.0);
@@ -141,7 +143,7 @@ class BreakingMap : public LocalMapService {
 };
 
 TEST(ClosedLoop, WithoutAMapItStandsAndThenCreepsOnAGuess) {
-  const Road road = make_scenario("straight");
+  const simulation::Road road = simulation::make_scenario("straight");
   BreakingMap service(Config{}, 0.0);
   ClosedLoop loop(road, {}, service);
   run(loop, 4.5);
@@ -155,7 +157,7 @@ TEST(ClosedLoop, WithoutAMapItStandsAndThenCreepsOnAGuess) {
 }
 
 TEST(ClosedLoop, WhenMapsStopItGoesOnByWhatItRemembersAndThenGuesses) {
-  const Road road = make_scenario("straight");
+  const simulation::Road road = simulation::make_scenario("straight");
   BreakingMap service(Config{}, 8.0);
   ClosedLoop loop(road, {}, service);
   run(loop, 14.0);
@@ -166,4 +168,4 @@ TEST(ClosedLoop, WhenMapsStopItGoesOnByWhatItRemembersAndThenGuesses) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

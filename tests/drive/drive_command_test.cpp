@@ -8,7 +8,7 @@
 #include "support/child_process.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 using nlohmann::json;
@@ -19,7 +19,7 @@ class DriveCommand : public testing::Test {
  protected:
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_LAB, "drive"});
-    return ChildProcess(arguments, file_).wait();
+    return support::ChildProcess(arguments, file_).wait();
   }
   std::string output() const { return content(file_); }
 
@@ -72,7 +72,7 @@ TEST_F(DriveCommand, WrongInputIsNamed) {
 TEST_F(DriveCommand, DrivesOnTheMapOfARunningService) {
   const std::string domain = std::to_string(own_domain());
   const std::string log = folder_.file("log");
-  const ChildProcess service({LANELOOM_SERVICE, "--domain", domain, "--vehicle-id", "test"}, log);
+  const support::ChildProcess service({LANELOOM_SERVICE, "--domain", domain, "--vehicle-id", "test"}, log);
   ASSERT_EQ(run({"--scenario", "straight", "--noise", "none", "--duration", "10", "--dds", "--domain", domain,
                  "--vehicle-id", "test", "--json", "--require-lane"}),
             0)
@@ -89,4 +89,4 @@ TEST_F(DriveCommand, SaysThatNoServiceIsThere) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -4,13 +4,14 @@
 
 #include "maps.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 using Verdict = LaneTracker::Verdict;
 const Eigen::Vector2d kEast(1.0, 0.0);
 
-RoadLane road_lane(ElementId id, const Polyline& centerline, std::vector<ElementId> successors = {}) {
+simulation::RoadLane road_lane(ElementId id, const Polyline& centerline,
+                               std::vector<ElementId> successors = {}) {
   return {.id = id,
           .left = beside_line(centerline, 1.75),
           .right = beside_line(centerline, -1.75),
@@ -19,8 +20,8 @@ RoadLane road_lane(ElementId id, const Polyline& centerline, std::vector<Element
 }
 
 /// East: lane 1, then 2; beside it on the left 3 (on to 4, which goes far); oncoming on the right 5.
-Road road() {
-  Road road;
+simulation::Road road() {
+  simulation::Road road;
   road.name = "made by hand";
   road.lanes = {road_lane(1, straight_line({0, 0, 0}, {50, 0, 0}), {2}),
                 road_lane(2, straight_line({50, 0, 0}, {100, 0, 0})),
@@ -31,7 +32,7 @@ Road road() {
 }
 
 TEST(LaneTracker, MeasuresTheOffsetAndFollowsSuccessors) {
-  const Road truth = road();
+  const simulation::Road truth = road();
   LaneTracker lanes(truth);
   lanes.place(0);
   EXPECT_EQ(lanes.move_to({20.0, 0.4}, kEast), Verdict::in_lane);
@@ -42,7 +43,7 @@ TEST(LaneTracker, MeasuresTheOffsetAndFollowsSuccessors) {
 }
 
 TEST(LaneTracker, TellsHowTheLaneWasLeft) {
-  const Road truth = road();
+  const simulation::Road truth = road();
   LaneTracker lanes(truth);
   lanes.place(0);
   EXPECT_EQ(lanes.move_to({20.0, 1.7}, kEast), Verdict::in_lane);
@@ -52,7 +53,7 @@ TEST(LaneTracker, TellsHowTheLaneWasLeft) {
 }
 
 TEST(LaneTracker, WhereALaneEndsOneMayChangeToAnotherThatGoesOn) {
-  const Road truth = road();
+  const simulation::Road truth = road();
   LaneTracker lanes(truth);
   lanes.place(1);
   EXPECT_EQ(lanes.move_to({60.0, 2.0}, kEast), Verdict::in_lane);
@@ -60,7 +61,7 @@ TEST(LaneTracker, WhereALaneEndsOneMayChangeToAnotherThatGoesOn) {
 }
 
 TEST(LaneTracker, ARoadThatEndsIsNotADeparture) {
-  const Road truth = road();
+  const simulation::Road truth = road();
   LaneTracker lanes(truth);
   lanes.place(3);
   EXPECT_EQ(lanes.move_to({299.9, 3.5}, kEast), Verdict::road_ended);
@@ -69,7 +70,7 @@ TEST(LaneTracker, ARoadThatEndsIsNotADeparture) {
 }
 
 TEST(LaneTracker, PutsTheVehicleOnTheSurface) {
-  Road truth = road();
+  simulation::Road truth = road();
   for (Polyline* line : {&truth.lanes[0].left, &truth.lanes[0].right, &truth.lanes[0].centerline})
     for (Point& point : *line) point.z() = 0.1 * point.x();
   for (Point& point : truth.lanes[0].left) point.z() += 0.35;
@@ -84,4 +85,4 @@ TEST(LaneTracker, PutsTheVehicleOnTheSurface) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

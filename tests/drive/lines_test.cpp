@@ -7,7 +7,7 @@
 #include "drive/steering.hpp"
 #include "maps.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 TEST(Lines, SmoothingKeepsABendAndTakesNoiseAway) {
@@ -60,4 +60,4 @@ TEST(Lines, ChangesOverBeforeTheEnd) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

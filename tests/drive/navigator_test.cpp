@@ -6,11 +6,11 @@
 
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 TEST(Navigator, WantsTheTurnsOfTheDrive) {
-  const Road road = make_scenario("t_intersection");  // from the south to the west
+  const simulation::Road road = simulation::make_scenario("t_intersection");  // from the south to the west
   const LaneTracker lanes(road);
   Navigator navigator(road, lanes);
   const Navigator::Start start = navigator.at_begin();
@@ -20,7 +20,7 @@ TEST(Navigator, WantsTheTurnsOfTheDrive) {
 
 /// The lane that leads from the place of `start` into the intersection, and all that cross from its end.
 TEST(Navigator, PlansAnewFromATurnThatWasMissed) {
-  const Road road = make_scenario("intersection");
+  const simulation::Road road = simulation::make_scenario("intersection");
   const LaneTracker lanes(road);
   Navigator navigator(road, lanes);
   const std::size_t begin = navigator.at_begin().lane;
@@ -39,7 +39,7 @@ TEST(Navigator, PlansAnewFromATurnThatWasMissed) {
 }
 
 TEST(Navigator, GoesRoundATownAndPutsOntoTheRouteFurtherOn) {
-  const Road road = make_scenario("town");
+  const simulation::Road road = simulation::make_scenario("town");
   const LaneTracker lanes(road);
   Navigator navigator(road, lanes);
   const Navigator::Start start = navigator.at_begin();
@@ -59,7 +59,7 @@ TEST(Navigator, GoesRoundATownAndPutsOntoTheRouteFurtherOn) {
 }
 
 TEST(Navigator, WhereARoadEndsItGoesBackToTheDrive) {
-  const Road road = make_scenario("t_intersection");
+  const simulation::Road road = simulation::make_scenario("t_intersection");
   const LaneTracker lanes(road);
   Navigator navigator(road, lanes);
   const std::size_t begin = navigator.at_begin().lane;
@@ -70,11 +70,11 @@ TEST(Navigator, WhereARoadEndsItGoesBackToTheDrive) {
 }
 
 TEST(Navigator, RefusesADriveOffTheLanes) {
-  Road road = make_scenario("straight");
+  simulation::Road road = simulation::make_scenario("straight");
   const LaneTracker lanes(road);
-  road.drive = Drive::along({{0, 500, 0}, {100, 500, 0}}, 10.0);
+  road.drive = simulation::Drive::along({{0, 500, 0}, {100, 500, 0}}, 10.0);
   EXPECT_THROW(Navigator(road, lanes), std::runtime_error);
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

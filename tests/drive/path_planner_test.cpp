@@ -9,7 +9,7 @@
 #include "drive/steering.hpp"
 #include "maps.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr Linkage::Turn kNoWish = Linkage::Turn::unknown;
@@ -217,4 +217,4 @@ TEST(Planner, BendsWithoutAJumpToALaneThatHasMoved) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -7,7 +7,7 @@
 
 #include "maps.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr double kStep_s = 0.01;
@@ -95,4 +95,4 @@ TEST(Steering, SlowsDownBeforeABend) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -7,7 +7,7 @@
 
 #include "maps.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 /// Lane 1 comes along x to the origin; straight on is 2, to the left 3, to the right 4.
@@ -108,4 +108,4 @@ TEST(Ways, NoneIsChangedToAcrossASolidLineNorWhereOnlyTheViewEnds) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::drive

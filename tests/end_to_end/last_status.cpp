@@ -7,7 +7,7 @@
 // last_status RECORDING: the counters of the last status in it, as one JSON object.
 int main(int argc, char** argv) try {
   if (argc != 2) throw std::runtime_error("usage: last_status RECORDING");
-  laneloom::RecordingReader reader(argv[1]);
+  laneloom::recording::RecordingReader reader(argv[1]);
   auto counters = nlohmann::json::object();
   while (const auto recorded = reader.next()) {
     const auto* status = std::get_if<laneloom::ServiceStatus>(&recorded->message);

@@ -26,7 +26,7 @@ class Process {
 
  private:
   TemporaryFolder folder_;
-  ChildProcess child_;
+  support::ChildProcess child_;
 };
 
 }  // namespace laneloom

@@ -2,16 +2,16 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::endurance {
 namespace {
 
-PublicationLog log(std::uint64_t session, std::uint64_t from, std::uint64_t to) {
-  PublicationLog result{session, {}};
+support::PublicationLog log(std::uint64_t session, std::uint64_t from, std::uint64_t to) {
+  support::PublicationLog result{session, {}};
   for (auto sequence = from; sequence <= to; ++sequence) result.times_ns[sequence] = 1;
   return result;
 }
 
-const std::vector<PublicationLog> kLogs{log(1, 0, 99), log(2, 0, 49), log(3, 0, 9)};
+const std::vector<support::PublicationLog> kLogs{log(1, 0, 99), log(2, 0, 49), log(3, 0, 9)};
 
 TEST(Account, CountsWhatWasPublishedBetweenFirstAndLastSeen) {
   const std::vector<SourceStatus> sources{{"a", 1, 90, 99, 10}, {"a", 2, 0, 20, 20}, {"b", 7, 0, 5, 6}};
@@ -37,4 +37,4 @@ TEST(Account, ExplainsEveryFrame) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::endurance

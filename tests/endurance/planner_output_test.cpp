@@ -8,14 +8,14 @@
 
 #include "io/work_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 namespace {
 
 constexpr std::chrono::seconds kUntilFound(30), kInVain(1);
 
 /// Whether `then`, written after `before`, is a map to wait for.
 bool waits_for(const std::string& before, const std::string& then, std::chrono::seconds patience) {
-  const WorkFolder folder;
+  const io::WorkFolder folder;
   const std::string file = folder.file("planner");
   std::ofstream out(file);
   out << before << std::flush;
@@ -43,4 +43,4 @@ TEST(PlannerOutput, NothingElse) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::endurance

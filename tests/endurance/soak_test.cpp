@@ -12,7 +12,7 @@
 
 // A soak finds what is wrong with real processes. The test `soak` shows that it finds nothing wrong with
 // healthy ones.
-namespace laneloom {
+namespace laneloom::endurance {
 namespace {
 
 using ::testing::Contains;
@@ -41,7 +41,7 @@ void write_script(const std::string& file, const std::string& script) {
 
 /// With this shell script as the command `laneloom`.
 SoakResult soak_with_command(const std::string& script, int faults) {
-  const WorkFolder folder;
+  const io::WorkFolder folder;
   SoakSpec spec = healthy();
   spec.fleet.command = folder.file("laneloom");
   write_script(spec.fleet.command, script + "\nexec " LANELOOM " \"$@\"");
@@ -87,7 +87,7 @@ TEST(Soak, FailsWhereThePlannerRecoversTooLate) {
 }
 
 TEST(Soak, FailsWhereNothingOfAnotherPerceptionIsFused) {
-  const WorkFolder folder;
+  const io::WorkFolder folder;
   SoakSpec spec = healthy();
   spec.fleet.perceptions = {folder.file("idler")};
   write_script(spec.fleet.perceptions.front(), "echo session_id,sequence,published_ns >$3\nexec sleep 1000");
@@ -111,4 +111,4 @@ TEST(Soak, PassesWhereNothingIsWrong) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::endurance

@@ -13,12 +13,12 @@
 #include "io/work_folder.hpp"
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 DriveSpec spec(const std::string& scenario, const std::string& noise, double duration_s) {
-  return {.road = std::make_shared<const Road>(make_scenario(scenario)),
-          .noise = noise_profile(noise),
+  return {.road = std::make_shared<const simulation::Road>(simulation::make_scenario(scenario)),
+          .noise = simulation::noise_profile(noise),
           .seed = 3,
           .duration_s = duration_s};
 }
@@ -61,7 +61,7 @@ TEST(Oracle, WithoutNoiseKnowsTheTruth) {
 }
 
 TEST(Oracle, GivesTheMeanOfWhatItSaw) {
-  Road road;
+  simulation::Road road;
   road.markings.push_back({.id = 5, .points = {{0, 0, 0}, {20, 0, 0}}});
   Oracle oracle(road);
   const auto see = [&](double y_m) {
@@ -79,7 +79,7 @@ TEST(Oracle, GivesTheMeanOfWhatItSaw) {
 }
 
 TEST(Oracle, PassesOverMarkingsWithoutHorizontalLength) {
-  Road road;
+  simulation::Road road;
   road.markings.push_back({.id = 5, .points = {{1, 2, 0}, {1, 2, 3}}});
   road.markings.push_back({.id = 6, .points = {{0, 0, 0}, {0, 5e-324, 0}}});
   EXPECT_TRUE(Oracle(road).update({}).boundaries.empty());
@@ -128,7 +128,7 @@ TEST(Experiment, APeerThatFailsIsNamed) {
 }
 
 TEST(Peer, WhatItPrintsIsNotOurOutput) {
-  const WorkFolder folder;
+  const io::WorkFolder folder;
   const std::string program = folder.file("peer");
   std::ofstream(program) << "#!/bin/sh\necho progress\nexit 1\n";
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
@@ -140,7 +140,7 @@ TEST(Peer, WhatItPrintsIsNotOurOutput) {
 }
 
 /// The cells of the table's only row, without the subject's name.
-std::vector<std::string> cells(const Measures& measures) {
+std::vector<std::string> cells(const evaluation::Measures& measures) {
   const std::string table = results_table({{"ours", measures, {}}});
   std::istringstream row(table.substr(table.find("| ours |") + 8));
   std::vector<std::string> cells;
@@ -156,9 +156,9 @@ TEST(ResultsTable, WhatIsNotDefinedIsADash) {
 }
 
 TEST(ResultsTable, WhatWasThereAndNotFoundIsZero) {
-  Measures missed;
-  missed.score.by_kind[index(LineKind::laneline)].truths = 3;
-  missed.score.by_kind[index(LineKind::lane)].truths = 2;
+  evaluation::Measures missed;
+  missed.score.by_kind[index(evaluation::LineKind::laneline)].truths = 3;
+  missed.score.by_kind[index(evaluation::LineKind::lane)].truths = 2;
   missed.topology.linkages.truths = 2;
   missed.top_ll.vertices = 4;
   const std::vector<std::string> row = cells(missed);
@@ -171,13 +171,13 @@ TEST(ResultsTable, WhatWasThereAndNotFoundIsZero) {
 }
 
 TEST(ResultsTable, WrongLinkagesWhereThereAreNoneHaveNoRecall) {
-  Measures invented;
+  evaluation::Measures invented;
   invented.topology.linkages.published = 2;
   EXPECT_EQ(cells(invented).at(8), "0/-");
 }
 
 TEST(ResultsTable, LinkagesAcrossAreAllThatBridgeAGap) {
-  Measures measures;
+  evaluation::Measures measures;
   const auto add = [&](Linkage::Kind kind, std::size_t published, std::size_t right) {
     measures.topology.by_kind.at(static_cast<std::size_t>(kind)) = {.published = published, .right = right};
   };
@@ -192,13 +192,13 @@ TEST(Experiment, TheOracleMissesNoLanesAsItKnowsNone) {
   ExperimentSpec experiment;
   experiment.drives = {spec("straight", "none", 2.0)};
   experiment.oracle = true;
-  const Measures oracle = sum(run(experiment)).back().measures;
-  EXPECT_EQ(oracle.score.of(LineKind::lane).truths, 0U);
+  const evaluation::Measures oracle = sum(run(experiment)).back().measures;
+  EXPECT_EQ(oracle.score.of(evaluation::LineKind::lane).truths, 0U);
   EXPECT_EQ(oracle.top_ll.vertices, 0U);
 }
 
 TEST(Calibration, MovesTheProfileToItsTarget) {
-  NoiseProfile noise = noise_profile("none");
+  simulation::NoiseProfile noise = simulation::noise_profile("none");
   noise.offset_stddev_m = 0.05;
   noise.line_memory_s = 1.0;
   noise.flutter_stddev_m = 0.01;
@@ -212,7 +212,7 @@ TEST(Calibration, MovesTheProfileToItsTarget) {
   const CalibrationStep last =
       calibrate(noise, target, drives, RangeConfig{}, 10, [&](const CalibrationStep& /*step*/) { ++told; });
   EXPECT_EQ(told, 10);
-  const Score& score = last.score.of(LineKind::laneline);
+  const evaluation::Score& score = last.score.of(evaluation::LineKind::laneline);
   EXPECT_NEAR(score.precision(), 0.9, 0.06);
   EXPECT_NEAR(score.recall(), 0.8, 0.06);
   EXPECT_NEAR(score.acd_m(), 0.1, 0.03);
@@ -226,4 +226,4 @@ TEST(Calibration, AnUnknownDataSetIsRefused) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::experiment

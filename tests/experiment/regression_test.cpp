@@ -8,7 +8,7 @@
 
 /// A few drives with networks that nobody tuned for: no change may lose a point unseen. What a change gains
 /// is gained for good: then the figures here are raised.
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 /// The measured figures, in percent. Differences of libm move them by a small part of the margin.
@@ -30,13 +30,13 @@ class Regression : public ::testing::TestWithParam<Drive> {};
 TEST_P(Regression, NoPointIsLost) {
   const auto& [scenario, network, measured] = GetParam();
   ExperimentSpec spec;
-  spec.drives = {{.road = std::make_shared<const Road>(make_scenario(scenario)),
-                  .noise = noise_profile(network),
+  spec.drives = {{.road = std::make_shared<const simulation::Road>(simulation::make_scenario(scenario)),
+                  .noise = simulation::noise_profile(network),
                   .seed = 1}};
   spec.configs = {{"laneloom", Config{}}};
-  const Measures measures = run(spec).front().back().measures;
+  const evaluation::Measures measures = run(spec).front().back().measures;
   EXPECT_GE(100.0 * measures.score.markings().f1(), measured.f1 - kMargin);
-  EXPECT_GE(100.0 * measures.score.of(LineKind::lane).f1(), measured.lanes_f1 - kMargin);
+  EXPECT_GE(100.0 * measures.score.of(evaluation::LineKind::lane).f1(), measured.lanes_f1 - kMargin);
   EXPECT_GE(100.0 * measures.topology.directions.precision(), measured.direction_precision - kMargin);
 }
 
@@ -47,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(Drives, Regression,
                                            Drive{"intersection", "random:2", {67.6, 82.2, 100.0}}));
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -5,12 +5,12 @@
 #include <array>
 #include <memory>
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 SubjectResult result(const char* name, double recall) {
   SubjectResult result{.name = name, .measures = {}, .update_ms = {}};
-  Score& score = result.measures.score.by_kind[index(LineKind::laneline)];
+  evaluation::Score& score = result.measures.score.by_kind[index(evaluation::LineKind::laneline)];
   score.truths = score.predictions = 1000;
   score.matches = static_cast<std::uint64_t>(1000 * recall);
   return result;
@@ -19,7 +19,7 @@ SubjectResult result(const char* name, double recall) {
 std::string table(const std::vector<std::array<double, 3>>& drives) {
   std::vector<DriveSpec> specs;
   std::vector<DriveResults> results;
-  const auto road = std::make_shared<const Road>(Road{.name = "road"});
+  const auto road = std::make_shared<const simulation::Road>(simulation::Road{.name = "road"});
   for (const auto& [raw, own, oracle] : drives) {
     specs.push_back({.road = road, .noise = {.name = "noise"}, .seed = specs.size() + 1});
     results.push_back({result("raw", raw), result("own", own), result("oracle", oracle)});
@@ -44,4 +44,4 @@ TEST(SpreadTable, WhereThereIsNoWayNoneIsGone) {
 TEST(SpreadTable, OfNoDrivesIsItsHead) { EXPECT_EQ(table({}).find("own"), std::string::npos); }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::experiment

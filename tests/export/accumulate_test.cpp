@@ -5,7 +5,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using testing::SizeIs;
@@ -110,4 +110,4 @@ TEST(DriveAccumulator, AnEdgeBesideTheVehicleStays) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::exports

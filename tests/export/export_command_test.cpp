@@ -8,7 +8,7 @@
 #include "support/child_process.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using testing::HasSubstr;
@@ -17,9 +17,10 @@ using testing::HasSubstr;
 class ExportCommand : public testing::Test {
  protected:
   std::string file(const std::string& name) const { return folder_.file(name); }
-  int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), LANELOOM_COMMAND);
-    return ChildProcess(arguments, file("output")).wait();
+  int run(const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{LANELOOM_COMMAND};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return support::ChildProcess(command, file("output")).wait();
   }
   std::string output() const { return content(file("output")); }
   void simulate(const std::string& scenario) {
@@ -41,7 +42,7 @@ TEST_F(ExportCommand, FramesRecordingsAndMapsGiveTheSameMap) {
   };
   const std::string of_frames = exported("drive.frames.jsonl");
   EXPECT_THAT(output(), HasSubstr("made of the detections"));
-  EXPECT_GT(load_lanelet2(file("map.osm")).lanes.size(), 8u);
+  EXPECT_GT(simulation::load_lanelet2(file("map.osm")).lanes.size(), 8u);
   for (const std::string maps : {"maps.mcap", "maps.jsonl"}) {
     ASSERT_EQ(run({"replay", "--in", file("drive.frames.jsonl"), "--out", file(maps)}), 0) << output();
     const std::string of_maps = exported(maps);
@@ -54,7 +55,9 @@ TEST_F(ExportCommand, OsmiumFindsEveryReference) {
   simulate("intersection");
   ASSERT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--lanelet2", file("map.osm")}), 0)
       << output();
-  EXPECT_EQ(ChildProcess({"/usr/bin/osmium", "check-refs", "-r", file("map.osm")}, file("output")).wait(), 0)
+  EXPECT_EQ(
+      support::ChildProcess({"/usr/bin/osmium", "check-refs", "-r", file("map.osm")}, file("output")).wait(),
+      0)
       << output();
   EXPECT_THAT(output(), HasSubstr("Ways      in relations missing: 0"));
 }
@@ -103,4 +106,4 @@ TEST_F(ExportCommand, WrongUseAndInputAreNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::exports

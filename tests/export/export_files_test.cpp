@@ -15,7 +15,7 @@
 #include "simulation/lanelet2.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using testing::SizeIs;
@@ -41,7 +41,7 @@ class ExportFiles : public testing::Test {
 
 TEST_F(ExportFiles, OurReaderFindsInALanelet2FileWhatWasWritten) {
   write_lanelet2(file("map.osm"), network_, kOrigin);
-  const Road road = load_lanelet2(file("map.osm"));
+  const simulation::Road road = simulation::load_lanelet2(file("map.osm"));
   ASSERT_THAT(road.lanes, SizeIs(network_.lanelets.size()));
   std::size_t followed = 0;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
@@ -56,7 +56,7 @@ TEST_F(ExportFiles, OurReaderFindsInALanelet2FileWhatWasWritten) {
   EXPECT_GT(followed, map_.linkages.size());
   EXPECT_TRUE(road.right_hand_traffic);
   const auto count = [&](MarkingType type) {
-    return std::ranges::count(road.markings, type, &RoadMarking::type);
+    return std::ranges::count(road.markings, type, &simulation::RoadMarking::type);
   };
   EXPECT_EQ(count(MarkingType::stopline), std::ssize(map_.stoplines));
   EXPECT_GT(count(MarkingType::laneline), 0);
@@ -99,4 +99,4 @@ TEST_F(ExportFiles, FilesThatCannotBeWrittenAreNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using testing::DoubleNear;
@@ -106,4 +106,4 @@ TEST(LineArchive, OfAStoplineTheBestIsKept) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::exports

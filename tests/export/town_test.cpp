@@ -9,14 +9,14 @@
 #include "export/weave.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr std::size_t kFirst = 20;  // before it, the local map has seen little
 constexpr std::size_t kStep = 5;
 
 /// Whether the vehicle drove in a lane for half a second.
-bool is_driven(const RoadLane& lane, const Drive& drive) {
+bool is_driven(const simulation::RoadLane& lane, const simulation::Drive& drive) {
   const MeasuredPolyline line(lane.centerline);
   int inside = 0;
   for (const VehiclePose& pose : drive.poses()) {
@@ -28,7 +28,7 @@ bool is_driven(const RoadLane& lane, const Drive& drive) {
 }
 
 /// The share of a lane's length that lies on lanes of the map: less than 0.5 m beside, and as they run.
-double covered_share(const RoadLane& lane, const std::vector<MeasuredPolyline>& lanes) {
+double covered_share(const simulation::RoadLane& lane, const std::vector<MeasuredPolyline>& lanes) {
   const MeasuredPolyline truth(lane.centerline);
   const Polyline samples = truth.resample(0.5);
   const auto is_covered = [&](const Point& sample) {
@@ -42,9 +42,10 @@ double covered_share(const RoadLane& lane, const std::vector<MeasuredPolyline>& 
          static_cast<double>(samples.size());
 }
 
-void print(const char* what, const MapEvaluation& evaluation) {
-  const Score markings = evaluation.score().markings(), lanes = evaluation.score().of(LineKind::lane);
-  const PairScore& linkages = evaluation.topology().linkages;
+void print(const char* what, const evaluation::MapEvaluation& evaluation) {
+  const evaluation::Score markings = evaluation.score().markings(),
+                          lanes = evaluation.score().of(evaluation::LineKind::lane);
+  const evaluation::PairScore& linkages = evaluation.topology().linkages;
   std::printf("%s: markings P/R/F1 %.1f/%.1f/%.1f %%, lanes %.1f/%.1f/%.1f %%, linkages P/R %.0f/%.0f %%\n",
               what, 100 * markings.precision(), 100 * markings.recall(), 100 * markings.f1(),
               100 * lanes.precision(), 100 * lanes.recall(), 100 * lanes.f1(), 100 * linkages.precision(),
@@ -55,8 +56,8 @@ void print(const char* what, const MapEvaluation& evaluation) {
 TEST(Town, TheMapOfADriveIsAsGoodAsTheLocalMaps) {
   const test::MappedDrive drive = test::map_drive("town", "inhouse");
   LocalMap whole = weave(test::accumulated(drive), drive.config);
-  MapEvaluation local(*drive.road, drive.config.range, Subject::maps),
-      exported(*drive.road, drive.config.range, Subject::maps);
+  evaluation::MapEvaluation local(*drive.road, drive.config.range, evaluation::Subject::maps),
+      exported(*drive.road, drive.config.range, evaluation::Subject::maps);
   for (std::size_t i = kFirst; i < drive.maps.size(); i += kStep) {
     local.add(drive.maps[i]);
     whole.stamp_ns = drive.maps[i].stamp_ns;
@@ -69,7 +70,7 @@ TEST(Town, TheMapOfADriveIsAsGoodAsTheLocalMaps) {
   std::vector<MeasuredPolyline> lanes;
   for (const Lane& lane : whole.lanes) lanes.emplace_back(lane.centerline);
   double driven_m = 0.0, found_m = 0.0;
-  for (const RoadLane& lane : drive.road->lanes) {
+  for (const simulation::RoadLane& lane : drive.road->lanes) {
     if (lane.in_intersection || !is_driven(lane, drive.road->drive)) continue;
     driven_m += length(lane.centerline);
     found_m += length(lane.centerline) * covered_share(lane, lanes);
@@ -79,8 +80,9 @@ TEST(Town, TheMapOfADriveIsAsGoodAsTheLocalMaps) {
   // 94 % were found, and the lanes' F1 was 1.4 points below that of the local maps.
   EXPECT_GE(found_m, 0.93 * driven_m);
   EXPECT_GE(exported.score().markings().f1(), local.score().markings().f1());
-  EXPECT_GE(exported.score().of(LineKind::lane).f1(), local.score().of(LineKind::lane).f1() - 0.02);
+  EXPECT_GE(exported.score().of(evaluation::LineKind::lane).f1(),
+            local.score().of(evaluation::LineKind::lane).f1() - 0.02);
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::exports

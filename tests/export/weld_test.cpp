@@ -12,7 +12,7 @@
 #include "export/weave.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using Lanes = std::pair<ElementId, ElementId>;
@@ -111,7 +111,7 @@ TEST_P(Welded, TheTopologyIsInTheNodesAndWays) {
     EXPECT_TRUE(std::ranges::count(network.lanelets, lane.id, &RoadNetwork::Lanelet::lane) > 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Roads, Welded, testing::ValuesIn(scenario_names()),
+INSTANTIATE_TEST_SUITE_P(Roads, Welded, testing::ValuesIn(simulation::scenario_names()),
                          [](const auto& road) { return road.param; });
 
 /// Two lanes, one behind the other, and a third beside both of them.
@@ -163,4 +163,4 @@ TEST(Weld, AnEmptyMapIsAnEmptyNetwork) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::exports

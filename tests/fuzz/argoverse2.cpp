@@ -13,9 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint8_t* const map = zero == end ? end : zero + 1;
   const laneloom::MemoryFile poses_file(data, static_cast<std::size_t>(zero - data));
   const laneloom::MemoryFile map_file(map, static_cast<std::size_t>(end - map));
-  const laneloom::WorkFolder folder;
+  const laneloom::io::WorkFolder folder;
   std::filesystem::create_symlink(poses_file.path(), folder.file("city_SE3_egovehicle.csv"));
   std::filesystem::create_symlink(map_file.path(), folder.file("log_map_archive_x.json"));
-  laneloom::take_or_refuse([&] { laneloom::load_argoverse2(folder.file("")); });
+  laneloom::take_or_refuse([&] { laneloom::simulation::load_argoverse2(folder.file("")); });
   return 0;
 }

@@ -22,7 +22,7 @@ void write(const std::string& file, char type, const T& message) {
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-void write_all(const std::string& folder, const FrameRecord& seen, const LocalMap& map) {
+void write_all(const std::string& folder, const io::FrameRecord& seen, const LocalMap& map) {
   write(folder + "/detections", 0, seen.frame);
   write(folder + "/pose", 1, seen.pose);
   write(folder + "/map", 2, PublishedMap{.frame_id = "map", .fused_frames = {{}}, .map = map});
@@ -36,8 +36,8 @@ void write_all(const std::string& folder, const FrameRecord& seen, const LocalMa
 /// cdr_seeds FRAMES MAPS FOLDER: a message of each type, of the first frame and map.
 int main(int argc, char** argv) try {
   if (argc != 4) throw std::runtime_error("usage: cdr_seeds FRAMES MAPS FOLDER");
-  const auto frame = JsonLinesReader(argv[1]).next_frame();
-  const auto map = JsonLinesReader(argv[2]).next_map();
+  const auto frame = io::JsonLinesReader(argv[1]).next_frame();
+  const auto map = io::JsonLinesReader(argv[2]).next_map();
   write_all(argv[3], frame.value(), map.value());
   return 0;
 } catch (const std::exception& error) {

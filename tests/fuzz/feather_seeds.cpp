@@ -5,7 +5,7 @@
 
 /// Writes a table of poses per compression into the folder that is given.
 int main(int /*argc*/, char** argv) {
-  using laneloom::Compression;
+  using laneloom::recording::Compression;
   for (const auto compression : {Compression::none, Compression::lz4, Compression::zstd}) {
     const auto bytes = laneloom::FeatherWriter(laneloom::pose_columns(1, 5), compression).write(3);
     std::ofstream out(std::string(argv[1]) + "/" + std::to_string(static_cast<int>(compression)) +

@@ -3,6 +3,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const laneloom::MemoryFile file(data, size);
-  laneloom::take_or_refuse([&] { laneloom::load_lanelet2(file.path()); });
+  laneloom::take_or_refuse([&] { laneloom::simulation::load_lanelet2(file.path()); });
   return 0;
 }

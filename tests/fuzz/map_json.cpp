@@ -4,7 +4,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const laneloom::MemoryFile file(data, size);
   laneloom::take_or_refuse([&] {
-    laneloom::JsonLinesReader reader(file.path());
+    laneloom::io::JsonLinesReader reader(file.path());
     while (reader.next_map()) {
     }
   });

@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   take_or_refuse([&] {
     MapperConfig config;
     config.fusion.profile_file = file.path();
-    config.networks = load_network_profiles(file.path());
+    config.networks = config::load_network_profiles(file.path());
     Mapper mapper(config);
     Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
     for (const auto& [source, profile] : config.networks) {

@@ -8,6 +8,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   config.file = file.path();
   config.origin_latitude_deg = 49.0;
   config.origin_longitude_deg = 8.0;
-  laneloom::take_or_refuse([&] { laneloom::load_sd_map(config); });
+  laneloom::take_or_refuse([&] { laneloom::sd_map::load_sd_map(config); });
   return 0;
 }

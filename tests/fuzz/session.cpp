@@ -65,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Config config;
   config.mapper.method = values.next<std::uint8_t>() % 2 == 0 ? FusionMethod::lines : FusionMethod::voxels;
   config.mapper.voxel_map.min_detections = 1;
-  MappingSession session(config);
+  session::MappingSession session(config);
   std::int64_t stamp_ns = 1'000'000'000;
   for (int i = 0; i < 64 && !values.empty(); ++i) {
     const auto step = values.next<std::uint8_t>();

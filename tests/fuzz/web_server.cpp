@@ -28,10 +28,11 @@ class Viewer {
   std::uint16_t port() const { return server_.port(); }
 
  private:
-  FrameStore frames_;
-  Site site_{"fuzz", "[]", &frames_};
-  WebServer server_{{.patience_s = 0.2, .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
-                    [this](std::string_view target) { return site_.answer(target); }};
+  view::FrameStore frames_;
+  view::Site site_{"fuzz", "[]", &frames_};
+  view::WebServer server_{
+      {.patience_s = 0.2, .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
+      [this](std::string_view target) { return site_.answer(target); }};
 };
 
 int connect_to(std::uint16_t port) {

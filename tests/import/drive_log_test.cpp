@@ -7,7 +7,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST_F(NuScenes, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -6,7 +6,7 @@
 #include "session/mapping_session.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -33,8 +33,8 @@ TEST(DriveRecording, AServiceFusesEveryFrameInTheOrderOfLogTimes) {
   frames.push_back(frame(kSecond_ns + 9 * kSecond_ns / 10));  // at the last pose itself
   write_drive(folder.file("drive.mcap"), poses(10), frames);
 
-  RecordingReader reader(folder.file("drive.mcap"));
-  MappingSession session{Config{}};
+  recording::RecordingReader reader(folder.file("drive.mcap"));
+  session::MappingSession session{Config{}};
   while (const auto message = reader.next()) {
     session.expire(message->log_time_ns);
     if (const auto* pose = std::get_if<VehiclePose>(&message->message)) session.add(*pose);
@@ -68,4 +68,4 @@ TEST(DriveRecording, WhatExceedsAMessageIsAnError) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -9,7 +9,7 @@
 #include "support/child_process.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using testing::HasSubstr;
@@ -37,7 +37,7 @@ class ImportCommand : public testing::Test {
   std::string file(const std::string& name) const { return folder_.file(name); }
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "import"});
-    return ChildProcess(arguments, file("output")).wait();
+    return support::ChildProcess(arguments, file("output")).wait();
   }
   std::string output() const { return content(file("output")); }
 
@@ -55,7 +55,7 @@ TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
   EXPECT_THAT(output(), HasSubstr("1 frames without poses"));
   EXPECT_THAT(output(), HasSubstr("1 frames of other drives"));
 
-  RecordingReader reader(file("drive.mcap"));
+  recording::RecordingReader reader(file("drive.mcap"));
   std::vector<std::int64_t> pose_stamps;
   std::vector<DetectionFrame> frames;
   while (const auto message = reader.next()) {
@@ -101,7 +101,7 @@ TEST_F(ImportCommand, AnOpenpilotLogBecomesARecording) {
             R"(],"laneLineProbs":[0.9],"laneLineStds":[0.1],"roadEdges":[],"roadEdgeStds":[]}})" + "\n");
   ASSERT_EQ(run({"openpilot", "--log", file("rlog.jsonl"), "--out", file("drive.mcap")}), 0) << output();
   EXPECT_THAT(output(), HasSubstr("1 frames, 2 poses"));
-  RecordingReader reader(file("drive.mcap"));
+  recording::RecordingReader reader(file("drive.mcap"));
   std::size_t frames = 0;
   while (const auto message = reader.next())
     frames += std::holds_alternative<DetectionFrame>(message->message);
@@ -122,12 +122,12 @@ TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("poses.mcap"), "--truth", file("truth.json")}), 0)
       << output();
 
-  const Road truth = load_truth(file("truth.json"));
+  const simulation::Road truth = simulation::load_truth(file("truth.json"));
   ASSERT_EQ(truth.markings.size(), 2u);
   EXPECT_EQ(truth.markings[0].style, MarkingStyle::dashed);
   EXPECT_EQ(truth.markings[0].points.front(), Point(0, 1.75, 0));
   ASSERT_EQ(truth.lanes.size(), 1u);
-  RecordingReader reader(file("poses.mcap"));
+  recording::RecordingReader reader(file("poses.mcap"));
   const auto first = reader.next();
   ASSERT_TRUE(first);
   const auto& pose = std::get<VehiclePose>(first->message);
@@ -172,4 +172,4 @@ TEST_F(ImportCommand, WrongUseAndInputAreNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::imports

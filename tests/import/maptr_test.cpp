@@ -9,7 +9,7 @@
 #include "sampled_drive.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST_F(MapTr, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -9,7 +9,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using testing::ElementsAre;
@@ -135,4 +135,4 @@ TEST_F(Openpilot, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::imports

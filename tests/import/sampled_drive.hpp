@@ -9,8 +9,8 @@
 namespace laneloom {
 
 /// Samples are called drive_<stamp>.
-inline DriveLog drive(double ground_z_m = 0.0) {
-  DriveLog drive{.name = "drive", .ground_z_m = ground_z_m};
+inline imports::DriveLog drive(double ground_z_m = 0.0) {
+  imports::DriveLog drive{.name = "drive", .ground_z_m = ground_z_m};
   drive.stamp_ns_of = [](const std::string& token) -> std::optional<std::int64_t> {
     if (!token.starts_with("drive_")) return std::nullopt;
     return std::stoll(token.substr(6));

@@ -9,7 +9,7 @@
 #include "sampled_drive.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using testing::HasSubstr;
@@ -97,4 +97,4 @@ TEST_F(StreamMapNet, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -8,18 +8,18 @@
 #include "io/feather_writer.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 using testing::HasSubstr;
 
 class Feather : public testing::Test {
  protected:
-  void write(const Bytes& bytes) const { write_bytes(file_, bytes); }
+  void write(const recording::Bytes& bytes) const { write_bytes(file_, bytes); }
   FeatherTable open() const { return FeatherTable(file_); }
 
   /// The complaint about the file of these bytes; empty: there is none.
-  std::string refusal(const Bytes& bytes) const {
+  std::string refusal(const recording::Bytes& bytes) const {
     write(bytes);
     try {
       const FeatherTable table = open();
@@ -42,7 +42,8 @@ class Feather : public testing::Test {
 };
 
 TEST_F(Feather, NumbersAreReadAsTheyWereWritten) {
-  for (const auto compression : {Compression::lz4, Compression::zstd, Compression::none}) {
+  for (const auto compression :
+       {recording::Compression::lz4, recording::Compression::zstd, recording::Compression::none}) {
     for (const std::size_t rows_per_batch : {1U, 2U, 3U}) {
       write(FeatherWriter(columns_, compression).write(rows_per_batch));
       const FeatherTable table = open();
@@ -64,7 +65,7 @@ TEST_F(Feather, WhatIsNoTableOfTheseColumnsIsNamed) {
 }
 
 TEST_F(Feather, AFileThatIsCutOffAnywhereIsRefused) {
-  const Bytes whole = FeatherWriter(columns_).write(2);
+  const recording::Bytes whole = FeatherWriter(columns_).write(2);
   ASSERT_EQ(refusal(whole), "");
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_NE(refusal({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}), "") << size;
@@ -72,17 +73,18 @@ TEST_F(Feather, AFileThatIsCutOffAnywhereIsRefused) {
 
 TEST_F(Feather, DamageAnywhereIsSurvived) {
   std::mt19937 random(1);
-  for (const auto compression : {Compression::lz4, Compression::zstd, Compression::none}) {
-    const Bytes whole = FeatherWriter(columns_, compression).write(2);
+  for (const auto compression :
+       {recording::Compression::lz4, recording::Compression::zstd, recording::Compression::none}) {
+    const recording::Bytes whole = FeatherWriter(columns_, compression).write(2);
     int refused = 0;
     for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
-      Bytes damaged = whole;
+      recording::Bytes damaged = whole;
       damaged[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
       if (!refusal(damaged).empty()) ++refused;
     }
     EXPECT_GT(refused, 500);
     for (int i = 0; i < 2000; ++i) {  // several at once, lengths of all ones among them
-      Bytes damaged = whole;
+      recording::Bytes damaged = whole;
       for (int byte = 0; byte < 4; ++byte)
         damaged[random() % damaged.size()] = random() % 2 == 0 ? 0xFF : static_cast<std::uint8_t>(random());
       refusal(damaged);
@@ -97,4 +99,4 @@ TEST_F(Feather, WhatWouldTakeAllMemoryIsRefused) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -19,15 +19,15 @@ class FeatherWriter {
   using Numbers = std::variant<std::vector<std::int64_t>, std::vector<double>>;
   using Columns = std::vector<std::pair<std::string, Numbers>>;
 
-  explicit FeatherWriter(Columns columns, Compression compression = Compression::lz4)
+  explicit FeatherWriter(Columns columns, recording::Compression compression = recording::Compression::lz4)
       : columns_(std::move(columns)), compression_(compression) {}
 
   /// The rows in batches of at most so many.
-  Bytes write(std::size_t rows_per_batch = 1'000'000) {
+  recording::Bytes write(std::size_t rows_per_batch = 1'000'000) {
     file_ = {'A', 'R', 'R', 'O', 'W', '1', 0, 0};
     for (std::size_t row = 0; row < rows(); row += rows_per_batch)
       write_batch(row, std::min(rows_per_batch, rows() - row));
-    const Bytes footer = make_footer();
+    const recording::Bytes footer = make_footer();
     append(footer);
     append_number(static_cast<std::int32_t>(footer.size()));
     append({'A', 'R', 'R', 'O', 'W', '1'});
@@ -38,20 +38,20 @@ class FeatherWriter {
   std::size_t rows() const {
     return std::visit([](const auto& numbers) { return numbers.size(); }, columns_.front().second);
   }
-  void append(const Bytes& bytes) { file_.insert(file_.end(), bytes.begin(), bytes.end()); }
+  void append(const recording::Bytes& bytes) { file_.insert(file_.end(), bytes.begin(), bytes.end()); }
   void append_number(std::int32_t number) {
-    Bytes bytes(sizeof(number));
+    recording::Bytes bytes(sizeof(number));
     std::memcpy(bytes.data(), &number, sizeof(number));
     append(bytes);
   }
-  static void pad(Bytes& bytes) { bytes.resize((bytes.size() + 7) / 8 * 8); }
+  static void pad(recording::Bytes& bytes) { bytes.resize((bytes.size() + 7) / 8 * 8); }
 
-  Bytes buffer_of(const Numbers& column, std::size_t first, std::size_t count) const {
-    Bytes plain(count * 8);
+  recording::Bytes buffer_of(const Numbers& column, std::size_t first, std::size_t count) const {
+    recording::Bytes plain(count * 8);
     std::visit([&](const auto& numbers) { std::memcpy(plain.data(), numbers.data() + first, plain.size()); },
                column);
-    if (compression_ == Compression::none) return plain;
-    Bytes buffer(8);
+    if (compression_ == recording::Compression::none) return plain;
+    recording::Bytes buffer(8);
     const auto size = static_cast<std::int64_t>(plain.size());
     std::memcpy(buffer.data(), &size, 8);
     compress(compression_, plain, buffer);
@@ -59,11 +59,11 @@ class FeatherWriter {
   }
 
   void write_batch(std::size_t first, std::size_t count) {
-    Bytes body;
+    recording::Bytes body;
     std::vector<arrow::FieldNode> nodes;
     std::vector<arrow::Buffer> buffers;
     for (const auto& [name, numbers] : columns_) {
-      const Bytes buffer = buffer_of(numbers, first, count);
+      const recording::Bytes buffer = buffer_of(numbers, first, count);
       nodes.emplace_back(static_cast<std::int64_t>(count), 0);
       buffers.emplace_back(static_cast<std::int64_t>(body.size()), 0);  // no cell is empty
       buffers.emplace_back(static_cast<std::int64_t>(body.size()), static_cast<std::int64_t>(buffer.size()));
@@ -71,15 +71,17 @@ class FeatherWriter {
       pad(body);
     }
     flatbuffers::FlatBufferBuilder builder;
-    const auto codec = compression_ == Compression::zstd ? arrow::Codec::Zstd : arrow::Codec::Lz4Frame;
-    const auto compressed = compression_ == Compression::none ? flatbuffers::Offset<arrow::BodyCompression>()
-                                                              : arrow::CreateBodyCompression(builder, codec);
+    const auto codec =
+        compression_ == recording::Compression::zstd ? arrow::Codec::Zstd : arrow::Codec::Lz4Frame;
+    const auto compressed = compression_ == recording::Compression::none
+                                ? flatbuffers::Offset<arrow::BodyCompression>()
+                                : arrow::CreateBodyCompression(builder, codec);
     const auto batch = arrow::CreateRecordBatch(builder, static_cast<std::int64_t>(count),
                                                 builder.CreateVectorOfStructs(nodes),
                                                 builder.CreateVectorOfStructs(buffers), compressed);
     builder.Finish(arrow::CreateMessage(builder, arrow::MessageHeader::RecordBatch, batch.Union(),
                                         static_cast<std::int64_t>(body.size())));
-    Bytes metadata(builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize());
+    recording::Bytes metadata(builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize());
     pad(metadata);
     blocks_.emplace_back(static_cast<std::int64_t>(file_.size()),
                          static_cast<std::int32_t>(metadata.size() + 8),
@@ -90,7 +92,7 @@ class FeatherWriter {
     append(body);
   }
 
-  Bytes make_footer() const {
+  recording::Bytes make_footer() const {
     flatbuffers::FlatBufferBuilder builder;
     std::vector<flatbuffers::Offset<arrow::Field>> fields;
     for (const auto& [name, numbers] : columns_) {
@@ -108,8 +110,8 @@ class FeatherWriter {
   }
 
   Columns columns_;
-  Compression compression_;
-  Bytes file_;
+  recording::Compression compression_;
+  recording::Bytes file_;
   std::vector<arrow::Block> blocks_;
 };
 

@@ -7,7 +7,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -236,4 +236,4 @@ TEST(JsonLines, FilesThatCannotBeOpenedAreErrors) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -334,12 +334,12 @@ TEST(MapperState, DamagedBytesAreRefused) {
 TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
   Drive drive(GetParam());
   drive.steps(100);
-  const VoxelMapper* voxels = drive.mapper.state().fusion.voxels();
+  const voxels::VoxelMapper* voxels = drive.mapper.state().fusion.voxels();
   const auto slots_now = [&] { return voxels != nullptr ? voxels->map().voxels.slots() : 0; };
-  const VoxelId slots = slots_now();
+  const voxels::VoxelId slots = slots_now();
   const std::size_t bytes = drive.mapper.save().size();
   drive.steps(150);
-  const VoxelId slots_before_stand = slots_now();
+  const voxels::VoxelId slots_before_stand = slots_now();
   const auto detections = road();
   for (int i = 0; i < 2000; ++i)
     drive.mapper.update(frame_at(drive.x, detections, ++drive.number), test::at(drive.x));

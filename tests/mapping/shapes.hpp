@@ -42,7 +42,8 @@ inline Marking marking(ElementId id, Polyline points, MarkingType type = Marking
   return {.id = id, .type = type, .points = std::move(points)};
 }
 
-inline LaneBoundary boundary(ElementId id, Polyline points, MarkingType type = MarkingType::laneline) {
+inline boundaries::LaneBoundary boundary(ElementId id, Polyline points,
+                                         MarkingType type = MarkingType::laneline) {
   return {marking(id, std::move(points), type), {id}};
 }
 
@@ -53,10 +54,10 @@ inline Lane lane(ElementId id, Polyline centerline) {
 inline Lane lane(ElementId id, const Point& from, const Point& to) { return lane(id, straight(from, to)); }
 
 /// A line with a station at every vertex.
-inline Line line(ElementId id, const Polyline& points, MarkingType type = MarkingType::laneline) {
-  Line result{.id = id, .stations = {}};
+inline lines::Line line(ElementId id, const Polyline& points, MarkingType type = MarkingType::laneline) {
+  lines::Line result{.id = id, .stations = {}};
   for (const Point& point : points) {
-    result.stations.push_back({.position = point, .lateral = LateralFilter({.stddev_m = 1.0})});
+    result.stations.push_back({.position = point, .lateral = lines::LateralFilter({.stddev_m = 1.0})});
     result.stations.back().type_votes[index(type)] = 1.0;
   }
   return result;
@@ -75,8 +76,8 @@ inline Eigen::Isometry3d at(double x, double y = 0.0, double yaw_rad = 0.0) {
 }
 
 /// About a vehicle at the origin; the stamp is the number of the frame.
-inline Scene scene(std::uint64_t frame) {
-  return {.box = MapBox({}, at(0)), .stamp_ns = static_cast<std::int64_t>(frame), .frame = frame};
+inline geometry::Scene scene(std::uint64_t frame) {
+  return {.box = geometry::MapBox({}, at(0)), .stamp_ns = static_cast<std::int64_t>(frame), .frame = frame};
 }
 
 }  // namespace laneloom::test

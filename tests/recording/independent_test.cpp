@@ -17,7 +17,7 @@
 
 // Readers and writers that share no code with ours: npm's @mcap/core, @foxglove/omgidl-parser and
 // -serialization.
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 const std::string kFolder = INDEPENDENT_FOLDER;
@@ -151,4 +151,4 @@ TEST_F(Independent, FilesOfAnotherWriterAreRead) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -5,7 +5,7 @@
 #include "file_size_limit.hpp"
 #include "mcap_fixture.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 TEST_F(McapTest, WholeChunksOutliveAnyCut) {
@@ -155,4 +155,4 @@ TEST_F(McapTest, ARecordingCanBeFinishedWhenThereIsRoomAgain) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -21,11 +21,12 @@ struct Message {
   std::string topic;
   std::uint64_t log_time_ns = 0, publish_time_ns = 0;
   std::uint32_t sequence = 0;
-  Bytes data;
+  recording::Bytes data;
   bool operator==(const Message&) const = default;
 };
 
-inline constexpr Compression kCompressions[] = {Compression::none, Compression::lz4, Compression::zstd};
+inline constexpr recording::Compression kCompressions[] = {
+    recording::Compression::none, recording::Compression::lz4, recording::Compression::zstd};
 
 inline std::vector<Message> random_messages(std::size_t count, unsigned seed,
                                             std::uint64_t max_time_ns = 1'000'000) {
@@ -47,16 +48,19 @@ inline std::vector<Message> by_time(std::vector<Message> messages) {
   return messages;
 }
 
-inline McapChannel channel_of(const std::string& topic) {
-  return {topic, "cdr", std::make_shared<McapSchema>(McapSchema{"type " + topic, "omgidl", "text " + topic})};
+inline recording::McapChannel channel_of(const std::string& topic) {
+  return {topic, "cdr",
+          std::make_shared<recording::McapSchema>(
+              recording::McapSchema{"type " + topic, "omgidl", "text " + topic})};
 }
 
 class McapTest : public ::testing::Test {
  protected:
-  void write(const std::vector<Message>& messages, Compression compression = Compression::zstd,
+  void write(const std::vector<Message>& messages,
+             recording::Compression compression = recording::Compression::zstd,
              std::size_t chunk_bytes = 2000) {
     std::filesystem::remove(path_);
-    McapWriter writer(path_, compression, chunk_bytes);
+    recording::McapWriter writer(path_, compression, chunk_bytes);
     const auto a = writer.add_channel(channel_of("a"));
     const auto b = writer.add_channel(channel_of("b"));
     for (const auto& m : messages)
@@ -65,15 +69,15 @@ class McapTest : public ::testing::Test {
   }
 
   /// Everything up to the end, or to what `error` says.
-  std::vector<Message> read(std::string* error = nullptr, const RecordingLimits& limits = {}) {
+  std::vector<Message> read(std::string* error = nullptr, const recording::RecordingLimits& limits = {}) {
     std::vector<Message> messages;
     try {
-      McapReader reader(path_, limits);
+      recording::McapReader reader(path_, limits);
       cut_off_ = reader.cut_off();
       while (const auto m = reader.next()) {
         EXPECT_TRUE(m->channel->schema);
         messages.push_back({m->channel->topic, m->log_time_ns, m->publish_time_ns, m->sequence,
-                            Bytes(m->data.begin(), m->data.end())});
+                            recording::Bytes(m->data.begin(), m->data.end())});
       }
     } catch (const std::runtime_error& caught) {
       EXPECT_TRUE(std::string(caught.what()).starts_with(path_ + ": ")) << caught.what();
@@ -85,7 +89,7 @@ class McapTest : public ::testing::Test {
 
   /// How many messages come, and how often damage is told.
   std::pair<std::size_t, std::size_t> read_past_damage() {
-    McapReader reader(path_);
+    recording::McapReader reader(path_);
     std::size_t count = 0, failures = 0;
     for (;;) {
       try {
@@ -102,9 +106,10 @@ class McapTest : public ::testing::Test {
     std::uint64_t size;
     std::size_t messages;
   };
-  std::vector<ChunkEnd> write_in_chunks(const std::vector<Message>& messages, Compression compression) {
+  std::vector<ChunkEnd> write_in_chunks(const std::vector<Message>& messages,
+                                        recording::Compression compression) {
     std::filesystem::remove(path_);
-    McapWriter writer(path_, compression, 1U << 20U);
+    recording::McapWriter writer(path_, compression, 1U << 20U);
     const auto a = writer.add_channel(channel_of("a"));
     const auto b = writer.add_channel(channel_of("b"));
     std::vector<ChunkEnd> ends{{writer.size(), 0}};
@@ -120,9 +125,9 @@ class McapTest : public ::testing::Test {
   }
 
   /// A record, to be put into a file.
-  static Bytes record(std::uint8_t opcode, const Bytes& content) {
-    Bytes bytes;
-    ByteWriter writer(bytes);
+  static recording::Bytes record(std::uint8_t opcode, const recording::Bytes& content) {
+    recording::Bytes bytes;
+    recording::ByteWriter writer(bytes);
     writer.number(opcode);
     writer.number(std::uint64_t{content.size()});
     writer.bytes(content);

@@ -4,7 +4,7 @@
 #include "allocations.hpp"
 #include "mcap_fixture.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 TEST_F(McapTest, WhatIsWrittenIsReadInTheOrderOfLogTimes) {
@@ -145,4 +145,4 @@ TEST_F(McapTest, AnExistingFileIsNotOverwritten) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::recording

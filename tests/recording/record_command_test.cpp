@@ -18,7 +18,7 @@
 #include "temporary_folder.hpp"
 
 // `laneloom record` beside the service and its test publisher, as processes of their own over DDS.
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 using testing::HasSubstr;
@@ -32,13 +32,13 @@ std::vector<std::string> with_dds(std::vector<std::string> words) {
 class RecordCommand : public ::testing::Test {
  protected:
   void start_vehicle() {
-    service_ = std::make_unique<ChildProcess>(with_dds({LANELOOM_SERVICE}), file("service.log"));
-    publisher_ = std::make_unique<ChildProcess>(
+    service_ = std::make_unique<support::ChildProcess>(with_dds({LANELOOM_SERVICE}), file("service.log"));
+    publisher_ = std::make_unique<support::ChildProcess>(
         with_dds({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop"}), file("publish.log"));
   }
-  ChildProcess record(std::vector<std::string> options) {
+  support::ChildProcess record(std::vector<std::string> options) {
     options.insert(options.begin(), {LANELOOM_COMMAND, "record"});
-    return ChildProcess(with_dds(options), file("record.log"));
+    return support::ChildProcess(with_dds(options), file("record.log"));
   }
   std::string output() const { return content(file("record.log")); }
   std::string file(const std::string& name) const { return folder_.file(name); }
@@ -81,12 +81,12 @@ class RecordCommand : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::unique_ptr<ChildProcess> service_, publisher_;
+  std::unique_ptr<support::ChildProcess> service_, publisher_;
 };
 
 TEST_F(RecordCommand, EveryTopicIsRecorded) {
   start_vehicle();
-  ChildProcess recorder = record({"--out", file("drive.mcap")});
+  support::ChildProcess recorder = record({"--out", file("drive.mcap")});
   ASSERT_TRUE(wait_for_every_topic("drive.mcap")) << output();
   recorder.signal(SIGTERM);
   EXPECT_EQ(recorder.wait(), 0) << output();
@@ -113,7 +113,7 @@ TEST_F(RecordCommand, EveryTopicIsRecorded) {
 
 TEST_F(RecordCommand, ScenesAreMadeOfWhatIsRecorded) {
   start_vehicle();
-  ChildProcess recorder = record({"--out", file("drive.mcap"), "--scene"});
+  support::ChildProcess recorder = record({"--out", file("drive.mcap"), "--scene"});
   ASSERT_TRUE(wait_for_every_topic("drive.mcap")) << output();
   recorder.signal(SIGTERM);
   EXPECT_EQ(recorder.wait(), 0) << output();
@@ -127,7 +127,7 @@ TEST_F(RecordCommand, ScenesAreMadeOfWhatIsRecorded) {
 
 TEST_F(RecordCommand, AKilledRecorderLeavesAReadableFile) {
   start_vehicle();
-  ChildProcess recorder = record({"--out", file("drive.mcap"), "--compression", "lz4"});
+  support::ChildProcess recorder = record({"--out", file("drive.mcap"), "--compression", "lz4"});
   ASSERT_TRUE(wait_for_every_topic("drive.mcap")) << output();
   recorder.signal(SIGKILL);
   EXPECT_EQ(recorder.wait(), -SIGKILL);
@@ -137,7 +137,7 @@ TEST_F(RecordCommand, AKilledRecorderLeavesAReadableFile) {
 
 TEST_F(RecordCommand, FilesRollOver) {
   start_vehicle();
-  ChildProcess recorder = record({"--out", file("drive"), "--max-duration", "1"});
+  support::ChildProcess recorder = record({"--out", file("drive"), "--max-duration", "1"});
   ASSERT_TRUE(grows_to("drive_0003.mcap", 1)) << output();
   recorder.signal(SIGINT);
   EXPECT_EQ(recorder.wait(), 0) << output();
@@ -154,7 +154,7 @@ TEST_F(RecordCommand, FilesRollOver) {
 TEST_F(RecordCommand, AFullDiskEndsTheRecordingWithAnError) {
   start_vehicle();
   const FileSizeLimit limit(150'000);
-  ChildProcess recorder = record({"--out", file("drive.mcap")});
+  support::ChildProcess recorder = record({"--out", file("drive.mcap")});
   EXPECT_EQ(recorder.wait(), 1);
   EXPECT_THAT(output(), HasSubstr(file("drive.mcap") + ": File too large"));
   EXPECT_GT(counts_of("drive.mcap", true)[1], 0);
@@ -183,4 +183,4 @@ TEST_F(RecordCommand, WrongOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::recording

@@ -12,7 +12,7 @@
 #include "recording/topics.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::recording {
 namespace {
 
 using dds::MessageOf;
@@ -320,4 +320,4 @@ TEST(Recording, LogTimesWhoseDifferencesOverflowAreRefused) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::recording

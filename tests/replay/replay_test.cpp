@@ -10,7 +10,7 @@
 #include "replay/message_source.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 namespace {
 
 VehiclePose pose_at(std::int64_t stamp_ms) {
@@ -31,19 +31,19 @@ DetectionFrame frame_at(std::int64_t stamp_ms) {
   return frame;
 }
 
-RecordedMessage message(AnyMessage content, std::int64_t log_time_ms) {
+recording::RecordedMessage message(recording::AnyMessage content, std::int64_t log_time_ms) {
   return {log_time_ms * kMs, log_time_ms * kMs, std::move(content)};
 }
 
-std::vector<PublishedMap> maps_of(const std::vector<RecordedMessage>& messages) {
+std::vector<PublishedMap> maps_of(const std::vector<recording::RecordedMessage>& messages) {
   std::vector<PublishedMap> maps;
   Replay replay(Config{}, [&](const PublishedMap& map, std::int64_t /*log_time*/) { maps.push_back(map); });
-  for (const RecordedMessage& m : messages) replay.add(m);
+  for (const recording::RecordedMessage& m : messages) replay.add(m);
   return maps;
 }
 
 TEST(Replay, GivesAMapPerFrameAlsoWhenOnePoseCompletesSeveral) {
-  std::vector<RecordedMessage> messages{message(pose_at(1000), 1000)};
+  std::vector<recording::RecordedMessage> messages{message(pose_at(1000), 1000)};
   for (const int stamp_ms : {1010, 1020, 1030}) messages.push_back(message(frame_at(stamp_ms), stamp_ms + 5));
   messages.push_back(message(pose_at(1040), 1045));
   const auto maps = maps_of(messages);
@@ -68,8 +68,8 @@ TEST(Replay, AFrameWhosePosesComeTooLateIsRefusedByTheRecordedTime) {
 }
 
 /// A second's drive.
-std::vector<FrameRecord> drive() {
-  std::vector<FrameRecord> records;
+std::vector<io::FrameRecord> drive() {
+  std::vector<io::FrameRecord> records;
   for (std::int64_t stamp_ms = 10'000; stamp_ms < 11'000; stamp_ms += 100)
     records.push_back({frame_at(stamp_ms), pose_at(stamp_ms)});
   return records;
@@ -86,9 +86,9 @@ std::string hash_of(const std::string& path) {
 
 TEST(Replay, JsonLinesAndRecordingsOfOneDriveHaveOneHash) {
   const TemporaryFolder folder;
-  JsonLinesWriter lines(folder.file("drive.jsonl"));
-  RecordingWriter recording(folder.file("drive.mcap"));
-  for (const FrameRecord& record : drive()) {
+  io::JsonLinesWriter lines(folder.file("drive.jsonl"));
+  recording::RecordingWriter recording(folder.file("drive.mcap"));
+  for (const io::FrameRecord& record : drive()) {
     lines.write(record);
     // Arrival is another one than in the lines, and does not matter.
     recording.write(record.frame, record.frame.stamp_ns + 50 * kMs);
@@ -103,9 +103,9 @@ TEST(Replay, JsonLinesAndRecordingsOfOneDriveHaveOneHash) {
 
 TEST(Replay, RawMessagesOfLinesAreThoseOfTheirRecording) {
   const TemporaryFolder folder;
-  JsonLinesWriter lines(folder.file("drive.jsonl"));
-  RecordingWriter recording(folder.file("drive.mcap"));
-  for (const FrameRecord& record : drive()) {
+  io::JsonLinesWriter lines(folder.file("drive.jsonl"));
+  recording::RecordingWriter recording(folder.file("drive.mcap"));
+  for (const io::FrameRecord& record : drive()) {
     lines.write(record);
     recording.write(record.pose, record.pose.stamp_ns);
     recording.write(record.frame, record.frame.stamp_ns);
@@ -177,4 +177,4 @@ TEST(LiveComparison, TellsEqualDifferentAndMissing) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::replay

@@ -21,7 +21,7 @@ constexpr double kMinRecall = 0.85;
 
 struct Drive {
   std::string name;
-  Road road;
+  simulation::Road road;
   double min_recall;
 };
 
@@ -50,12 +50,12 @@ class Forgotten {
 class Directions : public ::testing::TestWithParam<Drive> {};
 
 TEST_P(Directions, AreToldAndRightAndStayKnown) {
-  const Road& road = GetParam().road;
+  const simulation::Road& road = GetParam().road;
   MapperConfig config;
   config.direction.driving_side = road.right_hand_traffic ? DrivingSide::right : DrivingSide::left;
   Mapper mapper(config);
-  Perception perception(road, noise_profile("none"), SensorView{}, 1);
-  MapEvaluation evaluation(road, config.range, Subject::maps);
+  simulation::Perception perception(road, simulation::noise_profile("none"), simulation::SensorView{}, 1);
+  evaluation::MapEvaluation evaluation(road, config.range, evaluation::Subject::maps);
   Forgotten forgotten;
   for (int i = 1; i < static_cast<int>(road.drive.duration_s() * 10.0); ++i) {
     const VehiclePose pose = road.drive.pose_at(0.1 * i);
@@ -63,17 +63,18 @@ TEST_P(Directions, AreToldAndRightAndStayKnown) {
     evaluation.add(map);
     forgotten.add(map);
   }
-  const PairScore& directions = evaluation.topology().directions;
+  const evaluation::PairScore& directions = evaluation.topology().directions;
   EXPECT_GE(directions.precision(), kMinPrecision);
   EXPECT_GE(directions.recall(), GetParam().min_recall);
   EXPECT_EQ(forgotten.count(), 0);
 }
 
-Road street(int forward, int backward, CentreLine centre, int solid_after, int driven) {
-  const Alignment way({}, {straight(200.0)});
-  Section section = two_way(forward, backward, centre);
+simulation::Road street(int forward, int backward, simulation::CentreLine centre, int solid_after,
+                        int driven) {
+  const simulation::Alignment way({}, {simulation::straight(200.0)});
+  simulation::Section section = two_way(forward, backward, centre);
   section.solid_after = solid_after;
-  RoadBuilder builder("street");
+  simulation::RoadBuilder builder("street");
   builder.add_street(way, section);
   return std::move(builder).build({way.point(10.0, -3.5 * (driven - 0.5))}, kSpeed_mps);
 }
@@ -86,9 +87,10 @@ std::vector<Drive> medians() {
       for (const int driven : {1, 2}) {
         const std::string name = "median_" + std::to_string(static_cast<int>(10.0 * median_m)) + "_dm" +
                                  (kerbs ? "_kerbs" : "_lines") + (driven == 1 ? "_inside" : "_outside");
-        const DividedRoad divided{.median_m = median_m, .kerbs = kerbs, .curved = kerbs, .driven = driven};
-        drives.push_back(
-            {name, divided_road(divided, kSpeed_mps), median_m > 10.0 && driven == 2 ? 0.45 : kMinRecall});
+        const simulation::DividedRoad divided{
+            .median_m = median_m, .kerbs = kerbs, .curved = kerbs, .driven = driven};
+        drives.push_back({name, simulation::divided_road(divided, kSpeed_mps),
+                          median_m > 10.0 && driven == 2 ? 0.45 : kMinRecall});
       }
     }
   }
@@ -97,11 +99,11 @@ std::vector<Drive> medians() {
 
 /// The direction beyond a line may be either where the road is seen from one side of it alone.
 std::vector<Drive> roads() {
-  using enum CentreLine;
+  using enum simulation::CentreLine;
   std::vector<Drive> drives = medians();
   const std::vector<Drive> others{
-      {"alone_inside", divided_road({.oncoming = false, .driven = 1}, kSpeed_mps), kMinRecall},
-      {"alone_outside", divided_road({.oncoming = false, .driven = 2}, kSpeed_mps), 0.45},
+      {"alone_inside", simulation::divided_road({.oncoming = false, .driven = 1}, kSpeed_mps), kMinRecall},
+      {"alone_outside", simulation::divided_road({.oncoming = false, .driven = 2}, kSpeed_mps), 0.45},
       {"wide_road", street(2, 2, double_solid, 0, 1), kMinRecall},
       {"wide_road_with_one_line", street(2, 2, solid, 0, 2), kMinRecall},
       {"bus_lane_on_the_right", street(2, 2, dashed, 1, 1), 0.45},
@@ -112,10 +114,10 @@ std::vector<Drive> roads() {
       {"reversible_lane", street(2, 1, dashed, 0, 1), 0.6},
       {"beside_reversible_lane", street(2, 1, dashed, 0, 2), 0.3},
       {"beside_oncoming_reversible_lane", street(1, 2, dashed, 0, 1), 0.3},
-      {"exit", exit_road(kSpeed_mps), 0.45},
-      {"exit_taken", exit_road(kSpeed_mps, {.driven = true}), 0.45},
-      {"entry", entry_road(kSpeed_mps), 0.4},
-      {"entry_taken", entry_road(kSpeed_mps, {.driven = true}), 0.3}};
+      {"exit", simulation::exit_road(kSpeed_mps), 0.45},
+      {"exit_taken", simulation::exit_road(kSpeed_mps, {.driven = true}), 0.45},
+      {"entry", simulation::entry_road(kSpeed_mps), 0.4},
+      {"entry_taken", simulation::entry_road(kSpeed_mps, {.driven = true}), 0.3}};
   drives.insert(drives.end(), others.begin(), others.end());
   for (std::size_t i = 0, right = drives.size(); i < right; i += 3)
     drives.push_back(

@@ -21,14 +21,14 @@ constexpr double kRampSpeed_mps = 10.0;
 
 struct Gore {
   std::string name;
-  Road road;
+  simulation::Road road;
   double sense;  ///< 1: the gore opens along x, -1: it closes
 };
 
 void PrintTo(const Gore& gore, std::ostream* out) { *out << gore.name; }
 
 /// The same with the ramp on the other side of the road, but the same driving side.
-Road other_side(Road road) {
+simulation::Road other_side(simulation::Road road) {
   road = mirrored(std::move(road));
   road.right_hand_traffic = !road.right_hand_traffic;
   return road;
@@ -37,9 +37,9 @@ Road other_side(Road road) {
 class NoLaneInAGore : public ::testing::TestWithParam<Gore> {};
 
 TEST_P(NoLaneInAGore, IsPublished) {
-  const Road road = GetParam().road;
+  const simulation::Road road = GetParam().road;
   std::vector<MeasuredPolyline> truth;
-  for (const RoadLane& lane : road.lanes) truth.emplace_back(lane.centerline);
+  for (const simulation::RoadLane& lane : road.lanes) truth.emplace_back(lane.centerline);
   const auto off_lanes = [&](const Point& point) {
     return std::ranges::none_of(
         truth, [&](const MeasuredPolyline& lane) { return lane.project(point).distance_m < kOnLane_m; });
@@ -47,7 +47,7 @@ TEST_P(NoLaneInAGore, IsPublished) {
   MapperConfig config;
   config.direction.driving_side = road.right_hand_traffic ? DrivingSide::right : DrivingSide::left;
   Mapper mapper(config);
-  Perception perception(road, noise_profile("none"), SensorView{}, 1);
+  simulation::Perception perception(road, simulation::noise_profile("none"), simulation::SensorView{}, 1);
   std::size_t lanes_beside_gore = 0;
   for (int i = 1; i < static_cast<int>(road.drive.duration_s() * 10.0); ++i) {
     const VehiclePose pose = road.drive.pose_at(0.1 * i);
@@ -68,12 +68,13 @@ TEST_P(NoLaneInAGore, IsPublished) {
 
 std::vector<Gore> gores() {
   std::vector<Gore> gores;
-  for (const auto& [shape, ramp] : {std::pair{"wide_bend", Ramp{.radius_m = 700.0, .turn_deg = 9.0}},
-                                    {"bend", Ramp{.radius_m = 300.0, .turn_deg = 14.0}},
-                                    {"straight", Ramp{.radius_m = 20.0, .turn_deg = 4.0}},
-                                    {"steep", Ramp{.radius_m = 20.0, .turn_deg = 8.0}}}) {
+  for (const auto& [shape, ramp] :
+       {std::pair{"wide_bend", simulation::Ramp{.radius_m = 700.0, .turn_deg = 9.0}},
+        {"bend", simulation::Ramp{.radius_m = 300.0, .turn_deg = 14.0}},
+        {"straight", simulation::Ramp{.radius_m = 20.0, .turn_deg = 4.0}},
+        {"steep", simulation::Ramp{.radius_m = 20.0, .turn_deg = 8.0}}}) {
     const std::string name = shape;
-    const Ramp driven{ramp.radius_m, ramp.turn_deg, true};
+    const simulation::Ramp driven{ramp.radius_m, ramp.turn_deg, true};
     gores.push_back({name + "_exit", exit_road(kRampSpeed_mps, ramp), 1.0});
     gores.push_back({name + "_exit_taken", exit_road(kRampSpeed_mps, driven), 1.0});
     gores.push_back({name + "_exit_on_the_left", other_side(exit_road(kRampSpeed_mps, ramp)), 1.0});

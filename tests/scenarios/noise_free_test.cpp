@@ -33,11 +33,11 @@ struct CrossSection {
 };
 
 struct TruthLane {
-  const RoadLane* lane;
+  const simulation::RoadLane* lane;
   std::vector<CrossSection> sections;
 };
 
-std::vector<CrossSection> cross_sections(const RoadLane& lane) {
+std::vector<CrossSection> cross_sections(const simulation::RoadLane& lane) {
   const MeasuredPolyline left(lane.left), right(lane.right);
   std::vector<CrossSection> sections;
   for (const Point& center : MeasuredPolyline(lane.centerline).resample(kSampleStep_m)) {
@@ -46,7 +46,7 @@ std::vector<CrossSection> cross_sections(const RoadLane& lane) {
   return sections;
 }
 
-bool painted(const RoadLane& lane) {
+bool painted(const simulation::RoadLane& lane) {
   return !lane.in_intersection && (lane.left_marking != kNoElement || lane.right_marking != kNoElement);
 }
 
@@ -62,9 +62,9 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
 
   NoiseFree()
       : config_(with_method(std::get<1>(GetParam()))),
-        road_(make_scenario(std::get<0>(GetParam()))),
+        road_(simulation::make_scenario(std::get<0>(GetParam()))),
         mapper_(config_) {
-    for (const RoadLane& lane : road_.lanes) {
+    for (const simulation::RoadLane& lane : road_.lanes) {
       all_centerlines_.emplace_back(lane.centerline);
       if (!painted(lane)) continue;
       truth_.push_back({&lane, cross_sections(lane)});
@@ -143,7 +143,7 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
   void judge_successors(const LocalMap& map, const std::map<ElementId, const Lane*>& first_cover,
                         const std::map<ElementId, const Lane*>& last_cover) {
     for (const auto& [id, from] : last_cover) {
-      const RoadLane& lane = *std::ranges::find(road_.lanes, id, &RoadLane::id);
+      const simulation::RoadLane& lane = *std::ranges::find(road_.lanes, id, &simulation::RoadLane::id);
       for (const ElementId successor : lane.successors) {
         const auto to = first_cover.find(successor);
         if (to == first_cover.end()) continue;
@@ -201,7 +201,7 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
   }
 
   MapperConfig config_;
-  Road road_;
+  simulation::Road road_;
   Mapper mapper_;
   std::vector<TruthLane> truth_;
   std::vector<MeasuredPolyline> all_centerlines_;
@@ -211,7 +211,7 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
 };
 
 TEST_P(NoiseFree, EveryLaneIsFoundRightlyLinkedAndNoneInvented) {
-  Perception perception(road_, noise_profile("none"), SensorView{}, 1);
+  simulation::Perception perception(road_, simulation::noise_profile("none"), simulation::SensorView{}, 1);
   const double duration_s = road_.drive.duration_s();
   for (int i = 0; i < static_cast<int>(duration_s * 10.0); ++i) {
     const VehiclePose pose = road_.drive.pose_at(0.1 * i);
@@ -231,7 +231,7 @@ TEST_P(NoiseFree, EveryLaneIsFoundRightlyLinkedAndNoneInvented) {
 /// The method of voxels does not tell lines apart that diverge as slowly as those of an exit.
 std::vector<ScenarioAndMethod> drives() {
   std::vector<ScenarioAndMethod> drives;
-  for (const std::string& name : scenario_names()) {
+  for (const std::string& name : simulation::scenario_names()) {
     drives.emplace_back(name, "lines");
     if (name != "exit") drives.emplace_back(name, "voxels");
   }

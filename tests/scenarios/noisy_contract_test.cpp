@@ -26,8 +26,8 @@ class NoisyContract : public ::testing::TestWithParam<Noisy> {};
 
 TEST_P(NoisyContract, IsKept) {
   const auto& [scenario, noise, method, seed] = GetParam();
-  const Road road = make_scenario(scenario);
-  Perception perception(road, noise_profile(noise), SensorView{}, seed);
+  const simulation::Road road = simulation::make_scenario(scenario);
+  simulation::Perception perception(road, simulation::noise_profile(noise), simulation::SensorView{}, seed);
   MapperConfig config;
   config.method = method;
   Mapper mapper(config);
@@ -37,7 +37,7 @@ TEST_P(NoisyContract, IsKept) {
     const PublishedMap published = test::published(mapper.update(perception.observe(pose), transform(pose)),
                                                    static_cast<std::uint64_t>(i));
     lanes += published.map.lanes.size();
-    for (const Violation& violation : check_contract(published, nullptr)) {
+    for (const contract::Violation& violation : contract::check_contract(published, nullptr)) {
       ADD_FAILURE() << "frame " << i << ": " << name(violation.rule) << ": " << violation.detail;
     }
   }

@@ -16,12 +16,12 @@ namespace {
 constexpr double kChange_m = 100.0;
 constexpr double kAround_m = 5.0;
 
-Road street() {
-  const Alignment before({}, {straight(kChange_m)});
-  const Alignment after(before.end(), {straight(100.0)});
-  RoadBuilder builder("street");
-  builder.add_street(before, two_way(2, 2, CentreLine::solid));
-  builder.add_street(after, two_way(2, 2, CentreLine::dashed));
+simulation::Road street() {
+  const simulation::Alignment before({}, {simulation::straight(kChange_m)});
+  const simulation::Alignment after(before.end(), {simulation::straight(100.0)});
+  simulation::RoadBuilder builder("street");
+  builder.add_street(before, two_way(2, 2, simulation::CentreLine::solid));
+  builder.add_street(after, two_way(2, 2, simulation::CentreLine::dashed));
   return std::move(builder).build({before.point(10.0, -1.75), after.point(90.0, -1.75)}, 10.0);
 }
 
@@ -31,15 +31,15 @@ bool spans_change(const Lane& lane) {
 }
 
 TEST(StyleChanges, CutNoLaneAndNeighboursAreWhatMayBeCrossedInto) {
-  const Road road = street();
+  const simulation::Road road = street();
   Mapper mapper{MapperConfig{}};
-  Perception perception(road, noise_profile("none"), SensorView{}, 1);
+  simulation::Perception perception(road, simulation::noise_profile("none"), simulation::SensorView{}, 1);
   int frames = 0;
   for (int i = 1; i < static_cast<int>(road.drive.duration_s() * 10.0); ++i) {
     const VehiclePose pose = road.drive.pose_at(0.1 * i);
     const PublishedMap published = test::published(mapper.update(perception.observe(pose), transform(pose)),
                                                    static_cast<std::uint64_t>(i));
-    EXPECT_TRUE(check_contract(published, nullptr).empty()) << "frame " << i;
+    EXPECT_TRUE(contract::check_contract(published, nullptr).empty()) << "frame " << i;
     if (pose.position.x() < 85.0 || pose.position.x() > 110.0) continue;
     ++frames;
     const std::vector<Lane>& lanes = published.map.lanes;

@@ -14,7 +14,7 @@
 #include "temporary_folder.hpp"
 
 // A drive through the town as a recording with scenes, and what npm's readers find in it.
-namespace laneloom {
+namespace laneloom::scene {
 namespace {
 
 using nlohmann::json;
@@ -25,27 +25,31 @@ json to_json(const Polyline& points) {
   return out;
 }
 
-json form_json(const DrawnLine& line) { return {{"form", "line"}, {"points", to_json(line.points)}}; }
-json form_json(const DrawnArea& area) {
+json form_json(const drawing::DrawnLine& line) {
+  return {{"form", "line"}, {"points", to_json(line.points)}};
+}
+json form_json(const drawing::DrawnArea& area) {
   Polyline points = area.left;
   points.insert(points.end(), area.right.begin(), area.right.end());
   return {{"form", "area"}, {"points", to_json(points)}};
 }
-json form_json(const DrawnArrow& arrow) { return {{"form", "arrow"}, {"points", to_json({arrow.tip})}}; }
-json form_json(const DrawnText& text) {
+json form_json(const drawing::DrawnArrow& arrow) {
+  return {{"form", "arrow"}, {"points", to_json({arrow.tip})}};
+}
+json form_json(const drawing::DrawnText& text) {
   return {{"form", "text"}, {"points", to_json({text.position})}, {"text", text.text}};
 }
 
-json entities_json(const Drawing& drawing, const std::string& frame) {
+json entities_json(const drawing::Drawing& drawing, const std::string& frame) {
   json out = json::array();
-  for (const Element& element : drawing.elements()) {
+  for (const drawing::Element& element : drawing.elements()) {
     json entity{{"id", element.key}, {"frame_id", frame}, {"type", element.type}, {"shapes", json::array()}};
     if (element.status) entity["status"] = name(*element.status);
-    for (const Shape& shape : element.shapes) {
+    for (const drawing::Shape& shape : element.shapes) {
       json form = std::visit([](const auto& any) { return form_json(any); }, shape.form);
-      const Colour colour = palette::of(shape.style).dark;
+      const drawing::Colour colour = drawing::palette::of(shape.style).dark;
       form["colour"] = {colour.red, colour.green, colour.blue, colour.alpha * shape.opacity};
-      form["dashed"] = palette::of(shape.style).dash_on > 0.0;
+      form["dashed"] = drawing::palette::of(shape.style).dash_on > 0.0;
       entity["shapes"].push_back(std::move(form));
     }
     out.push_back(std::move(entity));
@@ -68,12 +72,12 @@ class SceneRecording : public ::testing::Test {
   std::string file(const std::string& name) const { return folder_.file(name); }
   void laneloom(std::vector<std::string> words) {
     words.insert(words.begin(), LANELOOM_COMMAND);
-    ASSERT_EQ(ChildProcess(words, file("log")).wait(), 0) << content(file("log"));
+    ASSERT_EQ(support::ChildProcess(words, file("log")).wait(), 0) << content(file("log"));
   }
   int compare() {
-    return ChildProcess({"/usr/bin/env", "node", std::string(INDEPENDENT_FOLDER) + "/scene.mjs",
-                         file("scene.mcap"), file("expected.jsonl")},
-                        file("log"))
+    return support::ChildProcess({"/usr/bin/env", "node", std::string(INDEPENDENT_FOLDER) + "/scene.mjs",
+                                  file("scene.mcap"), file("expected.jsonl")},
+                                 file("log"))
         .wait();
   }
   std::string output() const { return content(file("log")).substr(0, 4000); }
@@ -81,12 +85,12 @@ class SceneRecording : public ::testing::Test {
   /// Frames, poses and maps as one recording, and what has to be drawn of it.
   void write_drive() {
     std::map<std::int64_t, PublishedMap> maps;
-    RecordingReader reader(file("maps.mcap"));
+    recording::RecordingReader reader(file("maps.mcap"));
     while (const auto message = reader.next())
       if (const auto* map = std::get_if<PublishedMap>(&message->message)) maps[map->map.stamp_ns] = *map;
-    RecordingWriter out(file("drive.mcap"));
+    recording::RecordingWriter out(file("drive.mcap"));
     std::ofstream expected(file("expected.jsonl"));
-    JsonLinesReader frames(file("drive.frames.jsonl"));
+    io::JsonLinesReader frames(file("drive.frames.jsonl"));
     while (const auto record = frames.next_frame()) {
       const std::int64_t time_ns = record->frame.stamp_ns;
       out.write(record->frame, time_ns);
@@ -100,7 +104,7 @@ class SceneRecording : public ::testing::Test {
     out.close();
   }
 
-  static void expect(const FrameRecord& record, std::int64_t time_ns, std::ostream& to) {
+  static void expect(const io::FrameRecord& record, std::int64_t time_ns, std::ostream& to) {
     const Eigen::Isometry3d T_map_body = transform(record.pose);
     const Eigen::Quaterniond& q = record.pose.orientation;
     to << json{{"topic", "/tf"},
@@ -108,7 +112,7 @@ class SceneRecording : public ::testing::Test {
                {"translation", to_json({record.pose.position})[0]},
                {"rotation", {q.x(), q.y(), q.z(), q.w()}}}
        << '\n';
-    Drawing drawing;
+    drawing::Drawing drawing;
     add_detections(record.frame, T_map_body, drawing);
     add_view(record.frame, T_map_body, drawing);
     to << json{{"topic", "/laneloom/scene/detections"},
@@ -117,7 +121,7 @@ class SceneRecording : public ::testing::Test {
        << '\n';
   }
   static void expect(const PublishedMap& published, std::int64_t time_ns, std::ostream& to) {
-    Drawing drawing, vehicle, ids;
+    drawing::Drawing drawing, vehicle, ids;
     add_map(published.map, drawing);
     add_uncertainty(published.map, drawing);
     add_vehicle(Eigen::Isometry3d::Identity(), vehicle);
@@ -155,7 +159,7 @@ TEST_F(SceneRecording, IndependentReadersFindAPointThatDiffers) {
 }
 
 TEST_F(SceneRecording, TheRestIsTheSameByteForByte) {
-  RecordingReader before(file("drive.mcap")), after(file("scene.mcap"));
+  recording::RecordingReader before(file("drive.mcap")), after(file("scene.mcap"));
   std::size_t count = 0;
   while (const auto wanted = before.next_raw()) {
     const auto found = after.next_raw();
@@ -175,7 +179,7 @@ TEST_F(SceneRecording, TheLayoutShowsTopicsThatThereAre) {
   const json panel = json::parse(in)["configById"]["3D!laneloom"];
   std::size_t shown = 0;
   for (const auto& [topic, settings] : panel["topics"].items()) {
-    EXPECT_THAT(scene_topics(), testing::Contains(testing::Field(&ExtraTopic::name, topic)));
+    EXPECT_THAT(scene_topics(), testing::Contains(testing::Field(&recording::ExtraTopic::name, topic)));
     shown += settings["visible"] == true ? 1U : 0U;
   }
   EXPECT_EQ(shown, 2U);
@@ -183,4 +187,4 @@ TEST_F(SceneRecording, TheLayoutShowsTopicsThatThereAre) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::scene

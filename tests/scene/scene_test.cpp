@@ -9,7 +9,7 @@
 #include "scene/scene_maker.hpp"
 #include "scene/triangles.hpp"
 
-namespace laneloom {
+namespace laneloom::scene {
 namespace {
 
 using testing::ElementsAre;
@@ -56,7 +56,7 @@ TEST(SceneStream, DeletesWhatIsNoMoreThereOnce) {
 }
 
 TEST(SceneEntities, DashesAreSegmentsOfTheLine) {
-  Drawing drawing;
+  drawing::Drawing drawing;
   add_boundaries(small_map(), drawing);
   std::vector<foxglove::SceneEntity> entities;
   append_entities(drawing, {"map"}, entities);
@@ -74,7 +74,7 @@ TEST(SceneEntities, PointsAreRelativeToAnOriginNearby) {
   const Point far(600'000.25, 5'700'000.5, 120.0);
   map.T_map_body.translate(far);
   for (Point& point : map.boundaries[0].points) point += far;
-  Drawing drawing;
+  drawing::Drawing drawing;
   drawing.T_map_body = map.T_map_body;
   map.boundaries.resize(1);
   add_boundaries(map, drawing);
@@ -88,11 +88,11 @@ TEST(SceneEntities, PointsAreRelativeToAnOriginNearby) {
 
 TEST(SceneMaker, MessagesThatAreNoneChangeNothing) {
   SceneMaker maker("map");
-  for (std::size_t topic = 0; topic < std::variant_size_v<AnyMessage>; ++topic) {
+  for (std::size_t topic = 0; topic < std::variant_size_v<recording::AnyMessage>; ++topic) {
     EXPECT_THAT(maker.take({1, topic, {}}), IsEmpty());
     EXPECT_THAT(maker.take({1, topic, std::vector<std::uint8_t>(100, 0xFF)}), IsEmpty());
   }
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::scene

@@ -10,7 +10,7 @@
 #include "sd_map/osm.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::sd_map {
 namespace {
 
 using test::straight;
@@ -125,4 +125,4 @@ TEST_F(OsmFile, WithoutAFileThereIsNone) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::sd_map

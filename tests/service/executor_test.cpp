@@ -6,7 +6,7 @@
 
 #include "milliseconds.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 /// A clock that only moves when it is slept on, or when a task takes its time.
@@ -29,9 +29,9 @@ class SimulatedTime {
   std::int64_t stop_ns_;
 };
 
-std::vector<Tick> run(SimulatedTime& time, const std::function<std::int64_t(std::size_t)>& work_ns) {
-  std::vector<Tick> ticks;
-  run_periodically(100 * kMs, time.timing(), [&](const Tick& tick) {
+std::vector<core::Tick> run(SimulatedTime& time, const std::function<std::int64_t(std::size_t)>& work_ns) {
+  std::vector<core::Tick> ticks;
+  run_periodically(100 * kMs, time.timing(), [&](const core::Tick& tick) {
     time.now_ns += work_ns(ticks.size());
     ticks.push_back(tick);
   });
@@ -75,4 +75,4 @@ TEST(RunPeriodically, StopsWhenToldBeforeTheFirstTick) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

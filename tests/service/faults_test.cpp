@@ -8,7 +8,7 @@
 
 // The planner gets a map in spite of wrong, late and missing messages, and a counter tells of them;
 // deploy/README.md, "When things go wrong".
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 using States = std::vector<std::string>;
@@ -269,4 +269,4 @@ TEST_F(Faults, ADamagedFrameIsRefusedWhole) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <thread>
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 Config capacities(int frames, int poses) {
@@ -26,7 +26,7 @@ DetectionFrame frame_of(std::size_t detections) {
 }
 
 /// "f1 p2": the kinds and sequences, in order.
-std::string text(const std::vector<Arrival>& arrivals) {
+std::string text(const std::vector<core::Arrival>& arrivals) {
   std::string result;
   for (const auto& [message, arrival_ns] : arrivals) {
     if (!result.empty()) result += " ";
@@ -181,4 +181,4 @@ TEST(IngestionQueue, CountsExactlyWhileThreadsPush) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

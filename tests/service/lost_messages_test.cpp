@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 constexpr dds::WriterId kOne{1}, kOther{2};
@@ -46,4 +46,4 @@ TEST(LostMessages, AreRememberedWhenTheirWritersAreForgotten) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

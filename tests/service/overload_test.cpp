@@ -5,7 +5,7 @@
 #include "simulated_drive.hpp"
 
 // Whatever the mapper does, a tick keeps its time; deploy/README.md, "When things go wrong".
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 using States = std::vector<std::string>;
@@ -92,4 +92,4 @@ TEST(Overload, NoAgeIsNegative) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

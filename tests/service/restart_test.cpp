@@ -5,7 +5,7 @@
 #include "simulated_drive.hpp"
 
 // A service that was killed goes on with its snapshot; deploy/README.md, "After a crash".
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 using States = std::vector<std::string>;
@@ -82,7 +82,7 @@ TEST(Restart, KeepsASnapshotPerPeriodIfAFileIsConfigured) {
 TEST(Restart, AnotherMapperMakesAnotherSnapshot) {
   const auto maker = [](const Config& config) {
     const auto zero = [] { return std::int64_t{0}; };
-    return ServiceCore(config, {zero, zero, [] { return std::uint64_t{1}; }}).snapshot_stamp().maker;
+    return core::ServiceCore(config, {zero, zero, [] { return std::uint64_t{1}; }}).snapshot_stamp().maker;
   };
   Config other = with_snapshots();
   other.service.stale_after_s = 30.0;
@@ -93,4 +93,4 @@ TEST(Restart, AnotherMapperMakesAnotherSnapshot) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -7,7 +7,7 @@
 
 #include "milliseconds.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 constexpr std::int64_t kLong_ns = 60'000 * kMs;
@@ -31,4 +31,4 @@ TEST(Signals, WakeUpASleeper) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

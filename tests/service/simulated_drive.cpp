@@ -7,7 +7,7 @@
 #include "milliseconds.hpp"
 #include "service/executor.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 SimulatedDrive::SimulatedDrive(const Config& config, std::int64_t frame_period_ms)
     : frame_period_ms_(frame_period_ms), config_(config), queue_(config) {
@@ -17,8 +17,8 @@ SimulatedDrive::SimulatedDrive(const Config& config, std::int64_t frame_period_m
 void SimulatedDrive::start() {
   const auto steady_now_ns = [this] { return now_ns_; };
   const auto system_now_ns = [this] { return now_ns_ + (1'700'000'000'000 + clock_jump_ms) * kMs; };
-  core_ = std::make_unique<ServiceCore>(
-      config_, Surroundings{steady_now_ns, system_now_ns, [this] { return next_id_++; }});
+  core_ = std::make_unique<core::ServiceCore>(
+      config_, core::Surroundings{steady_now_ns, system_now_ns, [this] { return next_id_++; }});
   core_->observe(this);
 }
 
@@ -37,7 +37,7 @@ void SimulatedDrive::run_for(std::int64_t duration_ms) {
     return deadline_ns < end_ns;
   };
   run_periodically(100 * kMs, {[this] { return now_ns_; }, sleep_until},
-                   [this](const Tick& now) { tick(now); });
+                   [this](const core::Tick& now) { tick(now); });
 }
 
 void SimulatedDrive::deliver() {
@@ -56,8 +56,8 @@ void SimulatedDrive::deliver() {
   }
 }
 
-void SimulatedDrive::tick(const Tick& tick) {
-  Messages messages = core_->tick(tick, queue_.take());
+void SimulatedDrive::tick(const core::Tick& tick) {
+  core::Messages messages = core_->tick(tick, queue_.take());
   maps_.push_back(std::move(messages.map));
   if (messages.snapshot) snapshot_ = std::move(messages.snapshot);
   if (!messages.status) return;
@@ -88,4 +88,4 @@ std::uint64_t SimulatedDrive::counter(const std::string& name) const {
   return found == counters_.end() ? 0 : found->second;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -14,7 +14,7 @@
 #include "service/ingestion_queue.hpp"
 #include "straight_road.hpp"
 
-namespace laneloom {
+namespace laneloom::service {
 
 /// The service on a straight road, in simulated time and without DDS: poses every 10 ms, detections every
 /// 100 ms. Executor, queue and core are those of laneloomd. Time passes while a frame is fused, if so wished,
@@ -36,11 +36,11 @@ class SimulatedDrive : private StageObserver {
   std::vector<FusedFrame> fused() const;
   /// The counter in the newest status; 0 where it was never counted.
   std::uint64_t counter(const std::string& name) const;
-  const std::optional<Snapshot>& snapshot() const { return snapshot_; }  ///< the newest one
+  const std::optional<snapshot::Snapshot>& snapshot() const { return snapshot_; }  ///< the newest one
 
   /// The service is killed, and starts again at once with the newest snapshot.
   void restart();
-  IngestionQueue& queue() { return queue_; }
+  service::IngestionQueue& queue() { return queue_; }
   std::int64_t now_ns() const { return now_ns_; }
 
   Channel<DetectionFrame> send_frames;  ///< what goes wrong on the way; empty: nothing
@@ -54,7 +54,7 @@ class SimulatedDrive : private StageObserver {
   void start();
   /// Delivers what came until now.
   void deliver();
-  void tick(const Tick& tick);
+  void tick(const core::Tick& tick);
 
   std::int64_t frame_period_ms_;
   std::int64_t now_ns_ = 1'000'000'000'000;  ///< steady clock
@@ -62,12 +62,12 @@ class SimulatedDrive : private StageObserver {
   std::int64_t delivered_ms_ = 0;  ///< since the start
   std::uint64_t next_id_ = 1;
   Config config_;
-  IngestionQueue queue_;
-  std::unique_ptr<ServiceCore> core_;
+  service::IngestionQueue queue_;
+  std::unique_ptr<core::ServiceCore> core_;
   std::vector<PublishedMap> maps_;
   std::vector<ServiceStatus> statuses_;
-  std::optional<Snapshot> snapshot_;
+  std::optional<snapshot::Snapshot> snapshot_;
   std::map<std::string, std::uint64_t> counters_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::service

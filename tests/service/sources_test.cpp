@@ -7,7 +7,7 @@
 #include "simulated_drive.hpp"
 
 // Several perception stacks; idl/README.md, "Detections".
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 using States = std::vector<std::string>;
@@ -111,4 +111,4 @@ TEST_F(SourcesOfADrive, ANinthIsToldSteadilyAndLeavesTheOthers) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

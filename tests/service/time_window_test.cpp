@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::service {
 namespace {
 
 TEST(TimeWindow, IsZeroWhenEmpty) { EXPECT_EQ(TimeWindow(3).summary().max_ms, 0.0); }
@@ -25,4 +25,4 @@ TEST(TimeWindow, ForgetsTheOldest) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::service

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 using testing::ElementsAre;
@@ -58,4 +58,4 @@ TEST(Admission, StandsADetectionWithoutPoints) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::session

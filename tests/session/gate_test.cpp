@@ -6,7 +6,7 @@
 
 #include "milliseconds.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 using Verdict = Gate::Verdict;
@@ -128,4 +128,4 @@ TEST(Defect, OfPoses) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -7,7 +7,7 @@
 #include "mapping/state.hpp"
 #include "milliseconds.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 VehiclePose pose(std::int64_t stamp_ms, std::uint64_t session = 1) {
@@ -273,4 +273,4 @@ TEST_F(MappingSessionTest, TheMapDependsOnTheOrderOfMessagesOnly) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::session

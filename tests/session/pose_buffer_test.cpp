@@ -6,7 +6,7 @@
 
 #include "milliseconds.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 Eigen::Quaterniond about(const Point& axis, double angle_rad) {
@@ -100,4 +100,4 @@ TEST(Slerp, TakesTheShorterWayWhateverTheSigns) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::session

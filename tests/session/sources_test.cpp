@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 constexpr std::int64_t kFrame_ns = 100'000'000;
@@ -75,4 +75,4 @@ TEST(Sources, ANewOneTakesThePlaceOfOneThatEnded) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -4,7 +4,7 @@
 
 #include "milliseconds.hpp"
 
-namespace laneloom {
+namespace laneloom::session {
 namespace {
 
 PendingFrame pending(std::int64_t stamp_ms, std::int64_t arrival_ms = 0) {
@@ -106,4 +106,4 @@ TEST_F(SynchroniserTest, KeepsTheNewestFramesOnly) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::session

@@ -14,7 +14,7 @@
 #include "road_checks.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ TEST_F(MadeUpLog, WhatWouldTakeAllMemoryIsRefused) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -5,7 +5,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/drivable_areas.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 RoadMarking line(ElementId id, const Polyline& points, MarkingStyle style = MarkingStyle::solid) {
@@ -81,4 +81,4 @@ TEST(OuterEdges, ALoneAreaIsARing) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 double yaw_rad(const VehiclePose& pose) {
@@ -75,4 +75,4 @@ TEST(Drive, RefusesWhatCannotBeDriven) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -10,7 +10,7 @@
 #include "road_checks.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -8,7 +8,7 @@ namespace {
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 TEST(NetworkDelay, FramesComeInOrderAfter50To150Milliseconds) {
-  NetworkDelay<int> network(1);
+  simulation::NetworkDelay<int> network(1);
   int next = 0;
   for (std::int64_t now_ms = 0; now_ms < 10'000; ++now_ms) {
     const std::int64_t now_ns = now_ms * kMillisecond_ns;
@@ -24,7 +24,7 @@ TEST(NetworkDelay, FramesComeInOrderAfter50To150Milliseconds) {
 }
 
 TEST(NetworkDelay, ClearedItGivesNothing) {
-  NetworkDelay<int> network(1);
+  simulation::NetworkDelay<int> network(1);
   network.put(1, 0);
   network.clear();
   EXPECT_FALSE(network.take(1000 * kMillisecond_ns));

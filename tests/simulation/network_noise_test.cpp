@@ -9,7 +9,7 @@
 #include "simulation/scenarios.hpp"
 
 /// The errors of real networks, on a straight road whose lines run along x.
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 struct Seen {
@@ -227,4 +227,4 @@ TEST(NetworkNoise, AFrameTellsWhatWasInViewOnlyIfTheNetworkDoes) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -8,7 +8,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 std::vector<DetectionFrame> drive(const Road& road, const NoiseProfile& noise, double duration_s,
@@ -211,4 +211,4 @@ TEST(NoiseProfile, AnUnknownNameNamesTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 TEST(Places, AreTheSameFromTheSameSeedAndLineOnly) {
@@ -64,4 +64,4 @@ TEST(Places, ALineWithoutLengthIsOnePlace) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

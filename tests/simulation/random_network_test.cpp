@@ -8,7 +8,7 @@
 #include "simulation/perception.hpp"
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 TEST(RandomNetwork, IsTheSameForTheSameSeedOnly) {
@@ -48,4 +48,4 @@ TEST(RandomNetwork, ASeedThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

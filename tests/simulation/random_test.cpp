@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 TEST(Random, GivesTheSameNumbersEverywhere) {
@@ -54,4 +54,4 @@ TEST(Switch, IsOnForItsShareAndDwells) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -10,7 +10,7 @@
 #include "laneloom/polyline.hpp"
 #include "road_checks.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 std::size_t count(const Road& road, MarkingType type, MarkingStyle style) {
@@ -246,4 +246,4 @@ TEST(Scenario, AnUnknownNameNamesTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

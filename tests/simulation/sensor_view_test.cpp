@@ -7,7 +7,7 @@
 
 #include "simulation/occlusion.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 const Eigen::Isometry3d kOrigin = Eigen::Isometry3d::Identity();
@@ -72,4 +72,4 @@ TEST(Occluders, HideWhatIsBehindThem) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -9,7 +9,7 @@
 #include "simulation/scenarios.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(TruthFile, AbsentFilesAreErrors) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -11,7 +11,7 @@
 #include "recording/file_size_limit.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::snapshot {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,4 +148,4 @@ TEST_F(PrivateFile, StaysAsItWasWhereItCanNotBeWritten) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

@@ -15,7 +15,7 @@
 #include "snapshot/snapshot_writer.hpp"
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::snapshot {
 namespace {
 
 using ::testing::HasSubstr;
@@ -26,7 +26,7 @@ class SnapshotFileTest : public ::testing::Test {
   static Snapshot snapshot() {
     Snapshot result{
         {"1.0 abc", 100 * kSecond, 500 * kSecond}, 77, {1, 2, 3, 4, {5, 6, 7}}, MapperState(MapperConfig{})};
-    result.state.ids = IdSource(42);
+    result.state.ids = markings::IdSource(42);
     result.state.map.boundaries.push_back(Marking{.id = 7, .points = {{1, 2, 3}, {4, 5, 6}}});
     result.state.map.lanes.push_back(Lane{.id = 8, .left_reversed = true});
     result.state.map.lanes.push_back(Lane{.id = 9, .right_reversed = true});
@@ -130,4 +130,4 @@ TEST_F(SnapshotFileTest, TheWriterCountsWhatItDid) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::snapshot

@@ -9,7 +9,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace laneloom {
+namespace laneloom::support {
 namespace {
 
 using std::chrono::milliseconds;
@@ -56,4 +56,4 @@ TEST_F(Child, AProgramThatCannotBeExecutedIsNamedAtOnce) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::support

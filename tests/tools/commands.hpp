@@ -33,7 +33,7 @@ class Commands : public testing::Test {
   int run(const std::string& program, const std::vector<std::string>& arguments) const {
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    return ChildProcess(words, file("output")).wait();
+    return support::ChildProcess(words, file("output")).wait();
   }
 
   const TemporaryFolder folder_;

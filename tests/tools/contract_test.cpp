@@ -69,7 +69,7 @@ PublishedMap good_map() {
 
 struct Fault {
   const char* label;
-  ContractRule rule;
+  contract::ContractRule rule;
   std::function<void(PublishedMap&)> make;
 };
 
@@ -82,13 +82,14 @@ TEST(Contract, HoldsForAGoodMap) {
   PublishedMap previous = map;
   previous.sequence = 6;
   previous.age_s = 0.05;
-  for (const Violation& v : check_contract(map, &previous)) ADD_FAILURE() << name(v.rule) << ": " << v.detail;
+  for (const contract::Violation& v : contract::check_contract(map, &previous))
+    ADD_FAILURE() << name(v.rule) << ": " << v.detail;
 }
 
 TEST(Contract, HoldsForAMapBeforeAnythingWasFused) {
   PublishedMap map;
   map.reasons = {StateReason::starting};
-  EXPECT_TRUE(check_contract(map, nullptr).empty());
+  EXPECT_TRUE(contract::check_contract(map, nullptr).empty());
 }
 
 TEST(Contract, HoldsForNeighboursOfOppositeDirections) {
@@ -100,7 +101,7 @@ TEST(Contract, HoldsForNeighboursOfOppositeDirections) {
     std::reverse(line->begin(), line->end());
   upper.left_range = upper.right_range = {20.0, 0.0};
   std::swap(upper.left_neighbours, upper.right_neighbours);
-  EXPECT_TRUE(check_contract(map, nullptr).empty());
+  EXPECT_TRUE(contract::check_contract(map, nullptr).empty());
 }
 
 TEST_P(ContractFault, IsFound) {
@@ -109,8 +110,8 @@ TEST_P(ContractFault, IsFound) {
   PublishedMap previous = good_map();
   previous.sequence = 6;
   previous.age_s = 0.05;
-  const std::vector<Violation> violations = check_contract(map, &previous);
-  EXPECT_THAT(violations, testing::Contains(testing::Field(&Violation::rule, GetParam().rule)));
+  const std::vector<contract::Violation> violations = contract::check_contract(map, &previous);
+  EXPECT_THAT(violations, testing::Contains(testing::Field(&contract::Violation::rule, GetParam().rule)));
 }
 
 Lane& lower(PublishedMap& map) { return map.map.lanes[0]; }
@@ -119,96 +120,109 @@ Lane& upper(PublishedMap& map) { return map.map.lanes[1]; }
 INSTANTIATE_TEST_SUITE_P(
     EveryRule, ContractFault,
     testing::Values(
-        Fault{"point", ContractRule::finite_numbers,
+        Fault{"point", contract::ContractRule::finite_numbers,
               [](auto& m) { m.map.boundaries[0].points[1].z() = kNan; }},
-        Fault{"lane_point", ContractRule::finite_numbers, [](auto& m) { lower(m).centerline[1].x() = kNan; }},
-        Fault{"pose", ContractRule::finite_numbers,
+        Fault{"lane_point", contract::ContractRule::finite_numbers,
+              [](auto& m) { lower(m).centerline[1].x() = kNan; }},
+        Fault{"pose", contract::ContractRule::finite_numbers,
               [](auto& m) { m.map.T_map_body.translation().x() = kNan; }},
-        Fault{"heading", ContractRule::finite_numbers,
+        Fault{"heading", contract::ContractRule::finite_numbers,
               [](auto& m) { m.map.stoplines[0].heading.x() = kNan; }},
-        Fault{"empty_line", ContractRule::valid_geometry, [](auto& m) { m.map.markings[0].points.clear(); }},
-        Fault{"one_point", ContractRule::valid_geometry, [](auto& m) { lower(m).right.resize(1); }},
-        Fault{"no_length", ContractRule::valid_geometry,
+        Fault{"empty_line", contract::ContractRule::valid_geometry,
+              [](auto& m) { m.map.markings[0].points.clear(); }},
+        Fault{"one_point", contract::ContractRule::valid_geometry, [](auto& m) { lower(m).right.resize(1); }},
+        Fault{"no_length", contract::ContractRule::valid_geometry,
               [](auto& m) {
                 m.map.boundaries[0].points = {{1, 1, 0}, {1, 1, 5}};
               }},
-        Fault{"path", ContractRule::valid_geometry,
+        Fault{"path", contract::ContractRule::valid_geometry,
               [](auto& m) {
                 m.map.linkages[0].path = {{1, 1, 0}};
               }},
-        Fault{"boundary_twice", ContractRule::unique_ids, [](auto& m) { m.map.boundaries[1].id = 1; }},
-        Fault{"instance_twice", ContractRule::unique_ids, [](auto& m) { m.map.markings[1].id = 1; }},
-        Fault{"stopline_is_boundary", ContractRule::unique_ids,
+        Fault{"boundary_twice", contract::ContractRule::unique_ids,
+              [](auto& m) { m.map.boundaries[1].id = 1; }},
+        Fault{"instance_twice", contract::ContractRule::unique_ids,
+              [](auto& m) { m.map.markings[1].id = 1; }},
+        Fault{"stopline_is_boundary", contract::ContractRule::unique_ids,
               [](auto& m) { m.map.stoplines[0].marking.id = 3; }},
-        Fault{"lane_twice", ContractRule::unique_ids, [](auto& m) { upper(m).id = 10; }},
-        Fault{"no_id", ContractRule::unique_ids, [](auto& m) { m.map.boundaries[0].id = kNoElement; }},
-        Fault{"unknown_boundary", ContractRule::known_ids, [](auto& m) { lower(m).left_boundary = 99; }},
-        Fault{"unknown_neighbour", ContractRule::known_ids,
+        Fault{"lane_twice", contract::ContractRule::unique_ids, [](auto& m) { upper(m).id = 10; }},
+        Fault{"no_id", contract::ContractRule::unique_ids,
+              [](auto& m) { m.map.boundaries[0].id = kNoElement; }},
+        Fault{"unknown_boundary", contract::ContractRule::known_ids,
+              [](auto& m) { lower(m).left_boundary = 99; }},
+        Fault{"unknown_neighbour", contract::ContractRule::known_ids,
               [](auto& m) {
                 lower(m).left_neighbours = {{.lane = 99, .range = {0.0, 20.0}}};
               }},
-        Fault{"own_neighbour", ContractRule::known_ids,
+        Fault{"own_neighbour", contract::ContractRule::known_ids,
               [](auto& m) {
                 lower(m).left_neighbours = {{.lane = 10, .range = {0.0, 20.0}}};
               }},
-        Fault{"unknown_stopline_lane", ContractRule::known_ids,
+        Fault{"unknown_stopline_lane", contract::ContractRule::known_ids,
               [](auto& m) { m.map.stoplines[0].lanes = {99}; }},
-        Fault{"linkage_from", ContractRule::known_ids, [](auto& m) { m.map.linkages[0].from = 99; }},
-        Fault{"linkage_to", ContractRule::known_ids, [](auto& m) { m.map.linkages[0].to = 99; }},
-        Fault{"linkage_to_itself", ContractRule::known_ids, [](auto& m) { m.map.linkages[0].to = 10; }},
-        Fault{"swapped_sides", ContractRule::left_is_left,
+        Fault{"linkage_from", contract::ContractRule::known_ids,
+              [](auto& m) { m.map.linkages[0].from = 99; }},
+        Fault{"linkage_to", contract::ContractRule::known_ids, [](auto& m) { m.map.linkages[0].to = 99; }},
+        Fault{"linkage_to_itself", contract::ContractRule::known_ids,
+              [](auto& m) { m.map.linkages[0].to = 10; }},
+        Fault{"swapped_sides", contract::ContractRule::left_is_left,
               [](auto& m) { std::swap(lower(m).left, lower(m).right); }},
-        Fault{"crossing_sides", ContractRule::left_is_left, [](auto& m) { lower(m).left.back().y() = -1.0; }},
-        Fault{"opposite_sides", ContractRule::left_is_left,
+        Fault{"crossing_sides", contract::ContractRule::left_is_left,
+              [](auto& m) { lower(m).left.back().y() = -1.0; }},
+        Fault{"opposite_sides", contract::ContractRule::left_is_left,
               [](auto& m) { std::reverse(lower(m).left.begin(), lower(m).left.end()); }},
-        Fault{"centerline_left", ContractRule::centered_line,
+        Fault{"centerline_left", contract::ContractRule::centered_line,
               [](auto& m) { lower(m).centerline[1].y() = 3.2; }},
-        Fault{"centerline_right", ContractRule::centered_line,
+        Fault{"centerline_right", contract::ContractRule::centered_line,
               [](auto& m) { lower(m).centerline[1].y() = -0.2; }},
-        Fault{"one_sided_left", ContractRule::neighbours_across_boundary,
+        Fault{"one_sided_left", contract::ContractRule::neighbours_across_boundary,
               [](auto& m) { upper(m).right_neighbours.clear(); }},
-        Fault{"one_sided_right", ContractRule::neighbours_across_boundary,
+        Fault{"one_sided_right", contract::ContractRule::neighbours_across_boundary,
               [](auto& m) { lower(m).left_neighbours.clear(); }},
-        Fault{"wrong_side", ContractRule::neighbours_across_boundary,
+        Fault{"wrong_side", contract::ContractRule::neighbours_across_boundary,
               [](auto& m) { std::swap(upper(m).left_neighbours, upper(m).right_neighbours); }},
-        Fault{"range_beyond", ContractRule::range_in_boundary,
+        Fault{"range_beyond", contract::ContractRule::range_in_boundary,
               [](auto& m) { lower(m).left_range.to_m = 20.2; }},
-        Fault{"range_before", ContractRule::range_in_boundary,
+        Fault{"range_before", contract::ContractRule::range_in_boundary,
               [](auto& m) { lower(m).right_range.from_m = -0.2; }},
-        Fault{"range_empty", ContractRule::range_in_boundary,
+        Fault{"range_empty", contract::ContractRule::range_in_boundary,
               [](auto& m) {
                 lower(m).right_range = {5.0, 5.0};
               }},
-        Fault{"range_nan", ContractRule::range_in_boundary,
+        Fault{"range_nan", contract::ContractRule::range_in_boundary,
               [](auto& m) { lower(m).right_range.to_m = kNan; }},
-        Fault{"inferred_beyond", ContractRule::range_in_boundary,
+        Fault{"inferred_beyond", contract::ContractRule::range_in_boundary,
               [](auto& m) {
                 lower(m).inferred_ranges = {{10.0, 21.0}};
               }},
-        Fault{"style_gap", ContractRule::range_in_boundary,
+        Fault{"style_gap", contract::ContractRule::range_in_boundary,
               [](auto& m) { m.map.boundaries[0].styles[0].range.to_m = 9.0; }},
-        Fault{"style_short", ContractRule::range_in_boundary,
+        Fault{"style_short", contract::ContractRule::range_in_boundary,
               [](auto& m) { m.map.boundaries[0].styles.pop_back(); }},
-        Fault{"probability", ContractRule::valid_values,
+        Fault{"probability", contract::ContractRule::valid_values,
               [](auto& m) { m.map.boundaries[0].existence_probability = 1.5; }},
-        Fault{"lane_probability", ContractRule::valid_values,
+        Fault{"lane_probability", contract::ContractRule::valid_values,
               [](auto& m) { lower(m).existence_probability = -0.5; }},
-        Fault{"deviation_count", ContractRule::valid_values,
+        Fault{"deviation_count", contract::ContractRule::valid_values,
               [](auto& m) { m.map.boundaries[0].lateral_stddev_m.pop_back(); }},
-        Fault{"deviation_sign", ContractRule::valid_values,
+        Fault{"deviation_sign", contract::ContractRule::valid_values,
               [](auto& m) { m.map.boundaries[0].lateral_stddev_m[0] = -0.1; }},
-        Fault{"confidence", ContractRule::valid_values, [](auto& m) { m.map.linkages[0].confidence = kNan; }},
-        Fault{"width", ContractRule::valid_values, [](auto& m) { lower(m).width_m = 0.0; }},
-        Fault{"stopline_boundary", ContractRule::valid_values,
+        Fault{"confidence", contract::ContractRule::valid_values,
+              [](auto& m) { m.map.linkages[0].confidence = kNan; }},
+        Fault{"width", contract::ContractRule::valid_values, [](auto& m) { lower(m).width_m = 0.0; }},
+        Fault{"stopline_boundary", contract::ContractRule::valid_values,
               [](auto& m) { m.map.boundaries[0].type = MarkingType::stopline; }},
-        Fault{"sequence_repeats", ContractRule::ascending_sequence, [](auto& m) { m.sequence = 6; }},
-        Fault{"sequence_reverses", ContractRule::ascending_sequence, [](auto& m) { m.sequence = 5; }},
-        Fault{"age_negative", ContractRule::possible_age, [](auto& m) { m.age_s = -0.5; }},
-        Fault{"age_none", ContractRule::possible_age, [](auto& m) { m.age_s = -1.0; }},
-        Fault{"age_without_stamp", ContractRule::possible_age, [](auto& m) { m.map.stamp_ns = 0; }},
-        Fault{"age_falls", ContractRule::possible_age, [](auto& m) { m.age_s = 0.01; }},
-        Fault{"reason_missing", ContractRule::stated_reasons, [](auto& m) { m.state = MapState::degraded; }},
-        Fault{"reason_too_many", ContractRule::stated_reasons,
+        Fault{"sequence_repeats", contract::ContractRule::ascending_sequence,
+              [](auto& m) { m.sequence = 6; }},
+        Fault{"sequence_reverses", contract::ContractRule::ascending_sequence,
+              [](auto& m) { m.sequence = 5; }},
+        Fault{"age_negative", contract::ContractRule::possible_age, [](auto& m) { m.age_s = -0.5; }},
+        Fault{"age_none", contract::ContractRule::possible_age, [](auto& m) { m.age_s = -1.0; }},
+        Fault{"age_without_stamp", contract::ContractRule::possible_age, [](auto& m) { m.map.stamp_ns = 0; }},
+        Fault{"age_falls", contract::ContractRule::possible_age, [](auto& m) { m.age_s = 0.01; }},
+        Fault{"reason_missing", contract::ContractRule::stated_reasons,
+              [](auto& m) { m.state = MapState::degraded; }},
+        Fault{"reason_too_many", contract::ContractRule::stated_reasons,
               [](auto& m) { m.reasons = {StateReason::no_poses}; }}),
     [](const testing::TestParamInfo<Fault>& fault) { return std::string(fault.param.label); });
 
@@ -217,12 +231,12 @@ TEST(Contract, AFrameOfASlowerSourceRenewsTheAgeAndNotTheStamp) {
   PublishedMap previous = map;
   previous.sequence = map.sequence - 1;
   map.age_s = previous.age_s / 2.0;
-  EXPECT_FALSE(check_contract(map, &previous).empty());
+  EXPECT_FALSE(contract::check_contract(map, &previous).empty());
   map.fused_frames = {{.source = "slower", .stamp_ns = map.map.stamp_ns - 1}};
-  EXPECT_TRUE(check_contract(map, &previous).empty());
+  EXPECT_TRUE(contract::check_contract(map, &previous).empty());
   map.fused_frames.clear();
   --previous.sequence;
-  EXPECT_TRUE(check_contract(map, &previous).empty()) << "the map between them may have it";
+  EXPECT_TRUE(contract::check_contract(map, &previous).empty()) << "the map between them may have it";
 }
 
 TEST(Contract, ANewSessionMayBeginAnew) {
@@ -231,20 +245,20 @@ TEST(Contract, ANewSessionMayBeginAnew) {
   map.session_id = 2;
   map.sequence = 0;
   map.age_s = 0.01;
-  EXPECT_TRUE(check_contract(map, &previous).empty());
+  EXPECT_TRUE(contract::check_contract(map, &previous).empty());
 }
 
 TEST(MissedMaps, CountsTheGapWithinASession) {
   PublishedMap map = good_map();
   PublishedMap previous = map;
-  EXPECT_EQ(missed_maps(map, nullptr), 0u);
-  EXPECT_EQ(missed_maps(map, &previous), 0u);
+  EXPECT_EQ(contract::missed_maps(map, nullptr), 0u);
+  EXPECT_EQ(contract::missed_maps(map, &previous), 0u);
   previous.sequence = 6;
-  EXPECT_EQ(missed_maps(map, &previous), 0u);
+  EXPECT_EQ(contract::missed_maps(map, &previous), 0u);
   previous.sequence = 3;
-  EXPECT_EQ(missed_maps(map, &previous), 3u);
+  EXPECT_EQ(contract::missed_maps(map, &previous), 3u);
   map.session_id = 2;
-  EXPECT_EQ(missed_maps(map, &previous), 0u);
+  EXPECT_EQ(contract::missed_maps(map, &previous), 0u);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ LocalMap road() {
 }
 
 TEST(EgoView, FindsTheLaneAndWhatIsAroundIt) {
-  const EgoView view = ego_view(road());
+  const pnc::EgoView view = pnc::ego_view(road());
   EXPECT_EQ(view.lane, 1u);
   EXPECT_EQ(view.left_neighbour, 2u);
   EXPECT_EQ(view.right_neighbour, kNoElement);
@@ -50,7 +50,7 @@ TEST(EgoView, FindsTheLaneAndWhatIsAroundIt) {
 }
 
 TEST(EgoView, MeasuresTheWidthAheadThroughTheSuccessor) {
-  const EgoView view = ego_view(road());
+  const pnc::EgoView view = pnc::ego_view(road());
   EXPECT_NEAR(view.width_m[0].value(), 3.0, 1e-9);
   EXPECT_NEAR(view.width_m[1].value(), 4.0, 1e-9);
   EXPECT_FALSE(view.width_m[2].has_value());  // 31 m ahead the successor has ended
@@ -65,7 +65,7 @@ TEST(EgoView, SeesALaneThatIsGivenAgainstTheVehicle) {
   std::swap(ego.left_neighbours, ego.right_neighbours);
   map.linkages.clear();
   link(map, 7, 1);  // ahead of the vehicle, where the lane's points begin
-  const EgoView view = ego_view(map);
+  const pnc::EgoView view = pnc::ego_view(map);
   EXPECT_EQ(view.lane, 1u);
   EXPECT_EQ(view.left_neighbour, 2u);
   EXPECT_THAT(view.successors, ElementsAre(7u));
@@ -75,13 +75,13 @@ TEST(EgoView, SeesALaneThatIsGivenAgainstTheVehicle) {
 TEST(EgoView, IsInNoLaneOffTheRoadBeforeItOrAcrossIt) {
   LocalMap map = road();
   map.T_map_body.translation() = Point(1, -1, 0);
-  EXPECT_EQ(ego_view(map).lane, kNoElement);
+  EXPECT_EQ(pnc::ego_view(map).lane, kNoElement);
   map.T_map_body.translation() = Point(-1, 1, 0);
-  EXPECT_EQ(ego_view(map).lane, kNoElement);
+  EXPECT_EQ(pnc::ego_view(map).lane, kNoElement);
   map.T_map_body.translation() = Point(1, 1, 0);
   map.T_map_body.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Point::UnitZ()));
-  EXPECT_EQ(ego_view(map).lane, kNoElement);
-  EXPECT_EQ(ego_view(LocalMap{}).lane, kNoElement);
+  EXPECT_EQ(pnc::ego_view(map).lane, kNoElement);
+  EXPECT_EQ(pnc::ego_view(LocalMap{}).lane, kNoElement);
 }
 
 TEST(EgoView, PrefersTheLaneThatItIsAlignedWith) {
@@ -92,14 +92,14 @@ TEST(EgoView, PrefersTheLaneThatItIsAlignedWith) {
       point =
           Eigen::AngleAxisd(std::numbers::pi / 6, Point::UnitZ()) * (point - Point(1, 1, 0)) + Point(1, 1, 0);
   map.lanes.insert(map.lanes.begin(), turning);
-  EXPECT_EQ(ego_view(map).lane, 1u);
+  EXPECT_EQ(pnc::ego_view(map).lane, 1u);
 }
 
 TEST(EgoView, EndsOnARingOfSuccessors) {
   LocalMap map = road();
   map.lanes[2].centerline = {{15, 1.5, 0}, {16, 1.5, 0}};
   link(map, 3, 3);
-  EXPECT_FALSE(ego_view(map).width_m[2].has_value());
+  EXPECT_FALSE(pnc::ego_view(map).width_m[2].has_value());
 }
 
 }  // namespace

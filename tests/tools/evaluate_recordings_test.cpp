@@ -24,9 +24,10 @@ constexpr std::int64_t kStep_ns = 100'000'000;
 class EvaluateRecordings : public testing::Test {
  protected:
   void SetUp() override {
-    Road road;
+    simulation::Road road;
     road.markings = {{1, MarkingType::laneline, MarkingStyle::solid, {{-50, 2, 0}, {100, 2, 0}}}};
-    road.drive = Drive::recorded({{.stamp_ns = 0}, {.stamp_ns = kStep_ns, .position = {1, 0, 0}}});
+    road.drive =
+        simulation::Drive::recorded({{.stamp_ns = 0}, {.stamp_ns = kStep_ns, .position = {1, 0, 0}}});
     save_truth(file("truth.json"), road);
   }
   static std::int64_t stamp_ns(int moment) { return 1'000'000'000 + moment * kStep_ns; }
@@ -57,7 +58,7 @@ class EvaluateRecordings : public testing::Test {
   int evaluate(std::vector<std::string> inputs) {
     inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--truth", file("truth.json"), "--json",
                                    file("score.json")});
-    return ChildProcess(inputs, file("output")).wait();
+    return support::ChildProcess(inputs, file("output")).wait();
   }
   json score(const std::string& who) const { return json::parse(content(file("score.json"))).at(who); }
   std::string output() const { return content(file("output")); }
@@ -68,7 +69,7 @@ class EvaluateRecordings : public testing::Test {
 
 TEST_F(EvaluateRecordings, FramesAreSeenFromThePoseAtTheirStamp) {
   {
-    RecordingWriter out(file("drive.mcap"));
+    recording::RecordingWriter out(file("drive.mcap"));
     for (int i = 0; i < 10; ++i) {
       // Between two poses, and before the one behind it has come.
       out.write(pose(stamp_ns(i)), stamp_ns(i));
@@ -91,7 +92,7 @@ TEST_F(EvaluateRecordings, FramesAreSeenFromThePoseAtTheirStamp) {
 
 TEST_F(EvaluateRecordings, OfMapsOfOneStampTheLastCountsAndOfNoStampNone) {
   {
-    RecordingWriter out(file("maps.mcap"));
+    recording::RecordingWriter out(file("maps.mcap"));
     out.write(map(0, 0.0), 1);
     out.write(map(stamp_ns(0), 3.0), 2);
     out.write(map(stamp_ns(0), 0.0), 3);
@@ -110,10 +111,10 @@ TEST_F(EvaluateRecordings, OfMapsOfOneStampTheLastCountsAndOfNoStampNone) {
 }
 
 TEST_F(EvaluateRecordings, JsonLinesAreReadAsRecordingsAre) {
-  JsonLinesWriter maps(file("maps.jsonl")), frames(file("frames.jsonl"));
+  io::JsonLinesWriter maps(file("maps.jsonl")), frames(file("frames.jsonl"));
   const auto write = [&](std::int64_t stamp, double off_m) {
     maps.write(map(stamp, off_m).map);
-    FrameRecord record{frame(stamp), pose(stamp)};
+    io::FrameRecord record{frame(stamp), pose(stamp)};
     for (Point& point : record.frame.detections[0].points) point.y() += off_m;
     frames.write(record);
   };
@@ -135,7 +136,7 @@ TEST_F(EvaluateRecordings, JsonLinesAreReadAsRecordingsAre) {
 
 TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
   {
-    RecordingWriter out(file("drive.mcap"), {.chunk_bytes = 1});
+    recording::RecordingWriter out(file("drive.mcap"), {.chunk_bytes = 1});
     VehiclePose defective = pose(stamp_ns(0));
     defective.position.x() = std::numeric_limits<double>::quiet_NaN();
     out.write(defective, stamp_ns(0));
@@ -159,7 +160,7 @@ TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
 
 TEST_F(EvaluateRecordings, NothingToCompareIsAFailure) {
   {
-    RecordingWriter out(file("drive.mcap"));
+    recording::RecordingWriter out(file("drive.mcap"));
     for (int i = 0; i < 3; ++i) out.write(frame(stamp_ns(i)), stamp_ns(i));  // without poses
     out.close();
   }
@@ -173,7 +174,7 @@ TEST_F(EvaluateRecordings, NothingToCompareIsAFailure) {
 
 TEST_F(EvaluateRecordings, FiguresOverRangeAndPicturesOfThem) {
   {
-    RecordingWriter out(file("maps.mcap"));
+    recording::RecordingWriter out(file("maps.mcap"));
     for (int i = 0; i < 3; ++i) out.write(map(stamp_ns(i), 0.2), stamp_ns(i));
     out.close();
   }
@@ -198,7 +199,7 @@ TEST_F(EvaluateRecordings, FiguresOverRangeAndPicturesOfThem) {
 
 TEST_F(EvaluateRecordings, ADamagedRecordingIsNamed) {
   {
-    RecordingWriter out(file("maps.mcap"));
+    recording::RecordingWriter out(file("maps.mcap"));
     for (int i = 0; i < 10; ++i) out.write(map(stamp_ns(i), 0.0), stamp_ns(i));
     out.close();
   }
@@ -217,7 +218,7 @@ class EvaluateLater : public EvaluateRecordings {
   static constexpr int kMoments = 51;
 
   void record(int moments) const {
-    RecordingWriter out(file("drive.mcap"));
+    recording::RecordingWriter out(file("drive.mcap"));
     for (int i = 0; i < moments; ++i) {
       out.write(pose(stamp_ns(i)), stamp_ns(i));
       out.write(frame(stamp_ns(i)), stamp_ns(i));
@@ -227,7 +228,7 @@ class EvaluateLater : public EvaluateRecordings {
   }
   int later(std::vector<std::string> inputs) const {
     inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--later", "--json", file("score.json")});
-    return ChildProcess(inputs, file("output")).wait();
+    return support::ChildProcess(inputs, file("output")).wait();
   }
   json at_20_m() const { return score("laneline").at("20"); }
 };

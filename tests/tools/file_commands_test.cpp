@@ -20,8 +20,8 @@ using testing::HasSubstr;
 
 /// Frames and their poses as they would have been recorded.
 void record(const std::string& frames, const std::string& recording) {
-  RecordingWriter out(recording);
-  JsonLinesReader in(frames);
+  recording::RecordingWriter out(recording);
+  io::JsonLinesReader in(frames);
   while (const auto record = in.next_frame()) {
     out.write(record->pose, record->pose.stamp_ns);
     out.write(record->frame, record->frame.stamp_ns);

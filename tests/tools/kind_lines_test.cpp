@@ -6,9 +6,9 @@
 namespace laneloom {
 namespace {
 
-RoadLane road_lane(ElementId id, double from_x, std::vector<ElementId> successors,
-                   ElementId right_marking = 1) {
-  RoadLane l;
+simulation::RoadLane road_lane(ElementId id, double from_x, std::vector<ElementId> successors,
+                               ElementId right_marking = 1) {
+  simulation::RoadLane l;
   l.id = id;
   l.centerline = {{from_x, 0, 0}, {from_x + 10, 0, 0}};
   l.left_marking = 1;
@@ -17,33 +17,33 @@ RoadLane road_lane(ElementId id, double from_x, std::vector<ElementId> successor
   return l;
 }
 
-std::vector<std::size_t> points_per_lane(const Road& truth) {
+std::vector<std::size_t> points_per_lane(const simulation::Road& truth) {
   std::vector<std::size_t> counts;
-  for (const KindLine& line : kind_lines(truth))
-    if (line.kind == LineKind::lane) counts.push_back(line.points.size());
+  for (const evaluation::KindLine& line : evaluation::kind_lines(truth))
+    if (line.kind == evaluation::LineKind::lane) counts.push_back(line.points.size());
   return counts;
 }
 
 TEST(TruthLines, JoinLanesThatOnlyContinue) {
-  Road truth;
+  simulation::Road truth;
   truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {3}), road_lane(3, 20, {})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(6u));
 }
 
 TEST(TruthLines, KeepLanesApartWhereTheySplitAndMerge) {
-  Road truth;
+  simulation::Road truth;
   truth.lanes = {road_lane(1, 0, {2, 3}), road_lane(2, 10, {4}), road_lane(3, 10, {4}), road_lane(4, 20, {})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(2u, 2u, 2u, 2u));
 }
 
 TEST(TruthLines, HoldLanesWithAMarkingOnOneSide) {
-  Road truth;
+  simulation::Road truth;
   truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {3}, kNoElement), road_lane(3, 20, {})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(6u));
 }
 
 TEST(TruthLines, LeaveOutLanesThatNobodySeesAndCutThere) {
-  Road truth;
+  simulation::Road truth;
   truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {3}, kNoElement), road_lane(3, 20, {4}),
                  road_lane(4, 30, {5}), road_lane(5, 40, {})};
   truth.lanes[1].left_marking = kNoElement;
@@ -52,17 +52,17 @@ TEST(TruthLines, LeaveOutLanesThatNobodySeesAndCutThere) {
 }
 
 TEST(TruthLines, TakeARingOnce) {
-  Road truth;
+  simulation::Road truth;
   truth.lanes = {road_lane(1, 0, {2}), road_lane(2, 10, {1})};
   EXPECT_THAT(points_per_lane(truth), testing::ElementsAre(4u));
 }
 
 TEST(TruthLines, HoldTheMarkings) {
-  Road truth;
+  simulation::Road truth;
   truth.markings = {{7, MarkingType::stopline, MarkingStyle::unknown, {{0, 0, 0}, {0, 3, 0}}}};
-  const std::vector<KindLine> lines = kind_lines(truth);
+  const std::vector<evaluation::KindLine> lines = evaluation::kind_lines(truth);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].kind, LineKind::stopline);
+  EXPECT_EQ(lines[0].kind, evaluation::LineKind::stopline);
 }
 
 TEST(DetectionLines, AreInTheMapFrameAndSureEnough) {
@@ -71,9 +71,9 @@ TEST(DetectionLines, AreInTheMapFrameAndSureEnough) {
                       {MarkingType::roadedge, MarkingStyle::unknown, 0.29, {{1, 2, 3}, {4, 2, 3}}, {}}};
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   T_map_body.translate(Point(10, 20, 30));
-  const std::vector<KindLine> lines = kind_lines(frame, T_map_body, 0.3);
+  const std::vector<evaluation::KindLine> lines = evaluation::kind_lines(frame, T_map_body, 0.3);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].kind, LineKind::roadedge);
+  EXPECT_EQ(lines[0].kind, evaluation::LineKind::roadedge);
   EXPECT_TRUE(lines[0].points[0].isApprox(Point(11, 22, 33)));
 }
 
@@ -85,18 +85,18 @@ TEST(MapLines, AreBoundariesStoplinesAndLanes) {
   map.stoplines[0].marking.type = MarkingType::stopline;
   map.lanes.resize(1);
   map.markings.resize(5);
-  std::vector<LineKind> kinds;
-  for (const KindLine& line : kind_lines(map)) kinds.push_back(line.kind);
-  EXPECT_THAT(kinds, testing::ElementsAre(LineKind::stopline, LineKind::laneline, LineKind::roadedge,
-                                          LineKind::lane));
+  std::vector<evaluation::LineKind> kinds;
+  for (const evaluation::KindLine& line : evaluation::kind_lines(map)) kinds.push_back(line.kind);
+  EXPECT_THAT(kinds, testing::ElementsAre(evaluation::LineKind::stopline, evaluation::LineKind::laneline,
+                                          evaluation::LineKind::roadedge, evaluation::LineKind::lane));
 }
 
 TEST(MapLines, LeaveOutBoundariesThatAreInferred) {
   LocalMap map;
   map.boundaries.resize(1);
-  EXPECT_EQ(kind_lines(map).size(), 1u);
+  EXPECT_EQ(evaluation::kind_lines(map).size(), 1u);
   map.boundaries[0].status = ElementStatus::inferred;
-  EXPECT_TRUE(kind_lines(map).empty());
+  EXPECT_TRUE(evaluation::kind_lines(map).empty());
 }
 
 Lane published(ElementId id, double from_x) {
@@ -121,7 +121,7 @@ TEST(MapLines, NameAChainAfterItsLongestLane) {
   map.lanes[0].existence_probability = 0.9;
   map.lanes[1].existence_probability = 0.6;
   map.linkages = {link(1, 2), link(2, 3)};
-  const std::vector<KindLine> lines = kind_lines(map);
+  const std::vector<evaluation::KindLine> lines = evaluation::kind_lines(map);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].id, 2u);
   EXPECT_DOUBLE_EQ(lines[0].confidence, 0.7) << "of the 30 m that tell theirs";
@@ -134,7 +134,8 @@ TEST(MapLines, JoinLanesThatOnlyContinue) {
   map.linkages[0].path = {{10, 0, 0}, {12, 0, 0}, {15, 0, 0}};
   const auto lanes = [&] {
     std::vector<std::pair<ElementId, std::size_t>> points;
-    for (const KindLine& line : kind_lines(map)) points.emplace_back(line.id, line.points.size());
+    for (const evaluation::KindLine& line : evaluation::kind_lines(map))
+      points.emplace_back(line.id, line.points.size());
     return points;
   };
   using testing::Pair;

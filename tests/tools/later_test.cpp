@@ -51,8 +51,8 @@ struct StraightDrive {
     return result;
   }
 
-  LaterMeter rate() const {
-    LaterMeter meter(0.3);
+  evaluation::LaterMeter rate() const {
+    evaluation::LaterMeter meter(0.3);
     Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
     for (int i = 0; i < frames; ++i, T_map_body.translation().x() += step_m) {
       DetectionFrame frame{.stamp_ns = i * kStep_ns};
@@ -65,16 +65,16 @@ struct StraightDrive {
   }
 };
 
-const LaterScore& lanelines(const LaterMeter& meter, std::size_t distance) {
+const evaluation::LaterScore& lanelines(const evaluation::LaterMeter& meter, std::size_t distance) {
   return meter.score(MarkingType::laneline, distance);
 }
 
 TEST(Later, APerfectMapHasNoErrorAndMissesNothing) {
-  const LaterMeter meter = StraightDrive{}.rate();
+  const evaluation::LaterMeter meter = StraightDrive{}.rate();
   EXPECT_EQ(meter.frames(), 53u);  // of 101: not the first 2 s, nor the last 28 m
   EXPECT_NEAR(meter.driven_m(), 53.0, 1e-9);
   for (const std::size_t distance : {k12m, k20m, k28m}) {
-    const LaterScore& score = lanelines(meter, distance);
+    const evaluation::LaterScore& score = lanelines(meter, distance);
     EXPECT_EQ(score.seen_later, 106u);
     EXPECT_EQ(score.map.found, 106u);
     EXPECT_EQ(score.map.lines, 106u);
@@ -89,7 +89,7 @@ TEST(Later, ErrorsAreTheOffsetsFromWhatIsSeenLater) {
   StraightDrive drive;
   drive.single_error = off_afar;
   drive.map_error = [](double ahead_m) { return ahead_m > 15.0 ? -0.1 : 0.0; };
-  const LaterMeter meter = drive.rate();
+  const evaluation::LaterMeter meter = drive.rate();
   EXPECT_NEAR(lanelines(meter, k12m).single.lateral_errors_m.root_mean_square(), 0.2, 1e-9);
   EXPECT_NEAR(lanelines(meter, k12m).map.lateral_errors_m.root_mean_square(), 0.0, 1e-9);
   EXPECT_NEAR(lanelines(meter, k20m).single.lateral_errors_m.root_mean_square(), 0.2, 1e-9);
@@ -99,8 +99,8 @@ TEST(Later, ErrorsAreTheOffsetsFromWhatIsSeenLater) {
 TEST(Later, AMissingLineIsNoPairAndLowersRecall) {
   StraightDrive drive;
   drive.map = {kLeft_m};
-  const LaterMeter meter = drive.rate();
-  const LaterScore& score = lanelines(meter, k20m);
+  const evaluation::LaterMeter meter = drive.rate();
+  const evaluation::LaterScore& score = lanelines(meter, k20m);
   EXPECT_EQ(score.map.found, score.seen_later / 2);
   EXPECT_EQ(score.single.found, score.seen_later);
   EXPECT_EQ(score.map.right, score.map.lines);
@@ -111,7 +111,7 @@ TEST(Later, AMissingLineIsNoPairAndLowersRecall) {
 TEST(Later, AGhostLowersPrecision) {
   StraightDrive drive;
   drive.map.push_back(0.5);
-  const LaterScore score = lanelines(drive.rate(), k20m);
+  const evaluation::LaterScore score = lanelines(drive.rate(), k20m);
   EXPECT_EQ(score.map.lines, 3 * 53u);
   EXPECT_EQ(score.map.right, 2 * 53u);
   EXPECT_EQ(score.single.right, score.single.lines);
@@ -120,14 +120,14 @@ TEST(Later, AGhostLowersPrecision) {
 TEST(Later, WhereNothingIsSeenFromCloseByNoLineIsWrong) {
   StraightDrive drive;
   drive.map.push_back(kLeft_m + 3.5);
-  const LaterScore score = lanelines(drive.rate(), k20m);
+  const evaluation::LaterScore score = lanelines(drive.rate(), k20m);
   EXPECT_EQ(score.map.lines, 2 * 53u);
 }
 
 TEST(Later, PlacesThatFewFramesPassOverAreNotAsked) {
   StraightDrive drive;
   drive.step_m = 9.0;  // 12 m ahead is 3 m ahead next time; 28 m ahead is 10 m ahead two frames later
-  const LaterMeter meter = drive.rate();
+  const evaluation::LaterMeter meter = drive.rate();
   EXPECT_EQ(lanelines(meter, k12m).map.lines, 0u);
   EXPECT_GT(lanelines(meter, k28m).map.lines, 100u);
   EXPECT_EQ(lanelines(meter, k28m).map.right, lanelines(meter, k28m).map.lines);
@@ -136,7 +136,7 @@ TEST(Later, PlacesThatFewFramesPassOverAreNotAsked) {
 TEST(Later, CountsTheOwnLanesIds) {
   StraightDrive drive;
   drive.own_lane = [](int frame) { return frame < 40 ? 1 : frame < 50 ? kNoElement : frame < 60 ? 1 : 2; };
-  const LaterMeter meter = drive.rate();
+  const evaluation::LaterMeter meter = drive.rate();
   EXPECT_EQ(meter.own_lane().frames, 43u);
   EXPECT_EQ(meter.own_lane().id_changes, 1u);
   EXPECT_NEAR(meter.own_lane().widths_m.quantile(0.05), 3.5, 1e-9);
@@ -164,7 +164,7 @@ TEST(Later, PlacesAheadAreAlongTheWayThatWasDriven) {
   const auto on_circle = [](double angle, double radius_m) {
     return Point(radius_m * std::sin(angle), kRadius_m - radius_m * std::cos(angle), 0.0);
   };
-  LaterMeter meter(0.3);
+  evaluation::LaterMeter meter(0.3);
   for (int i = 0; i < 100; ++i) {
     const double angle = i / kRadius_m;
     const Eigen::Isometry3d T_map_body = Eigen::Translation3d(on_circle(angle, kRadius_m)) *
@@ -178,7 +178,7 @@ TEST(Later, PlacesAheadAreAlongTheWayThatWasDriven) {
     meter.add(frame, T_map_body, map);
   }
   for (const std::size_t distance : {k12m, k20m, k28m}) {
-    const LaterScore& score = lanelines(meter, distance);
+    const evaluation::LaterScore& score = lanelines(meter, distance);
     EXPECT_GT(score.seen_later, 45u);
     EXPECT_EQ(score.map.found, score.seen_later);
     EXPECT_LT(score.map.lateral_errors_m.quantile(1.0), 0.05);
@@ -186,7 +186,7 @@ TEST(Later, PlacesAheadAreAlongTheWayThatWasDriven) {
 }
 
 TEST(Later, AJumpOfThePoseBeginsANewDrive) {
-  LaterMeter meter(0.3);
+  evaluation::LaterMeter meter(0.3);
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 80; ++i) {
     T_map_body.translation().x() += i == 40 ? 100.0 : 1.0;

@@ -13,8 +13,8 @@ namespace {
 using testing::ElementsAre;
 using testing::Pair;
 
-RoadLane truth_lane(ElementId id, Polyline centerline, std::vector<ElementId> successors,
-                    ElementId marking = 1) {
+simulation::RoadLane truth_lane(ElementId id, Polyline centerline, std::vector<ElementId> successors,
+                                ElementId marking = 1) {
   return {.id = id,
           .centerline = std::move(centerline),
           .left_marking = marking,
@@ -23,8 +23,8 @@ RoadLane truth_lane(ElementId id, Polyline centerline, std::vector<ElementId> su
 }
 
 /// Lane 1 splits into 2 (straight on) and 3 (beside it); 4 follows 2 across the unpainted 9.
-Road forking_road() {
-  Road road;
+simulation::Road forking_road() {
+  simulation::Road road;
   road.lanes = {truth_lane(1, {{-5, 0, 0}, {5, 0, 0}}, {2, 3}), truth_lane(2, {{5, 0, 0}, {15, 0, 0}}, {9}),
                 truth_lane(3, {{5, 1, 0}, {15, 4, 0}}, {}),
                 truth_lane(9, {{15, 0, 0}, {20, 0, 0}}, {4}, kNoElement),
@@ -49,7 +49,7 @@ Linkage linked(ElementId from, ElementId to) {
 
 LocalMap perfect() {
   LocalMap map;
-  for (const RoadLane& truth : forking_road().lanes)
+  for (const simulation::RoadLane& truth : forking_road().lanes)
     if (truth.left_marking != kNoElement) map.lanes.push_back(lane(10 + truth.id, truth.centerline));
   map.linkages = {linked(11, 12), linked(11, 13), linked(12, 14)};
   map.linkages[2].path = {{15, 0, 0}, {20, 0, 0}};
@@ -62,22 +62,22 @@ LocalMap perfect() {
   return map;
 }
 
-TopologyScore score(const LocalMap& map) {
-  MapEvaluation evaluation(forking_road(), RangeConfig{}, Subject::maps);
+evaluation::TopologyScore score(const LocalMap& map) {
+  evaluation::MapEvaluation evaluation(forking_road(), RangeConfig{}, evaluation::Subject::maps);
   evaluation.add(map);
   return evaluation.topology();
 }
 
 TEST(TruthTopology, LooksAcrossLanesThatNobodySees) {
   // Chains in order of ids: 1, 2, 3, 4.
-  const TruthTopology topology = truth_topology(forking_road());
+  const evaluation::TruthTopology topology = evaluation::truth_topology(forking_road());
   EXPECT_THAT(topology.successors, ElementsAre(Pair(0, 1), Pair(0, 2), Pair(1, 3)));
   // The markings' lines come after the four chains; the stopline is 1 m behind the end of lane 2.
   EXPECT_THAT(topology.lanes_of_stopline, ElementsAre(Pair(4, ElementsAre(1))));
 }
 
 TEST(Linkages, APerfectMapScoresPerfectly) {
-  const TopologyScore perfect_score = score(perfect());
+  const evaluation::TopologyScore perfect_score = score(perfect());
   EXPECT_EQ(perfect_score.linkages.truths, 3u);
   EXPECT_EQ(perfect_score.linkages.f1(), 1.0);
   EXPECT_EQ(perfect_score.by_kind[0].precision(), 1.0);
@@ -89,7 +89,7 @@ TEST(Linkages, WrongAndMissingOnesCount) {
   LocalMap map = perfect();
   map.linkages = {linked(11, 12), linked(13, 14)};
   map.linkages[1].kind = Linkage::Kind::intersection;
-  const TopologyScore wrong = score(map);
+  const evaluation::TopologyScore wrong = score(map);
   EXPECT_DOUBLE_EQ(wrong.linkages.precision(), 0.5);
   EXPECT_DOUBLE_EQ(wrong.linkages.recall(), 1.0 / 3.0);
   EXPECT_EQ(wrong.by_kind[0].precision(), 1.0);
@@ -120,7 +120,7 @@ TEST(Linkages, PiecesOfOneTruthLaneMayBeLinkedInOrder) {
   LocalMap map;
   map.lanes = {lane(1, {{-5, 0, 0}, {0, 0, 0}}), lane(2, {{0, 0, 0}, {5, 0, 0}})};
   map.linkages = {linked(1, 2), linked(2, 1)};
-  const PairScore linkages = score(map).linkages;
+  const evaluation::PairScore linkages = score(map).linkages;
   EXPECT_EQ(linkages.published, 2u);
   EXPECT_EQ(linkages.right, 1u);
 }
@@ -155,15 +155,17 @@ TEST(Stoplines, NameTheLanesThatTheyEnd) {
 }
 
 TEST(FrechetDistance, IsTheLongestLeashOfTheBestWalk) {
-  EXPECT_DOUBLE_EQ(frechet_distance_m({{0, 0, 0}, {2, 0, 0}}, {{0, 1, 0}, {2, 1, 5}}), 1.0);
-  EXPECT_DOUBLE_EQ(frechet_distance_m({{0, 0, 0}, {2, 0, 0}}, {{2, 0, 0}, {0, 0, 0}}), 2.0);  // the other way
+  EXPECT_DOUBLE_EQ(evaluation::frechet_distance_m({{0, 0, 0}, {2, 0, 0}}, {{0, 1, 0}, {2, 1, 5}}), 1.0);
+  EXPECT_DOUBLE_EQ(evaluation::frechet_distance_m({{0, 0, 0}, {2, 0, 0}}, {{2, 0, 0}, {0, 0, 0}}),
+                   2.0);  // the other way
   // Both wait at the corner for each other; the detour's tip is 3 m off.
-  EXPECT_DOUBLE_EQ(frechet_distance_m({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 0, 0}, {1, 3, 0}, {2, 0, 0}}),
-                   3.0);
+  EXPECT_DOUBLE_EQ(
+      evaluation::frechet_distance_m({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 0, 0}, {1, 3, 0}, {2, 0, 0}}),
+      3.0);
 }
 
 double top_ll(const LocalMap& map) {
-  MapEvaluation evaluation(forking_road(), RangeConfig{}, Subject::maps);
+  evaluation::MapEvaluation evaluation(forking_road(), RangeConfig{}, evaluation::Subject::maps);
   evaluation.add(map);
   return evaluation.top_ll().value();
 }

@@ -57,7 +57,7 @@ TEST_F(Loopback, ADriveBeginsWhereItIsTold) {
   ASSERT_EQ(run(command({"publish", "--scenario", "straight", "--from", "5", "--duration", "0.3", "--frames",
                          file("later")})),
             0);
-  JsonLinesReader whole(file("whole")), later(file("later"));
+  io::JsonLinesReader whole(file("whole")), later(file("later"));
   const auto first = whole.next_frame(), moved = later.next_frame();
   ASSERT_TRUE(first && moved);
   EXPECT_NEAR((moved->pose.position - first->pose.position).norm(), 5.0 * 10.0, 0.1);
@@ -66,12 +66,12 @@ TEST_F(Loopback, ADriveBeginsWhereItIsTold) {
 }
 
 TEST_F(Loopback, LanesReachThePlanner) {
-  ChildProcess service(command({LANELOOM_SERVICE}), file("service.log"));
-  ChildProcess publisher(
+  support::ChildProcess service(command({LANELOOM_SERVICE}), file("service.log"));
+  support::ChildProcess publisher(
       command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop", "--wait-for-readers", "1",
                "--frames", file("frames.jsonl"), "--truth", file("truth.json")}),
       file("publish.log"));
-  ChildProcess planner(
+  support::ChildProcess planner(
       command({LANELOOM_COMMAND, "pnc", "--json", "--require-lanes", "--record", file("map.jsonl")}),
       file("pnc.log"));
   ASSERT_TRUE(wait_for("pnc.log", kOk, 100)) << content(file("pnc.log"));
@@ -95,12 +95,13 @@ TEST_F(Loopback, LanesReachThePlanner) {
 class RecordedLoopback : public Loopback {
  protected:
   void record(std::vector<std::string> driver, const std::string& name) {
-    ChildProcess service(command({LANELOOM_SERVICE}), file("service.log"));
-    ChildProcess recorder(command({LANELOOM_COMMAND, "record", "--out", file(name)}), file("record.log"));
+    support::ChildProcess service(command({LANELOOM_SERVICE}), file("service.log"));
+    support::ChildProcess recorder(command({LANELOOM_COMMAND, "record", "--out", file(name)}),
+                                   file("record.log"));
     ASSERT_TRUE(eventually([&] { return newest_map(file(name)).has_value(); }));
     driver.insert(driver.begin(), LANELOOM_COMMAND);
     driver.insert(driver.end(), {"--wait-for-readers", "2"});
-    ChildProcess publisher(command(driver), file("publish.log"));
+    support::ChildProcess publisher(command(driver), file("publish.log"));
     ASSERT_EQ(publisher.wait(), 0) << content(file("publish.log"));
     ASSERT_TRUE(eventually([&] { return tells_of_the_end(*newest_map(file(name))); }));
     recorder.signal(SIGTERM);
@@ -113,7 +114,7 @@ class RecordedLoopback : public Loopback {
   static std::optional<PublishedMap> newest_map(const std::string& recording) {
     std::optional<PublishedMap> newest;
     if (content(recording).empty()) return newest;
-    RecordingReader reader(recording);
+    recording::RecordingReader reader(recording);
     while (auto message = reader.next())
       if (auto* map = std::get_if<PublishedMap>(&message->message)) newest = std::move(*map);
     return newest;
@@ -140,15 +141,15 @@ TEST_F(RecordedLoopback, AReplayMakesTheMapsThatTheServicePublished) {
 }
 
 TEST_F(Loopback, ThePlannerOutlivesTheService) {
-  ChildProcess publisher(command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop"}),
-                         file("publish.log"));
-  ChildProcess planner(command({LANELOOM_COMMAND, "pnc", "--json"}), file("pnc.log"));
-  auto service = std::make_unique<ChildProcess>(command({LANELOOM_SERVICE}), file("service.log"));
+  support::ChildProcess publisher(command({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop"}),
+                                  file("publish.log"));
+  support::ChildProcess planner(command({LANELOOM_COMMAND, "pnc", "--json"}), file("pnc.log"));
+  auto service = std::make_unique<support::ChildProcess>(command({LANELOOM_SERVICE}), file("service.log"));
   ASSERT_TRUE(wait_for("pnc.log", kOk, 1));
   service.reset();  // kill -9
   ASSERT_TRUE(wait_for("pnc.log", "liveliness_lost", 1));
   const int before = seen("pnc.log", kOk);
-  service = std::make_unique<ChildProcess>(command({LANELOOM_SERVICE}), file("service.log"));
+  service = std::make_unique<support::ChildProcess>(command({LANELOOM_SERVICE}), file("service.log"));
   EXPECT_TRUE(wait_for("pnc.log", kOk, before + 1));
   planner.signal(SIGTERM);
   EXPECT_EQ(planner.wait(), 0) << content(file("pnc.log")).substr(0, 4000);

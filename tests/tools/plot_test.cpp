@@ -34,24 +34,24 @@ std::vector<int> red_columns(const std::string& path) {
   return columns;
 }
 
-Plot plot(std::vector<Eigen::Vector2d> points) {
+render::Plot plot(std::vector<Eigen::Vector2d> points) {
   return {.title = "title", .x_label = "x", .y_max = 1.0, .curves = {{"red", {1, 0, 0}, points}}};
 }
 
 TEST(Plot, TicksAreOneTwoOrFiveTimesAPowerOfTen) {
-  EXPECT_DOUBLE_EQ(tick_step(100.0, 4), 50.0);
-  EXPECT_DOUBLE_EQ(tick_step(100.0, 5), 20.0);
-  EXPECT_DOUBLE_EQ(tick_step(35.0, 10), 5.0);
-  EXPECT_DOUBLE_EQ(tick_step(0.7, 4), 0.2);
-  EXPECT_DOUBLE_EQ(tick_step(10.0, 10), 1.0);
-  EXPECT_DOUBLE_EQ(tick_step(0.0, 4), 1.0);
-  EXPECT_DOUBLE_EQ(tick_step(std::numeric_limits<double>::infinity(), 4), 1.0);
+  EXPECT_DOUBLE_EQ(render::tick_step(100.0, 4), 50.0);
+  EXPECT_DOUBLE_EQ(render::tick_step(100.0, 5), 20.0);
+  EXPECT_DOUBLE_EQ(render::tick_step(35.0, 10), 5.0);
+  EXPECT_DOUBLE_EQ(render::tick_step(0.7, 4), 0.2);
+  EXPECT_DOUBLE_EQ(render::tick_step(10.0, 10), 1.0);
+  EXPECT_DOUBLE_EQ(render::tick_step(0.0, 4), 1.0);
+  EXPECT_DOUBLE_EQ(render::tick_step(std::numeric_limits<double>::infinity(), 4), 1.0);
 }
 
 TEST(Plot, ACurveCoversItsAxisAndHasGapsWhereNothingIsKnown) {
   const TemporaryFolder folder;
-  draw_plots({plot({{0, 0.5}, {1, 0.5}, {2, 0.5}, {3, 0.5}})}, folder.file("whole.png"));
-  draw_plots({plot({{0, 0.5}, {1, 0.5}, {1.5, kNone}, {2, 0.5}, {3, 0.5}})}, folder.file("gap.png"));
+  render::draw_plots({plot({{0, 0.5}, {1, 0.5}, {2, 0.5}, {3, 0.5}})}, folder.file("whole.png"));
+  render::draw_plots({plot({{0, 0.5}, {1, 0.5}, {1.5, kNone}, {2, 0.5}, {3, 0.5}})}, folder.file("gap.png"));
   const auto whole = red_columns(folder.file("whole.png")), gap = red_columns(folder.file("gap.png"));
   ASSERT_GT(whole.size(), 1000u);  // of 1520 pixels
   EXPECT_EQ(whole.back() - whole.front() + 1, static_cast<int>(whole.size())) << "no column without it";
@@ -62,10 +62,10 @@ TEST(Plot, ACurveCoversItsAxisAndHasGapsWhereNothingIsKnown) {
 
 TEST(Plot, NothingToDrawIsStillAPicture) {
   const TemporaryFolder folder;
-  draw_plots({plot({}), plot({{2.0, kNone}}), plot({{2.0, 0.0}})}, folder.file("empty.svg"));
+  render::draw_plots({plot({}), plot({{2.0, kNone}}), plot({{2.0, 0.0}})}, folder.file("empty.svg"));
   EXPECT_NE(content(folder.file("empty.svg")).find("</svg>"), std::string::npos);
-  EXPECT_THROW(draw_plots({plot({})}, folder.file("plot.pdf")), std::runtime_error);
-  EXPECT_THROW(draw_plots({plot({})}, folder.file("none/plot.png")), std::runtime_error);
+  EXPECT_THROW(render::draw_plots({plot({})}, folder.file("plot.pdf")), std::runtime_error);
+  EXPECT_THROW(render::draw_plots({plot({})}, folder.file("none/plot.png")), std::runtime_error);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ PublishedMap map_with_lane() {
 TEST(PncReport, TellsWhatAPlannerNeeds) {
   PublishedMap previous = map_with_lane();
   previous.sequence = 6;
-  const PncUpdate update = judge(map_with_lane(), &previous);
+  const pnc::PncUpdate update = pnc::judge(map_with_lane(), &previous);
   EXPECT_TRUE(update.violations.empty());
   const nlohmann::json json = to_json(update);
   EXPECT_EQ(json.at("state"), "OK");
@@ -59,7 +59,7 @@ TEST(PncReport, TellsWhatAPlannerNeeds) {
 TEST(PncReport, DoesNotDriveOnAMapThatBreaksItsContract) {
   PublishedMap map = map_with_lane();
   map.map.lanes[0].left_boundary = 99;
-  const PncUpdate update = judge(map, nullptr);
+  const pnc::PncUpdate update = pnc::judge(map, nullptr);
   EXPECT_EQ(update.ego.lane, kNoElement);
   EXPECT_THAT(describe(update), HasSubstr("VIOLATION       known_ids"));
   EXPECT_THAT(summarise(update), HasSubstr("VIOLATION known_ids"));
@@ -70,7 +70,7 @@ TEST(PncReport, SaysWhyAMapIsNotOk) {
   PublishedMap map;
   map.state = MapState::stale;
   map.reasons = {StateReason::no_poses, StateReason::starting};
-  const PncUpdate update = judge(map, nullptr);
+  const pnc::PncUpdate update = pnc::judge(map, nullptr);
   EXPECT_THAT(describe(update), HasSubstr("STALE no_poses starting   age nothing fused yet"));
   EXPECT_TRUE(to_json(update).at("age_s").is_null());
   EXPECT_EQ(to_json(update).at("reasons"), (nlohmann::json{"no_poses", "starting"}));

@@ -7,9 +7,10 @@
 namespace laneloom {
 namespace {
 
-ProfileMeter meter_of(const std::vector<KindLine>& truth, const std::vector<KindLine>& predictions) {
-  ProfileMeter meter(kRange);
-  FrameComparison frame = compare(truth, predictions, Eigen::Isometry3d::Identity(), kRange);
+evaluation::ProfileMeter meter_of(const std::vector<evaluation::KindLine>& truth,
+                                  const std::vector<evaluation::KindLine>& predictions) {
+  evaluation::ProfileMeter meter(kRange);
+  evaluation::FrameComparison frame = compare(truth, predictions, Eigen::Isometry3d::Identity(), kRange);
   frame.stamp_ns = 7;
   meter.add(frame);
   return meter;
@@ -17,23 +18,23 @@ ProfileMeter meter_of(const std::vector<KindLine>& truth, const std::vector<Kind
 
 TEST(Profile, SamplesFallIntoTheirRangeBins) {
   // The truth runs from -5 to 30 m; the prediction begins at 10 m, 0.2 m beside it.
-  const ProfileMeter meter = meter_of({straight(0, -50, 50)}, {straight(0.2, 10.02, 50)});
+  const evaluation::ProfileMeter meter = meter_of({straight(0, -50, 50)}, {straight(0.2, 10.02, 50)});
   ASSERT_EQ(meter.over_range().begin()->first, -1);
   EXPECT_EQ(meter.over_range().rbegin()->first, 5) << "the far end is in the last bin";
   EXPECT_EQ(meter.over_range().at(-1).truths, 50u);
   EXPECT_EQ(meter.over_range().at(1).found, 4u) << "of 5..10 m, what is 0.46 m before the prediction's start";
   EXPECT_EQ(meter.over_range().at(1).predictions, 0u);
   EXPECT_EQ(meter.over_range().at(1).precision(), 0.0);
-  const SampleScore& far = meter.over_range().at(3);
+  const evaluation::SampleScore& far = meter.over_range().at(3);
   EXPECT_EQ(far.recall(), 1.0);
   EXPECT_EQ(far.precision(), 1.0);
   EXPECT_NEAR(far.lateral_error_m(), 0.2, 1e-9) << "sideways, not to the nearest sample";
 }
 
 TEST(Profile, WhatIsTooFarOrOfAnotherKindIsWrong) {
-  const ProfileMeter meter =
-      meter_of({straight(0, -50, 50)}, {straight(0.6, -50, 50), straight(0, -50, 50, LineKind::roadedge)});
-  const SampleScore& all = meter.over_time().at(0).score;
+  const evaluation::ProfileMeter meter = meter_of(
+      {straight(0, -50, 50)}, {straight(0.6, -50, 50), straight(0, -50, 50, evaluation::LineKind::roadedge)});
+  const evaluation::SampleScore& all = meter.over_time().at(0).score;
   EXPECT_EQ(all.precision(), 0.0);
   EXPECT_EQ(all.recall(), 0.0);
   EXPECT_EQ(all.lateral_error_m(), 0.0);
@@ -41,7 +42,7 @@ TEST(Profile, WhatIsTooFarOrOfAnotherKindIsWrong) {
 }
 
 TEST(Profile, APartOfALineIsRightThatIsNoTruePositive) {
-  const ProfileMeter meter = meter_of({straight(0, -50, 50)}, {straight(0, 0, 7)});
+  const evaluation::ProfileMeter meter = meter_of({straight(0, -50, 50)}, {straight(0, 0, 7)});
   ASSERT_EQ(meter.over_time().size(), 1u);
   EXPECT_EQ(meter.over_time()[0].stamp_ns, 7);
   EXPECT_EQ(meter.over_time()[0].score.precision(), 1.0);
@@ -49,17 +50,18 @@ TEST(Profile, APartOfALineIsRightThatIsNoTruePositive) {
 }
 
 TEST(Profile, LanesAreNoMarkings) {
-  const ProfileMeter meter =
-      meter_of({straight(0, -50, 50, LineKind::lane)}, {straight(0, -50, 50, LineKind::lane)});
+  const evaluation::ProfileMeter meter = meter_of({straight(0, -50, 50, evaluation::LineKind::lane)},
+                                                  {straight(0, -50, 50, evaluation::LineKind::lane)});
   EXPECT_EQ(meter.over_time().at(0).score.truths, 0u);
   EXPECT_TRUE(meter.over_range().empty());
 }
 
 TEST(Profile, ErrorsOfEachTypeByBandsOfDistance) {
   // Predicted lines from the truth at 0 m: 0.1 m beside it behind 20 m, 0.3 m beside it beyond.
-  const ProfileMeter meter = meter_of(
-      {straight(0, -50, 50), straight(5, -50, 50, LineKind::roadedge)},
-      {straight(0.1, -50, 19.9), straight(0.3, 20.1, 50), straight(5.2, 0, 9.9, LineKind::roadedge)});
+  const evaluation::ProfileMeter meter =
+      meter_of({straight(0, -50, 50), straight(5, -50, 50, evaluation::LineKind::roadedge)},
+               {straight(0.1, -50, 19.9), straight(0.3, 20.1, 50),
+                straight(5.2, 0, 9.9, evaluation::LineKind::roadedge)});
   const auto& lanelines = meter.errors(MarkingType::laneline);
   EXPECT_NEAR(lanelines[0].quantile(0.5), 0.1, 1e-9);
   EXPECT_NEAR(lanelines[1].quantile(0.9), 0.1, 1e-9);
@@ -71,7 +73,7 @@ TEST(Profile, ErrorsOfEachTypeByBandsOfDistance) {
 }
 
 TEST(LateralErrors, QuantilesAreThoseOfTheCounts) {
-  LateralErrors errors;
+  evaluation::LateralErrors errors;
   EXPECT_EQ(errors.quantile(0.5), 0.0);
   for (int i = 1; i <= 10; ++i) errors.add(0.01 * i);
   EXPECT_NEAR(errors.quantile(0.0), 0.01, 1e-12);

@@ -27,14 +27,14 @@ Marking marking(MarkingType type, const Polyline& points, MarkingStyle style, do
 
 /// One lane straight ahead between a solid laneline (y = 2) and a roadedge (y = -2), a stopline, all seen
 /// from a vehicle that looks along map y.
-Figure small_figure() {
+render::Figure small_figure() {
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   T_map_body.translate(Point(100, 200, 0)).rotate(Eigen::AngleAxisd(std::numbers::pi / 2, Point::UnitZ()));
   const auto in_map = [&](Polyline line) {
     for (Point& point : line) point = T_map_body * point;
     return line;
   };
-  Road truth;
+  simulation::Road truth;
   truth.markings = {{.id = 1, .points = in_map({{0, 10, 0}, {20, 10, 0}})}};
   LocalMap map;
   map.boundaries = {
@@ -43,7 +43,7 @@ Figure small_figure() {
   map.stoplines.resize(1);
   map.stoplines[0].marking =
       marking(MarkingType::stopline, in_map({{15, -8, 0}, {15, -4, 0}}), MarkingStyle::unknown, 4.0);
-  Panel panel{"map", {}};
+  render::Panel panel{"map", {}};
   add_truth(truth, panel.drawing);
   add_map(map, panel.drawing);
   return {"figure", {}, {{"t = 0 s", T_map_body, {panel}}}};
@@ -127,7 +127,7 @@ TEST_F(Render, DrawsDegenerateElementsWithoutFailing) {
   map.boundaries.emplace_back().points.resize(1, Point::Zero());
   map.lanes.emplace_back();
   map.linkages.emplace_back();
-  Figure figure = small_figure();
+  render::Figure figure = small_figure();
   add_map(map, figure.moments[0].panels[0].drawing);
   EXPECT_NO_THROW(draw_figure(figure, file("odd.png")));
 }

@@ -67,7 +67,7 @@ TEST_F(Commands, LearnWritesAProfileThatAReplayStartsWith) {
 TEST_F(Commands, ReplayWritesRecordingsToo) {
   simulate("inhouse", "in.frames.jsonl");
   ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("maps.mcap")}), 0) << output();
-  RecordingReader reader(file("maps.mcap"));
+  recording::RecordingReader reader(file("maps.mcap"));
   std::size_t maps = 0, markings = 0;
   while (const auto message = reader.next()) {
     maps += std::holds_alternative<PublishedMap>(message->message) ? 1U : 0U;

@@ -32,7 +32,7 @@ ServiceStatus degraded() {
 
 TEST(StatusReport, TellsHowTheServiceIs) {
   const ServiceStatus status = degraded();
-  const std::string text = describe(status, nullptr);
+  const std::string text = status::describe(status, nullptr);
   EXPECT_THAT(text, HasSubstr("DEGRADED no_poses reset\n"));
   EXPECT_THAT(text,
               HasSubstr("version 1.2.3   up 1:02:05\nsession         77   configuration 0123456789abcdef"));
@@ -53,14 +53,14 @@ TEST(StatusReport, TellsWhatRose) {
   const ServiceStatus before = degraded();
   ServiceStatus now = before;
   now.counters = {{"frames_fused", 12}, {"poses_lost", 1}, {"poses_refused_late", 9}, {"ticks_missed", 2}};
-  EXPECT_THAT(rises(now, before),
+  EXPECT_THAT(status::rises(now, before),
               ElementsAre(Pair("poses_lost", 1), Pair("poses_refused_late", 4), Pair("ticks_missed", 2)));
-  EXPECT_THAT(describe(now, &before), HasSubstr("9  +4\n"));
-  EXPECT_EQ(to_json(now, &before).at("rises").at("poses_refused_late"), 4);
+  EXPECT_THAT(status::describe(now, &before), HasSubstr("9  +4\n"));
+  EXPECT_EQ(status::to_json(now, &before).at("rises").at("poses_refused_late"), 4);
 }
 
 TEST(StatusReport, IsReadByMachines) {
-  const nlohmann::json json = to_json(degraded(), nullptr);
+  const nlohmann::json json = status::to_json(degraded(), nullptr);
   EXPECT_EQ(json.at("state"), "DEGRADED");
   EXPECT_EQ(json.at("reasons"), (nlohmann::json{"no_poses", "reset"}));
   EXPECT_EQ(json.at("detections_age_s"), 0.05);
@@ -74,7 +74,7 @@ TEST(StatusReport, IsReadByMachines) {
 TEST(StatusReport, KeepsWhatOthersWriteFromTheTerminal) {
   ServiceStatus status = degraded();
   status.sources[0].source = "\x1b[2Jcamera";
-  EXPECT_THAT(describe(status, nullptr), HasSubstr("\"?[2Jcamera\""));
+  EXPECT_THAT(status::describe(status, nullptr), HasSubstr("\"?[2Jcamera\""));
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ TEST_F(Commands, OutputThatCannotBeWrittenIsAFailure) {
        {std::string("publish --list"), std::string("--version"), std::string("pnc --help"),
         "evaluate --truth " + file("truth.json") + " --frames " + file("in.frames.jsonl")}) {
     const std::string line = command + " " + words + " >/dev/full 2>" + file("errors");
-    EXPECT_EQ(ChildProcess({"/bin/sh", "-c", line}, file("output")).wait(), 1) << words;
+    EXPECT_EQ(support::ChildProcess({"/bin/sh", "-c", line}, file("output")).wait(), 1) << words;
     EXPECT_THAT(content(file("errors")), HasSubstr("standard output cannot be written")) << words;
   }
 }

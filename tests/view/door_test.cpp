@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 Knock from(std::string_view host, std::string_view origin = "") {
@@ -109,4 +109,4 @@ TEST(Door, KnowsWhatOnlyThisHostReaches) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -8,7 +8,7 @@
 #include "view/events.hpp"
 #include "view/frame_text.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 using nlohmann::json;
@@ -112,4 +112,4 @@ TEST(FrameText, HasSummaryElementsAndWhatIsCompared) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 using nlohmann::json;
@@ -67,4 +67,4 @@ TEST(Site, HasTheServicesFiguresForPrometheus) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::view

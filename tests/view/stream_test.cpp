@@ -6,7 +6,7 @@
 
 #include "view/foxglove_stream.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 using nlohmann::json;
@@ -133,4 +133,4 @@ TEST_F(Foxglove, PassesOverWhatIsNotOfferedAndRefusesWhatIsNoMessage) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -7,7 +7,7 @@
 
 #include "client.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 using std::chrono::milliseconds;
@@ -216,4 +216,4 @@ TEST_F(Server, EndsWhileClientsAreConnected) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 thread_local AllocationTally* current = nullptr;
@@ -36,20 +36,24 @@ void release(void* memory) {
 AllocationScope::AllocationScope(AllocationTally& tally) { current = &tally; }
 AllocationScope::~AllocationScope() { current = nullptr; }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench
 
 // Every form is defined, because sanitizers bring their own of those that are left out.
-void* operator new(std::size_t size) { return laneloom::allocate_or_throw(size); }
-void* operator new[](std::size_t size) { return laneloom::allocate_or_throw(size); }
+void* operator new(std::size_t size) { return laneloom::bench::allocate_or_throw(size); }
+void* operator new[](std::size_t size) { return laneloom::bench::allocate_or_throw(size); }
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  return laneloom::allocate(size);
+  return laneloom::bench::allocate(size);
 }
 void* operator new[](std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  return laneloom::allocate(size);
+  return laneloom::bench::allocate(size);
 }
-void operator delete(void* memory) noexcept { laneloom::release(memory); }
-void operator delete[](void* memory) noexcept { laneloom::release(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { laneloom::release(memory); }
-void operator delete[](void* memory, std::size_t /*size*/) noexcept { laneloom::release(memory); }
-void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept { laneloom::release(memory); }
-void operator delete[](void* memory, const std::nothrow_t& /*tag*/) noexcept { laneloom::release(memory); }
+void operator delete(void* memory) noexcept { laneloom::bench::release(memory); }
+void operator delete[](void* memory) noexcept { laneloom::bench::release(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { laneloom::bench::release(memory); }
+void operator delete[](void* memory, std::size_t /*size*/) noexcept { laneloom::bench::release(memory); }
+void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept {
+  laneloom::bench::release(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t& /*tag*/) noexcept {
+  laneloom::bench::release(memory);
+}

@@ -5,7 +5,7 @@
 /// Counts the memory that `new` gives out. A program that uses this has its own operators `new` and `delete`,
 /// which count only within an AllocationScope. Over-aligned types, and memory that C libraries and Eigen's
 /// dynamic matrices take from malloc() themselves, are left out.
-namespace laneloom {
+namespace laneloom::bench {
 
 /// The allocations within one or several scopes.
 struct AllocationTally {
@@ -23,4 +23,4 @@ class AllocationScope {
   AllocationScope& operator=(const AllocationScope&) = delete;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

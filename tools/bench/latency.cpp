@@ -24,7 +24,7 @@
 #include "support/publication_log.hpp"
 #include "support/stage_timer.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -105,7 +105,7 @@ class Party {
   }
 
   std::string name_, log_;
-  ChildProcess process_;
+  support::ChildProcess process_;
 };
 
 DdsConfig dds_of(const LatencySpec& spec, const char* identity) {
@@ -239,15 +239,15 @@ LatencyResult latencies(const std::vector<LoggedTick>& ticks, const std::vector<
     }
   }
   result.frames = detections_ms.size();
-  result.tick_delay = summarise(std::move(delay_ms));
-  result.tick_to_callback = summarise(std::move(tick_ms));
-  result.publication_to_callback = summarise(std::move(publication_ms));
-  result.detections_to_callback = summarise(std::move(detections_ms));
+  result.tick_delay = support::summarise(std::move(delay_ms));
+  result.tick_to_callback = support::summarise(std::move(tick_ms));
+  result.publication_to_callback = support::summarise(std::move(publication_ms));
+  result.detections_to_callback = support::summarise(std::move(detections_ms));
   return result;
 }
 
 LatencyResult measure_latency(const LatencySpec& spec) {
-  const WorkFolder folder;
+  const io::WorkFolder folder;
   const std::string config = folder.file("laneloomd.yaml"), times = folder.file("times.csv"),
                     log = folder.file("laneloomd.log");
   write_config(config, dds_of(spec, "service"));
@@ -277,11 +277,11 @@ LatencyResult measure_latency(const LatencySpec& spec) {
   service.stop();
 
   LatencyResult result = latencies(ticks_between(read_tick_log(log), from_ns, to_ns), listener.maps(),
-                                   read_publication_log(times).times_ns);
+                                   support::read_publication_log(times).times_ns);
   result.service_cpu_percent = 100.0 * cpu_used_s / (static_cast<double>(to_ns - from_ns) * 1e-9);
   result.service_peak_rss_mb = peak_mb;
   result.viewer = viewer_cost;
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

@@ -13,7 +13,7 @@
 
 /// Measures how long maps take to their readers. laneloomd, `laneloom publish`, and a reader in this process
 /// are joined by real DDS. All times are by the system clock of the one host that they run on.
-namespace laneloom {
+namespace laneloom::bench {
 
 /// The processes and the load of a measurement.
 struct LatencySpec {
@@ -67,4 +67,4 @@ LatencyResult latencies(const std::vector<LoggedTick>& ticks, const std::vector<
 /// map comes.
 LatencyResult measure_latency(const LatencySpec& spec);
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::bench {
 
 double MapperCost::allocations_per_update() const {
   if (allocations.empty()) return 0.0;
@@ -20,7 +20,7 @@ double MapperCost::markings_per_map() const {
 MapperMeter::MapperMeter(const MapperConfig& config, bool count_allocations)
     : count_allocations_(count_allocations), mapper_(config) {}
 
-void MapperMeter::update(const FrameRecord& record) {
+void MapperMeter::update(const io::FrameRecord& record) {
   const Eigen::Isometry3d T_map_body = transform(record.pose);
   const std::uint64_t allocated = tally_.count;
   std::optional<AllocationScope> counting;
@@ -41,10 +41,10 @@ MapperCost MapperMeter::take_cost() {
   return std::exchange(cost_, {});
 }
 
-MapperCost measure(const MapperConfig& config, const std::vector<SimulatedFrame>& frames) {
+MapperCost measure(const MapperConfig& config, const std::vector<experiment::SimulatedFrame>& frames) {
   MapperMeter timed(config, false), counted(config, true);
-  for (const SimulatedFrame& frame : frames) timed.update(frame.record);
-  for (const SimulatedFrame& frame : frames) counted.update(frame.record);
+  for (const experiment::SimulatedFrame& frame : frames) timed.update(frame.record);
+  for (const experiment::SimulatedFrame& frame : frames) counted.update(frame.record);
   MapperCost cost = timed.take_cost();
   const MapperCost memory = counted.take_cost();
   cost.allocations = memory.allocations;
@@ -53,4 +53,4 @@ MapperCost measure(const MapperConfig& config, const std::vector<SimulatedFrame>
   return cost;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

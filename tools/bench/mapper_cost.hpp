@@ -8,18 +8,18 @@
 #include "laneloom/config.hpp"
 #include "support/stage_timer.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 
 /// The cost of the updates of a mapper.
 struct MapperCost {
-  StageTimer stages;
+  support::StageTimer stages;
   std::vector<double> update_ms;     ///< of each update as a whole
   std::vector<double> allocations;   ///< calls of `new` in each update
   std::int64_t heap_bytes = 0;       ///< of the mapper and its map, after the last update
   std::int64_t peak_heap_bytes = 0;  ///< largest heap, also within an update
   std::size_t markings = 0;          ///< sum over the maps
 
-  TimeSummary update() const { return summarise(update_ms); }
+  TimeSummary update() const { return support::summarise(update_ms); }
   double allocations_per_update() const;
   double markings_per_map() const;
 };
@@ -31,7 +31,7 @@ class MapperMeter {
   /// `config` must be valid.
   MapperMeter(const MapperConfig& config, bool count_allocations);
 
-  void update(const FrameRecord& record);
+  void update(const io::FrameRecord& record);
   /// The cost of the updates since the last call. The heap counts since the mapper's start.
   MapperCost take_cost();
 
@@ -43,6 +43,6 @@ class MapperMeter {
 };
 
 /// The cost of a fresh mapper over all frames: one pass for the times, and one for the allocations.
-MapperCost measure(const MapperConfig& config, const std::vector<SimulatedFrame>& frames);
+MapperCost measure(const MapperConfig& config, const std::vector<experiment::SimulatedFrame>& frames);
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

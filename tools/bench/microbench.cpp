@@ -13,17 +13,17 @@
 #include "laneloom/messages.hpp"
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 constexpr const char* kFrameId = "map";
 
 /// A minute of the default load.
-const std::vector<SimulatedFrame>& frames() {
-  static const std::vector<SimulatedFrame> drive =
-      simulate({.road = std::make_shared<const Road>(make_scenario("town", 10.0)),
-                .noise = noise_profile("inhouse"),
-                .duration_s = 60.0});
+const std::vector<experiment::SimulatedFrame>& frames() {
+  static const std::vector<experiment::SimulatedFrame> drive = experiment::simulate(
+      {.road = std::make_shared<const simulation::Road>(simulation::make_scenario("town", 10.0)),
+       .noise = simulation::noise_profile("inhouse"),
+       .duration_s = 60.0});
   return drive;
 }
 
@@ -58,7 +58,7 @@ void stage(benchmark::State& state, Stage stage, const MapperConfig& config) {
       mapper.reset();
       next = 0;
     }
-    const FrameRecord& record = frames()[next++].record;
+    const io::FrameRecord& record = frames()[next++].record;
     mapper.update(record.frame, transform(record.pose), &watch);
     state.SetIterationTime(watch.seconds());
   }
@@ -68,7 +68,7 @@ void stage(benchmark::State& state, Stage stage, const MapperConfig& config) {
 const PublishedMap& last_map() {
   static const PublishedMap published = [] {
     Mapper mapper(MapperConfig{});
-    for (const SimulatedFrame& frame : frames())
+    for (const experiment::SimulatedFrame& frame : frames())
       mapper.update(frame.record.frame, transform(frame.record.pose));
     PublishedMap map;
     map.frame_id = kFrameId;
@@ -108,11 +108,11 @@ void detections_from_cdr(benchmark::State& state) {
 
 void frame_from_json_line(benchmark::State& state) {
   const std::string line = to_json_line(frames().back().record);
-  for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(frame_from_json(line));
+  for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(io::frame_from_json(line));
 }
 
 void map_to_json_line(benchmark::State& state) {
-  for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(to_json_line(last_map().map));
+  for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(io::to_json_line(last_map().map));
 }
 
 /// Registers the stages that updates of a method reach.
@@ -132,16 +132,16 @@ void register_stages(FusionMethod method, const std::string& method_name) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::bench
 
 int main(int argc, char** argv) {
-  laneloom::register_stages(laneloom::FusionMethod::lines, "lines");
-  laneloom::register_stages(laneloom::FusionMethod::voxels, "voxels");
-  benchmark::RegisterBenchmark("map_to_cdr", laneloom::map_to_cdr);
-  benchmark::RegisterBenchmark("map_from_cdr", laneloom::map_from_cdr);
-  benchmark::RegisterBenchmark("detections_from_cdr", laneloom::detections_from_cdr);
-  benchmark::RegisterBenchmark("frame_from_json", laneloom::frame_from_json_line);
-  benchmark::RegisterBenchmark("map_to_json", laneloom::map_to_json_line);
+  laneloom::bench::register_stages(laneloom::FusionMethod::lines, "lines");
+  laneloom::bench::register_stages(laneloom::FusionMethod::voxels, "voxels");
+  benchmark::RegisterBenchmark("map_to_cdr", laneloom::bench::map_to_cdr);
+  benchmark::RegisterBenchmark("map_from_cdr", laneloom::bench::map_from_cdr);
+  benchmark::RegisterBenchmark("detections_from_cdr", laneloom::bench::detections_from_cdr);
+  benchmark::RegisterBenchmark("frame_from_json", laneloom::bench::frame_from_json_line);
+  benchmark::RegisterBenchmark("map_to_json", laneloom::bench::map_to_json_line);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 std::string folder(pid_t process) { return "/proc/" + std::to_string(process); }
@@ -43,4 +43,4 @@ double cpu_s(pid_t process) {
   return sum_s;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

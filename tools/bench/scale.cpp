@@ -7,7 +7,7 @@
 
 #include "bench/process_usage.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 constexpr std::size_t kFramesPerMinute = 600;
@@ -48,16 +48,16 @@ RangeConfig scaled(RangeConfig range, double factor) {
   return range;
 }
 
-SensorView scaled(SensorView view, double factor) {
+simulation::SensorView scaled(simulation::SensorView view, double factor) {
   view.forward_min_m *= factor;
   view.forward_max_m *= factor;
   view.side_max_m *= factor;
   return view;
 }
 
-void drive_minutes(const MapperConfig& config, const DriveSpec& drive, std::size_t minutes,
+void drive_minutes(const MapperConfig& config, const experiment::DriveSpec& drive, std::size_t minutes,
                    const std::function<void(const MinuteCost&)>& take) {
-  DriveSimulation simulation(drive);
+  experiment::DriveSimulation simulation(drive);
   MapperMeter meter(config, true);
   for (std::size_t minute = 1; minute <= minutes; ++minute) {
     for (std::size_t i = 0; i < kFramesPerMinute; ++i) meter.update(simulation.next().record);
@@ -65,18 +65,18 @@ void drive_minutes(const MapperConfig& config, const DriveSpec& drive, std::size
   }
 }
 
-Road standing(Road road, double t_s) {
+simulation::Road standing(simulation::Road road, double t_s) {
   VehiclePose pose = road.drive.pose_at(t_s);
-  road.drive = Drive::recorded({pose});
+  road.drive = simulation::Drive::recorded({pose});
   return road;
 }
 
-TimeSummary time_vehicles(const MapperConfig& config, const std::vector<SimulatedFrame>& frames,
+TimeSummary time_vehicles(const MapperConfig& config, const std::vector<experiment::SimulatedFrame>& frames,
                           std::size_t vehicles) {
   std::vector<MapperMeter> meters;
   meters.reserve(vehicles);
   for (std::size_t i = 0; i < vehicles; ++i) meters.emplace_back(config, false);
-  for (const SimulatedFrame& frame : frames) {
+  for (const experiment::SimulatedFrame& frame : frames) {
     for (MapperMeter& meter : meters) meter.update(frame.record);
   }
   std::vector<double> all_ms;
@@ -85,7 +85,7 @@ TimeSummary time_vehicles(const MapperConfig& config, const std::vector<Simulate
     const MapperCost cost = meter.take_cost();
     all_ms.insert(all_ms.end(), cost.update_ms.begin(), cost.update_ms.end());
   }
-  return summarise(std::move(all_ms));
+  return support::summarise(std::move(all_ms));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

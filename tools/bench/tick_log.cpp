@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 /// The value of "key=…" in a line.
@@ -36,4 +36,4 @@ std::vector<LoggedTick> read_tick_log(const std::filesystem::path& path) {
   return ticks;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::bench {
 
 /// One tick of laneloomd, from its log at level debug.
 struct LoggedTick {
@@ -19,4 +19,4 @@ struct LoggedTick {
 /// read, or a tick's line is malformed.
 std::vector<LoggedTick> read_tick_log(const std::filesystem::path& path);
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

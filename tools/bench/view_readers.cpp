@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 constexpr std::string_view kRequest =
@@ -102,4 +102,4 @@ void ViewReaders::read(const std::stop_token& stopped) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

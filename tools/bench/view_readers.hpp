@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::bench {
 
 /// Counts the messages in the bytes that a server sends over a WebSocket, in parts of any size.
 class WebSocketCounter {
@@ -44,4 +44,4 @@ class ViewReaders {
   std::jthread thread_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

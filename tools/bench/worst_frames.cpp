@@ -8,7 +8,7 @@
 #include "session/mapping_session.hpp"
 #include "support/stage_timer.hpp"
 
-namespace laneloom {
+namespace laneloom::bench {
 namespace {
 
 constexpr std::size_t kDetections = 512;  // as many as a message may have
@@ -107,7 +107,7 @@ DetectionFrame worst_frame(WorstKind kind, std::uint64_t number) {
 }
 
 TimeSummary time_worst(const Config& config, WorstKind kind, std::uint64_t frames) {
-  MappingSession session(config);
+  session::MappingSession session(config);
   std::vector<double> times_ms;
   for (std::uint64_t number = 1; number <= frames; ++number) {
     const std::int64_t stamp_ns = kFramePeriod_ns * static_cast<std::int64_t>(number);
@@ -117,7 +117,7 @@ TimeSummary time_worst(const Config& config, WorstKind kind, std::uint64_t frame
     frame.stamp_ns = stamp_ns;
     times_ms.push_back(milliseconds_of([&] { session.add(std::move(frame), stamp_ns); }));
   }
-  return summarise(std::move(times_ms));
+  return support::summarise(std::move(times_ms));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

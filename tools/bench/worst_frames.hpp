@@ -8,7 +8,7 @@
 #include "laneloom/types.hpp"
 
 /// The most expensive frames that the bounds of the IDL allow.
-namespace laneloom {
+namespace laneloom::bench {
 
 enum class WorstKind : std::uint8_t {
   parallel,    ///< lines side by side, over the whole range
@@ -32,4 +32,4 @@ DetectionFrame worst_frame(WorstKind kind, std::uint64_t number);
 /// measured over `frames` frames, ten per second, at 10 m/s.
 TimeSummary time_worst(const Config& config, WorstKind kind, std::uint64_t frames);
 
-}  // namespace laneloom
+}  // namespace laneloom::bench

@@ -17,7 +17,7 @@
 #include "commands/time_table.hpp"
 #include "experiment/peer.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 constexpr double kBytesPerMB = 1024.0 * 1024.0;
@@ -30,21 +30,21 @@ struct Options {
 
 struct Result {
   std::size_t frames = 0;
-  MapperCost cost;
+  bench::MapperCost cost;
   double peak_rss_mb = 0.0;  ///< of this process, with the frames
-  std::optional<PeerReport> peer;
+  std::optional<experiment::PeerReport> peer;
 };
 
 Result measure(const Options& options) {
-  const std::vector<SimulatedFrame> frames = simulate(options.drive.spec());
+  const std::vector<experiment::SimulatedFrame> frames = simulate(options.drive.spec());
   if (frames.empty()) throw std::runtime_error("the drive has no frame");
-  Result result{.frames = frames.size(), .cost = measure(options.drive.mapper_config(), frames)};
-  result.peak_rss_mb = peak_rss_mb(getpid());
+  Result result{.frames = frames.size(), .cost = bench::measure(options.drive.mapper_config(), frames)};
+  result.peak_rss_mb = bench::peak_rss_mb(getpid());
   if (!options.peer.empty()) result.peer = time_peer({options.peer, options.drive.preset}, frames);
   return result;
 }
 
-nlohmann::json peer_json(const PeerReport& peer, const TimeSummary& ours) {
+nlohmann::json peer_json(const experiment::PeerReport& peer, const TimeSummary& ours) {
   nlohmann::json ms{{"total", to_json(peer.total)}};
   for (const auto& [stage, time] : peer.stages) ms[stage] = to_json(time);
   return {{"ms", ms},
@@ -55,13 +55,13 @@ nlohmann::json peer_json(const PeerReport& peer, const TimeSummary& ours) {
 nlohmann::json to_json(const Result& result) {
   const TimeSummary update = result.cost.update();
   nlohmann::json json{{"frames", result.frames},
-                      {"ms", to_json(result.cost.stages)},
+                      {"ms", commands::to_json(result.cost.stages)},
                       {"allocations_per_frame", result.cost.allocations_per_update()},
                       {"heap_mb", static_cast<double>(result.cost.heap_bytes) / kBytesPerMB},
                       {"peak_heap_mb", static_cast<double>(result.cost.peak_heap_bytes) / kBytesPerMB},
                       {"peak_rss_mb", result.peak_rss_mb},
                       {"peer", nullptr}};
-  json["ms"]["total"] = to_json(update);
+  json["ms"]["total"] = commands::to_json(update);
   if (result.peer) json["peer"] = peer_json(*result.peer, update);
   return json;
 }
@@ -113,4 +113,4 @@ void add_bench(CLI::App& app) {
   });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

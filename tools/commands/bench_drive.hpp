@@ -7,7 +7,7 @@
 #include "experiment/drive_simulation.hpp"
 #include "laneloom/config.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// A drive over a built-in road, and the configuration that it is mapped with: options of the benchmarks.
 struct BenchDrive {
@@ -19,7 +19,7 @@ struct BenchDrive {
   double duration_s = 60.0;
   std::uint64_t seed = 1;
 
-  DriveSpec spec() const;
+  experiment::DriveSpec spec() const;
   /// Throws ConfigError.
   MapperConfig mapper_config() const;
 };
@@ -29,4 +29,4 @@ void add_bench_road(CLI::App& command, BenchDrive& drive);
 /// Adds these, --seed, --preset and --config.
 void add_bench_drive(CLI::App& command, BenchDrive& drive);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -12,7 +12,7 @@
 #include "commands/bench_drive.hpp"
 #include "commands/time_table.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -24,29 +24,29 @@ struct Options {
   bool json = false;
 };
 
-LatencySpec latency_spec(const Options& options) {
+bench::LatencySpec latency_spec(const Options& options) {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  LatencySpec spec{.service = folder / "laneloomd",
-                   .publisher = folder / "laneloom",
-                   .dds = options.dds,
-                   .identities = options.identities,
-                   .scenario = options.drive.scenario,
-                   .noise = options.drive.noise,
-                   .speed_mps = options.drive.speed_mps,
-                   .duration_s = options.drive.duration_s,
-                   .busy_threads = options.load ? std::thread::hardware_concurrency() : 0,
-                   .viewers = options.viewers};
+  bench::LatencySpec spec{.service = folder / "laneloomd",
+                          .publisher = folder / "laneloom",
+                          .dds = options.dds,
+                          .identities = options.identities,
+                          .scenario = options.drive.scenario,
+                          .noise = options.drive.noise,
+                          .speed_mps = options.drive.speed_mps,
+                          .duration_s = options.drive.duration_s,
+                          .busy_threads = options.load ? std::thread::hardware_concurrency() : 0,
+                          .viewers = options.viewers};
   spec.dds.vehicle_id = fmt::format("bench_{}", getpid());  // apart from every other vehicle
   return spec;
 }
 
-nlohmann::json to_json(const ViewerCost& viewer) {
+nlohmann::json to_json(const bench::ViewerCost& viewer) {
   return {{"cpu_percent", viewer.cpu_percent},
           {"peak_rss_mb", viewer.peak_rss_mb},
           {"frames_per_s", viewer.frames_per_s}};
 }
 
-nlohmann::json to_json(const LatencySpec& spec, const LatencyResult& result) {
+nlohmann::json to_json(const bench::LatencySpec& spec, const bench::LatencyResult& result) {
   return {
       {"duration_s", spec.duration_s},
       {"transport", spec.dds.transport},
@@ -57,15 +57,15 @@ nlohmann::json to_json(const LatencySpec& spec, const LatencyResult& result) {
       {"maps_lost", result.maps_lost},
       {"frames", result.frames},
       {"ms",
-       {{"tick_delay", to_json(result.tick_delay)},
-        {"tick_to_callback", to_json(result.tick_to_callback)},
-        {"publication_to_callback", to_json(result.publication_to_callback)},
-        {"detections_to_callback", to_json(result.detections_to_callback)}}},
+       {{"tick_delay", commands::to_json(result.tick_delay)},
+        {"tick_to_callback", commands::to_json(result.tick_to_callback)},
+        {"publication_to_callback", commands::to_json(result.publication_to_callback)},
+        {"detections_to_callback", commands::to_json(result.detections_to_callback)}}},
       {"service", {{"cpu_percent", result.service_cpu_percent}, {"peak_rss_mb", result.service_peak_rss_mb}}},
       {"viewer", result.viewer ? to_json(*result.viewer) : nlohmann::json()}};
 }
 
-void print(const LatencySpec& spec, const LatencyResult& result) {
+void print(const bench::LatencySpec& spec, const bench::LatencyResult& result) {
   print_time_header("milliseconds");
   print_time_row("tick: delay", result.tick_delay);
   print_time_row("tick to callback", result.tick_to_callback);
@@ -83,8 +83,8 @@ void print(const LatencySpec& spec, const LatencyResult& result) {
 }
 
 void latency(const Options& options) {
-  const LatencySpec spec = latency_spec(options);
-  const LatencyResult result = measure_latency(spec);
+  const bench::LatencySpec spec = latency_spec(options);
+  const bench::LatencyResult result = measure_latency(spec);
   options.json ? fmt::print("{}\n", to_json(spec, result).dump()) : print(spec, result);
 }
 
@@ -112,4 +112,4 @@ void add_bench_latency(CLI::App& bench) {
   command->callback([options] { latency(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -11,7 +11,7 @@
 #include "commands/bench_drive.hpp"
 #include "commands/time_table.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using nlohmann::json;
@@ -25,7 +25,7 @@ struct Options {
   bool as_json = false;
 };
 
-json cost_json(const MapperCost& cost) {
+json cost_json(const bench::MapperCost& cost) {
   return {{"ms", to_json(cost.update())},
           {"stages", to_json(cost.stages)},
           {"markings", cost.markings_per_map()},
@@ -35,20 +35,20 @@ json cost_json(const MapperCost& cost) {
 }
 
 /// A row of the result. Its subject is under `key`.
-json row(const char* key, std::size_t value, const MapperCost& cost) {
+json row(const char* key, std::size_t value, const bench::MapperCost& cost) {
   json result = cost_json(cost);
   result[key] = value;
   return result;
 }
 
-json by_detections(const Options& options, const std::vector<SimulatedFrame>& frames) {
+json by_detections(const Options& options, const std::vector<experiment::SimulatedFrame>& frames) {
   const MapperConfig config = options.drive.mapper_config();
   json rows = json::array();
   for (const std::size_t copies : kFactors) {
-    std::vector<SimulatedFrame> more = frames;
-    for (SimulatedFrame& frame : more)
-      frame.record.frame = multiplied(frame.record.frame, copies, config.range.side_max_m);
-    rows.push_back(row("factor", copies, measure(config, more)));
+    std::vector<experiment::SimulatedFrame> more = frames;
+    for (experiment::SimulatedFrame& frame : more)
+      frame.record.frame = bench::multiplied(frame.record.frame, copies, config.range.side_max_m);
+    rows.push_back(row("factor", copies, bench::measure(config, more)));
   }
   return rows;
 }
@@ -58,35 +58,37 @@ json by_range(const Options& options) {
   for (const std::size_t factor : {1U, 2U, 4U, 8U}) {
     const auto times = static_cast<double>(factor);
     MapperConfig config = options.drive.mapper_config();
-    config.range = scaled(config.range, times);
-    DriveSpec drive = options.drive.spec();
-    drive.view = scaled(drive.view, times);
-    rows.push_back(row("factor", factor, measure(config, simulate(drive))));
+    config.range = bench::scaled(config.range, times);
+    experiment::DriveSpec drive = options.drive.spec();
+    drive.view = bench::scaled(drive.view, times);
+    rows.push_back(row("factor", factor, bench::measure(config, simulate(drive))));
   }
   return rows;
 }
 
 /// The cost of a drive, minute by minute.
-json by_time(const Options& options, const DriveSpec& drive) {
+json by_time(const Options& options, const experiment::DriveSpec& drive) {
   json rows = json::array();
-  drive_minutes(options.drive.mapper_config(), drive, options.minutes, [&](const MinuteCost& minute) {
-    rows.push_back(row("minute", minute.minute, minute.cost));
-    rows.back()["rss_mb"] = minute.rss_mb;
-  });
+  bench::drive_minutes(options.drive.mapper_config(), drive, options.minutes,
+                       [&](const bench::MinuteCost& minute) {
+                         rows.push_back(row("minute", minute.minute, minute.cost));
+                         rows.back()["rss_mb"] = minute.rss_mb;
+                       });
   return rows;
 }
 
 json standing_still(const Options& options) {
-  DriveSpec drive = options.drive.spec();
-  drive.road = std::make_shared<const Road>(standing(*drive.road, 0.5 * drive.road->drive.duration_s()));
+  experiment::DriveSpec drive = options.drive.spec();
+  drive.road = std::make_shared<const simulation::Road>(
+      bench::standing(*drive.road, 0.5 * drive.road->drive.duration_s()));
   return by_time(options, drive);
 }
 
-json by_vehicles(const Options& options, const std::vector<SimulatedFrame>& frames) {
+json by_vehicles(const Options& options, const std::vector<experiment::SimulatedFrame>& frames) {
   json rows = json::array();
   for (const std::size_t vehicles : kFactors)
     rows.push_back({{"vehicles", vehicles},
-                    {"ms", to_json(time_vehicles(options.drive.mapper_config(), frames, vehicles))}});
+                    {"ms", to_json(bench::time_vehicles(options.drive.mapper_config(), frames, vehicles))}});
   return rows;
 }
 
@@ -127,7 +129,7 @@ void scale(const Options& options) {
   // This comes first, while this process has little else in memory.
   result["driving"] = by_time(options, options.drive.spec());
   result["standing"] = standing_still(options);
-  const std::vector<SimulatedFrame> frames = simulate(options.drive.spec());
+  const std::vector<experiment::SimulatedFrame> frames = simulate(options.drive.spec());
   if (frames.empty()) throw std::runtime_error("the drive has no frame");
   result["detections"] = by_detections(options, frames);
   result["range"] = by_range(options);
@@ -150,4 +152,4 @@ void add_bench_scale(CLI::App& bench) {
   command->callback([options] { scale(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

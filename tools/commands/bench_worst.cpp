@@ -10,7 +10,7 @@
 #include "commands/time_table.hpp"
 #include "config/config_file.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -20,10 +20,10 @@ struct Options {
 };
 
 void worst(const Options& options) {
-  const Config config = resolve_config(options.config, {});
+  const Config config = config::resolve_config(options.config, {});
   nlohmann::json result;
   if (!options.as_json) print_time_header("milliseconds");
-  for (const WorstKind kind : kWorstKinds) {
+  for (const bench::WorstKind kind : bench::kWorstKinds) {
     const TimeSummary time = time_worst(config, kind, options.frames);
     result[name(kind)] = to_json(time);
     if (!options.as_json) print_time_row(name(kind), time);
@@ -45,4 +45,4 @@ void add_bench_worst(CLI::App& bench) {
   command->callback([options] { worst(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

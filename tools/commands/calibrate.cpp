@@ -10,7 +10,7 @@
 #include "commands/road_list.hpp"
 #include "config/config_file.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -19,11 +19,11 @@ struct Options {
   int steps = 15;
 };
 
-void print_step(const CalibrationStep& step) {
+void print_step(const experiment::CalibrationStep& step) {
   for (const MarkingType type : kMarkingTypes) {
-    const Score& score = step.score.of(line_kind(type));
+    const evaluation::Score& score = step.score.of(evaluation::line_kind(type));
     if (score.truths == 0) continue;
-    fmt::print("{} {:.1f}/{:.1f}/{:.3f}  ", name(line_kind(type)), 100 * score.precision(),
+    fmt::print("{} {:.1f}/{:.1f}/{:.3f}  ", name(evaluation::line_kind(type)), 100 * score.precision(),
                100 * score.recall(), score.acd_m());
   }
   fmt::print("jitter {:.1f} cm\n", 100 * step.jitter_m);
@@ -37,15 +37,15 @@ std::string list(const std::array<double, count>& values) {
   return text;
 }
 
-void print_result(const CalibrationStep& step, const CalibrationTarget& target) {
+void print_result(const experiment::CalibrationStep& step, const experiment::CalibrationTarget& target) {
   fmt::print("\n| {} | P % | R % | ACD m | target P/R/ACD |\n|---|---|---|---|---|\n", step.noise.name);
   for (const MarkingType type : kMarkingTypes) {
-    const Score& score = step.score.of(line_kind(type));
-    const CalibrationTarget::Kind& should = target.kinds.at(index(type));
+    const evaluation::Score& score = step.score.of(evaluation::line_kind(type));
+    const experiment::CalibrationTarget::Kind& should = target.kinds.at(index(type));
     if (score.truths == 0 || should.precision <= 0.0) continue;
-    fmt::print("| {} | {:.1f} | {:.1f} | {:.3f} | {:.1f}/{:.1f}/{:.3f} |\n", name(line_kind(type)),
-               100 * score.precision(), 100 * score.recall(), score.acd_m(), 100 * should.precision,
-               100 * should.recall, should.acd_m);
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.3f} | {:.1f}/{:.1f}/{:.3f} |\n",
+               name(evaluation::line_kind(type)), 100 * score.precision(), 100 * score.recall(),
+               score.acd_m(), 100 * should.precision, 100 * should.recall, should.acd_m);
   }
   fmt::print("\nmissed_share {{{}}}\nghost_rate_hz {{{}}}\nerror_factor {{{}}}\nflutter_stddev_m {:.4f}\n",
              list(step.noise.missed_share), list(step.noise.ghost_rate_hz), list(step.noise.error_factor),
@@ -53,11 +53,11 @@ void print_result(const CalibrationStep& step, const CalibrationTarget& target) 
 }
 
 void run_calibration(const Options& options) {
-  const CalibrationTarget target = calibration_target(options.noise);
-  const NoiseProfile start = noise_profile(options.noise);
+  const experiment::CalibrationTarget target = experiment::calibration_target(options.noise);
+  const simulation::NoiseProfile start = simulation::noise_profile(options.noise);
   Config ranged;
-  apply_preset(ranged, options.noise);
-  const CalibrationStep last =
+  config::apply_preset(ranged, options.noise);
+  const experiment::CalibrationStep last =
       calibrate(start, target, options.roads.drives({start}), ranged.mapper.range, options.steps, print_step);
   print_result(last, target);
 }
@@ -78,4 +78,4 @@ void add_calibrate(CLI::App& app) {
   command->callback([options] { run_calibration(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

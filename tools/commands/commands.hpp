@@ -7,7 +7,7 @@ class App;
 /// The subcommands of `laneloom`, one file each. Each function registers its command; the command's work is
 /// done while the command line is parsed. It throws std::exception if it failed, which run_program() reports,
 /// and calls end_with() (exit_codes.hpp) for any other exit code.
-namespace laneloom {
+namespace laneloom::commands {
 
 void add_publish(CLI::App& app);
 void add_pnc(CLI::App& app);
@@ -23,4 +23,4 @@ void add_export(CLI::App& app);
 void add_import(CLI::App& app);
 void add_view(CLI::App& app);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

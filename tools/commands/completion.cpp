@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 /// A word that may stand on a command line.
@@ -162,4 +162,4 @@ void add_completion(CLI::App& program) {
   });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -17,7 +17,7 @@
 #include "doctor/observer.hpp"
 #include "doctor/report.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -30,31 +30,31 @@ struct Options {
 /// Reads the configuration file. Options given beside it are parsed after it, and thereby override it.
 void read_config(const std::string& file, Options& options) {
   try {
-    options.dds = load_config(file).dds;
+    options.dds = config::load_config(file).dds;
   } catch (const ConfigError& error) {
     options.config_problem = error.what();
   }
 }
 
-Finding refused_configuration(const std::string& problem) {
+doctor::Finding refused_configuration(const std::string& problem) {
   return {"configuration", fmt::format("The configuration is refused: {}.", problem),
           "The service does not start with it. Nothing else was looked at.",
           "Mend it; `laneloomd --config FILE --check-config` checks it again."};
 }
 
-Finding refused_participant(const std::string& problem) {
+doctor::Finding refused_participant(const std::string& problem) {
   return {"participant", fmt::format("No participant can be made: {}.", problem),
           "Others with these settings can't take part either. Nothing else was looked at.",
           "Mend the key that is named, or see what Fast DDS wrote above."};
 }
 
 /// The observations and the findings in them.
-std::pair<Observed, Findings> examine(const Options& options) {
-  Observed seen;
+std::pair<doctor::Observed, doctor::Findings> examine(const Options& options) {
+  doctor::Observed seen;
   seen.dds = options.dds;
   if (!options.config_problem.empty()) return {seen, {refused_configuration(options.config_problem)}};
   try {
-    const Observer observer(options.dds);
+    const doctor::Observer observer(options.dds);
     const auto duration = std::chrono::milliseconds(std::llround(options.duration_s * 1e3));
     sleep_until(std::chrono::steady_clock::now() + duration);
     seen = observer.observed();
@@ -72,7 +72,7 @@ void doctor(const Options& options) {
                report_json(seen, found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     fmt::print("{}", report(seen, found));
-  if (!std::ranges::all_of(found, &Finding::advice)) end_with(kFoundWrong);
+  if (!std::ranges::all_of(found, &doctor::Finding::advice)) end_with(kFoundWrong);
 }
 
 }  // namespace
@@ -94,4 +94,4 @@ void add_doctor(CLI::App& app) {
   command->callback([options] { doctor(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

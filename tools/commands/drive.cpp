@@ -20,7 +20,7 @@
 #include "drive/dds_map_service.hpp"
 #include "experiment/parallel.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -39,27 +39,28 @@ struct Options {
   bool json = false;
 };
 
-bool is_over(const Options& options, const ClosedLoop& loop) {
+bool is_over(const Options& options, const drive::ClosedLoop& loop) {
   return options.km > 0.0 ? loop.driven_m() >= 1000.0 * options.km : loop.time_s() >= options.duration_s;
 }
 
-ClosedLoopSpec loop_spec(const DriveSpec& drive, const Options& options) {
+drive::ClosedLoopSpec loop_spec(const experiment::DriveSpec& drive, const Options& options) {
   return {
       .noise = drive.noise, .seed = drive.seed, .speed_mps = options.roads.speed_mps, .drift = drive.drift};
 }
 
 Config read_config(const Options& options) {
-  const Config config = resolve_config(options.config, options.preset);
-  validate(config);
+  const Config config = config::resolve_config(options.config, options.preset);
+  config::validate(config);
   return config;
 }
 
-std::vector<DriveResult> drive_offline(const std::vector<DriveSpec>& drives, const Options& options) {
+std::vector<DriveResult> drive_offline(const std::vector<experiment::DriveSpec>& drives,
+                                       const Options& options) {
   const Config config = read_config(options);
   std::vector<DriveResult> results(drives.size());
-  in_parallel(drives.size(), [&](std::size_t i) {
-    LocalMapService service(config);
-    ClosedLoop loop(*drives[i].road, loop_spec(drives[i], options), service);
+  experiment::in_parallel(drives.size(), [&](std::size_t i) {
+    drive::LocalMapService service(config);
+    drive::ClosedLoop loop(*drives[i].road, loop_spec(drives[i], options), service);
     while (!is_over(options, loop) && !stop_requested()) loop.step();
     results[i] = {drives[i].road->name, drives[i].seed, loop.score()};
   });
@@ -71,7 +72,7 @@ std::vector<DriveResult> drive_offline(const std::vector<DriveSpec>& drives, con
   end_with(kNobodyHeard);
 }
 
-void connect(const DdsMapService& service) {
+void connect(const drive::DdsMapService& service) {
   const auto deadline = SteadyClock::now() + kPatience;
   while (!service.connected() && SteadyClock::now() < deadline) {
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
@@ -80,14 +81,15 @@ void connect(const DdsMapService& service) {
   sleep_until(SteadyClock::now() + kDiscovery);
 }
 
-std::vector<DriveResult> drive_over_dds(const std::vector<DriveSpec>& drives, const Options& options) {
+std::vector<DriveResult> drive_over_dds(const std::vector<experiment::DriveSpec>& drives,
+                                        const Options& options) {
   if (drives.size() != 1) throw std::runtime_error("over DDS it is one road with one seed");
-  DdsMapService service(options.dds);
+  drive::DdsMapService service(options.dds);
   connect(service);
-  ClosedLoopSpec spec = loop_spec(drives.front(), options);
+  drive::ClosedLoopSpec spec = loop_spec(drives.front(), options);
   spec.start_ns = system_now_ns();
   spec.session_id = random_id();
-  ClosedLoop loop(*drives.front().road, spec, service);
+  drive::ClosedLoop loop(*drives.front().road, spec, service);
   for (auto due = SteadyClock::now(); !is_over(options, loop) && sleep_until(due);
        due += std::chrono::milliseconds(10))
     loop.step();
@@ -97,7 +99,7 @@ std::vector<DriveResult> drive_over_dds(const std::vector<DriveSpec>& drives, co
 
 void drive(const Options& options) {
   catch_stop_signals();
-  const std::vector<DriveSpec> drives = options.roads.drives({options.noise.profile()});
+  const std::vector<experiment::DriveSpec> drives = options.roads.drives({options.noise.profile()});
   const auto start = SteadyClock::now();
   const std::vector<DriveResult> results =
       options.over_dds ? drive_over_dds(drives, options) : drive_offline(drives, options);
@@ -134,7 +136,7 @@ void add_drive(CLI::App& app) {
       ->excludes(duration);
   auto* config = command->add_option("--config", options->config, "Configuration file");
   auto* preset = command->add_option("--preset", options->preset, "Range, and alpha_n of the voxel method")
-                     ->check(CLI::IsMember(preset_names()));
+                     ->check(CLI::IsMember(config::preset_names()));
   auto* dds =
       command->add_flag("--dds", options->over_dds, "Drive in real time, by the map of a running laneloomd")
           ->excludes(config)
@@ -145,4 +147,4 @@ void add_drive(CLI::App& app) {
   command->callback([options] { drive(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

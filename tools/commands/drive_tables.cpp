@@ -5,18 +5,18 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using nlohmann::json;
 
-DriveScore sum_of(const std::vector<DriveResult>& results) {
-  DriveScore sum;
+drive::DriveScore sum_of(const std::vector<DriveResult>& results) {
+  drive::DriveScore sum;
   for (const DriveResult& result : results) sum += result.score;
   return sum;
 }
 
-std::string row(const std::string& name, const DriveScore& score) {
+std::string row(const std::string& name, const drive::DriveScore& score) {
   const double share = score.driven_m > 0.0 ? 100.0 / score.driven_m : 0.0;
   return fmt::format(
       "| {} | {:.2f} | {} | {} | {:.2f}/{:.2f}/{:.2f}/{:.2f} | {} | {:.0f} m, {:.1f} % | {:.1f} | {:.1f} | "
@@ -30,9 +30,9 @@ std::string row(const std::string& name, const DriveScore& score) {
       score.curvature_rate.quantile(0.99), score.curvature_rate.quantile(1.0));
 }
 
-std::string guess_table(const DriveScore& score) {
+std::string guess_table(const drive::DriveScore& score) {
   std::map<std::string, std::pair<int, double>> causes;
-  for (const Guess& guess : score.guesses) {
+  for (const drive::Guess& guess : score.guesses) {
     auto& [count, distance_m] = causes[name(guess.cause)];
     ++count;
     distance_m += guess.distance_m;
@@ -52,16 +52,16 @@ json distribution_json(const Distribution& values) {
           {"max", values.quantile(1.0)}};
 }
 
-json score_json(const DriveScore& score) {
+json score_json(const drive::DriveScore& score) {
   json departures = json::array(), guesses = json::array();
-  for (const Departure& departure : score.departures)
+  for (const drive::Departure& departure : score.departures)
     departures.push_back({{"how", name(departure.how)},
                           {"t", departure.time_s},
                           {"place", place_json(departure.place)},
                           {"lane", departure.lane},
                           {"in_intersection", departure.in_intersection},
                           {"guessed", departure.guessed}});
-  for (const Guess& guess : score.guesses)
+  for (const drive::Guess& guess : score.guesses)
     guesses.push_back({{"cause", name(guess.cause)},
                        {"t", guess.time_s},
                        {"place", place_json(guess.place)},
@@ -94,13 +94,13 @@ std::string drive_table(const std::vector<DriveResult>& results) {
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const DriveResult& result : results)
     text += row(fmt::format("{}, seed {}", result.road, result.seed), result.score);
-  const DriveScore sum = sum_of(results);
+  const drive::DriveScore sum = sum_of(results);
   if (results.size() > 1) text += row("all", sum);
   text += fmt::format("{} times the body crossed a border; standing {:.0f} of {:.0f} s\n",
                       sum.border_crossings, sum.standing_s, sum.time_s);
   text += guess_table(sum);
   for (const DriveResult& result : results) {
-    for (const Departure& departure : result.score.departures)
+    for (const drive::Departure& departure : result.score.departures)
       text += fmt::format(
           "{}, seed {}: {} at {:.1f} s, ({:.1f}, {:.1f}), true lane {}{}{}\n", result.road, result.seed,
           name(departure.how), departure.time_s, departure.place.x(), departure.place.y(), departure.lane,
@@ -123,4 +123,4 @@ json drive_json(const std::vector<DriveResult>& results) {
   return {{"drives", drives}, {"all", all}};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

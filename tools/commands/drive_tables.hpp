@@ -6,13 +6,13 @@
 
 #include "drive/drive_score.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// The score of a drive over one road with one seed.
 struct DriveResult {
   std::string road;
   std::uint64_t seed = 1;
-  DriveScore score;
+  drive::DriveScore score;
 };
 
 /// A table with a line per drive and one for all, and the places where lanes were left.
@@ -21,4 +21,4 @@ std::string drive_table(const std::vector<DriveResult>& results);
 /// The same as JSON, with every departure and guess.
 nlohmann::json drive_json(const std::vector<DriveResult>& results);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

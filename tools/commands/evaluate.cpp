@@ -20,7 +20,7 @@
 #include "evaluation/inputs.hpp"
 #include "evaluation/map_evaluation.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -38,7 +38,7 @@ struct Moments {
   std::size_t count = 0;
 };
 
-Moments moments(const std::string& path, Stamps stamps, const InputAccount& account) {
+Moments moments(const std::string& path, Stamps stamps, const evaluation::InputAccount& account) {
   warn_of(path, account.refused, account.cut_off);
   if (stamps.empty())
     throw std::runtime_error(
@@ -51,13 +51,14 @@ Moments frame_moments(const std::string& path) {
   const auto add = [&](const DetectionFrame& frame, const Eigen::Isometry3d& /*T_map_body*/) {
     stamps.insert(frame.stamp_ns);
   };
-  const InputAccount account = for_each_frame(path, add);
+  const evaluation::InputAccount account = evaluation::for_each_frame(path, add);
   return moments(path, std::move(stamps), account);
 }
 
 Moments map_moments(const std::string& path) {
   Stamps stamps;
-  const InputAccount account = for_each_map(path, [&](const LocalMap& map) { stamps.insert(map.stamp_ns); });
+  const evaluation::InputAccount account =
+      evaluation::for_each_map(path, [&](const LocalMap& map) { stamps.insert(map.stamp_ns); });
   return moments(path, std::move(stamps), account);
 }
 
@@ -86,17 +87,21 @@ Comparison comparison(const Options& options) {
   return {std::move(common), account};
 }
 
-MapEvaluation evaluate_detections(const Options& options, const Road& truth, const Stamps& stamps) {
-  MapEvaluation evaluation(truth, options.range, Subject::detections);
-  for_each_frame(options.frames, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-    if (stamps.contains(frame.stamp_ns)) evaluation.add(frame, T_map_body, options.min_confidence);
-  });
+evaluation::MapEvaluation evaluate_detections(const Options& options, const simulation::Road& truth,
+                                              const Stamps& stamps) {
+  evaluation::MapEvaluation evaluation(truth, options.range, evaluation::Subject::detections);
+  evaluation::for_each_frame(options.frames,
+                             [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+                               if (stamps.contains(frame.stamp_ns))
+                                 evaluation.add(frame, T_map_body, options.min_confidence);
+                             });
   return evaluation;
 }
 
-MapEvaluation evaluate_maps(const Options& options, const Road& truth, const Stamps& stamps) {
-  MapEvaluation evaluation(truth, options.range, Subject::maps);
-  for_each_map(options.map, [&](const LocalMap& map) {
+evaluation::MapEvaluation evaluate_maps(const Options& options, const simulation::Road& truth,
+                                        const Stamps& stamps) {
+  evaluation::MapEvaluation evaluation(truth, options.range, evaluation::Subject::maps);
+  evaluation::for_each_map(options.map, [&](const LocalMap& map) {
     if (stamps.contains(map.stamp_ns)) evaluation.add(map);
   });
   return evaluation;
@@ -110,17 +115,17 @@ void write_json(const nlohmann::json& json, const std::string& path) {
 }
 
 void rate_by_later(const Options& options) {
-  const LaterMeter meter = evaluate_later({.in = options.in,
-                                           .config = options.config,
-                                           .frames = options.frames,
-                                           .map = options.map,
-                                           .min_confidence = options.min_confidence});
+  const evaluation::LaterMeter meter = evaluate_later({.in = options.in,
+                                                       .config = options.config,
+                                                       .frames = options.frames,
+                                                       .map = options.map,
+                                                       .min_confidence = options.min_confidence});
   fmt::print("{}", later_table(meter));
   if (!options.json.empty()) write_json(later_json(meter), options.json);
 }
 
 void rate_by_truth(const Options& options) {
-  const Road truth = load_truth(options.truth);
+  const simulation::Road truth = simulation::load_truth(options.truth);
   const auto [stamps, account] = comparison(options);
   std::vector<NamedScore> scores;
   std::vector<NamedEvaluation> evaluations;
@@ -181,4 +186,4 @@ void add_evaluate(CLI::App& app) {
   command->callback([options] { evaluate(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

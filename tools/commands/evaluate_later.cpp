@@ -10,13 +10,13 @@
 #include "replay/message_source.hpp"
 #include "replay/replay.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 /// Pairs each map with the frame after which it was made.
 class Pairs {
  public:
-  explicit Pairs(LaterMeter& meter) : meter_(meter) {}
+  explicit Pairs(evaluation::LaterMeter& meter) : meter_(meter) {}
 
   void add(const DetectionFrame& frame) { frames_.insert_or_assign(frame.stamp_ns, frame); }
   void add(const LocalMap& map) {
@@ -27,15 +27,16 @@ class Pairs {
   }
 
  private:
-  LaterMeter& meter_;
+  evaluation::LaterMeter& meter_;
   std::map<std::int64_t, DetectionFrame> frames_;  // newer than the last map, by stamp
 };
 
 void rate_replay(const LaterInputs& inputs, Pairs& pairs) {
-  const Config config = resolve_config(inputs.config, {});
-  const auto source = open_messages(inputs.in, config.dds.map_frame_id);
-  Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { pairs.add(map.map); });
-  while (std::optional<RecordedMessage> message = source->next_input()) {
+  const Config config = config::resolve_config(inputs.config, {});
+  const auto source = replay::open_messages(inputs.in, config.dds.map_frame_id);
+  replay::Replay replay(config,
+                        [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { pairs.add(map.map); });
+  while (std::optional<recording::RecordedMessage> message = source->next_input()) {
     if (const auto* frame = std::get_if<DetectionFrame>(&message->message)) pairs.add(*frame);
     replay.add(std::move(*message));
   }
@@ -46,20 +47,21 @@ void rate_files(const LaterInputs& inputs, Pairs& pairs) {
   const auto add_frame = [&](const DetectionFrame& frame, const Eigen::Isometry3d& /*T_map_body*/) {
     pairs.add(frame);
   };
-  const InputAccount frames = for_each_frame(inputs.frames, add_frame);
+  const evaluation::InputAccount frames = evaluation::for_each_frame(inputs.frames, add_frame);
   warn_of(inputs.frames, frames.refused, frames.cut_off);
-  const InputAccount maps = for_each_map(inputs.map, [&](const LocalMap& map) { pairs.add(map); });
+  const evaluation::InputAccount maps =
+      evaluation::for_each_map(inputs.map, [&](const LocalMap& map) { pairs.add(map); });
   warn_of(inputs.map, maps.refused, maps.cut_off);
 }
 
 }  // namespace
 
-LaterMeter evaluate_later(const LaterInputs& inputs) {
-  LaterMeter meter(inputs.min_confidence);
+evaluation::LaterMeter evaluate_later(const LaterInputs& inputs) {
+  evaluation::LaterMeter meter(inputs.min_confidence);
   Pairs pairs(meter);
   inputs.in.empty() ? rate_files(inputs, pairs) : rate_replay(inputs, pairs);
   require_rated(meter, inputs.in.empty() ? inputs.frames : inputs.in);
   return meter;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

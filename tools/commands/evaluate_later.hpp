@@ -4,7 +4,7 @@
 
 #include "evaluation/later.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// The input to rate: `in`, mapped with a configuration (empty: the default), or `frames` with the maps of
 /// the file `map`.
@@ -16,6 +16,6 @@ struct LaterInputs {
 
 /// Rates a drive by detections that were seen later. Throws std::runtime_error if there were none, and as
 /// evaluation/inputs.hpp if a file cannot be read.
-LaterMeter evaluate_later(const LaterInputs& inputs);
+evaluation::LaterMeter evaluate_later(const LaterInputs& inputs);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -9,11 +9,11 @@
 
 #include "render/plot.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array kColours{Colour{0.87, 0.49, 0.13}, Colour{0.12, 0.38, 0.74}};
+constexpr std::array kColours{drawing::Colour{0.87, 0.49, 0.13}, drawing::Colour{0.12, 0.38, 0.74}};
 
 /// Precision, recall and lateral error over a common axis.
 class SamplePlots {
@@ -23,25 +23,25 @@ class SamplePlots {
                {.title = "Recall of samples [%]", .x_label = x_label, .y_max = 100.0, .binned = binned},
                {.title = "Mean lateral error [cm]", .x_label = x_label, .binned = binned}} {}
 
-  void begin_curves(const std::string& who, const Colour& colour) {
-    for (Plot& plot : plots_) plot.curves.push_back({who, colour, {}});
+  void begin_curves(const std::string& who, const drawing::Colour& colour) {
+    for (render::Plot& plot : plots_) plot.curves.push_back({who, colour, {}});
   }
-  void add(double x, const SampleScore& score) {
+  void add(double x, const evaluation::SampleScore& score) {
     add(0, x, score.predictions > 0 ? 100.0 * score.precision() : kNone);
     add(1, x, score.truths > 0 ? 100.0 * score.recall() : kNone);
     add(2, x, score.right > 0 ? 100.0 * score.lateral_error_m() : kNone);
   }
-  std::vector<Plot>& plots() { return plots_; }
+  std::vector<render::Plot>& plots() { return plots_; }
 
  private:
   void add(std::size_t plot, double x, double y) { plots_[plot].curves.back().points.emplace_back(x, y); }
 
-  std::vector<Plot> plots_;
+  std::vector<render::Plot> plots_;
 };
 
-std::vector<Plot> over_time(const std::vector<NamedEvaluation>& evaluations) {
+std::vector<render::Plot> over_time(const std::vector<NamedEvaluation>& evaluations) {
   SamplePlots samples("time [s]", false);
-  Plot jitter{.title = "Mean jitter from frame to frame [cm]", .x_label = "time [s]"};
+  render::Plot jitter{.title = "Mean jitter from frame to frame [cm]", .x_label = "time [s]"};
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
     const auto& [who, evaluation] = evaluations[i];
     samples.begin_curves(who, kColours.at(i));
@@ -58,13 +58,13 @@ std::vector<Plot> over_time(const std::vector<NamedEvaluation>& evaluations) {
   return samples.plots();
 }
 
-std::vector<Plot> over_range(const std::vector<NamedEvaluation>& evaluations) {
+std::vector<render::Plot> over_range(const std::vector<NamedEvaluation>& evaluations) {
   SamplePlots samples("distance ahead [m]", true);
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
     const auto& [who, evaluation] = evaluations[i];
     samples.begin_curves(who, kColours.at(i));
     for (const auto& [bin, score] : evaluation.profile().over_range())
-      samples.add((bin + 0.5) * kRangeBin_m, score);
+      samples.add((bin + 0.5) * evaluation::kRangeBin_m, score);
   }
   return samples.plots();
 }
@@ -81,4 +81,4 @@ void draw_evaluation(const std::vector<NamedEvaluation>& evaluations, const std:
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -5,12 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace laneloom {
+#include "laneloom/element_names.hpp"
+
+namespace laneloom::commands {
 namespace {
 
-constexpr std::array kKinds{LineKind::laneline, LineKind::roadedge, LineKind::stopline, LineKind::lane};
+constexpr std::array kKinds{evaluation::LineKind::laneline, evaluation::LineKind::roadedge,
+                            evaluation::LineKind::stopline, evaluation::LineKind::lane};
 
-bool has_stability(const Stability& stability) { return stability.driven_past_m > 0.0; }
+bool has_stability(const evaluation::Stability& stability) { return stability.driven_past_m > 0.0; }
 
 std::string cell(std::optional<double> value, int decimals, int width) {
   return value ? fmt::format("{:>{}.{}f}", *value, width, decimals) : fmt::format("{:>{}}", "-", width);
@@ -22,7 +25,7 @@ nlohmann::json null_or(std::optional<double> value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
 }
 
-std::optional<double> switches_per_km(const Stability& stability) {
+std::optional<double> switches_per_km(const evaluation::Stability& stability) {
   return when(stability.has_ids, stability.id_switches_per_km());
 }
 
@@ -30,9 +33,9 @@ std::string stability_table(const std::vector<NamedEvaluation>& evaluations) {
   std::string table =
       fmt::format("\n{:<10} {:<6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>9} {:>9}\n", "stability", "",
                   "jitter p50", "p95 [m]", "mean", "ids/km", "/100 m", "flicker %", "past [m]");
-  for (const LineKind kind : kKinds) {
+  for (const evaluation::LineKind kind : kKinds) {
     for (const auto& [who, evaluation] : evaluations) {
-      const Stability& of = evaluation.stability().of(kind);
+      const evaluation::Stability& of = evaluation.stability().of(kind);
       if (!has_stability(of)) continue;
       const bool jitter = of.jitter_m.count() > 0;
       const std::optional<double> switches = switches_per_km(of);
@@ -47,7 +50,7 @@ std::string stability_table(const std::vector<NamedEvaluation>& evaluations) {
   return table;
 }
 
-nlohmann::json stability_json(const Stability& of) {
+nlohmann::json stability_json(const evaluation::Stability& of) {
   const bool jitter = of.jitter_m.count() > 0;
   return {{"jitter_p50_m", null_or(when(jitter, of.jitter_m.quantile(0.5)))},
           {"jitter_p95_m", null_or(when(jitter, of.jitter_m.quantile(0.95)))},
@@ -58,7 +61,7 @@ nlohmann::json stability_json(const Stability& of) {
           {"driven_past_m", of.driven_past_m}};
 }
 
-std::string pair_row(const std::string& what, const std::string& who, const PairScore& score,
+std::string pair_row(const std::string& what, const std::string& who, const evaluation::PairScore& score,
                      bool with_recall = true) {
   if (score.published == 0 && score.truths == 0) return {};
   const bool recall = with_recall && score.truths > 0;
@@ -71,14 +74,14 @@ std::string pair_row(const std::string& what, const std::string& who, const Pair
 std::string topology_table(const std::vector<NamedEvaluation>& evaluations) {
   std::string rows;
   for (const auto& [who, evaluation] : evaluations) {
-    const TopologyScore& topology = evaluation.topology();
+    const evaluation::TopologyScore& topology = evaluation.topology();
     rows += pair_row("linkages", who, topology.linkages);
-    for (std::size_t i = 0; i < kLinkageKindCount; ++i)
+    for (std::size_t i = 0; i < evaluation::kLinkageKindCount; ++i)
       rows +=
           pair_row(fmt::format("  {}", name(static_cast<Linkage::Kind>(i))), who, topology.by_kind[i], false);
     if (topology.directions.published > 0) rows += pair_row("driving directions", who, topology.directions);
     rows += pair_row("stoplines' lanes", who, topology.stopline_lanes);
-    const TopLl& top_ll = evaluation.top_ll();
+    const evaluation::TopLl& top_ll = evaluation.top_ll();
     if (top_ll.vertices > 0)
       rows += fmt::format("{:<20} {:<6} {:>7.2f} %\n", "TOP_ll", who, 100 * top_ll.value());
   }
@@ -88,7 +91,7 @@ std::string topology_table(const std::vector<NamedEvaluation>& evaluations) {
          rows;
 }
 
-nlohmann::json pair_json(const PairScore& score) {
+nlohmann::json pair_json(const evaluation::PairScore& score) {
   return {{"precision", null_or(when(score.published > 0, score.precision()))},
           {"recall", null_or(when(score.truths > 0, score.recall()))},
           {"f1", null_or(when(score.published > 0 && score.truths > 0, score.f1()))},
@@ -96,11 +99,11 @@ nlohmann::json pair_json(const PairScore& score) {
           {"truth", score.truths}};
 }
 
-nlohmann::json topology_json(const TopologyScore& topology) {
+nlohmann::json topology_json(const evaluation::TopologyScore& topology) {
   nlohmann::json json{{"linkages", pair_json(topology.linkages)},
                       {"directions", pair_json(topology.directions)},
                       {"stopline_lanes", pair_json(topology.stopline_lanes)}};
-  for (std::size_t i = 0; i < kLinkageKindCount; ++i)
+  for (std::size_t i = 0; i < evaluation::kLinkageKindCount; ++i)
     json["linkage_kinds"][name(static_cast<Linkage::Kind>(i))] = pair_json(topology.by_kind[i]);
   return json;
 }
@@ -109,13 +112,13 @@ std::string ap_table(const std::vector<NamedEvaluation>& evaluations) {
   std::string table = fmt::format("\n{:<10} {:<6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "AP [%]", "",
                                   "0.5 m", "1.0 m", "1.5 m", "C 0.5 m", "C 1.0 m", "C 1.5 m");
   for (const auto& [who, evaluation] : evaluations) {
-    const AveragePrecisionMeter& meter = evaluation.average_precision();
-    for (const LineKind kind : kKinds) {
+    const evaluation::AveragePrecisionMeter& meter = evaluation.average_precision();
+    for (const evaluation::LineKind kind : kKinds) {
       if (meter.truths(kind) == 0) continue;
       table += fmt::format("{:<10} {:<6}", name(kind), who);
-      for (std::size_t t = 0; t < kApThresholds_m.size(); ++t)
+      for (std::size_t t = 0; t < evaluation::kApThresholds_m.size(); ++t)
         table += " " + cell(100 * meter.ap(kind, t), 2, 8);
-      for (std::size_t t = 0; t < kApThresholds_m.size(); ++t)
+      for (std::size_t t = 0; t < evaluation::kApThresholds_m.size(); ++t)
         table += " " + cell(when(meter.has_ids(), 100 * meter.c_ap(kind, t)), 2, 8);
       table += "\n";
     }
@@ -125,12 +128,12 @@ std::string ap_table(const std::vector<NamedEvaluation>& evaluations) {
   return table;
 }
 
-nlohmann::json ap_json(const AveragePrecisionMeter& meter) {
+nlohmann::json ap_json(const evaluation::AveragePrecisionMeter& meter) {
   nlohmann::json json{{"map", meter.map()}, {"c_map", null_or(when(meter.has_ids(), meter.c_map()))}};
-  for (const LineKind kind : kKinds) {
+  for (const evaluation::LineKind kind : kKinds) {
     if (meter.truths(kind) == 0) continue;
-    for (std::size_t t = 0; t < kApThresholds_m.size(); ++t) {
-      const std::string threshold = fmt::format("{:.1f}", kApThresholds_m[t]);
+    for (std::size_t t = 0; t < evaluation::kApThresholds_m.size(); ++t) {
+      const std::string threshold = fmt::format("{:.1f}", evaluation::kApThresholds_m[t]);
       json[name(kind)]["ap"][threshold] = meter.ap(kind, t);
       json[name(kind)]["c_ap"][threshold] = null_or(when(meter.has_ids(), meter.c_ap(kind, t)));
     }
@@ -138,7 +141,7 @@ nlohmann::json ap_json(const AveragePrecisionMeter& meter) {
   return json;
 }
 
-std::string trust_row(const std::string& what, const std::string& who, const Trust& trust) {
+std::string trust_row(const std::string& what, const std::string& who, const evaluation::Trust& trust) {
   const Distribution& after_s = trust.first_appearance_s;
   const Distribution& after_m = trust.first_appearance_m;
   if (after_s.count() + trust.never_appeared == 0) return {};
@@ -159,9 +162,9 @@ std::string trust_table(const std::vector<NamedEvaluation>& evaluations) {
   return table;
 }
 
-nlohmann::json trust_json(const Trust& trust) {
+nlohmann::json trust_json(const evaluation::Trust& trust) {
   nlohmann::json bins = nlohmann::json::array();
-  for (const CalibrationBin& bin : trust.calibration)
+  for (const evaluation::CalibrationBin& bin : trust.calibration)
     bins.push_back({{"count", bin.count}, {"confidence", bin.confidence()}, {"precision", bin.precision()}});
   return {{"within_2_sigma", null_or(when(trust.vertices > 0, trust.within_2_sigma()))},
           {"vertices", trust.vertices},
@@ -179,7 +182,7 @@ nlohmann::json trust_json(const Trust& trust) {
 std::string style_lines(const std::vector<NamedEvaluation>& evaluations) {
   std::string lines;
   for (const auto& [who, evaluation] : evaluations) {
-    const StyleScore& styles = evaluation.styles();
+    const evaluation::StyleScore& styles = evaluation.styles();
     lines +=
         fmt::format("{:<10} {:<6} accuracy {}, unknown {:.2f} %\n", "style", who,
                     styles.right + styles.wrong > 0 ? fmt::format("{:.2f} %", 100 * styles.accuracy()) : "-",
@@ -188,7 +191,7 @@ std::string style_lines(const std::vector<NamedEvaluation>& evaluations) {
   return "\n" + lines;
 }
 
-nlohmann::json style_json(const StyleScore& styles) {
+nlohmann::json style_json(const evaluation::StyleScore& styles) {
   return {{"accuracy", null_or(when(styles.right + styles.wrong > 0, styles.accuracy()))},
           {"unknown", styles.unknown_share()}};
 }
@@ -203,7 +206,7 @@ std::string evaluation_tables(const std::vector<NamedEvaluation>& evaluations) {
 nlohmann::json evaluation_json(const std::vector<NamedEvaluation>& evaluations) {
   nlohmann::json json;
   for (const auto& [who, evaluation] : evaluations) {
-    for (const LineKind kind : kKinds)
+    for (const evaluation::LineKind kind : kKinds)
       json[who]["stability"][name(kind)] = stability_json(evaluation.stability().of(kind));
     json[who]["topology"] = topology_json(evaluation.topology());
     json[who]["topology"]["top_ll"] =
@@ -216,4 +219,4 @@ nlohmann::json evaluation_json(const std::vector<NamedEvaluation>& evaluations) 
   return json;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

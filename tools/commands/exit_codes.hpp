@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// The exit codes of all commands of `laneloom`. tools/README.md has the same table.
 enum ExitCode : int {
@@ -17,4 +17,4 @@ enum ExitCode : int {
 /// Ends the command, which must have printed the reason.
 [[noreturn]] inline void end_with(ExitCode code) { throw CLI::RuntimeError(code); }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -13,7 +13,7 @@
 #include "experiment/results_table.hpp"
 #include "experiment/spread_table.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -29,33 +29,33 @@ struct Options {
 
 /// Reads a configuration from "FILE" or "FILE:key=value,key=value". The file "default" is the built-in
 /// configuration.
-NamedConfig read_config(const std::string& spec, const std::string& preset) {
+experiment::NamedConfig read_config(const std::string& spec, const std::string& preset) {
   const auto colon = spec.find(':');
   const std::string file = spec.substr(0, colon);
-  NamedConfig named{spec, resolve_config(file == "default" ? "" : file, preset)};
+  experiment::NamedConfig named{spec, config::resolve_config(file == "default" ? "" : file, preset)};
   for (std::size_t from = colon; from != std::string::npos;) {
     const std::size_t to = spec.find(',', ++from);
-    set_value(named.config, spec.substr(from, to - from));
+    config::set_value(named.config, spec.substr(from, to - from));
     from = to;
   }
-  validate(named.config);
+  config::validate(named.config);
   return named;
 }
 
 void experiment(const Options& options) {
-  ExperimentSpec spec;
-  std::vector<NoiseProfile> noises;
+  experiment::ExperimentSpec spec;
+  std::vector<simulation::NoiseProfile> noises;
   for (const std::string& name : options.noises)
     noises.push_back(NoiseOption{.name = name, .without_view = options.without_view}.profile());
   spec.drives = options.roads.drives(noises);
   for (const std::string& config : options.configs)
     spec.configs.push_back(read_config(config, options.preset));
-  if (!options.peer.empty()) spec.peer = Peer{options.peer, options.preset};
+  if (!options.peer.empty()) spec.peer = experiment::Peer{options.peer, options.preset};
   spec.oracle = options.oracle || options.spread;
   Config ranged;
-  apply_preset(ranged, options.preset);
+  config::apply_preset(ranged, options.preset);
   spec.range = ranged.mapper.range;
-  const std::vector<DriveResults> results = run(spec);
+  const std::vector<experiment::DriveResults> results = run(spec);
   fmt::print("{}", results_table(sum(results)));
   if (options.spread) fmt::print("\n{}", spread_table(spec.drives, results));
 }
@@ -75,7 +75,7 @@ void add_experiment(CLI::App& app) {
       ->capture_default_str();
   add_without_view(*command, options->without_view);
   command->add_option("--preset", options->preset, "Range that is rated, and alpha_n of the voxel method")
-      ->check(CLI::IsMember(preset_names()))
+      ->check(CLI::IsMember(config::preset_names()))
       ->capture_default_str();
   command->add_option("--config", options->configs,
                       "Configuration, as FILE or FILE:section.key=value,…; \"default\" is the built-in one");
@@ -89,4 +89,4 @@ void add_experiment(CLI::App& app) {
   command->callback([options] { experiment(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -24,12 +24,12 @@
 #include "export/weld.hpp"
 #include "replay/replay.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
   std::string in, config, preset, lanelet2, geojson;
-  std::optional<Origin> origin;
+  std::optional<exports::Origin> origin;
   bool plain = false;
 };
 
@@ -47,10 +47,10 @@ class DriveReader {
     ++maps_;
   }
   std::size_t maps() const { return maps_; }
-  DriveAccumulator::Drive finish() { return accumulator_.finish(); }
+  exports::DriveAccumulator::Drive finish() { return accumulator_.finish(); }
 
  private:
-  DriveAccumulator accumulator_;
+  exports::DriveAccumulator accumulator_;
   std::size_t maps_ = 0;
   std::uint64_t map_id_ = 0;
   std::int64_t stamp_ns_ = 0;
@@ -67,7 +67,7 @@ bool holds_json_maps(const std::string& path) {
 }
 
 void take_json_maps(const std::string& path, DriveReader& taker) {
-  const InputAccount account = for_each_map(path, [&](const LocalMap& map) {
+  const evaluation::InputAccount account = evaluation::for_each_map(path, [&](const LocalMap& map) {
     PublishedMap published;
     published.map = map;
     taker.take(published);
@@ -76,20 +76,21 @@ void take_json_maps(const std::string& path, DriveReader& taker) {
 }
 
 void take_recorded_maps(const std::string& path, DriveReader& taker) {
-  RecordingReader reader(path);
+  recording::RecordingReader reader(path);
   while (const auto recorded = reader.next())
     if (const auto* published = std::get_if<PublishedMap>(&recorded->message)) taker.take(*published);
   if (taker.maps() > 0) warn_of(path, reader.refused(), reader.cut_off());
 }
 
 void map_frames(const std::string& path, const Config& config, DriveReader& taker) {
-  Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { taker.take(map); });
+  replay::Replay replay(config,
+                        [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { taker.take(map); });
   replay_input(path, config, replay);
 }
 
-DriveAccumulator::Drive read_drive(const Options& options, const Config& config) {
+exports::DriveAccumulator::Drive read_drive(const Options& options, const Config& config) {
   DriveReader taker(config.mapper.range);
-  const bool recorded = is_recording(options.in);
+  const bool recorded = recording::is_recording(options.in);
   if (recorded) take_recorded_maps(options.in, taker);
   if (!recorded && holds_json_maps(options.in)) take_json_maps(options.in, taker);
   const bool has_maps = taker.maps() > 0;
@@ -100,7 +101,7 @@ DriveAccumulator::Drive read_drive(const Options& options, const Config& config)
   return taker.finish();
 }
 
-Origin origin(const std::string& text) {
+exports::Origin origin(const std::string& text) {
   const std::size_t comma = text.find(',');
   const auto degrees = [&](const std::string& number, double limit) {
     double value = 0.0;
@@ -122,12 +123,13 @@ void check_files(const Options& options) {
 
 void export_drive(const Options& options) {
   check_files(options);
-  const Config config = resolve_config(options.config, options.preset);
+  const Config config = config::resolve_config(options.config, options.preset);
   const LocalMap map = weave(read_drive(options, config), config.mapper);
   if (map.lanes.empty()) throw std::runtime_error(options.in + ": has no lanes to export");
-  RoadNetwork network = weld(map);
+  exports::RoadNetwork network = exports::weld(map);
   if (options.plain) network.stops.clear();  // their ways stay
-  if (!options.lanelet2.empty()) write_lanelet2(options.lanelet2, network, options.origin.value_or(Origin{}));
+  if (!options.lanelet2.empty())
+    write_lanelet2(options.lanelet2, network, options.origin.value_or(exports::Origin{}));
   if (!options.geojson.empty()) write_geojson(options.geojson, network, *options.origin);
   fmt::print("{} lanes and {} linkages as {} lanelets, {} stop lines\n", map.lanes.size(),
              map.linkages.size(), network.lanelets.size(), map.stoplines.size());
@@ -144,7 +146,7 @@ void add_export(CLI::App& app) {
       ->required();
   command->add_option("--config", options->config, "Configuration that the maps are made with (.yaml)");
   command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
-      ->check(CLI::IsMember(preset_names()));
+      ->check(CLI::IsMember(config::preset_names()));
   CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
   CLI::Option* lanelet2 =
       outputs->add_option("--lanelet2", options->lanelet2, "Lanelet2 map to write (.osm)");
@@ -164,4 +166,4 @@ void add_export(CLI::App& app) {
   command->callback([options] { export_drive(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -18,7 +18,7 @@
 #include "simulation/argoverse2.hpp"
 #include "simulation/road.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 constexpr const char* kForwardLeft = "forward-left";
@@ -30,23 +30,25 @@ struct ResultsOptions {
   std::string axes = kForwardLeft;
 };
 
-DriveLog load_drive(const ResultsOptions& options) {
-  if (!options.argoverse2.empty()) return argoverse2_drive(options.argoverse2);
-  if (!options.nuscenes.empty()) return nuscenes_drive(options.nuscenes, options.scene);
-  const PointAxes axes = options.axes == kForwardLeft ? PointAxes::forward_left : PointAxes::right_forward;
+imports::DriveLog load_drive(const ResultsOptions& options) {
+  if (!options.argoverse2.empty()) return imports::argoverse2_drive(options.argoverse2);
+  if (!options.nuscenes.empty()) return imports::nuscenes_drive(options.nuscenes, options.scene);
+  const imports::PointAxes axes =
+      options.axes == kForwardLeft ? imports::PointAxes::forward_left : imports::PointAxes::right_forward;
   return plain_drive(options.poses, options.samples, axes);
 }
 
 /// Reads the part of a file of results that belongs to the drive.
-using ReadResults = ImportedFrames (*)(const std::filesystem::path& results, const DriveLog& drive);
+using ReadResults = imports::ImportedFrames (*)(const std::filesystem::path& results,
+                                                const imports::DriveLog& drive);
 
 void import_results(const ResultsOptions& options, ReadResults read) {
-  const DriveLog drive = load_drive(options);
-  ImportedFrames imported = read(options.results, drive);
-  const std::size_t without_pose = drop_frames_without_pose(imported.frames, drive.poses);
+  const imports::DriveLog drive = load_drive(options);
+  imports::ImportedFrames imported = read(options.results, drive);
+  const std::size_t without_pose = imports::drop_frames_without_pose(imported.frames, drive.poses);
   if (imported.frames.empty())
     throw std::runtime_error(options.results + ": no sample is within the poses of " + drive.name);
-  write_drive(options.out, drive.poses, imported.frames);
+  imports::write_drive(options.out, drive.poses, imported.frames);
   fmt::print("{}: {} frames, {} poses\n", drive.name, imported.frames.size(), drive.poses.size());
   for (const auto& [class_name, lines] : imported.left_out)
     fmt::print("left out: {} lines of class {}\n", lines, class_name);
@@ -92,10 +94,10 @@ struct OpenpilotOptions {
 };
 
 void import_openpilot(const OpenpilotOptions& options) {
-  OpenpilotDrive drive = read_openpilot(options.log);
-  const std::size_t without_pose = drop_frames_without_pose(drive.frames, drive.poses);
+  imports::OpenpilotDrive drive = imports::read_openpilot(options.log);
+  const std::size_t without_pose = imports::drop_frames_without_pose(drive.frames, drive.poses);
   if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");
-  write_drive(options.out, drive.poses, drive.frames);
+  imports::write_drive(options.out, drive.poses, drive.frames);
   fmt::print("{} frames, {} poses\n", drive.frames.size(), drive.poses.size());
   if (drive.invalid_frames > 0) fmt::print("left out: {} invalid frames\n", drive.invalid_frames);
   if (drive.invalid_poses > 0) fmt::print("left out: {} invalid poses\n", drive.invalid_poses);
@@ -119,15 +121,15 @@ struct LogOptions {
 };
 
 void import_log(const std::filesystem::path& log, const std::string& out, const std::string& truth) {
-  if (!truth.empty()) save_truth(truth, load_argoverse2(log));
+  if (!truth.empty()) save_truth(truth, simulation::load_argoverse2(log));
   if (out.empty()) return;
-  const std::vector<VehiclePose> poses = argoverse2_poses(log);
-  write_drive(out, poses, {});
+  const std::vector<VehiclePose> poses = simulation::argoverse2_poses(log);
+  imports::write_drive(out, poses, {});
   fmt::print("{}: {} poses\n", log.string(), poses.size());
 }
 
 void import_argoverse2(const LogOptions& options) {
-  for (const auto& log : argoverse2_logs(options.directory))
+  for (const auto& log : simulation::argoverse2_logs(options.directory))
     import_log(log, file_of_log(options.out, options.directory, log, ".mcap"),
                file_of_log(options.truth, options.directory, log, ".truth.json"));
 }
@@ -150,12 +152,12 @@ void add_import(CLI::App& app) {
   CLI::App* command = app.add_subcommand("import", "Makes recordings of other projects' data");
   command->require_subcommand(1);
   add_argoverse2(*command);
-  add_results(*command, "maptr", "MapTR or MapTRv2", "…map_results.json", read_maptr);
-  const auto streammapnet = [](const std::filesystem::path& results, const DriveLog& drive) {
-    return read_streammapnet(results, drive, StreamNetwork::streammapnet);
+  add_results(*command, "maptr", "MapTR or MapTRv2", "…map_results.json", imports::read_maptr);
+  const auto streammapnet = [](const std::filesystem::path& results, const imports::DriveLog& drive) {
+    return read_streammapnet(results, drive, imports::StreamNetwork::streammapnet);
   };
-  const auto maptracker = [](const std::filesystem::path& results, const DriveLog& drive) {
-    return read_streammapnet(results, drive, StreamNetwork::maptracker);
+  const auto maptracker = [](const std::filesystem::path& results, const imports::DriveLog& drive) {
+    return read_streammapnet(results, drive, imports::StreamNetwork::maptracker);
   };
   add_results(*command, "streammapnet", "StreamMapNet", "submission_vector.json", streammapnet);
   add_results(*command, "maptracker", "MapTracker", "submission_vector.json", maptracker);
@@ -163,4 +165,4 @@ void add_import(CLI::App& app) {
   add_import_scene(*command);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

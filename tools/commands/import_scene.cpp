@@ -8,7 +8,7 @@
 #include "commands/warn_of.hpp"
 #include "scene/scene_recording.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -17,7 +17,7 @@ struct Options {
 };
 
 void import_scene(const Options& options) {
-  const SceneRecordingReport report = add_scene(options.in, options.out, options.map_frame_id);
+  const scene::SceneRecordingReport report = scene::add_scene(options.in, options.out, options.map_frame_id);
   warn_of(options.in, report.refused, report.cut_off);
   fmt::print("{}: {} messages, {} of scenes\n", options.out, report.messages + report.scenes, report.scenes);
 }
@@ -34,4 +34,4 @@ void add_import_scene(CLI::App& app) {
   command->callback([options] { import_scene(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Adds `laneloom import scene` to the command `import`.
 void add_import_scene(CLI::App& app);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

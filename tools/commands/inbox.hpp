@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// A queue of the newest 64 events; of more, the oldest are dropped.
 template <class Event>
@@ -57,4 +57,4 @@ class Inbox {
   Queue queue_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -5,7 +5,7 @@ class App;
 }
 
 /// The subcommands of `laneloom-lab`, registered as those in commands.hpp.
-namespace laneloom {
+namespace laneloom::commands {
 
 void add_experiment(CLI::App& app);
 void add_calibrate(CLI::App& app);
@@ -13,4 +13,4 @@ void add_drive(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_soak(CLI::App& app);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

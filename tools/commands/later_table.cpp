@@ -7,7 +7,7 @@
 
 #include "evaluation/kind_lines.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using Figure = std::optional<double>;
@@ -19,29 +19,30 @@ Figure share(std::size_t part, std::size_t whole) {
 
 Figure ratio(Figure of, Figure to) { return of && to && *to > 0.0 ? Figure(*of / *to) : std::nullopt; }
 
-using Figures = LaterScore::Figures;
+using Figures = evaluation::LaterScore::Figures;
 
 std::string cell(Figure figure, int width, int decimals, double unit = 1.0) {
   return figure ? fmt::format(" {:>{}.{}f}", *figure * unit, width, decimals)
                 : fmt::format(" {:>{}}", "-", width);
 }
 
-std::string row(MarkingType type, double distance_m, const LaterScore& score) {
+std::string row(MarkingType type, double distance_m, const evaluation::LaterScore& score) {
   const Figures single = score.figures(score.single), map = score.figures(score.map);
-  return fmt::format("{:<9}{:>3.0f} m{:>7}", name(line_kind(type)), distance_m, score.seen_later) +
+  return fmt::format("{:<9}{:>3.0f} m{:>7}", name(evaluation::line_kind(type)), distance_m,
+                     score.seen_later) +
          cell(single.precision, 8, 1, 100) + cell(map.precision, 6, 1, 100) + cell(single.recall, 8, 1, 100) +
          cell(map.recall, 6, 1, 100) + cell(single.rms_m, 8, 3) + cell(map.rms_m, 6, 3) +
          cell(ratio(map.rms_m, single.rms_m), 5, 2) + cell(single.p95_m, 8, 3) + cell(map.p95_m, 6, 3) +
          cell(ratio(map.p95_m, single.p95_m), 5, 2) + "\n";
 }
 
-Figure id_changes_per_km(const LaterMeter& meter) {
+Figure id_changes_per_km(const evaluation::LaterMeter& meter) {
   if (meter.own_lane().frames == 0) return std::nullopt;
   return 1000.0 * static_cast<double>(meter.own_lane().id_changes) / meter.driven_m();
 }
 
-std::string own_lane_line(const LaterMeter& meter) {
-  const OwnLaneScore& own = meter.own_lane();
+std::string own_lane_line(const evaluation::LaterMeter& meter) {
+  const evaluation::OwnLaneScore& own = meter.own_lane();
   std::string line =
       fmt::format("own lane in {:.1f} % of the frames", 100 * *share(own.frames, meter.frames()));
   if (own.frames > 0)
@@ -60,7 +61,7 @@ nlohmann::json figures_json(const Figures& of) {
           {"lateral_p95_m", null_or(of.p95_m)}};
 }
 
-nlohmann::json score_json(const LaterScore& score) {
+nlohmann::json score_json(const evaluation::LaterScore& score) {
   const Figures single = score.figures(score.single), map = score.figures(score.map);
   return {{"seen_later", score.seen_later},
           {"pairs", score.map.lateral_errors_m.count()},
@@ -70,8 +71,8 @@ nlohmann::json score_json(const LaterScore& score) {
           {"lateral_p95_ratio", null_or(ratio(map.p95_m, single.p95_m))}};
 }
 
-nlohmann::json own_lane_json(const LaterMeter& meter) {
-  const OwnLaneScore& own = meter.own_lane();
+nlohmann::json own_lane_json(const evaluation::LaterMeter& meter) {
+  const evaluation::OwnLaneScore& own = meter.own_lane();
   const auto width = [&](double part) {
     return own.frames > 0 ? nlohmann::json(own.widths_m.quantile(part)) : nlohmann::json();
   };
@@ -85,29 +86,30 @@ nlohmann::json own_lane_json(const LaterMeter& meter) {
 
 }  // namespace
 
-std::string later_table(const LaterMeter& meter) {
+std::string later_table(const evaluation::LaterMeter& meter) {
   std::string table = fmt::format("{:<14}{:>7} {:>15} {:>15} {:>21} {:>21}\n", "seen later from", "lines",
                                   "precision %", "recall %", "lateral rms m", "lateral p95 m");
   table += fmt::format("{:<9}{:>5}{:>7} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>5} {:>8} {:>6} {:>5}\n",
                        "close by", "ahead", "", "single", "map", "single", "map", "single", "map", "ratio",
                        "single", "map", "ratio");
-  for (const MarkingType type : kLaterTypes)
-    for (std::size_t i = 0; i < kLaterDistances_m.size(); ++i)
-      if (meter.score(type, i).seen_later > 0) table += row(type, kLaterDistances_m[i], meter.score(type, i));
+  for (const MarkingType type : evaluation::kLaterTypes)
+    for (std::size_t i = 0; i < evaluation::kLaterDistances_m.size(); ++i)
+      if (meter.score(type, i).seen_later > 0)
+        table += row(type, evaluation::kLaterDistances_m[i], meter.score(type, i));
   return table + own_lane_line(meter) +
          fmt::format("{} frames rated, on {:.0f} m\n", meter.frames(), meter.driven_m());
 }
 
-nlohmann::json later_json(const LaterMeter& meter) {
+nlohmann::json later_json(const evaluation::LaterMeter& meter) {
   nlohmann::json json{{"frames", meter.frames()},
                       {"driven_m", meter.driven_m()},
                       {"lanes_per_frame", null_or(share(meter.lanes(), meter.frames()))},
                       {"own_lane", own_lane_json(meter)}};
-  for (const MarkingType type : kLaterTypes)
-    for (std::size_t i = 0; i < kLaterDistances_m.size(); ++i)
-      json[name(line_kind(type))][fmt::format("{:g}", kLaterDistances_m[i])] =
+  for (const MarkingType type : evaluation::kLaterTypes)
+    for (std::size_t i = 0; i < evaluation::kLaterDistances_m.size(); ++i)
+      json[name(evaluation::line_kind(type))][fmt::format("{:g}", evaluation::kLaterDistances_m[i])] =
           score_json(meter.score(type, i));
   return json;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -12,7 +12,7 @@
 #include "config/network_profile.hpp"
 #include "replay/replay.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -20,10 +20,10 @@ struct Options {
 };
 
 NetworkProfiles learned_from(const Options& options) {
-  const Config config = resolve_config(options.config, {});
+  const Config config = config::resolve_config(options.config, {});
   if (!config.mapper.fusion.learn)
     throw std::runtime_error(options.config + ": mapper.fusion.learn is false: nothing would be learned");
-  Replay replay(config, [](const PublishedMap& /*map*/, std::int64_t /*log_time_ns*/) {});
+  replay::Replay replay(config, [](const PublishedMap& /*map*/, std::int64_t /*log_time_ns*/) {});
   replay_input(options.in, config, replay);
   NetworkProfiles networks = replay.networks();
   if (networks.empty())
@@ -39,7 +39,7 @@ void learn(const Options& options) {
   file << "# What laneloom learned from a drive: mapper.fusion.profile_file starts with it. A weight is how "
           "many\n"
           "# values a value is worth.\n"
-       << dump(networks);
+       << config::dump(networks);
   file.close();
   if (!file) throw std::runtime_error(options.out + ": can not be written");
   for (const auto& [source, profile] : networks)
@@ -64,4 +64,4 @@ void add_learn(CLI::App& app) {
   command.callback([options] { learn(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 bool LiveDisplay::is_a_terminal() { return isatty(STDOUT_FILENO) == 1; }
 
@@ -23,4 +23,4 @@ void LiveDisplay::redraw(const std::string& text) {
   std::fflush(stdout);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

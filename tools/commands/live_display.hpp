@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Standard output, where a text can be drawn in place of the one before if it is a terminal.
 class LiveDisplay {
@@ -23,4 +23,4 @@ class LiveDisplay {
   std::ptrdiff_t drawn_lines_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

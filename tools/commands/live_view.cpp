@@ -7,7 +7,7 @@
 #include "commands/stop_signal.hpp"
 #include "view/frame_text.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 LiveView::LiveView(const DdsConfig& dds, const RangeConfig& range)
     : range_(range),
@@ -19,14 +19,14 @@ LiveView::LiveView(const DdsConfig& dds, const RangeConfig& range)
       markings_(participant_, into_inbox<RoadMarkings>()),
       statuses_(participant_, into_inbox<ServiceStatus>()) {}
 
-void LiveView::run(Site& site, WebServer& server, bool with_scenes) {
+void LiveView::run(view::Site& site, view::WebServer& server, bool with_scenes) {
   while (!stop_requested()) {
     auto arrival = inbox_.take(std::chrono::milliseconds(50));
     if (!arrival) continue;
     if (const auto* alive = std::get_if<Alive>(&arrival->what)) {
       set_alive(alive->alive);
     } else {
-      auto& message = std::get<AnyMessage>(arrival->what);
+      auto& message = std::get<recording::AnyMessage>(arrival->what);
       if (const auto* status = std::get_if<ServiceStatus>(&message)) site.set_status(*status);
       if (with_scenes) publish_scenes(message, arrival->time_ns, server);
       if (!add(std::move(message), arrival->time_ns)) continue;
@@ -37,13 +37,14 @@ void LiveView::run(Site& site, WebServer& server, bool with_scenes) {
   }
 }
 
-void LiveView::publish_scenes(const AnyMessage& message, std::int64_t time_ns, WebServer& server) {
-  for (const SceneMessage& scene : scenes_.take(message, time_ns))
+void LiveView::publish_scenes(const recording::AnyMessage& message, std::int64_t time_ns,
+                              view::WebServer& server) {
+  for (const scene::SceneMessage& scene : scenes_.take(message, time_ns))
     server.publish(static_cast<std::size_t>(scene.topic), time_ns,
                    std::string(scene.bytes.begin(), scene.bytes.end()));
 }
 
-bool LiveView::add(AnyMessage&& message, std::int64_t time_ns) {
+bool LiveView::add(recording::AnyMessage&& message, std::int64_t time_ns) {
   const auto add = [&](auto&& any) { return builder_.add(std::forward<decltype(any)>(any), time_ns); };
   return std::visit(add, std::move(message));
 }
@@ -56,14 +57,16 @@ void LiveView::set_alive(bool alive) {
   shown_->map.map.lineage.clear();
 }
 
-void LiveView::show(WebServer& server) {
-  const FramePlace place{number_++, events_.next(*shown_)};
+void LiveView::show(view::WebServer& server) {
+  const view::FramePlace place{number_++, events_.next(*shown_)};
   server.publish(frame_text(*shown_, place, range_));
 }
 
 template <class T>
 dds::ReaderCallbacks<T> LiveView::into_inbox() {
-  return {.sample = [this](T&& message) { inbox_.put({AnyMessage(std::move(message)), system_now_ns()}); }};
+  return {.sample = [this](T&& message) {
+    inbox_.put({recording::AnyMessage(std::move(message)), system_now_ns()});
+  }};
 }
 
 dds::ReaderCallbacks<PublishedMap> LiveView::maps_into_inbox() {
@@ -72,4 +75,4 @@ dds::ReaderCallbacks<PublishedMap> LiveView::maps_into_inbox() {
   return callbacks;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

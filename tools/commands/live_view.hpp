@@ -14,7 +14,7 @@
 #include "view/site.hpp"
 #include "view/web_server.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Shows the messages that a vehicle's participants exchange now. Not thread-safe.
 class LiveView {
@@ -24,7 +24,7 @@ class LiveView {
   LiveView(const DdsConfig& dds, const RangeConfig& range);
 
   /// Publishes frames, and scenes if the server has scene_topics(), until the program is to end.
-  void run(Site& site, WebServer& server, bool with_scenes);
+  void run(view::Site& site, view::WebServer& server, bool with_scenes);
 
  private:
   /// Whether a writer of maps asserts its liveliness.
@@ -33,24 +33,24 @@ class LiveView {
   };
   /// An arrival, with its time (system clock).
   struct Arrival {
-    std::variant<AnyMessage, Alive> what;
+    std::variant<recording::AnyMessage, Alive> what;
     std::int64_t time_ns = 0;
   };
 
-  void publish_scenes(const AnyMessage& message, std::int64_t time_ns, WebServer& server);
-  bool add(AnyMessage&& message, std::int64_t time_ns);
+  void publish_scenes(const recording::AnyMessage& message, std::int64_t time_ns, view::WebServer& server);
+  bool add(recording::AnyMessage&& message, std::int64_t time_ns);
   void set_alive(bool alive);
-  void show(WebServer& server);
+  void show(view::WebServer& server);
   template <class T>
   dds::ReaderCallbacks<T> into_inbox();
   dds::ReaderCallbacks<PublishedMap> maps_into_inbox();
 
   RangeConfig range_;
   Inbox<Arrival> inbox_;
-  SceneMaker scenes_;
-  MomentBuilder builder_;
-  EventFinder events_;
-  std::optional<ViewMoment> shown_;
+  scene::SceneMaker scenes_;
+  view::MomentBuilder builder_;
+  view::EventFinder events_;
+  std::optional<view::ViewMoment> shown_;
   bool alive_ = true;
   std::uint64_t number_ = 0;
   // They end before the inbox that they fill.
@@ -62,4 +62,4 @@ class LiveView {
   dds::Reader<ServiceStatus> statuses_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

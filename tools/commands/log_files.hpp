@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// The file for the output of a log. It is `path`. If the log is one of those below the `given` directory, it
 /// is a file with the log's name in the folder `path`, which is made. Empty if `path` is.
@@ -14,4 +14,4 @@ inline std::string file_of_log(const std::string& path, const std::filesystem::p
   return std::filesystem::path(path) / (log.filename().string() + ending);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

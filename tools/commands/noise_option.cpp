@@ -2,12 +2,12 @@
 
 #include <stdexcept>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 CLI::Validator noise_name() {
   const auto complaint = [](const std::string& name) {
     try {
-      noise_profile(name);
+      simulation::noise_profile(name);
       return std::string();
     } catch (const std::invalid_argument& error) {
       return std::string(error.what());
@@ -16,8 +16,8 @@ CLI::Validator noise_name() {
   return {complaint, "none|inhouse|av2|shaken|random:SEED"};
 }
 
-NoiseProfile NoiseOption::profile() const {
-  NoiseProfile profile = noise_profile(name);
+simulation::NoiseProfile NoiseOption::profile() const {
+  simulation::NoiseProfile profile = simulation::noise_profile(name);
   if (without_view) profile.tells_view = false;
   return profile;
 }
@@ -34,4 +34,4 @@ void add_noise(CLI::App& command, NoiseOption& noise) {
   add_without_view(command, noise.without_view);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -5,7 +5,7 @@
 
 #include "simulation/noise_profile.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// The name of a noise profile: a known one, or random:SEED.
 CLI::Validator noise_name();
@@ -15,7 +15,7 @@ struct NoiseOption {
   std::string name = "inhouse";
   bool without_view = false;
 
-  NoiseProfile profile() const;
+  simulation::NoiseProfile profile() const;
 };
 
 /// Adds --noise and --no-field-of-view.
@@ -23,4 +23,4 @@ void add_noise(CLI::App& command, NoiseOption& noise);
 /// Adds --no-field-of-view alone.
 void add_without_view(CLI::App& command, bool& without_view);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

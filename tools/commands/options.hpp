@@ -12,7 +12,7 @@
 #include "recording/recording.hpp"
 
 /// Options that several commands share.
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Checks for a number from `min` to `max`. CLI::Range would let NaN pass.
 inline CLI::Validator within(double min, double max) {
@@ -65,8 +65,10 @@ inline std::vector<CLI::Option*> add_dds(CLI::App& command, DdsConfig& dds) {
   return {domain, vehicle, transport, file, name, security};
 }
 
-inline const std::map<std::string, Compression> kCompressions{
-    {"zstd", Compression::zstd}, {"lz4", Compression::lz4}, {"none", Compression::none}};
+inline const std::map<std::string, recording::Compression> kCompressions{
+    {"zstd", recording::Compression::zstd},
+    {"lz4", recording::Compression::lz4},
+    {"none", recording::Compression::none}};
 
 /// Adds --compression, of a recording that is written: a key of kCompressions.
 inline CLI::Option* add_compression(CLI::App& command, std::string& compression) {
@@ -75,4 +77,4 @@ inline CLI::Option* add_compression(CLI::App& command, std::string& compression)
       ->capture_default_str();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -19,7 +19,7 @@
 #include "laneloom/dds/reader.hpp"
 #include "pnc/report.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -62,7 +62,7 @@ class Display {
  public:
   explicit Display(bool json) : json_(json) {}
 
-  void show(const PncUpdate& update) {
+  void show(const pnc::PncUpdate& update) {
     shown_.clear();
     if (json_) return output_.print_line(to_json(update).dump());
     if (output_.is_terminal()) return output_.redraw(describe(update));
@@ -90,7 +90,7 @@ class Display {
 struct Tally {
   std::uint64_t maps = 0, maps_with_lanes = 0, missed = 0, refused = 0, violations = 0;
 
-  void add(const PncUpdate& update) {
+  void add(const pnc::PncUpdate& update) {
     ++maps;
     if (!update.map.map.lanes.empty()) ++maps_with_lanes;
     missed += update.missed;
@@ -107,7 +107,7 @@ struct Tally {
 class Follower {
  public:
   explicit Follower(const Options& options) : options_(options), display_(options.json) {
-    if (!options.record.empty()) record_ = std::make_unique<JsonLinesWriter>(options.record);
+    if (!options.record.empty()) record_ = std::make_unique<io::JsonLinesWriter>(options.record);
   }
 
   Tally run() {
@@ -129,7 +129,7 @@ class Follower {
 
  private:
   void receive(PublishedMap map) {
-    PncUpdate update = judge(std::move(map), previous_ ? &*previous_ : nullptr);
+    pnc::PncUpdate update = pnc::judge(std::move(map), previous_ ? &*previous_ : nullptr);
     tally_.add(update);
     display_.show(update);
     const std::int64_t stamp_ns = update.map.map.stamp_ns;
@@ -145,7 +145,7 @@ class Follower {
 
   const Options& options_;
   Display display_;
-  std::unique_ptr<JsonLinesWriter> record_;
+  std::unique_ptr<io::JsonLinesWriter> record_;
   std::optional<PublishedMap> previous_;
   Tally tally_;
 };
@@ -187,4 +187,4 @@ void add_pnc(CLI::App& app) {
   command->callback([options] { pnc(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -6,7 +6,7 @@
 
 #include "commands/evaluation_tables.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// A table of the median and the 90th percentile of the lateral errors of each marking type by distance. A
 /// dash stands for no errors.
@@ -15,4 +15,4 @@ std::string profile_table(const std::vector<NamedEvaluation>& evaluations);
 /// The same as JSON, under each name's "lateral_error", and the figures over range under its "range".
 nlohmann::json profile_json(const std::vector<NamedEvaluation>& evaluations);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -9,7 +9,7 @@
 #include "commands/exit_codes.hpp"
 #include "commands/unknown_command.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 void tell(const Program& program, const std::string& complaint) {
@@ -62,4 +62,4 @@ int run_program(const Program& program, int argc, char** argv) {
   return code == kDone ? kFailed : code;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// One of the two programs.
 struct Program {
@@ -23,4 +23,4 @@ struct Program {
 /// (exit_codes.hpp).
 int run_program(const Program& program, int argc, char** argv);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

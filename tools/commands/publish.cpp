@@ -22,7 +22,7 @@
 #include "simulation/scenarios.hpp"
 #include "support/publication_log.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -45,7 +45,7 @@ struct Options {
 /// and then runs with the simulation.
 class Publisher {
  public:
-  Publisher(const Options& options, const Road& road)
+  Publisher(const Options& options, const simulation::Road& road)
       : participant_(options.dds, "laneloom publish"),
         detections_(participant_),
         poses_(participant_),
@@ -55,8 +55,9 @@ class Publisher {
         network_(options.source.seed),
         session_id_(random_id()),
         start_ns_(system_now_ns()) {
-    if (!options.frames.empty()) record_ = std::make_unique<JsonLinesWriter>(options.frames);
-    if (!options.times.empty()) times_ = std::make_unique<PublicationLogWriter>(options.times, session_id_);
+    if (!options.frames.empty()) record_ = std::make_unique<io::JsonLinesWriter>(options.frames);
+    if (!options.times.empty())
+      times_ = std::make_unique<support::PublicationLogWriter>(options.times, session_id_);
   }
 
   /// Number of readers, of the topic that has fewer.
@@ -68,7 +69,7 @@ class Publisher {
     const VehiclePose pose = pose_at(step);
     if (!poses_.write(pose)) ++not_taken_;
     if (step % kPosesPerFrame == 0) network_.put(observe(pose), now_ns);
-    while (const std::optional<FrameRecord> record = network_.take(now_ns)) deliver(*record);
+    while (const std::optional<io::FrameRecord> record = network_.take(now_ns)) deliver(*record);
   }
 
   void finish() {
@@ -89,14 +90,14 @@ class Publisher {
     return pose;
   }
 
-  FrameRecord observe(const VehiclePose& pose) {
-    FrameRecord record{perception_.observe(pose), pose};
+  io::FrameRecord observe(const VehiclePose& pose) {
+    io::FrameRecord record{perception_.observe(pose), pose};
     record.frame.session_id = session_id_;
     record.frame.source = "laneloom publish";
     return record;
   }
 
-  void deliver(const FrameRecord& record) {
+  void deliver(const io::FrameRecord& record) {
     if (times_) times_->add(record.frame.sequence, system_now_ns());
     if (!detections_.write(record.frame)) ++not_taken_;
     if (record_) record_->write(record);
@@ -106,19 +107,19 @@ class Publisher {
   dds::Participant participant_;
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
-  const Road& road_;
+  const simulation::Road& road_;
   double from_s_;
-  Perception perception_;
-  NetworkDelay<FrameRecord> network_;
+  simulation::Perception perception_;
+  simulation::NetworkDelay<io::FrameRecord> network_;
   std::uint64_t session_id_;
   std::int64_t start_ns_;
-  std::unique_ptr<JsonLinesWriter> record_;
-  std::unique_ptr<PublicationLogWriter> times_;
+  std::unique_ptr<io::JsonLinesWriter> record_;
+  std::unique_ptr<support::PublicationLogWriter> times_;
   std::uint64_t delivered_ = 0;
   std::uint64_t not_taken_ = 0;
 };
 
-std::int64_t step_count(const Options& options, const Road& road) {
+std::int64_t step_count(const Options& options, const simulation::Road& road) {
   constexpr double kPosesPerSecond = 1e9 / static_cast<double>(kPosePeriod_ns);
   if (options.duration_s > 0.0) return std::llround(options.duration_s * kPosesPerSecond);
   if (options.loop) return std::numeric_limits<std::int64_t>::max();
@@ -127,7 +128,7 @@ std::int64_t step_count(const Options& options, const Road& road) {
 
 void publish(const Options& options) {
   catch_stop_signals();
-  const Road road = options.source.load();
+  const simulation::Road road = options.source.load();
   const double drive_s = road.drive.duration_s();
   if (options.from_s >= drive_s)
     throw std::runtime_error(fmt::format("the drive lasts {:.1f} s; begin earlier", drive_s));
@@ -150,8 +151,8 @@ void publish(const Options& options) {
 }
 
 void list() {
-  fmt::print("Built-in roads: {}\nNoise: {}, random:SEED\n", fmt::join(scenario_names(), ", "),
-             fmt::join(noise_profile_names(), ", "));
+  fmt::print("Built-in roads: {}\nNoise: {}, random:SEED\n", fmt::join(simulation::scenario_names(), ", "),
+             fmt::join(simulation::noise_profile_names(), ", "));
   throw CLI::Success();
 }
 
@@ -185,4 +186,4 @@ void add_publish(CLI::App& app) {
   command->callback([options] { publish(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -27,7 +27,7 @@
 #include "scene/scene_maker.hpp"
 #include "scene/scene_recording.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -38,7 +38,7 @@ constexpr double kBytesPerMB = 1e6;
 
 struct Options {
   DdsConfig dds;
-  RecordingOptions recording;
+  recording::RecordingOptions recording;
   std::string out;
   std::string compression = "zstd";
   double duration_s = 0.0;
@@ -60,7 +60,7 @@ class Unwritten {
 
   /// Sets the message's log time. A recording is read in the order of log times, which stays the order of
   /// arrival even if the clock is set back.
-  void push(RawMessage message) {
+  void push(recording::RawMessage message) {
     log_time_ns_ = std::max(log_time_ns_ + 1, system_now_ns());
     message.log_time_ns = log_time_ns_;
     if (bytes_ + message.bytes.size() > kCapacityBytes) {
@@ -72,7 +72,7 @@ class Unwritten {
   }
 
   struct Taken {
-    std::deque<RawMessage> messages;
+    std::deque<recording::RawMessage> messages;
     Counts dropped;  ///< since the start, per topic
   };
   Taken take() {
@@ -82,7 +82,7 @@ class Unwritten {
 
  private:
   static constexpr std::size_t kCapacityBytes = 256U << 20U;
-  std::deque<RawMessage> messages_;
+  std::deque<recording::RawMessage> messages_;
   std::size_t bytes_ = 0;
   std::int64_t log_time_ns_ = 0;
   Counts dropped_{};
@@ -93,7 +93,7 @@ class Recorder {
  public:
   explicit Recorder(const Options& options)
       : writer_(options.out, options.recording),
-        scene_(options.scene ? std::optional<SceneMaker>(options.dds.map_frame_id) : std::nullopt),
+        scene_(options.scene ? std::optional<scene::SceneMaker>(options.dds.map_frame_id) : std::nullopt),
         participant_(options.dds, "laneloom record"),
         detections_(participant_, into_inbox(0)),
         poses_(participant_, into_inbox(1)),
@@ -108,7 +108,7 @@ class Recorder {
   void step(std::chrono::milliseconds patience) {
     const auto [messages, dropped] = inbox_.take(patience);
     dropped_ = dropped;
-    for (const RawMessage& arrival : messages) {
+    for (const recording::RawMessage& arrival : messages) {
       writer_.write_raw(arrival);
       if (scene_) write_scene(scene_->take(arrival), arrival.log_time_ns, writer_);
       ++written_.at(arrival.topic);
@@ -137,9 +137,9 @@ class Recorder {
     };
   }
 
-  RecordingWriter writer_;
-  std::optional<SceneMaker> scene_;
-  Inbox<RawMessage, Unwritten> inbox_;
+  recording::RecordingWriter writer_;
+  std::optional<scene::SceneMaker> scene_;
+  Inbox<recording::RawMessage, Unwritten> inbox_;
   Counts written_{}, dropped_{};
   SteadyClock::time_point next_flush_ = SteadyClock::now() + kFlushPeriod;
   dds::Participant participant_;
@@ -161,7 +161,7 @@ void record(Options options) {
   if (std::filesystem::is_directory(options.out)) options.out += "/" + default_name();
   options.recording.compression = kCompressions.at(options.compression);
   options.recording.max_file_bytes = static_cast<std::uint64_t>(options.max_size_mb * kBytesPerMB);
-  if (options.scene) options.recording.extra_topics = scene_topics();
+  if (options.scene) options.recording.extra_topics = scene::scene_topics();
 
   Recorder recorder(options);
   const auto start = SteadyClock::now();
@@ -198,4 +198,4 @@ void add_record(CLI::App& app) {
   command->callback([options] { record(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

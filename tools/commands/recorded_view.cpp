@@ -19,7 +19,7 @@
 #include "replay/replay.hpp"
 #include "view/frame_text.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 /// Is thrown to end the loading of a long file when the program is to end.
@@ -28,23 +28,23 @@ struct Stopped {};
 /// Writes moments into a store.
 class Storer {
  public:
-  Storer(const RangeConfig& range, FrameStore& store) : range_(range), store_(store) {}
+  Storer(const RangeConfig& range, view::FrameStore& store) : range_(range), store_(store) {}
 
-  void add(const ViewMoment& moment) {
+  void add(const view::ViewMoment& moment) {
     if (stop_requested()) throw Stopped();
-    const FramePlace place{store_.size(), events_.next(moment)};
+    const view::FramePlace place{store_.size(), events_.next(moment)};
     store_.add(summary_text(moment, place), frame_text(moment, place, range_));
   }
 
  private:
   RangeConfig range_;
-  FrameStore& store_;
-  EventFinder events_;
+  view::FrameStore& store_;
+  view::EventFinder events_;
 };
 
 void load_recording(const std::string& path, Storer& storer) {
-  RecordingReader reader(path);
-  MomentBuilder builder;
+  recording::RecordingReader reader(path);
+  view::MomentBuilder builder;
   while (auto recorded = reader.next()) {
     const auto add = [&](auto&& message) {
       return builder.add(std::forward<decltype(message)>(message), recorded->log_time_ns);
@@ -60,14 +60,14 @@ class Comparison {
  public:
   explicit Comparison(const std::vector<std::string>& configs) : maps_(configs.size()) {
     for (std::size_t i = 0; i < configs.size(); ++i)
-      replays_.emplace_back(load_config(configs[i]),
+      replays_.emplace_back(config::load_config(configs[i]),
                             [this, i](const PublishedMap& map, std::int64_t) { maps_[i].push_back(map); });
   }
   Comparison(const Comparison&) = delete;
   Comparison& operator=(const Comparison&) = delete;
 
-  void add(const RecordedMessage& message, Storer& storer) {
-    for (Replay& replay : replays_) replay.add(message);
+  void add(const recording::RecordedMessage& message, Storer& storer) {
+    for (replay::Replay& replay : replays_) replay.add(message);
     if (const auto* pose = std::get_if<VehiclePose>(&message.message))
       builder_.add(VehiclePose(*pose), message.log_time_ns);
     if (const auto* frame = std::get_if<DetectionFrame>(&message.message))
@@ -78,12 +78,12 @@ class Comparison {
 
  private:
   /// The moment of a map, with the newest map of each other configuration that is not later.
-  ViewMoment moment_of(PublishedMap&& map, std::int64_t now_ns) {
+  view::ViewMoment moment_of(PublishedMap&& map, std::int64_t now_ns) {
     const std::int64_t stamp_ns = map.map.stamp_ns;
-    RoadMarkings markings = road_markings(map);
+    RoadMarkings markings = replay::road_markings(map);
     builder_.add(std::move(map), now_ns);
     builder_.add(std::move(markings), now_ns);
-    ViewMoment moment = builder_.take();
+    view::ViewMoment moment = builder_.take();
     moment.has_state = false;
     for (auto other = std::next(maps_.begin()); other != maps_.end(); ++other) {
       while (other->size() > 1 && (*other)[1].map.stamp_ns <= stamp_ns) other->pop_front();
@@ -95,13 +95,14 @@ class Comparison {
   }
 
   std::vector<std::deque<PublishedMap>> maps_;  ///< per configuration; the last map of the others stays
-  std::deque<Replay> replays_;
-  MomentBuilder builder_;
+  std::deque<replay::Replay> replays_;
+  view::MomentBuilder builder_;
 };
 
 void load_comparison(const RecordedInputs& inputs, Storer& storer) {
   Comparison comparison(inputs.configs);
-  const auto source = open_messages(inputs.recording, load_config(inputs.configs.front()).dds.map_frame_id);
+  const auto source =
+      replay::open_messages(inputs.recording, config::load_config(inputs.configs.front()).dds.map_frame_id);
   while (const auto message = source->next_input()) comparison.add(*message, storer);
   warn_of(inputs.recording, source->refused(), source->cut_off());
 }
@@ -109,25 +110,26 @@ void load_comparison(const RecordedInputs& inputs, Storer& storer) {
 /// Maps by their stamps.
 std::map<std::int64_t, LocalMap> read_maps(const std::string& file) {
   std::map<std::int64_t, LocalMap> maps;
-  for_each_map(file, [&](const LocalMap& map) { maps[map.stamp_ns] = map; });
+  evaluation::for_each_map(file, [&](const LocalMap& map) { maps[map.stamp_ns] = map; });
   return maps;
 }
 
 /// Loads frames and maps by their stamps. A moment that one of the files lacks has no such part.
 void load_files(const RecordedInputs& inputs, Storer& storer) {
-  std::map<std::int64_t, ViewMoment> moments;
-  const auto at = [&](std::int64_t stamp_ns) -> ViewMoment& {
-    ViewMoment& moment = moments[stamp_ns];
+  std::map<std::int64_t, view::ViewMoment> moments;
+  const auto at = [&](std::int64_t stamp_ns) -> view::ViewMoment& {
+    view::ViewMoment& moment = moments[stamp_ns];
     moment.has_state = false;
     moment.seen_ns = moment.map.map.stamp_ns = stamp_ns;
     return moment;
   };
   if (!inputs.frames.empty())
-    for_each_frame(inputs.frames, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-      ViewMoment& moment = at(frame.stamp_ns);
-      moment.detections = frame;
-      moment.map.map.T_map_body = T_map_body;
-    });
+    evaluation::for_each_frame(inputs.frames,
+                               [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+                                 view::ViewMoment& moment = at(frame.stamp_ns);
+                                 moment.detections = frame;
+                                 moment.map.map.T_map_body = T_map_body;
+                               });
   if (!inputs.maps.empty())
     for (auto& [stamp_ns, map] : read_maps(inputs.maps.front())) at(stamp_ns).map.map = std::move(map);
   for (std::size_t i = 1; i < inputs.maps.size(); ++i) {
@@ -154,12 +156,12 @@ std::vector<std::string> RecordedInputs::names() const {
 }
 
 std::string truth_elements(const RecordedInputs& inputs) {
-  Drawing drawing;
-  if (!inputs.truth.empty()) add_truth(load_truth(inputs.truth), drawing);
+  drawing::Drawing drawing;
+  if (!inputs.truth.empty()) add_truth(simulation::load_truth(inputs.truth), drawing);
   return to_json(drawing)["elements"].dump();
 }
 
-void load(const RecordedInputs& inputs, const RangeConfig& range, FrameStore& store) {
+void load(const RecordedInputs& inputs, const RangeConfig& range, view::FrameStore& store) {
   try {
     Storer storer(range, store);
     if (!inputs.configs.empty())
@@ -176,4 +178,4 @@ void load(const RecordedInputs& inputs, const RangeConfig& range, FrameStore& st
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

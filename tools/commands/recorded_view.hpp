@@ -6,7 +6,7 @@
 #include "laneloom/config.hpp"
 #include "view/frame_store.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Files that a view shows. An empty name: the file is not given.
 struct RecordedInputs {
@@ -26,6 +26,6 @@ struct RecordedInputs {
 std::string truth_elements(const RecordedInputs& inputs);
 
 /// Reads the files into the store, and finishes it. Does not throw: the store has the error.
-void load(const RecordedInputs& inputs, const RangeConfig& range, FrameStore& store);
+void load(const RecordedInputs& inputs, const RangeConfig& range, view::FrameStore& store);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -16,7 +16,7 @@
 #include "evaluation/inputs.hpp"
 #include "render/figure.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -34,15 +34,15 @@ struct SeenFrame {
 struct Inputs {
   std::vector<SeenFrame> frames;
   std::vector<LocalMap> maps;
-  std::optional<Road> truth;
+  std::optional<simulation::Road> truth;
 };
 
 Inputs read(const Options& options) {
   Inputs inputs;
-  if (!options.truth.empty()) inputs.truth = load_truth(options.truth);
+  if (!options.truth.empty()) inputs.truth = simulation::load_truth(options.truth);
   if (!options.frames.empty()) {
-    const InputAccount account =
-        for_each_frame(options.frames, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+    const evaluation::InputAccount account = evaluation::for_each_frame(
+        options.frames, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
           inputs.frames.push_back({frame, T_map_body});
         });
     warn_of(options.frames, account.refused, account.cut_off);
@@ -50,8 +50,8 @@ Inputs read(const Options& options) {
       throw std::runtime_error(fmt::format("{}: holds no frame with a pose", options.frames));
   }
   if (!options.map.empty()) {
-    const InputAccount account =
-        for_each_map(options.map, [&](const LocalMap& map) { inputs.maps.push_back(map); });
+    const evaluation::InputAccount account =
+        evaluation::for_each_map(options.map, [&](const LocalMap& map) { inputs.maps.push_back(map); });
     warn_of(options.map, account.refused, account.cut_off);
     if (inputs.maps.empty()) throw std::runtime_error(options.map + ": holds no map");
   }
@@ -94,8 +94,8 @@ std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) 
 }
 
 /// The things that every panel of a moment shows.
-Drawing surroundings(const Options& options, const Eigen::Isometry3d& T_map_body) {
-  Drawing drawing;
+drawing::Drawing surroundings(const Options& options, const Eigen::Isometry3d& T_map_body) {
+  drawing::Drawing drawing;
   add_range(options.range, T_map_body, drawing);
   add_vehicle(T_map_body, drawing);
   return drawing;
@@ -107,29 +107,30 @@ Eigen::Isometry3d pose_at(const Inputs& inputs, std::int64_t stamp_ns) {
   return transform(inputs.truth->drive.pose_at(static_cast<double>(stamp_ns) * 1e-9));
 }
 
-Moment draw_moment(const Options& options, const Inputs& inputs, std::int64_t stamp_ns) {
-  Moment moment;
+render::Moment draw_moment(const Options& options, const Inputs& inputs, std::int64_t stamp_ns) {
+  render::Moment moment;
   moment.T_map_body = pose_at(inputs, stamp_ns);
   moment.label = fmt::format("t = {:.1f} s", static_cast<double>(stamp_ns - time_span(inputs).first) * 1e-9);
-  const Drawing around = surroundings(options, moment.T_map_body);
-  Drawing over_truth = around;
+  const drawing::Drawing around = surroundings(options, moment.T_map_body);
+  drawing::Drawing over_truth = around;
   if (inputs.truth) add_truth(*inputs.truth, over_truth);
   if (!inputs.frames.empty()) {
     const SeenFrame& seen = nearest(inputs.frames, stamp_ns);
     add_detections(seen.frame, seen.T_map_body,
-                   moment.panels.emplace_back(Panel{"Detections (one frame)", over_truth}).drawing);
+                   moment.panels.emplace_back(render::Panel{"Detections (one frame)", over_truth}).drawing);
   }
   if (!inputs.maps.empty())
     add_map(nearest(inputs.maps, stamp_ns),
-            moment.panels.emplace_back(Panel{"Fused map", over_truth}).drawing);
+            moment.panels.emplace_back(render::Panel{"Fused map", over_truth}).drawing);
   if (inputs.truth)
-    add_map(map_of(*inputs.truth), moment.panels.emplace_back(Panel{"Ground truth", around}).drawing);
+    add_map(drawing::map_of(*inputs.truth),
+            moment.panels.emplace_back(render::Panel{"Ground truth", around}).drawing);
   return moment;
 }
 
 void render(const Options& options) {
   const Inputs inputs = read(options);
-  Figure figure{options.title, options.range, {}};
+  render::Figure figure{options.title, options.range, {}};
   if (figure.title.empty()) figure.title = inputs.truth ? inputs.truth->name : "laneloom";
   for (const std::int64_t stamp_ns : moments(options, inputs))
     figure.moments.push_back(draw_moment(options, inputs, stamp_ns));
@@ -159,4 +160,4 @@ void add_render(CLI::App& app) {
   command->callback([options] { render(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

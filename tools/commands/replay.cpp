@@ -22,7 +22,7 @@
 #include "replay/player.hpp"
 #include "replay/replay.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -62,26 +62,28 @@ class ProgressBar {
 };
 
 Config read_config(const Options& options, const std::string& file) {
-  Config config = resolve_config(file, options.preset);
+  Config config = config::resolve_config(file, options.preset);
   if (options.range_given) {
     config.mapper.range.forward_min_m = options.range.forward_min_m;
     config.mapper.range.forward_max_m = options.range.forward_max_m;
     config.mapper.range.side_max_m = options.range.side_max_m;
   }
-  validate(config);
+  config::validate(config);
   return config;
 }
 
 /// Replays the whole input with one configuration.
 ReplayResult run(const Options& options, const std::string& config_file, const std::string& out,
-                 const Road* truth) {
+                 const simulation::Road* truth) {
   const Config config = read_config(options, config_file);
-  const std::unique_ptr<MessageSource> source = open_messages(options.in, config.dds.map_frame_id);
-  const std::unique_ptr<MapOutput> output =
-      out.empty() ? nullptr : create_map_output(out, kCompressions.at(options.compression));
-  std::unique_ptr<MapEvaluation> evaluation;
+  const std::unique_ptr<replay::MessageSource> source =
+      replay::open_messages(options.in, config.dds.map_frame_id);
+  const std::unique_ptr<replay::MapOutput> output =
+      out.empty() ? nullptr : replay::create_map_output(out, kCompressions.at(options.compression));
+  std::unique_ptr<evaluation::MapEvaluation> evaluation;
   if (truth != nullptr)
-    evaluation = std::make_unique<MapEvaluation>(*truth, config.mapper.range, Subject::maps);
+    evaluation =
+        std::make_unique<evaluation::MapEvaluation>(*truth, config.mapper.range, evaluation::Subject::maps);
   ReplayResult result;
   result.name = config_file.empty() ? "default" : config_file;
   const auto take_map = [&](const PublishedMap& map, std::int64_t log_time_ns) {
@@ -90,12 +92,12 @@ ReplayResult run(const Options& options, const std::string& config_file, const s
     if (options.verify) result.comparison.add_replayed(map);
     if (evaluation) evaluation->add(map.map);
   };
-  Replay replay(config, take_map, &result.timer);
+  replay::Replay replay(config, take_map, &result.timer);
   ProgressBar bar;
   const auto start = SteadyClock::now();
   ReplayInput input;
   const auto next = [&] { return options.verify ? source->next() : source->next_input(); };
-  while (std::optional<RecordedMessage> message = next()) {
+  while (std::optional<recording::RecordedMessage> message = next()) {
     bar.show(source->progress());
     if (options.verify) result.add_live(message->message);
     input.add(message->message);
@@ -114,7 +116,7 @@ ReplayResult run(const Options& options, const std::string& config_file, const s
 }
 
 void check_live(const ReplayResult& result) {
-  const LiveComparison::Result live = result.comparison.result();
+  const replay::LiveComparison::Result live = result.comparison.result();
   fmt::print("live messages: {} equal, {} different, {} missing\n", live.equal, live.different, live.missing);
   if (live.equal + live.different + live.missing == 0)
     throw std::runtime_error("the recording has no maps of a live service to compare with");
@@ -148,8 +150,9 @@ void replay(Options& options) {
   if (!options.out.empty() && options.out.size() != std::max<std::size_t>(1, options.config_files.size()))
     throw std::runtime_error("replay: --out is needed once per --config, or not at all");
   if (options.config_files.empty()) options.config_files.emplace_back();
-  std::unique_ptr<const Road> truth;
-  if (!options.truth.empty()) truth = std::make_unique<const Road>(load_truth(options.truth));
+  std::unique_ptr<const simulation::Road> truth;
+  if (!options.truth.empty())
+    truth = std::make_unique<const simulation::Road>(simulation::load_truth(options.truth));
   std::vector<ReplayResult> results;
   results.reserve(options.config_files.size());
   for (std::size_t i = 0; i < options.config_files.size(); ++i)
@@ -174,13 +177,14 @@ void replay(Options& options) {
 
 void play(const Options& options) {
   catch_stop_signals();
-  const std::unique_ptr<MessageSource> source = open_messages(options.in, options.dds.map_frame_id);
-  Player player(options.dds, options.speed_up);
+  const std::unique_ptr<replay::MessageSource> source =
+      replay::open_messages(options.in, options.dds.map_frame_id);
+  replay::Player player(options.dds, options.speed_up);
   while (player.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
   if (options.readers > 0 && !sleep_until(SteadyClock::now() + kDiscovery)) return;
   ProgressBar bar;
-  while (const std::optional<RawMessage> message = source->next_raw()) {
+  while (const std::optional<recording::RawMessage> message = source->next_raw()) {
     if (!sleep_until(player.due(*message))) break;
     player.publish(*message);
     bar.show(source->progress());
@@ -208,7 +212,7 @@ void add_replay(CLI::App& app) {
       command->add_option("--config", options->config_files, "Configuration (.yaml); several are compared");
   auto* preset =
       command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
-          ->check(CLI::IsMember(preset_names()));
+          ->check(CLI::IsMember(config::preset_names()));
   auto* truth =
       command->add_option("--truth", options->truth, "Truth of the road (.json), to rate the maps by");
   auto* verify = command->add_flag("--verify", options->verify,
@@ -231,4 +235,4 @@ void add_replay(CLI::App& app) {
   });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 constexpr std::size_t kFramesForALane = 5;  // that must see a lane, by default
@@ -54,7 +54,7 @@ std::string why_no_lane(const ReplayResult& result, const MapperConfig& config) 
 
 }  // namespace
 
-void ReplayInput::add(const AnyMessage& message) {
+void ReplayInput::add(const recording::AnyMessage& message) {
   if (std::holds_alternative<VehiclePose>(message)) ++poses;
   const auto* frame = std::get_if<DetectionFrame>(&message);
   if (frame == nullptr) return;
@@ -71,4 +71,4 @@ std::string advice_on(const ReplayInput& input, const ReplayResult& result, cons
   return {};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -10,7 +10,7 @@
 
 #include "commands/time_table.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 double peak_memory_mb() {
@@ -19,7 +19,7 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-void print_times(const StageTimer& timer) {
+void print_times(const support::StageTimer& timer) {
   print_time_header("milliseconds");
   print_stage_rows(timer);
   print_time_row("total", timer.total());
@@ -33,7 +33,7 @@ double per_map(std::size_t count, const ReplayResult& result) {
   return result.maps > 0 ? static_cast<double>(count) / static_cast<double>(result.maps) : 0.0;
 }
 
-nlohmann::json to_json(const ReplayResult& result) {
+nlohmann::json as_json(const ReplayResult& result) {
   nlohmann::json json{{"config", result.name},
                       {"frames", result.maps},
                       {"hash", result.hash},
@@ -61,7 +61,7 @@ void ReplayResult::add(const LocalMap& map) {
   linkages += map.linkages.size();
 }
 
-void ReplayResult::add_live(const AnyMessage& message) {
+void ReplayResult::add_live(const recording::AnyMessage& message) {
   if (const auto* map = std::get_if<PublishedMap>(&message)) comparison.add_live(*map);
   if (const auto* markings = std::get_if<RoadMarkings>(&message)) comparison.add_live(*markings);
 }
@@ -96,9 +96,9 @@ void print_comparison(const std::vector<ReplayResult>& results) {
 void write_report(const std::string& path, const std::vector<ReplayResult>& results) {
   nlohmann::json report;
   if (results.size() == 1) {
-    report = to_json(results.front());
+    report = as_json(results.front());
   } else {
-    for (const ReplayResult& result : results) report["configurations"].push_back(to_json(result));
+    for (const ReplayResult& result : results) report["configurations"].push_back(as_json(result));
   }
   std::ofstream out(path);
   out << report.dump(2) << '\n';
@@ -106,4 +106,4 @@ void write_report(const std::string& path, const std::vector<ReplayResult>& resu
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -8,12 +8,12 @@
 #include "replay/replay.hpp"
 #include "support/stage_timer.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// The result of the replay with one configuration.
 struct ReplayResult {
   std::string name;  ///< of the configuration
-  StageTimer timer;
+  support::StageTimer timer;
   double elapsed_s = 0.0;  ///< including reading and writing
   std::string hash;
   Counters counters;
@@ -21,11 +21,11 @@ struct ReplayResult {
   std::size_t maps = 0, boundaries = 0, lanes = 0, linkages = 0;  ///< summed over the maps
   std::int64_t first_ns = 0, last_ns = 0;                         ///< stamps of the first and last map
   std::string advice;                                             ///< see advice_on()
-  LiveComparison comparison;
-  MapScore score;
+  replay::LiveComparison comparison;
+  evaluation::MapScore score;
 
   void add(const LocalMap& map);
-  void add_live(const AnyMessage& message);
+  void add_live(const recording::AnyMessage& message);
 };
 
 void print_result(const ReplayResult& result);
@@ -35,4 +35,4 @@ void print_comparison(const std::vector<ReplayResult>& results);
 /// file cannot be written.
 void write_report(const std::string& path, const std::vector<ReplayResult>& results);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

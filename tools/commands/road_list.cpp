@@ -5,19 +5,22 @@
 #include "simulation/lanelet2.hpp"
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
-std::vector<DriveSpec> RoadList::drives(const std::vector<NoiseProfile>& noises) const {
-  std::vector<std::shared_ptr<const Road>> roads;
-  const auto add = [&](Road road) { roads.push_back(std::make_shared<const Road>(std::move(road))); };
-  for (const std::string& name : scenarios) add(make_scenario(name, speed_mps));
+std::vector<experiment::DriveSpec> RoadList::drives(
+    const std::vector<simulation::NoiseProfile>& noises) const {
+  std::vector<std::shared_ptr<const simulation::Road>> roads;
+  const auto add = [&](simulation::Road road) {
+    roads.push_back(std::make_shared<const simulation::Road>(std::move(road)));
+  };
+  for (const std::string& name : scenarios) add(simulation::make_scenario(name, speed_mps));
   for (const std::string& directory : argoverse2)
-    for (const auto& log : argoverse2_logs(directory)) add(load_argoverse2(log));
-  for (const std::string& file : lanelet2) add(load_lanelet2(file, speed_mps));
-  std::vector<DriveSpec> drives;
+    for (const auto& log : simulation::argoverse2_logs(directory)) add(simulation::load_argoverse2(log));
+  for (const std::string& file : lanelet2) add(simulation::load_lanelet2(file, speed_mps));
+  std::vector<experiment::DriveSpec> drives;
   drives.reserve(roads.size() * noises.size() * seeds.size());
   for (const auto& road : roads) {
-    for (const NoiseProfile& noise : noises) {
+    for (const simulation::NoiseProfile& noise : noises) {
       for (const std::uint64_t seed : seeds) drives.push_back({road, noise, seed, duration_s, drift});
     }
   }
@@ -26,7 +29,8 @@ std::vector<DriveSpec> RoadList::drives(const std::vector<NoiseProfile>& noises)
 
 void add_roads(CLI::App& command, RoadList& roads) {
   CLI::Option_group* road = command.add_option_group("Roads", "any number of");
-  road->add_option("--scenario", roads.scenarios, "A built-in road")->check(CLI::IsMember(scenario_names()));
+  road->add_option("--scenario", roads.scenarios, "A built-in road")
+      ->check(CLI::IsMember(simulation::scenario_names()));
   road->add_option("--argoverse2", roads.argoverse2, "Directory of an Argoverse 2 log, or of logs");
   road->add_option("--lanelet2", roads.lanelet2, "A Lanelet2 map (.osm), driven along its lanes");
   road->require_option(1, 0);
@@ -47,4 +51,4 @@ void add_road_list(CLI::App& command, RoadList& roads) {
       ->capture_default_str();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

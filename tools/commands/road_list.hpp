@@ -7,7 +7,7 @@
 
 #include "experiment/drive_simulation.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Options of `experiment`, `calibrate` and `drive` for drives over several roads.
 struct RoadList {
@@ -18,7 +18,7 @@ struct RoadList {
   double drift = 0.0;
 
   /// The drives, one per road, noise and seed. Throws as the loading of a road.
-  std::vector<DriveSpec> drives(const std::vector<NoiseProfile>& noises) const;
+  std::vector<experiment::DriveSpec> drives(const std::vector<simulation::NoiseProfile>& noises) const;
 };
 
 /// Adds --scenario, --argoverse2, --lanelet2, --seeds and --drift.
@@ -26,4 +26,4 @@ void add_roads(CLI::App& command, RoadList& roads);
 /// Adds these, --speed and --duration.
 void add_road_list(CLI::App& command, RoadList& roads);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

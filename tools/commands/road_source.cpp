@@ -10,11 +10,11 @@
 #include "simulation/lanelet2.hpp"
 #include "simulation/scenarios.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 std::filesystem::path only_log(const std::filesystem::path& directory) {
-  const std::vector<std::filesystem::path> logs = argoverse2_logs(directory);
+  const std::vector<std::filesystem::path> logs = simulation::argoverse2_logs(directory);
   if (logs.size() > 1)
     throw std::runtime_error(fmt::format("{}: holds {} logs; name one, as {}", directory.string(),
                                          logs.size(), logs.front().string()));
@@ -26,26 +26,27 @@ std::filesystem::path only_log(const std::filesystem::path& directory) {
 std::vector<RoadSource> RoadSource::each() const {
   if (argoverse2.empty()) return {*this};
   std::vector<RoadSource> sources;
-  for (const auto& log : argoverse2_logs(argoverse2)) {
+  for (const auto& log : simulation::argoverse2_logs(argoverse2)) {
     sources.push_back(*this);
     sources.back().argoverse2 = log.string();
   }
   return sources;
 }
 
-Road RoadSource::load() const {
-  if (!argoverse2.empty()) return load_argoverse2(only_log(argoverse2));
-  if (!lanelet2.empty()) return load_lanelet2(lanelet2, speed_mps);
-  return make_scenario(scenario, speed_mps);
+simulation::Road RoadSource::load() const {
+  if (!argoverse2.empty()) return simulation::load_argoverse2(only_log(argoverse2));
+  if (!lanelet2.empty()) return simulation::load_lanelet2(lanelet2, speed_mps);
+  return simulation::make_scenario(scenario, speed_mps);
 }
 
-Perception RoadSource::perception(const Road& road) const {
-  return {road, noise.profile(), SensorView{}, seed};
+simulation::Perception RoadSource::perception(const simulation::Road& road) const {
+  return {road, noise.profile(), simulation::SensorView{}, seed};
 }
 
 void add_road_source(CLI::App& command, RoadSource& source) {
   CLI::Option_group* road = command.add_option_group("Road", "one of");
-  road->add_option("--scenario", source.scenario, "A built-in road")->check(CLI::IsMember(scenario_names()));
+  road->add_option("--scenario", source.scenario, "A built-in road")
+      ->check(CLI::IsMember(simulation::scenario_names()));
   road->add_option("--argoverse2", source.argoverse2,
                    "Directory of an Argoverse 2 log, driven as recorded, or of logs");
   road->add_option("--lanelet2", source.lanelet2, "A Lanelet2 map (.osm), driven along its lanes");
@@ -57,4 +58,4 @@ void add_road_source(CLI::App& command, RoadSource& source) {
   command.add_option("--seed", source.seed, "Seed of the noise")->capture_default_str();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

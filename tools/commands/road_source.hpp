@@ -9,7 +9,7 @@
 #include "simulation/perception.hpp"
 #include "simulation/road.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Options of `publish` and `simulate` for the road that is driven over, and how it is seen.
 struct RoadSource {
@@ -22,12 +22,12 @@ struct RoadSource {
   std::vector<RoadSource> each() const;
   /// Loads the road. Throws std::runtime_error or std::invalid_argument naming the problem with the road, or
   /// if there are several.
-  Road load() const;
-  Perception perception(const Road& road) const;
+  simulation::Road load() const;
+  simulation::Perception perception(const simulation::Road& road) const;
 };
 
 /// Adds --scenario, --argoverse2 and --lanelet2, of which one is needed, and --speed, --noise,
 /// --no-field-of-view and --seed.
 void add_road_source(CLI::App& command, RoadSource& source);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -4,16 +4,16 @@
 
 #include <nlohmann/json.hpp>
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
-std::vector<std::pair<std::string, Score>> rows(const MapScore& score) {
-  std::vector<std::pair<std::string, Score>> rows;
+std::vector<std::pair<std::string, evaluation::Score>> rows(const evaluation::MapScore& score) {
+  std::vector<std::pair<std::string, evaluation::Score>> rows;
   rows.reserve(kMarkingTypeCount + 2);
   for (const MarkingType type : kMarkingTypes)
-    rows.emplace_back(name(line_kind(type)), score.of(line_kind(type)));
+    rows.emplace_back(name(evaluation::line_kind(type)), score.of(evaluation::line_kind(type)));
   rows.emplace_back("total", score.markings());
-  rows.emplace_back(name(LineKind::lane), score.of(LineKind::lane));
+  rows.emplace_back(name(evaluation::LineKind::lane), score.of(evaluation::LineKind::lane));
   return rows;
 }
 
@@ -48,4 +48,4 @@ nlohmann::json score_json(const std::vector<NamedScore>& scores) {
   return json;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -7,9 +7,9 @@
 
 #include "evaluation/evaluation.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
-using NamedScore = std::pair<std::string, MapScore>;
+using NamedScore = std::pair<std::string, evaluation::MapScore>;
 
 /// A table with one line per kind and score: precision, recall, F1 (per cent), ACD (metres) and the counts.
 std::string score_table(const std::vector<NamedScore>& scores);
@@ -17,4 +17,4 @@ std::string score_table(const std::vector<NamedScore>& scores);
 /// The same as JSON. Shares are 0..1.
 nlohmann::json score_json(const std::vector<NamedScore>& scores);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

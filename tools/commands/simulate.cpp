@@ -10,7 +10,7 @@
 #include "commands/road_source.hpp"
 #include "io/json_lines.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
@@ -21,16 +21,16 @@ struct Options {
 
 void simulate(const RoadSource& source, double duration_s, const std::string& frames_file,
               const std::string& truth_file) {
-  const Road road = source.load();
+  const simulation::Road road = source.load();
   if (!truth_file.empty()) save_truth(truth_file, road);
-  Perception perception = source.perception(road);
+  simulation::Perception perception = source.perception(road);
   if (!(duration_s > 0.0)) duration_s = road.drive.duration_s();
   const auto frames = static_cast<std::int64_t>(std::floor(duration_s * 10.0));
-  JsonLinesWriter out(frames_file);
+  io::JsonLinesWriter out(frames_file);
   for (std::int64_t i = 1; i <= frames; ++i) {  // from 0.1 s on: a stamp of 0 would mean none
     VehiclePose pose = road.drive.pose_at(static_cast<double>(i) * 0.1);
     pose.stamp_ns = i * 100'000'000;
-    out.write(FrameRecord{perception.observe(pose), pose});
+    out.write(io::FrameRecord{perception.observe(pose), pose});
   }
   out.close();
   fmt::print("{}: {} frames of {}\n", frames_file, frames, road.name);
@@ -61,4 +61,4 @@ void add_simulate(CLI::App& app) {
   command->callback([options] { simulate_each(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

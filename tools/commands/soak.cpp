@@ -13,17 +13,17 @@
 #include "commands/stop_signal.hpp"
 #include "endurance/soak.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 struct Options {
-  SoakSpec spec;
+  endurance::SoakSpec spec;
   double minutes = 1.0;
   double recovery_s = 5.0;
   std::vector<std::string> perceptions;
 };
 
-void print(const SoakResult& result) {
+void print(const endurance::SoakResult& result) {
   fmt::print("| {:<24} | times | planner's recovery at most, s |\n|---|---|---|\n", "fault");
   for (const auto& [fault, count] : result.faults)
     fmt::print("| {:<24} | {:>5} | {:>29.1f} |\n", fault, count.times, count.longest_recovery_s);
@@ -44,7 +44,7 @@ void print(const SoakResult& result) {
 
 void run(Options& options) {
   catch_stop_signals();
-  SoakSpec& spec = options.spec;
+  endurance::SoakSpec& spec = options.spec;
   spec.duration = std::chrono::duration<double>(60.0 * options.minutes);
   spec.fleet.perceptions.assign(options.perceptions.begin(), options.perceptions.end());
   spec.recovery = std::chrono::duration<double>(options.recovery_s);
@@ -52,7 +52,7 @@ void run(Options& options) {
   spec.fleet.command = folder / "laneloom";
   spec.fleet.service = folder / "laneloomd";
   spec.fleet.dds.vehicle_id = fmt::format("soak_{}", getpid());  // apart from every other vehicle
-  const SoakResult result = soak(spec, [] { return !stop_requested(); });
+  const endurance::SoakResult result = soak(spec, [] { return !stop_requested(); });
   print(result);
   if (!result.passed()) end_with(kFoundWrong);
 }
@@ -82,4 +82,4 @@ void add_soak(CLI::App& app) {
   command->callback([options] { run(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -19,7 +19,7 @@
 #include "laneloom/dds/reader.hpp"
 #include "status/report.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -95,10 +95,10 @@ class Watch {
     heard.when = now;
     exit_code_ = code_of(status.state);
     if (options_.json) {
-      output_.print_line(
-          to_json(status, heard.before()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+      output_.print_line(status::to_json(status, heard.before())
+                             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     } else if (options_.once || !output_.is_terminal()) {
-      output_.print_line(describe(status, heard.before()));
+      output_.print_line(status::describe(status, heard.before()));
     }
   }
 
@@ -115,7 +115,7 @@ class Watch {
     if (heard_.size() > 1) text = fmt::format("{} SERVICES OF ONE VEHICLE\n\n", heard_.size());
     for (const auto& [session, heard] : heard_) {
       const std::chrono::duration<double> silence = SteadyClock::now() - heard.when;
-      text += describe(heard.status, heard.before()) +
+      text += status::describe(heard.status, heard.before()) +
               fmt::format("heard           {:.1f} s ago\n\n", silence.count());
     }
     return text;
@@ -152,4 +152,4 @@ void add_status(CLI::App& app) {
   command->callback([options] { status(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

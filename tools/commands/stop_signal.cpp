@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 constexpr std::chrono::milliseconds kReaction{50};
@@ -32,4 +32,4 @@ bool sleep_until(std::chrono::steady_clock::time_point deadline) {
   return !stop_requested();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

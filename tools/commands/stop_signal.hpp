@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Lets SIGINT and SIGTERM only ask the program to end, from now on.
 void catch_stop_signals();
@@ -13,4 +13,4 @@ bool stop_requested();
 /// Sleeps until `deadline`, or until the program is asked to end. Returns whether it may go on.
 bool sleep_until(std::chrono::steady_clock::time_point deadline);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

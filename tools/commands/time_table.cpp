@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 void print_time_header(const std::string& title) {
   fmt::print("{:<24} {:>9} {:>9} {:>9} {:>9}\n", title, "mean", "p50", "p99", "max");
@@ -15,7 +15,7 @@ void print_time_row(const std::string& name, const TimeSummary& time) {
              time.max_ms);
 }
 
-void print_stage_rows(const StageTimer& timer) {
+void print_stage_rows(const support::StageTimer& timer) {
   for (std::size_t i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
     if (timer.reached(stage)) print_time_row(name(stage), timer.stage(stage));
@@ -26,7 +26,7 @@ nlohmann::json to_json(const TimeSummary& time) {
   return {{"mean", time.mean_ms}, {"p50", time.p50_ms}, {"p99", time.p99_ms}, {"max", time.max_ms}};
 }
 
-nlohmann::json to_json(const StageTimer& timer) {
+nlohmann::json to_json(const support::StageTimer& timer) {
   nlohmann::json json = nlohmann::json::object();
   for (std::size_t i = 0; i < kStageCount; ++i) {
     const auto stage = static_cast<Stage>(i);
@@ -35,4 +35,4 @@ nlohmann::json to_json(const StageTimer& timer) {
   return json;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -9,7 +9,7 @@
 
 #include "commands/program.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 /// The number of letters to insert, remove or change (Levenshtein's distance).
@@ -51,4 +51,4 @@ std::string unknown_command(const CLI::App& app, const Program& program,
   return {};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace laneloom {
+namespace laneloom::commands {
 
 struct Program;
 
@@ -16,4 +16,4 @@ struct Program;
 std::string unknown_command(const CLI::App& app, const Program& program,
                             const std::vector<std::string>& words);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

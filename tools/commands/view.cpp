@@ -15,14 +15,14 @@
 #include "commands/stop_signal.hpp"
 #include "view/door.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{200};  // between looks at whether a recording can be read
 
 struct Options {
   DdsConfig dds;
-  WebServerConfig server{.port = 8642};
+  view::WebServerConfig server{.port = 8642};
   RecordedInputs recorded;
   RangeConfig range;
   bool foxglove = false;
@@ -40,20 +40,22 @@ void print_urls(const Options& options, std::uint16_t port) {
 }
 
 void view_live(const Options& options) {
-  Site site(fmt::format("vehicle {}, domain {}", options.dds.vehicle_id, options.dds.domain), "[]", nullptr);
+  view::Site site(fmt::format("vehicle {}, domain {}", options.dds.vehicle_id, options.dds.domain), "[]",
+                  nullptr);
   LiveView view(options.dds, options.range);
-  WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
+  view::WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
   print_urls(options, server.port());
   view.run(site, server, options.foxglove);
 }
 
 void view_recording(const Options& options) {
-  FrameStore store;
-  const Site site(options.recorded.title(), truth_elements(options.recorded), &store,
-                  options.recorded.names());
+  view::FrameStore store;
+  const view::Site site(options.recorded.title(), truth_elements(options.recorded), &store,
+                        options.recorded.names());
   std::thread loader([&] { load(options.recorded, options.range, store); });
   try {
-    const WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
+    const view::WebServer server(options.server,
+                                 [&site](std::string_view target) { return site.answer(target); });
     print_urls(options, server.port());
     while (store.failure().empty() && sleep_until(std::chrono::steady_clock::now() + kLook)) {
     }
@@ -67,8 +69,8 @@ void view_recording(const Options& options) {
 
 void view(Options options) {
   catch_stop_signals();
-  if (!is_loopback(options.server.address)) options.server.token = random_token();
-  if (options.foxglove) options.server.foxglove_topics = scene_topics();
+  if (!view::is_loopback(options.server.address)) options.server.token = view::random_token();
+  if (options.foxglove) options.server.foxglove_topics = scene::scene_topics();
   options.recorded.empty() ? view_live(options) : view_recording(options);
 }
 
@@ -114,4 +116,4 @@ void add_view(CLI::App& app) {
   command->callback([options] { view(*options); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

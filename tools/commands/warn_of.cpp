@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace laneloom {
+namespace laneloom::commands {
 
 void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off) {
   for (const auto& [what, count] : refused.values())
@@ -12,4 +12,4 @@ void warn_of(const std::filesystem::path& path, const Counters& refused, bool cu
   if (cut_off) fmt::print(stderr, "laneloom: {}: the recording is cut off\n", path.string());
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

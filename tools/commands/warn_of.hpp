@@ -4,10 +4,10 @@
 
 #include "laneloom/counters.hpp"
 
-namespace laneloom {
+namespace laneloom::commands {
 
 /// Warns on standard error if only a part of a file could be read: of refused messages, as "<topic>:
 /// <reason>", and of a file that is cut off.
 void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off);
 
-}  // namespace laneloom
+}  // namespace laneloom::commands

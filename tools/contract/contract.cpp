@@ -6,7 +6,7 @@
 
 #include "contract/findings.hpp"
 
-namespace laneloom {
+namespace laneloom::contract {
 namespace {
 
 constexpr double kMinLength_m = 0.01;
@@ -189,4 +189,4 @@ std::uint64_t missed_maps(const PublishedMap& map, const PublishedMap* previous)
   return map.sequence - previous->sequence - 1;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::contract

@@ -6,7 +6,7 @@
 #include "laneloom/messages.hpp"
 
 /// The contract of published maps, on which every consumer may rely, and its check.
-namespace laneloom {
+namespace laneloom::contract {
 
 enum class ContractRule : std::uint8_t {
   finite_numbers,              ///< every number is finite
@@ -39,4 +39,4 @@ std::vector<Violation> check_contract(const PublishedMap& map, const PublishedMa
 /// violation. 0 across sessions and if the sequence does not ascend.
 std::uint64_t missed_maps(const PublishedMap& map, const PublishedMap* previous);
 
-}  // namespace laneloom
+}  // namespace laneloom::contract

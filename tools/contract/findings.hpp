@@ -7,7 +7,7 @@
 #include "contract/contract.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::contract {
 
 /// Collects violations while a map is walked.
 class Findings {
@@ -38,4 +38,4 @@ void check_probability(double value, const std::string& what, Findings& findings
 /// Checks the rules about lanes: sides, centerlines, boundaries and neighbours.
 void check_lanes(const LocalMap& map, Findings& findings);
 
-}  // namespace laneloom
+}  // namespace laneloom::contract

@@ -5,7 +5,7 @@
 #include "contract/findings.hpp"
 #include "laneloom/lane_graph.hpp"
 
-namespace laneloom {
+namespace laneloom::contract {
 namespace {
 
 /// A lane's sides are fitted to noisy boundaries, so that sides and centerline may cross each other by this
@@ -115,4 +115,4 @@ void check_lanes(const LocalMap& map, Findings& findings) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::contract

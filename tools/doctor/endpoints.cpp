@@ -8,7 +8,7 @@
 
 #include "laneloom/dds/topics.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 const std::vector<std::string>& or_default(const std::vector<std::string>& partitions) {
@@ -64,4 +64,4 @@ std::string partitions_text(const std::vector<std::string>& partitions) {
                      fmt::join(partitions, "\", \""));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

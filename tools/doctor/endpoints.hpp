@@ -6,7 +6,7 @@
 
 #include "doctor/observed.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 
 /// Whether writers in some of `a` match readers in some of `b`; names may have wildcards.
 bool partitions_match(const std::vector<std::string>& a, const std::vector<std::string>& b);
@@ -29,4 +29,4 @@ std::string who(const dds::Peer& peer);
 /// The text for partitions: `the partition "car-1"`, `the partitions …`, or `the default partition`.
 std::string partitions_text(const std::vector<std::string>& partitions);
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

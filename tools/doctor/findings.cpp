@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::doctor {
 
 Findings findings(const Observed& seen) {
   Findings all = presence_findings(seen);
@@ -27,4 +27,4 @@ Findings findings(const Observed& seen) {
   return all;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -6,7 +6,7 @@
 #include "doctor/observed.hpp"
 
 /// Findings on why messages do not arrive. Pure functions, one per subject.
-namespace laneloom {
+namespace laneloom::doctor {
 
 /// A reason why messages do not arrive or arrive badly, with its remedy; or an advice.
 struct Finding {
@@ -42,4 +42,4 @@ Findings shared_memory_findings(const Observed& seen);
 /// is in the domain, findings on what these participants lack are left out.
 Findings findings(const Observed& seen);
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -13,7 +13,7 @@
 #include "laneloom/state_names.hpp"
 #include "status/report.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 struct Incident {
@@ -99,9 +99,10 @@ void judge_state(const ServiceStatus& status, Findings& found) {
 Finding refusal(std::string_view by_whom, std::string_view subject, std::string_view reason,
                 std::uint64_t count) {
   const Refusal why = explain_refusal(reason);
-  return {printable(fmt::format("{}_refused_{}", subject, reason)),
-          printable(fmt::format("{} refused {} {} ({}): {}.", by_whom, count, subject, reason, why.cause)),
-          "What is refused is not mapped.", std::string(why.remedy)};
+  return {
+      io::printable(fmt::format("{}_refused_{}", subject, reason)),
+      io::printable(fmt::format("{} refused {} {} ({}): {}.", by_whom, count, subject, reason, why.cause)),
+      "What is refused is not mapped.", std::string(why.remedy)};
 }
 
 void judge_counter(const std::string& counter, std::uint64_t rise, Findings& found) {
@@ -132,8 +133,8 @@ void judge_source(const SourceStatus& source, const ServiceStatus& first, Findin
   if (before == first.sources.end() || source.frames <= before->frames || source.fused > before->fused)
     return;
   found.push_back({"source_not_fused",
-                   printable(fmt::format("Of source \"{}\", {} frames arrived and none was mapped.",
-                                         source.source, source.frames - before->frames)),
+                   io::printable(fmt::format("Of source \"{}\", {} frames arrived and none was mapped.",
+                                             source.source, source.frames - before->frames)),
                    "The map knows nothing of what this source sees.",
                    "See what is refused: no poses around its stamps, another clock, or stamps that repeat."});
 }
@@ -147,7 +148,7 @@ Findings incident_findings(const Observed& seen) {
     judge_own("poses", seen.poses, found);
   }
   for (const ServiceObserved& service : seen.services) {
-    for (const auto& [counter, rise] : rises(service.last, service.first))
+    for (const auto& [counter, rise] : status::rises(service.last, service.first))
       judge_counter(counter, rise, found);
     for (const SourceStatus& source : service.last.sources) judge_source(source, service.first, found);
   }
@@ -175,4 +176,4 @@ Findings state_findings(const Observed& seen) {
   return found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

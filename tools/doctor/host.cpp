@@ -13,7 +13,7 @@
 #include <string>
 #include <system_error>
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 // Ports of discovery, by the defaults of the RTPS standard.
@@ -119,4 +119,4 @@ std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const 
   return files;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

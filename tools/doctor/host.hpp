@@ -7,7 +7,7 @@
 #include "doctor/observed.hpp"
 
 /// Facts that this host tells of participants on it. Facts that may not be read are left out.
-namespace laneloom {
+namespace laneloom::doctor {
 
 /// The domains whose discovery some process listens to, in ascending order. `sockets` has the form of
 /// /proc/net/udp.
@@ -18,4 +18,4 @@ std::vector<int> listening_domains(std::istream& sockets);
 std::vector<SharedMemoryFile> shared_memory_files(const std::filesystem::path& folder,
                                                   const std::filesystem::path& processes);
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -12,7 +12,7 @@
 #include "laneloom/messages.hpp"
 
 /// The observations of `laneloom doctor`, as plain data for findings.hpp to judge.
-namespace laneloom {
+namespace laneloom::doctor {
 
 /// The messages of one input topic, or of one source of detections, that a reader of the doctor got.
 struct InputObserved {
@@ -63,4 +63,4 @@ struct Observed {
   std::vector<SharedMemoryFile> shared_memory;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

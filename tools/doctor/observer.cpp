@@ -10,7 +10,7 @@
 #include "doctor/host.hpp"
 #include "laneloom/error.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 constexpr const char* kName = "laneloom doctor";
@@ -149,4 +149,4 @@ Observed Observer::observed() const {
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -11,7 +11,7 @@
 #include "laneloom/dds/raw_reader.hpp"
 #include "laneloom/dds/reader.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 
 /// Watches a domain and the messages of one vehicle's topics, as a participant of its own.
 class Observer {
@@ -57,4 +57,4 @@ class Observer {
   dds::Reader<ServiceStatus> statuses_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -7,7 +7,7 @@
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 Finding empty_domain(const Observed& seen) {
@@ -65,4 +65,4 @@ Findings presence_findings(const Observed& seen) {
   return {};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -5,7 +5,7 @@
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using dds::Endpoint;
@@ -101,4 +101,4 @@ Findings qos_findings(const Observed& seen) {
   return found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

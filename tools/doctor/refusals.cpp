@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 constexpr std::string_view kWriter = "Mend what writes them.";
@@ -59,4 +59,4 @@ Refusal explain_refusal(std::string_view reason) {
   return {reason, "they are not what the service takes", "See the log of the service."};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace laneloom {
+namespace laneloom::doctor {
 
 /// The cause of a refusal, and its remedy.
 struct Refusal {
@@ -14,4 +14,4 @@ struct Refusal {
 /// Explains a reason. For an unknown reason, the explanation says that it is unknown.
 Refusal explain_refusal(std::string_view reason);
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -10,14 +10,14 @@
 #include "doctor/endpoints.hpp"
 #include "io/printable.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 
 using nlohmann::json;
 
 std::string report(const Observed& seen, const Findings& found) {
   std::vector<std::string> names;
   std::ranges::transform(seen.participants, std::back_inserter(names), who);
-  std::string text = printable(fmt::format(
+  std::string text = io::printable(fmt::format(
       "Domain {}, vehicle \"{}\", watched for {:.1f} s: {} participants{}{}.", seen.dds.domain,
       seen.dds.vehicle_id, seen.duration_s, names.size(), names.empty() ? "" : ": ", fmt::join(names, ", ")));
   if (std::ranges::all_of(found, &Finding::advice)) text += "\nNothing wrong was found.";
@@ -25,8 +25,8 @@ std::string report(const Observed& seen, const Findings& found) {
   text += "\n";
   for (std::size_t i = 0; i < found.size(); ++i)
     text += fmt::format("\n{}. {}{}\n   Why it matters: {}\n   What to do: {}\n", i + 1,
-                        found[i].advice ? "Advice: " : "", printable(found[i].found), printable(found[i].why),
-                        printable(found[i].remedy));
+                        found[i].advice ? "Advice: " : "", io::printable(found[i].found),
+                        io::printable(found[i].why), io::printable(found[i].remedy));
   return text;
 }
 
@@ -47,4 +47,4 @@ json report_json(const Observed& seen, const Findings& found) {
           {"findings", findings}};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

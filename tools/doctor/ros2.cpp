@@ -12,7 +12,7 @@
 #include "laneloom/dds/topics.hpp"
 #include "ros2/names.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using dds::Endpoint;
@@ -109,4 +109,4 @@ Findings ros_findings(const Observed& seen) {
   return found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -2,7 +2,7 @@
 
 #include "doctor/observed.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 
 /// Whether nodes of ROS 2 write the inputs that the service takes from them.
 bool ros_writes_detections(const Observed& seen);
@@ -11,4 +11,4 @@ bool ros_writes_poses(const Observed& seen);
 /// Whether an endpoint belongs to a node of ROS 2, by its type.
 bool is_of_ros(const dds::Endpoint& endpoint);
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -4,7 +4,7 @@
 
 #include "doctor/findings.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 /// A text with the number of files of each owner.
@@ -43,4 +43,4 @@ Findings shared_memory_findings(const Observed& seen) {
   return found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

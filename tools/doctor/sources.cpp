@@ -9,7 +9,7 @@
 #include "doctor/findings.hpp"
 #include "laneloom/limits.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 /// The text for a writer.
@@ -81,4 +81,4 @@ Findings source_findings(const Observed& seen) {
   return found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

@@ -8,7 +8,7 @@
 #include "doctor/findings.hpp"
 #include "laneloom/dds/topics.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 constexpr double kMinWindow_s = 1.0;  ///< a shorter window tells no rate
@@ -182,4 +182,4 @@ Findings stream_findings(const Observed& seen) {
   return found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

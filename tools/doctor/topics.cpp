@@ -11,7 +11,7 @@
 #include "doctor/findings.hpp"
 #include "doctor/ros2.hpp"
 
-namespace laneloom {
+namespace laneloom::doctor {
 namespace {
 
 using dds::Endpoint;
@@ -134,4 +134,4 @@ Findings topic_findings(const Observed& seen) {
   return found;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::doctor

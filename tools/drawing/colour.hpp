@@ -1,6 +1,6 @@
 #pragma once
 
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// A colour; every part is 0..1.
 struct Colour {
@@ -11,4 +11,4 @@ struct Colour {
   constexpr Colour faded(double factor) const { return {red, green, blue, alpha * factor}; }
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::drawing {
 
 void Drawing::add(Element element) {
   if (element.shapes.empty()) return;
@@ -12,4 +12,4 @@ void Drawing::add(Element element) {
   elements_.insert(behind, std::move(element));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

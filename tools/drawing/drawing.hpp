@@ -12,7 +12,7 @@
 
 /// A list of things to draw, from maps, detections and truth. Pictures, the viewer, and scenes for other
 /// programs are all made from it. All coordinates are in the map frame, in metres.
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// A line through its points. It is closed only where it ends with its first point.
 struct DrawnLine {
@@ -73,4 +73,4 @@ class Drawing {
   std::vector<Element> elements_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

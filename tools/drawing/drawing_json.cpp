@@ -7,7 +7,7 @@
 #include "drawing/properties.hpp"
 #include "laneloom/element_names.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 using nlohmann::json;
@@ -109,4 +109,4 @@ json palette_json() {
   return out;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -17,7 +17,7 @@
 /// Lengths are in metres, angles in radians, both in the map frame. Elements are in the order of painting.
 /// stamp_ns is text, because a number of JavaScript does not hold it; ids are counted up, and stay exact
 /// below 2^53. id, status, properties, opacity (1) and lineage are left out if there is none.
-namespace laneloom {
+namespace laneloom::drawing {
 
 nlohmann::json to_json(const Drawing& drawing);
 
@@ -32,4 +32,4 @@ nlohmann::json to_json(const Drawing& drawing);
 /// is none.
 nlohmann::json palette_json();
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

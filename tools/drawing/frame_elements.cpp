@@ -5,7 +5,7 @@
 #include "io/json_fields.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 Polyline in_map(const Polyline& line, const Eigen::Isometry3d& T_map_body) {
@@ -91,4 +91,4 @@ void add_range(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, Dr
                .shapes = {{DrawnLine{in_map(box, T_map_body)}, Style::range}}});
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -6,7 +6,7 @@
 
 /// Adds a frame, the vehicle, and the box around it to a drawing. The functions change nothing but the
 /// drawing.
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// Adds the detections, the surer the more opaque. `T_map_body` is the pose at the frame's stamp.
 void add_detections(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, Drawing& drawing);
@@ -18,4 +18,4 @@ void add_vehicle(const Eigen::Isometry3d& T_map_body, Drawing& drawing);
 /// Adds the box around the vehicle that is mapped.
 void add_range(const RangeConfig& range, const Eigen::Isometry3d& T_map_body, Drawing& drawing);
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

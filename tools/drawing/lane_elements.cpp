@@ -7,7 +7,7 @@
 #include "laneloom/lane_graph.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 constexpr double kArrowSpacing_m = 9.0;
@@ -84,4 +84,4 @@ void add_linkages(const LocalMap& map, Drawing& drawing) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -5,7 +5,7 @@
 #include "io/json_fields.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 constexpr double kSigmas = 2.0;
@@ -100,4 +100,4 @@ void add_ids(const LocalMap& map, Drawing& drawing) {
     add_id(name(stopline.marking.type), stopline.marking.id, stopline.marking.points, drawing);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -5,7 +5,7 @@
 
 /// Adds parts of a map to a drawing. Lines without extent are left out. The functions change nothing but the
 /// drawing.
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// Adds lanes, boundaries, stoplines and linkages. Takes over the map's stamp, pose and lineage.
 void add_map(const LocalMap& map, Drawing& drawing);
@@ -27,4 +27,4 @@ void add_stoplines(const LocalMap& map, Drawing& drawing);
 /// other's. Linkages follow the order of the points, also if traffic runs against it.
 Polyline linkage_path(const Linkage& linkage, const Lane& from, const Lane& to);
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

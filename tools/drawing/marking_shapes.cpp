@@ -2,7 +2,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 constexpr double kMinLength_m = 0.01;
@@ -32,4 +32,4 @@ std::string key_of(Layer layer, ElementId id) {
   return std::string(palette::of(layer).name) + "/" + std::to_string(id);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -6,7 +6,7 @@
 #include "drawing/drawing.hpp"
 
 /// Functions for the elements of maps, frames and truth alike.
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// Whether a line has any extent.
 bool drawable(const Polyline& line);
@@ -21,4 +21,4 @@ double opacity_of(double existence_probability);
 /// The key of an element, such as "boundaries/12".
 std::string key_of(Layer layer, ElementId id);
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

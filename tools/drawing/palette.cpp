@@ -1,6 +1,6 @@
 #include "drawing/palette.hpp"
 
-namespace laneloom::palette {
+namespace laneloom::drawing::palette {
 namespace {
 
 constexpr Colour kLaneline{0.83, 0.07, 0.09}, kDarkLaneline{1.00, 0.40, 0.38};
@@ -106,4 +106,4 @@ Style marking_style(MarkingType type, MarkingStyle style) {
 Style lane_style(ElementId lane) { return nth(Style::lane_a, lane); }
 Style course_style(ElementId lane) { return nth(Style::course_a, lane); }
 
-}  // namespace laneloom::palette
+}  // namespace laneloom::drawing::palette

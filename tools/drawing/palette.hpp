@@ -9,7 +9,7 @@
 
 /// The colours and strokes of all pictures, of the viewer and of other programs' scenes. They are defined
 /// nowhere else. The hues are the paper's: red lanelines, green roadedges, blue stoplines, magenta linkages.
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// The look of a drawn shape. Pictures have a light ground; viewers may have a dark one.
 enum class Style : std::uint8_t {
@@ -88,8 +88,8 @@ struct LayerSpec {
   double overlay = 1.0;  ///< factor on widths of lines in viewers that lay it over the fused map
 };
 
-const StyleSpec& of(Style style);
-const LayerSpec& of(Layer layer);
+const palette::StyleSpec& of(Style style);
+const palette::LayerSpec& of(Layer layer);
 
 /// The style of a marking: dashed if it is painted so, thin if its style is unknown.
 Style marking_style(MarkingType type, MarkingStyle style);
@@ -99,4 +99,4 @@ Style lane_style(ElementId lane);
 Style course_style(ElementId lane);
 
 }  // namespace palette
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -8,7 +8,7 @@
 #include "laneloom/element_names.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
 using nlohmann::json;
@@ -119,4 +119,4 @@ json properties_of(const Linkage& linkage) {
           {"confidence", rounded(linkage.confidence)}};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

@@ -6,7 +6,7 @@
 
 /// The properties of elements as JSON for people: enumerators as words, lengths in metres, times in seconds.
 /// Unknown properties are left out. Numbers are rounded.
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// Rounds to a thousandth.
 double rounded(double value);
@@ -18,4 +18,4 @@ nlohmann::json properties_of(const Lane& lane, const LocalMap& map);
 nlohmann::json properties_of(const Linkage& linkage);
 nlohmann::json properties_of(const LineageEvent& event);
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

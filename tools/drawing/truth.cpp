@@ -4,10 +4,10 @@
 #include "io/json_fields.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 namespace {
 
-Marking drawn(const RoadMarking& marking) {
+Marking drawn(const simulation::RoadMarking& marking) {
   Marking drawn;
   drawn.id = marking.id;
   drawn.type = marking.type;
@@ -16,7 +16,7 @@ Marking drawn(const RoadMarking& marking) {
   return drawn;
 }
 
-Lane drawn(const RoadLane& lane) {
+Lane drawn(const simulation::RoadLane& lane) {
   Lane drawn;
   drawn.id = lane.id;
   drawn.left = lane.left;
@@ -28,8 +28,8 @@ Lane drawn(const RoadLane& lane) {
 
 }  // namespace
 
-void add_truth(const Road& truth, Drawing& drawing) {
-  for (const RoadMarking& marking : truth.markings) {
+void add_truth(const simulation::Road& truth, Drawing& drawing) {
+  for (const simulation::RoadMarking& marking : truth.markings) {
     if (!drawable(marking.points)) continue;
     drawing.add({.layer = Layer::truth,
                  .key = key_of(Layer::truth, marking.id),
@@ -41,15 +41,15 @@ void add_truth(const Road& truth, Drawing& drawing) {
   }
 }
 
-LocalMap map_of(const Road& truth) {
+LocalMap map_of(const simulation::Road& truth) {
   LocalMap map;
-  for (const RoadMarking& marking : truth.markings) {
+  for (const simulation::RoadMarking& marking : truth.markings) {
     if (marking.type == MarkingType::stopline)
       map.stoplines.push_back({drawn(marking), {}, Point::Zero()});
     else
       map.boundaries.push_back(drawn(marking));
   }
-  for (const RoadLane& lane : truth.lanes) {
+  for (const simulation::RoadLane& lane : truth.lanes) {
     map.lanes.push_back(drawn(lane));
     for (const ElementId next : lane.successors) {
       Linkage linkage;
@@ -61,4 +61,4 @@ LocalMap map_of(const Road& truth) {
   return map;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

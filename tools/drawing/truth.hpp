@@ -4,12 +4,12 @@
 #include "laneloom/types.hpp"
 #include "simulation/road.hpp"
 
-namespace laneloom {
+namespace laneloom::drawing {
 
 /// Adds the truth's markings as thin lines, which lie beneath a map.
-void add_truth(const Road& truth, Drawing& drawing);
+void add_truth(const simulation::Road& truth, Drawing& drawing);
 
 /// The truth as a map to draw, with the lanes' driving directions and successors.
-LocalMap map_of(const Road& truth);
+LocalMap map_of(const simulation::Road& truth);
 
-}  // namespace laneloom
+}  // namespace laneloom::drawing

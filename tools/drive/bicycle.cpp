@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::drive {
 
 double Bicycle::curvature() const { return std::tan(steering_rad) / kWheelbase_m; }
 
@@ -22,4 +22,4 @@ void Bicycle::step(const Command& command, double dt_s) {
   heading_rad += 0.5 * turned_rad;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

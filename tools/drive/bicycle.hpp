@@ -2,7 +2,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 inline constexpr double kWheelbase_m = 2.8;
 inline constexpr double kMaxSteering_rad = 0.6;
@@ -35,4 +35,4 @@ struct Bicycle {
   void step(const Command& command, double dt_s);
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

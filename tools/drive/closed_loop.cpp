@@ -8,7 +8,7 @@
 #include "drive/steering.hpp"
 #include "laneloom/lane_graph.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr std::int64_t kPeriod_ns = 10'000'000;
@@ -31,13 +31,13 @@ bool is_inferred(const LocalMap& map, Point place) {
 
 }  // namespace
 
-ClosedLoop::ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& service)
+ClosedLoop::ClosedLoop(const simulation::Road& road, ClosedLoopSpec spec, MapService& service)
     : road_(road),
       spec_(std::move(spec)),
       service_(service),
       lanes_(road),
       navigator_(road, lanes_),
-      perception_(road, spec_.noise, SensorView{}, spec_.seed),
+      perception_(road, spec_.noise, simulation::SensorView{}, spec_.seed),
       network_(spec_.seed) {
   restart(navigator_.at_begin());
 }
@@ -186,4 +186,4 @@ DriveScore ClosedLoop::score() const {
   return score;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

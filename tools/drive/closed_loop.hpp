@@ -12,11 +12,11 @@
 #include "simulation/odometry.hpp"
 #include "simulation/perception.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 /// The noise of the sensors and the speed of a simulated drive.
 struct ClosedLoopSpec {
-  NoiseProfile noise;
+  simulation::NoiseProfile noise;
   std::uint64_t seed = 1;
   double speed_mps = 10.0;       ///< greatest speed
   double drift = 0.0;            ///< of the odometry, as a share of the distance driven
@@ -39,7 +39,7 @@ class ClosedLoop {
 
   /// `road` and `service` must outlive this. Throws std::runtime_error if the road's drive is on none of its
   /// lanes.
-  ClosedLoop(const Road& road, ClosedLoopSpec spec, MapService& service);
+  ClosedLoop(const simulation::Road& road, ClosedLoopSpec spec, MapService& service);
 
   /// One period: sensing, planning (ten times a second), control, and motion. Throws std::runtime_error if
   /// the vehicle, wherever it is put, is off its lane or at the road's end before it has driven a metre.
@@ -64,18 +64,18 @@ class ClosedLoop {
   Guess::Cause cause_of_guess(const LocalMap& map) const;
   double wanted_speed() const;
 
-  const Road& road_;
+  const simulation::Road& road_;
   ClosedLoopSpec spec_;
   MapService& service_;
   LaneTracker lanes_;
   Navigator navigator_;
-  Perception perception_;
-  NetworkDelay<DetectionFrame> network_;
+  simulation::Perception perception_;
+  simulation::NetworkDelay<DetectionFrame> network_;
   std::int64_t steps_ = 0;
   // Since the last restart.
   Bicycle vehicle_;  ///< the true state
   Bicycle told_;     ///< the state by the odometry
-  std::optional<Odometry> odometry_;
+  std::optional<simulation::Odometry> odometry_;
   std::int64_t begun_ns_ = 0;
   bool started_ = false;
   Plan plan_;
@@ -90,4 +90,4 @@ class ClosedLoop {
   int vain_restarts_ = 0;        ///< number of restarts in a row without a metre between them
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::drive {
 
 DdsMapService::DdsMapService(const DdsConfig& dds)
     : participant_(dds, "laneloom-lab drive"),
@@ -43,4 +43,4 @@ const LocalMap& DdsMapService::newest(std::int64_t) {
   return newest_;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -6,7 +6,7 @@
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 /// A running laneloomd, over DDS. Throws std::runtime_error when it can't take part.
 class DdsMapService : public MapService {
@@ -36,4 +36,4 @@ class DdsMapService : public MapService {
   dds::Reader<PublishedMap> maps_;  // last: its callbacks end first
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -1,6 +1,6 @@
 #include "drive/drive_score.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 const char* name(LaneTracker::Verdict verdict) {
   switch (verdict) {
@@ -54,4 +54,4 @@ DriveScore& DriveScore::operator+=(const DriveScore& other) {
   return *this;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

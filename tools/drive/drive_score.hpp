@@ -8,7 +8,7 @@
 #include "drive/lane_tracker.hpp"
 
 /// The score of a drive.
-namespace laneloom {
+namespace laneloom::drive {
 
 /// A departure: the vehicle's centre left its lane.
 struct Departure {
@@ -59,4 +59,4 @@ struct DriveScore {
   DriveScore& operator+=(const DriveScore& other);
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

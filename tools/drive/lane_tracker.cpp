@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr double kJoint_m = 1.0;  // lanes may meet with a wedge between them
@@ -24,12 +24,12 @@ double grade_along(const MeasuredPolyline& line, double arc_m) {
 
 }  // namespace
 
-LaneTracker::LaneTracker(const Road& road) : road_(road), successors_(road.lanes.size()) {
+LaneTracker::LaneTracker(const simulation::Road& road) : road_(road), successors_(road.lanes.size()) {
   std::map<ElementId, std::size_t> index;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) index[road.lanes[i].id] = i;
   lines_.reserve(road.lanes.size());
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
-    const RoadLane& lane = road.lanes[i];
+    const simulation::RoadLane& lane = road.lanes[i];
     lines_.push_back(
         {MeasuredPolyline(lane.centerline), MeasuredPolyline(lane.left), MeasuredPolyline(lane.right)});
     for (const ElementId id : lane.successors) successors_[i].push_back(index.at(id));
@@ -135,7 +135,7 @@ Eigen::Isometry3d LaneTracker::on_surface(const Bicycle& vehicle) const {
   const Lines& lane = lines_[*std::ranges::min_element(lanes_, {}, distance)];
   const Projection foot = lane.centre.project(on_ground(vehicle.rear_axle));
   const Point left = lane.left.project(foot.foot).foot, right = lane.right.project(foot.foot).foot;
-  const Eigen::Vector2d along = lane.centre.direction(foot.arc_m), across = left_of(along);
+  const Eigen::Vector2d along = lane.centre.direction(foot.arc_m), across = geometry::left_of(along);
   const Eigen::Vector2d gradient =
       grade_along(lane.centre, foot.arc_m) * along +
       (left.z() - right.z()) / std::max(1.0, (left - right).head<2>().norm()) * across;
@@ -151,4 +151,4 @@ Eigen::Isometry3d LaneTracker::on_surface(const Bicycle& vehicle) const {
   return T_map_body;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -6,7 +6,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/road.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 /// Follows a vehicle through the true lanes of a road, and tells whether it keeps to them. Where lanes fork
 /// it may be in several at once.
@@ -21,7 +21,7 @@ class LaneTracker {
   };
 
   /// `road` must outlive this, and have lanes.
-  explicit LaneTracker(const Road& road);
+  explicit LaneTracker(const simulation::Road& road);
 
   /// Puts the vehicle into a lane.
   void place(std::size_t lane) { lanes_ = {lane}; }
@@ -60,11 +60,11 @@ class LaneTracker {
   bool own_ends(const Eigen::Vector2d& centre, double within_m) const;
   bool settle(const std::vector<std::size_t>& candidates, const Eigen::Vector2d& centre);
 
-  const Road& road_;
+  const simulation::Road& road_;
   std::vector<Lines> lines_;
   std::vector<std::vector<std::size_t>> successors_;
   std::vector<std::size_t> lanes_;
   double offset_m_ = 0.0, width_m_ = 0.0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -6,7 +6,7 @@
 #include "drive/steering.hpp"
 #include "mapping/geometry/smooth_step.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr int kSmoothingPoints = 6;  // either way
@@ -79,7 +79,7 @@ Polyline bend_between(const Point& from, const Eigen::Vector2d& leaving, const P
   Polyline path;
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;  // in Hermite's basis
-    Point point = from + smooth_step(t) * gap;
+    Point point = from + geometry::smooth_step(t) * gap;
     point.head<2>() += t * (1.0 - t) * pull_m * ((1.0 - t) * leaving - t * entering);
     path.push_back(point);
   }
@@ -99,10 +99,10 @@ Polyline change_over(const Polyline& line, const Polyline& other) {
   Polyline out;
   for (const Point& point : from.resample(1.0)) {
     const double share = (from.project(point).arc_m - begin_m) / (from.length() - begin_m);
-    out.emplace_back(point + smooth_step(share) * (to.project(point).foot - point));
+    out.emplace_back(point + geometry::smooth_step(share) * (to.project(point).foot - point));
   }
   append(out, other);
   return out;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -3,7 +3,7 @@
 #include "laneloom/polyline.hpp"
 
 /// Operations of a planner on lines.
-namespace laneloom {
+namespace laneloom::drive {
 
 /// Appends the part of `next` that lies ahead of the end of `line`.
 void append(Polyline& line, const Polyline& next);
@@ -28,4 +28,4 @@ Polyline bridge(const Polyline& from, const Polyline& to);
 /// `line` until shortly before its end, then a change over to `other`, and `other` from there on.
 Polyline change_over(const Polyline& line, const Polyline& other);
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

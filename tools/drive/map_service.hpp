@@ -4,7 +4,7 @@
 
 #include "session/mapping_session.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 /// The lane map service for a vehicle. Times are by the sensor clock.
 class MapService {
@@ -29,7 +29,7 @@ class LocalMapService : public MapService {
   }
 
  private:
-  MappingSession session_;
+  session::MappingSession session_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

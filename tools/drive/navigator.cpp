@@ -10,7 +10,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "simulation/route.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr double kSample_m = 4.0;
@@ -22,14 +22,14 @@ constexpr double kAfterIntersection_m = 3.0;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 /// The lane outside of intersections that a pose is in.
-std::size_t lane_of(const Road& road, const LaneTracker& lanes, const VehiclePose& pose) {
+std::size_t lane_of(const simulation::Road& road, const LaneTracker& lanes, const VehiclePose& pose) {
   const Eigen::Vector2d direction = transform(pose).linear().col(0).head<2>().normalized();
   std::size_t best = kNone;
   double best_m = kMaxLateral_m;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     if (road.lanes[i].in_intersection) continue;
     const Projection foot = lanes.centerline(i).project(pose.position);
-    if (!foot.inside || foot.distance_m >= best_m || !same_level(foot.foot, pose.position) ||
+    if (!foot.inside || foot.distance_m >= best_m || !geometry::same_level(foot.foot, pose.position) ||
         lanes.centerline(i).direction(foot.arc_m).dot(direction) < kMinAlignment)
       continue;
     best = i;
@@ -61,7 +61,7 @@ std::vector<std::size_t> ways_to(const std::vector<std::size_t>& goals,
 
 }  // namespace
 
-Navigator::Navigator(const Road& road, const LaneTracker& lanes) : road_(road), lanes_(lanes) {
+Navigator::Navigator(const simulation::Road& road, const LaneTracker& lanes) : road_(road), lanes_(lanes) {
   const VehiclePose* last = nullptr;
   for (const VehiclePose& pose : road.drive.poses()) {
     if (last != nullptr && (pose.position - last->position).norm() < kSample_m) continue;
@@ -177,4 +177,4 @@ Linkage::Turn Navigator::wanted_turn() const {
   return turn_between(in.direction(0.0), out.direction(out.length()));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -5,7 +5,7 @@
 
 #include "drive/lane_tracker.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 /// The route through the true lanes. It gives the driver's wishes for turns, and the places to begin at.
 class Navigator {
@@ -13,7 +13,7 @@ class Navigator {
   /// The route is the way of the road's drive, and from its end on back to its beginning, or else wherever
   /// lanes lead. `road` and `lanes` must outlive this. Throws std::runtime_error if the drive is on none of
   /// the road's lanes.
-  Navigator(const Road& road, const LaneTracker& lanes);
+  Navigator(const simulation::Road& road, const LaneTracker& lanes);
 
   struct Start {
     std::size_t lane = 0;
@@ -41,7 +41,7 @@ class Navigator {
   void extend();
   std::size_t lane_after(std::size_t lane);
 
-  const Road& road_;
+  const simulation::Road& road_;
   const LaneTracker& lanes_;
   std::vector<std::size_t> drive_;         // lanes
   std::vector<std::size_t> toward_drive_;  // per lane, the next one on the way back to the drive
@@ -52,4 +52,4 @@ class Navigator {
   std::size_t driven_to_ = 0;              // place in the drive of the last lane that was driven on it
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -12,7 +12,7 @@
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/geometry/smooth_step.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr double kStep_m = 0.5;
@@ -185,7 +185,7 @@ void remember(const Plan& earlier, Plan& way) {
     const double beyond_m = arcs_m[i] - foot.arc_m;
     if (beyond_m < kStep_m) continue;
     if (earlier.support[i] == Support::guessed) break;
-    way.path.emplace_back(earlier.path[i] + (1.0 - smooth_step(beyond_m / kMinBlend_m)) * shift);
+    way.path.emplace_back(earlier.path[i] + (1.0 - geometry::smooth_step(beyond_m / kMinBlend_m)) * shift);
     way.support.push_back(Support::remembered);
   }
 }
@@ -210,7 +210,7 @@ class Blend {
       : offset_m_(offset_m), slope_(std::clamp(slope, -kMaxSlope, kMaxSlope)), length_m_(length_m) {}
   double offset_at(double s_m) const {
     const double t = std::clamp(s_m / length_m_, 0.0, 1.0);
-    return offset_m_ * (1.0 - smooth_step(t)) + slope_ * length_m_ * t * (1.0 - t) * (1.0 - t);
+    return offset_m_ * (1.0 - geometry::smooth_step(t)) + slope_ * length_m_ * t * (1.0 - t) * (1.0 - t);
   }
 
  private:
@@ -230,7 +230,8 @@ void approach(const MeasuredPolyline& track, double from_m, double blend_m, cons
   const Eigen::Vector2d along = line.direction(foot.arc_m), now = track.direction(from_m);
   const Blend blend(foot.lateral_m, cross(along, now) / std::max(0.1, along.dot(now)), blend_m);
   for (double arc_m = foot.arc_m; arc_m <= line.length(); arc_m += kStep_m) {
-    plan.path.push_back(beside(line.at(arc_m), line.direction(arc_m), blend.offset_at(arc_m - foot.arc_m)));
+    plan.path.push_back(
+        geometry::beside(line.at(arc_m), line.direction(arc_m), blend.offset_at(arc_m - foot.arc_m)));
     plan.support.push_back(way.support_at(line.at(arc_m)));
   }
 }
@@ -285,4 +286,4 @@ Plan next_plan(const LocalMap& map, const Bicycle& vehicle, const Plan& previous
   return next;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -6,7 +6,7 @@
 #include "drive/bicycle.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 
 /// The support of a stretch of a plan.
 enum class Support : std::uint8_t {
@@ -44,4 +44,4 @@ struct Plan {
 /// Pure.
 Plan next_plan(const LocalMap& map, const Bicycle& vehicle, const Plan& previous, Linkage::Turn wanted);
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr double kPreview_s = 0.25;  // time that turning the wheels takes
@@ -56,4 +56,4 @@ Command follow(const MeasuredPolyline& path, const Bicycle& vehicle, double spee
   return {std::atan(kWheelbase_m * curvature), safe_speed(path, foot.arc_m, speed_mps)};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

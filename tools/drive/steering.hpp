@@ -4,7 +4,7 @@
 #include "laneloom/polyline.hpp"
 
 /// Steers a vehicle along a path.
-namespace laneloom {
+namespace laneloom::drive {
 
 /// The curvature of a path at an arc length, to the left, in 1/m. It is a mean over `max_reach_m` either way,
 /// or half of a shorter path. The path must have a length.
@@ -17,4 +17,4 @@ double curvature_at(const MeasuredPolyline& path, double arc_m, double max_reach
 /// path over a distance that grows with speed. The path must have a length.
 Command follow(const MeasuredPolyline& path, const Bicycle& vehicle, double speed_mps);
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -4,7 +4,7 @@
 
 #include "drive/lines.hpp"
 
-namespace laneloom {
+namespace laneloom::drive {
 namespace {
 
 constexpr double kGoesOn_m = 8.0;
@@ -60,4 +60,4 @@ DirectedLane lane_to_change_to(const LaneGraph& graph, const DirectedLane& lane)
   return {};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

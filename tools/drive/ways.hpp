@@ -5,7 +5,7 @@
 #include "laneloom/lane_graph.hpp"
 
 /// The ways that a driver sees in the lanes of a map.
-namespace laneloom {
+namespace laneloom::drive {
 
 /// The passages from the end of a lane. They have a path also across gaps for which the map gives none.
 std::vector<Passage> passages(const LaneGraph& graph, const DirectedLane& lane);
@@ -15,4 +15,4 @@ std::vector<Passage> passages(const LaneGraph& graph, const DirectedLane& lane);
 /// none.
 DirectedLane lane_to_change_to(const LaneGraph& graph, const DirectedLane& lane);
 
-}  // namespace laneloom
+}  // namespace laneloom::drive

@@ -3,10 +3,10 @@
 #include <iterator>
 #include <string_view>
 
-namespace laneloom {
+namespace laneloom::endurance {
 namespace {
 
-std::uint64_t published_within(const SourceStatus& source, const PublicationLog& log) {
+std::uint64_t published_within(const SourceStatus& source, const support::PublicationLog& log) {
   if (log.session_id != source.session_id) return 0;
   const auto first = log.times_ns.lower_bound(source.first_sequence);
   const auto last = log.times_ns.upper_bound(source.last_sequence);
@@ -16,7 +16,7 @@ std::uint64_t published_within(const SourceStatus& source, const PublicationLog&
 }  // namespace
 
 Account account_of(const ServiceStatus& last, const std::vector<SourceStatus>& sources,
-                   const std::vector<PublicationLog>& logs) {
+                   const std::vector<support::PublicationLog>& logs) {
   Account account;
   for (const auto& source : sources) {
     for (const auto& log : logs) account.published += published_within(source, log);
@@ -31,4 +31,4 @@ Account account_of(const ServiceStatus& last, const std::vector<SourceStatus>& s
   return account;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

@@ -7,7 +7,7 @@
 #include "laneloom/messages.hpp"
 #include "support/publication_log.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 
 /// Accounts for the detection frames that were published to one session of the service, from the first to the
 /// last frame that it saw of each source.
@@ -27,6 +27,6 @@ struct Account {
 /// The account of a session, by its last status. `sources` are gathered from all its statuses, because a
 /// single one names the newest sources only.
 Account account_of(const ServiceStatus& last, const std::vector<SourceStatus>& sources,
-                   const std::vector<PublicationLog>& logs);
+                   const std::vector<support::PublicationLog>& logs);
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::endurance {
 
 Fleet::Fleet(Spec spec) : spec_(std::move(spec)) {
   std::ofstream config(folder_.file("laneloomd.yaml"));
@@ -51,7 +51,7 @@ std::vector<std::string> Fleet::command_of(const Member& member) {
 }
 
 void Fleet::start(const Member& member) {
-  processes_[member] = std::make_unique<ChildProcess>(command_of(member), output_of(member));
+  processes_[member] = std::make_unique<support::ChildProcess>(command_of(member), output_of(member));
 }
 
 void Fleet::signal(const Member& member, int number) { processes_.at(member)->signal(number); }
@@ -95,11 +95,11 @@ std::string Fleet::restart(const Member& member) {
   return failure;
 }
 
-std::vector<PublicationLog> Fleet::publications() const {
-  std::vector<PublicationLog> result;
+std::vector<support::PublicationLog> Fleet::publications() const {
+  std::vector<support::PublicationLog> result;
   result.reserve(logs_.size());
-  for (const auto& log : logs_) result.push_back(read_publication_log(log));
+  for (const auto& log : logs_) result.push_back(support::read_publication_log(log));
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

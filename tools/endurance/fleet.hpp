@@ -14,7 +14,7 @@
 #include "support/child_process.hpp"
 #include "support/publication_log.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 
 /// The processes of one vehicle: a publisher, a service, a planner, and further perceptions. Each start of a
 /// process is a session of its own.
@@ -57,7 +57,7 @@ class Fleet {
   bool planner_gets_maps(std::int64_t since_ns, std::chrono::milliseconds patience) const;
 
   /// The logs of all processes that published detections so far.
-  std::vector<PublicationLog> publications() const;
+  std::vector<support::PublicationLog> publications() const;
 
  private:
   void start(const Member& member);
@@ -67,9 +67,9 @@ class Fleet {
   std::string output_of(const Member& member) const { return folder_.file(member.c_str()); }
 
   Spec spec_;
-  WorkFolder folder_;
-  std::vector<std::string> logs_;                              ///< files of the publication logs
-  std::map<Member, std::unique_ptr<ChildProcess>> processes_;  ///< the processes that should run
+  io::WorkFolder folder_;
+  std::vector<std::string> logs_;                                       ///< files of the publication logs
+  std::map<Member, std::unique_ptr<support::ChildProcess>> processes_;  ///< the processes that should run
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

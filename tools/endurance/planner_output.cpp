@@ -6,7 +6,7 @@
 
 #include "laneloom/state_names.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -39,4 +39,4 @@ bool wait_for_planner(const std::string& file, std::int64_t since_ns, std::chron
   return false;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

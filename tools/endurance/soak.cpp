@@ -12,7 +12,7 @@
 #include "base/system_clock.hpp"
 #include "simulation/random.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
@@ -21,10 +21,10 @@ using Member = Fleet::Member;
 struct Fault {
   std::string name;
   /// Makes the fault. Returns the problem, in words; empty: there was none.
-  std::function<std::string(Fleet& fleet, Random& random)> make;
+  std::function<std::string(Fleet& fleet, simulation::Random& random)> make;
 };
 
-std::string hang(Fleet& fleet, const Member& member, Random& random) {
+std::string hang(Fleet& fleet, const Member& member, simulation::Random& random) {
   fleet.signal(member, SIGSTOP);
   std::this_thread::sleep_for(Seconds(random.uniform(0.2, 3.0)));
   fleet.signal(member, SIGCONT);
@@ -43,14 +43,17 @@ std::string crash(Fleet& fleet, const Member& member) {
 
 std::vector<Fault> all_faults(const Fleet& fleet) {
   std::vector<Fault> faults{
-      {"reload service", [](Fleet& faulty, Random& /*random*/) { return reload(faulty); }}};
+      {"reload service", [](Fleet& faulty, simulation::Random& /*random*/) { return reload(faulty); }}};
   for (const Member& member : fleet.members()) {
-    faults.push_back(
-        {"kill " + member, [member](Fleet& faulty, Random& /*random*/) { return crash(faulty, member); }});
-    faults.push_back(
-        {"end " + member, [member](Fleet& faulty, Random& /*random*/) { return faulty.restart(member); }});
-    faults.push_back(
-        {"hang " + member, [member](Fleet& faulty, Random& random) { return hang(faulty, member, random); }});
+    faults.push_back({"kill " + member, [member](Fleet& faulty, simulation::Random& /*random*/) {
+                        return crash(faulty, member);
+                      }});
+    faults.push_back({"end " + member, [member](Fleet& faulty, simulation::Random& /*random*/) {
+                        return faulty.restart(member);
+                      }});
+    faults.push_back({"hang " + member, [member](Fleet& faulty, simulation::Random& random) {
+                        return hang(faulty, member, random);
+                      }});
   }
   return faults;
 }
@@ -97,7 +100,7 @@ bool SoakResult::passed() const {
 }
 
 SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
-  Random random(spec.seed);
+  simulation::Random random(spec.seed);
   SoakResult result;
   Watch watch(spec.fleet.dds);
   Fleet fleet(spec.fleet);
@@ -133,4 +136,4 @@ SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

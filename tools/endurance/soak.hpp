@@ -11,7 +11,7 @@
 #include "endurance/fleet.hpp"
 #include "endurance/watch.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 
 /// The fleet of a soak test, its duration and the limits for recovery.
 struct SoakSpec {
@@ -46,4 +46,4 @@ struct SoakResult {
 /// started or no map comes.
 SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on);
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

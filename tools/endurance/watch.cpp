@@ -7,7 +7,7 @@
 
 #include "pnc/report.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 namespace {
 
 template <class Rises>
@@ -60,7 +60,7 @@ Watch::Maps Watch::maps() const {
 }
 
 void Watch::take(PublishedMap&& map) {
-  PncUpdate update = judge(std::move(map), previous_ ? &*previous_ : nullptr);
+  pnc::PncUpdate update = pnc::judge(std::move(map), previous_ ? &*previous_ : nullptr);
   const std::lock_guard lock(mutex_);
   ++maps_.received;
   maps_.missed += update.missed;
@@ -87,4 +87,4 @@ void Watch::take(ServiceStatus&& status) {
   session.last = std::move(status);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

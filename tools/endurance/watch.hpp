@@ -12,7 +12,7 @@
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::endurance {
 
 /// A planner that notes the messages of all services of a vehicle, which run one after another. Thread-safe.
 class Watch {
@@ -54,4 +54,4 @@ class Watch {
   dds::Reader<ServiceStatus> status_reader_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::endurance

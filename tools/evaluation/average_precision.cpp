@@ -6,7 +6,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr std::size_t kPoints = 100;
@@ -156,4 +156,4 @@ double AveragePrecisionMeter::mean_over_markings(double (AveragePrecisionMeter::
   return terms == 0 ? 0.0 : sum / static_cast<double>(terms);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

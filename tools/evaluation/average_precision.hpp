@@ -19,7 +19,7 @@
 /// - C-mAP: the first true positive of a truth line gives it its id; a later one with another id is a false
 ///   positive. Only lines with ids can be rated so.
 /// Lines are clipped to the range box first, as for precision and recall.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 inline constexpr std::array kApThresholds_m{0.5, 1.0, 1.5};
 
@@ -65,4 +65,4 @@ class AveragePrecisionMeter {
   bool has_ids_ = false;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -4,7 +4,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/clip_segment.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr double kMinLength_m = 1.0;
@@ -34,7 +34,7 @@ std::vector<Polyline> clip(const Polyline& line, const RangeConfig& range) {
   std::vector<Polyline> pieces;
   bool open = false;  // the last piece goes on with the next segment
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const auto part = clip_segment(line[i], line[i + 1], inside);
+    const auto part = geometry::clip_segment(line[i], line[i + 1], inside);
     open = open && part && part->from == 0.0;
     if (!part) continue;
     const Point step = line[i + 1] - line[i];
@@ -47,4 +47,4 @@ std::vector<Polyline> clip(const Polyline& line, const RangeConfig& range) {
   return pieces;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

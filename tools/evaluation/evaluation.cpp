@@ -7,7 +7,7 @@
 #include "evaluation/sample_grid.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr double kSampleStep_m = 0.1;
@@ -167,4 +167,4 @@ std::vector<TruthOutcome> truth_outcomes(const KindComparison& comparison) {
   return outcomes;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -24,7 +24,7 @@
 /// - Assignment: pairs are taken by descending number of matched samples, then by ascending mean distance,
 ///   then in the order given; a truth line and a prediction are each used once.
 /// - Overlong lines: what a prediction has beyond the truth line costs nothing, as the paper has it.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// A sample matches a line that has one closer than this.
 inline constexpr double kMatchDistance_m = 0.5;
@@ -128,4 +128,4 @@ struct TruthOutcome {
 /// The outcomes of the truth lines in range, by ascending index. They point into `comparison`.
 std::vector<TruthOutcome> truth_outcomes(const KindComparison& comparison);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

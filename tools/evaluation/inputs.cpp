@@ -10,7 +10,7 @@
 #include "session/gate.hpp"
 #include "session/synchroniser.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 using VisitFrame = std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>;
@@ -37,16 +37,17 @@ class RecordedFrames {
   explicit RecordedFrames(const VisitFrame& visit) : visit_(visit) {}
 
   void add(const VehiclePose& pose) {
-    if (!defect(pose, gate_config_).empty()) return;
-    const Gate::Verdict verdict = pose_gate_.check({pose.stamp_ns, pose.session_id, pose.position});
-    if (verdict == Gate::Verdict::begins_anew) synchroniser_.clear_poses();
-    if (verdict == Gate::Verdict::accepted || verdict == Gate::Verdict::begins_anew) synchroniser_.add(pose);
+    if (!session::defect(pose, gate_config_).empty()) return;
+    const session::Gate::Verdict verdict = pose_gate_.check({pose.stamp_ns, pose.session_id, pose.position});
+    if (verdict == session::Gate::Verdict::begins_anew) synchroniser_.clear_poses();
+    if (verdict == session::Gate::Verdict::accepted || verdict == session::Gate::Verdict::begins_anew)
+      synchroniser_.add(pose);
     visit_ready();
   }
 
   void add(DetectionFrame&& frame) {
-    if (!defect(frame, gate_config_).empty()) return;
-    synchroniser_.add(PendingFrame{.frame = std::move(frame)});
+    if (!session::defect(frame, gate_config_).empty()) return;
+    synchroniser_.add(session::PendingFrame{.frame = std::move(frame)});
     visit_ready();
     synchroniser_.drop_excess();
   }
@@ -60,8 +61,8 @@ class RecordedFrames {
 
   Ascending visit_;
   GateConfig gate_config_;
-  Gate pose_gate_{gate_config_};
-  Synchroniser synchroniser_{SyncConfig{}};
+  session::Gate pose_gate_{gate_config_};
+  session::Synchroniser synchroniser_{SyncConfig{}};
 };
 
 /// A map on the wire may have lines of less than two points, with which nothing can be compared.
@@ -97,8 +98,8 @@ class NewestMaps {
 
 InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame& visit) {
   InputAccount account;
-  if (is_recording(path)) {
-    RecordingReader reader(path.string());
+  if (recording::is_recording(path)) {
+    recording::RecordingReader reader(path.string());
     RecordedFrames frames(visit);
     while (auto recorded = reader.next()) {
       if (const auto* pose = std::get_if<VehiclePose>(&recorded->message)) frames.add(*pose);
@@ -111,7 +112,7 @@ InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame&
     account.cut_off = reader.cut_off();
     return account;
   }
-  JsonLinesReader in(path);
+  io::JsonLinesReader in(path);
   Ascending ascending(visit);
   for (; const auto record = in.next_frame(); ++account.count)
     ascending(record->frame, transform(record->pose));
@@ -121,8 +122,8 @@ InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame&
 InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& visit) {
   InputAccount account;
   NewestMaps maps(visit);
-  if (is_recording(path)) {
-    RecordingReader reader(path.string());
+  if (recording::is_recording(path)) {
+    recording::RecordingReader reader(path.string());
     while (auto recorded = reader.next()) {
       auto* published = std::get_if<PublishedMap>(&recorded->message);
       if (published == nullptr) continue;
@@ -132,11 +133,11 @@ InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& vis
     account.refused = reader.refused();
     account.cut_off = reader.cut_off();
   } else {
-    JsonLinesReader in(path);
+    io::JsonLinesReader in(path);
     for (; auto map = in.next_map(); ++account.count) maps.add(std::move(*map));
   }
   maps.finish();
   return account;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

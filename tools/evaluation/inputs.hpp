@@ -9,7 +9,7 @@
 /// Reads the input of an evaluation from files of either kind: JSON lines (io/json_lines.hpp) or a recording
 /// (recording/recording.hpp), told apart by their first bytes. Both functions throw std::runtime_error naming
 /// the file and the place where it cannot be read or is malformed.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// The number of frames or maps, and the messages of a recording that could not be read.
 struct InputAccount {
@@ -30,4 +30,4 @@ InputAccount for_each_frame(
 InputAccount for_each_map(const std::filesystem::path& path,
                           const std::function<void(const LocalMap&)>& visit);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -3,7 +3,7 @@
 #include "evaluation/lane_chains.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 KindLine kind_line(const Marking& marking) {
@@ -17,11 +17,11 @@ KindLine kind_line(const Marking& marking) {
 
 }  // namespace
 
-std::vector<KindLine> kind_lines(const Road& truth) {
+std::vector<KindLine> kind_lines(const simulation::Road& truth) {
   std::vector<KindLine> lines;
   for (const LaneChain& chain : lane_chains(truth))
     lines.push_back({.kind = LineKind::lane, .points = centerline(chain), .id = chain.front()->id});
-  for (const RoadMarking& marking : truth.markings)
+  for (const simulation::RoadMarking& marking : truth.markings)
     lines.push_back({.kind = line_kind(marking.type),
                      .points = marking.points,
                      .id = marking.id,
@@ -57,4 +57,4 @@ std::vector<KindLine> kind_lines(const DetectionFrame& frame, const Eigen::Isome
   return lines;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

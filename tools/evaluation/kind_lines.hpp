@@ -6,10 +6,10 @@
 #include "simulation/road.hpp"
 
 /// The lines that are compared: truth, single detections and fused maps as lines of a kind, in the map frame.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// The centerlines of the lane_chains(), then the markings, both in their order.
-std::vector<KindLine> kind_lines(const Road& truth);
+std::vector<KindLine> kind_lines(const simulation::Road& truth);
 
 /// The stoplines, the boundaries without inferred ones (nothing is painted there), and the lane_chains().
 std::vector<KindLine> kind_lines(const LocalMap& map);
@@ -18,4 +18,4 @@ std::vector<KindLine> kind_lines(const LocalMap& map);
 std::vector<KindLine> kind_lines(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                                  double min_confidence);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

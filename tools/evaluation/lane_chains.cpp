@@ -5,7 +5,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 using Next = std::map<ElementId, ElementId>;
@@ -35,7 +35,7 @@ std::vector<Chain> chains(const Lanes& lanes, const Next& next) {
   return chains;
 }
 
-bool can_be_seen(const RoadLane& lane) {
+bool can_be_seen(const simulation::RoadLane& lane) {
   const bool is_marked = lane.left_marking != kNoElement || lane.right_marking != kNoElement;
   return is_marked && !lane.in_intersection;
 }
@@ -77,10 +77,10 @@ Links continuations(const LocalMap& map) {
 
 }  // namespace
 
-std::vector<LaneChain> lane_chains(const Road& truth) {
+std::vector<LaneChain> lane_chains(const simulation::Road& truth) {
   std::map<ElementId, int> entries;
-  std::map<ElementId, const RoadLane*> lanes;
-  for (const RoadLane& lane : truth.lanes) {
+  std::map<ElementId, const simulation::RoadLane*> lanes;
+  for (const simulation::RoadLane& lane : truth.lanes) {
     for (const ElementId next : lane.successors) ++entries[next];
     if (can_be_seen(lane)) lanes.emplace(lane.id, &lane);
   }
@@ -99,7 +99,7 @@ std::vector<LaneChain> lane_chains(const Road& truth) {
 
 Polyline centerline(const LaneChain& chain) {
   Polyline points;
-  for (const RoadLane* lane : chain)
+  for (const simulation::RoadLane* lane : chain)
     points.insert(points.end(), lane->centerline.begin(), lane->centerline.end());
   return points;
 }
@@ -127,4 +127,4 @@ std::vector<PublishedChain> lane_chains(const LocalMap& map) {
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -7,14 +7,14 @@
 
 /// Chains of lanes that only continue one another. They are compared as one, because truth and map may cut
 /// lanes at different places.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// A chain of lanes of the truth. It points into the truth.
-using LaneChain = std::vector<const RoadLane*>;
+using LaneChain = std::vector<const simulation::RoadLane*>;
 
 /// The chains of the lanes outside of intersections that a marking bounds on at least one side, since others
 /// can not be seen. They are sorted by the ids of their first lanes.
-std::vector<LaneChain> lane_chains(const Road& truth);
+std::vector<LaneChain> lane_chains(const simulation::Road& truth);
 Polyline centerline(const LaneChain& chain);
 
 /// A chain of published lanes. It points into the map.
@@ -29,4 +29,4 @@ struct PublishedChain {
 /// another linkage there. Chains are sorted by the ids of their first lanes.
 std::vector<PublishedChain> lane_chains(const LocalMap& map);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

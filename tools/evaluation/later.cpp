@@ -9,7 +9,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr double kNearest_m = 6.0, kFarthest_m = 10.0;  // ahead: close by
@@ -256,4 +256,4 @@ void require_rated(const LaterMeter& meter, const std::string& name) {
         name, meter.driven_m()));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

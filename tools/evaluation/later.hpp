@@ -30,7 +30,7 @@
 ///   is another one than the last, also where the vehicle itself changes lanes.
 ///
 /// The vehicle's poses are taken to be exact over the 40 m that matter: what they drift adds to all errors.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 inline constexpr std::array kLaterDistances_m{12.0, 20.0, 28.0};
 inline constexpr std::array kLaterTypes{MarkingType::laneline, MarkingType::roadedge};
@@ -123,4 +123,4 @@ class LaterMeter {
 /// to be rated.
 void require_rated(const LaterMeter& meter, const std::string& name);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

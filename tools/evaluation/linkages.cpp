@@ -8,7 +8,7 @@
 #include "evaluation/sample_grid.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr double kMatchShare = 0.75;
@@ -27,7 +27,8 @@ Polyline prolonged(Polyline line) {
 }
 
 /// The chains that follow `lane`, directly or across lanes that are in no chain.
-std::set<std::size_t> following(const RoadLane& lane, const std::map<ElementId, const RoadLane*>& lanes,
+std::set<std::size_t> following(const simulation::RoadLane& lane,
+                                const std::map<ElementId, const simulation::RoadLane*>& lanes,
                                 const std::map<ElementId, std::size_t>& chain_of) {
   std::set<std::size_t> chains;
   std::set<ElementId> passed;
@@ -203,12 +204,6 @@ void add_stoplines(const TruthTopology& truth, const FrameComparison& frame, con
 
 }  // namespace
 
-const char* name(Linkage::Kind kind) {
-  constexpr std::array<const char*, kLinkageKindCount> kNames{"shared_boundary", "geometric_alignment",
-                                                              "intersection", "sd_map", "ego_track"};
-  return kNames.at(static_cast<std::size_t>(kind));
-}
-
 bool may_run(Lane::Direction direction, bool reversed) {
   return direction == Lane::Direction::unknown ||
          (direction == Lane::Direction::against_centerline) == reversed;
@@ -221,13 +216,13 @@ double PairScore::f1() const {
   return sum > 0.0 ? 2.0 * precision() * recall() / sum : 0.0;
 }
 
-TruthTopology truth_topology(const Road& truth) {
+TruthTopology truth_topology(const simulation::Road& truth) {
   const std::vector<LaneChain> chains = lane_chains(truth);
-  std::map<ElementId, const RoadLane*> lanes;
-  for (const RoadLane& lane : truth.lanes) lanes.emplace(lane.id, &lane);
+  std::map<ElementId, const simulation::RoadLane*> lanes;
+  for (const simulation::RoadLane& lane : truth.lanes) lanes.emplace(lane.id, &lane);
   std::map<ElementId, std::size_t> chain_of;
   for (std::size_t i = 0; i < chains.size(); ++i)
-    for (const RoadLane* lane : chains[i]) chain_of.emplace(lane->id, i);
+    for (const simulation::RoadLane* lane : chains[i]) chain_of.emplace(lane->id, i);
 
   TruthTopology topology;
   for (std::size_t i = 0; i < chains.size(); ++i)
@@ -253,4 +248,4 @@ void add_topology(const TruthTopology& truth, const FrameComparison& frame, cons
   add_stoplines(truth, frame, found, map, score.stopline_lanes);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

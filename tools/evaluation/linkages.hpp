@@ -25,10 +25,9 @@
 /// - Stoplines: a truth stopline ends the truth lanes whose centerline, prolonged by 3 m, crosses it. Of the
 ///   published stoplines that are true positives: the share of their lanes in range that lie on such a lane,
 ///   and the share of such lanes, with a published lane on them, that are named.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 inline constexpr std::size_t kLinkageKindCount = 5;
-const char* name(Linkage::Kind kind);
 
 /// The successors of the truth lanes, and the lanes that each stopline ends.
 struct TruthTopology {
@@ -37,7 +36,7 @@ struct TruthTopology {
   std::map<std::size_t, std::set<LaneIndex>> lanes_of_stopline;  ///< by index among the kind_lines()
 };
 
-TruthTopology truth_topology(const Road& truth);
+TruthTopology truth_topology(const simulation::Road& truth);
 
 /// Counts of published statements and of true ones.
 struct PairScore {
@@ -66,4 +65,4 @@ bool may_run(Lane::Direction direction, bool reversed);
 void add_topology(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
                   const RangeConfig& range, TopologyScore& score);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -1,9 +1,9 @@
 #include "evaluation/map_evaluation.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
-std::vector<KindLine> truth_lines(const Road& truth, Subject subject) {
+std::vector<KindLine> truth_lines(const simulation::Road& truth, Subject subject) {
   std::vector<KindLine> lines = kind_lines(truth);
   if (subject == Subject::detections)
     std::erase_if(lines, [](const KindLine& line) { return line.kind == LineKind::lane; });
@@ -12,7 +12,7 @@ std::vector<KindLine> truth_lines(const Road& truth, Subject subject) {
 
 }  // namespace
 
-MapEvaluation::MapEvaluation(const Road& truth, const RangeConfig& range, Subject subject)
+MapEvaluation::MapEvaluation(const simulation::Road& truth, const RangeConfig& range, Subject subject)
     : truth_(truth_lines(truth, subject)),
       truth_topology_(truth_topology(truth)),
       range_(range),
@@ -24,7 +24,7 @@ FrameComparison MapEvaluation::add_lines(std::int64_t stamp_ns, const Eigen::Iso
                                          const std::vector<KindLine>& lines) {
   FrameComparison frame = compare(truth_, lines, T_map_body, range_);
   frame.stamp_ns = stamp_ns;
-  laneloom::add(frame, score_);
+  evaluation::add(frame, score_);
   stability_.add(frame, lines);
   average_precision_.add(frame, lines);
   trust_.add(frame, lines);
@@ -44,4 +44,4 @@ void MapEvaluation::add(const DetectionFrame& frame, const Eigen::Isometry3d& T_
   add_lines(frame.stamp_ns, T_map_body, kind_lines(frame, T_map_body, min_confidence));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

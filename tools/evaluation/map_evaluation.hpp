@@ -12,7 +12,7 @@
 #include "evaluation/top_ll.hpp"
 #include "evaluation/trust.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// The subject of an evaluation. Detections have no lanes, so that they are not rated by them.
 enum class Subject : std::uint8_t { maps, detections };
@@ -35,7 +35,7 @@ struct Measures {
 /// Every measure of a sequence of maps, or of single detections. Not thread-safe.
 class MapEvaluation {
  public:
-  MapEvaluation(const Road& truth, const RangeConfig& range, Subject subject);
+  MapEvaluation(const simulation::Road& truth, const RangeConfig& range, Subject subject);
 
   /// Adds the next frame, in the order of stamps. It is a map or a frame of detections, as the constructor
   /// was told.
@@ -69,4 +69,4 @@ class MapEvaluation {
   TopLl top_ll_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -2,7 +2,7 @@
 
 #include "evaluation/map_evaluation.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 void add(const Stability& from, Stability& to) {
@@ -75,4 +75,4 @@ Measures MapEvaluation::measures() const {
   return all;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

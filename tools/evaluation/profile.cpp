@@ -8,7 +8,7 @@
 #include "evaluation/sample_grid.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 double ratio(double part, std::size_t whole) { return whole == 0 ? 0.0 : part / static_cast<double>(whole); }
@@ -112,4 +112,4 @@ void ProfileMeter::add_predictions(const KindComparison& comparison, MarkingType
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -14,7 +14,7 @@
 /// is right where a truth line of its kind has one; no line need be a true positive for that. The lateral
 /// error of a right sample is its horizontal distance from the nearest such truth line. Its distance is the
 /// forward coordinate in the body frame.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// Numbers of samples of truth and map, summed over frames.
 struct SampleScore {
@@ -82,4 +82,4 @@ class ProfileMeter {
   std::array<std::array<LateralErrors, kErrorBands>, kMarkingTypeCount> errors_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

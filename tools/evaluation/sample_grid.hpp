@@ -8,7 +8,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/geometry/point_grid.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// Samples of lines, so that samples near a point are found without visiting all.
 class SampleGrid {
@@ -64,7 +64,7 @@ class SampleGrid {
 
   double radius_m_;
   std::size_t lines_;  ///< number of lines
-  PointGrid<Sample> samples_;
+  geometry::PointGrid<Sample> samples_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

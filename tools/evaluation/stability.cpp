@@ -5,7 +5,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr double kStep_m = 1.0;
@@ -95,4 +95,4 @@ void StabilityMeter::add(const FrameComparison& frame, const std::vector<KindLin
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -20,7 +20,7 @@
 /// - Length driven past: of every truth line, the stretch that was in range in any frame, to the metre.
 /// - Flicker: of the frames in which a truth line is in range and was right the frame before, the share in
 ///   which it is wrong.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// How steady the published lines of one kind are over a drive.
 struct Stability {
@@ -61,4 +61,4 @@ class StabilityMeter {
   std::vector<std::optional<double>> jitter_over_time_m_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -2,7 +2,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr double kStep_m = 1.0;
@@ -41,4 +41,4 @@ void add_styles(const FrameComparison& frame, const std::vector<KindLine>& truth
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -9,7 +9,7 @@
 /// Of the true positives among the lanelines, every metre in range that lies within 0.5 m of its truth line.
 /// Truth lines of unknown style do not count. Accuracy is the share with the truth's style among those with a
 /// known one; how much is unknown stands apart.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// Lengths of found lanelines by their published style.
 struct StyleScore {
@@ -25,4 +25,4 @@ struct StyleScore {
 void add_styles(const FrameComparison& frame, const std::vector<KindLine>& truth,
                 const std::vector<KindLine>& predictions, StyleScore& score);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

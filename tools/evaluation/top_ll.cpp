@@ -9,7 +9,7 @@
 #include "evaluation/lane_chains.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 constexpr std::size_t kPoints = 11;
@@ -192,4 +192,4 @@ void add_top_ll(const TruthTopology& truth, const FrameComparison& frame, const 
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

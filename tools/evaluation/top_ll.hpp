@@ -19,7 +19,7 @@
 ///
 /// A published lane that runs against its centerline is turned before; one of unknown direction may match in
 /// either sense. The linkages between two turned lanes turn with them.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 /// Sums over vertices, directions, frames and thresholds. Their mean is TOP_ll.
 struct TopLl {
@@ -36,4 +36,4 @@ double frechet_distance_m(const Polyline& a, const Polyline& b);
 void add_top_ll(const TruthTopology& truth, const FrameComparison& frame, const LocalMap& map,
                 const RangeConfig& range, TopLl& top_ll);
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::evaluation {
 namespace {
 
 void add_confidences(const KindComparison& comparison, const std::vector<KindLine>& predictions,
@@ -94,4 +94,4 @@ Trust TrustMeter::with_never_appeared(Trust trust, bool lanes) const {
   return trust;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

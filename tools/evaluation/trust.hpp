@@ -19,7 +19,7 @@
 ///   per frame and piece; lines without a confidence do not.
 /// - First appearance: of each truth line, time and distance driven from the first frame in which it is in
 ///   range to the first in which it is right.
-namespace laneloom {
+namespace laneloom::evaluation {
 
 inline constexpr std::size_t kCalibrationBins = 10;
 
@@ -77,4 +77,4 @@ class TrustMeter {
   Trust markings_, lanes_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::evaluation

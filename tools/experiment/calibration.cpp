@@ -6,7 +6,7 @@
 
 #include "experiment/experiment.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 // Share of the change that each figure alone would need, since the figures depend on one another.
@@ -14,9 +14,10 @@ constexpr double kDamping = 0.6;
 constexpr double kMaxMissedShare = 0.6;
 constexpr double kFramesPerSecond = 10.0;
 
-CalibrationStep measure(const NoiseProfile& noise, std::vector<DriveSpec>& drives, const RangeConfig& range) {
+CalibrationStep measure(const simulation::NoiseProfile& noise, std::vector<DriveSpec>& drives,
+                        const RangeConfig& range) {
   for (DriveSpec& drive : drives) drive.noise = noise;
-  const Measures raw =
+  const evaluation::Measures raw =
       sum(run({.drives = drives, .configs = {}, .peer = {}, .range = range})).front().measures;
   return {noise, raw.score, raw.markings_stability().jitter_m.mean()};
 }
@@ -25,11 +26,11 @@ double towards(double value, double is, double should) {
   return is > 0.0 ? value * std::pow(should / is, kDamping) : value;
 }
 
-void correct(const CalibrationStep& step, const CalibrationTarget& target, NoiseProfile& noise) {
+void correct(const CalibrationStep& step, const CalibrationTarget& target, simulation::NoiseProfile& noise) {
   const double seconds = static_cast<double>(step.score.frames) / kFramesPerSecond;
   for (const MarkingType type : kMarkingTypes) {
     const CalibrationTarget::Kind& should = target.kinds.at(index(type));
-    const Score& is = step.score.of(line_kind(type));
+    const evaluation::Score& is = step.score.of(evaluation::line_kind(type));
     if (should.precision <= 0.0 || is.truths == 0) continue;
     double& missed = noise.missed_share.at(index(type));
     missed = std::clamp(missed + kDamping * (is.recall() - should.recall), 0.0, kMaxMissedShare);
@@ -54,8 +55,8 @@ CalibrationTarget calibration_target(const std::string& data_set) {
   throw std::invalid_argument("no calibration target is known for '" + data_set + "'");
 }
 
-CalibrationStep calibrate(NoiseProfile start, const CalibrationTarget& target, std::vector<DriveSpec> drives,
-                          const RangeConfig& range, int steps,
+CalibrationStep calibrate(simulation::NoiseProfile start, const CalibrationTarget& target,
+                          std::vector<DriveSpec> drives, const RangeConfig& range, int steps,
                           const std::function<void(const CalibrationStep&)>& tell) {
   CalibrationStep step = measure(start, drives, range);
   tell(step);
@@ -67,4 +68,4 @@ CalibrationStep calibrate(NoiseProfile start, const CalibrationTarget& target, s
   return step;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

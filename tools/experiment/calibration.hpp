@@ -7,7 +7,7 @@
 #include "evaluation/evaluation.hpp"
 #include "experiment/drive_simulation.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 
 /// The scores that a network's single detections should have. Markings without a target have a precision of
 /// 0.
@@ -26,16 +26,16 @@ CalibrationTarget calibration_target(const std::string& data_set);
 
 /// A noise profile that was tried, and the scores under it.
 struct CalibrationStep {
-  NoiseProfile noise;
-  MapScore score;  ///< of single detections under this noise
+  simulation::NoiseProfile noise;
+  evaluation::MapScore score;  ///< of single detections under this noise
   double jitter_m = 0.0;
 };
 
 /// Changes a profile's missed shares (for the recall), ghost rates (precision), error factors (ACD) and
 /// flutter (jitter), in `steps` steps, so that single detections approach the target's scores. `drives` name
 /// road, seed and duration. `tell` is called with every step. Returns the last step.
-CalibrationStep calibrate(NoiseProfile start, const CalibrationTarget& target, std::vector<DriveSpec> drives,
-                          const RangeConfig& range, int steps,
+CalibrationStep calibrate(simulation::NoiseProfile start, const CalibrationTarget& target,
+                          std::vector<DriveSpec> drives, const RangeConfig& range, int steps,
                           const std::function<void(const CalibrationStep&)>& tell);
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -6,7 +6,7 @@
 
 #include "simulation/perception.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 constexpr double kPeriod_s = 0.1;
@@ -16,7 +16,7 @@ constexpr std::int64_t kPeriod_ns = 100'000'000;
 
 DriveSimulation::DriveSimulation(const DriveSpec& spec)
     : spec_(spec),
-      perception_(std::make_unique<Perception>(*spec.road, spec.noise, spec.view, spec.seed)),
+      perception_(std::make_unique<simulation::Perception>(*spec.road, spec.noise, spec.view, spec.seed)),
       odometry_(transform(spec.road->drive.pose_at(0.0)), spec.drift) {}
 
 DriveSimulation::~DriveSimulation() = default;
@@ -41,7 +41,7 @@ SimulatedFrame DriveSimulation::next() {
 }
 
 std::vector<SimulatedFrame> simulate(const DriveSpec& spec) {
-  const Drive& drive = spec.road->drive;
+  const simulation::Drive& drive = spec.road->drive;
   const double once_s = drive.duration_s();
   const double longest_s = drive.closed() ? std::numeric_limits<double>::infinity() : once_s;
   const double duration_s = spec.duration_s > 0.0 ? std::min(spec.duration_s, longest_s) : once_s;
@@ -51,4 +51,4 @@ std::vector<SimulatedFrame> simulate(const DriveSpec& spec) {
   return frames;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

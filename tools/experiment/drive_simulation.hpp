@@ -10,23 +10,25 @@
 #include "simulation/road.hpp"
 #include "simulation/sensor_view.hpp"
 
-namespace laneloom {
-
+namespace laneloom::simulation {
 class Perception;
+}
+
+namespace laneloom::experiment {
 
 /// A drive over a known road.
 struct DriveSpec {
-  std::shared_ptr<const Road> road;
-  NoiseProfile noise;
+  std::shared_ptr<const simulation::Road> road;
+  simulation::NoiseProfile noise;
   std::uint64_t seed = 1;
   double duration_s = 0.0;  ///< 0: once along the road's drive; a drive that is not closed is never longer
   double drift = 0.0;       ///< of the odometry, as a share of the distance driven
-  SensorView view;
+  simulation::SensorView view;
 };
 
 /// The output of a network and an odometry at one instant, with the truth.
 struct SimulatedFrame {
-  FrameRecord record;              ///< with the odometry's pose
+  io::FrameRecord record;          ///< with the odometry's pose
   std::vector<ElementId> sources;  ///< true marking of every detection; kNoElement: it is a ghost
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< the true pose
 };
@@ -45,12 +47,12 @@ class DriveSimulation {
 
  private:
   DriveSpec spec_;
-  std::unique_ptr<Perception> perception_;
-  Odometry odometry_;
+  std::unique_ptr<simulation::Perception> perception_;
+  simulation::Odometry odometry_;
   std::int64_t stamp_ns_ = 0;
 };
 
 /// The frames of the spec's duration.
 std::vector<SimulatedFrame> simulate(const DriveSpec& spec);
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -7,7 +7,7 @@
 #include "experiment/parallel.hpp"
 #include "laneloom/mapper.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 void move(const Eigen::Isometry3d& T, Polyline& points) {
@@ -41,17 +41,19 @@ class DriveRun {
   }
 
  private:
-  MapEvaluation evaluation(Subject subject) const { return {*drive_.road, spec_.range, subject}; }
+  evaluation::MapEvaluation evaluation(evaluation::Subject subject) const {
+    return {*drive_.road, spec_.range, subject};
+  }
 
   SubjectResult raw() const {
-    MapEvaluation rated = evaluation(Subject::detections);
+    evaluation::MapEvaluation rated = evaluation(evaluation::Subject::detections);
     for (const SimulatedFrame& frame : frames_)
       rated.add(frame.record.frame, frame.T_map_body, spec_.min_confidence);
     return {"raw", rated.measures(), {}};
   }
 
   SubjectResult mapped(const NamedConfig& config) const {
-    MapEvaluation rated = evaluation(Subject::maps);
+    evaluation::MapEvaluation rated = evaluation(evaluation::Subject::maps);
     Mapper mapper(config.config.mapper);
     Distribution update_ms;
     for (const SimulatedFrame& frame : frames_) {
@@ -65,19 +67,19 @@ class DriveRun {
   }
 
   SubjectResult peer() const {
-    MapEvaluation rated = evaluation(Subject::maps);
+    evaluation::MapEvaluation rated = evaluation(evaluation::Subject::maps);
     std::vector<LocalMap> maps = run_peer(*spec_.peer, frames_);
     for (std::size_t i = 0; i < maps.size(); ++i) rated.add(in_true_frame(std::move(maps[i]), frames_[i]));
     return {"peer", rated.measures(), {}};
   }
 
   SubjectResult oracle() const {
-    MapEvaluation rated = evaluation(Subject::maps);
+    evaluation::MapEvaluation rated = evaluation(evaluation::Subject::maps);
     Oracle oracle(*drive_.road);
     for (const SimulatedFrame& frame : frames_) rated.add(oracle.update(frame));
-    Measures measures = rated.measures();
+    evaluation::Measures measures = rated.measures();
     // The oracle knows no lanes, so that it is not rated by them.
-    measures.score.by_kind[index(LineKind::lane)] = {};
+    measures.score.by_kind[index(evaluation::LineKind::lane)] = {};
     measures.top_ll = {};
     return {"oracle", measures, {}};
   }
@@ -111,4 +113,4 @@ DriveResults sum(const std::vector<DriveResults>& drives) {
   return sums;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -10,7 +10,7 @@
 #include "laneloom/config.hpp"
 
 /// Experiments with several subjects. All get the same frames, and are rated by the same truth.
-namespace laneloom {
+namespace laneloom::experiment {
 
 /// A configuration of the mapper that is a subject.
 struct NamedConfig {
@@ -31,7 +31,7 @@ struct ExperimentSpec {
 /// The result of one subject.
 struct SubjectResult {
   std::string name;  ///< raw, a configuration's, peer, oracle
-  Measures measures;
+  evaluation::Measures measures;
   Distribution update_ms;  ///< times of updates; only of mappers
 };
 
@@ -46,4 +46,4 @@ std::vector<DriveResults> run(const ExperimentSpec& spec);
 /// The results of all drives together.
 DriveResults sum(const std::vector<DriveResults>& drives);
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

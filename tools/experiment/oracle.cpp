@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 constexpr double kSpacing_m = 1.0;
@@ -12,14 +12,14 @@ constexpr double kGate_m = 3.0;         // of a station from a detection; a ring
 
 }  // namespace
 
-Oracle::Oracle(const Road& truth) {
-  for (const RoadMarking& marking : truth.markings) {
+Oracle::Oracle(const simulation::Road& truth) {
+  for (const simulation::RoadMarking& marking : truth.markings) {
     const MeasuredPolyline measured(marking.points);
     if (measured.length() < kMinLength_m) continue;
     Line& line = lines_.emplace_back(Line{marking.id, marking.type, marking.style, {}});
     const double spacing_m = std::min(kSpacing_m, 0.5 * measured.length());
     for (double arc_m = 0.0; arc_m <= measured.length(); arc_m += spacing_m) {
-      line.stations.push_back({measured.at(arc_m), left_of(measured.direction(arc_m)), 0.0, 0});
+      line.stations.push_back({measured.at(arc_m), geometry::left_of(measured.direction(arc_m)), 0.0, 0});
     }
   }
 }
@@ -79,4 +79,4 @@ LocalMap Oracle::update(const SimulatedFrame& frame) {
   return map;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -6,14 +6,14 @@
 #include "experiment/drive_simulation.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 
 /// A causal fusion without any error of association. It is told the true marking of every detection and its
 /// type. It gives the plain mean of all detections of a marking so far, metre by metre. It knows no lanes.
 /// Not thread-safe.
 class Oracle {
  public:
-  explicit Oracle(const Road& truth);
+  explicit Oracle(const simulation::Road& truth);
 
   /// The map after one more frame: boundaries and stoplines in the map frame.
   LocalMap update(const SimulatedFrame& frame);
@@ -37,4 +37,4 @@ class Oracle {
   std::vector<Line> lines_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::experiment {
 
 void in_parallel(std::size_t count, const std::function<void(std::size_t)>& task) {
   std::atomic<std::size_t> next = 0;
@@ -32,4 +32,4 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t)>& task
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

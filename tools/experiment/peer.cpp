@@ -8,19 +8,19 @@
 #include "io/work_folder.hpp"
 #include "support/child_process.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 /// Runs a command. Its output goes to standard error, because our standard output may be for a machine.
 void run(const std::vector<std::string>& command) {
-  ChildProcess process(command);
+  support::ChildProcess process(command);
   if (process.wait() != 0) throw std::runtime_error(command[0] + ": " + process.failure());
 }
 
 /// Lets the peer fuse the frames into the files out.jsonl and report.json of the folder.
-void run_in(const WorkFolder& folder, const Peer& peer, const std::vector<SimulatedFrame>& frames) {
+void run_in(const io::WorkFolder& folder, const Peer& peer, const std::vector<SimulatedFrame>& frames) {
   const std::string in = folder.file("in.jsonl");
-  JsonLinesWriter writer(in);
+  io::JsonLinesWriter writer(in);
   for (const SimulatedFrame& frame : frames) writer.write(frame.record);
   writer.close();
   run({peer.program, "--in", in, "--out", folder.file("out.jsonl"), "--report", folder.file("report.json"),
@@ -35,9 +35,9 @@ TimeSummary time_summary(const nlohmann::json& times) {
 }  // namespace
 
 std::vector<LocalMap> run_peer(const Peer& peer, const std::vector<SimulatedFrame>& frames) {
-  const WorkFolder folder;
+  const io::WorkFolder folder;
   run_in(folder, peer, frames);
-  JsonLinesReader reader(folder.file("out.jsonl"));
+  io::JsonLinesReader reader(folder.file("out.jsonl"));
   std::vector<LocalMap> maps;
   while (std::optional<LocalMap> map = reader.next_map()) maps.push_back(std::move(*map));
   if (maps.size() != frames.size())
@@ -47,7 +47,7 @@ std::vector<LocalMap> run_peer(const Peer& peer, const std::vector<SimulatedFram
 }
 
 PeerReport time_peer(const Peer& peer, const std::vector<SimulatedFrame>& frames) {
-  const WorkFolder folder;
+  const io::WorkFolder folder;
   run_in(folder, peer, frames);
   try {
     std::ifstream in(folder.file("report.json"));
@@ -65,4 +65,4 @@ PeerReport time_peer(const Peer& peer, const std::vector<SimulatedFrame>& frames
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -7,7 +7,7 @@
 #include "experiment/drive_simulation.hpp"
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 
 /// Another program that fuses frames as JSON lines into maps as JSON lines:
 /// `PROGRAM --in F --out F --report F --preset P`.
@@ -32,4 +32,4 @@ struct PeerReport {
 /// has not reported on every frame.
 PeerReport time_peer(const Peer& peer, const std::vector<SimulatedFrame>& frames);
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

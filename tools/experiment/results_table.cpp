@@ -2,32 +2,34 @@
 
 #include <fmt/format.h>
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 std::string number(bool known, double value, int decimals) {
   return known ? fmt::format("{:.{}f}", value, decimals) : "-";
 }
 
-std::string precision(const Score& score, int decimals) {
+std::string precision(const evaluation::Score& score, int decimals) {
   return number(score.predictions > 0, 100 * score.precision(), decimals);
 }
-std::string recall(const Score& score, int decimals) {
+std::string recall(const evaluation::Score& score, int decimals) {
   return number(score.truths > 0, 100 * score.recall(), decimals);
 }
-std::string f1(const Score& score) {
+std::string f1(const evaluation::Score& score) {
   return number(score.predictions + score.truths > 0, 100 * score.f1(), 1);
 }
-std::string precision(const PairScore& score, int decimals) {
+std::string precision(const evaluation::PairScore& score, int decimals) {
   return number(score.published > 0, 100 * score.precision(), decimals);
 }
-std::string recall(const PairScore& score) { return number(score.truths > 0, 100 * score.recall(), 0); }
+std::string recall(const evaluation::PairScore& score) {
+  return number(score.truths > 0, 100 * score.recall(), 0);
+}
 
 /// The score of linkages across intersections, of all kinds.
-PairScore across_gaps(const TopologyScore& topology) {
-  PairScore sum;
+evaluation::PairScore across_gaps(const evaluation::TopologyScore& topology) {
+  evaluation::PairScore sum;
   for (const auto kind : {Linkage::Kind::intersection, Linkage::Kind::sd_map, Linkage::Kind::ego_track}) {
-    const PairScore& score = topology.by_kind.at(static_cast<std::size_t>(kind));
+    const evaluation::PairScore& score = topology.by_kind.at(static_cast<std::size_t>(kind));
     sum.published += score.published;
     sum.right += score.right;
   }
@@ -35,11 +37,11 @@ PairScore across_gaps(const TopologyScore& topology) {
 }
 
 std::string row(const SubjectResult& result) {
-  const Measures& m = result.measures;
-  const Score markings = m.score.markings();
-  const Score& lanes = m.score.of(LineKind::lane);
-  const Stability steady = m.markings_stability();
-  const PairScore &linkages = m.topology.linkages, &directions = m.topology.directions;
+  const evaluation::Measures& m = result.measures;
+  const evaluation::Score markings = m.score.markings();
+  const evaluation::Score& lanes = m.score.of(evaluation::LineKind::lane);
+  const evaluation::Stability steady = m.markings_stability();
+  const evaluation::PairScore &linkages = m.topology.linkages, &directions = m.topology.directions;
   const Distribution& first_s = m.markings.first_appearance_s;
   const bool times = result.update_ms.count() > 0;
   return fmt::format(
@@ -70,4 +72,4 @@ std::string results_table(const std::vector<SubjectResult>& results) {
   return table;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

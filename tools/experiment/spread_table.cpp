@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace laneloom {
+namespace laneloom::experiment {
 namespace {
 
 constexpr double kLeastWay = 0.1;
@@ -45,7 +45,7 @@ std::string row(const std::vector<DriveSpec>& drives, const std::vector<DriveRes
     const DriveResults& of_drive = results[i];
     const double raw = f1(of_drive.front()), oracle = f1(of_drive.back()), own = f1(of_drive[subject]);
     lines.add(own, drives[i]);
-    const Score& lane = of_drive[subject].measures.score.of(LineKind::lane);
+    const evaluation::Score& lane = of_drive[subject].measures.score.of(evaluation::LineKind::lane);
     if (lane.truths > 0) lanes.add(lane.f1(), drives[i]);
     if (oracle - raw > kLeastWay) way.add((own - raw) / (oracle - raw), drives[i]);
   }
@@ -66,4 +66,4 @@ std::string spread_table(const std::vector<DriveSpec>& drives, const std::vector
   return table;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

@@ -5,7 +5,7 @@
 
 #include "experiment/experiment.hpp"
 
-namespace laneloom {
+namespace laneloom::experiment {
 
 /// A Markdown table of the spread over single drives: mean, worst decile and worst of the F1 of markings and
 /// lanes, and of the way in F1 from single detections (0) to the oracle (1). It has a row for the single
@@ -14,4 +14,4 @@ namespace laneloom {
 /// hardly one.
 std::string spread_table(const std::vector<DriveSpec>& drives, const std::vector<DriveResults>& results);
 
-}  // namespace laneloom
+}  // namespace laneloom::experiment

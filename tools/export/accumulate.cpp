@@ -8,7 +8,7 @@
 #include "mapping/geometry/map_box.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kStep_m = 2.0;      // driven between the maps that are used
@@ -33,7 +33,7 @@ bool is_step(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
 }
 
 /// The stretches of a line outside of the range, each with an overlap to the inside.
-std::vector<Stretch> stretches_outside(const MeasuredPolyline& line, const MapBox& range) {
+std::vector<Stretch> stretches_outside(const MeasuredPolyline& line, const geometry::MapBox& range) {
   std::vector<Stretch> stretches;
   const Polyline samples = line.resample(kSampleStep_m);
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -67,7 +67,7 @@ std::vector<ElementId> lines_beside(const Marking& line, const std::vector<Marki
 }  // namespace
 
 void DriveAccumulator::archive_what_left(const LocalMap& before, const LocalMap& now) {
-  const MapBox range(range_, now.T_map_body);
+  const geometry::MapBox range(range_, now.T_map_body);
   const std::vector<Marking> lines = seen_lines(before);
   for (const Marking& line : lines) {
     const std::vector<Stretch> left = stretches_outside(MeasuredPolyline(line.points), range);
@@ -77,7 +77,7 @@ void DriveAccumulator::archive_what_left(const LocalMap& before, const LocalMap&
       continue;
     }
     const std::vector<ElementId> beside = lines_beside(line, lines);
-    for (const Stretch& stretch : left) archive_.add({slice(line, stretch), pass_, beside});
+    for (const Stretch& stretch : left) archive_.add({markings::slice(line, stretch), pass_, beside});
   }
 }
 
@@ -109,4 +109,4 @@ DriveAccumulator::Drive DriveAccumulator::finish() {
   return {without_edges_driven_over(archive_.markings(), poses_), std::move(poses_)};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

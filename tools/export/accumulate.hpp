@@ -8,7 +8,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Collects the lines of a whole drive from its local maps, and the way that the vehicle drove. Each place is
 /// taken from the last map that it was in. Lines that left a map because the vehicle drove on are kept; lines
@@ -46,4 +46,4 @@ class DriveAccumulator {
   std::uint64_t pass_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -6,7 +6,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kHalfBody_m = 0.8;  // of a narrow car, because a true edge may be near a broad one
@@ -29,7 +29,7 @@ std::vector<MeasuredPolyline> ways_of(const std::vector<Eigen::Isometry3d>& pose
 bool is_driven_over(const Point& point, const std::vector<MeasuredPolyline>& ways) {
   return std::ranges::any_of(ways, [&](const MeasuredPolyline& way) {
     const Projection foot = way.project(point, kHalfBody_m);
-    return foot.inside && foot.distance_m < kHalfBody_m && same_level(foot.foot, point);
+    return foot.inside && foot.distance_m < kHalfBody_m && geometry::same_level(foot.foot, point);
   });
 }
 
@@ -61,10 +61,10 @@ std::vector<Marking> without_edges_driven_over(const std::vector<Marking>& marki
       continue;
     }
     for (const Stretch& stretch : remaining_stretches(MeasuredPolyline(marking.points), ways))
-      if (stretch.to_m - stretch.from_m >= kMinLength_m) kept.push_back(slice(marking, stretch));
+      if (stretch.to_m - stretch.from_m >= kMinLength_m) kept.push_back(markings::slice(marking, stretch));
   }
   for (ElementId id = 0; Marking & marking : kept) marking.id = ++id;
   return kept;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -5,7 +5,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// The markings without the stretches of roadedges that the body of the vehicle passed over, since no edge is
 /// there. Remaining stretches of 2 m or more become markings of their own. Ids count from 1 on. Markings and
@@ -13,4 +13,4 @@ namespace laneloom {
 std::vector<Marking> without_edges_driven_over(const std::vector<Marking>& markings,
                                                const std::vector<Eigen::Isometry3d>& poses);
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

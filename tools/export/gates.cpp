@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kSnap_m = 2.0;           // cuts that are nearer are one
@@ -141,4 +141,4 @@ void Gates::carry_across() {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

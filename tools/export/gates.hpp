@@ -9,7 +9,7 @@
 #include "laneloom/polyline.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Cuts the boundaries of a map, so that each lane between two cuts has one stretch of boundary on each side,
 /// which its neighbours share. A gate is a pair of cuts, one on either side of a lane. A cut of a boundary
@@ -72,4 +72,4 @@ class Gates {
   std::deque<std::size_t> to_carry_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

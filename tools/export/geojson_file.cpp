@@ -10,7 +10,7 @@
 #include "io/json_fields.hpp"
 #include "laneloom/element_names.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using nlohmann::json;
@@ -104,4 +104,4 @@ void write_geojson(const std::filesystem::path& path, const RoadNetwork& network
   if (!out) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

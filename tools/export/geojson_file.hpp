@@ -5,7 +5,7 @@
 #include "export/origin.hpp"
 #include "export/road_network.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Writes the ways and lanelets as GeoJSON (RFC 7946): a FeatureCollection in WGS84, longitude first, 8
 /// decimals, height in metres. A way is a LineString with `kind`, `style`, `existence` and `stddev_m`; a
@@ -15,4 +15,4 @@ namespace laneloom {
 /// Throws std::runtime_error naming the file if it cannot be written.
 void write_geojson(const std::filesystem::path& path, const RoadNetwork& network, const Origin& origin);
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

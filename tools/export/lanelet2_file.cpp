@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using Way = RoadNetwork::Way;
@@ -174,4 +174,4 @@ void write_lanelet2(const std::filesystem::path& path, const RoadNetwork& networ
     throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

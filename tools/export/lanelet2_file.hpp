@@ -5,7 +5,7 @@
 #include "export/origin.hpp"
 #include "export/road_network.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Writes a Lanelet2 map (.osm) as Autoware reads it. Nodes have local_x, local_y and ele in metres, and
 /// latitude and longitude by the origin. Lanelets are roads for vehicles. Lanelets of linkages across
@@ -16,4 +16,4 @@ namespace laneloom {
 /// Throws std::runtime_error naming the file if it cannot be written.
 void write_lanelet2(const std::filesystem::path& path, const RoadNetwork& network, const Origin& origin);
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

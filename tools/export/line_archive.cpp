@@ -7,7 +7,7 @@
 
 #include "mapping/geometry/levels.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kStep_m = 1.0;    // between vertices
@@ -58,7 +58,7 @@ LineArchive::Vertices LineArchive::vertices_of(const ArchivedPiece& archived) {
     vertex.position = points[i];
     vertex.stddev_m = piece.lateral_stddev_m.empty()
                           ? kUnknownStddev_m
-                          : std::max(0.01, deviation_at(arcs_m, piece.lateral_stddev_m, arc_m));
+                          : std::max(0.01, markings::deviation_at(arcs_m, piece.lateral_stddev_m, arc_m));
     vertex.weight = 1.0 / (vertex.stddev_m * vertex.stddev_m);
     vertex.existence = piece.existence_probability;
     vertex.as_double = archived.beside.empty() ? -1 : 1;
@@ -94,7 +94,7 @@ std::vector<LineArchive::Match> LineArchive::match(const ArchivedPiece& piece,
       const Point& point = vertices[i].position;
       if (!line.box.contains(point.head<2>())) continue;
       const Projection foot = line.course.project(point, kSameLine_m);
-      if (!foot.inside || foot.distance_m >= kSameLine_m || !same_level(foot.foot, point)) continue;
+      if (!foot.inside || foot.distance_m >= kSameLine_m || !geometry::same_level(foot.foot, point)) continue;
       const Source& source = line.vertices[foot.segment].source;
       const double distance_m = source == vertices[i].source ? 0.0 : foot.distance_m;
       if (distance_m >= nearest_m[i] || is_another(source)) continue;
@@ -116,7 +116,8 @@ void LineArchive::fuse(const Vertices& piece, Line& line) {
   for (Vertex& vertex : line.vertices) {
     if (!box.contains(vertex.position.head<2>())) continue;
     const Projection foot = course.project(vertex.position, kSameLine_m);
-    if (!foot.inside || foot.distance_m >= kSameLine_m || !same_level(foot.foot, vertex.position)) continue;
+    if (!foot.inside || foot.distance_m >= kSameLine_m || !geometry::same_level(foot.foot, vertex.position))
+      continue;
     const Vertex& seen = piece[std::min(foot.segment, piece.size() - 1)];
     vertex.position += seen.weight / (seen.weight + vertex.weight) * (foot.foot - vertex.position);
     vertex.source = seen.source;
@@ -203,8 +204,8 @@ Marking LineArchive::marking_of(const Line& line) {
     existence_sum += vertex.existence;
     confirmed += vertex.confirmed ? 1 : 0;
     if (i > 0)
-      append_style(marking.styles,
-                   {{arcs_m[i - 1], arcs_m[i]}, voted(vertex.styles, {.min_share = kMinShare})});
+      markings::append_style(marking.styles, {{arcs_m[i - 1], arcs_m[i]},
+                                              markings::voted(vertex.styles, {.min_share = kMinShare})});
   }
   const auto count = static_cast<double>(line.vertices.size());
   marking.existence_probability = existence_sum / count;
@@ -226,7 +227,8 @@ std::vector<std::size_t> LineArchive::shadows() const {
                  return false;
                if (!line.box.contains(vertex.position.head<2>())) return false;
                const Projection foot = line.course.project(vertex.position, kSameLine_m);
-               return foot.inside && foot.distance_m < kSameLine_m && same_level(foot.foot, vertex.position);
+               return foot.inside && foot.distance_m < kSameLine_m &&
+                      geometry::same_level(foot.foot, vertex.position);
              });
     };
     const auto covered = std::ranges::count_if(lines_[i].vertices, is_covered);
@@ -248,4 +250,4 @@ std::vector<Marking> LineArchive::markings() const {
   return markings;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

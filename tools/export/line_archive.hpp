@@ -10,7 +10,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// A stretch of a line of a map.
 struct ArchivedPiece {
@@ -46,7 +46,7 @@ class LineArchive {
     double existence = -1.0;
     bool confirmed = false;
     int as_double = 0;  ///< maps that had another line beside it minus maps that had none
-    StyleVotes styles{};
+    markings::StyleVotes styles{};
   };
   struct Line {
     MarkingType type = MarkingType::laneline;
@@ -78,4 +78,4 @@ class LineArchive {
   StoplineArchive stoplines_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

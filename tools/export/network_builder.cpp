@@ -7,7 +7,7 @@
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kStep_m = 1.0;     // between nodes of a virtual line
@@ -23,7 +23,7 @@ Way::Kind kind_of(const Marking& marking) {
 }
 
 MarkingStyle style_of(const Marking& marking, const Stretch& range) {
-  const double excess_m = dashed_excess_m(marking, range);
+  const double excess_m = markings::dashed_excess_m(marking, range);
   if (excess_m == 0.0) return MarkingStyle::unknown;
   return excess_m > 0.0 ? MarkingStyle::dashed : MarkingStyle::solid;
 }
@@ -33,9 +33,9 @@ double mean_stddev_m(const Marking& marking, const Stretch& range) {
     return -1.0;
   const std::vector<double> arcs_m = arc_lengths(marking.points);
   const double middle_m = 0.5 * (range.from_m + range.to_m);
-  return (deviation_at(arcs_m, marking.lateral_stddev_m, range.from_m) +
-          deviation_at(arcs_m, marking.lateral_stddev_m, middle_m) +
-          deviation_at(arcs_m, marking.lateral_stddev_m, range.to_m)) /
+  return (markings::deviation_at(arcs_m, marking.lateral_stddev_m, range.from_m) +
+          markings::deviation_at(arcs_m, marking.lateral_stddev_m, middle_m) +
+          markings::deviation_at(arcs_m, marking.lateral_stddev_m, range.to_m)) /
          3.0;
 }
 
@@ -118,7 +118,7 @@ RoadNetwork::Side NetworkBuilder::virtual_side(std::size_t from, std::size_t to,
     const Eigen::Vector2d along =
         (path.at(arc_m + kStep_m) - path.at(arc_m - kStep_m)).head<2>().normalized();
     const double lateral_m = from_m + share * (to_m - from_m);
-    const Point point = beside(path.at(arc_m), along, lateral_m);
+    const Point point = geometry::beside(path.at(arc_m), along, lateral_m);
     const Point& last = points.empty() ? begin : points.back();
     if ((point - last).head<2>().dot(along) > kMinStep_m && (end - point).head<2>().dot(along) > kMinStep_m)
       points.push_back(point);
@@ -188,4 +188,4 @@ void NetworkBuilder::add_rest() {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

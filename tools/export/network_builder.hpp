@@ -9,7 +9,7 @@
 #include "export/node_groups.hpp"
 #include "export/road_network.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Makes the nodes and ways of a network out of cuts. Each node and each way is made once, however many
 /// lanelets share it. The constructor's arguments must outlive it.
@@ -52,4 +52,4 @@ class NetworkBuilder {
   std::map<ElementId, std::size_t> last_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

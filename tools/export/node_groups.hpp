@@ -7,7 +7,7 @@
 
 #include "export/gates.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Groups of cuts that are one node. Two cuts of one boundary never are.
 class NodeGroups {
@@ -46,4 +46,4 @@ class NodeGroups {
   std::vector<std::set<std::size_t>> boundaries_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

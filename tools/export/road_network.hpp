@@ -6,7 +6,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Lanes in the form of Lanelet2, where shared elements alone tell the topology. Lanelets beside each other
 /// have a way in common. A lanelet that follows another begins with the nodes that the other ends with. All
@@ -50,4 +50,4 @@ inline std::size_t end_node(const RoadNetwork& network, const RoadNetwork::Side&
   return at_back != side.reversed ? nodes.back() : nodes.front();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

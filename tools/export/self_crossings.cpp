@@ -9,7 +9,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kNear_m = 15.0;  // seen from above: as far as lanes reach
@@ -21,13 +21,14 @@ std::optional<double> cut_at(const Polyline& points) {
   const std::vector<double> arcs_m = arc_lengths(points);
   for (std::size_t i = 0; i < points.size(); i += kStep)
     for (std::size_t j = i + 1; j < points.size(); j += kStep)
-      if ((points[i] - points[j]).head<2>().norm() < kNear_m && !same_level(points[i], points[j]))
+      if ((points[i] - points[j]).head<2>().norm() < kNear_m && !geometry::same_level(points[i], points[j]))
         return 0.5 * (arcs_m[i] + arcs_m[j]);
   return std::nullopt;
 }
 
-LaneBoundary part_of(const LaneBoundary& boundary, const Stretch& stretch) {
-  LaneBoundary part{.marking = slice(boundary.marking, stretch), .members = boundary.members};
+boundaries::LaneBoundary part_of(const boundaries::LaneBoundary& boundary, const Stretch& stretch) {
+  boundaries::LaneBoundary part{.marking = markings::slice(boundary.marking, stretch),
+                                .members = boundary.members};
   for (const Stretch& gap : boundary.bridged) {
     const Stretch within{std::max(gap.from_m, stretch.from_m) - stretch.from_m,
                          std::min(gap.to_m, stretch.to_m) - stretch.from_m};
@@ -38,13 +39,13 @@ LaneBoundary part_of(const LaneBoundary& boundary, const Stretch& stretch) {
 
 }  // namespace
 
-Boundaries cut_self_crossings(Boundaries all, IdSource& ids) {
-  std::vector<LaneBoundary> boundaries = std::move(all).take();
+boundaries::Boundaries cut_self_crossings(boundaries::Boundaries all, markings::IdSource& ids) {
+  std::vector<boundaries::LaneBoundary> boundaries = std::move(all).take();
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     const std::optional<double> at_m = cut_at(boundaries[i].marking.points);
     if (!at_m) continue;
     const double length_m = length(boundaries[i].marking.points);
-    LaneBoundary rest = part_of(boundaries[i], {*at_m, length_m});
+    boundaries::LaneBoundary rest = part_of(boundaries[i], {*at_m, length_m});
     boundaries[i] = part_of(boundaries[i], {0.0, *at_m});
     rest.marking.id = ids.next();
     boundaries.push_back(std::move(rest));
@@ -53,4 +54,4 @@ Boundaries cut_self_crossings(Boundaries all, IdSource& ids) {
   return boundaries;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -6,7 +6,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kSame_m = 1.5;    // along the lane, between the middles of two that are the same
@@ -24,7 +24,8 @@ bool is_same(const Marking& a, const Marking& b) {
   const Eigen::Vector2d along_b = (b.points.back() - b.points.front()).head<2>().normalized();
   const Eigen::Vector2d offset = (middle(b) - middle(a)).head<2>();
   return std::abs(cross(along_a, offset)) < kSame_m && std::abs(along_a.dot(along_b)) > kMinAlong &&
-         offset.norm() < 0.5 * (length(a.points) + length(b.points)) && same_level(middle(a), middle(b));
+         offset.norm() < 0.5 * (length(a.points) + length(b.points)) &&
+         geometry::same_level(middle(a), middle(b));
 }
 
 }  // namespace
@@ -39,4 +40,4 @@ void StoplineArchive::add(const Marking& stopline) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -4,7 +4,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// The stoplines of a drive. Of several that lie across one lane within 1.5 m, the one with the smallest
 /// deviation is kept. Not thread-safe.
@@ -18,4 +18,4 @@ class StoplineArchive {
   std::vector<Marking> markings_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

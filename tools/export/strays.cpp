@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 using NetworkSide = RoadNetwork::Side;
@@ -76,4 +76,4 @@ void separate_strays(const LocalMap& map, RoadNetwork& network) {
   for (const auto& [lanelet, at_back] : ends) own_end(network, network.lanelets[lanelet].left, at_back);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -6,7 +6,7 @@
 
 #include "export/road_network.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// A lanelet with a direction in which it may be driven.
 struct DirectedLanelet {
@@ -24,4 +24,4 @@ std::set<std::pair<DirectedLanelet, DirectedLanelet>> followers(const RoadNetwor
 /// gets nodes of its own at its end.
 void separate_strays(const LocalMap& map, RoadNetwork& network);
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

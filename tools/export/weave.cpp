@@ -22,7 +22,7 @@
 #include "mapping/topology/linkages.hpp"
 #include "mapping/topology/stoplines.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 /// Greatest gap between the ends of lines that are joined. It is larger than in a local map, which may yet
@@ -36,18 +36,20 @@ RangeConfig everything() {
   return {.forward_min_m = -kEverywhere_m, .forward_max_m = kEverywhere_m, .side_max_m = kEverywhere_m};
 }
 
-bool is_in_a_lane(const Eigen::Isometry3d& pose, const std::vector<Lane>& lanes, const TakenSpace& taken) {
+bool is_in_a_lane(const Eigen::Isometry3d& pose, const std::vector<Lane>& lanes,
+                  const lanes::TakenSpace& taken) {
   return taken.contains(pose.translation()) ||
-         std::ranges::any_of(lanes, [&](const Lane& lane) { return ego_sense(lane, pose) != 0.0; });
+         std::ranges::any_of(lanes, [&](const Lane& lane) { return lanes::ego_sense(lane, pose) != 0.0; });
 }
 
 /// Lanes beside one line, where the line is dashed or the vehicle drove beside it.
-std::vector<InferredBoundary> lanes_beside_one_line(const SectionGraph& sections,
-                                                    const std::vector<Lane>& lanes, const Poses& poses,
-                                                    const LaneConfig& config, TakenSpace& taken) {
-  std::vector<InferredBoundary> inferred;
+std::vector<lanes::InferredBoundary> lanes_beside_one_line(const boundaries::SectionGraph& sections,
+                                                           const std::vector<Lane>& lanes, const Poses& poses,
+                                                           const LaneConfig& config,
+                                                           lanes::TakenSpace& taken) {
+  std::vector<lanes::InferredBoundary> inferred;
   const auto add = [&](const Eigen::Isometry3d& pose) {
-    std::ranges::move(one_sided_lanes(sections, MapBox(everything(), pose), config, taken),
+    std::ranges::move(one_sided_lanes(sections, geometry::MapBox(everything(), pose), config, taken),
                       std::back_inserter(inferred));
   };
   add(poses.front());
@@ -56,30 +58,32 @@ std::vector<InferredBoundary> lanes_beside_one_line(const SectionGraph& sections
   return inferred;
 }
 
-Boundaries boundaries_of(const DriveAccumulator::Drive& drive, BoundaryConfig config, IdSource& ids) {
+boundaries::Boundaries boundaries_of(const DriveAccumulator::Drive& drive, BoundaryConfig config,
+                                     markings::IdSource& ids) {
   config.max_gap_m = std::max(config.max_gap_m, kMaxGap_m);
-  return cut_self_crossings(lane_boundaries(drive.markings, {}, config), ids);
+  return cut_self_crossings(boundaries::lane_boundaries(drive.markings, {}, config), ids);
 }
 
-FoundLanes lanes_of(const DriveAccumulator::Drive& drive, SectionGraph sections, const LaneConfig& config) {
+lanes::FoundLanes lanes_of(const DriveAccumulator::Drive& drive, boundaries::SectionGraph sections,
+                           const LaneConfig& config) {
   const Eigen::Isometry3d& last = drive.poses.back();
   const auto pairs = boundary_pairs(sections);
-  const auto strips = generate_lanes(pairs, sections.boundaries, last.translation(), config);
-  TakenSpace taken(strips);
-  auto lanes = without_shoulders(strips, pairs, sections.boundaries, last, config);
+  const auto strips = lanes::generate_lanes(pairs, sections.boundaries, last.translation(), config);
+  lanes::TakenSpace taken(strips);
+  auto lanes = lanes::without_shoulders(strips, pairs, sections.boundaries, last, config);
   auto inferred = divide_unmarked(pairs, sections.boundaries, config, taken);
   std::ranges::move(lanes_beside_one_line(sections, lanes, drive.poses, config, taken),
                     std::back_inserter(inferred));
   return {std::move(sections.boundaries), std::move(lanes), std::move(inferred)};
 }
 
-void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, LaneMemory& memory,
-          RoadGraph& road) {
+void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, lanes::LaneMemory& memory,
+          topology::RoadGraph& road) {
   for (const Eigen::Isometry3d& pose : drive.poses)
-    observe_directions(road.lanes, pose, drive.markings, config.stopline, memory);
+    topology::observe_directions(road.lanes, pose, drive.markings, config.stopline, memory);
   find_directions(config.direction, memory, road);
   link_across_intersections(SdMap{}, config.linkage, road);
-  EgoTrack track;
+  topology::EgoTrack track;
   for (const Eigen::Isometry3d& pose : drive.poses) link_ego_track(pose, track, road);
 }
 
@@ -88,20 +92,21 @@ void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, Lane
 LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config) {
   LocalMap map;
   if (drive.poses.empty()) return map;
-  const Scene scene{.box = MapBox(everything(), drive.poses.back()), .frame = 1};
-  IdSource ids(drive.markings.size() + 1);
-  LaneMemory memory;
-  SectionGraph sections =
+  const geometry::Scene scene{.box = geometry::MapBox(everything(), drive.poses.back()), .frame = 1};
+  markings::IdSource ids(drive.markings.size() + 1);
+  lanes::LaneMemory memory;
+  boundaries::SectionGraph sections =
       road_sections(boundaries_of(drive, config.boundary, ids), scene.T_map_body(), config.section);
-  FoundLanes found = lanes_of(drive, std::move(sections), config.lane);
-  RoadGraph road = link_lanes(memory.recognise(std::move(found), scene, config.lane, ids), config.linkage);
+  lanes::FoundLanes found = lanes_of(drive, std::move(sections), config.lane);
+  topology::RoadGraph road =
+      topology::link_lanes(memory.recognise(std::move(found), scene, config.lane, ids), config.linkage);
   link(drive, config, memory, road);
-  map.stoplines = tie_stoplines(drive.markings, road.lanes, config.stopline);
+  map.stoplines = topology::tie_stoplines(drive.markings, road.lanes, config.stopline);
   map.lanes = std::move(road.lanes);
   map.linkages = std::move(road.linkages);
-  for (LaneBoundary& boundary : std::move(road.boundaries).take())
+  for (boundaries::LaneBoundary& boundary : std::move(road.boundaries).take())
     map.boundaries.push_back(std::move(boundary.marking));
   return map;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -4,7 +4,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Finds the lanes of a whole drive and their linkages, by the rules of the mapper for a local map. The rims
 /// of the local maps do not matter. Directions and linkages that the vehicle drove count as driven. The
@@ -12,4 +12,4 @@ namespace laneloom {
 /// is not used.
 LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -11,7 +11,7 @@
 #include "export/node_groups.hpp"
 #include "export/strays.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 namespace {
 
 constexpr double kWeld_m = 2.0;          // ends of borders that are nearer are moved together
@@ -137,4 +137,4 @@ RoadNetwork weld(const LocalMap& map) {
   return network;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

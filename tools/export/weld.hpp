@@ -3,7 +3,7 @@
 #include "export/road_network.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::exports {
 
 /// Cuts and welds the lanes of a map, so that shared nodes and ways tell the map's neighbours and linkages. A
 /// lane becomes a row of lanelets. Lanes that meet have both nodes in common there; ends that lie up to 2 m
@@ -12,4 +12,4 @@ namespace laneloom {
 /// that are not linked share no nodes. `map` must keep the contract of maps.
 RoadNetwork weld(const LocalMap& map);
 
-}  // namespace laneloom
+}  // namespace laneloom::exports

@@ -9,7 +9,7 @@
 #include "simulation/argoverse2.hpp"
 #include "simulation/pose_table.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 constexpr double kArgoverse2Ground_m = -0.33;
@@ -49,7 +49,9 @@ Eigen::Isometry3d from_right_forward() {
 DriveLog argoverse2_drive(const std::filesystem::path& log_directory) {
   const std::filesystem::path whole = std::filesystem::weakly_canonical(log_directory);
   const std::string log_id = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-  DriveLog drive{.name = log_id, .poses = argoverse2_poses(log_directory), .ground_z_m = kArgoverse2Ground_m};
+  DriveLog drive{.name = log_id,
+                 .poses = simulation::argoverse2_poses(log_directory),
+                 .ground_z_m = kArgoverse2Ground_m};
   drive.stamp_ns_of = Argoverse2Samples{log_id, drive.poses.front().stamp_ns, drive.poses.back().stamp_ns};
   return drive;
 }
@@ -57,12 +59,12 @@ DriveLog argoverse2_drive(const std::filesystem::path& log_directory) {
 DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
                      PointAxes axes) {
   std::map<std::string, std::int64_t> stamps;
-  for_each_csv_row(samples, "token,timestamp_ns", [&](std::string_view row) {
-    const std::string token(take_field(row));
-    if (!stamps.emplace(token, take_number<std::int64_t>(row)).second)
+  io::for_each_csv_row(samples, "token,timestamp_ns", [&](std::string_view row) {
+    const std::string token(io::take_field(row));
+    if (!stamps.emplace(token, io::take_number<std::int64_t>(row)).second)
       throw std::runtime_error("the sample " + token + " is given twice");
   });
-  DriveLog drive{.name = samples.string(), .poses = read_pose_table(poses)};
+  DriveLog drive{.name = samples.string(), .poses = simulation::read_pose_table(poses)};
   drive.stamp_ns_of = [stamps = std::move(stamps)](const std::string& token) -> std::optional<std::int64_t> {
     const auto found = stamps.find(token);
     return found == stamps.end() ? std::nullopt : std::optional(found->second);
@@ -71,4 +73,4 @@ DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::
   return drive;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

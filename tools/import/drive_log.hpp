@@ -9,7 +9,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 
 /// One drive of a data set. It has the data that the results of a network lack.
 struct DriveLog {
@@ -41,4 +41,4 @@ enum class PointAxes : std::uint8_t { forward_left, right_forward };
 DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
                      PointAxes axes);
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

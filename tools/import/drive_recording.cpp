@@ -6,7 +6,7 @@
 #include "recording/recording.hpp"
 #include "session/pose_buffer.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 constexpr std::uint64_t kSession = 1;
@@ -15,7 +15,7 @@ constexpr std::uint64_t kSession = 1;
 template <class T>
 class Stream {
  public:
-  explicit Stream(RecordingWriter& out) : out_(out) {}
+  explicit Stream(recording::RecordingWriter& out) : out_(out) {}
   void write(T message) {
     message.session_id = kSession;
     message.sequence = ++sequence_;
@@ -23,7 +23,7 @@ class Stream {
   }
 
  private:
-  RecordingWriter& out_;
+  recording::RecordingWriter& out_;
   std::uint64_t sequence_ = 0;
 };
 
@@ -34,17 +34,17 @@ std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
   SyncConfig config;
   config.pose_history_s = std::numeric_limits<double>::infinity();
   config.pose_queue_capacity = std::numeric_limits<int>::max();
-  PoseBuffer buffer(config);
+  session::PoseBuffer buffer(config);
   for (const VehiclePose& pose : poses) buffer.add(pose);
   return std::erase_if(frames, [&](const DetectionFrame& frame) {
     Eigen::Isometry3d T_map_body;
-    return buffer.at(frame.stamp_ns, T_map_body) != PoseBuffer::Answer::found;
+    return buffer.at(frame.stamp_ns, T_map_body) != session::PoseBuffer::Answer::found;
   });
 }
 
 void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
                  const std::vector<DetectionFrame>& frames) {
-  RecordingWriter out(path);
+  recording::RecordingWriter out(path);
   Stream<VehiclePose> pose_stream(out);
   Stream<DetectionFrame> frame_stream(out);
   auto frame = frames.begin();
@@ -59,4 +59,4 @@ void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
                              " elements exceed the bounds of a message");
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -6,7 +6,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 
 /// Removes frames that no service could fuse, because there are no poses around their stamp (SyncConfig).
 /// Returns how many were removed. Stamps of `poses` must ascend.
@@ -20,4 +20,4 @@ std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
 void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
                  const std::vector<DetectionFrame>& frames);
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -7,7 +7,7 @@
 #include "io/json_fields.hpp"
 #include "session/gate.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using nlohmann::json;
@@ -17,20 +17,20 @@ std::optional<MarkingType> type_of_class(const std::string& class_name) {
   if (class_name == "divider") return MarkingType::laneline;
   if (class_name == "boundary") return MarkingType::roadedge;
   if (class_name == "ped_crossing" || class_name == "centerline") return std::nullopt;
-  throw JsonError("must be divider, boundary, ped_crossing or centerline, and is " + class_name);
+  throw io::JsonError("must be divider, boundary, ped_crossing or centerline, and is " + class_name);
 }
 
 }  // namespace
 
 std::string class_name(const json& value) {
-  std::string name = text(value);
+  std::string name = io::text(value);
   type_of_class(name);
   return name;
 }
 
 double confidence(const json& value) {
-  const double confidence = number(value);
-  if (!(confidence >= 0.0 && confidence <= 1.0)) throw JsonError("must be from 0 to 1");
+  const double confidence = io::number(value);
+  if (!(confidence >= 0.0 && confidence <= 1.0)) throw io::JsonError("must be from 0 to 1");
   return confidence;
 }
 
@@ -47,7 +47,7 @@ bool FrameCollector::begin(const std::string& sample) {
     ++imported_.other_drives;
     return false;
   }
-  if (!stamps_.insert(*stamp_ns).second) throw JsonError("a second one of this stamp");
+  if (!stamps_.insert(*stamp_ns).second) throw io::JsonError("a second one of this stamp");
   frame_.stamp_ns = *stamp_ns;
   frame_.detections.clear();
   return true;
@@ -60,14 +60,14 @@ void FrameCollector::add(const std::string& class_name, double confidence, const
     return;
   }
   Detection detection{.type = *type, .confidence = confidence};
-  detection.points = list(points, [&](const json& point) { return in_body(point); });
-  if (detection.points.size() < 2) throw JsonError("must have at least two points");
+  detection.points = io::list(points, [&](const json& point) { return in_body(point); });
+  if (detection.points.size() < 2) throw io::JsonError("must have at least two points");
   frame_.detections.push_back(std::move(detection));
 }
 
 void FrameCollector::end() {
-  if (const auto why = defect(frame_, GateConfig{}); !why.empty())
-    throw JsonError("the service would refuse this frame: " + std::string(why));
+  if (const auto why = session::defect(frame_, GateConfig{}); !why.empty())
+    throw io::JsonError("the service would refuse this frame: " + std::string(why));
   imported_.frames.push_back(frame_);
 }
 
@@ -78,11 +78,11 @@ ImportedFrames FrameCollector::finish(const std::string& file) && {
 }
 
 Point FrameCollector::in_body(const json& value) const {
-  if (value.is_array() && value.size() == 3) return T_body_points_ * point(value);
-  if (!value.is_array() || value.size() != 2) throw JsonError("must be [x, y] or [x, y, z]");
-  Point body = T_body_points_ * Point(number(value[0]), number(value[1]), 0.0);
+  if (value.is_array() && value.size() == 3) return T_body_points_ * io::point(value);
+  if (!value.is_array() || value.size() != 2) throw io::JsonError("must be [x, y] or [x, y, z]");
+  Point body = T_body_points_ * Point(io::number(value[0]), io::number(value[1]), 0.0);
   body.z() = drive_.ground_z_m;
   return body;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -12,7 +12,7 @@
 #include "import/drive_log.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 
 /// Results of a network as detections of one drive.
 struct ImportedFrames {
@@ -57,4 +57,4 @@ std::string class_name(const nlohmann::json& value);
 /// A number from 0 to 1. Throws JsonError.
 double confidence(const nlohmann::json& value);
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -5,7 +5,7 @@
 #include "import/drive_log.hpp"
 #include "import/frame_collector.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 
 /// Reads the files that the evaluation of MapTR and MapTRv2 writes (nuscmap_results.json,
 /// av2map_results.json):
@@ -28,4 +28,4 @@ namespace laneloom {
 /// of 0..1, or a sample twice, or has no sample of the drive.
 ImportedFrames read_maptr(const std::filesystem::path& path, const DriveLog& drive);
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -11,28 +11,28 @@
 #include "io/json_stream.hpp"
 #include "simulation/pose_table.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using nlohmann::json;
 using Tokens = std::set<std::string>;
 
-std::string token(const json& record) { return required(record, "token", text); }
+std::string token(const json& record) { return io::required(record, "token", io::text); }
 
 std::int64_t stamp_ns(const json& record) {
-  const std::int64_t stamp_us = required(record, "timestamp", integer);
+  const std::int64_t stamp_us = io::required(record, "timestamp", io::integer);
   if (stamp_us < 0 || stamp_us > INT64_MAX / 1000)
-    throw JsonError("timestamp", "must be microseconds since 1970");
+    throw io::JsonError("timestamp", "must be microseconds since 1970");
   return stamp_us * 1000;
 }
 
-Point translation(const json& record) { return required(record, "translation", point); }
+Point translation(const json& record) { return io::required(record, "translation", io::point); }
 
 /// Reads "rotation", which has w first.
 Eigen::Quaterniond rotation(const json& record) {
-  return required(record, "rotation", [](const json& value) {
-    if (!value.is_array() || value.size() != 4) throw JsonError("must be [w, x, y, z]");
-    return quaternion(json{value[1], value[2], value[3], value[0]}, 0);
+  return io::required(record, "rotation", [](const json& value) {
+    if (!value.is_array() || value.size() != 4) throw io::JsonError("must be [w, x, y, z]");
+    return io::quaternion(json{value[1], value[2], value[3], value[0]}, 0);
   });
 }
 
@@ -45,7 +45,7 @@ class SceneReader {
   DriveLog read() {
     const std::string scene = scene_token();
     for_each("sample", [&](const json& record) {
-      if (required(record, "scene_token", text) == scene) samples_.insert(token(record));
+      if (io::required(record, "scene_token", io::text) == scene) samples_.insert(token(record));
     });
     read_lidars();
     for_each("sample_data", [&](const json& record) { read_sample_data(record); });
@@ -60,14 +60,14 @@ class SceneReader {
 
  private:
   void for_each(const std::string& table, const std::function<void(const json&)>& visit) const {
-    for_each_json_object(path(table), "", visit);
+    io::for_each_json_object(path(table), "", visit);
   }
   std::filesystem::path path(const std::string& table) const { return tables_ / (table + ".json"); }
 
   std::string scene_token() const {
     std::optional<std::string> found;
     for_each("scene", [&](const json& record) {
-      if (required(record, "name", text) == scene_) found = token(record);
+      if (io::required(record, "name", io::text) == scene_) found = token(record);
     });
     if (!found) throw std::runtime_error(path("scene").string() + ": has no scene " + scene_);
     return *found;
@@ -76,21 +76,21 @@ class SceneReader {
   void read_lidars() {
     Tokens sensors;
     for_each("sensor", [&](const json& record) {
-      if (required(record, "channel", text) == "LIDAR_TOP") sensors.insert(token(record));
+      if (io::required(record, "channel", io::text) == "LIDAR_TOP") sensors.insert(token(record));
     });
     for_each("calibrated_sensor", [&](const json& record) {
-      if (!sensors.contains(required(record, "sensor_token", text))) return;
+      if (!sensors.contains(io::required(record, "sensor_token", io::text))) return;
       lidars_[token(record)] = Eigen::Translation3d(translation(record)) * rotation(record);
     });
   }
 
   /// Reads a record of a sensor's data. Each has a pose. The stamp of a sample is that of its LiDAR's sweep.
   void read_sample_data(const json& record) {
-    const auto sample = required(record, "sample_token", text);
+    const auto sample = io::required(record, "sample_token", io::text);
     if (!samples_.contains(sample)) return;
-    pose_tokens_.insert(required(record, "ego_pose_token", text));
-    const auto lidar = lidars_.find(required(record, "calibrated_sensor_token", text));
-    if (lidar == lidars_.end() || !required(record, "is_key_frame", boolean)) return;
+    pose_tokens_.insert(io::required(record, "ego_pose_token", io::text));
+    const auto lidar = lidars_.find(io::required(record, "calibrated_sensor_token", io::text));
+    if (lidar == lidars_.end() || !io::required(record, "is_key_frame", io::boolean)) return;
     stamps_[sample] = stamp_ns(record);
     T_body_lidar_ = lidar->second;  // the same in the whole scene
   }
@@ -102,7 +102,7 @@ class SceneReader {
       poses.push_back(
           {.stamp_ns = stamp_ns(record), .position = translation(record), .orientation = rotation(record)});
     });
-    poses = cleaned_poses(std::move(poses));
+    poses = simulation::cleaned_poses(std::move(poses));
     if (poses.size() < 2)
       throw std::runtime_error(path("ego_pose").string() + ": has fewer than two poses of " + scene_);
     return poses;
@@ -130,4 +130,4 @@ DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& 
   return SceneReader(tables, scene).read();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -11,7 +11,7 @@
 #include "io/json_fields.hpp"
 #include "session/gate.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using nlohmann::json;
@@ -21,18 +21,19 @@ const Eigen::DiagonalMatrix<double, 3> kTurned(1.0, -1.0, -1.0);
 
 /// Reads an integer of 64 bits, which Cap'n Proto writes as a text.
 std::int64_t long_integer(const json& value) {
-  if (!value.is_string()) return integer(value);
+  if (!value.is_string()) return io::integer(value);
   const auto& digits = value.get_ref<const std::string&>();
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size()) throw JsonError("must be an integer");
+  if (error != std::errc() || end != digits.data() + digits.size()) throw io::JsonError("must be an integer");
   return number;
 }
 
 /// Reads a vector: [x, y, z], or an object of x, y and z.
 Eigen::Vector3d vector(const json& value) {
-  if (value.is_array()) return point(value);
-  return {required(value, "x", number), required(value, "y", number), required(value, "z", number)};
+  if (value.is_array()) return io::point(value);
+  return {io::required(value, "x", io::number), io::required(value, "y", io::number),
+          io::required(value, "z", io::number)};
 }
 
 Eigen::Matrix3d rotation(const Eigen::Vector3d& roll_pitch_yaw) {
@@ -50,9 +51,9 @@ struct Measurement {
 };
 
 Measurement measurement(const json& object) {
-  const bool valid = required(object, "valid", boolean);
+  const bool valid = io::required(object, "valid", io::boolean);
   if (!valid) return {};
-  return {object.contains("value") ? required(object, "value", vector) : vector(object), true};
+  return {object.contains("value") ? io::required(object, "value", vector) : vector(object), true};
 }
 
 struct Odometry {
@@ -63,14 +64,14 @@ struct Odometry {
 class LogReader {
  public:
   void read(const json& event) {
-    if (!event.is_object()) throw JsonError("must be an object");
-    const std::int64_t stamp_ns = required(event, "logMonoTime", long_integer);
-    const bool valid = optional(event, "valid", boolean).value_or(true);
-    optional(event, "modelV2", [&](const json& model) { return read_model(model, valid); });
+    if (!event.is_object()) throw io::JsonError("must be an object");
+    const std::int64_t stamp_ns = io::required(event, "logMonoTime", long_integer);
+    const bool valid = io::optional(event, "valid", io::boolean).value_or(true);
+    io::optional(event, "modelV2", [&](const json& model) { return read_model(model, valid); });
     for (const char* name : {"livePose", "liveLocationKalman"})
-      optional(event, name, [&](const json& pose) { return read_pose(pose, stamp_ns, valid); });
-    optional(event, "liveCalibration",
-             [&](const json& calibration) { return read_calibration(calibration, stamp_ns); });
+      io::optional(event, name, [&](const json& pose) { return read_pose(pose, stamp_ns, valid); });
+    io::optional(event, "liveCalibration",
+                 [&](const json& calibration) { return read_calibration(calibration, stamp_ns); });
   }
 
   OpenpilotDrive finish() && {
@@ -89,30 +90,30 @@ class LogReader {
       ++drive_.invalid_frames;
       return false;
     }
-    DetectionFrame frame{.stamp_ns = required(model, "timestampEof", long_integer),
+    DetectionFrame frame{.stamp_ns = io::required(model, "timestampEof", long_integer),
                          .source = "openpilot",
                          .detected_types = {MarkingType::laneline, MarkingType::roadedge}};
-    add(lines(model, "laneLines", MarkingType::laneline, required(model, "laneLineProbs", numbers),
-              required(model, "laneLineStds", numbers)),
+    add(lines(model, "laneLines", MarkingType::laneline, io::required(model, "laneLineProbs", io::numbers),
+              io::required(model, "laneLineStds", io::numbers)),
         frame);
-    const auto deviations = required(model, "roadEdgeStds", numbers);
+    const auto deviations = io::required(model, "roadEdgeStds", io::numbers);
     std::vector<double> confidences;
     for (const double deviation_m : deviations)
       confidences.push_back(std::clamp(1.0 - deviation_m, 0.0, 1.0));
     add(lines(model, "roadEdges", MarkingType::roadedge, confidences, deviations), frame);
-    if (const auto why = defect(frame, GateConfig{}); !why.empty())
-      throw JsonError("the service would refuse this frame: " + std::string(why));
+    if (const auto why = session::defect(frame, GateConfig{}); !why.empty())
+      throw io::JsonError("the service would refuse this frame: " + std::string(why));
     if (!frames_.emplace(frame.stamp_ns, frame).second)
-      throw JsonError("timestampEof", "a second frame of this stamp");
+      throw io::JsonError("timestampEof", "a second frame of this stamp");
     return true;
   }
 
   static std::vector<Detection> lines(const json& model, const char* key, MarkingType type,
                                       const std::vector<double>& confidences,
                                       const std::vector<double>& deviations) {
-    const auto all = required(model, key, [](const json& value) { return list(value, points); });
+    const auto all = io::required(model, key, [](const json& value) { return io::list(value, points); });
     if (all.size() != deviations.size() || all.size() != confidences.size())
-      throw JsonError(key, "must be as many as their probabilities and standard deviations");
+      throw io::JsonError(key, "must be as many as their probabilities and standard deviations");
     std::vector<Detection> lines;
     for (std::size_t i = 0; i < all.size(); ++i)
       lines.push_back({.type = type,
@@ -127,17 +128,17 @@ class LogReader {
   }
 
   static Polyline points(const json& line) {
-    const auto x = required(line, "x", numbers), y = required(line, "y", numbers),
-               z = required(line, "z", numbers);
-    if (x.size() != y.size() || x.size() != z.size()) throw JsonError("x, y and z must be equally many");
+    const auto x = io::required(line, "x", io::numbers), y = io::required(line, "y", io::numbers),
+               z = io::required(line, "z", io::numbers);
+    if (x.size() != y.size() || x.size() != z.size()) throw io::JsonError("x, y and z must be equally many");
     Polyline points;
     for (std::size_t i = 0; i < x.size(); ++i) points.push_back(kTurned * Point(x[i], y[i], z[i]));
     return points;
   }
 
   bool read_pose(const json& pose, std::int64_t stamp_ns, bool valid) {
-    const Measurement orientation = required(pose, "orientationNED", measurement);
-    const Measurement velocity = required(pose, "velocityDevice", measurement);
+    const Measurement orientation = io::required(pose, "orientationNED", measurement);
+    const Measurement velocity = io::required(pose, "velocityDevice", measurement);
     if (!valid || !orientation.valid || !velocity.valid) {
       ++drive_.invalid_poses;
       return false;
@@ -148,8 +149,8 @@ class LogReader {
   }
 
   bool read_calibration(const json& calibration, std::int64_t stamp_ns) {
-    if (required(calibration, "calStatus", text) != "calibrated") return false;
-    calibrations_[stamp_ns] = rotation(required(calibration, "rpyCalib", point));
+    if (io::required(calibration, "calStatus", io::text) != "calibrated") return false;
+    calibrations_[stamp_ns] = rotation(io::required(calibration, "rpyCalib", io::point));
     return true;
   }
 
@@ -172,7 +173,7 @@ class LogReader {
       const Eigen::Matrix3d T_ned_calibrated = now->second.T_ned_device * T_device_calibrated(now->first);
       VehiclePose pose{.stamp_ns = now->first, .position = kTurned * position_ned};
       pose.orientation = Eigen::Quaterniond(Eigen::Matrix3d(turned * T_ned_calibrated * turned)).normalized();
-      if (const auto why = defect(pose, GateConfig{}); !why.empty())
+      if (const auto why = session::defect(pose, GateConfig{}); !why.empty())
         throw std::runtime_error("the service would refuse a pose: " + std::string(why));
       drive_.poses.push_back(pose);
     }
@@ -195,8 +196,8 @@ OpenpilotDrive read_openpilot(const std::filesystem::path& path) {
     ++number;
     if (line.empty()) continue;
     try {
-      log.read(parse_json(line));
-    } catch (const JsonError& error) {
+      log.read(io::parse_json(line));
+    } catch (const io::JsonError& error) {
       throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
     }
   }
@@ -208,4 +209,4 @@ OpenpilotDrive read_openpilot(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -6,7 +6,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 
 /// A drive of openpilot: the detections of its model, and the poses of its odometry.
 struct OpenpilotDrive {
@@ -40,4 +40,4 @@ struct OpenpilotDrive {
 /// two poses are left.
 OpenpilotDrive read_openpilot(const std::filesystem::path& path);
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

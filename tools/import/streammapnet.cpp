@@ -7,7 +7,7 @@
 #include "io/json_fields.hpp"
 #include "io/json_stream.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 namespace {
 
 using nlohmann::json;
@@ -15,20 +15,22 @@ using nlohmann::json;
 constexpr std::array kClasses{"ped_crossing", "divider", "boundary"};  // by label
 
 std::string class_of(const json& value) {
-  const std::uint64_t label = count(value);
-  if (label >= kClasses.size()) throw JsonError("must be 0, 1 or 2");
+  const std::uint64_t label = io::count(value);
+  if (label >= kClasses.size()) throw io::JsonError("must be 0, 1 or 2");
   return kClasses[label];
 }
 
 void read_sample(const std::string& token, const json& sample, FrameCollector& frames) {
   if (!frames.begin(token)) return;
-  const auto scores = required(sample, "scores", [](const json& values) { return list(values, confidence); });
-  const auto classes = required(sample, "labels", [](const json& values) { return list(values, class_of); });
+  const auto scores =
+      io::required(sample, "scores", [](const json& values) { return io::list(values, confidence); });
+  const auto classes =
+      io::required(sample, "labels", [](const json& values) { return io::list(values, class_of); });
   std::size_t next = 0;
-  required(sample, "vectors", [&](const json& vectors) {
+  io::required(sample, "vectors", [&](const json& vectors) {
     if (!vectors.is_array() || vectors.size() != scores.size() || vectors.size() != classes.size())
-      throw JsonError("must be as many as scores and labels");
-    return list(vectors, [&](const json& points) {
+      throw io::JsonError("must be as many as scores and labels");
+    return io::list(vectors, [&](const json& points) {
       frames.add(classes[next], scores[next], points);
       return ++next;
     });
@@ -51,10 +53,10 @@ ImportedFrames read_streammapnet(const std::filesystem::path& path, const DriveL
                                  StreamNetwork network) {
   const char* const source = network == StreamNetwork::streammapnet ? "streammapnet" : "maptracker";
   FrameCollector frames(drive, source, T_drive_points(drive, network));
-  for_each_json_member(path, "results", [&](const std::string& token, const json& sample) {
+  io::for_each_json_member(path, "results", [&](const std::string& token, const json& sample) {
     read_sample(token, sample, frames);
   });
   return std::move(frames).finish(path.string());
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

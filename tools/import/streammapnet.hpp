@@ -6,7 +6,7 @@
 #include "import/drive_log.hpp"
 #include "import/frame_collector.hpp"
 
-namespace laneloom {
+namespace laneloom::imports {
 
 /// The network that wrote a file of results.
 enum class StreamNetwork : std::uint8_t { streammapnet, maptracker };
@@ -30,4 +30,4 @@ enum class StreamNetwork : std::uint8_t { streammapnet, maptracker };
 ImportedFrames read_streammapnet(const std::filesystem::path& path, const DriveLog& drive,
                                  StreamNetwork network);
 
-}  // namespace laneloom
+}  // namespace laneloom::imports

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 bool next_line(std::istream& in, std::string& line) {
@@ -30,4 +30,4 @@ void for_each_csv_row(const std::filesystem::path& path, std::string_view column
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -10,7 +10,7 @@
 #include <type_traits>
 
 /// Checked reading of comma-separated values without quotes.
-namespace laneloom {
+namespace laneloom::io {
 
 /// Calls visit(row) for every line except the first, which must name `columns`, and may name others behind
 /// them. Throws std::runtime_error naming the file if it cannot be read or has other columns. Adds file and
@@ -39,4 +39,4 @@ Number take_number(std::string_view& row) {
   return value;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -9,12 +9,12 @@
 
 #include "recording/compression.hpp"
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "as the numbers in the file are");
 
-const Bytes kMagic{'A', 'R', 'R', 'O', 'W', '1'};  // at both ends of the file
+const recording::Bytes kMagic{'A', 'R', 'R', 'O', 'W', '1'};  // at both ends of the file
 constexpr std::int64_t kMagicBytes = 6;
 constexpr std::int64_t kLengthBytes = 4;      // of the footer's length, behind it
 constexpr std::int64_t kPrefixBytes = 8;      // before a batch's metadata
@@ -23,7 +23,7 @@ constexpr std::size_t kMaxPaddingBytes = 64;  // of a column, as Arrow recommend
 
 /// The number at the beginning of the bytes.
 template <class Number>
-Number number_in(const Bytes& bytes) {
+Number number_in(const recording::Bytes& bytes) {
   Number number{};
   std::memcpy(&number, bytes.data(), sizeof(number));
   return number;
@@ -31,7 +31,7 @@ Number number_in(const Bytes& bytes) {
 
 /// The root of metadata. Throws std::runtime_error if the metadata points outside of itself.
 template <class Root>
-const Root& verified(const Bytes& metadata) {
+const Root& verified(const recording::Bytes& metadata) {
   flatbuffers::Verifier verifier(metadata.data(), metadata.size());
   if (!verifier.VerifyBuffer<Root>(nullptr)) throw std::runtime_error("its metadata is damaged");
   return *flatbuffers::GetRoot<Root>(metadata.data());
@@ -61,16 +61,17 @@ bool is_of_numbers(const arrow::Field& field) {
 
 /// The content of a buffer, decompressed. The decompressed length comes first; it is -1 if the buffer is not
 /// compressed.
-Bytes decompressed(const Bytes& buffer, arrow::Codec codec, std::size_t expected) {
+recording::Bytes decompressed(const recording::Bytes& buffer, arrow::Codec codec, std::size_t expected) {
   if (buffer.size() < sizeof(std::int64_t)) throw std::runtime_error("a column is damaged");
   const auto length = number_in<std::int64_t>(buffer);
-  const ByteView content = ByteView(buffer).subspan(sizeof(length));
+  const recording::ByteView content = recording::ByteView(buffer).subspan(sizeof(length));
   if (length == -1) return {content.begin(), content.end()};
   if (length < 0 || static_cast<std::uint64_t>(length) < expected ||
       static_cast<std::uint64_t>(length) > expected + kMaxPaddingBytes)
     throw std::runtime_error("a column is of another length than its rows");
-  Bytes bytes(static_cast<std::size_t>(length));
-  decompress(codec == arrow::Codec::Zstd ? Compression::zstd : Compression::lz4, content, bytes);
+  recording::Bytes bytes(static_cast<std::size_t>(length));
+  decompress(codec == arrow::Codec::Zstd ? recording::Compression::zstd : recording::Compression::lz4,
+             content, bytes);
   return bytes;
 }
 
@@ -154,7 +155,7 @@ void FeatherTable::append(const Batch& batch, std::uint32_t column, std::vector<
   if (buffer.offset() < 0 || buffer.length() < 0 || buffer.offset() > batch.body_length ||
       buffer.length() > batch.body_length - buffer.offset())
     throw std::runtime_error("a batch of rows is damaged");
-  Bytes bytes = read(batch.body_offset + buffer.offset(), buffer.length());
+  recording::Bytes bytes = read(batch.body_offset + buffer.offset(), buffer.length());
   const std::size_t expected = static_cast<std::size_t>(rows.length()) * sizeof(Number);
   if (rows.compression() != nullptr) bytes = decompressed(bytes, rows.compression()->codec(), expected);
   if (bytes.size() < expected) throw std::runtime_error("a column is cut off");
@@ -163,15 +164,15 @@ void FeatherTable::append(const Batch& batch, std::uint32_t column, std::vector<
   std::memcpy(to.data() + before, bytes.data(), expected);
 }
 
-Bytes FeatherTable::read(std::int64_t offset, std::int64_t length) const {
+recording::Bytes FeatherTable::read(std::int64_t offset, std::int64_t length) const {
   const auto size = static_cast<std::int64_t>(file_.size());
   if (offset > size || length > size - offset) throw std::runtime_error("is damaged, or cut off");
-  Bytes bytes(static_cast<std::size_t>(length));
+  recording::Bytes bytes(static_cast<std::size_t>(length));
   file_.read(static_cast<std::uint64_t>(offset), bytes);
   return bytes;
 }
 
-Bytes FeatherTable::read_footer() const {
+recording::Bytes FeatherTable::read_footer() const {
   const auto size = static_cast<std::int64_t>(file_.size());
   if (size < kMagicBytes || read(0, kMagicBytes) != kMagic)
     throw std::runtime_error("is no Feather file (Arrow IPC)");
@@ -186,4 +187,4 @@ Bytes FeatherTable::read_footer() const {
 template std::vector<std::int64_t> FeatherTable::column(const std::string&) const;
 template std::vector<double> FeatherTable::column(const std::string&) const;
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -8,10 +8,11 @@
 
 #include "recording/files.hpp"
 
-namespace laneloom {
-namespace arrow {
+namespace laneloom::arrow {
 struct Block;
 }
+
+namespace laneloom::io {
 
 /// A table of numbers in a file of Apache Arrow's IPC format (Feather V2), compressed or not. The file may be
 /// damaged: every length in it is checked before it is used. All throw std::runtime_error naming the file and
@@ -28,12 +29,12 @@ class FeatherTable {
  private:
   /// Rows that were written together.
   struct Batch {
-    Bytes metadata;
+    recording::Bytes metadata;
     std::int64_t body_offset = 0, body_length = 0;
   };
 
-  Bytes read(std::int64_t offset, std::int64_t length) const;
-  Bytes read_footer() const;
+  recording::Bytes read(std::int64_t offset, std::int64_t length) const;
+  recording::Bytes read_footer() const;
   void add_batch(const arrow::Block& block);
   std::uint32_t index_of(const std::string& name) const;
   template <class Number>
@@ -41,11 +42,11 @@ class FeatherTable {
   template <class Work>
   auto naming_the_file(Work work) const;
 
-  InputFile file_;
-  Bytes footer_;
+  recording::InputFile file_;
+  recording::Bytes footer_;
   std::vector<Batch> batches_;
   std::int64_t end_of_batches_ = 0;
   std::int64_t rows_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::io

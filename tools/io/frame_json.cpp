@@ -4,7 +4,7 @@
 #include "io/json_lines.hpp"
 #include "io/stamp_and_pose.hpp"
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 using nlohmann::json;
@@ -79,7 +79,7 @@ FrameRecord frame_from_json(std::string_view text) {
   frame.detections = required(object, "detections", [](const json& items) { return list(items, detection); });
   frame.sequence = optional(object, "sequence", count).value_or(0);
   frame.session_id = optional(object, "session_id", count).value_or(0);
-  frame.source = optional(object, "source", laneloom::text).value_or("");
+  frame.source = optional(object, "source", io::text).value_or("");
   frame.field_of_view = optional(object, "field_of_view", polyline).value_or(Polyline{});
   const auto types = [](const json& items) { return list(items, marking_type); };
   frame.detected_types = optional(object, "detected_types", types).value_or(std::vector<MarkingType>{});
@@ -89,4 +89,4 @@ FrameRecord frame_from_json(std::string_view text) {
   return record;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

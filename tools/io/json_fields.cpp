@@ -7,7 +7,7 @@
 
 #include "base/unit_rotation.hpp"
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 using nlohmann::json;
@@ -128,4 +128,4 @@ json polyline_json(const Polyline& points) {
   return out;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

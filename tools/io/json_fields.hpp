@@ -17,7 +17,7 @@
 
 /// Checked reading of JSON. A value that is missing, of another type, or not finite is an error that names
 /// the key.
-namespace laneloom {
+namespace laneloom::io {
 
 /// An error in JSON. what() reads "detections[3].points: must be an array".
 class JsonError : public std::runtime_error {
@@ -93,4 +93,4 @@ auto required(const nlohmann::json& object, const char* key, Read read) {
   return *std::move(value);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
@@ -75,4 +75,4 @@ void JsonLinesWriter::close() {
   if (!out_) throw std::runtime_error(path_.string() + ": cannot be written");
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

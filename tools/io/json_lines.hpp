@@ -44,7 +44,7 @@
 /// Points are in the map frame. Instances are the boundaries and the stoplines' markings. Only t, pose,
 /// instances, lanes, an instance's id, type and points, and a lane's id, left, right and centerline must be
 /// there; without linkages, the successors are.
-namespace laneloom {
+namespace laneloom::io {
 
 /// A frame, and the vehicle's pose at its stamp.
 struct FrameRecord {
@@ -104,4 +104,4 @@ class JsonLinesWriter {
   std::ofstream out_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -6,7 +6,7 @@
 
 #include "io/json_fields.hpp"
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 using nlohmann::json;
@@ -105,4 +105,4 @@ void for_each_json_member(const std::filesystem::path& path, const std::string& 
   for_each_element(path, key, Container::object, visit);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

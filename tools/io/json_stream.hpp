@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::io {
 
 /// Calls visit(element) for every object of an array in a JSON file, one after the other, so that a large
 /// array need not fit into memory. The array is the whole file, or with a `key` the root object's member of
@@ -19,4 +19,4 @@ void for_each_json_object(const std::filesystem::path& path, const std::string& 
 void for_each_json_member(const std::filesystem::path& path, const std::string& key,
                           const std::function<void(const std::string&, const nlohmann::json&)>& visit);
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -11,7 +11,7 @@
 #include "io/stamp_and_pose.hpp"
 #include "laneloom/element_names.hpp"
 
-namespace laneloom {
+namespace laneloom::io {
 namespace {
 
 using nlohmann::json;
@@ -234,4 +234,4 @@ LocalMap map_from_json(std::string_view text) {
   return map;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

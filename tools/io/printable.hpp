@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::io {
 
 /// A name that others gave themselves, without characters that control a terminal.
 inline std::string printable(std::string text) {
@@ -12,4 +12,4 @@ inline std::string printable(std::string text) {
   return text;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-namespace laneloom {
+namespace laneloom::io {
 
 /// A temporary folder, which the destructor removes.
 class WorkFolder {
@@ -28,4 +28,4 @@ class WorkFolder {
   std::string path_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::io

@@ -6,7 +6,7 @@
 #include "laneloom/lane_graph.hpp"
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::pnc {
 namespace {
 
 double width_at(const Lane& lane, const Point& point) {
@@ -52,4 +52,4 @@ EgoView ego_view(const LocalMap& map) {
   return view;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::pnc

@@ -7,7 +7,7 @@
 #include "laneloom/types.hpp"
 
 /// The map as a planner looks at it first: from the lane that the vehicle is in.
-namespace laneloom {
+namespace laneloom::pnc {
 
 inline constexpr std::array<double, 3> kLookahead_m{10.0, 20.0, 30.0};
 
@@ -26,4 +26,4 @@ struct EgoView {
 /// Pure. `map` must hold its contract (contract/contract.hpp) as far as geometry and ids go.
 EgoView ego_view(const LocalMap& map);
 
-}  // namespace laneloom
+}  // namespace laneloom::pnc

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::pnc {
 namespace {
 
 using nlohmann::json;
@@ -34,8 +34,8 @@ std::string widths_text(const EgoView& ego) {
 
 PncUpdate judge(PublishedMap map, const PublishedMap* previous) {
   PncUpdate update;
-  update.violations = check_contract(map, previous);
-  update.missed = missed_maps(map, previous);
+  update.violations = contract::check_contract(map, previous);
+  update.missed = contract::missed_maps(map, previous);
   // A planner does not drive on a map that breaks the contract.
   if (update.violations.empty()) update.ego = ego_view(map.map);
   update.map = std::move(map);
@@ -56,7 +56,7 @@ std::string describe(const PncUpdate& update) {
       id_text(ego.lane), ego.lane == kNoElement ? "" : fmt::format("{:+.2f} m from its middle", ego.offset_m),
       id_text(ego.left_neighbour), id_text(ego.right_neighbour), ids_text(ego.successors), widths_text(ego),
       map.lanes.size(), map.boundaries.size(), map.stoplines.size(), map.linkages.size());
-  for (const Violation& violation : update.violations)
+  for (const contract::Violation& violation : update.violations)
     text += fmt::format("VIOLATION       {}: {}\n", name(violation.rule), violation.detail);
   return text;
 }
@@ -69,7 +69,7 @@ std::string summarise(const PncUpdate& update) {
       update.map.sequence, state_text(update.map.state, update.map.reasons), age_text(update.map),
       id_text(ego.lane), id_text(ego.left_neighbour), id_text(ego.right_neighbour), ids_text(ego.successors),
       widths_text(ego), map.lanes.size(), map.linkages.size());
-  for (const Violation& violation : update.violations)
+  for (const contract::Violation& violation : update.violations)
     text += fmt::format("; VIOLATION {}: {}", name(violation.rule), violation.detail);
   return text;
 }
@@ -79,7 +79,7 @@ json to_json(const PncUpdate& update) {
   const EgoView& ego = update.ego;
   json reasons = json::array(), violations = json::array(), widths = json::array();
   for (const StateReason reason : published.reasons) reasons.push_back(name(reason));
-  for (const Violation& violation : update.violations)
+  for (const contract::Violation& violation : update.violations)
     violations.push_back({{"rule", name(violation.rule)}, {"detail", violation.detail}});
   for (std::size_t i = 0; i < kLookahead_m.size(); ++i)
     widths.push_back(
@@ -106,4 +106,4 @@ json to_json(const PncUpdate& update) {
           {"violations", violations}};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::pnc

@@ -9,13 +9,13 @@
 #include "laneloom/state_names.hpp"
 #include "pnc/ego_view.hpp"
 
-namespace laneloom {
+namespace laneloom::pnc {
 
 /// The findings of the PnC participant on one map.
 struct PncUpdate {
   PublishedMap map;
   EgoView ego;
-  std::vector<Violation> violations;
+  std::vector<contract::Violation> violations;
   std::uint64_t missed = 0;  ///< number of maps that were published since the one received before
 };
 
@@ -29,4 +29,4 @@ std::string summarise(const PncUpdate& update);
 /// An object for machines. Unknown values are null.
 nlohmann::json to_json(const PncUpdate& update);
 
-}  // namespace laneloom
+}  // namespace laneloom::pnc

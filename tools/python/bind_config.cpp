@@ -42,7 +42,7 @@ std::string config_text(const py::object& value) {
 }
 
 py::object value_of(const Config& config, const std::string& key) {
-  const auto all = settings(config);
+  const auto all = config::settings(config);
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const auto& setting) { return setting.first == key; });
   if (found == all.end()) throw py::key_error(key);
@@ -51,12 +51,12 @@ py::object value_of(const Config& config, const std::string& key) {
 
 Config make_config(const py::object& preset) {
   Config config;
-  if (!preset.is_none()) apply_preset(config, text(preset, "preset"));
+  if (!preset.is_none()) config::apply_preset(config, text(preset, "preset"));
   return config;
 }
 
 void set(Config& config, const py::object& key, const py::object& value) {
-  set_value(config, text(key, "key") + "=" + config_text(value));
+  config::set_value(config, text(key, "key") + "=" + config_text(value));
 }
 
 }  // namespace
@@ -67,7 +67,8 @@ void bind_config(py::module_& module) {
   py::class_<Config>(module, "Config", kDoc)
       .def(py::init(&make_config), py::arg("preset") = py::none())
       .def_static(
-          "load", [](const py::object& file) { return load_config(path(file, "path")); }, py::arg("path"),
+          "load", [](const py::object& file) { return config::load_config(path(file, "path")); },
+          py::arg("path"),
           "The configuration in a YAML file; a key that is missing keeps its default. ConfigError: the file "
           "is wrong.")
       .def(
@@ -78,14 +79,14 @@ void bind_config(py::module_& module) {
           "keys",
           [](const Config& c) {
             py::list keys;
-            for (const auto& [key, value] : settings(c)) keys.append(key);
+            for (const auto& [key, value] : config::settings(c)) keys.append(key);
             return keys;
           },
           "Every key, in the order of the file.")
       .def(
-          "dump", [](const Config& c) { return dump(c); },
+          "dump", [](const Config& c) { return config::dump(c); },
           "The whole configuration as a YAML file, with units.")
-      .def("__repr__", [](const Config& c) { return "<Config " + config_hash(c) + ">"; });
+      .def("__repr__", [](const Config& c) { return "<Config " + config::config_hash(c) + ">"; });
 }
 
 }  // namespace laneloom::python

@@ -33,26 +33,27 @@ std::vector<LocalMap> given_maps(const py::object& maps) {
   return out;
 }
 
-Measures rate_maps(const Road& road, const RangeConfig& range, const std::vector<LocalMap>& maps) {
+evaluation::Measures rate_maps(const simulation::Road& road, const RangeConfig& range,
+                               const std::vector<LocalMap>& maps) {
   const py::gil_scoped_release others_run;
-  MapEvaluation evaluation(road, range, Subject::maps);
+  evaluation::MapEvaluation evaluation(road, range, evaluation::Subject::maps);
   for (const LocalMap& map : maps) evaluation.add(map);
   return evaluation.measures();
 }
 
-Measures rate_frames(const Road& road, const RangeConfig& range, const std::vector<SeenFrame>& frames,
-                     double min_confidence) {
+evaluation::Measures rate_frames(const simulation::Road& road, const RangeConfig& range,
+                                 const std::vector<SeenFrame>& frames, double min_confidence) {
   const py::gil_scoped_release others_run;
-  MapEvaluation evaluation(road, range, Subject::detections);
+  evaluation::MapEvaluation evaluation(road, range, evaluation::Subject::detections);
   for (const auto& [frame, pose] : frames) evaluation.add(frame, transform(pose), min_confidence);
   return evaluation.measures();
 }
 
-Measures evaluate(const py::object& truth, const py::object& maps, const py::object& frames,
-                  const py::object& config, const py::object& min_confidence) {
+evaluation::Measures evaluate(const py::object& truth, const py::object& maps, const py::object& frames,
+                              const py::object& config, const py::object& min_confidence) {
   if (maps.is_none() == frames.is_none())
     throw py::type_error("maps, frames: exactly one of the two must be given");
-  const Road& road = instance<Road>(truth, "truth");
+  const simulation::Road& road = instance<simulation::Road>(truth, "truth");
   const RangeConfig range =
       config.is_none() ? RangeConfig{} : RangeConfig(instance<Config>(config, "config").mapper.range);
   const double least = number(min_confidence, "min_confidence");
@@ -61,29 +62,30 @@ Measures evaluate(const py::object& truth, const py::object& maps, const py::obj
 }
 
 /// A method that gives the score of one kind.
-auto score_of(LineKind kind) {
-  return [kind](const Measures& measures) { return measures.score.of(kind); };
+auto score_of(evaluation::LineKind kind) {
+  return [kind](const evaluation::Measures& measures) { return measures.score.of(kind); };
 }
 
 void bind_scores(py::module_& module) {
-  py::class_<Score>(module, "Score", kScoreDoc)
-      .def_property_readonly("precision", &Score::precision)
-      .def_property_readonly("recall", &Score::recall)
-      .def_property_readonly("f1", &Score::f1)
-      .def_property_readonly("acd_m", &Score::acd_m)
-      .def_readonly("truths", &Score::truths)
-      .def_readonly("predictions", &Score::predictions)
-      .def_readonly("matches", &Score::matches)
-      .def("__repr__", [](const Score& s) {
+  py::class_<evaluation::Score>(module, "Score", kScoreDoc)
+      .def_property_readonly("precision", &evaluation::Score::precision)
+      .def_property_readonly("recall", &evaluation::Score::recall)
+      .def_property_readonly("f1", &evaluation::Score::f1)
+      .def_property_readonly("acd_m", &evaluation::Score::acd_m)
+      .def_readonly("truths", &evaluation::Score::truths)
+      .def_readonly("predictions", &evaluation::Score::predictions)
+      .def_readonly("matches", &evaluation::Score::matches)
+      .def("__repr__", [](const evaluation::Score& s) {
         return fmt::format("<Score precision {:.3f}, recall {:.3f}, f1 {:.3f}, acd {:.3f} m>", s.precision(),
                            s.recall(), s.f1(), s.acd_m());
       });
-  py::class_<PairScore>(module, "PairScore", "Precision, recall and F1 (0..1) of what relates two elements.")
-      .def_property_readonly("precision", &PairScore::precision)
-      .def_property_readonly("recall", &PairScore::recall)
-      .def_property_readonly("f1", &PairScore::f1)
-      .def_readonly("published", &PairScore::published)
-      .def_readonly("truths", &PairScore::truths);
+  py::class_<evaluation::PairScore>(module, "PairScore",
+                                    "Precision, recall and F1 (0..1) of what relates two elements.")
+      .def_property_readonly("precision", &evaluation::PairScore::precision)
+      .def_property_readonly("recall", &evaluation::PairScore::recall)
+      .def_property_readonly("f1", &evaluation::PairScore::f1)
+      .def_readonly("published", &evaluation::PairScore::published)
+      .def_readonly("truths", &evaluation::PairScore::truths);
 }
 
 }  // namespace
@@ -91,22 +93,24 @@ void bind_scores(py::module_& module) {
 void bind_evaluation(py::module_& module) {
   using py::arg;
   bind_scores(module);
-  py::class_<Measures>(module, "Evaluation", "The outcome of evaluate().")
+  py::class_<evaluation::Measures>(module, "Evaluation", "The outcome of evaluate().")
       .def_property_readonly(
-          "frames", [](const Measures& m) { return m.score.frames; }, "How many were rated.")
+          "frames", [](const evaluation::Measures& m) { return m.score.frames; }, "How many were rated.")
       .def_property_readonly(
-          "markings", [](const Measures& m) { return m.score.markings(); },
+          "markings", [](const evaluation::Measures& m) { return m.score.markings(); },
           "Of lanelines, roadedges and stoplines together.")
-      .def_property_readonly("laneline", score_of(LineKind::laneline))
-      .def_property_readonly("roadedge", score_of(LineKind::roadedge))
-      .def_property_readonly("stopline", score_of(LineKind::stopline))
-      .def_property_readonly("lane", score_of(LineKind::lane), "Of the lanes' centerlines.")
+      .def_property_readonly("laneline", score_of(evaluation::LineKind::laneline))
+      .def_property_readonly("roadedge", score_of(evaluation::LineKind::roadedge))
+      .def_property_readonly("stopline", score_of(evaluation::LineKind::stopline))
+      .def_property_readonly("lane", score_of(evaluation::LineKind::lane), "Of the lanes' centerlines.")
       .def_property_readonly(
-          "mean_ap", [](const Measures& m) { return m.average_precision.map(); },
+          "mean_ap", [](const evaluation::Measures& m) { return m.average_precision.map(); },
           "Chamfer mAP at 0.5, 1.0 and 1.5 m, 0..1, of the markings.")
-      .def_property_readonly("linkages", [](const Measures& m) { return m.topology.linkages; })
-      .def_property_readonly("directions", [](const Measures& m) { return m.topology.directions; })
-      .def_property_readonly("stopline_lanes", [](const Measures& m) { return m.topology.stopline_lanes; });
+      .def_property_readonly("linkages", [](const evaluation::Measures& m) { return m.topology.linkages; })
+      .def_property_readonly("directions",
+                             [](const evaluation::Measures& m) { return m.topology.directions; })
+      .def_property_readonly("stopline_lanes",
+                             [](const evaluation::Measures& m) { return m.topology.stopline_lanes; });
   module.def("evaluate", &evaluate, arg("truth"), arg("maps") = py::none(), py::kw_only(),
              arg("frames") = py::none(), arg("config") = py::none(),
              arg("min_confidence") = PreprocessConfig{}.min_confidence, kEvaluateDoc);

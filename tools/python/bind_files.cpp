@@ -36,7 +36,7 @@ void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
-void warn_of(const std::string& file, const InputAccount& account) {
+void warn_of(const std::string& file, const evaluation::InputAccount& account) {
   for (const auto& [what, count] : account.refused.values())
     warn(fmt::format("{}: {} messages passed over: {}", file, count, what));
   if (account.cut_off) warn(file + ": the recording is cut off");
@@ -51,12 +51,13 @@ VehiclePose pose_of(const Eigen::Isometry3d& T_map_body, std::int64_t stamp_ns) 
 py::list read_frames(const py::object& file) {
   const std::string name = path(file, "path");
   std::vector<SeenFrame> frames;
-  InputAccount account;
+  evaluation::InputAccount account;
   {
     const py::gil_scoped_release others_run;
-    account = for_each_frame(name, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-      frames.push_back({frame, pose_of(T_map_body, frame.stamp_ns)});
-    });
+    account = evaluation::for_each_frame(
+        name, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+          frames.push_back({frame, pose_of(T_map_body, frame.stamp_ns)});
+        });
   }
   warn_of(name, account);
   py::list out;
@@ -74,12 +75,12 @@ void write_recording(const std::string& file, const std::vector<SeenFrame>& seen
     poses.back().stamp_ns = frame.stamp_ns;
     frames.push_back(frame);
   }
-  write_drive(file, poses, frames);
+  imports::write_drive(file, poses, frames);
 }
 
 void write_json_lines(const std::string& file, const std::vector<SeenFrame>& seen) {
-  JsonLinesWriter out(file);
-  for (const auto& [frame, pose] : seen) out.write(FrameRecord{frame, pose});
+  io::JsonLinesWriter out(file);
+  for (const auto& [frame, pose] : seen) out.write(io::FrameRecord{frame, pose});
   out.close();
 }
 
@@ -96,10 +97,10 @@ void write_frames(const py::object& file, const py::object& frames) {
 py::list read_maps(const py::object& file) {
   const std::string name = path(file, "path");
   std::vector<LocalMap> maps;
-  InputAccount account;
+  evaluation::InputAccount account;
   {
     const py::gil_scoped_release others_run;
-    account = for_each_map(name, [&](const LocalMap& map) { maps.push_back(map); });
+    account = evaluation::for_each_map(name, [&](const LocalMap& map) { maps.push_back(map); });
   }
   warn_of(name, account);
   py::list out;
@@ -113,7 +114,7 @@ void write_maps(const py::object& file, const py::object& maps) {
     refuse_value("path", "maps are written as JSON lines (.jsonl), not as a recording");
   const std::vector<LocalMap> all = list(maps, "maps", instance<LocalMap>);
   const py::gil_scoped_release others_run;
-  JsonLinesWriter out(name);
+  io::JsonLinesWriter out(name);
   for (const LocalMap& map : all) out.write(map);
   out.close();
 }

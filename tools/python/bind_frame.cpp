@@ -40,7 +40,7 @@ ValueError: the quaternion is not of unit length, or a coordinate is beyond 10 0
 /// Refuses a message that a service would refuse.
 template <class T>
 T checked(T message, const char* name) {
-  if (const auto why = defect(message, GateConfig{}); !why.empty())
+  if (const auto why = session::defect(message, GateConfig{}); !why.empty())
     refuse_value(name, "the service would refuse it: " + std::string(why));
   return message;
 }

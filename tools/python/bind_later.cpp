@@ -41,28 +41,30 @@ type: "laneline" or "roadedge"
 distance_m: 12, 20 or 28)";
 
 /// A getter of a value, which is None in Python if it is missing.
-template <std::optional<double> LaterScore::Figures::*member>
-py::object figure(const LaterScore::Figures& figures) {
+template <std::optional<double> evaluation::LaterScore::Figures::*member>
+py::object figure(const evaluation::LaterScore::Figures& figures) {
   const std::optional<double>& value = figures.*member;
   return value ? py::object(py::float_(*value)) : py::object(py::none());
 }
 
-double per_frame(std::size_t count, const LaterMeter& meter) {
+double per_frame(std::size_t count, const evaluation::LaterMeter& meter) {
   return static_cast<double>(count) / static_cast<double>(meter.frames());
 }
 
-LaterScore score_of(const LaterMeter& meter, const py::object& type, const py::object& distance_m) {
+evaluation::LaterScore score_of(const evaluation::LaterMeter& meter, const py::object& type,
+                                const py::object& distance_m) {
   const auto kind = word<MarkingType>(type, "type", kTypeNames);
   if (kind == MarkingType::stopline) refuse_value("type", "must be laneline or roadedge, not 'stopline'");
-  const auto found = std::ranges::find(kLaterDistances_m, number(distance_m, "distance_m"));
-  if (found == kLaterDistances_m.end()) refuse_value("distance_m", "must be 12, 20 or 28");
-  return meter.score(kind, static_cast<std::size_t>(found - kLaterDistances_m.begin()));
+  const auto found = std::ranges::find(evaluation::kLaterDistances_m, number(distance_m, "distance_m"));
+  if (found == evaluation::kLaterDistances_m.end()) refuse_value("distance_m", "must be 12, 20 or 28");
+  return meter.score(kind, static_cast<std::size_t>(found - evaluation::kLaterDistances_m.begin()));
 }
 
-LaterMeter rate(const std::vector<SeenFrame>& frames, const std::vector<LocalMap>& maps, double least) {
+evaluation::LaterMeter rate(const std::vector<SeenFrame>& frames, const std::vector<LocalMap>& maps,
+                            double least) {
   std::map<std::int64_t, const LocalMap*> by_stamp;
   for (const LocalMap& map : maps) by_stamp[map.stamp_ns] = &map;
-  LaterMeter meter(least);
+  evaluation::LaterMeter meter(least);
   for (const auto& [frame, pose] : frames)
     if (const auto map = by_stamp.find(frame.stamp_ns); map != by_stamp.end())
       meter.add(frame, transform(pose), *map->second);
@@ -70,8 +72,8 @@ LaterMeter rate(const std::vector<SeenFrame>& frames, const std::vector<LocalMap
   return meter;
 }
 
-LaterMeter evaluate_later(const py::object& frames, const py::object& maps,
-                          const py::object& min_confidence) {
+evaluation::LaterMeter evaluate_later(const py::object& frames, const py::object& maps,
+                                      const py::object& min_confidence) {
   const std::vector<SeenFrame> seen = frames_in_order(frames, "frames");
   const std::vector<LocalMap> made = list(maps, "maps", instance<LocalMap>);
   const double least = number(min_confidence, "min_confidence");
@@ -80,16 +82,16 @@ LaterMeter evaluate_later(const py::object& frames, const py::object& maps,
 }
 
 void bind_score(py::module_& module) {
-  using Figures = LaterScore::Figures;
+  using Figures = evaluation::LaterScore::Figures;
   py::class_<Figures>(module, "LaterFigures", kFiguresDoc)
       .def_property_readonly("precision", &figure<&Figures::precision>)
       .def_property_readonly("recall", &figure<&Figures::recall>)
       .def_property_readonly("lateral_rms_m", &figure<&Figures::rms_m>)
       .def_property_readonly("lateral_p95_m", &figure<&Figures::p95_m>);
-  py::class_<LaterScore>(module, "LaterScore", kScoreDoc)
-      .def_readonly("seen_later", &LaterScore::seen_later)
-      .def_property_readonly("single", [](const LaterScore& s) { return s.figures(s.single); })
-      .def_property_readonly("map", [](const LaterScore& s) { return s.figures(s.map); });
+  py::class_<evaluation::LaterScore>(module, "LaterScore", kScoreDoc)
+      .def_readonly("seen_later", &evaluation::LaterScore::seen_later)
+      .def_property_readonly("single", [](const evaluation::LaterScore& s) { return s.figures(s.single); })
+      .def_property_readonly("map", [](const evaluation::LaterScore& s) { return s.figures(s.map); });
 }
 
 }  // namespace
@@ -97,17 +99,18 @@ void bind_score(py::module_& module) {
 void bind_later(py::module_& module) {
   using py::arg;
   bind_score(module);
-  py::class_<LaterMeter>(module, "LaterEvaluation", "The outcome of evaluate_later().")
-      .def_property_readonly("frames", &LaterMeter::frames, "How many were rated.")
-      .def_property_readonly("driven_m", &LaterMeter::driven_m, "Metres between the frames that were rated.")
+  py::class_<evaluation::LaterMeter>(module, "LaterEvaluation", "The outcome of evaluate_later().")
+      .def_property_readonly("frames", &evaluation::LaterMeter::frames, "How many were rated.")
+      .def_property_readonly("driven_m", &evaluation::LaterMeter::driven_m,
+                             "Metres between the frames that were rated.")
       .def_property_readonly(
-          "lanes_per_frame", [](const LaterMeter& m) { return per_frame(m.lanes(), m); },
+          "lanes_per_frame", [](const evaluation::LaterMeter& m) { return per_frame(m.lanes(), m); },
           "Mean number of lanes in a map.")
       .def_property_readonly(
-          "own_lane_share", [](const LaterMeter& m) { return per_frame(m.own_lane().frames, m); },
+          "own_lane_share", [](const evaluation::LaterMeter& m) { return per_frame(m.own_lane().frames, m); },
           "Share of the frames (0..1) in whose map the vehicle is in a lane.")
       .def_property_readonly(
-          "own_lane_id_changes", [](const LaterMeter& m) { return m.own_lane().id_changes; },
+          "own_lane_id_changes", [](const evaluation::LaterMeter& m) { return m.own_lane().id_changes; },
           "How often that lane had another id than before.")
       .def("score", &score_of, arg("type"), arg("distance_m"), kFiguresByPlaceDoc);
   module.def("evaluate_later", &evaluate_later, arg("frames"), arg("maps"), py::kw_only(),

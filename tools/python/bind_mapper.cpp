@@ -51,7 +51,7 @@ class SharedMapper {
 
 std::unique_ptr<SharedMapper> make_mapper(const py::object& config) {
   const Config chosen = config.is_none() ? Config{} : instance<Config>(config, "config");
-  validate(chosen);
+  config::validate(chosen);
   return std::make_unique<SharedMapper>(chosen.mapper);
 }
 

@@ -23,25 +23,26 @@ The picture is about the map's pose; without a map, about the frame's. RuntimeEr
 /// The things to draw; null: not given.
 struct Inputs {
   const LocalMap* map = nullptr;
-  const Road* truth = nullptr;
+  const simulation::Road* truth = nullptr;
   std::optional<SeenFrame> seen;
 };
 
-Moment draw_moment(const Inputs& inputs, const RangeConfig& range) {
-  Moment moment;
+render::Moment draw_moment(const Inputs& inputs, const RangeConfig& range) {
+  render::Moment moment;
   moment.T_map_body = inputs.map != nullptr ? inputs.map->T_map_body : transform(inputs.seen->pose);
-  Drawing around;
+  drawing::Drawing around;
   add_range(range, moment.T_map_body, around);
   add_vehicle(moment.T_map_body, around);
-  Drawing over_truth = around;
+  drawing::Drawing over_truth = around;
   if (inputs.truth != nullptr) add_truth(*inputs.truth, over_truth);
   if (inputs.seen)
     add_detections(inputs.seen->frame, transform(inputs.seen->pose),
-                   moment.panels.emplace_back(Panel{"Detections (one frame)", over_truth}).drawing);
+                   moment.panels.emplace_back(render::Panel{"Detections (one frame)", over_truth}).drawing);
   if (inputs.map != nullptr)
-    add_map(*inputs.map, moment.panels.emplace_back(Panel{"Fused map", over_truth}).drawing);
+    add_map(*inputs.map, moment.panels.emplace_back(render::Panel{"Fused map", over_truth}).drawing);
   if (inputs.truth != nullptr)
-    add_map(map_of(*inputs.truth), moment.panels.emplace_back(Panel{"Ground truth", around}).drawing);
+    add_map(drawing::map_of(*inputs.truth),
+            moment.panels.emplace_back(render::Panel{"Ground truth", around}).drawing);
   return moment;
 }
 
@@ -50,9 +51,9 @@ void render(const py::object& file, const py::object& map, const py::object& fra
   if (map.is_none() && frame.is_none()) throw py::type_error("map, frame: one of the two must be given");
   Inputs inputs;
   if (!map.is_none()) inputs.map = &instance<LocalMap>(map, "map");
-  if (!truth.is_none()) inputs.truth = &instance<Road>(truth, "truth");
+  if (!truth.is_none()) inputs.truth = &instance<simulation::Road>(truth, "truth");
   if (!frame.is_none()) inputs.seen = seen_frame(frame, "frame");
-  Figure figure{.title = text(title, "title")};
+  render::Figure figure{.title = text(title, "title")};
   if (!config.is_none()) figure.range = instance<Config>(config, "config").mapper.range;
   const std::string name = path(file, "path");
   const py::gil_scoped_release others_run;

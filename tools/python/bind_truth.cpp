@@ -42,18 +42,18 @@ ElementId element_id(const py::object& value) {
   return id;
 }
 
-RoadMarking make_marking(const py::object& id, const py::object& type, const py::object& points,
-                         const py::object& style) {
+simulation::RoadMarking make_marking(const py::object& id, const py::object& type, const py::object& points,
+                                     const py::object& style) {
   return {.id = element_id(id),
           .type = word<MarkingType>(type, "type", kTypeNames),
           .style = word<MarkingStyle>(style, "style", kStyleNames),
           .points = line(points, "points")};
 }
 
-RoadLane make_lane(const py::object& id, const py::object& left, const py::object& right,
-                   const py::object& centerline, const py::object& left_marking,
-                   const py::object& right_marking, const py::object& in_intersection,
-                   const py::object& successors) {
+simulation::RoadLane make_lane(const py::object& id, const py::object& left, const py::object& right,
+                               const py::object& centerline, const py::object& left_marking,
+                               const py::object& right_marking, const py::object& in_intersection,
+                               const py::object& successors) {
   return {.id = element_id(id),
           .left = line(left, "left"),
           .right = line(right, "right"),
@@ -64,12 +64,13 @@ RoadLane make_lane(const py::object& id, const py::object& left, const py::objec
           .successors = list(successors, "successors", count)};
 }
 
-Road make_truth(const py::object& name, const py::object& markings, const py::object& lanes,
-                const py::object& driving_side) {
-  Road road{.name = text(name, "name"),
-            .right_hand_traffic = word<Side>(driving_side, "driving_side", kSideNames) == Side::right,
-            .markings = list(markings, "markings", instance<RoadMarking>),
-            .lanes = list(lanes, "lanes", instance<RoadLane>)};
+simulation::Road make_truth(const py::object& name, const py::object& markings, const py::object& lanes,
+                            const py::object& driving_side) {
+  simulation::Road road{
+      .name = text(name, "name"),
+      .right_hand_traffic = word<Side>(driving_side, "driving_side", kSideNames) == Side::right,
+      .markings = list(markings, "markings", instance<simulation::RoadMarking>),
+      .lanes = list(lanes, "lanes", instance<simulation::RoadLane>)};
   try {
     check_references(road);
   } catch (const std::runtime_error& error) {
@@ -78,13 +79,13 @@ Road make_truth(const py::object& name, const py::object& markings, const py::ob
   return road;
 }
 
-Road load(const py::object& file) {
+simulation::Road load(const py::object& file) {
   const std::string name = path(file, "path");
   const py::gil_scoped_release others_run;
-  return load_truth(name);
+  return simulation::load_truth(name);
 }
 
-void save(const Road& road, const py::object& file) {
+void save(const simulation::Road& road, const py::object& file) {
   const std::string name = path(file, "path");
   const py::gil_scoped_release others_run;
   save_truth(name, road);
@@ -92,24 +93,26 @@ void save(const Road& road, const py::object& file) {
 
 void bind_parts(py::module_& module) {
   using py::arg;
-  py::class_<RoadMarking>(module, "TruthMarking", kMarkingDoc)
+  py::class_<simulation::RoadMarking>(module, "TruthMarking", kMarkingDoc)
       .def(py::init(&make_marking), arg("id"), arg("type"), arg("points"), arg("style") = "unknown")
-      .def_property_readonly("id", [](const RoadMarking& m) { return m.id; })
-      .def_property_readonly("type", [](const RoadMarking& m) { return name(m.type); })
-      .def_property_readonly("style", [](const RoadMarking& m) { return name(m.style); })
-      .def_property_readonly("points", [](const RoadMarking& m) { return to_array(m.points); });
-  py::class_<RoadLane>(module, "TruthLane", kLaneDoc)
+      .def_property_readonly("id", [](const simulation::RoadMarking& m) { return m.id; })
+      .def_property_readonly("type", [](const simulation::RoadMarking& m) { return name(m.type); })
+      .def_property_readonly("style", [](const simulation::RoadMarking& m) { return name(m.style); })
+      .def_property_readonly("points", [](const simulation::RoadMarking& m) { return to_array(m.points); });
+  py::class_<simulation::RoadLane>(module, "TruthLane", kLaneDoc)
       .def(py::init(&make_lane), arg("id"), arg("left"), arg("right"), arg("centerline"), py::kw_only(),
            arg("left_marking") = 0, arg("right_marking") = 0, arg("in_intersection") = false,
            arg("successors") = py::tuple())
-      .def_property_readonly("id", [](const RoadLane& l) { return l.id; })
-      .def_property_readonly("left", [](const RoadLane& l) { return to_array(l.left); })
-      .def_property_readonly("right", [](const RoadLane& l) { return to_array(l.right); })
-      .def_property_readonly("centerline", [](const RoadLane& l) { return to_array(l.centerline); })
-      .def_property_readonly("left_marking", [](const RoadLane& l) { return l.left_marking; })
-      .def_property_readonly("right_marking", [](const RoadLane& l) { return l.right_marking; })
-      .def_property_readonly("in_intersection", [](const RoadLane& l) { return l.in_intersection; })
-      .def_property_readonly("successors", [](const RoadLane& l) {
+      .def_property_readonly("id", [](const simulation::RoadLane& l) { return l.id; })
+      .def_property_readonly("left", [](const simulation::RoadLane& l) { return to_array(l.left); })
+      .def_property_readonly("right", [](const simulation::RoadLane& l) { return to_array(l.right); })
+      .def_property_readonly("centerline",
+                             [](const simulation::RoadLane& l) { return to_array(l.centerline); })
+      .def_property_readonly("left_marking", [](const simulation::RoadLane& l) { return l.left_marking; })
+      .def_property_readonly("right_marking", [](const simulation::RoadLane& l) { return l.right_marking; })
+      .def_property_readonly("in_intersection",
+                             [](const simulation::RoadLane& l) { return l.in_intersection; })
+      .def_property_readonly("successors", [](const simulation::RoadLane& l) {
         return to_tuple(l.successors, [](ElementId id) { return py::int_(id); });
       });
 }
@@ -119,21 +122,21 @@ void bind_parts(py::module_& module) {
 void bind_truth(py::module_& module) {
   using py::arg;
   bind_parts(module);
-  py::class_<Road>(module, "Truth", kTruthDoc)
+  py::class_<simulation::Road>(module, "Truth", kTruthDoc)
       .def(py::init(&make_truth), arg("name") = "", arg("markings") = py::tuple(), arg("lanes") = py::tuple(),
            arg("driving_side") = "right")
       .def_static("load", &load, arg("path"),
                   "The truth in a .truth.json file. RuntimeError: the file is wrong.")
       .def("save", &save, arg("path"), "Writes a .truth.json file.")
-      .def_property_readonly("name", [](const Road& r) { return r.name; })
-      .def_property_readonly("driving_side",
-                             [](const Road& r) { return r.right_hand_traffic ? "right" : "left"; })
-      .def_property_readonly("markings", [](const Road& r) { return to_tuple(r.markings); })
-      .def_property_readonly("lanes", [](const Road& r) { return to_tuple(r.lanes); })
+      .def_property_readonly("name", [](const simulation::Road& r) { return r.name; })
       .def_property_readonly(
-          "poses", [](const Road& r) { return to_tuple(r.drive.poses()); },
+          "driving_side", [](const simulation::Road& r) { return r.right_hand_traffic ? "right" : "left"; })
+      .def_property_readonly("markings", [](const simulation::Road& r) { return to_tuple(r.markings); })
+      .def_property_readonly("lanes", [](const simulation::Road& r) { return to_tuple(r.lanes); })
+      .def_property_readonly(
+          "poses", [](const simulation::Road& r) { return to_tuple(r.drive.poses()); },
           "How the road is driven: Pose objects, whose stamps are times since the start. Empty: not given.")
-      .def("__repr__", [](const Road& r) {
+      .def("__repr__", [](const simulation::Road& r) {
         return fmt::format("<Truth '{}', {} markings, {} lanes>", r.name, r.markings.size(), r.lanes.size());
       });
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace laneloom {
+namespace laneloom::render {
 namespace {
 
 constexpr double kPngScale = 2.0;  ///< pixels of a PNG per unit: sharp in print
@@ -42,14 +42,14 @@ void Canvas::stroke(const Outline& line, const Pen& pen) {
   cairo_stroke(cairo_.get());
 }
 
-void Canvas::fill(const Outline& polygon, const Colour& colour) {
+void Canvas::fill(const Outline& polygon, const drawing::Colour& colour) {
   use(colour);
   trace(polygon);
   cairo_close_path(cairo_.get());
   cairo_fill(cairo_.get());
 }
 
-void Canvas::text(const Pixel& position, const std::string& text, double size, const Colour& colour,
+void Canvas::text(const Pixel& position, const std::string& text, double size, const drawing::Colour& colour,
                   Align align, bool bold) {
   use(colour);
   cairo_select_font_face(cairo_.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
@@ -82,7 +82,7 @@ void Canvas::trace(const Outline& outline) {
   for (const Pixel& pixel : outline) cairo_line_to(cairo_.get(), pixel.x(), pixel.y());
 }
 
-void Canvas::use(const Colour& colour) {
+void Canvas::use(const drawing::Colour& colour) {
   cairo_set_source_rgba(cairo_.get(), colour.red, colour.green, colour.blue, colour.alpha);
 }
 
@@ -92,4 +92,4 @@ Outline rectangle(const Pixel& top_left, const Pixel& size) {
       top_left, {bottom_right.x(), top_left.y()}, bottom_right, {top_left.x(), bottom_right.y()}, top_left};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::render

@@ -9,14 +9,14 @@
 
 #include "drawing/colour.hpp"
 
-namespace laneloom {
+namespace laneloom::render {
 
 using Pixel = Eigen::Vector2d;
 using Outline = std::vector<Pixel>;
 
 /// Colour, width (pixels) and dashes of a stroke.
 struct Pen {
-  Colour colour;
+  drawing::Colour colour;
   double width = 1.0;
   std::vector<double> dashes;  ///< on, off, on, … in pixels; empty: solid
 };
@@ -31,9 +31,9 @@ class Canvas {
   Canvas(const std::string& path, double width, double height);
 
   void stroke(const Outline& line, const Pen& pen);
-  void fill(const Outline& polygon, const Colour& colour);
+  void fill(const Outline& polygon, const drawing::Colour& colour);
   /// `position` is the baseline's left end, middle or right end.
-  void text(const Pixel& position, const std::string& text, double size, const Colour& colour,
+  void text(const Pixel& position, const std::string& text, double size, const drawing::Colour& colour,
             Align align = Align::left, bool bold = false);
   /// Limits drawing to the rectangle, until unclip().
   void clip(const Pixel& top_left, const Pixel& size);
@@ -44,7 +44,7 @@ class Canvas {
 
  private:
   void trace(const Outline& outline);
-  void use(const Colour& colour);
+  void use(const drawing::Colour& colour);
 
   std::string path_;
   bool is_png_;
@@ -54,4 +54,4 @@ class Canvas {
 
 Outline rectangle(const Pixel& top_left, const Pixel& size);
 
-}  // namespace laneloom
+}  // namespace laneloom::render

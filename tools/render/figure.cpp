@@ -5,7 +5,7 @@
 #include "drawing/palette.hpp"
 #include "render/panel.hpp"
 
-namespace laneloom {
+namespace laneloom::render {
 namespace {
 
 constexpr double kMargin = 18.0;
@@ -18,8 +18,8 @@ void draw_scale(Canvas& canvas, const Pixel& bottom_left) {
   const Pixel from = bottom_left + Pixel(10.0, -10.0),
               to = from + Pixel(kLength_m * PanelView::kPixelsPerMetre, 0.0);
   const Pixel tick(0.0, 4.0);
-  canvas.stroke({from - tick, from, to, to - tick}, {palette::kText, 1.4, {}});
-  canvas.text((from + to) / 2 - Pixel(0.0, 5.0), "10 m", 11.0, palette::kText, Align::centre);
+  canvas.stroke({from - tick, from, to, to - tick}, {drawing::palette::kText, 1.4, {}});
+  canvas.text((from + to) / 2 - Pixel(0.0, 5.0), "10 m", 11.0, drawing::palette::kText, Align::centre);
 }
 
 void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range, const Pixel& top_left) {
@@ -27,8 +27,8 @@ void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range,
   Pixel at = top_left;
   for (const Panel& panel : moment.panels) {
     const PanelView view(range, moment.T_map_body, at + Pixel(0.0, kPanelTitleHeight));
-    canvas.text(at + Pixel(1.0, 15.0), panel.title, 13.0, palette::kText, Align::left, true);
-    canvas.text(at + Pixel(size.x() - 1.0, 15.0), moment.label, 12.0, palette::kFaint, Align::right);
+    canvas.text(at + Pixel(1.0, 15.0), panel.title, 13.0, drawing::palette::kText, Align::left, true);
+    canvas.text(at + Pixel(size.x() - 1.0, 15.0), moment.label, 12.0, drawing::palette::kFaint, Align::right);
     draw_panel(canvas, view, panel.drawing);
     draw_scale(canvas, view.top_left() + Pixel(0.0, size.y()));
     at.x() += size.x() + kGap;
@@ -48,7 +48,7 @@ void draw_figure(const Figure& figure, const std::string& path) {
                         legend_height(inner_width);
 
   Canvas canvas(path, width, height);
-  canvas.text({kMargin, kMargin + 14.0}, figure.title, 17.0, palette::kText, Align::left, true);
+  canvas.text({kMargin, kMargin + 14.0}, figure.title, 17.0, drawing::palette::kText, Align::left, true);
   Pixel at(kMargin, kMargin + kTitleHeight);
   for (const Moment& moment : figure.moments) {
     draw_moment(canvas, moment, figure.range, at);
@@ -58,4 +58,4 @@ void draw_figure(const Figure& figure, const std::string& path) {
   canvas.finish();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::render

@@ -7,12 +7,12 @@
 #include "laneloom/config.hpp"
 
 /// Pictures of maps, seen from above with the vehicle's forward direction up.
-namespace laneloom {
+namespace laneloom::render {
 
 /// A picture with its title.
 struct Panel {
   std::string title;
-  Drawing drawing;
+  drawing::Drawing drawing;
 };
 
 /// Panels of one moment, side by side.
@@ -33,4 +33,4 @@ struct Figure {
 /// Throws std::runtime_error if it can't be written.
 void draw_figure(const Figure& figure, const std::string& path);
 
-}  // namespace laneloom
+}  // namespace laneloom::render

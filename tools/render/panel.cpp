@@ -4,7 +4,7 @@
 
 #include "mapping/geometry/left_of.hpp"
 
-namespace laneloom {
+namespace laneloom::render {
 namespace {
 
 constexpr double kAroundBox_m = 2.0;
@@ -15,12 +15,12 @@ constexpr double kLegendEntries = 9.0;
 
 /// An arrow head with its tip at `tip`.
 Outline arrow_head(const Pixel& tip, const Pixel& direction, double size) {
-  const Pixel along = direction.normalized() * size, across = left_of(along);
+  const Pixel along = direction.normalized() * size, across = geometry::left_of(along);
   return {tip, tip - along + 0.45 * across, tip - 0.7 * along, tip - along - 0.45 * across, tip};
 }
 
-Pen pen_of(Style style, double opacity) {
-  const palette::StyleSpec& spec = palette::of(style);
+Pen pen_of(drawing::Style style, double opacity) {
+  const drawing::palette::StyleSpec& spec = drawing::palette::of(style);
   Pen pen{spec.light.faded(opacity), spec.width, {}};
   if (spec.dash_on > 0.0) pen.dashes = {spec.dash_on, spec.dash_off};
   return pen;
@@ -31,29 +31,31 @@ class Painter {
  public:
   Painter(Canvas& canvas, const PanelView& view) : canvas_(canvas), view_(view) {}
 
-  void draw(const Shape& shape) {
+  void draw(const drawing::Shape& shape) {
     std::visit([&](const auto& form) { draw(form, shape); }, shape.form);
   }
 
  private:
-  static Colour colour_of(const Shape& shape) { return palette::of(shape.style).light.faded(shape.opacity); }
+  static drawing::Colour colour_of(const drawing::Shape& shape) {
+    return drawing::palette::of(shape.style).light.faded(shape.opacity);
+  }
 
-  void draw(const DrawnLine& line, const Shape& shape) {
+  void draw(const drawing::DrawnLine& line, const drawing::Shape& shape) {
     canvas_.stroke(view_.map(line.points), pen_of(shape.style, shape.opacity));
   }
-  void draw(const DrawnArea& area, const Shape& shape) {
+  void draw(const drawing::DrawnArea& area, const drawing::Shape& shape) {
     Polyline outline = area.left;
     outline.insert(outline.end(), area.right.rbegin(), area.right.rend());
     canvas_.fill(view_.map(outline), colour_of(shape));
   }
-  void draw(const DrawnArrow& arrow, const Shape& shape) {
+  void draw(const drawing::DrawnArrow& arrow, const drawing::Shape& shape) {
     const Pixel tip = view_.map(arrow.tip);
     const Pixel before = view_.map(Point(arrow.tip - kArrowStep_m * arrow.direction));
-    canvas_.fill(arrow_head(tip, tip - before, palette::of(shape.style).head), colour_of(shape));
+    canvas_.fill(arrow_head(tip, tip - before, drawing::palette::of(shape.style).head), colour_of(shape));
   }
-  void draw(const DrawnText& text, const Shape& shape) {
-    canvas_.text(view_.map(text.position), text.text, palette::of(shape.style).text, colour_of(shape),
-                 Align::centre);
+  void draw(const drawing::DrawnText& text, const drawing::Shape& shape) {
+    canvas_.text(view_.map(text.position), text.text, drawing::palette::of(shape.style).text,
+                 colour_of(shape), Align::centre);
   }
 
   Canvas& canvas_;
@@ -86,15 +88,15 @@ Outline PanelView::map(const Polyline& line) const {
   return pixels;
 }
 
-void draw_panel(Canvas& canvas, const PanelView& view, const Drawing& drawing) {
+void draw_panel(Canvas& canvas, const PanelView& view, const drawing::Drawing& drawing) {
   const Outline frame = rectangle(view.top_left(), view.size());
   canvas.clip(view.top_left(), view.size());
-  canvas.fill(frame, palette::kGround);
+  canvas.fill(frame, drawing::palette::kGround);
   Painter painter(canvas, view);
-  for (const Element& element : drawing.elements())
-    for (const Shape& shape : element.shapes) painter.draw(shape);
+  for (const drawing::Element& element : drawing.elements())
+    for (const drawing::Shape& shape : element.shapes) painter.draw(shape);
   canvas.unclip();
-  canvas.stroke(frame, {palette::kBox.faded(0.6), 0.8, {}});
+  canvas.stroke(frame, {drawing::palette::kBox.faded(0.6), 0.8, {}});
 }
 
 double legend_height(double width) {
@@ -106,26 +108,26 @@ void draw_legend(Canvas& canvas, const Pixel& top_left, double width) {
   constexpr double kSample = 26.0;
   Pixel at = top_left + Pixel(0.0, kLegendLine / 2);
   const auto next = [&](const std::string& label) {
-    canvas.text(at + Pixel(kSample + 6.0, 4.0), label, 11.0, palette::kText);
+    canvas.text(at + Pixel(kSample + 6.0, 4.0), label, 11.0, drawing::palette::kText);
     at.x() += kLegendColumn;
     if (at.x() + kLegendColumn > top_left.x() + width) at = Pixel(top_left.x(), at.y() + kLegendLine);
   };
-  const auto line = [&](Style style, const std::string& label) {
+  const auto line = [&](drawing::Style style, const std::string& label) {
     canvas.stroke({at, at + Pixel(kSample, 0)}, pen_of(style, 1.0));
     next(label);
   };
-  line(Style::laneline_solid, "solid line");
-  line(Style::laneline_dashed, "dashed line");
-  line(Style::laneline_unknown, "unknown style");
-  line(Style::roadedge, "road edge");
-  line(Style::stopline, "stop line");
-  canvas.fill(rectangle(at - Pixel(0, 5), {kSample, 10}), palette::of(Style::lane_a).light);
+  line(drawing::Style::laneline_solid, "solid line");
+  line(drawing::Style::laneline_dashed, "dashed line");
+  line(drawing::Style::laneline_unknown, "unknown style");
+  line(drawing::Style::roadedge, "road edge");
+  line(drawing::Style::stopline, "stop line");
+  canvas.fill(rectangle(at - Pixel(0, 5), {kSample, 10}), drawing::palette::of(drawing::Style::lane_a).light);
   next("lane");
-  const palette::StyleSpec& linkage = palette::of(Style::linkage);
+  const drawing::palette::StyleSpec& linkage = drawing::palette::of(drawing::Style::linkage);
   canvas.fill(arrow_head(at + Pixel(kSample, 0), {1, 0}, linkage.head), linkage.light);
-  line(Style::linkage, "linkage");
-  line(Style::truth, "ground truth");
-  line(Style::range, "map range");
+  line(drawing::Style::linkage, "linkage");
+  line(drawing::Style::truth, "ground truth");
+  line(drawing::Style::range, "map range");
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::render

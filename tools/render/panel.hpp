@@ -3,7 +3,7 @@
 #include "render/canvas.hpp"
 #include "render/figure.hpp"
 
-namespace laneloom {
+namespace laneloom::render {
 
 /// Takes places of the map to places on the canvas: body frame, forward up.
 class PanelView {
@@ -26,10 +26,10 @@ class PanelView {
 };
 
 /// Draws the range's box, with the part of the drawing that is in view.
-void draw_panel(Canvas& canvas, const PanelView& view, const Drawing& drawing);
+void draw_panel(Canvas& canvas, const PanelView& view, const drawing::Drawing& drawing);
 
 /// Draws the legend of the colours, in as many columns as fit into `width`.
 void draw_legend(Canvas& canvas, const Pixel& top_left, double width);
 double legend_height(double width);
 
-}  // namespace laneloom
+}  // namespace laneloom::render

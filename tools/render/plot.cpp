@@ -9,7 +9,7 @@
 #include "drawing/palette.hpp"
 #include "render/canvas.hpp"
 
-namespace laneloom {
+namespace laneloom::render {
 namespace {
 
 constexpr double kWidth = 760.0;
@@ -102,22 +102,22 @@ std::vector<double> ticks(const Interval& axis, int count) {
 void draw_axes(Canvas& canvas, const Axes& axes, const Plot& plot) {
   for (const double y : ticks(axes.y(), kYTicks)) {
     canvas.stroke({axes.at(axes.x().from, y), axes.at(axes.x().to, y)}, kGrid);
-    canvas.text(axes.at(axes.x().from, y) + Pixel(-6.0, 4.0), tick_text(y), kTickText, palette::kText,
-                Align::right);
+    canvas.text(axes.at(axes.x().from, y) + Pixel(-6.0, 4.0), tick_text(y), kTickText,
+                drawing::palette::kText, Align::right);
   }
   for (const double x : ticks(axes.x(), kXTicks)) {
     canvas.stroke({axes.at(x, axes.y().from), axes.at(x, axes.y().to)}, kGrid);
-    canvas.text(axes.at(x, axes.y().from) + Pixel(0.0, 15.0), tick_text(x), kTickText, palette::kText,
-                Align::centre);
+    canvas.text(axes.at(x, axes.y().from) + Pixel(0.0, 15.0), tick_text(x), kTickText,
+                drawing::palette::kText, Align::centre);
   }
-  canvas.stroke(rectangle(axes.top_left(), axes.size()), {palette::kBox, 1.0, {}});
+  canvas.stroke(rectangle(axes.top_left(), axes.size()), {drawing::palette::kBox, 1.0, {}});
   canvas.text(axes.top_left() + Pixel(axes.size().x() / 2, axes.size().y() + 31.0), plot.x_label, kTickText,
-              palette::kFaint, Align::centre);
+              drawing::palette::kFaint, Align::centre);
 }
 
 Pen pen_of(const Curve& curve) { return {curve.colour, kCurveWidth, {}}; }
 
-void draw_marker(Canvas& canvas, const Pixel& at, const Colour& colour) {
+void draw_marker(Canvas& canvas, const Pixel& at, const drawing::Colour& colour) {
   const Pixel half(2.5, 2.5);
   canvas.fill(rectangle(at - half, 2 * half), colour);
 }
@@ -152,7 +152,7 @@ void draw_legend(Canvas& canvas, const std::vector<Curve>& curves, const Pixel& 
   for (const Curve& curve : curves) {
     at.x() += kGap;
     canvas.stroke({at - Pixel(0.0, 4.0), at + Pixel(kSwatch, -4.0)}, pen_of(curve));
-    canvas.text(at + Pixel(kSwatch + kSpace, 0.0), curve.name, kTickText, palette::kText);
+    canvas.text(at + Pixel(kSwatch + kSpace, 0.0), curve.name, kTickText, drawing::palette::kText);
     at.x() += width(curve);
   }
 }
@@ -160,7 +160,7 @@ void draw_legend(Canvas& canvas, const std::vector<Curve>& curves, const Pixel& 
 void draw_plot(Canvas& canvas, const Plot& plot, const Pixel& top_left) {
   const Axes axes(plot, top_left);
   const double baseline = axes.top_left().y() - 10.0;
-  canvas.text({axes.top_left().x(), baseline}, plot.title, 13.0, palette::kText, Align::left, true);
+  canvas.text({axes.top_left().x(), baseline}, plot.title, 13.0, drawing::palette::kText, Align::left, true);
   draw_legend(canvas, plot.curves, {axes.top_left().x() + axes.size().x(), baseline});
   draw_axes(canvas, axes, plot);
   canvas.clip(axes.top_left() - Pixel(4.0, 4.0), axes.size() + Pixel(8.0, 8.0));
@@ -187,4 +187,4 @@ void draw_plots(const std::vector<Plot>& plots, const std::string& path) {
   canvas.finish();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::render

@@ -8,12 +8,12 @@
 #include "drawing/colour.hpp"
 
 /// Curves over a common axis.
-namespace laneloom {
+namespace laneloom::render {
 
 /// One curve, in the units of its axes.
 struct Curve {
   std::string name;
-  Colour colour;
+  drawing::Colour colour;
   std::vector<Eigen::Vector2d> points;  ///< by ascending x; the curve has a gap where y is NaN
 };
 
@@ -34,4 +34,4 @@ double tick_step(double span, int ticks);
 /// `path`. Throws std::runtime_error if it can't be written.
 void draw_plots(const std::vector<Plot>& plots, const std::string& path);
 
-}  // namespace laneloom
+}  // namespace laneloom::render

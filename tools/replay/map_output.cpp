@@ -5,12 +5,12 @@
 
 #include "io/json_lines.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 namespace {
 
 class RecordedMaps : public MapOutput {
  public:
-  RecordedMaps(const std::string& path, Compression compression)
+  RecordedMaps(const std::string& path, recording::Compression compression)
       : writer_(path, {.compression = compression}) {}
 
   void write(const PublishedMap& map, std::int64_t log_time_ns) override {
@@ -20,7 +20,7 @@ class RecordedMaps : public MapOutput {
   void close() override { writer_.close(); }
 
  private:
-  RecordingWriter writer_;
+  recording::RecordingWriter writer_;
 };
 
 class MapLines : public MapOutput {
@@ -31,7 +31,7 @@ class MapLines : public MapOutput {
   void close() override { writer_.close(); }
 
  private:
-  JsonLinesWriter writer_;
+  io::JsonLinesWriter writer_;
 };
 
 struct FreeState {
@@ -58,7 +58,7 @@ std::string Digest::text() const {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-std::unique_ptr<MapOutput> create_map_output(const std::string& path, Compression compression) {
+std::unique_ptr<MapOutput> create_map_output(const std::string& path, recording::Compression compression) {
   if (path.ends_with(".mcap")) return std::make_unique<RecordedMaps>(path, compression);
   return std::make_unique<MapLines>(path);
 }
@@ -67,4 +67,4 @@ RoadMarkings road_markings(const PublishedMap& map) {
   return {map.map.stamp_ns, map.sequence, map.session_id, map.frame_id, map.map.markings};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

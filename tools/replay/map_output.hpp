@@ -8,7 +8,7 @@
 #include "laneloom/messages.hpp"
 #include "recording/recording.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 
 /// A digest of 128 bits (XXH3), as 32 hexadecimal digits.
 class Digest {
@@ -36,9 +36,9 @@ class MapOutput {
 };
 
 /// Creates a recording if `path` ends with ".mcap", or else JSON lines.
-std::unique_ptr<MapOutput> create_map_output(const std::string& path, Compression compression);
+std::unique_ptr<MapOutput> create_map_output(const std::string& path, recording::Compression compression);
 
 /// The message on the topic road_markings that belongs to a map.
 RoadMarkings road_markings(const PublishedMap& map);
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

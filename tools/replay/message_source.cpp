@@ -7,22 +7,22 @@
 #include "io/json_lines.hpp"
 #include "laneloom/dds/cdr.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 namespace {
 
 class McapMessages : public MessageSource {
  public:
   McapMessages(const std::string& path, const std::string& map_frame_id) : reader_(path, map_frame_id) {}
 
-  std::optional<RecordedMessage> next() override { return reader_.next(); }
-  std::optional<RecordedMessage> next_input() override { return reader_.next_input(); }
-  std::optional<RawMessage> next_raw() override { return reader_.next_raw(); }
+  std::optional<recording::RecordedMessage> next() override { return reader_.next(); }
+  std::optional<recording::RecordedMessage> next_input() override { return reader_.next_input(); }
+  std::optional<recording::RawMessage> next_raw() override { return reader_.next_raw(); }
   double progress() const override { return reader_.progress(); }
   Counters refused() const override { return reader_.refused(); }
   bool cut_off() const override { return reader_.cut_off(); }
 
  private:
-  RecordingReader reader_;
+  recording::RecordingReader reader_;
 };
 
 class JsonLinesMessages : public MessageSource {
@@ -30,23 +30,23 @@ class JsonLinesMessages : public MessageSource {
   JsonLinesMessages(const std::string& path, std::string map_frame_id)
       : reader_(path), map_frame_id_(std::move(map_frame_id)) {}
 
-  std::optional<RecordedMessage> next() override {
+  std::optional<recording::RecordedMessage> next() override {
     if (frame_) {
       const std::int64_t stamp_ns = frame_->stamp_ns;
-      return RecordedMessage{stamp_ns, stamp_ns, *std::exchange(frame_, std::nullopt)};
+      return recording::RecordedMessage{stamp_ns, stamp_ns, *std::exchange(frame_, std::nullopt)};
     }
-    std::optional<FrameRecord> record = reader_.next_frame();
+    std::optional<io::FrameRecord> record = reader_.next_frame();
     if (!record) return std::nullopt;
     frame_ = std::move(record->frame);
-    return RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
+    return recording::RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
   }
 
-  std::optional<RecordedMessage> next_input() override { return next(); }
+  std::optional<recording::RecordedMessage> next_input() override { return next(); }
 
-  std::optional<RawMessage> next_raw() override {
-    const std::optional<RecordedMessage> message = next();
+  std::optional<recording::RawMessage> next_raw() override {
+    const std::optional<recording::RecordedMessage> message = next();
     if (!message) return std::nullopt;
-    RawMessage raw{message->log_time_ns, message->message.index(), {}};
+    recording::RawMessage raw{message->log_time_ns, message->message.index(), {}};
     std::visit([&](const auto& m) { dds::to_cdr(m, map_frame_id_, raw.bytes); }, message->message);
     return raw;
   }
@@ -56,7 +56,7 @@ class JsonLinesMessages : public MessageSource {
   bool cut_off() const override { return false; }
 
  private:
-  JsonLinesReader reader_;
+  io::JsonLinesReader reader_;
   std::string map_frame_id_;
   std::optional<DetectionFrame> frame_;  ///< the next message; its pose was given out before it
 };
@@ -64,8 +64,8 @@ class JsonLinesMessages : public MessageSource {
 }  // namespace
 
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id) {
-  if (is_recording(path)) return std::make_unique<McapMessages>(path, map_frame_id);
+  if (recording::is_recording(path)) return std::make_unique<McapMessages>(path, map_frame_id);
   return std::make_unique<JsonLinesMessages>(path, map_frame_id);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

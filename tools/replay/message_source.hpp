@@ -6,7 +6,7 @@
 
 #include "recording/recording.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 
 /// The messages of a drive, in the order of their arrival. Not thread-safe.
 class MessageSource {
@@ -14,11 +14,11 @@ class MessageSource {
   virtual ~MessageSource() = default;
 
   /// The next message. None: the end. Throws std::runtime_error naming file and place of a malformed message.
-  virtual std::optional<RecordedMessage> next() = 0;
+  virtual std::optional<recording::RecordedMessage> next() = 0;
   /// The next detections or pose. Messages that a service published are passed over unread.
-  virtual std::optional<RecordedMessage> next_input() = 0;
+  virtual std::optional<recording::RecordedMessage> next_input() = 0;
   /// The next message, as it goes over the wire.
-  virtual std::optional<RawMessage> next_raw() = 0;
+  virtual std::optional<recording::RawMessage> next_raw() = 0;
   /// The share that was read, 0..1.
   virtual double progress() const = 0;
   /// Counts of the messages that were refused so far, by "<topic>: <reason>".
@@ -32,4 +32,4 @@ class MessageSource {
 /// frame of the poses. Throws std::runtime_error if the file cannot be read.
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id);
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::replay {
 namespace {
 
 template <class T>
-bool is(const RawMessage& message) {
-  static const std::size_t topic = AnyMessage(std::in_place_type<T>).index();
+bool is(const recording::RawMessage& message) {
+  static const std::size_t topic = recording::AnyMessage(std::in_place_type<T>).index();
   return message.topic == topic;
 }
 
@@ -19,7 +19,7 @@ Player::Player(const DdsConfig& dds, double speed_up)
       poses_(participant_),
       speed_up_(speed_up) {}
 
-std::chrono::steady_clock::time_point Player::due(const RawMessage& message) {
+std::chrono::steady_clock::time_point Player::due(const recording::RawMessage& message) {
   if (!first_ns_) {
     first_ns_ = message.log_time_ns;
     start_ = std::chrono::steady_clock::now();
@@ -28,7 +28,7 @@ std::chrono::steady_clock::time_point Player::due(const RawMessage& message) {
   return start_ + std::chrono::nanoseconds(std::llround(elapsed_ns));
 }
 
-void Player::publish(const RawMessage& message) {
+void Player::publish(const recording::RawMessage& message) {
   if (is<DetectionFrame>(message)) {
     ++(detections_.write(message.bytes) ? detections_published_ : not_taken_);
   } else if (is<VehiclePose>(message)) {
@@ -36,4 +36,4 @@ void Player::publish(const RawMessage& message) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

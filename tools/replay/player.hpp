@@ -8,7 +8,7 @@
 #include "laneloom/dds/raw_writer.hpp"
 #include "recording/recording.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 
 /// Publishes recorded detections and poses again, byte for byte, as their participants did. Not thread-safe.
 class Player {
@@ -21,9 +21,9 @@ class Player {
 
   /// The time at which a message is due. The first one is due now, the others as long after it as they were
   /// recorded, divided by `speed_up`.
-  std::chrono::steady_clock::time_point due(const RawMessage& message);
+  std::chrono::steady_clock::time_point due(const recording::RawMessage& message);
   /// Publishes a message. Messages of other topics than the inputs are passed over.
-  void publish(const RawMessage& message);
+  void publish(const recording::RawMessage& message);
 
   std::uint64_t detections() const { return detections_published_; }
   std::uint64_t poses() const { return poses_published_; }
@@ -39,4 +39,4 @@ class Player {
   std::uint64_t detections_published_ = 0, poses_published_ = 0, not_taken_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

@@ -5,7 +5,7 @@
 
 #include "laneloom/dds/cdr.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 namespace {
 
 constexpr const char* kFrameId = "map";  // any name; both sides have the same
@@ -50,7 +50,7 @@ Replay::Replay(const Config& config, MapTaker take_map, StageObserver* observer)
   session_.observe([this](const FusedFrame& fused, const LocalMap& map) { publish(fused, map); });
 }
 
-void Replay::add(RecordedMessage message) {
+void Replay::add(recording::RecordedMessage message) {
   now_ns_ = message.log_time_ns;
   session_.expire(now_ns_);
   if (const auto* pose = std::get_if<VehiclePose>(&message.message)) session_.add(*pose);
@@ -105,4 +105,4 @@ LiveComparison::Result LiveComparison::result() const {
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

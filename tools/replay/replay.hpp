@@ -11,7 +11,7 @@
 #include "replay/map_output.hpp"
 #include "session/mapping_session.hpp"
 
-namespace laneloom {
+namespace laneloom::replay {
 
 /// Takes a map as the service would publish it.
 using MapTaker = std::function<void(const PublishedMap& map, std::int64_t log_time_ns)>;
@@ -23,7 +23,7 @@ class Replay {
   /// `config` must be valid. `observer` may be null.
   Replay(const Config& config, MapTaker take_map, StageObserver* observer = nullptr);
 
-  void add(RecordedMessage message);
+  void add(recording::RecordedMessage message);
 
   const Counters& counters() const { return session_.counters(); }
   std::size_t pending() const { return session_.pending(); }
@@ -37,7 +37,7 @@ class Replay {
   void publish(const FusedFrame& fused, const LocalMap& map);
 
   std::string map_frame_id_;
-  MappingSession session_;
+  session::MappingSession session_;
   MapTaker take_map_;
   std::int64_t now_ns_ = 0;
   std::uint64_t maps_ = 0;
@@ -65,4 +65,4 @@ class LiveComparison {
   Digests live_maps_, live_markings_, maps_, markings_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::replay

@@ -11,7 +11,7 @@
 /// The part of Foxglove's schemas (docs.foxglove.dev/docs/sdk/schemas) that is written here, as plain data
 /// and as bytes that the 3D panels of Foxglove and Lichtblick show. Lengths are in metres; frames are
 /// right-handed.
-namespace laneloom::foxglove {
+namespace laneloom::scene::foxglove {
 
 inline constexpr const char* kSceneUpdateType = "foxglove::SceneUpdate";
 inline constexpr const char* kFrameTransformType = "foxglove::FrameTransform";
@@ -26,14 +26,14 @@ struct LinePrimitive {
   Point origin = Point::Zero();  ///< the points are relative to it
   double thickness_px = 1.0;
   Polyline points;  ///< in a list: two for each segment
-  Colour colour;
+  drawing::Colour colour;
 };
 
 /// An area made of triangles.
 struct TrianglePrimitive {
   Point origin = Point::Zero();
   Polyline points;
-  Colour colour;
+  drawing::Colour colour;
   std::vector<std::uint32_t> indices;  ///< three for each triangle
 };
 
@@ -41,7 +41,7 @@ struct TrianglePrimitive {
 struct TextPrimitive {
   Point position = Point::Zero();  ///< of its middle
   double height_px = 12.0;
-  Colour colour;
+  drawing::Colour colour;
   std::string text;
 };
 
@@ -76,4 +76,4 @@ struct FrameTransform {
 std::vector<std::uint8_t> to_cdr(const SceneUpdate& update);
 std::vector<std::uint8_t> to_cdr(const FrameTransform& transform);
 
-}  // namespace laneloom::foxglove
+}  // namespace laneloom::scene::foxglove

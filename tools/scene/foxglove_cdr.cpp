@@ -7,7 +7,7 @@
 
 #include "scene/foxglove.hpp"
 
-namespace laneloom::foxglove {
+namespace laneloom::scene::foxglove {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -27,7 +27,9 @@ class Writer {
   }
   void put(const Point& point) { cdr_ << point.x() << point.y() << point.z(); }
   void put(const Eigen::Quaterniond& q) { cdr_ << q.x() << q.y() << q.z() << q.w(); }
-  void put(const Colour& colour) { cdr_ << colour.red << colour.green << colour.blue << colour.alpha; }
+  void put(const drawing::Colour& colour) {
+    cdr_ << colour.red << colour.green << colour.blue << colour.alpha;
+  }
   void put_pose(const Point& position) {
     put(position);
     put(Eigen::Quaterniond::Identity());
@@ -130,4 +132,4 @@ std::vector<std::uint8_t> to_cdr(const FrameTransform& transform) {
   return to.bytes();
 }
 
-}  // namespace laneloom::foxglove
+}  // namespace laneloom::scene::foxglove

@@ -1,6 +1,6 @@
 #include "scene/foxglove.hpp"
 
-namespace laneloom::foxglove {
+namespace laneloom::scene::foxglove {
 
 // The names and types are those of Foxglove's schemas, as readers find the fields by their names.
 const char* const kIdl = R"idl(module foxglove {
@@ -180,4 +180,4 @@ struct FrameTransform {
 };
 )idl";
 
-}  // namespace laneloom::foxglove
+}  // namespace laneloom::scene::foxglove

@@ -6,7 +6,7 @@
 #include "laneloom/polyline.hpp"
 #include "scene/triangles.hpp"
 
-namespace laneloom {
+namespace laneloom::scene {
 namespace {
 
 using foxglove::LineType;
@@ -18,7 +18,7 @@ constexpr double kArrowMetresPerPixel = 0.1;
 constexpr double kOutlineWidth_px = 1.5;  ///< of an area that is not filled
 
 /// The dashes of a line, as segments.
-Polyline dashes(const Polyline& points, const palette::StyleSpec& spec) {
+Polyline dashes(const Polyline& points, const drawing::palette::StyleSpec& spec) {
   const MeasuredPolyline line(points);
   Polyline segments;
   const double on_m = spec.dash_on * kDashMetresPerPixel, off_m = spec.dash_off * kDashMetresPerPixel;
@@ -32,18 +32,20 @@ Polyline dashes(const Polyline& points, const palette::StyleSpec& spec) {
 /// Makes an element's shapes into primitives.
 class Shaper {
  public:
-  Shaper(Layer layer, const Point& origin, SceneEntity& to)
-      : overlay_(palette::of(layer).overlay),
+  Shaper(drawing::Layer layer, const Point& origin, SceneEntity& to)
+      : overlay_(drawing::palette::of(layer).overlay),
         origin_(origin),
         lift_(0.0, 0.0, kLayerStep_m * static_cast<double>(layer)),
         to_(to) {}
 
-  void add(const Shape& shape) {
+  void add(const drawing::Shape& shape) {
     std::visit([&](const auto& form) { add(form, shape); }, shape.form);
   }
 
  private:
-  static Colour colour_of(const Shape& shape) { return palette::of(shape.style).dark.faded(shape.opacity); }
+  static drawing::Colour colour_of(const drawing::Shape& shape) {
+    return drawing::palette::of(shape.style).dark.faded(shape.opacity);
+  }
 
   Polyline relative(const Polyline& points) const {
     Polyline out;
@@ -51,21 +53,22 @@ class Shaper {
     for (const Point& point : points) out.emplace_back(point - origin_);
     return out;
   }
-  void add_line(LineType type, double width_px, const Polyline& points, const Shape& shape) {
+  void add_line(LineType type, double width_px, const Polyline& points, const drawing::Shape& shape) {
     to_.lines.push_back({type, origin_ + lift_, width_px, relative(points), colour_of(shape)});
   }
-  void add_triangles(const Polyline& points, std::vector<std::uint32_t> indices, const Shape& shape) {
+  void add_triangles(const Polyline& points, std::vector<std::uint32_t> indices,
+                     const drawing::Shape& shape) {
     to_.triangles.push_back({origin_ + lift_, relative(points), colour_of(shape), std::move(indices)});
   }
 
-  void add(const DrawnLine& line, const Shape& shape) {
-    const palette::StyleSpec& spec = palette::of(shape.style);
+  void add(const drawing::DrawnLine& line, const drawing::Shape& shape) {
+    const drawing::palette::StyleSpec& spec = drawing::palette::of(shape.style);
     if (spec.dash_on > 0.0)
       add_line(LineType::list, overlay_ * spec.width, dashes(line.points, spec), shape);
     else
       add_line(LineType::strip, overlay_ * spec.width, line.points, shape);
   }
-  void add(const DrawnArea& area, const Shape& shape) {
+  void add(const drawing::DrawnArea& area, const drawing::Shape& shape) {
     Polyline points = area.left;
     points.insert(points.end(), area.right.begin(), area.right.end());
     auto triangles =
@@ -75,14 +78,15 @@ class Shaper {
     else
       add_triangles(points, std::move(triangles), shape);
   }
-  void add(const DrawnArrow& arrow, const Shape& shape) {
-    const Point along = kArrowMetresPerPixel * palette::of(shape.style).head * arrow.direction;
+  void add(const drawing::DrawnArrow& arrow, const drawing::Shape& shape) {
+    const Point along = kArrowMetresPerPixel * drawing::palette::of(shape.style).head * arrow.direction;
     const Point across = 0.45 * Point(-along.y(), along.x(), 0.0);
     const Point back = arrow.tip - along;
     add_triangles({arrow.tip, back + across, back - across}, {0, 1, 2}, shape);
   }
-  void add(const DrawnText& text, const Shape& shape) {
-    to_.texts.push_back({text.position + lift_, palette::of(shape.style).text, colour_of(shape), text.text});
+  void add(const drawing::DrawnText& text, const drawing::Shape& shape) {
+    to_.texts.push_back(
+        {text.position + lift_, drawing::palette::of(shape.style).text, colour_of(shape), text.text});
   }
 
   double overlay_;
@@ -90,8 +94,8 @@ class Shaper {
   SceneEntity& to_;
 };
 
-std::vector<std::pair<std::string, std::string>> metadata_of(const Element& element) {
-  std::vector<std::pair<std::string, std::string>> out{{"layer", palette::of(element.layer).name},
+std::vector<std::pair<std::string, std::string>> metadata_of(const drawing::Element& element) {
+  std::vector<std::pair<std::string, std::string>> out{{"layer", drawing::palette::of(element.layer).name},
                                                        {"type", element.type}};
   if (element.id != kNoElement) out.emplace_back("id", std::to_string(element.id));
   if (element.status) out.emplace_back("status", name(*element.status));
@@ -102,17 +106,17 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const Element& elem
 
 }  // namespace
 
-void append_entities(const Drawing& drawing, const SceneFrame& frame, std::vector<SceneEntity>& to) {
+void append_entities(const drawing::Drawing& drawing, const SceneFrame& frame, std::vector<SceneEntity>& to) {
   const Point origin = drawing.T_map_body.translation().array().round();
-  for (const Element& element : drawing.elements()) {
+  for (const drawing::Element& element : drawing.elements()) {
     SceneEntity& entity = to.emplace_back();
     entity.frame_id = frame.id;
     entity.id = element.key;
     entity.frame_locked = frame.locked;
     entity.metadata = metadata_of(element);
     Shaper shaper(element.layer, origin, entity);
-    for (const Shape& shape : element.shapes) shaper.add(shape);
+    for (const drawing::Shape& shape : element.shapes) shaper.add(shape);
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::scene

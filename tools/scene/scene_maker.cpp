@@ -7,7 +7,7 @@
 #include "laneloom/dds/cdr.hpp"
 #include "scene/scene_entities.hpp"
 
-namespace laneloom {
+namespace laneloom::scene {
 namespace {
 
 constexpr const char* kBodyFrame = "body";
@@ -19,8 +19,8 @@ SceneMessage message_of(SceneTopic topic, const foxglove::SceneUpdate& update) {
   return {topic, foxglove::to_cdr(update)};
 }
 
-Drawing ids_of(const LocalMap& map) {
-  Drawing drawing;
+drawing::Drawing ids_of(const LocalMap& map) {
+  drawing::Drawing drawing;
   drawing.T_map_body = map.T_map_body;
   add_ids(map, drawing);
   return drawing;
@@ -28,12 +28,13 @@ Drawing ids_of(const LocalMap& map) {
 
 }  // namespace
 
-const std::vector<ExtraTopic>& scene_topics() {
+const std::vector<recording::ExtraTopic>& scene_topics() {
   using foxglove::kFrameTransformType, foxglove::kIdl, foxglove::kSceneUpdateType;
-  static const std::vector<ExtraTopic> topics{{"/laneloom/scene", kSceneUpdateType, kIdl},
-                                              {"/laneloom/scene/detections", kSceneUpdateType, kIdl},
-                                              {"/laneloom/scene/ids", kSceneUpdateType, kIdl},
-                                              {"/tf", kFrameTransformType, kIdl}};
+  static const std::vector<recording::ExtraTopic> topics{
+      {"/laneloom/scene", foxglove::kSceneUpdateType, foxglove::kIdl},
+      {"/laneloom/scene/detections", foxglove::kSceneUpdateType, foxglove::kIdl},
+      {"/laneloom/scene/ids", foxglove::kSceneUpdateType, foxglove::kIdl},
+      {"/tf", foxglove::kFrameTransformType, foxglove::kIdl}};
   return topics;
 }
 
@@ -47,15 +48,15 @@ foxglove::SceneUpdate SceneStream::update(std::vector<foxglove::SceneEntity> ent
   return update;
 }
 
-std::vector<SceneMessage> SceneMaker::take(const RawMessage& message) {
+std::vector<SceneMessage> SceneMaker::take(const recording::RawMessage& message) {
   std::vector<SceneMessage> out;
-  if (message.topic == AnyMessage(PublishedMap{}).index()) take_as<PublishedMap>(message, out);
-  if (message.topic == AnyMessage(VehiclePose{}).index()) take_as<VehiclePose>(message, out);
-  if (message.topic == AnyMessage(DetectionFrame{}).index()) take_as<DetectionFrame>(message, out);
+  if (message.topic == recording::AnyMessage(PublishedMap{}).index()) take_as<PublishedMap>(message, out);
+  if (message.topic == recording::AnyMessage(VehiclePose{}).index()) take_as<VehiclePose>(message, out);
+  if (message.topic == recording::AnyMessage(DetectionFrame{}).index()) take_as<DetectionFrame>(message, out);
   return out;
 }
 
-std::vector<SceneMessage> SceneMaker::take(const AnyMessage& message, std::int64_t log_time_ns) {
+std::vector<SceneMessage> SceneMaker::take(const recording::AnyMessage& message, std::int64_t log_time_ns) {
   std::vector<SceneMessage> out;
   if (const auto* map = std::get_if<PublishedMap>(&message)) draw(*map, log_time_ns, out);
   if (const auto* pose = std::get_if<VehiclePose>(&message)) draw(*pose, log_time_ns, out);
@@ -64,13 +65,13 @@ std::vector<SceneMessage> SceneMaker::take(const AnyMessage& message, std::int64
 }
 
 template <class T>
-void SceneMaker::take_as(const RawMessage& message, std::vector<SceneMessage>& to) {
+void SceneMaker::take_as(const recording::RawMessage& message, std::vector<SceneMessage>& to) {
   T taken;
   if (dds::from_cdr(message.bytes, map_frame_id_, taken).empty()) draw(taken, message.log_time_ns, to);
 }
 
 void SceneMaker::draw(const PublishedMap& published, std::int64_t time_ns, std::vector<SceneMessage>& to) {
-  Drawing map, vehicle;
+  drawing::Drawing map, vehicle;
   add_map(published.map, map);
   add_uncertainty(published.map, map);
   add_vehicle(Eigen::Isometry3d::Identity(), vehicle);
@@ -102,10 +103,10 @@ void SceneMaker::draw(const DetectionFrame& frame, std::int64_t time_ns, std::ve
 void SceneMaker::draw_located_frames(std::int64_t time_ns, std::vector<SceneMessage>& to) {
   while (!waiting_.empty()) {
     const DetectionFrame& frame = waiting_.front();
-    Drawing drawing;
-    const PoseBuffer::Answer answer = poses_.at(frame.stamp_ns, drawing.T_map_body);
-    if (answer == PoseBuffer::Answer::not_yet) return;
-    if (answer == PoseBuffer::Answer::found) {
+    drawing::Drawing drawing;
+    const session::PoseBuffer::Answer answer = poses_.at(frame.stamp_ns, drawing.T_map_body);
+    if (answer == session::PoseBuffer::Answer::not_yet) return;
+    if (answer == session::PoseBuffer::Answer::found) {
       add_detections(frame, drawing.T_map_body, drawing);
       add_view(frame, drawing.T_map_body, drawing);
       std::vector<foxglove::SceneEntity> entities;
@@ -116,4 +117,4 @@ void SceneMaker::draw_located_frames(std::int64_t time_ns, std::vector<SceneMess
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::scene

@@ -12,12 +12,12 @@
 #include "scene/foxglove.hpp"
 #include "session/pose_buffer.hpp"
 
-namespace laneloom {
+namespace laneloom::scene {
 
 enum class SceneTopic : std::uint8_t { map, detections, ids, transforms };
 
 /// The topics that a recording or a server has to announce, in the order of SceneTopic.
-const std::vector<ExtraTopic>& scene_topics();
+const std::vector<recording::ExtraTopic>& scene_topics();
 
 /// A message of a scene topic, as CDR.
 struct SceneMessage {
@@ -45,13 +45,13 @@ class SceneMaker {
   /// Takes a message, in the order of log times, and returns the scenes that it changes. A message that is
   /// refused, or of which nothing is drawn, changes none. Detections are drawn when the pose at their stamp
   /// is known.
-  std::vector<SceneMessage> take(const RawMessage& message);
+  std::vector<SceneMessage> take(const recording::RawMessage& message);
   /// Does the same with a message that was not refused.
-  std::vector<SceneMessage> take(const AnyMessage& message, std::int64_t log_time_ns);
+  std::vector<SceneMessage> take(const recording::AnyMessage& message, std::int64_t log_time_ns);
 
  private:
   template <class T>
-  void take_as(const RawMessage& message, std::vector<SceneMessage>& to);
+  void take_as(const recording::RawMessage& message, std::vector<SceneMessage>& to);
   void draw(const PublishedMap& published, std::int64_t time_ns, std::vector<SceneMessage>& to);
   void draw(const VehiclePose& pose, std::int64_t time_ns, std::vector<SceneMessage>& to);
   void draw(const DetectionFrame& frame, std::int64_t time_ns, std::vector<SceneMessage>& to);
@@ -59,10 +59,10 @@ class SceneMaker {
 
   std::string map_frame_id_;
   SceneStream map_, detections_, ids_;
-  PoseBuffer poses_{SyncConfig{}};
+  session::PoseBuffer poses_{SyncConfig{}};
   std::uint64_t pose_session_ = 0;
   std::int64_t newest_pose_ns_ = 0;
   std::deque<DetectionFrame> waiting_;  ///< frames that wait for the pose at their stamp
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::scene

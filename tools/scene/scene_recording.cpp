@@ -1,16 +1,17 @@
 #include "scene/scene_recording.hpp"
 
-namespace laneloom {
+namespace laneloom::scene {
 
-void write_scene(const std::vector<SceneMessage>& messages, std::int64_t log_time_ns, RecordingWriter& to) {
+void write_scene(const std::vector<SceneMessage>& messages, std::int64_t log_time_ns,
+                 recording::RecordingWriter& to) {
   for (const SceneMessage& message : messages)
     to.write_extra(static_cast<std::size_t>(message.topic), message.bytes, log_time_ns);
 }
 
 SceneRecordingReport add_scene(const std::string& from, const std::string& to,
                                const std::string& map_frame_id) {
-  RecordingReader in(from, map_frame_id);
-  RecordingWriter out(to, {.map_frame_id = map_frame_id, .extra_topics = scene_topics()});
+  recording::RecordingReader in(from, map_frame_id);
+  recording::RecordingWriter out(to, {.map_frame_id = map_frame_id, .extra_topics = scene_topics()});
   SceneMaker maker(map_frame_id);
   SceneRecordingReport report;
   while (const auto message = in.next_raw()) {
@@ -26,4 +27,4 @@ SceneRecordingReport add_scene(const std::string& from, const std::string& to,
   return report;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::scene

@@ -6,11 +6,12 @@
 #include "recording/recording.hpp"
 #include "scene/scene_maker.hpp"
 
-namespace laneloom {
+namespace laneloom::scene {
 
 /// Writes messages to a recording, which must have scene_topics() as its extra topics. Throws as
 /// RecordingWriter.
-void write_scene(const std::vector<SceneMessage>& messages, std::int64_t log_time_ns, RecordingWriter& to);
+void write_scene(const std::vector<SceneMessage>& messages, std::int64_t log_time_ns,
+                 recording::RecordingWriter& to);
 
 /// Counts of add_scene().
 struct SceneRecordingReport {
@@ -25,4 +26,4 @@ struct SceneRecordingReport {
 SceneRecordingReport add_scene(const std::string& from, const std::string& to,
                                const std::string& map_frame_id);
 
-}  // namespace laneloom
+}  // namespace laneloom::scene

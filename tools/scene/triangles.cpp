@@ -2,7 +2,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::scene {
 
 std::vector<std::uint32_t> strip_triangles(const Polyline& left, const Polyline& right) {
   const std::vector<double> left_arc_m = arc_lengths(left), right_arc_m = arc_lengths(right);
@@ -44,4 +44,4 @@ std::vector<std::uint32_t> convex_triangles(const Polyline& outline) {
   return indices;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::scene

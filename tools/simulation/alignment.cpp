@@ -7,7 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/smooth_step.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -30,7 +30,7 @@ Polyline s_curve(const Frame& from, const Frame& to, double step_m) {
   Polyline out;
   for (int i = 0; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
-    Point point = from.moved(left_m * smooth_step(share), ahead_m * share).position;
+    Point point = from.moved(left_m * geometry::smooth_step(share), ahead_m * share).position;
     point.z() = std::lerp(from.position.z(), to.position.z(), share);
     out.push_back(point);
   }
@@ -55,7 +55,7 @@ double Profile::at(double s_m) const {
   for (std::size_t i = 1; i < knots_.size(); ++i) {
     const auto& [to_m, to] = knots_[i];
     const auto& [from_m, from] = knots_[i - 1];
-    if (s_m < to_m) return std::lerp(from, to, smooth_step((s_m - from_m) / (to_m - from_m)));
+    if (s_m < to_m) return std::lerp(from, to, geometry::smooth_step((s_m - from_m) / (to_m - from_m)));
   }
   return knots_.back().second;
 }
@@ -105,4 +105,4 @@ Polyline bridge(const Frame& from, const Frame& to, double step_m) {
   return out;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -6,7 +6,7 @@
 #include "laneloom/types.hpp"
 
 /// The reference line of a street, and values that vary along it.
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// A place in the map with a horizontal heading.
 struct Frame {
@@ -62,4 +62,4 @@ class Alignment {
 /// S-curve where they are parallel. Vertices every `step_m` or less on curves.
 Polyline bridge(const Frame& from, const Frame& to, double step_m = 1.0);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

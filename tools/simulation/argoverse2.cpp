@@ -13,7 +13,7 @@
 #include "simulation/drivable_areas.hpp"
 #include "simulation/pose_table.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 using nlohmann::json;
@@ -26,13 +26,13 @@ constexpr std::int64_t kMaxDrive_ns = 3'600'000'000'000;
 constexpr int kMaxDepth = 3;  // of logs below a directory: <data set>/sensor/val/<log id>
 
 Point xyz(const json& value) {
-  return {required(value, "x", coordinate), required(value, "y", coordinate),
-          required(value, "z", coordinate)};
+  return {io::required(value, "x", io::coordinate), io::required(value, "y", io::coordinate),
+          io::required(value, "z", io::coordinate)};
 }
 
 Polyline xyz_line(const json& value) {
-  Polyline points = list(value, xyz);
-  if (points.size() < 2) throw JsonError("must have at least two points");
+  Polyline points = io::list(value, xyz);
+  if (points.size() < 2) throw io::JsonError("must have at least two points");
   return points;
 }
 
@@ -63,16 +63,17 @@ std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>> shape(const Po
 class LaneReader {
  public:
   void read(const json& segment) {
-    const std::string type = required(segment, "lane_type", text);
-    RoadLane lane{.id = required(segment, "id", count)};
+    const std::string type = io::required(segment, "lane_type", io::text);
+    RoadLane lane{.id = io::required(segment, "id", io::count)};
     std::tie(lane.left, lane.left_marking) =
         border(segment, "left_lane_boundary", "left_lane_mark_type", true);
     std::tie(lane.right, lane.right_marking) =
         border(segment, "right_lane_boundary", "right_lane_mark_type", false);
     if (type == "BIKE") return;
     lane.centerline = midway(lane.left, lane.right);
-    lane.in_intersection = required(segment, "is_intersection", boolean);
-    lane.successors = required(segment, "successors", [](const json& ids) { return list(ids, count); });
+    lane.in_intersection = io::required(segment, "is_intersection", io::boolean);
+    lane.successors =
+        io::required(segment, "successors", [](const json& ids) { return io::list(ids, io::count); });
     lanes_.push_back(std::move(lane));
   }
 
@@ -96,10 +97,10 @@ class LaneReader {
  private:
   std::pair<Polyline, ElementId> border(const json& segment, const char* points_key, const char* mark_key,
                                         bool left) {
-    Polyline points = required(segment, points_key, xyz_line);
-    if (!(length(points) > 0.0)) throw JsonError(points_key, "has no length");
-    if (!limit_.add(points)) throw JsonError(points_key, LengthLimit::kComplaint);
-    const std::optional<MarkingStyle> style = painted_style(required(segment, mark_key, text), left);
+    Polyline points = io::required(segment, points_key, xyz_line);
+    if (!(length(points) > 0.0)) throw io::JsonError(points_key, "has no length");
+    if (!limit_.add(points)) throw io::JsonError(points_key, LengthLimit::kComplaint);
+    const std::optional<MarkingStyle> style = painted_style(io::required(segment, mark_key, io::text), left);
     if (!style) return {std::move(points), kNoElement};
     const auto [known, is_new] = marking_of_.try_emplace(shape(points), markings_.size() + 1);
     if (is_new) markings_.push_back({known->second, MarkingType::laneline, *style, points});
@@ -114,12 +115,12 @@ class LaneReader {
 
 template <typename Read>
 void for_each_member(const json& archive, const char* key, Read read) {
-  required(archive, key, [&](const json& members) {
-    if (!members.is_object()) throw JsonError("must be an object");
+  io::required(archive, key, [&](const json& members) {
+    if (!members.is_object()) throw io::JsonError("must be an object");
     for (const auto& [name, member] : members.items()) {
       try {
         read(member);
-      } catch (const JsonError& error) {
+      } catch (const io::JsonError& error) {
         throw error.inside(name);
       }
     }
@@ -136,8 +137,8 @@ Road read_map(const json& archive) {
   std::vector<Polyline> areas;
   LengthLimit limit;
   for_each_member(archive, "drivable_areas", [&](const json& area) {
-    areas.push_back(required(area, "area_boundary", xyz_line));
-    if (!limit.add(areas.back())) throw JsonError("area_boundary", LengthLimit::kComplaint);
+    areas.push_back(io::required(area, "area_boundary", xyz_line));
+    if (!limit.add(areas.back())) throw io::JsonError("area_boundary", LengthLimit::kComplaint);
   });
   Road edges;
   for (Polyline& edge : outer_edges(areas))
@@ -216,13 +217,13 @@ std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_direc
 Road load_argoverse2(const std::filesystem::path& log_directory) {
   const std::filesystem::path archive = map_archive(log_directory);
   try {
-    Road road = read_map(load_json(archive));
+    Road road = read_map(io::load_json(archive));
     road.name = std::filesystem::weakly_canonical(log_directory).filename().string();
     road.drive = resampled(argoverse2_poses(log_directory));
     return road;
-  } catch (const JsonError& error) {
+  } catch (const io::JsonError& error) {
     throw std::runtime_error(archive.string() + ": " + error.what());
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -5,7 +5,7 @@
 
 #include "simulation/road.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// The Argoverse 2 logs in a directory, in the order of their names: the directory itself if it has a log's
 /// poses, or else those below it, as in `sensor/val/<log id>`. Throws std::runtime_error naming the directory
@@ -29,4 +29,4 @@ Road load_argoverse2(const std::filesystem::path& log_directory);
 /// read_pose_table().
 std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

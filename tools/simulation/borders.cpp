@@ -7,7 +7,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kMinAlignment = 0.9;  // cosine between the directions of lines that continue one another
@@ -143,4 +143,4 @@ void attach_roadedges(Road& road, double tolerance_m) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -3,7 +3,7 @@
 #include "simulation/road.hpp"
 
 /// Functions of all sources of roads for the lines that they found.
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Limits the length of a road's lines: a few bytes can name lines that would take all memory once they are
 /// sampled.
@@ -30,4 +30,4 @@ void join_markings(Road& road, double tolerance_m);
 /// fifths of their length).
 void attach_roadedges(Road& road, double tolerance_m);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

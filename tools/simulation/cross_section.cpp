@@ -5,7 +5,7 @@
 #include <iterator>
 #include <map>
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kDoubleLine_m = 0.24;  // between the two lines
@@ -187,4 +187,4 @@ std::vector<LaneStretch> lane_stretches(const std::vector<Border>& borders, doub
   return out;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -6,7 +6,7 @@
 #include "simulation/road_builder.hpp"
 
 /// Makes the lines along a street, and the lanes between them, of the street's section.
-namespace laneloom {
+namespace laneloom::simulation {
 
 inline constexpr double kMinLaneWidth_m = 2.5;  // a narrower strip between two borders is no lane
 
@@ -37,4 +37,4 @@ std::vector<LaneStretch> lane_stretches(const std::vector<Border>& borders, doub
 /// Samples along a street: every metre or less, and wherever one of the borders begins or ends.
 std::vector<double> stations(const std::vector<Border>& borders, double from_m, double to_m);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -5,7 +5,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kAdjoining_m = 0.3;
@@ -87,4 +87,4 @@ std::vector<Polyline> outer_edges(const std::vector<Polyline>& areas) {
   return edges;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

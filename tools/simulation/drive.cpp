@@ -8,7 +8,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kStep_m = 0.25;
@@ -108,4 +108,4 @@ VehiclePose Drive::pose_at(double t_s) const {
   return pose;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -5,7 +5,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// The motion of the vehicle over a road: timed poses T_map_body, with interpolation between them (linear and
 /// slerp).
@@ -40,4 +40,4 @@ class Drive {
   std::vector<VehiclePose> poses_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

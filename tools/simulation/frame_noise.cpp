@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 FrameNoise::FrameNoise(Random& random)
     : yaw_(random), pitch_(random), longitudinal_(random), lateral_(random), glare_(random) {}
@@ -32,4 +32,4 @@ Point FrameNoise::seen(const Point& point) const {
   return T_seen_body_ * scaled;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

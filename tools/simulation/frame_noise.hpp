@@ -5,7 +5,7 @@
 #include "simulation/noise_profile.hpp"
 #include "simulation/random.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// The errors of a frame as a whole.
 class FrameNoise {
@@ -25,4 +25,4 @@ class FrameNoise {
   double confidence_ = 0.0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

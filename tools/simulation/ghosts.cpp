@@ -7,7 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/line_noise.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -101,4 +101,4 @@ std::vector<Detection> Ghosts::detections(const VehiclePose& pose, const NoisePr
   return seen;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -7,7 +7,7 @@
 #include "simulation/road.hpp"
 #include "simulation/sensor_view.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Lines that a network sees where none are. They stay in their places on the map, for a moment or for long.
 class Ghosts {
@@ -38,4 +38,4 @@ class Ghosts {
   std::vector<Ghost> ghosts_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

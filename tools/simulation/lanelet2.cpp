@@ -16,8 +16,13 @@
 #include "simulation/borders.hpp"
 #include "simulation/route.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
+
+using sd_map::id_of;
+using sd_map::name_of;
+using sd_map::OsmId;
+using sd_map::tag;
 
 constexpr double kJoin_m = 0.01;
 constexpr double kMaxCoordinate_m = 1e7;
@@ -68,7 +73,7 @@ std::map<OsmId, Point> read_nodes(const pugi::xml_node& osm) {
 }
 
 struct Way {
-  std::vector<OsmId> nodes{};
+  std::vector<sd_map::OsmId> nodes{};
   Polyline points{};
   ElementId marking = kNoElement;
   bool is_virtual = false;
@@ -179,7 +184,8 @@ std::vector<Lanelet> read_lanes(const pugi::xml_node& osm, const std::map<OsmId,
 }
 
 void add_successors(const std::vector<Lanelet>& lanelets, Road& road) {
-  std::map<std::pair<OsmId, OsmId>, std::vector<ElementId>> starting;  // by the first nodes of left and right
+  std::map<std::pair<OsmId, sd_map::OsmId>, std::vector<ElementId>>
+      starting;  // by the first nodes of left and right
   for (std::size_t i = 0; i < lanelets.size(); ++i)
     starting[{lanelets[i].left.nodes.front(), lanelets[i].right.nodes.front()}].push_back(road.lanes[i].id);
   for (std::size_t i = 0; i < lanelets.size(); ++i) {
@@ -192,7 +198,7 @@ void add_successors(const std::vector<Lanelet>& lanelets, Road& road) {
 // right ones.
 bool is_right_hand(const std::vector<Lanelet>& lanelets) {
   const auto shared_with_opposite = [&](Way Lanelet::*side) {
-    std::set<std::vector<OsmId>> borders;
+    std::set<std::vector<sd_map::OsmId>> borders;
     std::size_t shared = 0;
     for (const Lanelet& lanelet : lanelets) {
       if (borders.contains(reversed(lanelet.*side).nodes)) ++shared;
@@ -229,4 +235,4 @@ Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

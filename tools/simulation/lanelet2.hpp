@@ -4,7 +4,7 @@
 
 #include "simulation/road.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Loads a Lanelet2 map (.osm) and drives a long way along its lanes, at constant speed.
 ///
@@ -20,4 +20,4 @@ namespace laneloom {
 /// Throws std::runtime_error naming file and element.
 Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps = 10.0);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -7,7 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/left_of.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -17,7 +17,7 @@ constexpr double kNetworkStep_m = 2.5;  // greatest distance between points, als
 constexpr double kMinLength_m = 1.0;
 
 Eigen::Vector2d left_normal(const MeasuredPolyline& line, double arc_m) {
-  return left_of(line.direction(arc_m));
+  return geometry::left_of(line.direction(arc_m));
 }
 
 // A weight that is 1 at the end, and 0 from `reach_m` on.
@@ -233,4 +233,4 @@ void make_zigzag(Polyline& line, double stddev_m, Random& random) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -7,7 +7,7 @@
 #include "simulation/random.hpp"
 #include "simulation/sensor_view.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// The errors of the detections of one line, over the frames in which it is in view. Errors that last longer
 /// are the line's `Places`.
@@ -67,4 +67,4 @@ void shift_left(Polyline& line, double left_m);
 /// The error of a confidence. `held` is the part of it that stays with the line for a while.
 double confidence_error(const NoiseProfile& noise, const Wander& held, Random& random);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

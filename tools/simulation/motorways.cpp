@@ -5,7 +5,7 @@
 
 #include "simulation/road_builder.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kWidth_m = 3.5;
@@ -99,4 +99,4 @@ Road mirrored(Road road) {
   return road;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

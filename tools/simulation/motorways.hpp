@@ -3,7 +3,7 @@
 #include "simulation/road.hpp"
 
 /// Made-up roads whose carriageways lie apart.
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// The shape of a ramp that turns off from the road.
 struct Ramp {
@@ -33,4 +33,4 @@ Road divided_road(const DividedRoad& divided, double speed_mps);
 /// The road mirrored on the x axis, so that traffic keeps to the other side.
 Road mirrored(Road road);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -7,7 +7,7 @@
 
 #include "simulation/random.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// The time that a network takes for a frame, 50 to 150 ms. Frames keep their order: at ten frames a second,
 /// the longest time is only a period more than the shortest.
@@ -43,4 +43,4 @@ class NetworkDelay {
   std::deque<Pending> pending_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -7,7 +7,7 @@
 
 #include "simulation/random_network.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 // Missed shares, ghost rates, error factors and flutter come from `laneloom-lab calibrate`, which fits them
@@ -130,4 +130,4 @@ NoiseProfile noise_profile(const std::string& name) {
                               "'; known are none, inhouse, av2, shaken, random:SEED");
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

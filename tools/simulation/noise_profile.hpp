@@ -6,7 +6,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// An error of a line for part of the time.
 struct Defect {
@@ -103,4 +103,4 @@ std::vector<std::string> noise_profile_names();
 /// std::invalid_argument listing the known names if the name is unknown.
 NoiseProfile noise_profile(const std::string& name);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -4,7 +4,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kShadow_m = 100.0;  // beyond every sensor's range
@@ -97,4 +97,4 @@ std::vector<VisiblePiece> Occluders::visible_parts(const VisiblePiece& piece) co
   return parts;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

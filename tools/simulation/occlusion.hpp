@@ -7,7 +7,7 @@
 #include "simulation/random.hpp"
 #include "simulation/sensor_view.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Other vehicles that come, move along and go, and the areas that they hide from the sensor at the body's
 /// origin.
@@ -32,4 +32,4 @@ class Occluders {
   std::vector<Polyline> areas_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

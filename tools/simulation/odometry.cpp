@@ -1,6 +1,6 @@
 #include "simulation/odometry.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 const Eigen::Isometry3d& Odometry::move_to(const Eigen::Isometry3d& T_map_body) {
   constexpr double kYawPerMetre = 0.01;  // per drift: after s metres, 0.005 s^2 of it are sideways
@@ -13,4 +13,4 @@ const Eigen::Isometry3d& Odometry::move_to(const Eigen::Isometry3d& T_map_body) 
   return told_;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

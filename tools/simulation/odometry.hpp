@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Sums the true motion, with an error in every step. The scale is wrong, and the heading turns away so that
 /// half of the drift is sideways after 100 m.
@@ -19,4 +19,4 @@ class Odometry {
   double drift_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

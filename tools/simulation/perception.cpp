@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kFramePeriod_s = 0.1;
@@ -163,4 +163,4 @@ void Perception::add(const Detection& detection, ElementId source, DetectionFram
   for (Point& point : seen.points) point = frame_noise_.seen(point);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -14,7 +14,7 @@
 #include "simulation/road.hpp"
 #include "simulation/sensor_view.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Simulates the detections of a network: every marking in view, as lines of about twenty points in the body
 /// frame, with errors that last over frames (see NoiseProfile). The same road, profile, view, seed and poses
@@ -61,4 +61,4 @@ class Perception {
   std::vector<ElementId> sources_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

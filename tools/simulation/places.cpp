@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kStretch_m = 25.0;
@@ -52,4 +52,4 @@ double Places::wave(Trait trait, double arc_m) const {
   return (from * normal(trait, knot) + to * normal(trait, knot + 1)) / std::sqrt(from * from + to * to);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

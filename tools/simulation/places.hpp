@@ -4,7 +4,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// An error of a network at a place that lasts for a whole drive, however often the place is passed.
 enum class Trait : std::uint8_t {
@@ -47,4 +47,4 @@ class Places {
   bool ring_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -9,7 +9,7 @@
 #include "io/csv.hpp"
 #include "io/feather.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr std::int64_t kSamePose_ns = 1'000'000;
@@ -27,17 +27,17 @@ VehiclePose checked_pose(std::int64_t stamp_ns, const Numbers& v) {
 
 std::vector<VehiclePose> read_csv(const std::filesystem::path& path) {
   std::vector<VehiclePose> poses;
-  for_each_csv_row(path, "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m", [&](std::string_view row) {
-    const auto stamp_ns = take_number<std::int64_t>(row);
+  io::for_each_csv_row(path, "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m", [&](std::string_view row) {
+    const auto stamp_ns = io::take_number<std::int64_t>(row);
     Numbers numbers{};
-    for (double& number : numbers) number = take_number<double>(row);
+    for (double& number : numbers) number = io::take_number<double>(row);
     poses.push_back(checked_pose(stamp_ns, numbers));
   });
   return poses;
 }
 
 std::vector<VehiclePose> read_feather(const std::filesystem::path& path) {
-  const FeatherTable table(path);
+  const io::FeatherTable table(path);
   const std::vector<std::int64_t> stamps_ns = table.column<std::int64_t>("timestamp_ns");
   std::vector<std::vector<double>> columns;
   for (const char* name : {"qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m"})
@@ -74,4 +74,4 @@ std::vector<VehiclePose> cleaned_poses(std::vector<VehiclePose> poses) {
   return poses;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

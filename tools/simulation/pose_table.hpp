@@ -5,7 +5,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Reads poses T_map_body from a table with the columns of Argoverse 2: timestamp_ns, qw, qx, qy, qz, tx_m,
 /// ty_m, tz_m. A file called .feather is a Feather file (io/feather.hpp). Any other has comma-separated
@@ -17,4 +17,4 @@ std::vector<VehiclePose> read_pose_table(const std::filesystem::path& path);
 /// logs have several poses of one moment, which would look like standstills or jumps.
 std::vector<VehiclePose> cleaned_poses(std::vector<VehiclePose> poses);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// Random numbers from a seed, the same with every standard library and on every host: only exact arithmetic
 /// is done on the engine's output.
@@ -63,4 +63,4 @@ class Switch {
   bool on_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -4,7 +4,7 @@
 
 #include "simulation/random.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 /// Draws within bounds.
@@ -116,4 +116,4 @@ NoiseProfile random_network(std::uint64_t seed) {
   return noise;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

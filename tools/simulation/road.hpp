@@ -8,7 +8,7 @@
 #include "simulation/drive.hpp"
 
 /// The truth of a road: its markings, its lanes, and a drive over it.
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// A painted marking or an edge of the road. A virtual line is no marking.
 struct RoadMarking {
@@ -61,4 +61,4 @@ void save_truth(const std::filesystem::path& path, const Road& road);
 /// in sum, or an id is unknown or given twice.
 Road load_truth(const std::filesystem::path& path);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -11,7 +11,7 @@
 #include "simulation/cross_section.hpp"
 #include "simulation/route.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kCoincident_m = 0.02;
@@ -186,4 +186,4 @@ Road RoadBuilder::build(const Polyline& waypoints, double speed_mps) && {
   return std::move(road_);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -9,7 +9,7 @@
 
 /// Building blocks of made-up roads: streets with a cross-section, and intersections between them.
 /// Right-hand traffic.
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// A change in the number of lanes: from `at_m` on, a side has `lanes` lanes. Over a taper its edge moves
 /// outwards or inwards, and the new (or ending) lane is beside the edge. Without a taper another street takes
@@ -85,4 +85,4 @@ class RoadBuilder {
   Road road_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

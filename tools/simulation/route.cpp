@@ -9,7 +9,7 @@
 #include "laneloom/polyline.hpp"
 #include "simulation/random.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -120,4 +120,4 @@ Polyline joined_centerlines(const Road& road, const std::vector<std::size_t>& la
   return path;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -5,7 +5,7 @@
 #include "simulation/road.hpp"
 
 /// Ways through a road's lanes.
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// The lane whose centerline is nearest to a point, heights included; of equals, the first. The road must
 /// have lanes.
@@ -22,4 +22,4 @@ std::vector<std::size_t> long_way(const Road& road);
 /// The centerlines of successive lanes as one path.
 Polyline joined_centerlines(const Road& road, const std::vector<std::size_t>& lanes);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -8,7 +8,7 @@
 #include "simulation/road_builder.hpp"
 #include "simulation/town.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kWidth_m = 3.5;
@@ -183,4 +183,4 @@ Road make_scenario(const std::string& name, double speed_mps) {
   throw std::invalid_argument("unknown scenario '" + name + "'; known are " + known);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -5,7 +5,7 @@
 
 #include "mapping/geometry/clip_segment.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kMinPiece_m = 1.0;
@@ -54,7 +54,7 @@ std::vector<VisiblePiece> visible_pieces(const ViewedLine& viewed, const SensorV
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Point from = std::exchange(to, T_body_map * points[i]);
     const double segment_m = (points[i] - points[i - 1]).head<2>().norm();
-    if (const auto inside = clip_segment(from, to, box)) {
+    if (const auto inside = geometry::clip_segment(from, to, box)) {
       const auto [enter, leave] = *inside;
       if (!open || enter > 0.0)
         pieces.push_back({{arc_m + enter * segment_m, 0.0}, {from + enter * (to - from)}});
@@ -78,4 +78,4 @@ std::vector<VisiblePiece> visible_pieces(const ViewedLine& viewed, const SensorV
   return pieces;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

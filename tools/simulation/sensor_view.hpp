@@ -6,7 +6,7 @@
 #include "simulation/road.hpp"
 
 /// The parts of a road that are before the sensors.
-namespace laneloom {
+namespace laneloom::simulation {
 
 /// A box in the body frame. It is flat, so that a road above or below another is not seen from there.
 struct SensorView {
@@ -43,4 +43,4 @@ struct VisiblePiece {
 std::vector<VisiblePiece> visible_pieces(const ViewedLine& line, const SensorView& view,
                                          const Eigen::Isometry3d& T_body_map);
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

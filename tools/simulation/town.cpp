@@ -5,7 +5,7 @@
 
 #include "simulation/road_builder.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 constexpr double kWidth_m = 3.5;
@@ -89,4 +89,4 @@ Road town(double speed_mps) {
   return std::move(builder).build(waypoints, speed_mps);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

@@ -8,7 +8,7 @@
 #include "simulation/borders.hpp"
 #include "simulation/road.hpp"
 
-namespace laneloom {
+namespace laneloom::simulation {
 namespace {
 
 using nlohmann::json;
@@ -26,14 +26,14 @@ json to_json(const RoadMarking& marking) {
   return {{"id", marking.id},
           {"type", name(marking.type)},
           {"style", name(marking.style)},
-          {"points", polyline_json(marking.points)}};
+          {"points", io::polyline_json(marking.points)}};
 }
 
 json to_json(const RoadLane& lane) {
   return {{"id", lane.id},
-          {"left", polyline_json(lane.left)},
-          {"right", polyline_json(lane.right)},
-          {"centerline", polyline_json(lane.centerline)},
+          {"left", io::polyline_json(lane.left)},
+          {"right", io::polyline_json(lane.right)},
+          {"centerline", io::polyline_json(lane.centerline)},
           {"left_marking", lane.left_marking},
           {"right_marking", lane.right_marking},
           {"in_intersection", lane.in_intersection},
@@ -48,28 +48,28 @@ json all_to_json(const std::vector<T>& items) {
 }
 
 VehiclePose pose(const json& value) {
-  if (!value.is_array() || value.size() != 8) throw JsonError("must be [t, x, y, z, qx, qy, qz, qw]");
-  const double t_s = number(value[0]);
-  if (!(t_s >= 0.0 && t_s < 1e9)) throw JsonError("must have a time of 0 or more");
+  if (!value.is_array() || value.size() != 8) throw io::JsonError("must be [t, x, y, z, qx, qy, qz, qw]");
+  const double t_s = io::number(value[0]);
+  if (!(t_s >= 0.0 && t_s < 1e9)) throw io::JsonError("must have a time of 0 or more");
   return {.stamp_ns = static_cast<std::int64_t>(std::llround(t_s * 1e9)),
-          .position = {coordinate(value[1]), coordinate(value[2]), coordinate(value[3])},
-          .orientation = quaternion(value, 4)};
+          .position = {io::coordinate(value[1]), io::coordinate(value[2]), io::coordinate(value[3])},
+          .orientation = io::quaternion(value, 4)};
 }
 
 /// A reader of lines, which refuses them once they are too long in sum.
 auto lines_within(LengthLimit& limit) {
   return [&limit](const json& value) {
-    Polyline points = line(value);
-    if (!limit.add(points)) throw JsonError(LengthLimit::kComplaint);
+    Polyline points = io::line(value);
+    if (!limit.add(points)) throw io::JsonError(LengthLimit::kComplaint);
     return points;
   };
 }
 
 RoadMarking marking(const json& value, LengthLimit& limit) {
-  return {.id = required(value, "id", count),
-          .type = required(value, "type", marking_type),
-          .style = required(value, "style", marking_style),
-          .points = required(value, "points", lines_within(limit))};
+  return {.id = io::required(value, "id", io::count),
+          .type = io::required(value, "type", io::marking_type),
+          .style = io::required(value, "style", io::marking_style),
+          .points = io::required(value, "points", lines_within(limit))};
 }
 
 /// Limits on a road's borders and centerlines. Every road that an importer accepts is within them.
@@ -78,54 +78,57 @@ struct LaneLimits {
 };
 
 RoadLane lane(const json& value, LaneLimits& limits) {
-  return {.id = required(value, "id", count),
-          .left = required(value, "left", lines_within(limits.borders)),
-          .right = required(value, "right", lines_within(limits.borders)),
-          .centerline = required(value, "centerline", lines_within(limits.centerlines)),
-          .left_marking = required(value, "left_marking", count),
-          .right_marking = required(value, "right_marking", count),
-          .in_intersection = required(value, "in_intersection", boolean),
-          .successors = required(value, "successors", [](const json& ids) { return list(ids, count); })};
+  return {.id = io::required(value, "id", io::count),
+          .left = io::required(value, "left", lines_within(limits.borders)),
+          .right = io::required(value, "right", lines_within(limits.borders)),
+          .centerline = io::required(value, "centerline", lines_within(limits.centerlines)),
+          .left_marking = io::required(value, "left_marking", io::count),
+          .right_marking = io::required(value, "right_marking", io::count),
+          .in_intersection = io::required(value, "in_intersection", io::boolean),
+          .successors =
+              io::required(value, "successors", [](const json& ids) { return io::list(ids, io::count); })};
 }
 
 template <typename T>
 std::set<ElementId> ids_of(const std::vector<T>& items, const char* key) {
   std::set<ElementId> ids;
   for (const T& item : items) {
-    if (item.id == kNoElement) throw JsonError(key, "the id 0 is none");
+    if (item.id == kNoElement) throw io::JsonError(key, "the id 0 is none");
     if (!ids.insert(item.id).second)
-      throw JsonError(key, "the id " + std::to_string(item.id) + " is given twice");
+      throw io::JsonError(key, "the id " + std::to_string(item.id) + " is given twice");
   }
   return ids;
 }
 
 bool right_hand(const json& value) {
-  const std::string side = text(value);
-  if (side != "right" && side != "left") throw JsonError("must be right or left");
+  const std::string side = io::text(value);
+  if (side != "right" && side != "left") throw io::JsonError("must be right or left");
   return side == "right";
 }
 
 Drive drive(const json& value) {
   try {
-    return Drive::recorded(list(value, pose));
+    return Drive::recorded(io::list(value, pose));
   } catch (const std::invalid_argument& error) {
-    throw JsonError(error.what());
+    throw io::JsonError(error.what());
   }
 }
 
 Road road(const json& value) {
-  if (required(value, "format", text) != kFormat) throw JsonError("format", "must be laneloom-truth");
-  if (required(value, "version", count) != kVersion) throw JsonError("version", "must be 1");
+  if (io::required(value, "format", io::text) != kFormat)
+    throw io::JsonError("format", "must be laneloom-truth");
+  if (io::required(value, "version", io::count) != kVersion) throw io::JsonError("version", "must be 1");
   Road road;
-  road.name = required(value, "name", text);
-  road.right_hand_traffic = required(value, "driving_side", right_hand);
+  road.name = io::required(value, "name", io::text);
+  road.right_hand_traffic = io::required(value, "driving_side", right_hand);
   LengthLimit of_markings;
   LaneLimits of_lanes;
   const auto read_marking = [&](const json& item) { return marking(item, of_markings); };
   const auto read_lane = [&](const json& item) { return lane(item, of_lanes); };
-  road.markings = required(value, "markings", [&](const json& items) { return list(items, read_marking); });
-  road.lanes = required(value, "lanes", [&](const json& items) { return list(items, read_lane); });
-  road.drive = required(value, "drive", drive);
+  road.markings =
+      io::required(value, "markings", [&](const json& items) { return io::list(items, read_marking); });
+  road.lanes = io::required(value, "lanes", [&](const json& items) { return io::list(items, read_lane); });
+  road.drive = io::required(value, "drive", drive);
   check_references(road);
   return road;
 }
@@ -137,8 +140,8 @@ void check_references(const Road& road) {
   const std::set<ElementId> lanes = ids_of(road.lanes, "lanes");
   const auto check = [](bool known, const RoadLane& lane, ElementId id) {
     if (known) return;
-    throw JsonError("lanes",
-                    "lane " + std::to_string(lane.id) + " refers to the unknown id " + std::to_string(id));
+    throw io::JsonError(
+        "lanes", "lane " + std::to_string(lane.id) + " refers to the unknown id " + std::to_string(id));
   };
   for (const RoadLane& lane : road.lanes) {
     for (const ElementId id : {lane.left_marking, lane.right_marking})
@@ -164,10 +167,10 @@ void save_truth(const std::filesystem::path& path, const Road& road) {
 
 Road load_truth(const std::filesystem::path& path) {
   try {
-    return road(load_json(path));
-  } catch (const JsonError& error) {
+    return road(io::load_json(path));
+  } catch (const io::JsonError& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::simulation

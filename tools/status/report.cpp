@@ -11,7 +11,7 @@
 #include "io/printable.hpp"
 #include "laneloom/state_names.hpp"
 
-namespace laneloom {
+namespace laneloom::status {
 namespace {
 
 using nlohmann::json;
@@ -39,7 +39,7 @@ std::string counter_lines(const ServiceStatus& status, const std::map<std::strin
   for (const auto& [counter, total] : status.counters) {
     if (total == 0) continue;
     const auto rise = risen.find(counter);
-    text += fmt::format("  {:<40} {:>10}{}\n", printable(counter), total,
+    text += fmt::format("  {:<40} {:>10}{}\n", io::printable(counter), total,
                         rise == risen.end() ? "" : fmt::format("  +{}", rise->second));
   }
   return text;
@@ -93,14 +93,15 @@ std::string describe(const ServiceStatus& status, const ServiceStatus* previous)
       "pending frames  {}\n"
       "tick            {}\n"
       "tick's delay    {}\n",
-      state_text(status.state, status.reasons), printable(status.version), uptime_text(status.uptime_s),
-      status.session_id, printable(status.config_hash), age_text(status.detections_age_s),
+      state_text(status.state, status.reasons), io::printable(status.version), uptime_text(status.uptime_s),
+      status.session_id, io::printable(status.config_hash), age_text(status.detections_age_s),
       age_text(status.poses_age_s), status.pending_frames, time_text(status.tick),
       time_text(status.tick_delay));
   for (const SourceStatus& source : status.sources)
-    text += fmt::format("source          \"{}\": {} frames, {} to {}, session {}\n", printable(source.source),
-                        source.frames, source.first_sequence, source.last_sequence, source.session_id) +
-            learned_lines(source);
+    text +=
+        fmt::format("source          \"{}\": {} frames, {} to {}, session {}\n", io::printable(source.source),
+                    source.frames, source.first_sequence, source.last_sequence, source.session_id) +
+        learned_lines(source);
   return text +
          counter_lines(status, previous ? rises(status, *previous) : std::map<std::string, std::uint64_t>{});
 }
@@ -138,4 +139,4 @@ json to_json(const ServiceStatus& status, const ServiceStatus* previous) {
           {"rises", previous ? json(rises(status, *previous)) : json()}};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::status

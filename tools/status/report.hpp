@@ -7,7 +7,7 @@
 
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::status {
 
 /// The rise of each counter since `previous`, which is of the same session. Counters that did not rise are
 /// left out.
@@ -18,4 +18,4 @@ std::string describe(const ServiceStatus& status, const ServiceStatus* previous)
 /// An object for machines. Unknown values are null.
 nlohmann::json to_json(const ServiceStatus& status, const ServiceStatus* previous);
 
-}  // namespace laneloom
+}  // namespace laneloom::status

@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::support {
 namespace {
 
 /// Becomes the program. The child's end of the pipe `complaints` is closed when the program begins. If it
@@ -107,4 +107,4 @@ std::string ChildProcess::stop(std::chrono::milliseconds patience) {
   return fmt::format("did not end within {} ms, and was killed", patience.count());
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::support

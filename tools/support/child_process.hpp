@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::support {
 
 /// A program that runs beside this one. It is ended at the latest when this process ends.
 class ChildProcess {
@@ -37,4 +37,4 @@ class ChildProcess {
   int status_ = 0;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::support

@@ -4,7 +4,7 @@
 
 #include "io/csv.hpp"
 
-namespace laneloom {
+namespace laneloom::support {
 namespace {
 
 constexpr const char* kColumns = "session_id,sequence,published_ns";
@@ -28,12 +28,12 @@ void PublicationLogWriter::close() {
 
 PublicationLog read_publication_log(const std::filesystem::path& path) {
   PublicationLog log;
-  for_each_csv_row(path, kColumns, [&](std::string_view row) {
-    log.session_id = take_number<std::uint64_t>(row);
-    const auto sequence = take_number<std::uint64_t>(row);
-    log.times_ns[sequence] = take_number<std::int64_t>(row);
+  io::for_each_csv_row(path, kColumns, [&](std::string_view row) {
+    log.session_id = io::take_number<std::uint64_t>(row);
+    const auto sequence = io::take_number<std::uint64_t>(row);
+    log.times_ns[sequence] = io::take_number<std::int64_t>(row);
   });
   return log;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::support

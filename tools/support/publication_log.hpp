@@ -5,7 +5,7 @@
 #include <fstream>
 #include <map>
 
-namespace laneloom {
+namespace laneloom::support {
 
 /// Writes a table "session_id,sequence,published_ns" with the time (system clock) at which each detection
 /// frame of a session was handed to DDS. Each line is flushed, so that the table of a killed publisher is
@@ -33,4 +33,4 @@ struct PublicationLog {
 /// Reads such a table. Throws std::runtime_error naming file and line.
 PublicationLog read_publication_log(const std::filesystem::path& path);
 
-}  // namespace laneloom
+}  // namespace laneloom::support

@@ -4,7 +4,7 @@
 
 #include "base/distribution.hpp"
 
-namespace laneloom {
+namespace laneloom::support {
 namespace {
 
 double milliseconds(std::chrono::steady_clock::duration duration) {
@@ -41,4 +41,4 @@ TimeSummary StageTimer::total() const { return summarise(total_ms_); }
 
 bool StageTimer::reached(Stage stage) const { return reached_.at(static_cast<std::size_t>(stage)); }
 
-}  // namespace laneloom
+}  // namespace laneloom::support

@@ -7,7 +7,7 @@
 #include "laneloom/mapper.hpp"
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::support {
 
 /// Mean, p50, p99 and maximum, by nearest rank. All are 0 if there are no values.
 TimeSummary summarise(std::vector<double> values_ms);
@@ -32,4 +32,4 @@ class StageTimer : public StageObserver {
   std::vector<double> total_ms_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::support

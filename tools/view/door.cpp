@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 /// The host without its port: "::1" for "[::1]:8642".
@@ -104,4 +104,4 @@ bool is_loopback(std::string_view address) {
   return address == "::1" || (address.starts_with("127.") && is_ip_address(address));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -5,7 +5,7 @@
 #include <vector>
 
 /// The rules that decide who may ask the viewer's web server for what.
-namespace laneloom {
+namespace laneloom::view {
 
 /// The parts of a request that decide whether it is answered. A part that the request lacks is empty.
 struct Knock {
@@ -55,4 +55,4 @@ std::string random_token();
 /// Whether only this host reaches the address.
 bool is_loopback(std::string_view address);
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -20,7 +20,7 @@ foreach(file IN LISTS files)
 endforeach()
 file(WRITE ${OUT} "#include \"view/page.hpp\"
 
-namespace laneloom {
+namespace laneloom::view {
 
 const std::map<std::string, PageFile, std::less<>>& page_files() {
   static const std::map<std::string, PageFile, std::less<>> files{
@@ -28,5 +28,5 @@ ${entries}  };
   return files;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view
 ")

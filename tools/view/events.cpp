@@ -10,7 +10,7 @@
 #include "laneloom/state_names.hpp"
 #include "status/report.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 /// Parts of the names of counters that should not rise.
@@ -24,8 +24,9 @@ bool is_unwanted(const std::string& counter) {
 
 void add_rises(const ServiceStatus& status, const ServiceStatus& before, std::vector<ViewEvent>& events) {
   if (status.session_id != before.session_id || status.sequence == before.sequence) return;
-  for (const auto& [counter, rise] : rises(status, before))
-    if (is_unwanted(counter)) events.push_back({"counter", fmt::format("{} +{}", printable(counter), rise)});
+  for (const auto& [counter, rise] : status::rises(status, before))
+    if (is_unwanted(counter))
+      events.push_back({"counter", fmt::format("{} +{}", io::printable(counter), rise)});
 }
 
 }  // namespace
@@ -50,4 +51,4 @@ std::vector<ViewEvent> EventFinder::next(const ViewMoment& moment) {
   return events;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

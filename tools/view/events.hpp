@@ -6,7 +6,7 @@
 
 #include "view/moment.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 
 /// Something that happened between two moments.
 struct ViewEvent {
@@ -32,4 +32,4 @@ class EventFinder {
   std::optional<Seen> before_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -3,7 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 using nlohmann::json;
@@ -75,7 +75,7 @@ std::string_view foxglove_subprotocol(std::string_view offered) {
   return {};
 }
 
-FoxgloveGreeting::FoxgloveGreeting(const std::vector<ExtraTopic>& topics, std::size_t first,
+FoxgloveGreeting::FoxgloveGreeting(const std::vector<recording::ExtraTopic>& topics, std::size_t first,
                                    const std::string& session)
     : first_channel(first), end_channel(first + topics.size()) {
   json channels = json::array();
@@ -132,4 +132,4 @@ void FoxgloveStream::publish(const Publication& publication, Outbox& outbox) {
                                 .body = publication.body});
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

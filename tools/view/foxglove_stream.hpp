@@ -9,7 +9,7 @@
 #include "recording/recording.hpp"
 #include "view/stream.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 
 /// The newest of Foxglove's subprotocols among those offered (Sec-WebSocket-Protocol). Empty: none is
 /// offered. The messages of a server are the same in all of them.
@@ -19,7 +19,7 @@ std::string_view foxglove_subprotocol(std::string_view offered);
 struct FoxgloveGreeting {
   /// Clients that come back to another `session` forget all that they showed. The channels of the topics,
   /// whose messages are CDR, begin at `first_channel`.
-  FoxgloveGreeting(const std::vector<ExtraTopic>& topics, std::size_t first_channel,
+  FoxgloveGreeting(const std::vector<recording::ExtraTopic>& topics, std::size_t first_channel,
                    const std::string& session);
 
   std::shared_ptr<const std::string> server_info, advertise;
@@ -44,4 +44,4 @@ class FoxgloveStream final : public Stream {
   std::map<std::uint32_t, std::size_t> channels_;  ///< by the client's numbers of its subscriptions
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::view

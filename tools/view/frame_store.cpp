@@ -6,12 +6,12 @@
 
 #include "recording/compression.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 constexpr std::size_t kSummariesPerAnswer = 4000;
 
-ByteView bytes_of(std::string_view text) {
+recording::ByteView bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -19,7 +19,7 @@ ByteView bytes_of(std::string_view text) {
 
 void FrameStore::add(std::string summary, std::string_view frame) {
   Compressed compressed{.size = frame.size()};
-  compress(Compression::zstd, bytes_of(frame), compressed.bytes);
+  compress(recording::Compression::zstd, bytes_of(frame), compressed.bytes);
   compressed.bytes.shrink_to_fit();
   const std::lock_guard lock(mutex_);
   frames_.push_back(std::move(compressed));
@@ -47,7 +47,7 @@ std::optional<std::string> FrameStore::frame(std::size_t number) const {
   if (number >= frames_.size()) return std::nullopt;
   const Compressed& compressed = frames_[number];
   std::string text(compressed.size, '\0');
-  decompress(Compression::zstd, compressed.bytes,
+  decompress(recording::Compression::zstd, compressed.bytes,
              {reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
   return text;
 }
@@ -63,4 +63,4 @@ std::string FrameStore::summaries(std::size_t from) const {
          nlohmann::json(error_).dump() + R"(,"frames":[)" + list + "]}";
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::view {
 
 /// The frames of a recording, compressed, and the summary of each. Thread-safe: one thread may add frames
 /// while another reads.
@@ -41,4 +41,4 @@ class FrameStore {
   std::string error_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::view

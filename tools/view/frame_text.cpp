@@ -11,13 +11,13 @@
 #include "laneloom/state_names.hpp"
 #include "status/report.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 using nlohmann::json;
 
-double seconds(std::int64_t stamp_ns) { return rounded(static_cast<double>(stamp_ns) * 1e-9); }
-json known(double value) { return value < 0.0 ? json() : json(rounded(value)); }
+double seconds(std::int64_t stamp_ns) { return drawing::rounded(static_cast<double>(stamp_ns) * 1e-9); }
+json known(double value) { return value < 0.0 ? json() : json(drawing::rounded(value)); }
 
 std::uint64_t refusals(const ServiceStatus& status) {
   std::uint64_t sum = 0;
@@ -27,15 +27,16 @@ std::uint64_t refusals(const ServiceStatus& status) {
 }
 
 void put_status(json& summary, const ServiceStatus& status) {
-  summary["tick_ms"] = rounded(status.tick.mean_ms);
-  summary["tick_max_ms"] = rounded(status.tick.max_ms);
+  summary["tick_ms"] = drawing::rounded(status.tick.mean_ms);
+  summary["tick_max_ms"] = drawing::rounded(status.tick.max_ms);
   summary["refused"] = refusals(status);
 }
 
 json summary_json(const ViewMoment& moment, const FramePlace& place) {
   const PublishedMap& map = moment.map;
   json summary{{"number", place.number}, {"time_s", seconds(moment.seen_ns)}, {"alive", moment.alive}};
-  for (const LineageEvent& event : map.map.lineage) summary["lineage"].push_back(properties_of(event));
+  for (const LineageEvent& event : map.map.lineage)
+    summary["lineage"].push_back(drawing::properties_of(event));
   for (const ViewEvent& event : place.events) summary["events"].push_back({event.kind, event.text});
   if (!moment.has_state) return summary;
   summary["state"] = name(map.state);
@@ -62,8 +63,8 @@ RangeConfig range_of(const ViewMoment& moment, RangeConfig range) {
   return range;
 }
 
-Drawing drawing_of(const LocalMap& map, const ViewMoment& moment, const RangeConfig& range) {
-  Drawing drawing;
+drawing::Drawing drawing_of(const LocalMap& map, const ViewMoment& moment, const RangeConfig& range) {
+  drawing::Drawing drawing;
   add_map(map, drawing);
   add_markings(map, drawing);
   add_uncertainty(map, drawing);
@@ -94,8 +95,8 @@ std::string frame_text(const ViewMoment& moment, const FramePlace& place, const 
   frame["sequence"] = moment.map.sequence;
   frame["session_id"] = std::to_string(moment.map.session_id);
   frame["map_id"] = std::to_string(moment.map.map_id);
-  if (moment.status) frame["status"] = to_json(*moment.status, nullptr);
+  if (moment.status) frame["status"] = status::to_json(*moment.status, nullptr);
   return dump(frame);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

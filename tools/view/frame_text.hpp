@@ -9,7 +9,7 @@
 #include "view/moment.hpp"
 
 /// The messages to the page about a moment, as JSON.
-namespace laneloom {
+namespace laneloom::view {
 
 /// The place of a frame among the frames of its view.
 struct FramePlace {
@@ -25,4 +25,4 @@ std::string summary_text(const ViewMoment& moment, const FramePlace& place);
 /// `range` is the map's range box, in case that the status does not tell it.
 std::string frame_text(const ViewMoment& moment, const FramePlace& place, const RangeConfig& range);
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -9,7 +9,7 @@
 #include "io/printable.hpp"
 #include "laneloom/state_names.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 using Labels = std::vector<std::pair<std::string_view, std::string>>;
@@ -17,7 +17,7 @@ using Labels = std::vector<std::pair<std::string_view, std::string>>;
 /// A name that others gave themselves, as the value of a label: ASCII, with the escapes of the format.
 std::string label_text(const std::string& text) {
   std::string escaped;
-  for (const char c : printable(text)) {
+  for (const char c : io::printable(text)) {
     if (c == '\\' || c == '"') escaped += '\\';
     escaped += static_cast<unsigned char>(c) < 0x80 ? c : '?';
   }
@@ -109,4 +109,4 @@ std::string metrics(const ServiceStatus& status) {
   return text.take();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 /// Number of frames that are kept: more than the service lets wait for their poses.
@@ -57,4 +57,4 @@ ViewMoment MomentBuilder::moment_of(Waiting&& waiting) {
   return moment;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -8,7 +8,7 @@
 
 #include "laneloom/messages.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 
 /// One moment of a drive: the map, with the newest messages beside it.
 struct ViewMoment {
@@ -50,4 +50,4 @@ class MomentBuilder {
   std::optional<ServiceStatus> status_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::view

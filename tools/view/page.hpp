@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace laneloom {
+namespace laneloom::view {
 
 /// One file of the page.
 struct PageFile {
@@ -15,4 +15,4 @@ struct PageFile {
 /// The viewer's page and its modules, by path: "/index.html".
 const std::map<std::string, PageFile, std::less<>>& page_files();
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -9,7 +9,7 @@
 #include "view/metrics.hpp"
 #include "view/page.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 /// Metrics are of a status that is at most this old. A status comes every second, and metrics of a service
@@ -33,7 +33,7 @@ Site::Site(std::string title, std::string truth, const FrameStore* recording, st
 WebAnswer Site::answer(std::string_view asked) const {
   const Target target(asked);
   if (target.path == "/info") return {.body = info()};
-  if (target.path == "/palette") return {.body = palette_json().dump()};
+  if (target.path == "/palette") return {.body = drawing::palette_json().dump()};
   if (target.path == "/truth") return {.body = truth_};
   if (target.path == "/metrics" && recording_ == nullptr) return metrics_answer();
   if (target.path == "/recording") return recorded(target.path, target.value("from"));
@@ -69,4 +69,4 @@ void Site::set_status(const ServiceStatus& status) {
   status_time_ = SteadyClock::now();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

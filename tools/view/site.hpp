@@ -11,7 +11,7 @@
 #include "view/frame_store.hpp"
 #include "view/web_server.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 
 /// The answers to a viewer's requests by HTTP, both live and of a recording: the page with its modules,
 /// `/info`, `/palette`, `/truth`, `/metrics`, and of a recording `/recording?from=` and `/frame?number=`.
@@ -43,4 +43,4 @@ class Site {
   SteadyClock::time_point status_time_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::view

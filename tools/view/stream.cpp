@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace laneloom {
+namespace laneloom::view {
 
 void Outbox::put(std::uint64_t slot, WebMessage message) {
   const auto found = std::find_if(waiting_.begin(), waiting_.end(),
@@ -30,4 +30,4 @@ void PageStream::publish(const Publication& publication, Outbox& outbox) {
   if (publication.channel == channel_) outbox.put(0, {.header = {}, .body = publication.body});
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

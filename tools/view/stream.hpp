@@ -10,7 +10,7 @@
 #include <vector>
 
 /// The messages to clients over WebSockets, without the sockets.
-namespace laneloom {
+namespace laneloom::view {
 
 /// A new message for all clients of its channel.
 struct Publication {
@@ -65,4 +65,4 @@ class PageStream final : public Stream {
   std::size_t channel_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::view

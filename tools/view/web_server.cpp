@@ -7,7 +7,7 @@
 
 #include "view/web_viewer.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 namespace {
 
 constexpr std::uint32_t kMaxHeaderBytes = 8192;
@@ -196,4 +196,4 @@ void WebServer::publish(std::size_t topic, std::int64_t log_time_ns, std::string
                   .body = std::make_shared<const std::string>(std::move(message))});
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -10,17 +10,18 @@
 
 #include "recording/recording.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 
 /// Address, limits and offered protocols of a web server.
 struct WebServerConfig {
-  std::string address = "127.0.0.1";        ///< as a number, not a name
-  std::uint16_t port = 0;                   ///< 0: a free one
-  std::string token;                        ///< must be brought by every request; empty: there is none
-  std::size_t max_viewers = 64;             ///< WebSockets; a further one is answered with 503
-  std::size_t max_connections = 256;        ///< HTTP and WebSockets; a further one is closed
-  double patience_s = 15.0;                 ///< for a whole request, and for a client to take its answer
-  std::vector<ExtraTopic> foxglove_topics;  ///< for clients of Foxglove's protocol; empty: it is not offered
+  std::string address = "127.0.0.1";  ///< as a number, not a name
+  std::uint16_t port = 0;             ///< 0: a free one
+  std::string token;                  ///< must be brought by every request; empty: there is none
+  std::size_t max_viewers = 64;       ///< WebSockets; a further one is answered with 503
+  std::size_t max_connections = 256;  ///< HTTP and WebSockets; a further one is closed
+  double patience_s = 15.0;           ///< for a whole request, and for a client to take its answer
+  std::vector<recording::ExtraTopic>
+      foxglove_topics;  ///< for clients of Foxglove's protocol; empty: it is not offered
   std::vector<std::string> foxglove_origins;  ///< origins of other pages that may be such clients
 };
 
@@ -63,4 +64,4 @@ class WebServer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::view

@@ -20,7 +20,7 @@
 #include "view/stream.hpp"
 #include "view/web_server.hpp"
 
-namespace laneloom {
+namespace laneloom::view {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
@@ -170,4 +170,4 @@ inline void Hub::publish(const Publication& publication) {
   for (Viewer* viewer : viewers) viewer->offer(publication);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::view

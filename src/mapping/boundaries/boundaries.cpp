@@ -6,7 +6,7 @@
 #include "mapping/geometry/stretches.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 namespace {
 
 ElementId id_of(const LaneBoundary& boundary) { return boundary.marking.id; }
@@ -29,8 +29,8 @@ std::size_t Boundaries::index_of(ElementId id) const {
 void Boundaries::reverse(std::size_t index) {
   LaneBoundary& boundary = all_[index];
   const double total_m = length(boundary.marking.points);
-  laneloom::reverse(boundary.marking);
-  laneloom::reverse(boundary.bridged, total_m);
+  markings::reverse(boundary.marking);
+  geometry::reverse(boundary.bridged, total_m);
   measure(boundary);
 }
 
@@ -40,4 +40,4 @@ void Boundaries::insert(std::vector<LaneBoundary> boundaries) {
   std::ranges::stable_sort(all_, {}, id_of);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::boundaries {
 namespace {
 
 constexpr std::size_t kMaxBetween = 1;      // of a near pair: (b_i, b_i+1) and (b_i, b_i+2) of the paper
@@ -100,4 +100,4 @@ std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph) {
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

@@ -6,7 +6,7 @@
 
 #include "mapping/boundaries/road_sections.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 
 /// Greatest distance between an edge and a line that is painted along it.
 inline constexpr double kAlongEdge_m = 1.0;
@@ -33,4 +33,4 @@ struct BoundaryPair {
 /// other, the lane runs as the older one does.
 std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph);
 
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

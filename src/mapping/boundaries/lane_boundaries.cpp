@@ -9,7 +9,7 @@
 #include "mapping/markings/chains.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 namespace {
 
 constexpr double kMinGap_m = 1.0;      // a shorter gap is no more than the distance between vertices
@@ -28,7 +28,7 @@ struct Tip {
     if (marking.styles.empty()) return MarkingStyle::unknown;
     return end == End::back ? marking.styles.back().style : marking.styles.front().style;
   }
-  ElementId id() const { return end_id(marking.id, end); }
+  ElementId id() const { return markings::end_id(marking.id, end); }
 };
 
 /// Whether the two ends face each other.
@@ -47,17 +47,18 @@ bool is_style_change(const Tip& a, const Tip& b) {
 }
 
 /// Whether two ends with a gap of `gap_m` between them may be joined.
-bool may_join(const Tip& a, const Tip& b, double gap_m, const PairHistories& joints,
+bool may_join(const Tip& a, const Tip& b, double gap_m, const markings::PairHistories& joints,
               const BoundaryConfig& config) {
-  const PairHistory* joint = find(joints, a.id(), b.id());
+  const markings::PairHistory* joint = find(joints, a.id(), b.id());
   const bool is_change = gap_m < kMeeting_m && is_style_change(a, b);
   if (joint != nullptr && seen_apart(*joint) && !is_change) return false;
   return (joint != nullptr && seen_together(*joint)) || are_aligned(a, b, config);
 }
 
-std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHistories& joints,
-                                 const BoundaryConfig& config) {
-  std::vector<Join> joins;
+std::vector<markings::Join> possible_joins(const std::vector<Marking>& lines,
+                                           const markings::PairHistories& joints,
+                                           const BoundaryConfig& config) {
+  std::vector<markings::Join> joins;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       if (lines[i].type != lines[j].type) continue;
@@ -65,7 +66,7 @@ std::vector<Join> possible_joins(const std::vector<Marking>& lines, const PairHi
         for (const End j_end : kEnds) {
           const Tip a{lines[i], i_end}, b{lines[j], j_end};
           const double gap_m = (b.point() - a.point()).head<2>().norm();
-          if (gap_m > config.max_gap_m || !same_level(a.point(), b.point())) continue;
+          if (gap_m > config.max_gap_m || !geometry::same_level(a.point(), b.point())) continue;
           if (may_join(a, b, gap_m, joints, config)) joins.push_back({gap_m, {i, i_end}, {j, j_end}});
         }
       }
@@ -82,21 +83,21 @@ std::optional<Marking> ahead_of(const Marking& line, const Marking& next) {
   if (foot_m <= 0.0) return next;
   const double from_m = foot_m + kChange_m;
   if (from_m >= measured.length()) return std::nullopt;
-  return slice(next, {from_m, measured.length()});
+  return markings::slice(next, {from_m, measured.length()});
 }
 
 void continue_with(const Marking& ahead, LaneBoundary& boundary) {
   const double end_m = length(boundary.marking.points);
   const double gap_m = (ahead.points.front() - boundary.marking.points.back()).head<2>().norm();
   if (gap_m > kMinGap_m) boundary.bridged.push_back({end_m, end_m + gap_m});
-  append(boundary.marking, ahead);
+  markings::append(boundary.marking, ahead);
 }
 
-LaneBoundary assemble(const std::vector<Link>& chain, const std::vector<Marking>& lines) {
+LaneBoundary assemble(const std::vector<markings::Link>& chain, const std::vector<Marking>& lines) {
   LaneBoundary boundary;
-  for (const Link& link : chain) {
+  for (const markings::Link& link : chain) {
     Marking next = lines[link.line];
-    if (link.reversed) reverse(next);
+    if (link.reversed) markings::reverse(next);
     boundary.members.push_back(next.id);
     if (boundary.marking.points.empty()) {
       boundary.marking = std::move(next);
@@ -111,16 +112,16 @@ LaneBoundary assemble(const std::vector<Link>& chain, const std::vector<Marking>
 
 }  // namespace
 
-Boundaries lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
+Boundaries lane_boundaries(const std::vector<Marking>& markings, const markings::PairHistories& joints,
                            const BoundaryConfig& config) {
   std::vector<Marking> lines;
   std::ranges::copy_if(markings, std::back_inserter(lines),
                        [](const Marking& m) { return m.type != MarkingType::stopline; });
   // A chain runs as its first line does, so that the boundary runs as its oldest member.
   std::vector<LaneBoundary> boundaries;
-  for (const std::vector<Link>& chain : chains(possible_joins(lines, joints, config), lines.size()))
+  for (const std::vector<markings::Link>& chain : chains(possible_joins(lines, joints, config), lines.size()))
     boundaries.push_back(assemble(chain, lines));
   return boundaries;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

@@ -8,7 +8,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/markings/pair_history.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 
 /// A continuous lane boundary, made of one or more markings.
 struct LaneBoundary {
@@ -50,7 +50,7 @@ class Boundaries {
 /// Sec. III-D-1). Ends that `joints` shows to be separate are not joined. Close ends that detections ran
 /// through are joined at any angle: round a hairpin or the tip of an island. The nearest ends are joined
 /// first, each end once. Stoplines are left out.
-Boundaries lane_boundaries(const std::vector<Marking>& markings, const PairHistories& joints,
+Boundaries lane_boundaries(const std::vector<Marking>& markings, const markings::PairHistories& joints,
                            const BoundaryConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

@@ -8,7 +8,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/oriented_groups.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 namespace {
 
 constexpr double kSampleStep_m = 2.0;  // half of the shortest lane
@@ -41,7 +41,7 @@ std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline&
   int count = 0;
   for (std::size_t i = 0; i < a.points.size(); ++i) {
     const Projection foot = b.project(a.points[i], config.max_distance_m);
-    if (!foot.inside || !same_level(foot.foot, a.points[i])) continue;
+    if (!foot.inside || !geometry::same_level(foot.foot, a.points[i])) continue;
     const double cosine = a.directions[i].dot(b.direction(foot));
     if (std::abs(cosine) < min_cosine) continue;
     lateral_sum_m += foot.lateral_m;
@@ -89,7 +89,7 @@ double along_heading(const MeasuredPolyline& line, const Eigen::Isometry3d& T_ma
 }
 
 /// Joins boundaries that overlap, those nearest to the vehicle first.
-OrientedGroups join_sections(const SectionGraph& graph, const Point& vehicle) {
+geometry::OrientedGroups join_sections(const SectionGraph& graph, const Point& vehicle) {
   struct Pair {
     std::size_t a, b;
     bool opposed;
@@ -104,12 +104,12 @@ OrientedGroups join_sections(const SectionGraph& graph, const Point& vehicle) {
       if (a < beside.other) pairs.push_back({a, beside.other, beside.opposed});
   std::ranges::stable_sort(pairs, {},
                            [&](const Pair& p) { return std::max(distance_m[p.a], distance_m[p.b]); });
-  OrientedGroups groups(graph.boundaries.size());
+  geometry::OrientedGroups groups(graph.boundaries.size());
   for (const auto& [a, b, opposed] : pairs) groups.join(a, b, opposed);
   return groups;
 }
 
-std::vector<RoadSection> sections_of(const OrientedGroups& groups, std::size_t count) {
+std::vector<RoadSection> sections_of(const geometry::OrientedGroups& groups, std::size_t count) {
   std::vector<RoadSection> sections;
   for (std::size_t i = 0; i < count; ++i) {
     if (groups.group(i) != i) continue;
@@ -123,7 +123,7 @@ std::vector<RoadSection> sections_of(const OrientedGroups& groups, std::size_t c
 /// Whether a section runs against the vehicle, if it is given the direction of `boundary`. All boundaries
 /// have a say, weighted by length, since a single one may turn off into another road.
 bool against_heading(const RoadSection& section, std::size_t boundary, const Boundaries& boundaries,
-                     const OrientedGroups& groups, const Eigen::Isometry3d& T_map_body) {
+                     const geometry::OrientedGroups& groups, const Eigen::Isometry3d& T_map_body) {
   double sum_m = 0.0, total_m = 0.0;
   for (const std::size_t k : section.boundaries) {
     const MeasuredPolyline& course = boundaries[k].course;
@@ -136,7 +136,7 @@ bool against_heading(const RoadSection& section, std::size_t boundary, const Bou
 }
 
 /// Per boundary, whether it has to be turned to run as its section does.
-std::vector<bool> wrong_ways(const SectionGraph& graph, const OrientedGroups& groups,
+std::vector<bool> wrong_ways(const SectionGraph& graph, const geometry::OrientedGroups& groups,
                              const Eigen::Isometry3d& T_map_body) {
   std::vector<bool> wrong(graph.boundaries.size(), false);
   for (const RoadSection& section : graph.sections) {
@@ -164,7 +164,7 @@ SectionGraph road_sections(Boundaries boundaries, const Eigen::Isometry3d& T_map
                            const SectionConfig& config) {
   auto beside = side_by_side(boundaries, config);
   SectionGraph graph{.boundaries = std::move(boundaries), .sections = {}, .beside = std::move(beside)};
-  const OrientedGroups groups = join_sections(graph, T_map_body.translation());
+  const geometry::OrientedGroups groups = join_sections(graph, T_map_body.translation());
   graph.sections = sections_of(groups, graph.boundaries.size());
   turn(wrong_ways(graph, groups, T_map_body), graph);
   for (std::vector<SideBySide>& beside_one : graph.beside)
@@ -173,4 +173,4 @@ SectionGraph road_sections(Boundaries boundaries, const Eigen::Isometry3d& T_map
   return graph;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

@@ -7,7 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/boundaries/lane_boundaries.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 
 /// How another boundary lies beside a given one, over the stretch that they have in common.
 struct SideBySide {
@@ -41,4 +41,4 @@ struct SectionGraph {
 SectionGraph road_sections(Boundaries boundaries, const Eigen::Isometry3d& T_map_body,
                            const SectionConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// A part of a segment, as shares of its length.
 struct SegmentPart {
@@ -34,4 +34,4 @@ std::optional<SegmentPart> clip_segment(const Eigen::Matrix<double, kDimensions,
   return part;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

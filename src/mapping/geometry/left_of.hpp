@@ -2,7 +2,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// A horizontal direction, turned to the left by a right angle.
 inline Eigen::Vector2d left_of(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
@@ -12,4 +12,4 @@ inline Point beside(const Point& point, const Eigen::Vector2d& direction, double
   return point + left_m * Point(-direction.y(), direction.x(), 0.0);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

@@ -4,7 +4,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// Greatest difference in height within one road.
 inline constexpr double kLevel_m = 2.0;
@@ -13,4 +13,4 @@ inline constexpr double kLevel_m = 2.0;
 /// below it.
 inline bool same_level(const Point& a, const Point& b) { return std::abs(a.z() - b.z()) <= kLevel_m; }
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

@@ -5,7 +5,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/clip_segment.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 MapBox::MapBox(const RangeConfig& config, const Eigen::Isometry3d& T_map_body)
     : T_map_body_(T_map_body),
@@ -45,4 +45,4 @@ std::vector<Stretch> MapBox::inside(const Polyline& line_map) const {
   return stretches;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

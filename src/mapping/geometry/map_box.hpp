@@ -5,7 +5,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// The box around the vehicle that is mapped (paper, Sec. IV-C). Any height is inside.
 class MapBox {
@@ -30,4 +30,4 @@ class MapBox {
   Eigen::AlignedBox2d kept_;  ///< body frame, with the margin
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

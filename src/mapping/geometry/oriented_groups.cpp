@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 OrientedGroups::OrientedGroups(std::size_t count) : group_(count), opposed_(count, false) {
   std::iota(group_.begin(), group_.end(), 0U);
@@ -20,4 +20,4 @@ void OrientedGroups::join(std::size_t a, std::size_t b, bool opposed) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

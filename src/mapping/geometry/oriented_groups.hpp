@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// Groups of elements that belong together. Within a group it is known which elements run against each other.
 class OrientedGroups {
@@ -24,4 +24,4 @@ class OrientedGroups {
   std::vector<bool> opposed_;  ///< only whether two members of a group differ matters
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

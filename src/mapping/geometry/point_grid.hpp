@@ -7,7 +7,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// Finds things by place: a uniform grid, seen from above, over things that have a `position`.
 template <class Entry>
@@ -77,4 +77,4 @@ class PointGrid {
   std::vector<Entry> entries_;         ///< in the order in which they are visited
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

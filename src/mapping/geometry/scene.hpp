@@ -4,7 +4,7 @@
 
 #include "mapping/geometry/map_box.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// The place and time of the map: those of the newest frame so far, which may be newer than the frame that is
 /// fused.
@@ -16,4 +16,4 @@ struct Scene {
   const Eigen::Isometry3d& T_map_body() const { return box.T_map_body(); }
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

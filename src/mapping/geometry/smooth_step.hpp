@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// Goes from 0 to 1 while `share` does, without a slope at either end (a base of Hermite's).
 inline double smooth_step(double share) {
@@ -10,4 +10,4 @@ inline double smooth_step(double share) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

@@ -6,7 +6,7 @@
 #include "laneloom/types.hpp"
 
 /// Stretches of a line, by arc length.
-namespace laneloom {
+namespace laneloom::geometry {
 
 /// The overlap of two stretches. Its length is negative where they do not overlap.
 inline Stretch common(const Stretch& a, const Stretch& b) {
@@ -28,4 +28,4 @@ inline bool contains(const std::vector<Stretch>& stretches, double arc_m) {
   return std::ranges::any_of(stretches, [&](const Stretch& s) { return s.from_m < arc_m && arc_m < s.to_m; });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::geometry

@@ -7,7 +7,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/stretches.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kNarrow_m = 2.5;  // a lane is narrower only if it is so from end to end
@@ -50,28 +50,28 @@ void set_trust(const Marking& left, const Marking& right, Lane& lane) {
 
 }  // namespace
 
-LaneBorder::LaneBorder(const LaneBoundary& boundary, bool reversed, const Occupied& occupied)
+LaneBorder::LaneBorder(const boundaries::LaneBoundary& boundary, bool reversed, const Occupied& occupied)
     : boundary_(boundary), reversed_(reversed), occupied_(occupied) {
   const Polyline& points = boundary.course.points();
   if (reversed) turned_ = MeasuredPolyline(Polyline(points.rbegin(), points.rend()));
 }
 
-bool LaneBorder::is_free(double arc_m) const { return !contains(occupied_, own(arc_m)); }
+bool LaneBorder::is_free(double arc_m) const { return !geometry::contains(occupied_, own(arc_m)); }
 
-bool LaneBorder::is_bridged(double arc_m) const { return contains(boundary_.bridged, own(arc_m)); }
+bool LaneBorder::is_bridged(double arc_m) const { return geometry::contains(boundary_.bridged, own(arc_m)); }
 
-std::optional<Between> find_between(const CrossSection& section, const BoundaryPair& pair,
-                                    const Boundaries& boundaries) {
+std::optional<Between> find_between(const CrossSection& section, const boundaries::BoundaryPair& pair,
+                                    const boundaries::Boundaries& boundaries) {
   const Point middle = section.middle();
   const Eigen::Vector2d across = (section.right - section.left).head<2>();
-  const double width_m = across.norm(), reach_m = 0.5 * width_m - kAlongEdge_m;
+  const double width_m = across.norm(), reach_m = 0.5 * width_m - boundaries::kAlongEdge_m;
   std::optional<Between> line;
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     if (i == pair.left || i == pair.right) continue;
-    const LaneBoundary& boundary = boundaries[i];
+    const boundaries::LaneBoundary& boundary = boundaries[i];
     if (!boundary.is_edge() && !boundary.is_confirmed()) continue;
     const Projection foot = boundary.course.project(middle, reach_m);
-    if (!foot.inside || foot.distance_m >= reach_m || !same_level(foot.foot, middle)) continue;
+    if (!foot.inside || foot.distance_m >= reach_m || !geometry::same_level(foot.foot, middle)) continue;
     const double share = (foot.foot - section.left).head<2>().dot(across) / (width_m * width_m);
     if (boundary.is_edge()) return Between{true, share};
     if (std::abs(cross(boundary.course.direction(foot), across)) > kMinAlong * width_m)
@@ -150,4 +150,4 @@ Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const 
   return lane;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

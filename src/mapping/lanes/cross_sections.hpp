@@ -10,7 +10,7 @@
 #include "mapping/boundaries/boundary_pairs.hpp"
 
 /// Cross-sections of the space between two boundaries, and the lanes that are made of them.
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// Stretches of one side of a boundary that belong to a lane already.
 using Occupied = std::vector<Stretch>;
@@ -19,7 +19,7 @@ using Occupied = std::vector<Stretch>;
 /// arguments.
 class LaneBorder {
  public:
-  LaneBorder(const LaneBoundary& boundary, bool reversed, const Occupied& occupied);
+  LaneBorder(const boundaries::LaneBoundary& boundary, bool reversed, const Occupied& occupied);
   const MeasuredPolyline& line() const { return reversed_ ? turned_ : boundary_.course; }
   const Marking& marking() const { return boundary_.marking; }
   bool reversed() const { return reversed_; }
@@ -33,7 +33,7 @@ class LaneBorder {
  private:
   double own(double arc_m) const { return reversed_ ? boundary_.course.length() - arc_m : arc_m; }
 
-  const LaneBoundary& boundary_;
+  const boundaries::LaneBoundary& boundary_;
   bool reversed_;
   MeasuredPolyline turned_;
   const Occupied& occupied_;
@@ -60,8 +60,8 @@ struct Between {
 
 /// Finds an edge, confirmed or not, or else a confirmed line, that lies between the boundaries of a pair. It
 /// is not close beside either of them; a line must run along them. Empty: there is none.
-std::optional<Between> find_between(const CrossSection& section, const BoundaryPair& pair,
-                                    const Boundaries& boundaries);
+std::optional<Between> find_between(const CrossSection& section, const boundaries::BoundaryPair& pair,
+                                    const boundaries::Boundaries& boundaries);
 
 /// The narrowest and the widest lane that is looked for.
 struct WidthLimits {
@@ -87,4 +87,4 @@ inline double length_of(std::span<const CrossSection> run) {
 /// The lane of a run.
 Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const LaneBorder& right);
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -10,9 +10,9 @@
 #include "mapping/lanes/shoulders.hpp"
 #include "mapping/lanes/unmarked_roads.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 
-FoundLanes find_lanes(SectionGraph road, const Scene& scene, const LaneConfig& config) {
+FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::Scene& scene, const LaneConfig& config) {
   const Eigen::Isometry3d& vehicle = scene.T_map_body();
   const auto pairs = boundary_pairs(road);
   const auto strips = generate_lanes(pairs, road.boundaries, vehicle.translation(), config);
@@ -23,4 +23,4 @@ FoundLanes find_lanes(SectionGraph road, const Scene& scene, const LaneConfig& c
   return {std::move(road.boundaries), std::move(lanes), std::move(inferred)};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -5,10 +5,10 @@
 #include "mapping/geometry/scene.hpp"
 #include "mapping/lanes/inferred_boundaries.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// Finds the lanes of a road: lanes between boundaries (paper, Sec. III-D-3) without the shoulders, and
 /// inferred lanes on roads without lines and beside single lines.
-FoundLanes find_lanes(SectionGraph road, const Scene& scene, const LaneConfig& config);
+FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::Scene& scene, const LaneConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

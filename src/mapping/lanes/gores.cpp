@@ -7,7 +7,7 @@
 
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kMeeting_m = 1.0;       // borders that are nearer at their end meet there
@@ -20,7 +20,7 @@ constexpr double kStyleReach_m = 5.0;    // either way; shorter patches of anoth
 bool may_be_crossed(const LaneBorder& border, double arc_m) {
   if (border.marking().type == MarkingType::roadedge) return false;
   const Stretch around = border.own({arc_m - kStyleReach_m, arc_m + kStyleReach_m});
-  return dashed_excess_m(border.marking(), around) >= 0.0;
+  return markings::dashed_excess_m(border.marking(), around) >= 0.0;
 }
 
 /// Whether the borders meet at the first of these cross-sections, or not far before it.
@@ -73,4 +73,4 @@ void remove_gores(const LaneBorder& left, const LaneBorder& right, const Point& 
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

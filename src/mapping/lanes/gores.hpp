@@ -4,7 +4,7 @@
 
 #include "mapping/lanes/cross_sections.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// Makes the cross-sections of a gore invalid. A gore is the wedge between two borders that meet, or would
 /// meet not far beyond where they are seen: there roads split or join. It ends where one of the two borders
@@ -12,4 +12,4 @@ namespace laneloom {
 void remove_gores(const LaneBorder& left, const LaneBorder& right, const Point& vehicle,
                   std::vector<CrossSection>& sections);
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

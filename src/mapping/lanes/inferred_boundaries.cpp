@@ -5,7 +5,7 @@
 
 #include "mapping/geometry/levels.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 Marking inferred_marking(const Polyline& points) {
   return {.status = ElementStatus::inferred,
           .points = points,
@@ -13,7 +13,7 @@ Marking inferred_marking(const Polyline& points) {
 }
 
 Box box_around(const Polyline& line, double margin_m) {
-  const Point margin(margin_m, margin_m, kLevel_m);
+  const Point margin(margin_m, margin_m, geometry::kLevel_m);
   Box box;
   for (const Point& point : line) box.extend(point);
   return {box.min() - margin, box.max() + margin};
@@ -37,14 +37,14 @@ bool TakenSpace::contains(const Point& point) const {
   return std::ranges::any_of(strips_, [&](const Strip& strip) {
     if (!strip.box.contains(point)) return false;
     const Projection foot = strip.line.project(point, strip.half_width_m);
-    return foot.inside && foot.distance_m < strip.half_width_m && same_level(foot.foot, point);
+    return foot.inside && foot.distance_m < strip.half_width_m && geometry::same_level(foot.foot, point);
   });
 }
 
 LaneLayout laid_out(FoundLanes found) {
   const Occupied nothing;
   LaneLayout layout{.boundaries = {}, .lanes = std::move(found.lanes)};
-  std::vector<LaneBoundary> added;
+  std::vector<boundaries::LaneBoundary> added;
   for (InferredBoundary& one : found.inferred) {
     added.push_back({.marking = one.marking, .members = {one.marking.id}, .two_way = one.two_way});
     const LaneBorder border(added.back(), false, nothing);
@@ -69,4 +69,4 @@ LaneLayout laid_out(FoundLanes found) {
   return layout;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

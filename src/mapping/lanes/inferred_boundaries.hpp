@@ -14,7 +14,7 @@
 #include "mapping/lanes/lane_layout.hpp"
 
 /// Inferred boundaries: no detection showed them, but there is room for the lanes beside them. Ours.
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// Least length of an inferred boundary. A shorter space is a bay, or the mouth of a street.
 inline constexpr double kMinInferredLength_m = 8.0;
@@ -64,7 +64,7 @@ class TakenSpace {
 /// Lanes that were found, and inferred boundaries. The inferred boundaries have no ids, and the lanes beside
 /// them are not yet among the lanes.
 struct FoundLanes {
-  Boundaries boundaries;
+  boundaries::Boundaries boundaries;
   std::vector<Lane> lanes;
   std::vector<InferredBoundary> inferred;
 };
@@ -73,4 +73,4 @@ struct FoundLanes {
 /// boundaries must have ids by now.
 LaneLayout laid_out(FoundLanes found);
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -7,7 +7,7 @@
 #include "mapping/geometry/smooth_step.hpp"
 #include "mapping/geometry/stretches.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter leg
@@ -21,7 +21,7 @@ Polyline straight_path(const Lane& from, const Lane& to) {
   Polyline path;
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    Point point = a + smooth_step(t) * (b - a);  // Hermite's basis
+    Point point = a + geometry::smooth_step(t) * (b - a);  // Hermite's basis
     point.head<2>() += t * (1.0 - t) * ((1.0 - t) * begin - t * end);
     path.push_back(point);
   }
@@ -61,7 +61,7 @@ Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
 std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
   return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
     const Projection foot = other.project(point, max_distance_m);
-    return foot.inside && foot.distance_m < max_distance_m && same_level(foot.foot, point);
+    return foot.inside && foot.distance_m < max_distance_m && geometry::same_level(foot.foot, point);
   }));
 }
 
@@ -80,7 +80,7 @@ const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {
   for (const Lane& lane : lanes) {
     for (const Side its_side : kSides) {
       const LaneSide beyond = lane_side(lane, its_side);
-      const double common_m = common(beyond.range, side.range).length();
+      const double common_m = geometry::common(beyond.range, side.range).length();
       if (beyond.of != side.of.other() || common_m <= longest_m) continue;
       across = &lane;
       longest_m = common_m;
@@ -134,4 +134,4 @@ Polyline path_ahead(const Lane& from, const Lane& to) {
   return gap_between(from, to).dot(leaving(from)) < kMinGap_m ? Polyline{} : path_between(from, to);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

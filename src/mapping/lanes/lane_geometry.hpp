@@ -11,7 +11,7 @@
 #include "laneloom/types.hpp"
 
 /// How a lane lies along its boundaries, and how it leads into another lane.
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// Number of points of `line` that lie beside `other`, nearer than `max_distance_m` and on its level.
 std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m);
@@ -79,4 +79,4 @@ Polyline path_between(const Lane& from, const Lane& to);
 /// As path_between(), but empty where `to` begins no further on than `from` ends: there the lanes meet.
 Polyline path_ahead(const Lane& from, const Lane& to);
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -53,7 +53,8 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to) {
 
 std::optional<Projection> foot_in(const Lane& lane, const Point& place) {
   const Projection foot = MeasuredPolyline(lane.centerline).project(place);
-  const bool inside = foot.inside && foot.distance_m <= 0.5 * lane.width_m && same_level(foot.foot, place);
+  const bool inside =
+      foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::same_level(foot.foot, place);
   return inside ? std::optional(foot) : std::nullopt;
 }
 

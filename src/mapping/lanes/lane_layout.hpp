@@ -7,11 +7,11 @@
 #include "laneloom/types.hpp"
 #include "mapping/boundaries/lane_boundaries.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// The lanes of a map with the boundaries that they name.
 struct LaneLayout {
-  Boundaries boundaries;
+  boundaries::Boundaries boundaries;
   std::vector<Lane> lanes;
 
   /// The lane of an id. Null: there is none.
@@ -27,4 +27,4 @@ struct LaneLayout {
   }
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

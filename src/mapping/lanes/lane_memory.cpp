@@ -10,7 +10,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/neighbours.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kSameInferred_m = 1.5;  // a nearer inferred boundary is taken for a known one
@@ -113,14 +113,14 @@ bool same_way(const Polyline& line, const Polyline& other) {
   return measured.direction(middle_m).dot(measured_other.direction(foot)) >= 0.0;
 }
 
-bool is_expired(std::uint64_t last_frame, const Scene& scene, const LaneConfig& config) {
+bool is_expired(std::uint64_t last_frame, const geometry::Scene& scene, const LaneConfig& config) {
   return last_frame + static_cast<std::uint64_t>(config.id_memory_frames) < scene.frame;
 }
 
 }  // namespace
 
-void LaneMemory::identify(std::vector<InferredBoundary>& inferred, const Scene& scene,
-                          const LaneConfig& config, IdSource& ids) {
+void LaneMemory::identify(std::vector<InferredBoundary>& inferred, const geometry::Scene& scene,
+                          const LaneConfig& config, markings::IdSource& ids) {
   const Recognition recognition = recognised(inferred, inferred_);
   for (std::size_t i = 0; i < inferred.size(); ++i) {
     const auto same = recognition.known_of(i);
@@ -135,8 +135,8 @@ void LaneMemory::identify(std::vector<InferredBoundary>& inferred, const Scene& 
   std::erase_if(inferred_, [&](const KnownInferred& k) { return is_expired(k.last_frame, scene, config); });
 }
 
-void LaneMemory::identify(std::vector<Lane>& lanes, const Scene& scene, const LaneConfig& config,
-                          IdSource& ids) {
+void LaneMemory::identify(std::vector<Lane>& lanes, const geometry::Scene& scene, const LaneConfig& config,
+                          markings::IdSource& ids) {
   const Recognition recognition = recognised(lanes, lanes_, config);
   std::vector<KnownLane> now;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
@@ -164,8 +164,8 @@ void LaneMemory::identify(std::vector<Lane>& lanes, const Scene& scene, const La
   std::ranges::sort(lanes, {}, &Lane::id);
 }
 
-LaneLayout LaneMemory::recognise(FoundLanes found, const Scene& scene, const LaneConfig& config,
-                                 IdSource& ids) {
+LaneLayout LaneMemory::recognise(FoundLanes found, const geometry::Scene& scene, const LaneConfig& config,
+                                 markings::IdSource& ids) {
   identify(found.inferred, scene, config, ids);
   LaneLayout layout = laid_out(std::move(found));
   identify(layout.lanes, scene, config, ids);
@@ -182,4 +182,4 @@ KnownLane* LaneMemory::find(ElementId lane) {
   return const_cast<KnownLane*>(std::as_const(*this).find(lane));  // NOLINT: of this memory
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -11,7 +11,7 @@
 #include "mapping/lanes/lane_layout.hpp"
 #include "mapping/markings/id_source.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// A lane that was published, kept to recognise it in later frames.
 struct KnownLane {
@@ -49,15 +49,17 @@ class LaneMemory {
 
   /// Gives the inferred boundaries their ids, then all lanes, also those beside inferred boundaries. Returns
   /// them with the lanes' neighbours.
-  LaneLayout recognise(FoundLanes found, const Scene& scene, const LaneConfig& config, IdSource& ids);
+  LaneLayout recognise(FoundLanes found, const geometry::Scene& scene, const LaneConfig& config,
+                       markings::IdSource& ids);
 
   /// Gives every inferred boundary the id of the known boundary that it covers most of, or else a new id.
-  void identify(std::vector<InferredBoundary>& inferred, const Scene& scene, const LaneConfig& config,
-                IdSource& ids);
+  void identify(std::vector<InferredBoundary>& inferred, const geometry::Scene& scene,
+                const LaneConfig& config, markings::IdSource& ids);
   /// Gives every lane the id of the known lane that it covers most of, or else a new id. Known lanes between
   /// the same boundaries come first. The known lane takes over the lane's present shape. Sorts the lanes by
   /// their ids.
-  void identify(std::vector<Lane>& lanes, const Scene& scene, const LaneConfig& config, IdSource& ids);
+  void identify(std::vector<Lane>& lanes, const geometry::Scene& scene, const LaneConfig& config,
+                markings::IdSource& ids);
 
   const std::vector<KnownLane>& lanes() const { return lanes_; }
   const std::vector<KnownInferred>& inferred() const { return inferred_; }
@@ -75,4 +77,4 @@ class LaneMemory {
   std::vector<KnownInferred> inferred_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

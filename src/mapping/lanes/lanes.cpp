@@ -10,7 +10,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kDashedWidening = 1.15;       // factor on the width of the widest lane
@@ -23,7 +23,7 @@ constexpr double kMinKerbLaneLength_m = 10.0;  // a shorter widening is where a 
 LaneConfig limits_between(const Marking& left, const Marking& right, LaneConfig config) {
   const auto is_dashed = [](const Marking& marking) {
     return marking.type == MarkingType::laneline &&
-           dashed_excess_m(marking, {0.0, length(marking.points)}) > 0.0;
+           markings::dashed_excess_m(marking, {0.0, length(marking.points)}) > 0.0;
   };
   if (is_dashed(left) && is_dashed(right)) config.max_width_m *= kDashedWidening;
   if (left.type == MarkingType::roadedge && right.type == MarkingType::roadedge)
@@ -41,11 +41,11 @@ class UsedSides {
  public:
   explicit UsedSides(std::size_t boundaries) : used_(boundaries) {}
   /// Stretches on the inner side of one boundary of a pair.
-  Occupied& within(const BoundaryPair& pair, Side border) {
+  Occupied& within(const boundaries::BoundaryPair& pair, Side border) {
     return used_[pair.index(border)][index(pair.inner(border))];
   }
   /// Stretches on the outer side of one boundary of a pair.
-  const Occupied& beyond(const BoundaryPair& pair, Side border) const {
+  const Occupied& beyond(const boundaries::BoundaryPair& pair, Side border) const {
     return used_[pair.index(border)][index(opposite(pair.inner(border)))];
   }
 
@@ -56,18 +56,18 @@ class UsedSides {
 /// Finds the lanes of one pair of boundaries after the other.
 class LaneFinder {
  public:
-  LaneFinder(const Boundaries& boundaries, const Point& vehicle, const LaneConfig& config)
+  LaneFinder(const boundaries::Boundaries& boundaries, const Point& vehicle, const LaneConfig& config)
       : boundaries_(boundaries), vehicle_(vehicle), config_(config), used_(boundaries.size()) {}
 
-  void add(const BoundaryPair& pair) {
+  void add(const boundaries::BoundaryPair& pair) {
     add(pair, used_.within(pair, Side::left), used_.within(pair, Side::right));
   }
 
   /// Adds lanes between two edges, but not where lanes lie on the other side of one of them: beyond the edge
   /// of a road with lanes lies a verge, a pavement or a cycle track.
-  void add_between_edges(const std::vector<BoundaryPair>& pairs) {
+  void add_between_edges(const std::vector<boundaries::BoundaryPair>& pairs) {
     const UsedSides roads = used_;
-    for (const BoundaryPair& pair : pairs)
+    for (const boundaries::BoundaryPair& pair : pairs)
       add(pair, joined(used_.within(pair, Side::left), roads.beyond(pair, Side::left)),
           joined(used_.within(pair, Side::right), roads.beyond(pair, Side::right)));
   }
@@ -75,7 +75,7 @@ class LaneFinder {
   std::vector<Lane> take() { return std::move(lanes_); }
 
  private:
-  void add(const BoundaryPair& pair, const Occupied& left_used, const Occupied& right_used) {
+  void add(const boundaries::BoundaryPair& pair, const Occupied& left_used, const Occupied& right_used) {
     const LaneBorder left(boundaries_[pair.left], pair.left_reversed, left_used);
     const LaneBorder right(boundaries_[pair.right], pair.right_reversed, right_used);
     const std::vector<CrossSection> sections = sections_between(pair, left, right);
@@ -90,7 +90,7 @@ class LaneFinder {
     }
   }
 
-  std::vector<CrossSection> sections_between(const BoundaryPair& pair, const LaneBorder& left,
+  std::vector<CrossSection> sections_between(const boundaries::BoundaryPair& pair, const LaneBorder& left,
                                              const LaneBorder& right) const {
     // Between two kerbs that are as far apart, there rather is a verge.
     const bool kerb = pair.adjacent && pair.left_kerb != pair.right_kerb;
@@ -105,7 +105,7 @@ class LaneFinder {
     return sections;
   }
 
-  const Boundaries& boundaries_;
+  const boundaries::Boundaries& boundaries_;
   const Point& vehicle_;
   const LaneConfig& config_;
   UsedSides used_;
@@ -114,11 +114,12 @@ class LaneFinder {
 
 }  // namespace
 
-std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs, const Boundaries& boundaries,
-                                 const Point& vehicle, const LaneConfig& config) {
+std::vector<Lane> generate_lanes(const std::vector<boundaries::BoundaryPair>& pairs,
+                                 const boundaries::Boundaries& boundaries, const Point& vehicle,
+                                 const LaneConfig& config) {
   LaneFinder finder(boundaries, vehicle, config);
-  std::vector<BoundaryPair> between_edges;
-  for (const BoundaryPair& pair : pairs) {
+  std::vector<boundaries::BoundaryPair> between_edges;
+  for (const boundaries::BoundaryPair& pair : pairs) {
     if (!pair.near) continue;
     if (boundaries[pair.left].is_edge() && boundaries[pair.right].is_edge()) {
       between_edges.push_back(pair);
@@ -130,4 +131,4 @@ std::vector<Lane> generate_lanes(const std::vector<BoundaryPair>& pairs, const B
   return finder.take();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

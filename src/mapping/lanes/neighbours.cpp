@@ -6,7 +6,7 @@
 #include "mapping/geometry/stretches.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kMinBeside_m = 1.0;  // a shorter stretch is where one lane ends and the next begins
@@ -35,7 +35,7 @@ std::vector<Stretch> dashed_within(const Marking& boundary, const Stretch& stret
                                    const SideToCenterline& to_centerline) {
   std::vector<Stretch> dashed;
   for (const StyleRange& part : boundary.styles) {
-    const Stretch range = common(part.range, stretch);
+    const Stretch range = geometry::common(part.range, stretch);
     if (part.style == MarkingStyle::dashed && range.length() > 0.0) dashed.push_back(to_centerline(range));
   }
   std::ranges::sort(dashed, {}, &Stretch::from_m);
@@ -49,7 +49,7 @@ std::vector<Neighbour> neighbours_beyond(const Lane& lane, Side its_side, const 
   for (const Lane& other : layout.lanes) {
     for (const Side other_side : kSides) {
       const LaneSide beyond = lane_side(other, other_side);
-      const Stretch stretch = common(beyond.range, side.range);
+      const Stretch stretch = geometry::common(beyond.range, side.range);
       if (beyond.of != side.of.other() || stretch.length() < kMinBeside_m) continue;
       const Marking& boundary = layout.boundaries.of(side.of.boundary).marking;
       neighbours.push_back(
@@ -69,4 +69,4 @@ void find_neighbours(LaneLayout& layout) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

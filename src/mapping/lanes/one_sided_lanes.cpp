@@ -10,7 +10,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kChord_m = 3.0;        // either way, for a direction without noise
@@ -45,7 +45,7 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
         line.length() * static_cast<double>(strip.size()) / static_cast<double>(points.size() - 1);
     const Eigen::Vector2d along =
         (line.at(arc_m + kChord_m) - line.at(arc_m - kChord_m)).head<2>().normalized();
-    const Point border = beside(point, along, side.is_left() ? width_m : -width_m);
+    const Point border = geometry::beside(point, along, side.is_left() ? width_m : -width_m);
     CrossSection section{.left_arc_m = arc_m,
                          .right_arc_m = arc_m,
                          .width_m = width_m,
@@ -62,15 +62,16 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
 /// Finds the lanes on one side of a line after the other.
 class OneSidedLanes {
  public:
-  OneSidedLanes(const Boundaries& boundaries, const MapBox& map_box, const LaneConfig& config,
-                TakenSpace& taken)
+  OneSidedLanes(const boundaries::Boundaries& boundaries, const geometry::MapBox& map_box,
+                const LaneConfig& config, TakenSpace& taken)
       : boundaries_(boundaries), map_box_(map_box), config_(config), taken_(taken) {
     boxes_.reserve(boundaries.size());
-    for (const LaneBoundary& boundary : boundaries) boxes_.push_back(box_around(boundary.course.points()));
+    for (const boundaries::LaneBoundary& boundary : boundaries)
+      boxes_.push_back(box_around(boundary.course.points()));
   }
 
   void add(const OpenSide& side, std::uint32_t road_section) {
-    const LaneBoundary& line = boundaries_[side.line];
+    const boundaries::LaneBoundary& line = boundaries_[side.line];
     if (line.marking.type != MarkingType::laneline || !line.is_confirmed()) return;
     const std::vector<std::size_t> others = others_near(side.line);
     const std::vector<CrossSection> sections = open_sections(side, others);
@@ -109,7 +110,7 @@ class OneSidedLanes {
     if (!driven && std::ranges::count(marking.styles, MarkingStyle::dashed, &StyleRange::style) == 0)
       return {};
     const auto is_dashed = [&](double arc_m) {
-      return dashed_excess_m(marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) > 0.0;
+      return markings::dashed_excess_m(marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) > 0.0;
     };
     auto sections =
         strip_beside(boundaries_[side.line].course, side, config_.assumed_width_m, config_.step_m);
@@ -132,7 +133,7 @@ class OneSidedLanes {
     if (share < kDrivenFrom || share > kDrivenTo) return false;
     const double beyond_end_m2 = foot.distance_m * foot.distance_m - foot.lateral_m * foot.lateral_m;
     if (beyond_end_m2 > kBeyondEnd_m * kBeyondEnd_m) return false;
-    if (!same_level(foot.foot, vehicle.translation())) return false;
+    if (!geometry::same_level(foot.foot, vehicle.translation())) return false;
     const Eigen::Vector2d heading = vehicle.linear().col(0).head<2>();
     return std::abs(line.direction(foot).dot(heading)) > kMinAlong * heading.norm();
   }
@@ -155,12 +156,12 @@ class OneSidedLanes {
       // The line itself may come back.
       const double reach_m = i == side.line ? kOwn * room_m : room_m;
       const Projection foot = boundaries_[i].course.project(middle, reach_m);
-      return foot.inside && foot.distance_m < reach_m && same_level(foot.foot, middle);
+      return foot.inside && foot.distance_m < reach_m && geometry::same_level(foot.foot, middle);
     });
   }
 
-  const Boundaries& boundaries_;
-  const MapBox& map_box_;
+  const boundaries::Boundaries& boundaries_;
+  const geometry::MapBox& map_box_;
   const LaneConfig& config_;
   TakenSpace& taken_;
   std::vector<Box> boxes_;  ///< of the boundaries
@@ -169,8 +170,9 @@ class OneSidedLanes {
 
 }  // namespace
 
-std::vector<InferredBoundary> one_sided_lanes(const SectionGraph& road, const MapBox& box,
-                                              const LaneConfig& config, TakenSpace& taken) {
+std::vector<InferredBoundary> one_sided_lanes(const boundaries::SectionGraph& road,
+                                              const geometry::MapBox& box, const LaneConfig& config,
+                                              TakenSpace& taken) {
   if (!config.one_sided_lanes) return {};
   OneSidedLanes lanes(road.boundaries, box, config, taken);
   for (std::uint32_t section = 0; section < road.sections.size(); ++section) {
@@ -182,4 +184,4 @@ std::vector<InferredBoundary> one_sided_lanes(const SectionGraph& road, const Ma
   return lanes.take();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -7,14 +7,15 @@
 #include "mapping/geometry/map_box.hpp"
 #include "mapping/lanes/inferred_boundaries.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 
 /// Finds lanes beside a single line, ours. They lie on a side of a confirmed laneline where nothing else was
 /// seen, as far as a lane with room to park would reach. The line is dashed there, or the vehicle drives
 /// beside it as in a lane. The lane's other boundary is inferred, at the assumed width and within the range.
 /// A lane is at least 8 m long. Between two stretches where something else was seen it is at least 20 m long,
 /// since a shorter one may be a gap in that. The lanes are added to `taken`. The boundaries have no ids.
-std::vector<InferredBoundary> one_sided_lanes(const SectionGraph& road, const MapBox& box,
-                                              const LaneConfig& config, TakenSpace& taken);
+std::vector<InferredBoundary> one_sided_lanes(const boundaries::SectionGraph& road,
+                                              const geometry::MapBox& box, const LaneConfig& config,
+                                              TakenSpace& taken);
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -7,7 +7,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kMaxWidth = 0.95;  // share of the other lane's width; more is a difference by chance
@@ -22,15 +22,15 @@ bool share_a_side(const Lane& a, const Lane& b) {
 /// Tells which lanes are shoulders.
 class Shoulders {
  public:
-  Shoulders(const std::vector<Lane>& lanes, const std::vector<BoundaryPair>& pairs,
-            const Boundaries& boundaries)
+  Shoulders(const std::vector<Lane>& lanes, const std::vector<boundaries::BoundaryPair>& pairs,
+            const boundaries::Boundaries& boundaries)
       : lanes_(lanes), pairs_(pairs), boundaries_(boundaries) {}
 
   /// Whether the lane lies between an edge on that side and the solid line of a wider lane.
   bool is_outside_a_lane(const Lane& lane, Side edge_side) const {
     const LaneSide line = lane_side(lane, opposite(edge_side));
     if (!is_edge(lane_side(lane, edge_side)) || is_edge(line)) return false;
-    if (dashed_excess_m(boundary_of(line).marking, line.range) >= 0.0) return false;
+    if (markings::dashed_excess_m(boundary_of(line).marking, line.range) >= 0.0) return false;
     const Lane* beside = lane_across(line, lanes_);
     if (beside == nullptr || lane.width_m >= kMaxWidth * beside->width_m) return false;
     const Side shared = beside->left_boundary == line.of.boundary ? Side::left : Side::right;
@@ -44,28 +44,31 @@ class Shoulders {
   }
 
  private:
-  const LaneBoundary& boundary_of(const LaneSide& side) const { return boundaries_.of(side.of.boundary); }
+  const boundaries::LaneBoundary& boundary_of(const LaneSide& side) const {
+    return boundaries_.of(side.of.boundary);
+  }
   bool is_edge(const LaneSide& side) const { return boundary_of(side).is_edge(); }
 
   bool road_ends_at(const Lane& lane, Side side) const {
     const std::size_t left = boundaries_.index_of(lane.left_boundary);
     const std::size_t right = boundaries_.index_of(lane.right_boundary);
-    return std::ranges::any_of(pairs_, [&](const BoundaryPair& pair) {
+    return std::ranges::any_of(pairs_, [&](const boundaries::BoundaryPair& pair) {
       return pair.left == left && pair.right == right &&
              (side == Side::left ? pair.left_kerb : pair.right_kerb);
     });
   }
 
   const std::vector<Lane>& lanes_;
-  const std::vector<BoundaryPair>& pairs_;
-  const Boundaries& boundaries_;
+  const std::vector<boundaries::BoundaryPair>& pairs_;
+  const boundaries::Boundaries& boundaries_;
 };
 
 }  // namespace
 
-std::vector<Lane> without_shoulders(const std::vector<Lane>& lanes, const std::vector<BoundaryPair>& pairs,
-                                    const Boundaries& boundaries, const Eigen::Isometry3d& T_map_body,
-                                    const LaneConfig& config) {
+std::vector<Lane> without_shoulders(const std::vector<Lane>& lanes,
+                                    const std::vector<boundaries::BoundaryPair>& pairs,
+                                    const boundaries::Boundaries& boundaries,
+                                    const Eigen::Isometry3d& T_map_body, const LaneConfig& config) {
   if (!config.find_shoulders) return lanes;
   const Shoulders shoulders(lanes, pairs, boundaries);
   std::vector<Lane> kept;
@@ -79,4 +82,4 @@ std::vector<Lane> without_shoulders(const std::vector<Lane>& lanes, const std::v
   return kept;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

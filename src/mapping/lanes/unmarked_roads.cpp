@@ -7,17 +7,19 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 constexpr double kReach_m = 6.0;  // beyond a run, where the divider may continue a line
 constexpr double kReachStep_m = 2.0;
 constexpr double kFlare_m = 0.3;  // a road that is this much wider than usual opens into an intersection
-constexpr double kBeyondEdge_m = kAlongEdge_m + 1.2;  // in the middle of a lane, beside a line along the edge
+constexpr double kBeyondEdge_m =
+    boundaries::kAlongEdge_m + 1.2;  // in the middle of a lane, beside a line along the edge
 
 /// The share of the width at which a line lies beyond the last cross-section of a run. Empty: there is none.
 std::optional<double> line_beyond(const CrossSection& last, const CrossSection& before,
-                                  const BoundaryPair& pair, const Boundaries& boundaries) {
+                                  const boundaries::BoundaryPair& pair,
+                                  const boundaries::Boundaries& boundaries) {
   const Point onwards = (last.middle() - before.middle()).normalized();
   for (double ahead_m = kReachStep_m; ahead_m <= kReach_m; ahead_m += kReachStep_m) {
     CrossSection section = last;
@@ -75,10 +77,10 @@ std::optional<Halves> divide(std::span<const CrossSection> run, double share_at_
 /// Divides the roads between one pair of boundaries after the other.
 class Divisions {
  public:
-  Divisions(const Boundaries& boundaries, const LaneConfig& config, TakenSpace& taken)
+  Divisions(const boundaries::Boundaries& boundaries, const LaneConfig& config, TakenSpace& taken)
       : boundaries_(boundaries), config_(config), lanes_(taken), taken_(taken) {}
 
-  void add(const BoundaryPair& pair) {
+  void add(const boundaries::BoundaryPair& pair) {
     if ((!pair.left_kerb && !pair.right_kerb) || pair.crosses_kerb) return;
     if (!boundaries_[pair.left].is_confirmed() || !boundaries_[pair.right].is_confirmed()) return;
     Occupied& left_taken = taken_.beside({boundaries_[pair.left].marking.id, pair.inner(Side::left)});
@@ -110,7 +112,7 @@ class Divisions {
  private:
   /// Cross-sections of a pair. They are valid where no edge, confirmed line or lane lies in them and they are
   /// not a verge.
-  std::vector<CrossSection> unmarked(const BoundaryPair& pair, const LaneBorder& left,
+  std::vector<CrossSection> unmarked(const boundaries::BoundaryPair& pair, const LaneBorder& left,
                                      const LaneBorder& right) const {
     const bool two_kerbs = pair.left_kerb && pair.right_kerb;
     const double max_width_m = 2.0 * (two_kerbs ? config_.max_kerb_width_m : config_.max_width_m);
@@ -129,16 +131,17 @@ class Divisions {
   }
 
   /// Divides a run at the lines that the divider continues, or in the middle.
-  std::optional<Halves> divide(std::span<const CrossSection> run, const BoundaryPair& pair) const {
+  std::optional<Halves> divide(std::span<const CrossSection> run,
+                               const boundaries::BoundaryPair& pair) const {
     const auto before = line_beyond(run.front(), run[1], pair, boundaries_);
     const auto after = line_beyond(run.back(), run[run.size() - 2], pair, boundaries_);
     const double at_begin = before ? *before : after.value_or(0.5);
     const auto max_width_m = [&](bool kerb) { return kerb ? config_.max_kerb_width_m : config_.max_width_m; };
-    return laneloom::divide(run, at_begin, after.value_or(at_begin), config_.min_width_m,
-                            {max_width_m(pair.left_kerb), max_width_m(pair.right_kerb)});
+    return lanes::divide(run, at_begin, after.value_or(at_begin), config_.min_width_m,
+                         {max_width_m(pair.left_kerb), max_width_m(pair.right_kerb)});
   }
 
-  const Boundaries& boundaries_;
+  const boundaries::Boundaries& boundaries_;
   const LaneConfig& config_;
   const TakenSpace lanes_;  ///< the lanes between detected boundaries
   TakenSpace& taken_;
@@ -147,13 +150,13 @@ class Divisions {
 
 }  // namespace
 
-std::vector<InferredBoundary> divide_unmarked(const std::vector<BoundaryPair>& pairs,
-                                              const Boundaries& boundaries, const LaneConfig& config,
-                                              TakenSpace& taken) {
+std::vector<InferredBoundary> divide_unmarked(const std::vector<boundaries::BoundaryPair>& pairs,
+                                              const boundaries::Boundaries& boundaries,
+                                              const LaneConfig& config, TakenSpace& taken) {
   if (!config.unmarked_roads) return {};
   Divisions divisions(boundaries, config, taken);
-  for (const BoundaryPair& pair : pairs) divisions.add(pair);
+  for (const boundaries::BoundaryPair& pair : pairs) divisions.add(pair);
   return divisions.take();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lanes

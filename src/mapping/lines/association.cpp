@@ -9,19 +9,20 @@
 #include "mapping/lines/line_evidence.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kMaxStations = 3.0;  // between the feet of two samples that follow one another
 constexpr double kGoodFit = 0.5;      // mean over the samples, which 0.7 of the gate would have
 
 /// The deviations per sample, interpolated from those that were given per vertex.
-std::vector<double> deviations(const ObservedMarking& marking, const SampledDetection& detection) {
+std::vector<double> deviations(const markings::ObservedMarking& marking, const SampledDetection& detection) {
   const std::vector<double> arc_m = arc_lengths(marking.points);
   std::vector<double> result;
   result.reserve(detection.samples.size());
   for (std::size_t i = 0; i < detection.samples.size(); ++i)
-    result.push_back(deviation_at(arc_m, marking.stddev_m, static_cast<double>(i) * detection.spacing_m));
+    result.push_back(
+        markings::deviation_at(arc_m, marking.stddev_m, static_cast<double>(i) * detection.spacing_m));
   return result;
 }
 
@@ -74,11 +75,11 @@ bool is_led_through(const SampleMatch& from, const SampleMatch& to) {
          kMaxStations * static_cast<double>(to.sample - from.sample);
 }
 
-std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,
+std::vector<SampledDetection> sample_detections(const std::vector<markings::ObservedMarking>& markings,
                                                 const FusionConfig& config) {
   std::vector<SampledDetection> detections;
   detections.reserve(markings.size());
-  for (const ObservedMarking& marking : markings) {
+  for (const markings::ObservedMarking& marking : markings) {
     const MeasuredPolyline line(marking.points);
     if (line.length() <= 0.0) continue;
     SampledDetection detection{.samples = line.resample(config.sample_step_m),
@@ -193,4 +194,4 @@ Association associate(LineMatcher& matcher, std::vector<SampledDetection> detect
   return association;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -11,7 +11,7 @@
 #include "mapping/lines/nearest_stations.hpp"
 #include "mapping/markings/preprocess.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// A sample of a detection with its foot on a line.
 struct SampleMatch {
@@ -46,7 +46,7 @@ struct SampledDetection {
   }
 };
 
-std::vector<SampledDetection> sample_detections(const std::vector<ObservedMarking>& markings,
+std::vector<SampledDetection> sample_detections(const std::vector<markings::ObservedMarking>& markings,
                                                 const FusionConfig& config);
 
 /// The detections of a frame, and the lines that they observe.
@@ -115,4 +115,4 @@ class LineMatcher {
 /// Matches the detections, and marks the samples that were matched.
 Association associate(LineMatcher& matcher, std::vector<SampledDetection> detections);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -6,7 +6,7 @@
 
 #include "laneloom/element_names.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kRing_m = 10.0;   // width of a range bin of the rates
@@ -139,4 +139,4 @@ double DetectionModel::log_odds(MarkingType type, const Confidences& confidences
   return std::clamp(ratio, -kMostAgainst, kMostFor);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -7,7 +7,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/lines/line_map.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// A mean that is learned. It starts from a prior, which counts as `weight` values. Once it has `max_weight`
 /// values, old ones are forgotten gradually.
@@ -74,4 +74,4 @@ class DetectionModel {
   std::array<LearnedMean, kMarkingTypeCount> deficits_;  ///< by how much wrong lines are less confident
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -7,7 +7,7 @@
 
 #include "mapping/geometry/left_of.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -44,7 +44,7 @@ std::vector<Equation> equations(const LineMatch& match, const SampledDetection& 
     const std::size_t k = station_of(sample, line);
     if (!sample.foot.inside || line.stations[k].log_odds < min_log_odds) continue;
     const Eigen::Vector2d along = R_map_body.transpose() * direction_at(line, k);
-    const Eigen::Vector2d normal = left_of(along);
+    const Eigen::Vector2d normal = geometry::left_of(along);
     const Point& point = detection.samples[sample.sample];
     const Eigen::Vector2d arm = R_map_body.transpose() * (point - T_map_body.translation()).head<2>();
     rows.push_back(
@@ -89,7 +89,7 @@ FrameError estimate_error(const std::vector<LineMatch>& matches,
 
 Eigen::Vector2d shifted_by(const FrameError& error, const Point& point, const Eigen::Isometry3d& T_map_body) {
   const Eigen::Vector2d arm = (point - T_map_body.translation()).head<2>();
-  return heading_of(T_map_body) * error.head<2>() + error.z() * left_of(arm);
+  return heading_of(T_map_body) * error.head<2>() + error.z() * geometry::left_of(arm);
 }
 
 FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMatcher& matcher,
@@ -103,4 +103,4 @@ FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMat
   return passing;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -7,7 +7,7 @@
 #include "mapping/lines/association.hpp"
 #include "mapping/lines/line_map.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// The error that all detections of a frame have in common, in the body frame: metres ahead and to the left
 /// of their true places, and radians by which they are turned about the vehicle.
@@ -29,4 +29,4 @@ Eigen::Vector2d shifted_by(const FrameError& error, const Point& point, const Ei
 FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMatcher& matcher,
                        std::vector<SampledDetection>& detections, FrameError& lasting);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

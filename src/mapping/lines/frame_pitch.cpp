@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kFurthest_m = 60.0;       // ahead; further samples are left out
@@ -129,4 +129,4 @@ void unstretch(double stretch_per_m, const Eigen::Isometry3d& T_map_body,
       sample.head<2>() -= stretched_by(stretch_per_m, sample, T_map_body);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -5,7 +5,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/lines/association.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// The distance ahead from which on a frame is stretched. Nearer detections hardly depend on the pitch.
 inline constexpr double kPitchPivot_m = 8.0;
@@ -23,4 +23,4 @@ Eigen::Vector2d stretched_by(double stretch_per_m, const Point& point, const Eig
 void unstretch(double stretch_per_m, const Eigen::Isometry3d& T_map_body,
                std::vector<SampledDetection>& detections);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

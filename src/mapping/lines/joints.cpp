@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kEndStations = 3.0;  // a detection that came this near to an end saw it
@@ -32,7 +32,7 @@ struct LineEnd {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   const std::vector<std::size_t>* views = nullptr;
 
-  ElementId id() const { return end_id(line, end); }
+  ElementId id() const { return markings::end_id(line, end); }
 };
 
 /// The ends of the lines, by ascending id. Stoplines are left out, since nothing continues them.
@@ -56,10 +56,10 @@ bool shared(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b
 }  // namespace
 
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
-                  PairHistories& joints) {
+                  markings::PairHistories& joints) {
   const std::vector<Views> views = views_of_ends(matches, lines);
   const std::vector<LineEnd> ends = ends_of(lines, views);
-  std::vector<PairSighting> near;
+  std::vector<markings::PairSighting> near;
   for (auto a = ends.begin(); a != ends.end(); ++a) {
     for (auto b = a + 1; b != ends.end(); ++b) {
       if (a->line == b->line || (a->place - b->place).squaredNorm() > max_gap_m * max_gap_m) continue;
@@ -71,4 +71,4 @@ void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>
   joints = continued(joints, near);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

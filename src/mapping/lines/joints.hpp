@@ -7,11 +7,11 @@
 #include "mapping/lines/line_map.hpp"
 #include "mapping/markings/pair_history.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// Counts how a frame's detections saw ends of lines that lie within `max_gap_m` of each other. `together`:
 /// one detection ran through both ends. `apart`: two detections saw one end each.
 void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>& lines, double max_gap_m,
-                  PairHistories& joints);
+                  markings::PairHistories& joints);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

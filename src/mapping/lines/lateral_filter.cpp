@@ -6,7 +6,7 @@
 #include "mapping/geometry/reproducible.hpp"
 #include "mapping/lines/network_model.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kShared = NetworkModel::kShared;
@@ -29,7 +29,7 @@ void LateralFilter::predict(const LateralView& view) {
   // A better view than the one before has its error, scaled down to the deviation of the better view. A worse
   // view has the error of the one before and a further one of its own, so that nothing is scaled up.
   const double ratio = stddev_m_ > 0.0 ? std::min(1.0, view.stddev_m / stddev_m_) : 1.0;
-  const double kept = reproducible::exp(-changed_m / view.correlation_m) * ratio;
+  const double kept = geometry::reproducible::exp(-changed_m / view.correlation_m) * ratio;
   error_m_ *= kept;
   covariance_.row(1) *= kept;
   covariance_.col(1) *= kept;
@@ -54,4 +54,4 @@ double LateralFilter::update(const LateralView& view) {
   return gain.x() * surprise_m;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

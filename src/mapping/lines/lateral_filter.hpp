@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// One view of a place on a line.
 struct LateralView {
@@ -43,4 +43,4 @@ class LateralFilter {
   double stddev_m_;             ///< of the last view
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -7,7 +7,7 @@
 
 #include "mapping/geometry/reproducible.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr std::size_t kMaxLines = 256;  // a flood of false detections must not make frames slow
@@ -34,7 +34,7 @@ bool View::detects(MarkingType type) const {
 
 bool View::unlimited() const { return frame->field_of_view.empty() && frame->occluded_areas.empty(); }
 
-bool View::sees(const Point& point_map, MarkingType type, const MapBox& range) const {
+bool View::sees(const Point& point_map, MarkingType type, const geometry::MapBox& range) const {
   if (!detects(type)) return false;
   const Point point = T_body_map * point_map;
   const bool in_view =
@@ -120,7 +120,7 @@ void credit_observed(const View& view, const Association& association, const Fus
   }
 }
 
-void discount_unobserved(const View& view, const MapBox& range, const FusionConfig& config,
+void discount_unobserved(const View& view, const geometry::MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines) {
   for (Line& line : lines) {
     const MarkingType type = line.type();
@@ -136,7 +136,8 @@ void discount_unobserved(const View& view, const MapBox& range, const FusionConf
       if (in_view) station.sight = Sight::missed;
       const bool confirmed = station.log_odds >= config.confirm_log_odds;
       const double news = confirmed ? view.news : std::max(view.news, kStandingShare);
-      station.log_odds += news * config.miss_log_odds * reproducible::log(1.0 - model.rate(type, place));
+      station.log_odds +=
+          news * config.miss_log_odds * geometry::reproducible::log(1.0 - model.rate(type, place));
     }
   }
 }
@@ -144,7 +145,7 @@ void discount_unobserved(const View& view, const MapBox& range, const FusionConf
 namespace {
 
 /// The pieces of a line that are left without its dead stations, in order.
-std::vector<Line> living_pieces(Line& line, const MapBox& range, const FusionConfig& config) {
+std::vector<Line> living_pieces(Line& line, const geometry::MapBox& range, const FusionConfig& config) {
   const auto dead = [&](const Station& s) {
     return s.log_odds < config.min_log_odds || !range.keeps(s.position);
   };
@@ -176,10 +177,11 @@ void forget_least_believed(std::vector<Line>& lines) {
 
 }  // namespace
 
-std::vector<Relative> prune_lines(const MapBox& range, const FusionConfig& config, DetectionModel& model,
-                                  std::vector<Line>& lines, IdSource& ids) {
+std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const FusionConfig& config,
+                                            DetectionModel& model, std::vector<Line>& lines,
+                                            markings::IdSource& ids) {
   std::vector<Line> kept, cut_off;
-  std::vector<Relative> relatives;
+  std::vector<markings::Relative> relatives;
   for (Line& line : lines) {
     const bool leaves =
         std::ranges::any_of(line.stations, [&](const Station& s) { return !range.keeps(s.position); });
@@ -204,4 +206,4 @@ std::vector<Relative> prune_lines(const MapBox& range, const FusionConfig& confi
   return relatives;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

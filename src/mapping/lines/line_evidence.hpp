@@ -12,7 +12,7 @@
 #include "mapping/markings/id_source.hpp"
 #include "mapping/markings/relatives.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// The view of a frame on the map.
 struct View {
@@ -27,7 +27,7 @@ struct View {
   bool unlimited() const;
 
   /// Whether a marking of `type` at a point of the map would have been seen.
-  bool sees(const Point& point_map, MarkingType type, const MapBox& range) const;
+  bool sees(const Point& point_map, MarkingType type, const geometry::MapBox& range) const;
 };
 
 /// Log odds that a line exists: the mean of its stations plus those of its confidences.
@@ -45,14 +45,15 @@ void credit_observed(const View& view, const Association& association, const Fus
 /// Lowers the evidence of the stations that were in view and not observed, the more the more reliably the
 /// network sees lines there. The model learns how often it sees established lines, within the range and its
 /// margin.
-void discount_unobserved(const View& view, const MapBox& range, const FusionConfig& config,
+void discount_unobserved(const View& view, const geometry::MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines);
 
 /// Removes stations that have lost their evidence or left the range. A line that loses stations in between is
 /// split; its longest piece keeps the id. Returns the other pieces, each with the line that it was cut off
 /// from. The model learns which lines were wrong. Of more than 256 lines, those of the least evidence are
 /// removed.
-std::vector<Relative> prune_lines(const MapBox& range, const FusionConfig& config, DetectionModel& model,
-                                  std::vector<Line>& lines, IdSource& ids);
+std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const FusionConfig& config,
+                                            DetectionModel& model, std::vector<Line>& lines,
+                                            markings::IdSource& ids);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -6,7 +6,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 /// Whether a detection ran on a line from one matched sample to the next.
@@ -82,4 +82,4 @@ void fuse_matches(const Association& association, const Viewpoint& from, const F
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -9,11 +9,11 @@
 #include "mapping/lines/line_map.hpp"
 #include "mapping/lines/station_update.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// Moves the observed stations towards the observations, each weighed by its deviation. Counts the votes for
 /// types and styles. Teaches the networks.
 void fuse_matches(const Association& association, const Viewpoint& from, const FusionConfig& config,
                   Networks& networks, std::vector<Line>& lines);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -7,7 +7,7 @@
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/lines/line_evidence.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 /// The least distance between stations. The last one may be nearer, so that a line reaches as far as it was
@@ -19,7 +19,7 @@ double min_spacing(bool is_last, const FusionConfig& config) {
 /// Extends lines by the samples of detections beyond their ends.
 class Growth {
  public:
-  Growth(const Viewpoint& from, const MapBox& box, const FusionConfig& config)
+  Growth(const Viewpoint& from, const geometry::MapBox& box, const FusionConfig& config)
       : from_(from), box_(box), config_(config) {}
 
   void extend(const LineMatch& match, End end, SampledDetection& detection, Line& line) const {
@@ -35,7 +35,7 @@ class Growth {
     if (ahead.empty()) return;
     const double lateral_m = foot_at(line, last, detection.samples[outermost.sample]).lateral_m;
     Point offset = Point::Zero();
-    offset.head<2>() = lateral_m * left_of(direction_at(line, last));
+    offset.head<2>() = lateral_m * geometry::left_of(direction_at(line, last));
     if (end == End::front) std::ranges::reverse(line.stations);
     extend_back(ahead, offset, detection, line);
     if (end == End::front) std::ranges::reverse(line.stations);
@@ -89,12 +89,13 @@ class Growth {
   }
 
   const Viewpoint& from_;
-  const MapBox& box_;
+  const geometry::MapBox& box_;
   const FusionConfig& config_;
 };
 
 /// The first sample from `begin` on that a line explains, or that is beyond the range.
-std::size_t unexplained_end(const SampledDetection& detection, std::size_t begin, const MapBox& box) {
+std::size_t unexplained_end(const SampledDetection& detection, std::size_t begin,
+                            const geometry::MapBox& box) {
   std::size_t end = begin;
   while (end < detection.samples.size() && !detection.explained[end] && box.keeps(detection.samples[end]))
     ++end;
@@ -103,7 +104,7 @@ std::size_t unexplained_end(const SampledDetection& detection, std::size_t begin
 
 }  // namespace
 
-void extend_lines(const Viewpoint& from, const MapBox& box, const FusionConfig& config,
+void extend_lines(const Viewpoint& from, const geometry::MapBox& box, const FusionConfig& config,
                   Association& association, std::vector<Line>& lines) {
   const Growth growth(from, box, config);
   // The matches know the stations by number: the front ends come last, and each end is extended once.
@@ -120,7 +121,8 @@ void extend_lines(const Viewpoint& from, const MapBox& box, const FusionConfig& 
 }
 
 std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, const Viewpoint& from,
-                            const MapBox& box, const FusionConfig& config, const DetectionModel& model) {
+                            const geometry::MapBox& box, const FusionConfig& config,
+                            const DetectionModel& model) {
   std::vector<Line> lines;
   for (const SampledDetection& detection : detections) {
     for (std::size_t begin = 0, end = 0; begin < detection.samples.size(); begin = std::max(end, begin + 1)) {
@@ -143,4 +145,4 @@ std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, con
   return lines;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -10,15 +10,16 @@
 #include "mapping/lines/line_map.hpp"
 #include "mapping/lines/station_update.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// Extends lines where a detection runs on beyond their ends, within the range. The new stations follow the
 /// order of the detection, also round a sharp tip. Marks the samples that the lines then explain.
-void extend_lines(const Viewpoint& from, const MapBox& box, const FusionConfig& config,
+void extend_lines(const Viewpoint& from, const geometry::MapBox& box, const FusionConfig& config,
                   Association& association, std::vector<Line>& lines);
 
 /// Makes new lines of the parts of detections that no line explains. They have no ids and stamps.
 std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, const Viewpoint& from,
-                            const MapBox& box, const FusionConfig& config, const DetectionModel& model);
+                            const geometry::MapBox& box, const FusionConfig& config,
+                            const DetectionModel& model);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -6,7 +6,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kCell_m = 1.0;  // as the gate and the spacing of stations: searches meet few cells
@@ -80,4 +80,4 @@ StationGrid station_grid(const std::vector<Line>& lines, bool of_stoplines) {
   return {std::move(all), kCell_m};
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -12,7 +12,7 @@
 #include "mapping/lines/network_model.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// How a frame saw a place on a line.
 enum class Sight : std::uint8_t { out_of_view, missed, observed };
@@ -23,7 +23,7 @@ struct Station {
   LateralFilter lateral;                               ///< estimate of the position across the line
   double log_odds = 0.0;                               ///< that the line is there, by how often it was seen
   std::array<double, kMarkingTypeCount> type_votes{};  ///< one vote per observation
-  StyleVotes style_votes{};                            ///< one vote per observation
+  markings::StyleVotes style_votes{};                  ///< one vote per observation
   double moved_m = 0.0;                                ///< to the left, since the station was made
   std::array<FarView, NetworkModel::kNodes_m.size()> far_views{};  ///< the first view at each range
   Sight sight = Sight::out_of_view;                                ///< in the present frame; not saved
@@ -116,9 +116,9 @@ struct StationPlace {
 };
 
 /// Finds the stations of one instant by place.
-using StationGrid = PointGrid<StationPlace>;
+using StationGrid = geometry::PointGrid<StationPlace>;
 
 /// The stations of all stoplines, or of all other lines.
 StationGrid station_grid(const std::vector<Line>& lines, bool of_stoplines);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -13,10 +13,11 @@
 #include "mapping/lines/line_publishing.hpp"
 #include "mapping/markings/dashes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
-Viewpoint viewpoint(const ObservedFrame& observed, std::size_t source, const NetworkModel& network) {
+Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
+                    const NetworkModel& network) {
   return {.T_map_body = observed.T_map_body,
           .stamp_ns = observed.frame.stamp_ns,
           .source = static_cast<std::uint32_t>(source),
@@ -27,8 +28,9 @@ Viewpoint viewpoint(const ObservedFrame& observed, std::size_t source, const Net
 
 }  // namespace
 
-FusedMarkings LineMapper::fuse(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
-                               IdSource& ids, const StageLog& log) {
+markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed,
+                                         const geometry::Scene& scene, const MapperConfig& config,
+                                         markings::IdSource& ids, const markings::StageLog& log) {
   const FusionConfig& fusion = config.fusion;
   const Point origin = observed.T_map_body.translation();
   const std::size_t source = networks_.number(observed.frame.source, scene.frame, config);
@@ -50,18 +52,18 @@ FusedMarkings LineMapper::fuse(const ObservedFrame& observed, const Scene& scene
     line.first_seen_ns = line.last_seen_ns = observed.frame.stamp_ns;
     lines_.push_back(std::move(line));
   }
-  std::vector<Relative> relatives = merge_doubles(fusion, lines_, doubles_);
+  std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
   std::ranges::copy(prune_lines(scene.box, fusion, network.detection, lines_, ids),
                     std::back_inserter(relatives));
   log.done(Stage::line_set);
 
-  return log.done(Stage::polylines,
-                  FusedMarkings{publish_lines(lines_, doubles_, config), joints_, std::move(relatives)});
+  return log.done(Stage::polylines, markings::FusedMarkings{publish_lines(lines_, doubles_, config), joints_,
+                                                            std::move(relatives)});
 }
 
 /// Samples the detections, takes the suspected pitch and pose error of the frame out of them, and matches
 /// them with the lines. Notes the suspected errors in `from`.
-Association LineMapper::associated(const ObservedFrame& observed, const Network& network,
+Association LineMapper::associated(const markings::ObservedFrame& observed, const Network& network,
                                    const FusionConfig& config, Viewpoint& from) {
   const Eigen::Isometry3d& T_map_body = observed.T_map_body;
   auto detections = sample_detections(join_dashes(observed.markings), config);
@@ -79,4 +81,4 @@ void LineMapper::reset() {
   networks_ = std::move(networks);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -14,14 +14,15 @@
 #include "mapping/markings/preprocess.hpp"
 #include "mapping/markings/stage_log.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// Our method of fusion. It follows lines over time; each station of a line has its own position and
 /// evidence. A value type.
 class LineMapper {
  public:
-  FusedMarkings fuse(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
-                     IdSource& ids, const StageLog& log);
+  markings::FusedMarkings fuse(const markings::ObservedFrame& observed, const geometry::Scene& scene,
+                               const MapperConfig& config, markings::IdSource& ids,
+                               const markings::StageLog& log);
 
   /// Forgets everything except what was learned of the networks.
   void reset();
@@ -35,14 +36,14 @@ class LineMapper {
   }
 
  private:
-  Association associated(const ObservedFrame& observed, const Network& network, const FusionConfig& config,
-                         Viewpoint& from);
+  Association associated(const markings::ObservedFrame& observed, const Network& network,
+                         const FusionConfig& config, Viewpoint& from);
 
   std::vector<Line> lines_;
-  PairHistories doubles_;                          ///< how lines that lie side by side were seen
-  PairHistories joints_;                           ///< how ends of lines that lie near each other were seen
+  markings::PairHistories doubles_;                ///< how lines that lie side by side were seen
+  markings::PairHistories joints_;                 ///< how ends of lines that lie near each other were seen
   FrameError lasting_error_ = FrameError::Zero();  ///< running mean, see align_frame()
   Networks networks_;                              ///< what was learned of the sources
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

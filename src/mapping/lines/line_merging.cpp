@@ -9,7 +9,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/lines/line_evidence.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
@@ -32,7 +32,8 @@ std::vector<Polyline> courses_of(const std::vector<Line>& lines) {
 /// Whether a line passes within `distance_m` of a point, at a station or on the two segments at it.
 bool passes(const Polyline& course, std::size_t station, const Point& point, double distance_m) {
   const auto is_near = [&](const Point& place) {
-    return (place - point).head<2>().squaredNorm() < distance_m * distance_m && same_level(place, point);
+    return (place - point).head<2>().squaredNorm() < distance_m * distance_m &&
+           geometry::same_level(place, point);
   };
   if (is_near(course[station])) return true;
   const auto is_near_between = [&](const Point& from, const Point& to) {
@@ -137,17 +138,18 @@ double weight(const Line& line, const FusionConfig& config) {
   return static_cast<double>(line.stations.size()) * std::max(0.0, above);
 }
 
-std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
-                                    PairHistories& doubles) {
-  PairHistories kept;
-  std::vector<Relative> merged;
+std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
+                                              markings::PairHistories& doubles) {
+  markings::PairHistories kept;
+  std::vector<markings::Relative> merged;
   std::vector<bool> gone(lines.size(), false);
   const std::vector<IndexPair> kerbs = doubled_kerbs(lines, config);
   for (const auto& [i, j] : side_by_side(lines, config)) {
     if (gone[i] || gone[j]) continue;
     const bool i_seen = mostly_observed(lines[i]), j_seen = mostly_observed(lines[j]);
     const auto [a, b] = std::minmax(lines[i].id, lines[j].id);
-    const PairHistory history = continued(doubles, PairSighting{a, b, i_seen && j_seen, i_seen != j_seen});
+    const markings::PairHistory history =
+        continued(doubles, markings::PairSighting{a, b, i_seen && j_seen, i_seen != j_seen});
     if (!seen_apart(history) && !std::ranges::binary_search(kerbs, IndexPair(i, j))) {
       kept.push_back(history);
       continue;
@@ -163,4 +165,4 @@ std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line
   return merged;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

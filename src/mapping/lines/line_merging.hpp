@@ -7,7 +7,7 @@
 #include "mapping/markings/pair_history.hpp"
 #include "mapping/markings/relatives.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// The weight of a line against another one in its place: its length times its evidence.
 double weight(const Line& line, const FusionConfig& config);
@@ -16,7 +16,7 @@ double weight(const Line& line, const FusionConfig& config);
 /// real lines are seen together; a line and its double take turns. Two road edges that lie within 0.3 m of
 /// each other are doubles however often they are seen together. Of a line and its double, the one of less
 /// weight is removed. Returns the removed lines, each with the line that stays.
-std::vector<Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
-                                    PairHistories& doubles);
+std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
+                                              markings::PairHistories& doubles);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

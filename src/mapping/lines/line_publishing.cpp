@@ -10,7 +10,7 @@
 #include "mapping/lines/line_merging.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 using Stations = std::span<const Station>;
@@ -43,7 +43,7 @@ std::vector<StyleRange> styles_along(Stations stations, const Polyline& points, 
   const std::vector<double> arc = arc_lengths(points);
   std::vector<StyleRange> styles;
   for (std::size_t i = 0; i + 1 < stations.size(); ++i)
-    append_style(styles, {{arc[i], arc[i + 1]}, voted(stations[i].style_votes, config)});
+    markings::append_style(styles, {{arc[i], arc[i + 1]}, markings::voted(stations[i].style_votes, config)});
   return styles;
 }
 
@@ -62,10 +62,10 @@ double existence_probability(double log_odds, const FusionConfig& config) {
 
 /// The lines that lie beside a stronger one of their type. Each is taken for a double of it until the two are
 /// seen together.
-std::vector<ElementId> shadows(const std::vector<Line>& lines, const PairHistories& doubles,
+std::vector<ElementId> shadows(const std::vector<Line>& lines, const markings::PairHistories& doubles,
                                const FusionConfig& config) {
   std::vector<ElementId> held_back;
-  for (const PairHistory& pair : doubles) {
+  for (const markings::PairHistory& pair : doubles) {
     // Two lines that converge were seen together from the start on.
     const bool never_apart = pair.apart == 0.0 && pair.together > 0.0;
     if (never_apart || seen_together(pair)) continue;
@@ -101,7 +101,7 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
 
 }  // namespace
 
-std::vector<Marking> publish_lines(const std::vector<Line>& lines, const PairHistories& doubles,
+std::vector<Marking> publish_lines(const std::vector<Line>& lines, const markings::PairHistories& doubles,
                                    const MapperConfig& config) {
   const FusionConfig& fusion = config.fusion;
   const std::vector<ElementId> held_back = shadows(lines, doubles, fusion);
@@ -117,4 +117,4 @@ std::vector<Marking> publish_lines(const std::vector<Line>& lines, const PairHis
   return markings;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -6,7 +6,7 @@
 
 #include "mapping/geometry/levels.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kRounding = 1.0 + 1e-9;
@@ -51,7 +51,7 @@ const std::vector<NearestStation>& NearestStations::around(const Point& point) {
   grid_.around(point, furthest_m_, [this, reach_m2, center = point](const StationPlace& entry) {
     const Point offset = entry.position - center;
     const double squared_m2 = offset.head<2>().squaredNorm();
-    if (squared_m2 > reach_m2[entry.line] || !same_level(entry.position, center)) return;
+    if (squared_m2 > reach_m2[entry.line] || !geometry::same_level(entry.position, center)) return;
     std::uint32_t& slot = slots_[entry.line];
     if (slot == kNone) {
       slot = static_cast<std::uint32_t>(near_.size());
@@ -63,4 +63,4 @@ const std::vector<NearestStation>& NearestStations::around(const Point& point) {
   return near_;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

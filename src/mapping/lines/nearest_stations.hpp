@@ -5,7 +5,7 @@
 
 #include "mapping/lines/line_map.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// The station of a line that is nearest to a point.
 struct NearestStation {
@@ -33,4 +33,4 @@ class NearestStations {
   std::vector<NearestStation> near_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

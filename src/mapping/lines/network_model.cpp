@@ -8,7 +8,7 @@
 
 #include "mapping/geometry/reproducible.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kMemory = 20000.0;    // views; those of neighbouring stations are nearly the same
@@ -67,9 +67,9 @@ NetworkModel::NetworkModel(const FusionConfig& config, const NetworkProfile& pro
   }
   const auto [correlation_m, pairs] = known(kCorrelation, {kPriorCorrelation_m, kPriorPairs});
   pairs_ = pairs;
-  products_ =
-      pairs * kShared *
-      reproducible::exp(-kPriorDistance_m / std::clamp(correlation_m, kMinCorrelation_m, kMaxCorrelation_m));
+  products_ = pairs * kShared *
+              geometry::reproducible::exp(-kPriorDistance_m /
+                                          std::clamp(correlation_m, kMinCorrelation_m, kMaxCorrelation_m));
   distances_m_ = pairs * kPriorDistance_m;
   pitch_.start_with(known(kPitchGain, {}));
   alignment_.start_with(known(kAlignmentGain, {}));
@@ -84,7 +84,7 @@ double NetworkModel::stddev_m(double range_m) const {
 
 double NetworkModel::correlation_m() const {
   const double correlation = std::clamp(products_ / pairs_ / kShared, 0.01, 0.99);
-  return std::clamp(-distances_m_ / pairs_ / reproducible::log(correlation), kMinCorrelation_m,
+  return std::clamp(-distances_m_ / pairs_ / geometry::reproducible::log(correlation), kMinCorrelation_m,
                     kMaxCorrelation_m);
 }
 
@@ -125,4 +125,4 @@ NetworkProfile NetworkModel::profile() const {
   return profile;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

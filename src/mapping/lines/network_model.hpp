@@ -8,7 +8,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/network_profile.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// A view of a place from far, kept until the place is seen from near.
 struct FarView {
@@ -94,4 +94,4 @@ class NetworkModel {
   Gain pitch_, alignment_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

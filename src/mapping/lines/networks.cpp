@@ -6,7 +6,7 @@
 #include "laneloom/error.hpp"
 #include "laneloom/limits.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kNewPlace_m = 0.3;
@@ -66,4 +66,4 @@ void check_profiles(const MapperConfig& config) {
                               .append(" is not a value that is learned of a network"));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -10,7 +10,7 @@
 #include "mapping/lines/detection_model.hpp"
 #include "mapping/lines/network_model.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// Tells how much of a frame is news. Views from one place err alike. All views from where the vehicle stands
 /// together count less than two.
@@ -68,4 +68,4 @@ class Networks {
 /// Throws ConfigError where a profile of `config` names a value that no network has.
 void check_profiles(const MapperConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

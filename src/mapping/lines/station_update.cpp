@@ -5,7 +5,7 @@
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/lines/frame_pitch.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kNear_m = 10.0;       // a view from within this range is taken as right
@@ -49,17 +49,17 @@ void observe(const Observation& seen, const Viewpoint& from, Station& station) {
                                                 .seen_from = from.T_map_body.translation().head<2>(),
                                                 .stamp_ns = from.stamp_ns});
   station.moved_m += step_m;
-  station.position.head<2>() += step_m * left_of(seen.direction);
+  station.position.head<2>() += step_m * geometry::left_of(seen.direction);
   const double share = seen.lateral_m != 0.0 ? std::clamp(step_m / seen.lateral_m, 0.0, 1.0) : 0.0;
   station.position.z() += share * seen.height_m;
 }
 
 void learn(const Observation& seen, const Viewpoint& from, Station& station, Networks& networks) {
   const double range_m = distance(station.position, from.T_map_body.translation());
-  const double stretched_m =
-      left_of(seen.direction).dot(stretched_by(from.stretch_per_m, station.position, from.T_map_body));
+  const double stretched_m = geometry::left_of(seen.direction)
+                                 .dot(stretched_by(from.stretch_per_m, station.position, from.T_map_body));
   const double misplaced_m =
-      left_of(seen.direction).dot(shifted_by(from.error, station.position, from.T_map_body));
+      geometry::left_of(seen.direction).dot(shifted_by(from.error, station.position, from.T_map_body));
   const double said_m =
       station.moved_m + seen.lateral_m + from.pitch_gain * stretched_m + from.alignment_gain * misplaced_m;
   auto& views = station.far_views;
@@ -77,4 +77,4 @@ void learn(const Observation& seen, const Viewpoint& from, Station& station, Net
   views.fill({});
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

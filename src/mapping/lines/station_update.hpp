@@ -9,7 +9,7 @@
 #include "mapping/lines/line_map.hpp"
 #include "mapping/lines/networks.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 
 /// The viewpoint of a frame: its pose and network, and the errors that are suspected of it.
 struct Viewpoint {
@@ -42,4 +42,4 @@ void observe(const Observation& seen, const Viewpoint& from, Station& station);
 /// Remembers a view from far. A view from near tells the networks how wrong their far views were.
 void learn(const Observation& seen, const Viewpoint& from, Station& station, Networks& networks);
 
-}  // namespace laneloom
+}  // namespace laneloom::lines

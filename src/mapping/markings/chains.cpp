@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::markings {
 namespace {
 
 /// The end that each end of each line is joined to.
@@ -64,4 +64,4 @@ std::vector<std::vector<Link>> chains(std::vector<Join> joins, std::size_t count
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

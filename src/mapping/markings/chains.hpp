@@ -5,7 +5,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// One end of a line, by the number of the line.
 struct LineEnd {
@@ -29,4 +29,4 @@ struct Link {
 /// each of `count` lines once. A chain runs as its line of the lowest number does.
 std::vector<std::vector<Link>> chains(std::vector<Join> joins, std::size_t count);
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

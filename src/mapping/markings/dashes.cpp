@@ -8,7 +8,7 @@
 #include "mapping/geometry/levels.hpp"
 #include "mapping/markings/chains.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 namespace {
 
 constexpr double kMaxDash_m = 9.0;      // the longest dashes are painted shorter, but may be seen too long
@@ -55,7 +55,7 @@ std::vector<Join> possible_joins(const std::vector<ObservedMarking>& markings) {
     for (auto b = a + 1; b != tips.end(); ++b) {
       if (a->id.line == b->id.line || (!a->of_dash && !b->of_dash)) continue;
       const Eigen::Vector2d gap = (b->place - a->place).head<2>();
-      if (gap.squaredNorm() > kMaxGap_m * kMaxGap_m || !same_level(a->place, b->place)) continue;
+      if (gap.squaredNorm() > kMaxGap_m * kMaxGap_m || !geometry::same_level(a->place, b->place)) continue;
       if (goes_on(*a, gap) && goes_on(*b, -gap)) joins.push_back({gap.norm(), a->id, b->id});
     }
   }
@@ -95,4 +95,4 @@ std::vector<ObservedMarking> join_dashes(std::vector<ObservedMarking> markings) 
   return result;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -4,7 +4,7 @@
 
 #include "mapping/markings/preprocess.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// Joins lanelines that lie in a row, because some networks show each painted dash by itself. Of two
 /// neighbours in a row, at least one is as short as a dash. A row becomes one laneline that runs through the
@@ -15,4 +15,4 @@ namespace laneloom {
 /// marking of another type, stays unchanged.
 std::vector<ObservedMarking> join_dashes(std::vector<ObservedMarking> markings);
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

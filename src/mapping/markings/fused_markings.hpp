@@ -6,7 +6,7 @@
 #include "mapping/markings/pair_history.hpp"
 #include "mapping/markings/relatives.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// The result of a method of fusion after a frame.
 struct FusedMarkings {
@@ -15,4 +15,4 @@ struct FusedMarkings {
   std::vector<Relative> relatives;  ///< markings that merged or were split in this frame
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -2,7 +2,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// Gives out ids, each once, in ascending order.
 class IdSource {
@@ -20,4 +20,4 @@ class IdSource {
   ElementId next_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

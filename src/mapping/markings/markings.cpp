@@ -5,7 +5,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/stretches.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 namespace {
 
 /// The mean of both existence probabilities, weighted by length; -1 where one of them is not estimated.
@@ -44,7 +44,7 @@ double deviation_at(const std::vector<double>& arc_m, const std::vector<double>&
 double dashed_excess_m(const Marking& marking, const Stretch& range) {
   double excess_m = 0.0;
   for (const StyleRange& style : marking.styles) {
-    const double common_m = common(style.range, range).length();
+    const double common_m = geometry::common(style.range, range).length();
     if (common_m <= 0.0) continue;
     if (style.style == MarkingStyle::dashed) excess_m += common_m;
     if (style.style == MarkingStyle::solid) excess_m -= common_m;
@@ -76,7 +76,7 @@ void reverse(Marking& marking) {
   std::ranges::reverse(marking.points);
   std::ranges::reverse(marking.lateral_stddev_m);
   std::ranges::reverse(marking.styles);
-  for (auto& [range, style] : marking.styles) range = reversed(range, total_m);
+  for (auto& [range, style] : marking.styles) range = geometry::reversed(range, total_m);
 }
 
 void append(Marking& marking, const Marking& next) {
@@ -97,4 +97,4 @@ void append(Marking& marking, const Marking& next) {
   marking.last_seen_ns = std::max(marking.last_seen_ns, next.last_seen_ns);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -6,7 +6,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// The deviation at arc length `at_m`, interpolated between the vertices, which lie at `arc_m`.
 double deviation_at(const std::vector<double>& arc_m, const std::vector<double>& deviations_m, double at_m);
@@ -33,4 +33,4 @@ void reverse(Marking& marking);
 /// between them is bridged straight; its style is unknown.
 void append(Marking& marking, const Marking& next);
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

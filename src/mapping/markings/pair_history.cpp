@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace laneloom {
+namespace laneloom::markings {
 namespace {
 
 constexpr double kMemory = 0.97;       // factor by which the counts fade per frame
@@ -56,4 +56,4 @@ bool seen_together(const PairHistory& history) {
   return history.together >= kMinTogether && history.together >= history.apart;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

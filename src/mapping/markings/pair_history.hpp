@@ -4,7 +4,7 @@
 
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// How often two lines were seen as one and as two, fading over about 30 frames. It does for lines what the
 /// paper's co-observation does for voxels.
@@ -51,4 +51,4 @@ bool seen_apart(const PairHistory& history);
 /// Whether the two were seen together often enough, and not less often than apart.
 bool seen_together(const PairHistory& history);
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -5,7 +5,7 @@
 
 #include "laneloom/polyline.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 bool is_zigzag(const Polyline& points, const PreprocessConfig& config) {
   const double min_cosine = cos_degrees(config.zigzag_angle_deg);
@@ -43,4 +43,4 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
   return markings;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -5,7 +5,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// A detection that passed the filters, in the map frame.
 struct ObservedMarking {
@@ -31,4 +31,4 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
 /// Whether consecutive segments turn by more than the configured angle, the configured number of times.
 bool is_zigzag(const Polyline& points, const PreprocessConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -2,7 +2,7 @@
 
 #include "laneloom/stages.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 
 /// Tells an observer, if there is one, when an update begins and when its stages end.
 class StageLog {
@@ -25,4 +25,4 @@ class StageLog {
   StageObserver* observer_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -13,7 +13,7 @@
 #include "mapping/topology/side_by_side.hpp"
 #include "mapping/topology/stoplines.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 // Log odds that a lane runs along its centerline.
@@ -43,19 +43,19 @@ double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, co
 
 /// Groups lanes that continue one another, or lie along the same side of one boundary. A group is one
 /// variable of the model.
-OrientedGroups group(const RoadGraph& road) {
+geometry::OrientedGroups group(const RoadGraph& road) {
   const std::vector<Lane>& lanes = road.lanes;
   struct First {
     std::size_t lane;
     bool reversed;  ///< the boundary runs against the lane
   };
-  OrientedGroups groups(lanes.size());
+  geometry::OrientedGroups groups(lanes.size());
   std::map<ElementId, std::size_t> index;
-  std::map<BoundarySide, First> beside;
+  std::map<lanes::BoundarySide, First> beside;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     index.emplace(lanes[i].id, i);
     for (const Side one : kSides) {
-      const LaneSide side = lane_side(lanes[i], one);
+      const lanes::LaneSide side = lanes::lane_side(lanes[i], one);
       const First& first = beside.emplace(side.of, First{i, side.reversed}).first->second;
       groups.join(first.lane, i, side.reversed != first.reversed);
     }
@@ -66,7 +66,7 @@ OrientedGroups group(const RoadGraph& road) {
 }
 
 /// Whether a lane runs against the first one of its group.
-bool is_opposed(const OrientedGroups& groups, std::size_t lane) {
+bool is_opposed(const geometry::OrientedGroups& groups, std::size_t lane) {
   return groups.opposed(lane, groups.group(lane));
 }
 
@@ -104,11 +104,12 @@ double driving_side(const DirectionConfig& config) {
 double border_evidence(const Marking& border, const Stretch& range) {
   if (border.status == ElementStatus::inferred) return 0.0;
   if (border.type == MarkingType::roadedge) return kEdgeEvidence;
-  return dashed_excess_m(border, range) < 0.0 ? kEdgeLineEvidence : 0.0;
+  return markings::dashed_excess_m(border, range) < 0.0 ? kEdgeLineEvidence : 0.0;
 }
 
 /// Per lane, the log odds of its direction by the borders of the road, if traffic keeps right.
-std::vector<double> outermost_evidence(const LaneLayout& layout, const std::vector<SideBySideLanes>& pairs) {
+std::vector<double> outermost_evidence(const lanes::LaneLayout& layout,
+                                       const std::vector<SideBySideLanes>& pairs) {
   const std::vector<Lane>& lanes = layout.lanes;
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
   for (const SideBySideLanes& pair : pairs) open_right[pair.left] = open_left[pair.right] = false;
@@ -125,12 +126,13 @@ std::vector<double> outermost_evidence(const LaneLayout& layout, const std::vect
 }
 
 /// Per group, the log odds of its direction by remembered observations and by directions that are kept.
-std::vector<double> remembered_evidence(const std::vector<Lane>& lanes, const OrientedGroups& groups,
-                                        const LaneMemory& memory) {
+std::vector<double> remembered_evidence(const std::vector<Lane>& lanes,
+                                        const geometry::OrientedGroups& groups,
+                                        const lanes::LaneMemory& memory) {
   std::vector<double> observed(lanes.size(), 0.0);
   std::vector<int> kept(lanes.size(), 0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const KnownLane* remembered = memory.find(lanes[i].id);
+    const lanes::KnownLane* remembered = memory.find(lanes[i].id);
     if (remembered == nullptr) continue;
     const int sense = is_opposed(groups, i) ? -1 : 1;
     observed[groups.group(i)] += sense * remembered->direction_log_odds;
@@ -144,7 +146,7 @@ std::vector<double> remembered_evidence(const std::vector<Lane>& lanes, const Or
 }
 
 std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLanes>& beside,
-                                                  const OrientedGroups& groups) {
+                                                  const geometry::OrientedGroups& groups) {
   struct Sum {
     Mean opposed;
     bool may_part = true;
@@ -165,8 +167,8 @@ std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLa
   return pairs;
 }
 
-Model build_model(const LaneLayout& layout, const OrientedGroups& groups, const LaneMemory& memory,
-                  double side) {
+Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroups& groups,
+                  const lanes::LaneMemory& memory, double side) {
   const std::vector<Lane>& lanes = layout.lanes;
   const std::vector<SideBySideLanes> beside = side_by_side(layout);
   const std::vector<double> outermost = outermost_evidence(layout, beside);
@@ -203,8 +205,8 @@ std::vector<double> beliefs(Model model, double side) {
 }
 
 /// Keeps the direction of a lane, once it is sure, until it is no longer known.
-void keep_direction(double log_odds, ElementId lane, LaneMemory& memory) {
-  KnownLane* remembered = memory.find(lane);
+void keep_direction(double log_odds, ElementId lane, lanes::LaneMemory& memory) {
+  lanes::KnownLane* remembered = memory.find(lane);
   if (remembered == nullptr) return;
   const int sense = log_odds < 0.0 ? -1 : 1;
   const bool kept = std::abs(log_odds) >= (remembered->kept_direction == sense ? kKnown : kSure);
@@ -215,22 +217,22 @@ void keep_direction(double log_odds, ElementId lane, LaneMemory& memory) {
 
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
-                        LaneMemory& memory) {
-  const auto driven =
-      std::ranges::find_if(lanes, [&](const Lane& lane) { return ego_sense(lane, T_map_body) != 0.0; });
+                        lanes::LaneMemory& memory) {
+  const auto driven = std::ranges::find_if(
+      lanes, [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body) != 0.0; });
   for (const Lane& lane : lanes) {
-    KnownLane* remembered = memory.find(lane.id);
+    lanes::KnownLane* remembered = memory.find(lane.id);
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
-    if (driven != lanes.end() && are_neighbours(*driven, lane)) log_odds *= kMemory;
-    log_odds += kEgoEvidence * ego_sense(lane, T_map_body) +
+    if (driven != lanes.end() && lanes::are_neighbours(*driven, lane)) log_odds *= kMemory;
+    log_odds += kEgoEvidence * lanes::ego_sense(lane, T_map_body) +
                 kStoplineEvidence * stopline_sense(lane, markings, config);
     log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);
   }
 }
 
-void find_directions(const DirectionConfig& config, LaneMemory& memory, RoadGraph& road) {
-  const OrientedGroups groups = group(road);
+void find_directions(const DirectionConfig& config, lanes::LaneMemory& memory, RoadGraph& road) {
+  const geometry::OrientedGroups groups = group(road);
   const double side = driving_side(config);
   const std::vector<double> belief = beliefs(build_model(road, groups, memory, side), side);
   std::vector<ElementId> against;
@@ -247,4 +249,4 @@ void find_directions(const DirectionConfig& config, LaneMemory& memory, RoadGrap
     linkage.turn = turn_between(road.lane(linkage.from), road.lane(linkage.to));
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

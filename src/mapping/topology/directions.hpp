@@ -7,14 +7,14 @@
 #include "mapping/lanes/lane_memory.hpp"
 #include "mapping/topology/road_graph.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 
 /// Adds evidence of the traffic's direction to the remembered lanes: the vehicle drives in a lane, or a
 /// stopline lies across one of its ends. Evidence adds up over frames, to a limit. It fades while the vehicle
 /// drives beside the lane.
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
-                        LaneMemory& memory);
+                        lanes::LaneMemory& memory);
 
 /// Sets the driving direction of every lane for which it can be told, and turns the lane to run with the
 /// traffic. Ours, beyond the paper.
@@ -26,6 +26,6 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 /// belief propagation. A direction that was sure stays known until it is contradicted; `memory` remembers it.
 ///
 /// Linkages between lanes that are turned are turned too. At last the turn of every linkage is set.
-void find_directions(const DirectionConfig& config, LaneMemory& memory, RoadGraph& road);
+void find_directions(const DirectionConfig& config, lanes::LaneMemory& memory, RoadGraph& road);
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -4,7 +4,7 @@
 
 #include "mapping/lanes/lane_geometry.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 constexpr double kConfidence = 0.95;
@@ -12,18 +12,18 @@ constexpr double kConfidence = 0.95;
 /// Whether `to` begins where `from` ends or further on. The vehicle did not drive from `from` into a lane
 /// that begins behind its end.
 bool leads_ahead(const Lane& from, const Lane& to) {
-  return gap_between(from, to).dot(leaving(from)) > -kMaxOverlap_m;
+  return lanes::gap_between(from, to).dot(lanes::leaving(from)) > -lanes::kMaxOverlap_m;
 }
 
 void follow(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body, EgoTrack& track) {
   const auto in_map = [&](ElementId id) { return std::ranges::count(lanes, id, &Lane::id) > 0; };
   std::erase_if(track.steps, [&](const auto& step) { return !in_map(step.first) || !in_map(step.second); });
-  const auto drives_in = [&](const Lane& lane) { return ego_sense(lane, T_map_body) > 0.0; };
+  const auto drives_in = [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body) > 0.0; };
   const auto before = std::ranges::find(lanes, track.lane, &Lane::id);
   if (before != lanes.end() && drives_in(*before)) return;
   const auto now = std::ranges::find_if(lanes, drives_in);
   if (now == lanes.end()) return;
-  if (before != lanes.end() && !are_neighbours(*before, *now) && leads_ahead(*before, *now)) {
+  if (before != lanes.end() && !lanes::are_neighbours(*before, *now) && leads_ahead(*before, *now)) {
     const EgoTrack::Step step(before->id, now->id);
     if (std::ranges::count(track.steps, step) == 0) track.steps.push_back(step);
   }
@@ -47,7 +47,7 @@ void link_ego_track(const Eigen::Isometry3d& T_map_body, EgoTrack& track, RoadGr
                           .kind = Linkage::Kind::ego_track,
                           .turn = turn,
                           .confidence = kConfidence,
-                          .path = straight ? path_ahead(from, to) : path_between(from, to)});
+                          .path = straight ? lanes::path_ahead(from, to) : lanes::path_between(from, to)});
     } else if (known->kind == Linkage::Kind::intersection) {
       known->kind = Linkage::Kind::ego_track;
       known->confidence = kConfidence;
@@ -56,4 +56,4 @@ void link_ego_track(const Eigen::Isometry3d& T_map_body, EgoTrack& track, RoadGr
   road.sort_linkages();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -5,7 +5,7 @@
 
 #include "mapping/topology/road_graph.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 
 /// The way that the vehicle took through the lanes.
 struct EgoTrack {
@@ -24,4 +24,4 @@ struct EgoTrack {
 /// inferred is confirmed if it was driven. Ours, beyond the paper.
 void link_ego_track(const Eigen::Isometry3d& T_map_body, EgoTrack& track, RoadGraph& road);
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

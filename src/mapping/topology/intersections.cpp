@@ -12,7 +12,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 using Turn = Linkage::Turn;
@@ -34,7 +34,7 @@ double max_gap_m(const LinkageConfig& config) {
 /// The misfit of `to` as the lane straight ahead of `from`. Empty: it is not ahead.
 std::optional<double> straight_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
   if (!config.straight_across) return std::nullopt;
-  const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
+  const Eigen::Vector2d a = lanes::leaving(from), b = lanes::entering(to), gap = lanes::gap_between(from, to);
   const double angle = std::abs(cross(a, b));
   const double max_angle =
       std::sqrt(1.0 - cos_degrees(config.max_angle_deg) * cos_degrees(config.max_angle_deg));
@@ -49,12 +49,12 @@ std::optional<double> straight_misfit(const Lane& from, const Lane& to, const Li
 
 /// The misfit of a left or right turn from `from` into `to`. Empty: there is none.
 std::optional<double> turn_misfit(const Lane& from, const Lane& to, const LinkageConfig& config) {
-  const auto corner = corner_between(from, to);
+  const auto corner = lanes::corner_between(from, to);
   if (!corner) return std::nullopt;
   const double shorter_m = std::min(corner->before_m, corner->after_m);
   const double longer_m = std::max(corner->before_m, corner->after_m);
   // A circle touches the extensions of both lanes at a distance of radius * tan(angle / 2) from their corner.
-  const Eigen::Vector2d a = leaving(from), b = entering(to);
+  const Eigen::Vector2d a = lanes::leaving(from), b = lanes::entering(to);
   const double tangent = (1.0 - a.dot(b)) / std::abs(cross(a, b));
   if (shorter_m < config.min_turn_radius_m * tangent || longer_m > config.max_turn_gap_m) return std::nullopt;
   return longer_m / config.max_turn_gap_m;
@@ -85,20 +85,20 @@ class Taken {
 };
 
 /// Length of dashed minus solid stretches of the line along a lane's side.
-double dashed_excess_m(const LaneSide& side, const RoadGraph& road) {
-  return laneloom::dashed_excess_m(road.boundaries.of(side.of.boundary).marking, side.range);
+double dashed_excess_m(const lanes::LaneSide& side, const RoadGraph& road) {
+  return markings::dashed_excess_m(road.boundaries.of(side.of.boundary).marking, side.range);
 }
 
 /// Whether the lane is the outermost of its direction on the side that is turned to. A lane beside it counts
 /// if it is known to run alike, or if its direction is unknown and dashes lie between the two.
 bool is_outermost(const Lane& lane, Turn turn, const RoadGraph& road) {
   const Side side = turn == Turn::left ? Side::left : Side::right;
-  const Lane* beside = road.find(main_neighbour(lane, side));
+  const Lane* beside = road.find(lanes::main_neighbour(lane, side));
   if (beside == nullptr) return true;
   if (beside->direction == Lane::Direction::unknown)
-    return dashed_excess_m(lane_side(lane, side), road) <= 0.0;
+    return dashed_excess_m(lanes::lane_side(lane, side), road) <= 0.0;
   // Two lanes that run against each other have one another on the same side.
-  return main_neighbour(*beside, side) == lane.id;
+  return lanes::main_neighbour(*beside, side) == lane.id;
 }
 
 bool can_turn(const Lane& from, const Lane& to, Turn turn, const RoadGraph& road) {
@@ -113,11 +113,11 @@ std::optional<Crossing> crossing(const Lane& from, const Lane& to, const RoadGra
   if (const auto straight = straight_misfit(from, to, config))
     return Crossing{.misfit = *straight, .turn = Turn::straight};
   if (!config.turns) return std::nullopt;
-  const Turn side = cross(leaving(from), entering(to)) > 0.0 ? Turn::left : Turn::right;
+  const Turn side = cross(lanes::leaving(from), lanes::entering(to)) > 0.0 ? Turn::left : Turn::right;
   if (!can_turn(from, to, side, road)) return std::nullopt;
   if (const auto turn = turn_misfit(from, to, config)) return Crossing{.misfit = *turn, .turn = side};
-  const double gap_m = gap_between(from, to).norm();
-  const bool ahead = gap_between(from, to).dot(leaving(from)) > 0.0;
+  const double gap_m = lanes::gap_between(from, to).norm();
+  const bool ahead = lanes::gap_between(from, to).dot(lanes::leaving(from)) > 0.0;
   if (!ahead || gap_m > config.max_turn_gap_m) return std::nullopt;
   return Crossing{.misfit = kMisfit + gap_m, .turn = turn_between(from, to)};
 }
@@ -128,7 +128,7 @@ std::vector<Crossing> possible_crossings(const RoadGraph& road, const SdMap& sd_
   std::vector<Crossing> crossings;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     for (std::size_t j = 0; j < lanes.size(); ++j) {
-      if (i == j || gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
+      if (i == j || lanes::gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
       auto found = crossing(lanes[i], lanes[j], road, config);
       if (!found) continue;
       const auto verdict = sd_map.verdict(lanes[i].centerline, lanes[j].centerline);
@@ -144,9 +144,9 @@ std::vector<Crossing> possible_crossings(const RoadGraph& road, const SdMap& sd_
   return crossings;
 }
 
-bool crosses_edge(const Polyline& path, const Boundaries& boundaries) {
-  return std::ranges::any_of(boundaries, [&](const LaneBoundary& boundary) {
-    return boundary.is_edge() && intersect(path, boundary.marking.points, kLevel_m);
+bool crosses_edge(const Polyline& path, const boundaries::Boundaries& boundaries) {
+  return std::ranges::any_of(boundaries, [&](const boundaries::LaneBoundary& boundary) {
+    return boundary.is_edge() && intersect(path, boundary.marking.points, geometry::kLevel_m);
   });
 }
 
@@ -154,8 +154,8 @@ bool crosses_edge(const Polyline& path, const Boundaries& boundaries) {
 /// road. The lane ahead of such a lane may be the turning lane of the other direction.
 bool is_enclosed(const Lane& lane, const RoadGraph& road) {
   if (lane.left_neighbours.empty() || lane.right_neighbours.empty()) return false;
-  return std::ranges::all_of(kSides,
-                             [&](Side side) { return dashed_excess_m(lane_side(lane, side), road) < 0.0; });
+  return std::ranges::all_of(
+      kSides, [&](Side side) { return dashed_excess_m(lanes::lane_side(lane, side), road) < 0.0; });
 }
 
 /// Gives the direction of one lane to the other, if it is unknown: lanes that are linked straight on run the
@@ -197,7 +197,7 @@ void turn_unknown_ahead(const LinkageConfig& config, RoadGraph& road) {
   const auto is_unknown = [](const Lane& lane) { return lane.direction == Lane::Direction::unknown; };
   const auto leads_into = [&](const Lane& to) {
     return std::ranges::any_of(road.lanes, [&](const Lane& from) {
-      return !is_unknown(from) && gap_between(from, to).norm() <= max_gap_m(config) &&
+      return !is_unknown(from) && lanes::gap_between(from, to).norm() <= max_gap_m(config) &&
              straight_misfit(from, to, config).has_value();
     });
   };
@@ -218,7 +218,7 @@ void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config,
   const auto link = [&](const Crossing& crossing) {
     Lane &from = road.lanes[crossing.from], &to = road.lanes[crossing.to];
     if (taken.contains(from.id, to.id, crossing.turn)) return;
-    Polyline path = path_between(from, to);
+    Polyline path = lanes::path_between(from, to);
     if (crosses_edge(path, road.boundaries)) return;
     taken.take(from.id, to.id, crossing.turn);
     if (crossing.turn == Turn::straight) agree_on_direction(from, to, road);
@@ -237,4 +237,4 @@ void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config,
   road.sort_linkages();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -4,7 +4,7 @@
 #include "laneloom/sd_map.hpp"
 #include "mapping/topology/road_graph.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 
 /// Links lanes across intersections, where no marking leads. Ours, beyond the paper. A lane that ends goes
 /// straight on into the lane that begins ahead of it in line. It turns into the nearest lane that begins to
@@ -17,4 +17,4 @@ namespace laneloom {
 /// the linkage, or supplies one between lanes that lie less regularly.
 void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config, RoadGraph& road);
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -10,17 +10,17 @@
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 /// The gap from the end of one lane to the start of another, along the boundary that both lie beside. Empty:
 /// they share no boundary, or `to` does not follow.
-std::optional<double> shared_gap(const LaneSide& from, const LaneSide& to, double max_gap_m) {
+std::optional<double> shared_gap(const lanes::LaneSide& from, const lanes::LaneSide& to, double max_gap_m) {
   if (from.of != to.of || from.reversed != to.reversed) return std::nullopt;
   const double sense = from.reversed ? -1.0 : 1.0;
   const double gap_m = sense * (to.begin_m() - from.end_m());
   const bool follows =
-      gap_m >= -kMaxOverlap_m && gap_m <= max_gap_m && sense * (to.begin_m() - from.begin_m()) > 0.0;
+      gap_m >= -lanes::kMaxOverlap_m && gap_m <= max_gap_m && sense * (to.begin_m() - from.begin_m()) > 0.0;
   return follows ? std::optional(std::max(gap_m, 0.0)) : std::nullopt;
 }
 
@@ -30,29 +30,31 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
                     const Lane& to) {
   const Point &start = from.centerline.back(), &end = to.centerline.front();
   const double start_m = boundary.project(start).lateral_m, end_m = boundary.project(end).lateral_m;
-  const int steps = static_cast<int>(std::ceil(std::abs(to_m - from_m) / kPathStep_m));
+  const int steps = static_cast<int>(std::ceil(std::abs(to_m - from_m) / lanes::kPathStep_m));
   Polyline path{start};
   for (int i = 1; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     const double arc_m = from_m + share * (to_m - from_m);
     const Eigen::Vector2d along =
-        (boundary.at(arc_m + kPathStep_m) - boundary.at(arc_m - kPathStep_m)).head<2>().normalized();
+        (boundary.at(arc_m + lanes::kPathStep_m) - boundary.at(arc_m - lanes::kPathStep_m))
+            .head<2>()
+            .normalized();
     const double lateral_m = start_m + share * (end_m - start_m);
-    path.push_back(beside(boundary.at(arc_m), along, lateral_m));
+    path.push_back(geometry::beside(boundary.at(arc_m), along, lateral_m));
   }
   path.push_back(end);
   return path;
 }
 
 /// The linkage to the next lane along one side of `from`.
-std::optional<Linkage> link_along(const Lane& from, Side side, const LaneLayout& layout,
+std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::LaneLayout& layout,
                                   const LinkageConfig& config) {
-  const LaneSide begun = lane_side(from, side);
+  const lanes::LaneSide begun = lanes::lane_side(from, side);
   const Lane* next = nullptr;
   double next_gap_m = std::numeric_limits<double>::infinity();
   for (const Lane& to : layout.lanes) {
     if (to.id == from.id) continue;
-    const auto gap_m = shared_gap(begun, lane_side(to, side), config.max_shared_gap_m);
+    const auto gap_m = shared_gap(begun, lanes::lane_side(to, side), config.max_shared_gap_m);
     if (!gap_m || *gap_m >= next_gap_m) continue;
     next = &to;
     next_gap_m = *gap_m;
@@ -63,19 +65,19 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const LaneLayout&
                   .kind = Linkage::Kind::shared_boundary,
                   .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
                   .path = {}};
-  if (next_gap_m >= kMinGap_m)
+  if (next_gap_m >= lanes::kMinGap_m)
     linkage.path = path_along(layout.boundaries.of(begun.of.boundary).course, begun.end_m(),
-                              lane_side(*next, side).begin_m(), from, *next);
+                              lanes::lane_side(*next, side).begin_m(), from, *next);
   return linkage;
 }
 
 /// The confidence that `to` continues `from`, by the alignment of their centerlines. Empty: it does not.
 std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageConfig& config) {
-  const Eigen::Vector2d a = leaving(from), b = entering(to), gap = gap_between(from, to);
+  const Eigen::Vector2d a = lanes::leaving(from), b = lanes::entering(to), gap = lanes::gap_between(from, to);
   if (a.dot(b) < cos_degrees(config.max_angle_deg)) return std::nullopt;
   const double along_m = gap.dot(a);
   const double lateral_m = std::abs(cross(a, gap));
-  if (along_m < -kMaxOverlap_m || along_m > config.max_gap_m) return std::nullopt;
+  if (along_m < -lanes::kMaxOverlap_m || along_m > config.max_gap_m) return std::nullopt;
   if (lateral_m > config.max_lateral_m) return std::nullopt;
   const double misfit = std::max(std::abs(along_m) / config.max_gap_m, lateral_m / config.max_lateral_m);
   return 1.0 - 0.5 * misfit;
@@ -83,7 +85,7 @@ std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageC
 
 }  // namespace
 
-RoadGraph link_lanes(LaneLayout layout, const LinkageConfig& config) {
+RoadGraph link_lanes(lanes::LaneLayout layout, const LinkageConfig& config) {
   RoadGraph road{std::move(layout), {}};
   std::vector<Linkage>& linkages = road.linkages;
   for (const Lane& from : road.lanes) {
@@ -97,7 +99,7 @@ RoadGraph link_lanes(LaneLayout layout, const LinkageConfig& config) {
                           .to = to.id,
                           .kind = Linkage::Kind::geometric_alignment,
                           .confidence = *confidence,
-                          .path = path_ahead(from, to)});
+                          .path = lanes::path_ahead(from, to)});
     }
   }
   road.sort_linkages();
@@ -106,4 +108,4 @@ RoadGraph link_lanes(LaneLayout layout, const LinkageConfig& config) {
   return road;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -7,7 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/stretches.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 void turn(Lane& lane) {
@@ -19,13 +19,13 @@ void turn(Lane& lane) {
   lane.left_reversed = !lane.left_reversed;
   lane.right_reversed = !lane.right_reversed;
   const double total_m = length(lane.centerline);
-  reverse(lane.inferred_ranges, total_m);
+  geometry::reverse(lane.inferred_ranges, total_m);
   std::swap(lane.left_neighbours, lane.right_neighbours);
   for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {
     std::ranges::reverse(*neighbours);
     for (Neighbour& neighbour : *neighbours) {
-      neighbour.range = reversed(neighbour.range, total_m);
-      reverse(neighbour.crossable, total_m);
+      neighbour.range = geometry::reversed(neighbour.range, total_m);
+      geometry::reverse(neighbour.crossable, total_m);
     }
   }
 }
@@ -39,7 +39,7 @@ void RoadGraph::sort_linkages() {
 void RoadGraph::turn(const std::vector<ElementId>& ids) {
   const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
   for (Lane& lane : lanes)
-    if (turned(lane.id)) laneloom::turn(lane);
+    if (turned(lane.id)) topology::turn(lane);
   // Where directions contradict one another, one of two linked lanes may be turned alone. The linkage does
   // not hold then.
   std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
@@ -50,4 +50,4 @@ void RoadGraph::turn(const std::vector<ElementId>& ids) {
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

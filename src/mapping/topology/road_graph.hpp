@@ -4,10 +4,10 @@
 
 #include "mapping/lanes/lane_layout.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 
 /// Lanes and the linkages between them.
-struct RoadGraph : LaneLayout {
+struct RoadGraph : lanes::LaneLayout {
   std::vector<Linkage> linkages;  ///< only between lanes of this graph
 
   /// Sorts the linkages by the ids of their lanes, then by kind.
@@ -17,4 +17,4 @@ struct RoadGraph : LaneLayout {
   void turn(const std::vector<ElementId>& ids);
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -10,7 +10,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 // Log odds of opposite directions.
@@ -44,16 +44,16 @@ struct Median {
 };
 
 bool may_be_crossed(const Marking& border, const Stretch& range) {
-  return border.type != MarkingType::roadedge && dashed_excess_m(border, range) >= 0.0;
+  return border.type != MarkingType::roadedge && markings::dashed_excess_m(border, range) >= 0.0;
 }
 
 /// Log odds of opposite directions by the boundary that two lanes share.
-double boundary_evidence(const LaneBoundary& boundary, const Stretch& range, bool in_middle) {
+double boundary_evidence(const boundaries::LaneBoundary& boundary, const Stretch& range, bool in_middle) {
   const Marking& marking = boundary.marking;
   if (marking.status == ElementStatus::inferred)
     return boundary.two_way ? kTwoWayEvidence : kUnmarkedEvidence;
   if (marking.type == MarkingType::roadedge) return kMedianEvidence;
-  const double dashed_m = dashed_excess_m(marking, range);
+  const double dashed_m = markings::dashed_excess_m(marking, range);
   if (dashed_m == 0.0) return 0.0;
   if (dashed_m > 0.0) return kDashedEvidence;
   return in_middle ? kMiddleEvidence : kSolidEvidence;
@@ -61,7 +61,8 @@ double boundary_evidence(const LaneBoundary& boundary, const Stretch& range, boo
 
 class SideBySide {
  public:
-  explicit SideBySide(const LaneLayout& layout) : lanes_(layout.lanes), boundaries_(layout.boundaries) {
+  explicit SideBySide(const lanes::LaneLayout& layout)
+      : lanes_(layout.lanes), boundaries_(layout.boundaries) {
     for (const Lane& lane : lanes_) left_sides_.emplace_back(lane.left);
   }
 
@@ -84,7 +85,7 @@ class SideBySide {
   /// The lane across the boundary on a side, if its centerline runs alike.
   std::optional<std::size_t> across(std::size_t i, Side side) const {
     const Lane& lane = lanes_[i];
-    const auto other = std::ranges::find(lanes_, main_neighbour(lane, side), &Lane::id);
+    const auto other = std::ranges::find(lanes_, lanes::main_neighbour(lane, side), &Lane::id);
     if (other == lanes_.end()) return std::nullopt;
     const bool alike = side == Side::left ? other->right_boundary == lane.left_boundary
                                           : other->left_boundary == lane.right_boundary;
@@ -109,7 +110,7 @@ class SideBySide {
       const Projection foot = left_sides_[k].project(middle, kMaxMedian_m);
       const bool along = side.direction(middle_m).dot(left_sides_[k].direction(foot.arc_m)) > 0.0;
       const bool near = foot.inside && foot.distance_m < std::min(nearest.width_m, kMaxMedian_m);
-      if (near && along && same_level(foot.foot, middle)) nearest = {k, foot.distance_m};
+      if (near && along && geometry::same_level(foot.foot, middle)) nearest = {k, foot.distance_m};
     }
     return is_median(side, nearest) ? std::optional(nearest) : std::nullopt;
   }
@@ -131,7 +132,7 @@ class SideBySide {
 
   SideBySideLanes across_median(std::size_t i, const Median& median) const {
     const Lane &left = lanes_[i], &right = lanes_[median.right];
-    const LaneBoundary& border = boundaries_.of(left.right_boundary);
+    const boundaries::LaneBoundary& border = boundaries_.of(left.right_boundary);
     const bool closed = !may_be_crossed(border.marking, left.right_range) &&
                         !may_be_crossed(boundaries_.of(right.left_boundary).marking, right.left_range);
     return {i, median.right, closed ? kMedianEvidence : boundary_evidence(border, left.right_range, false),
@@ -139,12 +140,14 @@ class SideBySide {
   }
 
   const std::vector<Lane>& lanes_;
-  const Boundaries& boundaries_;
+  const boundaries::Boundaries& boundaries_;
   std::vector<MeasuredPolyline> left_sides_;
 };
 
 }  // namespace
 
-std::vector<SideBySideLanes> side_by_side(const LaneLayout& layout) { return SideBySide(layout).pairs(); }
+std::vector<SideBySideLanes> side_by_side(const lanes::LaneLayout& layout) {
+  return SideBySide(layout).pairs();
+}
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -5,7 +5,7 @@
 
 #include "mapping/lanes/lane_layout.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 
 /// Two lanes that lie side by side, by their indices. Their centerlines run alike.
 struct SideBySideLanes {
@@ -19,6 +19,6 @@ struct SideBySideLanes {
 /// for buses or for turning. A dashed line speaks against opposite directions, an edge for them. Two parallel
 /// solid lines or edges with only a median between them speak for them too; if they diverge, they belong to
 /// the roads of an exit. Beyond a wide median there may also be another road. Ours.
-std::vector<SideBySideLanes> side_by_side(const LaneLayout& layout);
+std::vector<SideBySideLanes> side_by_side(const lanes::LaneLayout& layout);
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -5,10 +5,10 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 bool crosses_end(const Marking& stopline, const Lane& lane, End lane_end, const StoplineConfig& config) {
   const Point& at = lane_end == End::back ? lane.centerline.back() : lane.centerline.front();
-  if (!same_level(at, stopline.points.front())) return false;
+  if (!geometry::same_level(at, stopline.points.front())) return false;
   const Eigen::Vector2d end = at.head<2>();
   const Eigen::Vector2d leaving = end_direction(lane.centerline, lane_end);
   const Eigen::Vector2d start = stopline.points.front().head<2>();
@@ -43,4 +43,4 @@ std::vector<Stopline> tie_stoplines(const std::vector<Marking>& markings, const 
   return stoplines;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -5,7 +5,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 
 /// Whether a stopline lies across an end of a lane, or close before or behind it.
 bool crosses_end(const Marking& stopline, const Lane& lane, End end, const StoplineConfig& config);
@@ -16,4 +16,4 @@ bool crosses_end(const Marking& stopline, const Lane& lane, End end, const Stopl
 std::vector<Stopline> tie_stoplines(const std::vector<Marking>& markings, const std::vector<Lane>& lanes,
                                     const StoplineConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 /// h_k of the paper, for every instance: the number of its voxels that were seen together with voxel `id`
@@ -63,7 +63,7 @@ Instance* nearest_match(VoxelId id, const VoxelMap& map, CoObservation& co_obser
 }  // namespace
 
 void cluster(const std::vector<VoxelId>& reliable, const ClusteringConfig& config, std::int64_t stamp_ns,
-             SemanticMap& semantic_map, IdSource& ids) {
+             SemanticMap& semantic_map, markings::IdSource& ids) {
   auto& [map, co_observation, instances] = semantic_map;
   for (const VoxelId id : reliable) {
     if (map[id].instance != kNoElement) instances.remove(id, map);
@@ -91,4 +91,4 @@ void count_observations(const std::vector<std::vector<VoxelId>>& touched_by_dete
   }
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 constexpr auto kNeverBorn = std::numeric_limits<std::uint64_t>::max();
@@ -79,4 +79,4 @@ std::size_t CoObservation::stored_entries() const {
   return entries;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

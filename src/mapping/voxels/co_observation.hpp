@@ -6,7 +6,7 @@
 
 #include "mapping/voxels/voxel_map.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 /// A voxel that was seen together with a given one.
 struct CoObserved {
@@ -76,4 +76,4 @@ class CoObservation {
   std::vector<CoObserved> row_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 std::size_t Instances::position(ElementId id) const {
   const auto found = std::ranges::lower_bound(instances_, id, {}, &Instance::id);
@@ -37,4 +37,4 @@ void Instances::erase_empty() {
   std::erase_if(instances_, [](const Instance& instance) { return instance.voxels.empty(); });
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

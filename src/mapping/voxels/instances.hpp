@@ -6,7 +6,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/voxels/voxel_map.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 /// A road marking as a set of voxels with a polyline (paper, eq. 5).
 struct Instance {
@@ -57,4 +57,4 @@ class Instances {
   std::vector<Instance> instances_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

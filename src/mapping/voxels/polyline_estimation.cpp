@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 using Points = std::vector<WeightedPoint>;
@@ -182,4 +182,4 @@ Polyline estimate_polyline(const Points& points, MarkingType type, const Polylin
   return fit_quadrants(points, pca, config.curve_segment_length_m);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -5,7 +5,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 /// The center of a voxel, weighted by its detections.
 struct WeightedPoint {
@@ -20,4 +20,4 @@ struct WeightedPoint {
 Polyline estimate_polyline(const std::vector<WeightedPoint>& points, MarkingType type,
                            const PolylineConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

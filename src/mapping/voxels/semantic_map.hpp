@@ -4,7 +4,7 @@
 #include "mapping/voxels/instances.hpp"
 #include "mapping/voxels/voxel_map.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 /// The voxels, which of them were seen together, and the instances that they make (paper, Sec. III-B).
 struct SemanticMap {
@@ -18,4 +18,4 @@ struct SemanticMap {
   }
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

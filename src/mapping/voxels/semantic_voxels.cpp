@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 /// Calls `visit` with points at most `step_m` apart along the line, both ends included.
@@ -19,12 +19,13 @@ void sample(const Polyline& line, double step_m, Visit&& visit) {
 
 }  // namespace
 
-TouchedVoxels update_voxels(const std::vector<ObservedMarking>& markings, const MapBox& range,
-                            const VoxelMapConfig& config, VoxelMap& map, CoObservation& co_observation) {
+TouchedVoxels update_voxels(const std::vector<markings::ObservedMarking>& markings,
+                            const geometry::MapBox& range, const VoxelMapConfig& config, VoxelMap& map,
+                            CoObservation& co_observation) {
   co_observation.begin_frame(config.remembered_frames, map);
   const std::uint64_t frame = co_observation.frame();
   TouchedVoxels touched;
-  for (const ObservedMarking& marking : markings) {
+  for (const markings::ObservedMarking& marking : markings) {
     std::vector<VoxelId>& voxels = touched.by_detection.emplace_back();
     sample(marking.points, config.sample_step_m, [&](const Point& point) {
       if (range.keeps(point)) voxels.push_back(map.find_or_allocate(map.index_of(point)));
@@ -54,4 +55,4 @@ std::vector<VoxelId> reliable_voxels(const std::vector<VoxelId>& touched, const 
   return reliable;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -7,7 +7,7 @@
 #include "mapping/markings/markings.hpp"
 #include "mapping/voxels/polyline_estimation.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 std::vector<WeightedPoint> weighted_centers(const Instance& instance, const VoxelMap& map) {
@@ -36,7 +36,7 @@ std::vector<StyleRange> estimate_styles(const Polyline& line, const std::vector<
   const auto bins =
       static_cast<std::size_t>(std::max(1.0, std::ceil(measured.length() / config.bin_length_m)));
   const double bin_m = measured.length() / static_cast<double>(bins);
-  std::vector<StyleVotes> votes(bins);
+  std::vector<markings::StyleVotes> votes(bins);
   for (const VoxelId id : voxels) {
     const double arc_m = measured.project(map.center(map[id])).arc_m;
     auto& bin = votes[std::min(bins - 1, static_cast<std::size_t>(arc_m / bin_m))];
@@ -45,7 +45,7 @@ std::vector<StyleRange> estimate_styles(const Polyline& line, const std::vector<
   std::vector<StyleRange> styles;
   for (std::size_t k = 0; k < bins; ++k) {
     const auto bin = static_cast<double>(k);
-    append_style(styles, {{bin_m * bin, bin_m * (bin + 1.0)}, voted(votes[k], config)});
+    markings::append_style(styles, {{bin_m * bin, bin_m * (bin + 1.0)}, markings::voted(votes[k], config)});
   }
   return styles;
 }
@@ -68,8 +68,8 @@ void update_polylines(const PolylineConfig& config, const StyleConfig& style_con
   }
 }
 
-std::vector<Marking> markings_in_range(const MapBox& range, double min_length_m, Instances& instances,
-                                       IdSource& ids) {
+std::vector<Marking> markings_in_range(const geometry::MapBox& range, double min_length_m,
+                                       Instances& instances, markings::IdSource& ids) {
   std::vector<Marking> markings;
   for (Instance& instance : instances.all()) {
     if (instance.points.empty()) continue;
@@ -82,7 +82,7 @@ std::vector<Marking> markings_in_range(const MapBox& range, double min_length_m,
     std::size_t count = 0;
     for (const Stretch& stretch : range.inside(instance.points)) {
       if (stretch.length() <= 0.0 || stretch.length() < size_share(instance.type) * min_length_m) continue;
-      Marking part = slice(whole, stretch);
+      Marking part = markings::slice(whole, stretch);
       if (count > instance.extra_ids.size()) instance.extra_ids.push_back(ids.next());
       if (count > 0) part.id = instance.extra_ids[count - 1];
       ++count;
@@ -92,4 +92,4 @@ std::vector<Marking> markings_in_range(const MapBox& range, double min_length_m,
   return markings;
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -9,7 +9,7 @@
 #include "mapping/voxels/instances.hpp"
 #include "mapping/voxels/voxel_map.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 /// Estimates the polyline and the styles of every instance whose voxels changed. A line keeps the direction
 /// that it had; a new one runs along `forward`.
@@ -18,12 +18,12 @@ void update_polylines(const PolylineConfig& config, const StyleConfig& style_con
 
 /// The instances' polylines within the local range, as markings. The further stretches of a line that leaves
 /// the range and comes back have ids of their own.
-std::vector<Marking> markings_in_range(const MapBox& range, double min_length_m, Instances& instances,
-                                       IdSource& ids);
+std::vector<Marking> markings_in_range(const geometry::MapBox& range, double min_length_m,
+                                       Instances& instances, markings::IdSource& ids);
 
 /// The styles along `line`, from the votes of the voxels nearest to each stretch (paper, Sec. IV-E). Covers
 /// the line.
 std::vector<StyleRange> estimate_styles(const Polyline& line, const std::vector<VoxelId>& voxels,
                                         const VoxelMap& map, const StyleConfig& config);
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 MarkingType Voxel::likely_type() const {
   const auto best = std::max_element(detections.begin(), detections.end());
@@ -98,4 +98,4 @@ std::size_t VoxelMap::KeyHash::operator()(const VoxelIndex& key) const {
   return part(key.x(), 73856093U) ^ part(key.y(), 19349669U) ^ part(key.z(), 83492791U);
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -8,7 +8,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 /// Slot of a voxel in the pool. Reused after the voxel was erased.
 using VoxelId = std::uint32_t;
@@ -99,4 +99,4 @@ class VoxelMap {
   std::unordered_map<VoxelIndex, std::uint32_t, KeyHash> hash_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

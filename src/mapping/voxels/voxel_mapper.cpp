@@ -4,10 +4,11 @@
 #include "mapping/voxels/semantic_voxels.hpp"
 #include "mapping/voxels/vectorise.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
-FusedMarkings VoxelMapper::fuse(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
-                                IdSource& ids, const StageLog& log) {
+markings::FusedMarkings VoxelMapper::fuse(const markings::ObservedFrame& observed,
+                                          const geometry::Scene& scene, const MapperConfig& config,
+                                          markings::IdSource& ids, const markings::StageLog& log) {
   auto& [voxels, co_observation, instances] = map_;
   const auto touched = log.done(Stage::voxel_update, update_voxels(observed.markings, scene.box,
                                                                    config.voxel_map, voxels, co_observation));
@@ -21,11 +22,11 @@ FusedMarkings VoxelMapper::fuse(const ObservedFrame& observed, const Scene& scen
   const Eigen::Vector2d forward = observed.T_map_body.linear().col(0).head<2>();
   update_polylines(config.polyline, config.style, voxels, forward, instances);
   auto markings = markings_in_range(scene.box, config.polyline.min_length_m, instances, ids);
-  return log.done(Stage::polylines, FusedMarkings{std::move(markings), {}, {}});
+  return log.done(Stage::polylines, markings::FusedMarkings{std::move(markings), {}, {}});
 }
 
 /// Removes voxels outside of the local range and its margin (paper, Sec. IV-C).
-void VoxelMapper::clear_outside(const MapBox& box) {
+void VoxelMapper::clear_outside(const geometry::MapBox& box) {
   auto& [voxels, co_observation, instances] = map_;
   for (VoxelId id = 0; id < voxels.slots(); ++id) {
     const Voxel& voxel = voxels[id];
@@ -37,4 +38,4 @@ void VoxelMapper::clear_outside(const MapBox& box) {
   instances.erase_empty();
 }
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

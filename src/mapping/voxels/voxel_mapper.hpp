@@ -8,15 +8,16 @@
 #include "mapping/markings/stage_log.hpp"
 #include "mapping/voxels/semantic_map.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 
 /// The paper's method of fusion, by voxels (Sec. III-B and III-C). A value type.
 class VoxelMapper {
  public:
   explicit VoxelMapper(const VoxelMapConfig& config) : map_{VoxelMap(config)} {}
 
-  FusedMarkings fuse(const ObservedFrame& observed, const Scene& scene, const MapperConfig& config,
-                     IdSource& ids, const StageLog& log);
+  markings::FusedMarkings fuse(const markings::ObservedFrame& observed, const geometry::Scene& scene,
+                               const MapperConfig& config, markings::IdSource& ids,
+                               const markings::StageLog& log);
 
   const SemanticMap& map() const { return map_; }
 
@@ -26,9 +27,9 @@ class VoxelMapper {
   }
 
  private:
-  void clear_outside(const MapBox& box);
+  void clear_outside(const geometry::MapBox& box);
 
   SemanticMap map_;
 };
 
-}  // namespace laneloom
+}  // namespace laneloom::voxels

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 namespace {
 
 using test::marking;
@@ -47,7 +47,8 @@ TEST(LaneBoundaries, EndsThatDetectionsRanThroughAreOneAtAnyAngle) {
   const std::vector<Marking> sides{marking(1, straight({0, 0, 0}, {10, 0, 0}), MarkingType::roadedge),
                                    marking(2, straight({0, 1.5, 0}, {10, 1.5, 0}), MarkingType::roadedge)};
   const auto count = [&](double together, double apart) {
-    const PairHistory tip{end_id(1, End::back), end_id(2, End::back), together, apart};
+    const markings::PairHistory tip{markings::end_id(1, End::back), markings::end_id(2, End::back), together,
+                                    apart};
     return lane_boundaries(sides, {tip}, {}).size();
   };
   EXPECT_EQ(count(0.0, 0.0), 2U);
@@ -74,15 +75,19 @@ TEST(LaneBoundaries, WhatIsKnownToBeSeparateStaysApart) {
   const std::vector<Marking> pieces{marking(4, straight({12, 0, 0}, {20, 0, 0})),
                                     marking(7, straight({0, 0, 0}, {10, 0, 0}))};
   EXPECT_EQ(
-      lane_boundaries(pieces, {{.a = end_id(4, End::front), .b = end_id(7, End::back), .apart = 10.0}}, {})
+      lane_boundaries(
+          pieces,
+          {{.a = markings::end_id(4, End::front), .b = markings::end_id(7, End::back), .apart = 10.0}}, {})
           .size(),
       2U);
-  EXPECT_EQ(
-      lane_boundaries(
-          pieces, {{.a = end_id(4, End::front), .b = end_id(7, End::back), .together = 10.0, .apart = 10.0}},
-          {})
-          .size(),
-      1U);
+  EXPECT_EQ(lane_boundaries(pieces,
+                            {{.a = markings::end_id(4, End::front),
+                              .b = markings::end_id(7, End::back),
+                              .together = 10.0,
+                              .apart = 10.0}},
+                            {})
+                .size(),
+            1U);
 }
 
 TEST(LaneBoundaries, KnowTheGapsThatTheyBridge) {
@@ -139,4 +144,4 @@ TEST(LaneBoundaries, StoplinesAreNone) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::boundaries {
 namespace {
 
 using test::boundary;
@@ -106,4 +106,4 @@ TEST(RoadSections, ARoadThatCrossesTheVehiclesKeepsItsOwnDirection) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::boundaries

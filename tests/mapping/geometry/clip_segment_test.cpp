@@ -7,8 +7,8 @@ namespace {
 
 const Eigen::AlignedBox2d kBox(Eigen::Vector2d(0, 0), Eigen::Vector2d(10, 4));
 
-std::optional<SegmentPart> clipped(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return clip_segment(a, b, kBox);
+std::optional<geometry::SegmentPart> clipped(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return geometry::clip_segment(a, b, kBox);
 }
 
 TEST(ClipSegment, GivesThePartInTheBoxAsShares) {
@@ -34,8 +34,8 @@ TEST(ClipSegment, ASegmentThatOnlyTouchesIsOutside) {
 
 TEST(ClipSegment, HeightCountsWhereTheBoxHasOne) {
   const Eigen::AlignedBox3d box(Eigen::Vector3d(0, 0, -3), Eigen::Vector3d(10, 4, 3));
-  EXPECT_TRUE(clip_segment(Eigen::Vector3d(1, 2, 0), Eigen::Vector3d(9, 2, 0), box));
-  EXPECT_FALSE(clip_segment(Eigen::Vector3d(1, 2, 6), Eigen::Vector3d(9, 2, 6), box));
+  EXPECT_TRUE(geometry::clip_segment(Eigen::Vector3d(1, 2, 0), Eigen::Vector3d(9, 2, 0), box));
+  EXPECT_FALSE(geometry::clip_segment(Eigen::Vector3d(1, 2, 6), Eigen::Vector3d(9, 2, 6), box));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 namespace {
 
 TEST(MapBox, TurnsWithTheVehicle) {
@@ -47,4 +47,4 @@ TEST(MapBox, ALineOutsideHasNone) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::geometry

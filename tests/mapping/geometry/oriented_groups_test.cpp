@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::geometry {
 namespace {
 
 TEST(OrientedGroups, JoinedTheyKnowWhoRunsAgainstWhom) {
@@ -26,4 +26,4 @@ TEST(OrientedGroups, WhatIsKnownStays) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::geometry

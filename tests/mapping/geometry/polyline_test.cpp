@@ -10,7 +10,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::geometry {
 namespace {
 
 const Polyline kCorner{{0, 0, 0}, {3, 0, 1}, {3, 4, 2}};
@@ -202,4 +202,4 @@ TEST(Polyline, IntersectWhereTheyCrossOrTouch) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::geometry

@@ -3,7 +3,7 @@
 #include "mapping/lanes/lanes.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 using test::boundary;
@@ -16,7 +16,8 @@ class Gores : public ::testing::Test {
   Gores()
       : boundaries_{boundary(1, straight({0, 0, 0}, {40, 0, 0}, 81)),
                     boundary(2, straight({0, -1, 0}, {40, -1, 0}, 81))} {
-    for (LaneBoundary& line : boundaries_) line.marking.styles = {{{0.0, 50.0}, MarkingStyle::solid}};
+    for (boundaries::LaneBoundary& line : boundaries_)
+      line.marking.styles = {{{0.0, 50.0}, MarkingStyle::solid}};
   }
 
   void apart(double begin_m, double end_m) {
@@ -32,7 +33,7 @@ class Gores : public ::testing::Test {
     return sum_m;
   }
 
-  std::vector<LaneBoundary> boundaries_;
+  std::vector<boundaries::LaneBoundary> boundaries_;
 };
 
 TEST_F(Gores, BetweenSolidLinesThatMeetNoLaneIs) {
@@ -51,7 +52,7 @@ TEST_F(Gores, NorWhereTheirMeetingIsNotSeen) {
 
 TEST_F(Gores, NorBetweenEdges) {
   apart(1.5, 4.2);
-  for (LaneBoundary& edge : boundaries_) edge.marking.type = MarkingType::roadedge;
+  for (boundaries::LaneBoundary& edge : boundaries_) edge.marking.type = MarkingType::roadedge;
   EXPECT_EQ(lanes_m(), 0.0);
 }
 
@@ -93,4 +94,4 @@ TEST_F(Gores, WhatIsDrivenInIsNone) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -6,7 +6,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 using test::lane;
@@ -148,4 +148,4 @@ TEST(TurnBetween, LanesWithoutADirectionGoStraightOn) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lanes

@@ -6,17 +6,17 @@
 #include "mapping/lanes/lane_memory.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 using test::boundary;
 using test::straight;
 
 /// Lanes of boundaries that run forward, with ids and neighbours.
-std::vector<Lane> lanes_of(std::vector<LaneBoundary> boundaries) {
-  SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
+std::vector<Lane> lanes_of(std::vector<boundaries::LaneBoundary> boundaries) {
+  boundaries::SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
   auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
-  IdSource ids(100);
+  markings::IdSource ids(100);
   return LaneMemory()
       .recognise({std::move(graph.boundaries), std::move(lanes), {}}, test::scene(1), {}, ids)
       .lanes;
@@ -61,7 +61,7 @@ TEST(Lanes, BetweenDashesAreWiderThanBetweenSolidLines) {
   for (const MarkingStyle style : {MarkingStyle::solid, MarkingStyle::dashed}) {
     auto lines = std::vector{boundary(1, straight({0, 5, 0}, {30, 5, 0})),
                              boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
-    for (LaneBoundary& line : lines) line.marking.styles = {{{0.0, 30.0}, style}};
+    for (boundaries::LaneBoundary& line : lines) line.marking.styles = {{{0.0, 30.0}, style}};
     EXPECT_EQ(lanes_of(lines).size(), style == MarkingStyle::dashed ? 1U : 0U);
   }
 }
@@ -76,7 +76,7 @@ TEST(Lanes, BetweenEdgesNeedMoreRoomThanBetweenLines) {
 
 /// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
 /// right. Round its corners no sense of direction fits all.
-std::vector<LaneBoundary> t_junction() {
+std::vector<boundaries::LaneBoundary> t_junction() {
   const auto joined = [](Polyline a, const Polyline& b, const Polyline& c) {
     a.insert(a.end(), b.begin(), b.end());
     a.insert(a.end(), c.begin(), c.end());
@@ -108,7 +108,7 @@ TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
          {std::pair(lane.left_boundary, lane.left_range), std::pair(lane.right_boundary, lane.right_range)}) {
       EXPECT_LT(range.from_m, range.to_m);
       const auto boundaries = t_junction();
-      const double end_m = length(std::ranges::find(boundaries, id, [](const LaneBoundary& b) {
+      const double end_m = length(std::ranges::find(boundaries, id, [](const boundaries::LaneBoundary& b) {
                                     return b.marking.id;
                                   })->marking.points);
       EXPECT_GE(range.from_m, 0.0);
@@ -119,10 +119,11 @@ TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
 
 TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
   // Both boundaries have the other on their left, whatever way they run.
-  const SectionGraph graph{.boundaries = std::vector{boundary(1, straight({0, 0, 0}, {30, 0, 0})),
-                                                     boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))},
-                           .sections = {{{0, 1}}},
-                           .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
+  const boundaries::SectionGraph graph{
+      .boundaries = std::vector{boundary(1, straight({0, 0, 0}, {30, 0, 0})),
+                                boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))},
+      .sections = {{{0, 1}}},
+      .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
   const auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
   ASSERT_EQ(lanes.size(), 1U);
   EXPECT_EQ(lanes[0].right_boundary, 1U);
@@ -196,7 +197,7 @@ TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
 
 TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
   LaneMemory memory;
-  IdSource ids(7);
+  markings::IdSource ids(7);
   std::vector<Lane> lanes{
       {.left_boundary = 1, .right_boundary = 2, .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
   memory.identify(lanes, test::scene(1), {}, ids);
@@ -211,8 +212,8 @@ TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
 TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
   const auto pair = [](double width_m, MarkingType right_type,
                        MarkingType left_type = MarkingType::laneline) {
-    std::vector<LaneBoundary> sides{boundary(1, straight({0, width_m, 0}, {30, width_m, 0})),
-                                    boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
+    std::vector<boundaries::LaneBoundary> sides{boundary(1, straight({0, width_m, 0}, {30, width_m, 0})),
+                                                boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
     sides[0].marking.type = left_type;
     sides[1].marking.type = right_type;
     return lanes_of(sides).size();
@@ -223,9 +224,9 @@ TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
   EXPECT_EQ(pair(6.0, MarkingType::roadedge, MarkingType::roadedge), 0U);
   EXPECT_EQ(pair(3.5, MarkingType::roadedge, MarkingType::roadedge), 1U);
   // Over the line between two lanes there is none, however narrow they are.
-  std::vector<LaneBoundary> narrow{boundary(1, straight({0, 6, 0}, {30, 6, 0})),
-                                   boundary(2, straight({0, 3, 0}, {30, 3, 0})),
-                                   boundary(3, straight({0, 0, 0}, {30, 0, 0}))};
+  std::vector<boundaries::LaneBoundary> narrow{boundary(1, straight({0, 6, 0}, {30, 6, 0})),
+                                               boundary(2, straight({0, 3, 0}, {30, 3, 0})),
+                                               boundary(3, straight({0, 0, 0}, {30, 0, 0}))};
   narrow[2].marking.type = MarkingType::roadedge;
   EXPECT_FALSE(between(lanes_of(narrow), 1, 3));
 }
@@ -305,10 +306,11 @@ TEST(Lanes, InABendOfTwelveMetres) {
 
 TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
   LaneMemory memory;
-  IdSource ids(100);
+  markings::IdSource ids(100);
   const auto window = [&](double from_m, std::uint64_t frame) {
-    std::vector<LaneBoundary> boundaries{boundary(1, straight({from_m, 3.5, 0}, {from_m + 35, 3.5, 0})),
-                                         boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
+    std::vector<boundaries::LaneBoundary> boundaries{
+        boundary(1, straight({from_m, 3.5, 0}, {from_m + 35, 3.5, 0})),
+        boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
     const auto graph = road_sections(boundaries, test::at(from_m), {});
     auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
     memory.identify(lanes, test::scene(frame), {}, ids);
@@ -328,7 +330,7 @@ TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
   };
   const Lane through = lane_between(1, 2, straight({0, 0, 0}, {20, 0, 0}, 21));
   LaneMemory memory;
-  IdSource ids(100);
+  markings::IdSource ids(100);
   std::vector<Lane> first{through};
   memory.identify(first, test::scene(1), {}, ids);
   // The one is missed in a frame in which another that merges into it is new.
@@ -348,7 +350,7 @@ TEST(LaneIds, ComeBackAfterAShortGapOnly) {
   lane.right_boundary = 2;
   lane.centerline = straight({0, 0, 0}, {20, 0, 0}, 21);
   LaneMemory memory;
-  IdSource ids(100);
+  markings::IdSource ids(100);
   const auto id_at = [&](std::uint64_t frame) {
     std::vector<Lane> lanes{lane};
     memory.identify(lanes, test::scene(frame), {}, ids);
@@ -364,4 +366,4 @@ TEST(LaneIds, ComeBackAfterAShortGapOnly) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lanes

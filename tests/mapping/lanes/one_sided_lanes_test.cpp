@@ -7,42 +7,43 @@
 #include "mapping/lanes/lane_memory.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 using test::straight;
 
-LaneBoundary styled(ElementId id, const Polyline& points, MarkingStyle style) {
-  LaneBoundary boundary = test::boundary(id, points);
+boundaries::LaneBoundary styled(ElementId id, const Polyline& points, MarkingStyle style) {
+  boundaries::LaneBoundary boundary = test::boundary(id, points);
   boundary.marking.styles = {{{0.0, length(points)}, style}};
   return boundary;
 }
-LaneBoundary dashed(ElementId id, double y, double from_x = 0.0, double to_x = 40.0) {
+boundaries::LaneBoundary dashed(ElementId id, double y, double from_x = 0.0, double to_x = 40.0) {
   return styled(id, straight({from_x, y, 0}, {to_x, y, 0}), MarkingStyle::dashed);
 }
-LaneBoundary solid(ElementId id, double y) {
+boundaries::LaneBoundary solid(ElementId id, double y) {
   return styled(id, straight({0, y, 0}, {40, y, 0}), MarkingStyle::solid);
 }
-LaneBoundary edge(ElementId id, double y, double from_x = 0.0, double to_x = 40.0) {
+boundaries::LaneBoundary edge(ElementId id, double y, double from_x = 0.0, double to_x = 40.0) {
   return test::boundary(id, straight({from_x, y, 0}, {to_x, y, 0}), MarkingType::roadedge);
 }
 
 /// Seen from a vehicle; far from all, if it is not said where it is.
 class OneSidedLanes : public ::testing::Test {
  protected:
-  void map(std::vector<LaneBoundary> boundaries, const Eigen::Isometry3d& vehicle = test::at(10, 9)) {
-    RoadSection all;
+  void map(std::vector<boundaries::LaneBoundary> boundaries,
+           const Eigen::Isometry3d& vehicle = test::at(10, 9)) {
+    boundaries::RoadSection all;
     for (std::size_t i = 0; i < boundaries.size(); ++i) all.boundaries.push_back(i);
-    SectionGraph road{.boundaries = std::move(boundaries), .sections = {all}, .beside = {}};
+    boundaries::SectionGraph road{.boundaries = std::move(boundaries), .sections = {all}, .beside = {}};
     TakenSpace taken(known_lanes_);
-    auto inferred = one_sided_lanes(road, MapBox(range_, vehicle), config_, taken);
+    auto inferred = one_sided_lanes(road, geometry::MapBox(range_, vehicle), config_, taken);
     memory_.identify(inferred, test::scene(++frame_), config_, ids_);
     LaneLayout layout = laid_out({std::move(road.boundaries), known_lanes_, std::move(inferred)});
     boundaries_ = std::move(layout.boundaries);
     lanes_ = std::move(layout.lanes);
     lanes_.erase(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(known_lanes_.size()));
   }
-  std::size_t lanes_with(std::vector<LaneBoundary> boundaries,
+  std::size_t lanes_with(std::vector<boundaries::LaneBoundary> boundaries,
                          const Eigen::Isometry3d& vehicle = test::at(10, 9)) {
     map(std::move(boundaries), vehicle);
     return lanes_.size();
@@ -52,10 +53,10 @@ class OneSidedLanes : public ::testing::Test {
   RangeConfig range_{.forward_min_m = -60.0, .forward_max_m = 60.0, .side_max_m = 20.0};
   std::vector<Lane> known_lanes_;
   std::vector<Lane> lanes_;  ///< those beside one line
-  Boundaries boundaries_;
+  boundaries::Boundaries boundaries_;
   LaneMemory memory_;
   std::uint64_t frame_ = 0;
-  IdSource ids_{100};
+  markings::IdSource ids_{100};
 };
 
 TEST_F(OneSidedLanes, LieOnBothSidesOfADashedLine) {
@@ -99,7 +100,7 @@ TEST_F(OneSidedLanes, LieBesideASolidLineWhereTheVehicleDrives) {
 }
 
 TEST_F(OneSidedLanes, EndWithTheDashes) {
-  LaneBoundary line = dashed(1, 0);
+  boundaries::LaneBoundary line = dashed(1, 0);
   line.marking.styles = {{{0, 20}, MarkingStyle::dashed}, {{20, 40}, MarkingStyle::solid}};
   map({line});
   ASSERT_EQ(lanes_.size(), 2U);
@@ -107,7 +108,7 @@ TEST_F(OneSidedLanes, EndWithTheDashes) {
 }
 
 TEST_F(OneSidedLanes, DoNotMindShortPatchesOfAnotherStyle) {
-  LaneBoundary line = dashed(1, 0);
+  boundaries::LaneBoundary line = dashed(1, 0);
   line.marking.styles = {{{0, 12}, MarkingStyle::dashed},
                          {{12, 20}, MarkingStyle::unknown},
                          {{20, 26}, MarkingStyle::dashed},
@@ -144,7 +145,7 @@ TEST_F(OneSidedLanes, AreAsWideOnASlope) {
 }
 
 TEST_F(OneSidedLanes, NeedRoomThatNothingElseTakes) {
-  const auto on_left_with = [this](LaneBoundary other) {
+  const auto on_left_with = [this](boundaries::LaneBoundary other) {
     map({dashed(1, 0), std::move(other)});
     return std::ranges::count(lanes_, 1U, &Lane::right_boundary);
   };
@@ -152,10 +153,10 @@ TEST_F(OneSidedLanes, NeedRoomThatNothingElseTakes) {
   EXPECT_EQ(on_left_with(edge(2, 6.4)), 0);
   EXPECT_EQ(on_left_with(edge(2, 0.3)), 0);
   EXPECT_EQ(on_left_with(solid(2, 5.0)), 0);
-  LaneBoundary tentative = solid(2, 5.0);
+  boundaries::LaneBoundary tentative = solid(2, 5.0);
   tentative.marking.status = ElementStatus::tentative;
   EXPECT_EQ(on_left_with(tentative), 0) << "maybe there is something";
-  LaneBoundary above = edge(2, 3.0);
+  boundaries::LaneBoundary above = edge(2, 3.0);
   for (Point& point : above.marking.points) point.z() = 6.0;
   EXPECT_EQ(on_left_with(above), 1) << "of a bridge";
   EXPECT_EQ(on_left_with(edge(2, 3.0, -20, -1)), 1) << "ends before";
@@ -185,7 +186,7 @@ TEST_F(OneSidedLanes, OfTwoLinesDoNotOverlap) {
 }
 
 TEST_F(OneSidedLanes, NeedAConfirmedLine) {
-  LaneBoundary line = dashed(1, 0);
+  boundaries::LaneBoundary line = dashed(1, 0);
   line.marking.status = ElementStatus::tentative;
   EXPECT_EQ(lanes_with({line}), 0U);
   line = dashed(1, 0);
@@ -229,4 +230,4 @@ TEST_F(OneSidedLanes, CanBeTurnedOff) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lanes

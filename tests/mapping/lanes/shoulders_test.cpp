@@ -6,7 +6,7 @@
 #include "mapping/lanes/lanes.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 using test::boundary;
@@ -27,7 +27,7 @@ constexpr Strip dashed(double width_m) { return {MarkingType::laneline, MarkingS
 /// The widths of the lanes that are left, in no order.
 std::vector<double> lane_widths(const std::vector<Strip>& strips, const LaneConfig& config = {},
                                 const Eigen::Isometry3d& T_map_body = test::at(0, -20)) {
-  std::vector<LaneBoundary> boundaries;
+  std::vector<boundaries::LaneBoundary> boundaries;
   double y = 10.0;
   for (const Strip& strip : strips) {
     boundaries.push_back(boundary(boundaries.size() + 1, straight({0, y, 0}, {40, y, 0}), strip.type));
@@ -81,7 +81,7 @@ TEST(Shoulders, AreNotWhereTheVehicleDrives) {
 
 TEST(Shoulders, AreNotAheadOfWhereTheVehicleDrives) {
   // In a bay of the edge there is no lane beside the line.
-  std::vector<LaneBoundary> boundaries{
+  std::vector<boundaries::LaneBoundary> boundaries{
       boundary(1, straight({0, 6.1, 0}, {40, 6.1, 0})), boundary(2, straight({0, 2.6, 0}, {40, 2.6, 0})),
       boundary(3, {{0, 0, 0}, {16, 0, 0}, {18, -6, 0}, {22, -6, 0}, {24, 0, 0}, {40, 0, 0}},
                MarkingType::roadedge)};
@@ -102,4 +102,4 @@ TEST(Shoulders, AreLanesWhereThatIsConfigured) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lanes

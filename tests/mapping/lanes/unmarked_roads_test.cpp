@@ -6,17 +6,17 @@
 #include "mapping/lanes/lanes.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lanes {
 namespace {
 
 using test::boundary;
 using test::straight;
 
-LaneBoundary road_edge(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
+boundaries::LaneBoundary road_edge(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
   return boundary(id, straight({from_x, y, 0}, {to_x, y, 0}), MarkingType::roadedge);
 }
 
-LaneBoundary line(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
+boundaries::LaneBoundary line(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
   return boundary(id, straight({from_x, y, 0}, {to_x, y, 0}));
 }
 
@@ -24,9 +24,9 @@ LaneBoundary line(ElementId id, double y, double from_x = 0.0, double to_x = 60.
 class Dividers : public ::testing::Test {
  protected:
   /// Boundaries that run forward.
-  void map(std::vector<LaneBoundary> boundaries) {
+  void map(std::vector<boundaries::LaneBoundary> boundaries) {
     ++frame_;
-    SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
+    boundaries::SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
     const auto pairs = boundary_pairs(graph);
     auto lanes = generate_lanes(pairs, graph.boundaries, Point::Zero(), config_);
     TakenSpace taken(lanes);
@@ -51,16 +51,16 @@ class Dividers : public ::testing::Test {
   /// The only divider, which has to be there.
   const Marking& divider() const {
     const auto found = std::ranges::find(boundaries_, ElementStatus::inferred,
-                                         [](const LaneBoundary& b) { return b.marking.status; });
+                                         [](const boundaries::LaneBoundary& b) { return b.marking.status; });
     if (found == boundaries_.end()) throw std::logic_error("no divider");
     return found->marking;
   }
 
   LaneConfig config_;
   std::uint64_t frame_ = 0;
-  IdSource ids_{100};
+  markings::IdSource ids_{100};
   LaneMemory memory_;
-  Boundaries boundaries_;
+  boundaries::Boundaries boundaries_;
   std::vector<Lane> lanes_;
 };
 
@@ -93,15 +93,15 @@ TEST_F(Dividers, SayThatNothingIsPaintedThere) {
 }
 
 TEST_F(Dividers, AreNotSaidToBeLikely) {
-  std::vector<LaneBoundary> edges{road_edge(1, 9), road_edge(2, 0)};
-  for (LaneBoundary& edge : edges) edge.marking.existence_probability = 0.9;
+  std::vector<boundaries::LaneBoundary> edges{road_edge(1, 9), road_edge(2, 0)};
+  for (boundaries::LaneBoundary& edge : edges) edge.marking.existence_probability = 0.9;
   map(edges);
   EXPECT_EQ(divider().existence_probability, -1.0);
   for (const Lane& lane : lanes_) EXPECT_EQ(lane.existence_probability, -1.0);
 }
 
 TEST_F(Dividers, NeedRoomForTwoLanes) {
-  const auto lanes_between = [this](LaneBoundary left, LaneBoundary right) {
+  const auto lanes_between = [this](boundaries::LaneBoundary left, boundaries::LaneBoundary right) {
     map({std::move(left), std::move(right)});
     return inferred().size();
   };
@@ -118,7 +118,7 @@ TEST_F(Dividers, NeedRoomForTwoLanes) {
 }
 
 TEST_F(Dividers, NeedConfirmedBoundaries) {
-  std::vector<LaneBoundary> edges{road_edge(1, 9), road_edge(2, 0)};
+  std::vector<boundaries::LaneBoundary> edges{road_edge(1, 9), road_edge(2, 0)};
   edges[0].marking.status = ElementStatus::tentative;
   map(edges);
   EXPECT_TRUE(lanes_.empty());
@@ -126,8 +126,8 @@ TEST_F(Dividers, NeedConfirmedBoundaries) {
 
 TEST_F(Dividers, AreNotWhereAnotherBoundaryIs) {
   // Too far from the edges for lanes of so little length.
-  const LaneBoundary edges[]{road_edge(1, 12), road_edge(2, 0)};
-  const auto lanes_with = [&](LaneBoundary middle, ElementStatus status) {
+  const boundaries::LaneBoundary edges[]{road_edge(1, 12), road_edge(2, 0)};
+  const auto lanes_with = [&](boundaries::LaneBoundary middle, ElementStatus status) {
     middle.marking.status = status;
     map({edges[0], edges[1], middle});
     return inferred().size();
@@ -163,9 +163,9 @@ TEST_F(Dividers, DoNotCrossAKerb) {
 }
 
 TEST_F(Dividers, LieBetweenBoundariesThatRunAgainstEachOther) {
-  SectionGraph graph{.boundaries = std::vector{road_edge(1, 9), road_edge(2, 0)},
-                     .sections = {{{0, 1}}},
-                     .beside = {{{1, 9.0, 60.0, true}}, {{0, 9.0, 60.0, true}}}};
+  boundaries::SectionGraph graph{.boundaries = std::vector{road_edge(1, 9), road_edge(2, 0)},
+                                 .sections = {{{0, 1}}},
+                                 .beside = {{{1, 9.0, 60.0, true}}, {{0, 9.0, 60.0, true}}}};
   graph.boundaries.reverse(0);
   TakenSpace taken(lanes_);
   auto dividers = divide_unmarked(boundary_pairs(graph), graph.boundaries, config_, taken);
@@ -190,7 +190,7 @@ TEST_F(Dividers, FollowABend) {
 
 TEST_F(Dividers, EndWhereTheRoadOpensIntoAnIntersection) {
   const auto turning_off = [](ElementId id, double y, const Polyline& corner) {
-    LaneBoundary edge = boundary(id, straight({0, y, 0}, {40, y, 0}, 41), MarkingType::roadedge);
+    boundaries::LaneBoundary edge = boundary(id, straight({0, y, 0}, {40, y, 0}, 41), MarkingType::roadedge);
     edge.marking.points.insert(edge.marking.points.end(), corner.begin() + 1, corner.end());
     return edge;
   };
@@ -243,7 +243,7 @@ TEST_F(Dividers, DoNotTakeAnIdForAPointInCommon) {
 
 TEST_F(Dividers, AreOfTwoWaysBetweenKerbsOnly) {
   const auto two_way = [this] {
-    return std::ranges::any_of(boundaries_, [](const LaneBoundary& b) { return b.two_way; });
+    return std::ranges::any_of(boundaries_, [](const boundaries::LaneBoundary& b) { return b.two_way; });
   };
   map({road_edge(1, 9), road_edge(2, 0)});
   EXPECT_TRUE(two_way());
@@ -267,8 +267,8 @@ TEST_F(Dividers, KeepTheirIdAsTheWindowMoves) {
 TEST_F(Dividers, OnTheBridgeIsAnotherThanBelow) {
   map({road_edge(1, 9), road_edge(2, 0)});
   const ElementId id = divider().id;
-  std::vector<LaneBoundary> above{road_edge(1, 9), road_edge(2, 0)};
-  for (LaneBoundary& boundary : above)
+  std::vector<boundaries::LaneBoundary> above{road_edge(1, 9), road_edge(2, 0)};
+  for (boundaries::LaneBoundary& boundary : above)
     for (Point& point : boundary.marking.points) point.z() = 6.0;
   map(above);
   EXPECT_NE(divider().id, id);
@@ -286,11 +286,11 @@ TEST_F(Dividers, AreAmongTheBoundariesByTheirId) {
   map({road_edge(1, 9), road_edge(2, 0)});
   map({road_edge(1, 9), road_edge(200, 0)});
   std::vector<ElementId> ids;
-  for (const LaneBoundary& boundary : boundaries_) ids.push_back(boundary.marking.id);
+  for (const boundaries::LaneBoundary& boundary : boundaries_) ids.push_back(boundary.marking.id);
   EXPECT_THAT(ids, testing::ElementsAre(1U, 100U, 200U));
-  for (const LaneBoundary& boundary : boundaries_)
+  for (const boundaries::LaneBoundary& boundary : boundaries_)
     EXPECT_EQ(boundary.course.points().front(), boundary.marking.points.front());
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lanes

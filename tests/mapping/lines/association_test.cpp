@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 using test::line;
@@ -12,7 +12,7 @@ using test::straight;
 
 std::vector<SampledDetection> detect(const std::vector<Polyline>& lines,
                                      MarkingType type = MarkingType::laneline) {
-  std::vector<ObservedMarking> markings;
+  std::vector<markings::ObservedMarking> markings;
   for (const Polyline& points : lines) markings.push_back({type, MarkingStyle::unknown, 0.9, points});
   return sample_detections(markings, {});
 }
@@ -99,4 +99,4 @@ TEST(Association, OneDetectionMayObserveTwoLinesInARow) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr auto kLine = MarkingType::laneline, kEdge = MarkingType::roadedge;
@@ -71,4 +71,4 @@ TEST(DetectionModel, RatesAreLearnedByTypeAndPlaceWithinBounds) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 using test::straight;
@@ -34,7 +34,7 @@ class Alignment : public ::testing::Test {
   }
 
   std::vector<SampledDetection> detections(const FrameError& error) const {
-    std::vector<ObservedMarking> markings;
+    std::vector<markings::ObservedMarking> markings;
     for (const auto& [body, type] : bodies_)
       markings.push_back({.type = type, .confidence = 0.9, .points = in_map(body, error)});
     return sample_detections(markings, {});
@@ -108,4 +108,4 @@ TEST_F(Alignment, WhatLastsIsADriftAndGoesIntoTheMap) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

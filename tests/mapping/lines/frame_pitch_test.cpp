@@ -6,7 +6,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 /// A frame of lines in the body frame, seen by a vehicle that stands somewhere, turned.
@@ -22,7 +22,7 @@ class Pitch : public ::testing::Test {
     return points;
   }
   std::vector<SampledDetection> seen(const std::vector<Polyline>& lines) const {
-    std::vector<ObservedMarking> markings;
+    std::vector<markings::ObservedMarking> markings;
     for (Polyline line : lines) {
       for (Point& point : line) point = T_map_body_ * point;
       markings.push_back({.confidence = 0.9, .points = line});
@@ -79,4 +79,4 @@ TEST_F(Pitch, WhatIsNearIsLeftAsItIs) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 using test::line;
@@ -14,7 +14,7 @@ class Joints : public ::testing::Test {
  protected:
   /// A frame with detections along these lines.
   void frame(const std::vector<Polyline>& seen, double max_gap_m = 5.0) {
-    std::vector<ObservedMarking> markings;
+    std::vector<markings::ObservedMarking> markings;
     for (const Polyline& points : seen)
       markings.push_back({.type = MarkingType::laneline, .confidence = 0.9, .points = points});
     count_joints(LineMatcher(lines_, {}).match(sample_detections(markings, {})), lines_, max_gap_m, joints_);
@@ -23,9 +23,11 @@ class Joints : public ::testing::Test {
   const Polyline first_ = straight({0, 0, 0}, {10, 0, 0}, 11), second_ = straight({12, 0, 0}, {22, 0, 0}, 11),
                  both_ = straight({0, 0, 0}, {22, 0, 0}, 23);
   std::vector<Line> lines_{line(1, first_), line(2, second_)};
-  PairHistories joints_;
+  markings::PairHistories joints_;
 
-  const PairHistory* joint() const { return find(joints_, end_id(1, End::back), end_id(2, End::front)); }
+  const markings::PairHistory* joint() const {
+    return find(joints_, markings::end_id(1, End::back), markings::end_id(2, End::front));
+  }
   bool separate() const { return joint() != nullptr && seen_apart(*joint()); }
 };
 
@@ -54,8 +56,8 @@ TEST_F(Joints, BothTipsOfAnIslandAreJoints) {
   const Polyline near = straight({0, 0, 0}, {10, 0, 0}, 11);
   lines_ = {line(1, near), line(2, straight({0, 2, 0}, {10, 2, 0}, 11))};
   frame({near, straight({0, 2, 0}, {10, 2, 0}, 11)});
-  EXPECT_NE(find(joints_, end_id(1, End::front), end_id(2, End::front)), nullptr);
-  EXPECT_NE(find(joints_, end_id(1, End::back), end_id(2, End::back)), nullptr);
+  EXPECT_NE(find(joints_, markings::end_id(1, End::front), markings::end_id(2, End::front)), nullptr);
+  EXPECT_NE(find(joints_, markings::end_id(1, End::back), markings::end_id(2, End::back)), nullptr);
 }
 
 TEST_F(Joints, SeeingOnlyOneOfThemSaysNothing) {
@@ -75,4 +77,4 @@ TEST_F(Joints, LinesSideBySideThatRunOnAreNone) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -9,7 +9,7 @@
 
 #include "mapping/lines/network_model.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 /// A place and its views, all on one axis; the vehicle drives along the other one.
@@ -107,4 +107,4 @@ TEST_F(Place, ErrsAsMuchAsItSays) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

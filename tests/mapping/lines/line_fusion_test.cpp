@@ -9,7 +9,7 @@
 #include "mapping/lines/line_growth.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 using test::straight;
@@ -20,12 +20,12 @@ class LineFusion : public ::testing::Test {
   LineFusion() { networks_.number("", 1, {.fusion = config_}); }
 
   void see(const std::vector<Polyline>& polylines, MarkingType type = MarkingType::laneline) {
-    std::vector<ObservedMarking> markings;
+    std::vector<markings::ObservedMarking> markings;
     for (const Polyline& points : polylines) markings.push_back({type, MarkingStyle::solid, 0.8, points});
     see_markings(markings);
   }
 
-  void see_markings(const std::vector<ObservedMarking>& markings) {
+  void see_markings(const std::vector<markings::ObservedMarking>& markings) {
     Association association = associated(markings);
     fuse_matches(association, {}, config_, networks_, lines_);
     const View view{Eigen::Isometry3d::Identity(), &frame_};
@@ -39,7 +39,7 @@ class LineFusion : public ::testing::Test {
     std::ranges::copy(prune_lines(range_, config_, model_, lines_, ids_), std::back_inserter(cut_off_));
   }
 
-  Association associated(const std::vector<ObservedMarking>& markings) {
+  Association associated(const std::vector<markings::ObservedMarking>& markings) {
     auto detections = sample_detections(markings, config_);
     weigh(NetworkModel(config_), Point::Zero(), detections);
     LineMatcher matcher(lines_, config_);
@@ -47,13 +47,13 @@ class LineFusion : public ::testing::Test {
   }
 
   FusionConfig config_;
-  MapBox range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
+  geometry::MapBox range_{RangeConfig{}, Eigen::Isometry3d::Identity()};
   DetectionFrame frame_;
   DetectionModel model_;
   std::vector<Line> lines_;
   Networks networks_;
-  IdSource ids_;
-  std::vector<Relative> cut_off_;
+  markings::IdSource ids_;
+  std::vector<markings::Relative> cut_off_;
 };
 
 TEST_F(LineFusion, ALineIsBornWithAStationAboutEveryMetre) {
@@ -100,11 +100,11 @@ TEST_F(LineFusion, NearObservationsCountMore) {
 
 TEST_F(LineFusion, DeviationsThatAreGivenCount) {
   const auto at = [](double y, double near_m, double far_m) {
-    return ObservedMarking{MarkingType::laneline,
-                           MarkingStyle::solid,
-                           0.8,
-                           {{0, y, 0}, {10, y, 0}, {20, y, 0}},
-                           {near_m, near_m, far_m}};
+    return markings::ObservedMarking{MarkingType::laneline,
+                                     MarkingStyle::solid,
+                                     0.8,
+                                     {{0, y, 0}, {10, y, 0}, {20, y, 0}},
+                                     {near_m, near_m, far_m}};
   };
   for (int i = 0; i < 5; ++i) see_markings({at(0.0, 0.1, 0.1)});
   for (int i = 0; i < 5; ++i) see_markings({at(0.4, 0.1, 1.0)});
@@ -292,7 +292,7 @@ TEST_F(LineFusion, ALineThatBecomesAnEdgeIsOneWhereTheVehicleHasArrived) {
   for (int i = 0; i < 600; ++i) see({straight({-10, 0, 0}, {10, 0, 0})});
   see({straight({-10, 0, 0}, {10, 0, 0})});
   for (double x = 10; x < 60; x += 1.0) {
-    range_ = MapBox(RangeConfig{}, Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)));
+    range_ = geometry::MapBox(RangeConfig{}, Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)));
     see({straight({x, 0, 0}, {x + 20, 0, 0})}, MarkingType::roadedge);
   }
   ASSERT_EQ(lines_.size(), 1U);
@@ -307,4 +307,4 @@ TEST_F(LineFusion, NothingIsKeptBeyondTheRange) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -8,7 +8,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 TEST(StationFoot, IsBetweenStationsWithItsSide) {
@@ -70,4 +70,4 @@ TEST(StationGrid, OfNothingFindsNothing) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

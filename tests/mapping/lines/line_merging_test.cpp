@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 using test::line;
@@ -23,8 +23,8 @@ class LineMerging : public ::testing::Test {
   }
   void merge() { merged_ = merge_doubles({}, lines_, pairs_); }
   std::vector<Line> lines_;
-  PairHistories pairs_;
-  std::vector<Relative> merged_;
+  markings::PairHistories pairs_;
+  std::vector<markings::Relative> merged_;
 };
 
 TEST_F(LineMerging, ADoubleThatIsNeverSeenWithTheLineGoes) {
@@ -81,4 +81,4 @@ TEST_F(LineMerging, ABridgeIsNoDoubleOfTheRoadBelow) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -7,7 +7,7 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 using test::line;
@@ -118,4 +118,4 @@ TEST_F(LinePublishing, AStoplineHasTwoPoints) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -9,7 +9,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 constexpr double kGate_m = 0.6;
@@ -123,4 +123,4 @@ TEST(NearestStations, LeaveOutWhatIsTooFarToLieOn) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 /// A network whose error is known; all places are at 0.
@@ -100,4 +100,4 @@ TEST_F(LateralModel, ShowsWhatItLearned) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -4,7 +4,7 @@
 
 #include "laneloom/error.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 TEST(Standpoint, ViewsFromOnePlaceAreTogetherLessThanTwo) {
@@ -91,4 +91,4 @@ TEST(Networks, AProfileWithAnUnknownValueIsRefused) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

@@ -5,7 +5,7 @@
 #include "mapping/lines/frame_pitch.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::lines {
 namespace {
 
 /// A station at the origin of a line along x; the vehicle comes along.
@@ -81,4 +81,4 @@ TEST_F(StationUpdate, SamplesWeighAsTheirNetworkSaysOrHasProved) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::lines

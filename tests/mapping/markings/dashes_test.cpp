@@ -8,7 +8,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 namespace {
 
 using test::straight;
@@ -98,4 +98,4 @@ TEST(JoinDashes, ARingOfDashesIsNotClosed) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::markings

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 namespace {
 
 Marking styled() {
@@ -79,4 +79,4 @@ TEST(Markings, AppendingBridgesTheGapWithUnknownStyle) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::markings

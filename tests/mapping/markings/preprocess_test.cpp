@@ -6,7 +6,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::markings {
 namespace {
 
 using test::arc;
@@ -66,4 +66,4 @@ TEST(Zigzag, CanBeSwitchedOff) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::markings

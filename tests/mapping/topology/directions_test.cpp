@@ -7,7 +7,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 using test::straight;
@@ -67,10 +67,10 @@ class Directions : public ::testing::Test {
   }
 
   void observe(const Eigen::Isometry3d& T_map_body, const std::vector<Marking>& markings = {}) {
-    std::vector<KnownLane> known = memory_.lanes();
+    std::vector<lanes::KnownLane> known = memory_.lanes();
     for (const Lane& lane : lanes_)
       if (memory_.find(lane.id) == nullptr) known.push_back({.id = lane.id, .centerline = lane.centerline});
-    memory_ = LaneMemory(std::move(known));
+    memory_ = lanes::LaneMemory(std::move(known));
     observe_directions(lanes_, T_map_body, markings, {}, memory_);
   }
 
@@ -87,10 +87,10 @@ class Directions : public ::testing::Test {
   }
   bool known(ElementId id) const { return get(id).direction == Direction::along_centerline; }
 
-  std::vector<LaneBoundary> boundaries_;
+  std::vector<boundaries::LaneBoundary> boundaries_;
   std::vector<Lane> lanes_;
   std::vector<Linkage> linkages_;
-  LaneMemory memory_;
+  lanes::LaneMemory memory_;
 };
 
 TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
@@ -101,10 +101,10 @@ TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
   EXPECT_TRUE(runs_forward(12));
   // The turned lane's sides are its own; both see the other across their left side.
   EXPECT_EQ(get(11).left_boundary, 2U);
-  EXPECT_EQ(main_neighbour(get(11), Side::left), 12U);
+  EXPECT_EQ(lanes::main_neighbour(get(11), Side::left), 12U);
   EXPECT_TRUE(get(11).right_neighbours.empty());
   EXPECT_LT(MeasuredPolyline(get(11).left).project(get(11).right.front()).lateral_m, 0.0);
-  EXPECT_EQ(main_neighbour(get(12), Side::left), 11U);
+  EXPECT_EQ(lanes::main_neighbour(get(12), Side::left), 11U);
 }
 
 TEST_F(Directions, InLeftHandTrafficTheOtherWayRound) {
@@ -245,7 +245,7 @@ TEST_F(Directions, AnEdgeWithOneFramesDrivingIsEnough) {
 
 TEST_F(Directions, AHalfOfADoubleLineIsNoSideOfTheRoad) {
   double_divider();
-  for (LaneBoundary& b : boundaries_) {
+  for (boundaries::LaneBoundary& b : boundaries_) {
     b.marking.type = MarkingType::laneline;
     b.marking.styles = {{{0, 40}, MarkingStyle::solid}};
   }
@@ -378,4 +378,4 @@ TEST_F(Directions, LanesThatContinueOneAnotherRunTheSameWay) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 using test::lane;
@@ -110,4 +110,4 @@ TEST_F(EgoTrackTest, ItEndsWithItsLanes) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::topology

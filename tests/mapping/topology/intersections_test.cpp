@@ -6,7 +6,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 using test::lane;
@@ -18,7 +18,8 @@ using Pair = std::pair<ElementId, ElementId>;
 
 std::vector<Linkage> crossings(std::vector<Lane> lanes, std::vector<Linkage> known = {},
                                const LinkageConfig& config = {},
-                               const std::vector<LaneBoundary>& boundaries = {}, const SdMap& sd_map = {}) {
+                               const std::vector<boundaries::LaneBoundary>& boundaries = {},
+                               const SdMap& sd_map = {}) {
   RoadGraph road{{boundaries, std::move(lanes)}, std::move(known)};
   for (Linkage& linkage : road.linkages)
     linkage.turn = turn_between(road.lane(linkage.from), road.lane(linkage.to));
@@ -205,7 +206,7 @@ TEST(Crossings, StraightOnTheDirectionIsKept) {
 
 TEST(Crossings, ALaneBetweenSolidLinesTakesNoDirectionFromStraightOn) {
   std::vector<Lane> lanes{driven(1, {0, 0, 0}, {10, 0, 0}), lane(2, straight({30, 0, 0}, {40, 0, 0}))};
-  std::vector<LaneBoundary> boundaries;
+  std::vector<boundaries::LaneBoundary> boundaries;
   for (const ElementId id : {21U, 22U}) {
     const double y = id == 21U ? 1.75 : -1.75;
     boundaries.push_back(test::boundary(id, straight({30, y, 0}, {40, y, 0})));
@@ -259,7 +260,7 @@ bool turns_past(Direction direction, MarkingStyle divider) {
   lanes.back().direction = direction;
   lanes.back().left_neighbours = {{.lane = 4, .range = {0.0, 20.0}}};
   lanes.back().right_neighbours = {{.lane = 14, .range = {0.0, 20.0}}};
-  std::vector<LaneBoundary> boundaries{test::boundary(50, straight({0, 10, 0}, {0, 25, 0}))};
+  std::vector<boundaries::LaneBoundary> boundaries{test::boundary(50, straight({0, 10, 0}, {0, 25, 0}))};
   boundaries[0].marking.styles = {{{0, 15}, divider}};
   const auto left = pairs_of(crossings(lanes, {}, {}, boundaries), Linkage::Turn::left);
   return std::ranges::count(left, Pair(1, 14)) > 0;
@@ -273,14 +274,14 @@ TEST(Crossings, ALaneOfUnknownDirectionStandsBetweenOnlyAcrossDashes) {
 }
 
 TEST(Crossings, NoWayLeadsOverAnEdge) {
-  const std::vector<LaneBoundary> corner{
+  const std::vector<boundaries::LaneBoundary> corner{
       test::boundary(50, test::arc({-10, -10, 0}, 7.0, 0, 90), MarkingType::roadedge)};
   EXPECT_THAT(pairs_of(crossings(crossroads(), {}, {}, corner), Linkage::Turn::right),
               ElementsAre(Pair(1, 12), Pair(2, 13), Pair(3, 14), Pair(4, 11)));
-  const std::vector<LaneBoundary> flyover{
+  const std::vector<boundaries::LaneBoundary> flyover{
       test::boundary(50, straight({-9, -9, 6}, {0, 0, 6}), MarkingType::roadedge)};
   EXPECT_EQ(crossings(crossroads(), {}, {}, flyover).size(), crossings(crossroads()).size());
-  const std::vector<LaneBoundary> island{
+  const std::vector<boundaries::LaneBoundary> island{
       test::boundary(50, straight({-9, -9, 0}, {0, 0, 0}), MarkingType::roadedge)};
   EXPECT_THAT(pairs_of(crossings(crossroads(), {}, {}, island), Linkage::Turn::right),
               ElementsAre(Pair(2, 13), Pair(3, 14), Pair(4, 11)));
@@ -295,4 +296,4 @@ TEST(Crossings, NoTurnIsTooTightOrTooWide) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -7,7 +7,7 @@
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 using Kind = Linkage::Kind;
@@ -25,7 +25,7 @@ Lane lane(ElementId id, std::pair<ElementId, Stretch> left, std::pair<ElementId,
 }
 
 std::vector<Linkage> linkages_of(const std::vector<Lane>& lanes) {
-  std::vector<LaneBoundary> boundaries;
+  std::vector<boundaries::LaneBoundary> boundaries;
   for (const ElementId id : {10U, 11U, 20U, 21U, 22U, 30U, 40U})
     boundaries.push_back(test::boundary(id, test::straight({0, 0, 0}, {60, 0, 0})));
   return link_lanes({std::move(boundaries), lanes}, {}).linkages;
@@ -114,7 +114,7 @@ TEST(Linkages, RoundACornerTheWayKeepsBesideTheSharedEdge) {
   Polyline edge = test::straight({0, -1.75, 0}, {20, -1.75, 0});
   for (const Point& point : test::arc({20, -9.75, 0}, 8, 90, 0)) edge.push_back(point);
   for (const Point& point : test::straight({28, -9.75, 0}, {28, -29.75, 0})) edge.push_back(point);
-  const std::vector<LaneBoundary> boundaries{test::boundary(20, edge)};
+  const std::vector<boundaries::LaneBoundary> boundaries{test::boundary(20, edge)};
   const double arc_m = 4.0 * std::numbers::pi;
   const Lane from = lane(1, {10, {0, 20}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0}));
   const Lane to = lane(2, {11, {0, 20}}, {20, {20 + arc_m, 40 + arc_m}},
@@ -141,4 +141,4 @@ TEST(Linkages, LanesThatMeetNeedNoPath) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 using test::straight;
@@ -90,4 +90,4 @@ TEST(SdMap, WaysNeedTheirPoints) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::topology

@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::topology {
 namespace {
 
 using test::lane;
@@ -49,4 +49,4 @@ TEST(Stoplines, OthersAreNone) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::topology

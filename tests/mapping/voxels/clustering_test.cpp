@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 class Clustering : public ::testing::Test {
@@ -26,7 +26,7 @@ class Clustering : public ::testing::Test {
   VoxelMap& map_ = semantic_map_.voxels;
   CoObservation& co_observation_ = semantic_map_.co_observation;
   Instances& instances_ = semantic_map_.instances;
-  IdSource ids_;
+  markings::IdSource ids_;
 };
 
 TEST_F(Clustering, VoxelsOfOneDetectionBecomeOneInstance) {
@@ -165,4 +165,4 @@ TEST_F(Clustering, CountsEachDetectionOncePerInstance) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::voxels

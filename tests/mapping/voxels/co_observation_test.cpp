@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 constexpr int kVoxels = 40;
@@ -120,4 +120,4 @@ TEST(CoObservation, MemoryIsBoundedWhileStandingStill) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::voxels

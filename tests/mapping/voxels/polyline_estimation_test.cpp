@@ -7,7 +7,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 using test::arc;
@@ -103,4 +103,4 @@ TEST(PolylineEstimation, DegenerateInstancesGiveNoNaN) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::voxels

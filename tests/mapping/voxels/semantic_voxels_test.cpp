@@ -6,14 +6,14 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 class SemanticVoxels : public ::testing::Test {
  protected:
-  TouchedVoxels see(const std::vector<ObservedMarking>& markings,
+  TouchedVoxels see(const std::vector<markings::ObservedMarking>& markings,
                     const Eigen::Isometry3d& T_map_body = test::at(0)) {
-    return update_voxels(markings, MapBox({}, T_map_body), config_, map_, co_observation_);
+    return update_voxels(markings, geometry::MapBox({}, T_map_body), config_, map_, co_observation_);
   }
   VoxelId at(double x, double y) const { return map_.find(map_.index_of({x, y, 0.1})); }
 
@@ -23,7 +23,7 @@ class SemanticVoxels : public ::testing::Test {
   Instances instances_;
 };
 
-ObservedMarking line(MarkingType type, const Point& from, const Point& to) {
+markings::ObservedMarking line(MarkingType type, const Point& from, const Point& to) {
   return {type, MarkingStyle::solid, 0.9, {from, to}};
 }
 
@@ -69,7 +69,7 @@ TEST_F(SemanticVoxels, AllocatesOnlyWithinTheRangeAndItsMargin) {
 }
 
 TEST_F(SemanticVoxels, ReliableIsWhatWasDetectedMoreOftenThanAlphaN) {
-  const std::vector<ObservedMarking> markings{
+  const std::vector<markings::ObservedMarking> markings{
       line(MarkingType::laneline, {0.05, 0.1, 0.1}, {1.95, 0.1, 0.1})};
   TouchedVoxels touched;
   for (int i = 0; i < 10; ++i) touched = see(markings);
@@ -91,4 +91,4 @@ TEST_F(SemanticVoxels, WhatIsInAnInstanceOfItsTypeIsNotNew) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::voxels

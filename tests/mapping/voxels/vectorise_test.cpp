@@ -4,7 +4,7 @@
 
 #include "mapping/shapes.hpp"
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 using test::straight;
@@ -26,7 +26,7 @@ class Vectorise : public ::testing::Test {
 
   VoxelMap map_{VoxelMapConfig{}};
   Instances instances_;
-  IdSource ids_;
+  markings::IdSource ids_;
 };
 
 TEST_F(Vectorise, ANewLineRunsForwardAndKeepsItsDirection) {
@@ -83,7 +83,7 @@ TEST_F(Vectorise, AContestedStyleIsUnknown) {
 TEST_F(Vectorise, MarkingsAreCutAtTheRange) {
   instance_along(straight({-12, 0.1, 0}, {38, 0.1, 0}));
   update();
-  const auto markings = markings_in_range(MapBox({}, test::at(0)), 3.0, instances_, ids_);
+  const auto markings = markings_in_range(geometry::MapBox({}, test::at(0)), 3.0, instances_, ids_);
   ASSERT_EQ(markings.size(), 1U);
   EXPECT_EQ(markings[0].id, 1U);
   EXPECT_NEAR(markings[0].points.front().x(), -5.0, 1e-6);
@@ -95,7 +95,7 @@ TEST_F(Vectorise, StretchesOfOneLineHaveLastingIdsOfTheirOwn) {
   Instance& instance = instance_along(straight({0, 0, 0}, {1, 0, 0}));
   instance.points = {{0, 0, 0}, {0, 20, 0}, {10, 20, 0}, {10, 0, 0}};
   instance.styles = {{{0, 50}, MarkingStyle::solid}};
-  const MapBox range({}, test::at(0));
+  const geometry::MapBox range({}, test::at(0));
   const auto first = markings_in_range(range, 3.0, instances_, ids_);
   const auto second = markings_in_range(range, 3.0, instances_, ids_);
   ASSERT_EQ(first.size(), 2U);
@@ -106,4 +106,4 @@ TEST_F(Vectorise, StretchesOfOneLineHaveLastingIdsOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::voxels

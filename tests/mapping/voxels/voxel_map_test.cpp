@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-namespace laneloom {
+namespace laneloom::voxels {
 namespace {
 
 TEST(VoxelMap, IndicesAreFloors) {
@@ -72,4 +72,4 @@ TEST(Voxel, TheMostDetectedTypeIsTheLikelyOne) {
 }
 
 }  // namespace
-}  // namespace laneloom
+}  // namespace laneloom::voxels
