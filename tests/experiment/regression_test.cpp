@@ -41,10 +41,10 @@ TEST_P(Regression, NoPointIsLost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, Regression,
-                         ::testing::Values(Drive{"median", "random:1", {92.5, 96.5, 99.8}},
-                                           Drive{"median", "random:2", {70.4, 75.6, 100.0}},
-                                           Drive{"intersection", "random:1", {86.7, 88.0, 100.0}},
-                                           Drive{"intersection", "random:2", {67.6, 82.2, 100.0}}));
+                         ::testing::Values(Drive{"median", "random:1", {92.5, 96.7, 99.9}},
+                                           Drive{"median", "random:2", {70.8, 76.4, 100.0}},
+                                           Drive{"intersection", "random:1", {87.8, 88.0, 100.0}},
+                                           Drive{"intersection", "random:2", {69.2, 80.3, 100.0}}));
 
 }  // namespace
 }  // namespace laneloom::experiment
