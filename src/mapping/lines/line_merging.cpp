@@ -49,20 +49,20 @@ bool passes(const Polyline& course, std::size_t station, const Point& point, dou
 /// Finds the longer lines that a line lies beside.
 class BesideSearch {
  public:
-  BesideSearch(const std::vector<Line>& lines, double distance_m, const FusionConfig& config)
+  BesideSearch(const std::vector<Line>& lines, const FusionConfig& config)
       : along_(station_grid(lines, false)),
         across_(station_grid(lines, true)),
         courses_(courses_of(lines)),
         others_(lines.size()),
-        distance_m_(distance_m),
-        // A line that passes this near has a station within reach, unless its stations are more than twice
-        // as far apart as wanted.
-        reach_m_(std::sqrt(distance_m * distance_m + config.station_spacing_m * config.station_spacing_m)) {}
+        spacing_m_(config.station_spacing_m) {}
 
-  /// Calls `found(other)` for each longer line that `line` lies beside. Of equally long lines, the first one
-  /// counts as longer.
+  /// Calls `found(other)` for each longer line that `line` lies beside, within `distance_m`. Of equally long
+  /// lines, the first one counts as longer.
   template <class Found>
-  void beside(std::size_t line, bool is_stopline, Found&& found) {
+  void beside(std::size_t line, bool is_stopline, double distance_m, Found&& found) {
+    // A line that passes this near has a station within reach, unless its stations are more than twice as far
+    // apart as wanted.
+    const double reach_m = std::sqrt(distance_m * distance_m + spacing_m_ * spacing_m_);
     const Polyline& course = courses_[line];
     const auto needed = static_cast<std::size_t>(std::ceil(kMinBeside * static_cast<double>(course.size())));
     for (std::size_t j = 0; j < others_.size(); ++j) {
@@ -71,14 +71,14 @@ class BesideSearch {
     }
     for (std::size_t k = 0; k < course.size(); ++k) {
       const Point& point = course[k];
-      (is_stopline ? across_ : along_).around(point, reach_m_, [&](const StationPlace& entry) {
+      (is_stopline ? across_ : along_).around(point, reach_m, [&](const StationPlace& entry) {
         Other& other = others_[entry.line];
-        if (other.next > k || (entry.position - point).head<2>().squaredNorm() >= reach_m_ * reach_m_) return;
+        if (other.next > k || (entry.position - point).head<2>().squaredNorm() >= reach_m * reach_m) return;
         if (other.needed > course.size() - k) {
           other.next = kNever;
           return;
         }
-        if (!passes(courses_[entry.line], entry.station, point, distance_m_)) return;
+        if (!passes(courses_[entry.line], entry.station, point, distance_m)) return;
         other.next = --other.needed == 0 ? kNever : k + 1;
         if (other.needed == 0) found(entry.line);
       });
@@ -96,28 +96,26 @@ class BesideSearch {
   StationGrid along_, across_;
   std::vector<Polyline> courses_;
   std::vector<Other> others_;
-  double distance_m_, reach_m_;
+  double spacing_m_;
 };
 
 /// Pairs of lines that lie side by side along enough of the shorter one, in ascending order.
-std::vector<IndexPair> side_by_side(const std::vector<Line>& lines, const FusionConfig& config) {
-  BesideSearch search(lines, config.merge_distance_m, config);
+std::vector<IndexPair> side_by_side(const std::vector<Line>& lines, double distance_m, BesideSearch& search) {
   std::vector<IndexPair> pairs;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    search.beside(i, is_stopline(lines[i].type()),
+    search.beside(i, is_stopline(lines[i].type()), distance_m,
                   [&](std::size_t j) { pairs.emplace_back(std::minmax(i, j)); });
   std::ranges::sort(pairs);
   return pairs;
 }
 
 /// Pairs of road edges that are one kerb, in ascending order.
-std::vector<IndexPair> doubled_kerbs(const std::vector<Line>& lines, const FusionConfig& config) {
+std::vector<IndexPair> doubled_kerbs(const std::vector<Line>& lines, BesideSearch& search) {
   const auto is_kerb = [&](std::size_t i) { return lines[i].type() == MarkingType::roadedge; };
-  BesideSearch search(lines, kKerb_m, config);
   std::vector<IndexPair> pairs;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!is_kerb(i)) continue;
-    search.beside(i, false, [&](std::size_t j) {
+    search.beside(i, false, kKerb_m, [&](std::size_t j) {
       if (is_kerb(j)) pairs.emplace_back(std::minmax(i, j));
     });
   }
@@ -143,8 +141,9 @@ std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::v
   markings::PairHistories kept;
   std::vector<markings::Relative> merged;
   std::vector<bool> gone(lines.size(), false);
-  const std::vector<IndexPair> kerbs = doubled_kerbs(lines, config);
-  for (const auto& [i, j] : side_by_side(lines, config)) {
+  BesideSearch search(lines, config);
+  const std::vector<IndexPair> kerbs = doubled_kerbs(lines, search);
+  for (const auto& [i, j] : side_by_side(lines, config.merge_distance_m, search)) {
     if (gone[i] || gone[j]) continue;
     const bool i_seen = mostly_observed(lines[i]), j_seen = mostly_observed(lines[j]);
     const auto [a, b] = std::minmax(lines[i].id, lines[j].id);
