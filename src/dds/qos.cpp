@@ -145,7 +145,7 @@ void set_common(TopicKind kind, Qos& qos) {
   qos.history().kind = KEEP_LAST_HISTORY_QOS;
   qos.history().depth = depth(kind);
   // The types are bounded but rarely full: preallocation would take their largest size for every sample.
-  // What is not reused would be freed too early (take_all.hpp).
+  // Memory that is not reused would be freed too early (take_all.hpp).
   qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   qos.data_sharing().off();
   const bool from_service = kind == TopicKind::map || kind == TopicKind::status;

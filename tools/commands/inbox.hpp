@@ -44,7 +44,7 @@ class Inbox {
     arrived_.notify_one();
   }
 
-  /// What the queue gives as soon as it has an event, or after `patience`.
+  /// Takes from the queue as soon as it has an event, or after `patience`.
   auto take(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, patience, [this] { return !queue_.empty(); });

@@ -40,7 +40,7 @@ void RoadGraph::turn(const std::vector<ElementId>& ids) {
   const auto turned = [&](ElementId id) { return std::ranges::count(ids, id) > 0; };
   for (Lane& lane : lanes)
     if (turned(lane.id)) topology::turn(lane);
-  // Where directions contradict one another, one of two linked lanes may be turned alone. The linkage does
+  // One of two linked lanes may be turned alone, if directions contradict one another. The linkage does
   // not hold then.
   std::erase_if(linkages, [&](const Linkage& l) { return turned(l.from) != turned(l.to); });
   for (Linkage& linkage : linkages) {
