@@ -56,13 +56,14 @@ const laneOnScreen = (page, pane) => page.evaluate((column) => {
   return found ? {id: found.id, x: box.x + left + found.at[0], y: box.y + found.at[1]} : null;
 }, pane);
 
-/** Of the map in this column, which has to stand still. Clicks again where the page moved below the click. Returns the lane's id. */
+const nextPicture = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => done())));
+
+/** Of the map in this column, which has to stand still. Looks and clicks again while the page still moves. Returns the lane's id. */
 export async function clickALane(page, pane = 0) {
-  for (const until_ms = Date.now() + PATIENCE_MS; ;) {
+  for (const until_ms = Date.now() + PATIENCE_MS; ; await nextPicture(page)) {
     const lane = await laneOnScreen(page, pane);
-    assert.ok(lane, 'a lane can be clicked');
-    await page.mouse.click(lane.x, lane.y);
-    if (await page.evaluate(() => document.getElementById('selected')?.textContent) === `lane ${lane.id}`) return lane.id;
-    assert.ok(Date.now() < until_ms, `lane ${lane.id} is selected`);
+    if (lane) await page.mouse.click(lane.x, lane.y);
+    if (lane && await page.evaluate(() => document.getElementById('selected')?.textContent) === `lane ${lane.id}`) return lane.id;
+    assert.ok(Date.now() < until_ms, lane ? `lane ${lane.id} is selected` : 'a lane can be clicked');
   }
 }
