@@ -17,14 +17,18 @@ namespace {
 
 using Checkpoint = MappingSession::Checkpoint;
 
-/// Whether a pose may follow a checkpoint, after a pause of the service of at most `max_pause_s`.
-bool follows(const VehiclePose& pose, const Checkpoint& checkpoint, const GateConfig& config,
+StreamPoint place(const VehiclePose& pose) { return {pose.stamp_ns, pose.session_id, pose.position}; }
+StreamPoint place(const Checkpoint& checkpoint) {
+  return {checkpoint.pose_stamp_ns, checkpoint.pose_session_id, checkpoint.position};
+}
+
+/// Whether a pose may follow another one, after a pause of the poses or the service of at most `max_pause_s`.
+bool follows(const StreamPoint& pose, const StreamPoint& before, const GateConfig& config,
              double max_pause_s) {
-  const double step_s = static_cast<double>(pose.stamp_ns - checkpoint.pose_stamp_ns) / 1e9;
-  return pose.session_id == checkpoint.pose_session_id && step_s > 0.0 &&
+  const double step_s = static_cast<double>(pose.stamp_ns - before.stamp_ns) / 1e9;
+  return pose.session_id == before.session_id && step_s > 0.0 &&
          step_s <= config.max_stamp_step_s + max_pause_s &&
-         (pose.position - checkpoint.position).norm() <=
-             config.max_pose_jump_m + config.max_speed_mps * step_s;
+         (pose.position - before.position).norm() <= config.max_pose_jump_m + config.max_speed_mps * step_s;
 }
 
 MapperConfig with_profiles(MapperConfig config) {
@@ -89,10 +93,11 @@ struct MappingSession::State {
 
 std::string_view MappingSession::State::add(const VehiclePose& pose) {
   if (const auto found = defect(pose, gate_config); !found.empty()) return found;
-  const auto verdict = pose_gate.check({pose.stamp_ns, pose.session_id, pose.position});
+  const auto verdict = pose_gate.check(place(pose));
   if (const auto why = reason(verdict); !why.empty()) return why;
   if (verdict == Gate::Verdict::begins_anew) {
-    reset();
+    // Poses that were missing for a while, and go on where the vehicle can be, are still those of the map.
+    if (!follows(place(pose), place(*newest_pose), gate_config, max_pause_s)) reset();
     synchroniser.clear_poses();
   }
   check_resumed(pose);
@@ -104,7 +109,7 @@ std::string_view MappingSession::State::add(const VehiclePose& pose) {
 }
 
 void MappingSession::State::check_resumed(const VehiclePose& pose) {
-  if (resumed && !follows(pose, *resumed, gate_config, max_pause_s)) reset();
+  if (resumed && !follows(place(pose), place(*resumed), gate_config, max_pause_s)) reset();
   resumed.reset();
 }
 

@@ -192,6 +192,19 @@ TEST_F(Faults, StampsThatJumpResetTheMapOnce) {
   }
 }
 
+TEST_F(Faults, PosesThatStopForSecondsKeepTheMap) {
+  const auto map_id = drive_.maps().back().map_id;
+  drive_.send_poses = lose<VehiclePose>;
+  drive_.run_for(5000);
+  EXPECT_EQ(drive_.state(), "STALE no_poses unsynchronised");
+  drive_.send_poses = {};
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.state(), "OK");
+  EXPECT_EQ(drive_.maps().back().map_id, map_id);
+  EXPECT_EQ(drive_.counter("poses_refused_outlier"), 2U);
+  EXPECT_EQ(drive_.counter("map_resets"), 0U);
+}
+
 TEST_F(Faults, APoseThatJumpsAndStaysResetsTheMap) {
   const auto map_id = drive_.maps().back().map_id;
   drive_.send_poses = [](VehiclePose pose) {

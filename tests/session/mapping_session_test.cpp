@@ -203,6 +203,16 @@ TEST_F(MappingSessionTest, OneOutlierIsRefusedThreeResetTheMap) {
   EXPECT_GT(session_.map().boundaries[0].id, id);
 }
 
+TEST_F(MappingSessionTest, PosesThatPausedGoOnWithTheMap) {
+  drive(10'000, 12'000);
+  drive(18'900, 21'000);
+  EXPECT_EQ(session_.counters()["poses_refused_outlier"], 2U);
+  EXPECT_EQ(session_.counters()["map_resets"], 0U) << "a pause of 6.9 s";
+  EXPECT_EQ(session_.map().stamp_ns, 20'900 * kMs);
+  drive(28'100, 30'000);
+  EXPECT_EQ(session_.counters()["map_resets"], 1U) << "7.1 s";
+}
+
 TEST_F(MappingSessionTest, ANewSessionResetsTheMapAtOnce) {
   drive(10'000, 12'000);
   add(frame(12'000));  // waits
