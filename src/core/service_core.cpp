@@ -10,6 +10,7 @@ namespace laneloom::core {
 namespace {
 
 constexpr double kSourceRemembered_s = 10.0;  // a source that is silent for longer is not missed any more
+constexpr double kSourcePeriods = 2.5;        // a source may miss one of its frames
 constexpr double kFusionShare = 0.5;  // share of a tick's period, after which no further frame is begun
 
 std::int64_t nanoseconds(double duration_s) { return static_cast<std::int64_t>(duration_s * 1e9); }
@@ -101,9 +102,10 @@ bool ServiceCore::source_not_fused(std::int64_t now_ns) const {
   if (crowded_out_ns && age_s(now_ns, crowded_out_ns) < kSourceRemembered_s) return true;
   const auto sources = session_.sources();
   return sources.size() > 1 && std::ranges::any_of(sources, [&](const session::SourceProgress& source) {
+           const double period_s = static_cast<double>(source.period_ns) / 1e9;
+           const double patience_s = std::max(config_.service.stale_after_s, kSourcePeriods * period_s);
            return age_s(now_ns, source.arrival_ns) < kSourceRemembered_s &&
-                  (!source.fused_arrival_ns ||
-                   age_s(now_ns, source.fused_arrival_ns) > config_.service.stale_after_s);
+                  (!source.fused_arrival_ns || age_s(now_ns, source.fused_arrival_ns) > patience_s);
          });
 }
 

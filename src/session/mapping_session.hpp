@@ -15,12 +15,16 @@
 
 namespace laneloom::session {
 
+/// The longest period of a source that is told from silence.
+inline constexpr std::int64_t kLongestPeriod_ns = 2'000'000'000;
+
 /// The progress of one source of detections since its session began.
 struct SourceProgress {
   std::string source;                            ///< the name that its frames carry
   std::uint64_t session_id = 0;                  ///< of its run
   std::uint64_t fused = 0;                       ///< number of frames that went into the map
   std::int64_t arrival_ns = 0;                   ///< of its newest believed frame
+  std::int64_t period_ns = kLongestPeriod_ns;    ///< from the arrival before to that one, if it is shorter
   std::optional<std::int64_t> fused_arrival_ns;  ///< of the frame that was fused last
   std::optional<std::int64_t> fused_stamp_ns;    ///< of its newest fused frame
 };

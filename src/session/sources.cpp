@@ -33,6 +33,7 @@ Sources::Verdict Sources::check(const DetectionFrame& frame, std::int64_t arriva
   source.stamps_ns.push_back(frame.stamp_ns);
   if (source.stamps_ns.size() > kStampsRemembered) source.stamps_ns.pop_front();
   source.progress.session_id = frame.session_id;
+  source.progress.period_ns = std::min(arrival_ns - source.progress.arrival_ns, kLongestPeriod_ns);
   source.progress.arrival_ns = arrival_ns;
   return {.refusal = {}, .restarted = restarted};
 }

@@ -66,6 +66,40 @@ TEST_F(SourcesOfADrive, OneThatIsNotFusedIsTold) {
   EXPECT_EQ(drive_.state(), "OK") << "it is missed for 10 s";
 }
 
+/// Beside every frame, a second source that sends each `nth` of them.
+Channel<DetectionFrame> with_every(std::uint64_t nth) {
+  return [nth](const DetectionFrame& frame) {
+    std::vector sent{frame};
+    if (frame.sequence % nth == 0) sent.push_back(of_source(frame, "side", 70));
+    return sent;
+  };
+}
+
+TEST_F(SourcesOfADrive, OneThatIsSlowIsNotMissedBetweenItsFrames) {
+  for (const std::uint64_t nth : {5U, 10U, 20U}) {
+    drive_.send_frames = with_every(nth);
+    drive_.run_for(10'000);
+    EXPECT_EQ(drive_.states(), States{"OK"}) << nth;
+  }
+  drive_.send_frames = {};
+  drive_.run_for(4000);
+  EXPECT_EQ(drive_.state(), "OK") << "the next frame of a source at 0.5 Hz may still come";
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.state(), "DEGRADED source_not_fused");
+}
+
+TEST_F(SourcesOfADrive, OneThatIsSlowAndNeverFusedIsTold) {
+  drive_.send_frames = [slow = with_every(10)](const DetectionFrame& frame) {
+    auto sent = slow(frame);
+    for (std::size_t i = 1; i < sent.size(); ++i) sent[i].stamp_ns -= 20'000'000'000;
+    return sent;
+  };
+  drive_.run_for(2000);
+  drive_.run_for(5000);
+  for (const std::string& state : drive_.states())
+    EXPECT_NE(state.find("source_not_fused"), std::string::npos) << state;
+}
+
 TEST_F(SourcesOfADrive, OneThatDiesIsToldUntilItReturns) {
   const auto both = [](const DetectionFrame& frame) {
     return std::vector{frame, of_source(frame, "side", 70)};

@@ -39,6 +39,19 @@ TEST(Sources, ANewSessionCountsFromZero) {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
+TEST(Sources, AreKnownByThePeriodOfTheirFrames) {
+  Sources sources{GateConfig{}};
+  const auto period_after = [&](std::int64_t arrival_ns) {
+    EXPECT_EQ(sources.check(frame_at(arrival_ns, 7), arrival_ns).refusal, "");
+    return sources.progress()[0].period_ns;
+  };
+  EXPECT_EQ(period_after(100 * kSecond_ns), kLongestPeriod_ns) << "one frame tells none";
+  EXPECT_EQ(period_after(101 * kSecond_ns), kSecond_ns);
+  EXPECT_EQ(period_after(101 * kSecond_ns + kFrame_ns), kFrame_ns);
+  sources.check(frame_at(101 * kSecond_ns, 7), 102 * kSecond_ns);
+  EXPECT_EQ(sources.progress()[0].period_ns, kFrame_ns) << "a repeated frame is no frame";
+}
+
 DetectionFrame frame_of(const std::string& source, std::int64_t stamp_ns) {
   DetectionFrame frame = frame_at(stamp_ns, 7);
   frame.source = source;
