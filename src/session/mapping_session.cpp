@@ -96,7 +96,7 @@ std::string_view MappingSession::State::add(const VehiclePose& pose) {
   const auto verdict = pose_gate.check(place(pose));
   if (const auto why = reason(verdict); !why.empty()) return why;
   if (verdict == Gate::Verdict::begins_anew) {
-    // Poses that were missing for a while, and go on where the vehicle can be, are still those of the map.
+    // Poses that only paused are still those of the map.
     if (!follows(place(pose), place(*newest_pose), gate_config, max_pause_s)) reset();
     synchroniser.clear_poses();
   }

@@ -53,7 +53,7 @@ void StraightRoad::run(const std::stop_token& stopped) {
   for (std::int64_t time_ms = 0; !stopped.stop_requested(); time_ms += kStep_ms) {
     if (time_ms % kPosePeriod_ms == 0) write_pose(time_ms);
     if (time_ms > 0 && time_ms % frame_period_ms_ == 0) write_frame(time_ms);
-    // On a slow host, the time of the road is slower, too: bursts of messages would push one another out.
+    // The road's time goes slower on a slow host: messages in a burst would push one another out.
     next = std::max(next + std::chrono::milliseconds(kStep_ms), std::chrono::steady_clock::now());
     std::this_thread::sleep_until(next);
   }

@@ -66,7 +66,7 @@ TEST_F(SourcesOfADrive, OneThatIsNotFusedIsTold) {
   EXPECT_EQ(drive_.state(), "OK") << "it is missed for 10 s";
 }
 
-/// Beside every frame, a second source that sends each `nth` of them.
+/// A second source sends each `nth` frame, too.
 Channel<DetectionFrame> with_every(std::uint64_t nth) {
   return [nth](const DetectionFrame& frame) {
     std::vector sent{frame};

@@ -58,7 +58,7 @@ const laneOnScreen = (page, pane) => page.evaluate((column) => {
 
 const nextPicture = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => done())));
 
-/** Of the map in this column, which has to stand still. Looks and clicks again while the page still moves. Returns the lane's id. */
+/** Clicks a lane of the map in this column, which has to stand still. Clicks again while the page still moves. Returns the lane's id. */
 export async function clickALane(page, pane = 0) {
   for (const until_ms = Date.now() + PATIENCE_MS; ; await nextPicture(page)) {
     const lane = await laneOnScreen(page, pane);
