@@ -40,6 +40,13 @@ std::string_view defect(const Detection& detection, const GateConfig& config) {
 
 }  // namespace
 
+bool follows(const StreamPoint& point, const StreamPoint& before, const GateConfig& config,
+             double max_step_s) {
+  const double step_s = seconds(before.stamp_ns, point.stamp_ns);
+  return before.session_id == point.session_id && step_s > 0.0 && step_s <= max_step_s &&
+         (point.position - before.position).norm() <= config.max_pose_jump_m + config.max_speed_mps * step_s;
+}
+
 Gate::Verdict Gate::check(const StreamPoint& point) {
   if (!last_) {
     last_ = point;
@@ -58,9 +65,7 @@ Gate::Verdict Gate::check(const StreamPoint& point) {
 }
 
 bool Gate::plausible(const StreamPoint& from, const StreamPoint& to) const {
-  const double step_s = seconds(from.stamp_ns, to.stamp_ns);
-  return from.session_id == to.session_id && step_s > 0.0 && step_s <= config_.max_stamp_step_s &&
-         (to.position - from.position).norm() <= config_.max_pose_jump_m + config_.max_speed_mps * step_s;
+  return follows(to, from, config_, config_.max_stamp_step_s);
 }
 
 bool Gate::is_superseded(std::uint64_t session_id) const {

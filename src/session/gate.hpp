@@ -17,6 +17,11 @@ struct StreamPoint {
   Point position = Point::Zero();  ///< of a pose, map frame; zero in a stream of detections
 };
 
+/// Whether a point may follow another one of its stream, at most `max_step_s` later: in the same session, and
+/// at a place that the vehicle can have reached.
+bool follows(const StreamPoint& point, const StreamPoint& before, const GateConfig& config,
+             double max_step_s);
+
 /// Decides which messages of one stream are believed. A message that jumps in stamp or position is an
 /// outlier. The third outlier in a row that agrees with its predecessors is believed, and so is the first
 /// message of a new session: the stream begins anew with it.

@@ -22,15 +22,6 @@ StreamPoint place(const Checkpoint& checkpoint) {
   return {checkpoint.pose_stamp_ns, checkpoint.pose_session_id, checkpoint.position};
 }
 
-/// Whether a pose may follow another one, after a pause of the poses or the service of at most `max_pause_s`.
-bool follows(const StreamPoint& pose, const StreamPoint& before, const GateConfig& config,
-             double max_pause_s) {
-  const double step_s = static_cast<double>(pose.stamp_ns - before.stamp_ns) / 1e9;
-  return pose.session_id == before.session_id && step_s > 0.0 &&
-         step_s <= config.max_stamp_step_s + max_pause_s &&
-         (pose.position - before.position).norm() <= config.max_pose_jump_m + config.max_speed_mps * step_s;
-}
-
 MapperConfig with_profiles(MapperConfig config) {
   for (auto& [source, profile] : config::load_network_profiles(config.fusion.profile_file))
     config.networks[source] = std::move(profile);
@@ -65,6 +56,10 @@ struct MappingSession::State {
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
+  /// Whether a pose may follow `before`, after a pause of the poses or the service of at most `max_pause_s`.
+  bool goes_on(const VehiclePose& pose, const StreamPoint& before) const {
+    return follows(place(pose), before, gate_config, gate_config.max_stamp_step_s + max_pause_s);
+  }
   void check_resumed(const VehiclePose& pose);
   void fuse_ready();
   void fuse(const SynchronisedFrame& synchronised);
@@ -97,7 +92,7 @@ std::string_view MappingSession::State::add(const VehiclePose& pose) {
   if (const auto why = reason(verdict); !why.empty()) return why;
   if (verdict == Gate::Verdict::begins_anew) {
     // Poses that only paused are still those of the map.
-    if (!follows(place(pose), place(*newest_pose), gate_config, max_pause_s)) reset();
+    if (!goes_on(pose, place(*newest_pose))) reset();
     synchroniser.clear_poses();
   }
   check_resumed(pose);
@@ -109,7 +104,7 @@ std::string_view MappingSession::State::add(const VehiclePose& pose) {
 }
 
 void MappingSession::State::check_resumed(const VehiclePose& pose) {
-  if (resumed && !follows(place(pose), place(*resumed), gate_config, max_pause_s)) reset();
+  if (resumed && !goes_on(pose, place(*resumed))) reset();
   resumed.reset();
 }
 
