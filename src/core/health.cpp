@@ -1,5 +1,7 @@
 #include "core/health.hpp"
 
+#include "base/seconds.hpp"
+
 namespace laneloom::core {
 namespace {
 
@@ -8,7 +10,7 @@ constexpr double kRecent_s = 1.0;
 }  // namespace
 
 double age_s(std::int64_t now_ns, const std::optional<std::int64_t>& arrival_ns) {
-  return arrival_ns ? static_cast<double>(now_ns - *arrival_ns) / 1e9 : -1.0;
+  return arrival_ns ? seconds(now_ns - *arrival_ns) : -1.0;
 }
 
 Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {

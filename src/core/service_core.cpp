@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/seconds.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/state_names.hpp"
 
@@ -102,7 +103,7 @@ bool ServiceCore::source_not_fused(std::int64_t now_ns) const {
   if (crowded_out_ns && age_s(now_ns, crowded_out_ns) < kSourceRemembered_s) return true;
   const auto sources = session_.sources();
   return sources.size() > 1 && std::ranges::any_of(sources, [&](const session::SourceProgress& source) {
-           const double period_s = static_cast<double>(source.period_ns) / 1e9;
+           const double period_s = seconds(source.period_ns);
            const double patience_s = std::max(config_.service.stale_after_s, kSourcePeriods * period_s);
            return age_s(now_ns, source.arrival_ns) < kSourceRemembered_s &&
                   (!source.fused_arrival_ns || age_s(now_ns, source.fused_arrival_ns) > patience_s);
@@ -178,7 +179,7 @@ void ServiceCore::add_progress(SourceStatus& source) const {
   source.learned = session_.mapper().learned(source.source);
   const auto lag_s = session_.lag_s();
   if (!found->fused_stamp_ns || !lag_s) return;
-  source.lag_s = *lag_s + static_cast<double>(session_.map().stamp_ns - *found->fused_stamp_ns) / 1e9;
+  source.lag_s = *lag_s + seconds(session_.map().stamp_ns - *found->fused_stamp_ns);
 }
 
 std::optional<snapshot::Snapshot> ServiceCore::snapshot_if_due(std::int64_t now_ns) {

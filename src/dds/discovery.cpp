@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/seconds.hpp"
 #include "dds/qos.hpp"
 #include "dds/writer_id.hpp"
 
@@ -29,9 +30,9 @@ using eprosima::fastrtps::rtps::ParticipantProxyData;
 using eprosima::fastrtps::rtps::ReaderDiscoveryInfo;
 using eprosima::fastrtps::rtps::WriterDiscoveryInfo;
 
-std::optional<double> seconds(const eprosima::fastrtps::Duration_t& duration) {
+std::optional<double> finite_seconds(const eprosima::fastrtps::Duration_t& duration) {
   if (duration.is_infinite()) return std::nullopt;
-  return static_cast<double>(duration.to_ns()) / 1e9;
+  return seconds(duration.to_ns());
 }
 
 Durability to_plain(DurabilityQosPolicyKind kind) {
@@ -70,9 +71,9 @@ Endpoint to_plain(const Data& data, bool is_writer) {
   endpoint.partitions = data.m_qos.m_partition.getNames();
   endpoint.reliable = data.m_qos.m_reliability.kind == RELIABLE_RELIABILITY_QOS;
   endpoint.durability = to_plain(data.m_qos.m_durability.kind);
-  endpoint.deadline_s = seconds(data.m_qos.m_deadline.period);
+  endpoint.deadline_s = finite_seconds(data.m_qos.m_deadline.period);
   endpoint.liveliness = to_plain(data.m_qos.m_liveliness.kind);
-  endpoint.lease_s = seconds(data.m_qos.m_liveliness.lease_duration);
+  endpoint.lease_s = finite_seconds(data.m_qos.m_liveliness.lease_duration);
   endpoint.exclusive = data.m_qos.m_ownership.kind == EXCLUSIVE_OWNERSHIP_QOS;
   if (is_writer) endpoint.id = id_of(data.guid());
   return endpoint;

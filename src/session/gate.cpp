@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/seconds.hpp"
 #include "base/unit_rotation.hpp"
 
 namespace laneloom::session {
@@ -11,10 +12,6 @@ namespace {
 constexpr int kOutliersToBelieve = 3;
 constexpr std::size_t kSessionsRemembered = 8;
 constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;  // differences of smaller stamps do not overflow
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return static_cast<double>(to_ns - from_ns) / 1e9;
-}
 
 bool plausible_stamp(std::int64_t stamp_ns) { return stamp_ns > 0 && stamp_ns < kMaxStamp_ns; }
 
@@ -42,7 +39,7 @@ std::string_view defect(const Detection& detection, const GateConfig& config) {
 
 bool follows(const StreamPoint& point, const StreamPoint& before, const GateConfig& config,
              double max_step_s) {
-  const double step_s = seconds(before.stamp_ns, point.stamp_ns);
+  const double step_s = seconds(point.stamp_ns - before.stamp_ns);
   return before.session_id == point.session_id && step_s > 0.0 && step_s <= max_step_s &&
          (point.position - before.position).norm() <= config.max_pose_jump_m + config.max_speed_mps * step_s;
 }
@@ -55,7 +52,7 @@ Gate::Verdict Gate::check(const StreamPoint& point) {
   if (point.session_id != last_->session_id) {
     return is_superseded(point.session_id) ? check_outlier(point) : begin_anew(point);
   }
-  const double step_s = seconds(last_->stamp_ns, point.stamp_ns);
+  const double step_s = seconds(point.stamp_ns - last_->stamp_ns);
   if (point.stamp_ns == last_->stamp_ns) return Verdict::repeated;
   if (step_s < 0.0 && step_s >= -config_.max_stamp_step_s) return Verdict::late;
   if (!plausible(*last_, point)) return check_outlier(point);

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "base/seconds.hpp"
 #include "config/network_profile.hpp"
 #include "mapping/state.hpp"
 #include "sd_map/osm.hpp"
@@ -190,7 +191,7 @@ std::optional<std::int64_t> MappingSession::crowded_out_ns() const {
 std::optional<double> MappingSession::lag_s() const {
   const State& state = *state_;
   if (!state.newest_stamp_ns || !state.newest_pose) return std::nullopt;
-  return static_cast<double>(state.newest_pose->stamp_ns - *state.newest_stamp_ns) / 1e9;
+  return seconds(state.newest_pose->stamp_ns - *state.newest_stamp_ns);
 }
 
 MappingSession::Progress MappingSession::take_progress() { return std::exchange(state_->progress, {}); }

@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
+#include "base/seconds.hpp"
+
 namespace laneloom::session {
-namespace {
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return static_cast<double>(to_ns - from_ns) / 1e9;
-}
-
-}  // namespace
 
 Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to, double share) {
   // The normalised sum of two unit quaternions lies half-way on their arc. Ten halvings leave at most a
@@ -33,7 +28,7 @@ Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaternion
 void PoseBuffer::add(const VehiclePose& pose) {
   poses_.push_back(pose);
   const auto too_old = [&](const VehiclePose& old) {
-    return seconds(old.stamp_ns, pose.stamp_ns) > config_.pose_history_s;
+    return seconds(pose.stamp_ns - old.stamp_ns) > config_.pose_history_s;
   };
   while (too_old(poses_.front()) || poses_.size() > static_cast<std::size_t>(config_.pose_queue_capacity)) {
     poses_.pop_front();
@@ -51,9 +46,9 @@ PoseBuffer::Answer PoseBuffer::at(std::int64_t stamp_ns, Eigen::Isometry3d& T_ma
   }
   if (after == poses_.begin()) return Answer::never;
   const auto before = std::prev(after);
-  const double gap_s = seconds(before->stamp_ns, after->stamp_ns);
+  const double gap_s = seconds(after->stamp_ns - before->stamp_ns);
   if (gap_s > config_.max_pose_gap_s) return Answer::never;
-  const double share = seconds(before->stamp_ns, stamp_ns) / gap_s;
+  const double share = seconds(stamp_ns - before->stamp_ns) / gap_s;
   VehiclePose pose;
   pose.position = before->position + (after->position - before->position) * share;
   pose.orientation = slerp(before->orientation, after->orientation, share);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/seconds.hpp"
 #include "mapping/state_bytes.hpp"
 #include "snapshot/private_file.hpp"
 
@@ -31,7 +32,7 @@ std::string digest(std::string_view bytes) {
 void check(const SnapshotStamp& stamp, const SnapshotStamp& now, double max_age_s) {
   if (stamp.maker != now.maker) throw std::runtime_error("made by " + stamp.maker + ", not by " + now.maker);
   for (const std::int64_t age_ns : {now.steady_ns - stamp.steady_ns, now.system_ns - stamp.system_ns}) {
-    const double age_s = static_cast<double>(age_ns) / 1e9;
+    const double age_s = seconds(age_ns);
     if (age_s < 0.0 || age_s > max_age_s) throw std::runtime_error(std::to_string(age_s) + " s old");
   }
 }

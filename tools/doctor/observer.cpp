@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/seconds.hpp"
 #include "base/system_clock.hpp"
 #include "doctor/host.hpp"
 #include "laneloom/error.hpp"
@@ -20,7 +21,7 @@ constexpr std::size_t kMaxSessions = 64;
 constexpr std::size_t kMaxTold = 64;
 
 double offset_s(const ServiceStatus& status) {
-  return static_cast<double>(system_now_ns()) / 1e9 - static_cast<double>(status.published_ns) / 1e9;
+  return seconds(system_now_ns()) - seconds(status.published_ns);
 }
 
 std::string setting(const ServiceStatus& status, std::string_view wanted) {

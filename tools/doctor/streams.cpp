@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/seconds.hpp"
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
 #include "laneloom/dds/topics.hpp"
@@ -140,7 +141,7 @@ void judge_datagrams(const Observed& seen, Findings& found) {
 
 /// The time from arrival to stamp, in seconds. The two clocks may differ.
 double offset_s(const InputObserved::Newest& newest) {
-  return static_cast<double>(newest.stamp_ns) / 1e9 - static_cast<double>(newest.arrival_ns) / 1e9;
+  return seconds(newest.stamp_ns) - seconds(newest.arrival_ns);
 }
 
 void judge_sensor_clock(const Stream& stream, const InputObserved& poses, Findings& found) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/seconds.hpp"
 #include "io/json_fields.hpp"
 #include "laneloom/element_names.hpp"
 #include "laneloom/polyline.hpp"
@@ -19,10 +20,6 @@ json to_json(const std::vector<Stretch>& ranges) {
   json list = json::array();
   for (const Stretch& range : ranges) list.push_back(to_json(range));
   return list;
-}
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return static_cast<double>(to_ns - from_ns) * 1e-9;
 }
 
 void put_lateral_stddev(const std::vector<double>& stddev_m, json& out) {
@@ -73,8 +70,8 @@ json properties_of(const Marking& marking, const LocalMap& map) {
     out["styles"].push_back({rounded(style.range.from_m), rounded(style.range.to_m), name(style.style)});
   put_existence(marking.existence_probability, out);
   put_lateral_stddev(marking.lateral_stddev_m, out);
-  if (marking.first_seen_ns > 0) out["age_s"] = rounded(seconds(marking.first_seen_ns, map.stamp_ns));
-  if (marking.last_seen_ns > 0) out["unseen_s"] = rounded(seconds(marking.last_seen_ns, map.stamp_ns));
+  if (marking.first_seen_ns > 0) out["age_s"] = rounded(seconds(map.stamp_ns - marking.first_seen_ns));
+  if (marking.last_seen_ns > 0) out["unseen_s"] = rounded(seconds(map.stamp_ns - marking.last_seen_ns));
   put_lanes("left_boundary_of", map, out, [&](const Lane& lane) { return lane.left_boundary == marking.id; });
   put_lanes("right_boundary_of", map, out,
             [&](const Lane& lane) { return lane.right_boundary == marking.id; });

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
+#include "base/degree.hpp"
 #include "mapping/geometry/left_of.hpp"
 
 namespace laneloom::lines {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kLasting = 0.02;      // weight of a new frame in the lasting error: 5 s at 10 Hz
+constexpr double kNewShare = 0.02;     // weight of a new frame in the lasting error: 5 s at 10 Hz
 constexpr double kLineStddev_m = 0.2;  // error that all samples of one line have in common
 constexpr double kOutlier_m = 0.15;    // lateral; a line that is further off weighs little
 constexpr int kRounds = 3;             // each weighs the lines anew
@@ -97,7 +96,7 @@ FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMat
   const FrameError error = estimate_error(matcher.match(detections, kStride), detections, matcher.lines(),
                                           T_map_body, matcher.config().confirm_log_odds);
   FrameError passing = (error - lasting).cwiseMin(kLimit).cwiseMax(-kLimit);
-  lasting += kLasting * (error - lasting);
+  lasting += kNewShare * (error - lasting);
   for (SampledDetection& detection : detections)
     for (Point& point : detection.samples) point.head<2>() -= shifted_by(gain * passing, point, T_map_body);
   return passing;

@@ -18,7 +18,7 @@ constexpr double kStddevPer_m2 = 0.0003;  // of a sample, by the square of its d
 constexpr double kStddev_m = 0.03;
 constexpr double kCorrelated = 8.0;  // number of neighbouring samples that err alike
 constexpr double kOutlier = 2.0;     // in deviations; a sample that is further off weighs little
-constexpr int kRounds = 4;
+constexpr int kFits = 4;
 
 /// A place of a line in the body frame.
 struct Place {
@@ -95,7 +95,7 @@ double estimate_stretch_per_m(const std::vector<SampledDetection>& detections,
   std::vector<LineAhead> lines = lines_ahead(detections, T_map_body);
   if (lines.size() < 2) return 0.0;
   Common estimate = Common::Zero();
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFits; ++round) {
     Eigen::Matrix4d information = 1e-9 * Eigen::Matrix4d::Identity();
     information(0, 0) += 1.0 / (kExpected_per_m * kExpected_per_m);
     Common sum(-information(0, 0) * estimate(0), 0.0, 0.0, 0.0);

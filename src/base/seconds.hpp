@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstdint>
+
+namespace laneloom {
+
+/// A duration, or a stamp, in seconds. Beyond 104 days a double no longer tells single nanoseconds apart.
+constexpr double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) / 1e9; }
+
+}  // namespace laneloom
