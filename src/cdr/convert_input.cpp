@@ -23,7 +23,7 @@ std::vector<MarkingType> fitting(std::vector<MarkingType> types) {
   return types;
 }
 
-bool fits(const Polyline& line) { return line.size() <= msg::MAX_POINTS; }
+bool is_in_bounds(const Polyline& line) { return line.size() <= msg::MAX_POINTS; }
 
 msg::Area area_to_msg(const Polyline& from) {
   msg::Area to;
@@ -61,18 +61,18 @@ std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id
   left_out += from.source.size() <= kMaxName ? 0U : 1U;
   to.detected_types(convert_all<msg::MarkingType>(
       fitting(from.detected_types), [](MarkingType type) { return enum_to_msg<msg::MarkingType>(type); }));
-  to.field_of_view(fits(from.field_of_view) ? to_msg(from.field_of_view) : std::vector<msg::Point>{});
-  left_out += fits(from.field_of_view) ? 0U : 1U;
+  to.field_of_view(is_in_bounds(from.field_of_view) ? to_msg(from.field_of_view) : std::vector<msg::Point>{});
+  left_out += is_in_bounds(from.field_of_view) ? 0U : 1U;
 
   to.occluded_areas().clear();
   for (const auto& area : from.occluded_areas) {
-    const bool taken = fits(area) && to.occluded_areas().size() < msg::MAX_AREAS;
+    const bool taken = is_in_bounds(area) && to.occluded_areas().size() < msg::MAX_AREAS;
     if (taken) to.occluded_areas().push_back(area_to_msg(area));
     left_out += taken ? 0U : 1U;
   }
   to.detections().clear();
   for (const auto& detection : from.detections) {
-    const bool taken = fits(detection.points) && detection.stddev_m.size() <= msg::MAX_POINTS &&
+    const bool taken = is_in_bounds(detection.points) && detection.stddev_m.size() <= msg::MAX_POINTS &&
                        to.detections().size() < msg::MAX_MARKINGS;
     if (taken) to.detections().push_back(to_msg(detection));
     left_out += taken ? 0U : 1U;

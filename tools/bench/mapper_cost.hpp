@@ -10,6 +10,8 @@
 
 namespace laneloom::bench {
 
+inline constexpr double kBytesPerMB = 1024.0 * 1024.0;
+
 /// The cost of the updates of a mapper.
 struct MapperCost {
   support::StageTimer stages;

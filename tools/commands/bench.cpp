@@ -20,9 +20,7 @@
 namespace laneloom::commands {
 namespace {
 
-constexpr double kBytesPerMB = 1024.0 * 1024.0;
-
-struct Options {
+struct BenchOptions {
   BenchDrive drive;
   std::string peer;
   bool json = false;
@@ -35,7 +33,7 @@ struct Result {
   std::optional<experiment::PeerReport> peer;
 };
 
-Result measure(const Options& options) {
+Result measure(const BenchOptions& options) {
   const std::vector<experiment::SimulatedFrame> frames = simulate(options.drive.spec());
   if (frames.empty()) throw std::runtime_error("the drive has no frame");
   Result result{.frames = frames.size(), .cost = bench::measure(options.drive.mapper_config(), frames)};
@@ -52,16 +50,16 @@ nlohmann::json peer_json(const experiment::PeerReport& peer, const TimeSummary& 
           {"ratio", {{"mean", peer.total.mean_ms / ours.mean_ms}, {"p99", peer.total.p99_ms / ours.p99_ms}}}};
 }
 
-nlohmann::json to_json(const Result& result) {
+nlohmann::json result_json(const Result& result) {
   const TimeSummary update = result.cost.update();
   nlohmann::json json{{"frames", result.frames},
-                      {"ms", commands::to_json(result.cost.stages)},
+                      {"ms", to_json(result.cost.stages)},
                       {"allocations_per_frame", result.cost.allocations_per_update()},
-                      {"heap_mb", static_cast<double>(result.cost.heap_bytes) / kBytesPerMB},
-                      {"peak_heap_mb", static_cast<double>(result.cost.peak_heap_bytes) / kBytesPerMB},
+                      {"heap_mb", static_cast<double>(result.cost.heap_bytes) / bench::kBytesPerMB},
+                      {"peak_heap_mb", static_cast<double>(result.cost.peak_heap_bytes) / bench::kBytesPerMB},
                       {"peak_rss_mb", result.peak_rss_mb},
                       {"peer", nullptr}};
-  json["ms"]["total"] = commands::to_json(update);
+  json["ms"]["total"] = to_json(update);
   if (result.peer) json["peer"] = peer_json(*result.peer, update);
   return json;
 }
@@ -75,8 +73,8 @@ void print(const Result& result) {
       "{} frames; {:.0f} allocations per frame; heap of the mapper {:.2f} MB, at most {:.2f} MB; peak memory "
       "of this process, with all frames, {:.0f} MB\n",
       result.frames, result.cost.allocations_per_update(),
-      static_cast<double>(result.cost.heap_bytes) / kBytesPerMB,
-      static_cast<double>(result.cost.peak_heap_bytes) / kBytesPerMB, result.peak_rss_mb);
+      static_cast<double>(result.cost.heap_bytes) / bench::kBytesPerMB,
+      static_cast<double>(result.cost.peak_heap_bytes) / bench::kBytesPerMB, result.peak_rss_mb);
   if (!result.peer) return;
   fmt::print("\n");
   print_time_header("the peer");
@@ -86,9 +84,9 @@ void print(const Result& result) {
              result.peer->total.mean_ms / update.mean_ms, result.peer->total.p99_ms / update.p99_ms);
 }
 
-void bench(const Options& options) {
+void bench(const BenchOptions& options) {
   const Result result = measure(options);
-  options.json ? fmt::print("{}\n", to_json(result).dump()) : print(result);
+  options.json ? fmt::print("{}\n", result_json(result).dump()) : print(result);
 }
 
 }  // namespace
@@ -96,7 +94,7 @@ void bench(const Options& options) {
 void add_bench(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("bench", "Times the mapper's stages, also against a peer on the same frames");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchOptions>();
   add_bench_drive(*command, options->drive);
   command->add_option("--peer", options->peer, "Another program that maps JSON lines to JSON lines");
   command->add_flag("--json", options->json, "One JSON object");
@@ -104,7 +102,7 @@ void add_bench(CLI::App& app) {
   add_bench_latency(*command);
   add_bench_scale(*command);
   add_bench_worst(*command);
-  // Each measurement has its own options behind its name. Options before its name would be ignored.
+  // Each measurement has its own options behind its name. BenchOptions before its name would be ignored.
   for (CLI::App* measurement : command->get_subcommands({})) {
     for (CLI::Option* option : own) measurement->excludes(option);
   }

@@ -15,7 +15,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct BenchLatencyOptions {
   BenchDrive drive;
   DdsConfig dds;
   std::filesystem::path identities;
@@ -24,7 +24,7 @@ struct Options {
   bool json = false;
 };
 
-bench::LatencySpec latency_spec(const Options& options) {
+bench::LatencySpec latency_spec(const BenchLatencyOptions& options) {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   bench::LatencySpec spec{.service = folder / "laneloomd",
                           .publisher = folder / "laneloom",
@@ -40,13 +40,13 @@ bench::LatencySpec latency_spec(const Options& options) {
   return spec;
 }
 
-nlohmann::json to_json(const bench::ViewerCost& viewer) {
+nlohmann::json viewer_json(const bench::ViewerCost& viewer) {
   return {{"cpu_percent", viewer.cpu_percent},
           {"peak_rss_mb", viewer.peak_rss_mb},
           {"frames_per_s", viewer.frames_per_s}};
 }
 
-nlohmann::json to_json(const bench::LatencySpec& spec, const bench::LatencyResult& result) {
+nlohmann::json latency_json(const bench::LatencySpec& spec, const bench::LatencyResult& result) {
   return {
       {"duration_s", spec.duration_s},
       {"transport", spec.dds.transport},
@@ -57,12 +57,12 @@ nlohmann::json to_json(const bench::LatencySpec& spec, const bench::LatencyResul
       {"maps_lost", result.maps_lost},
       {"frames", result.frames},
       {"ms",
-       {{"tick_delay", commands::to_json(result.tick_delay)},
-        {"tick_to_callback", commands::to_json(result.tick_to_callback)},
-        {"publication_to_callback", commands::to_json(result.publication_to_callback)},
-        {"detections_to_callback", commands::to_json(result.detections_to_callback)}}},
+       {{"tick_delay", to_json(result.tick_delay)},
+        {"tick_to_callback", to_json(result.tick_to_callback)},
+        {"publication_to_callback", to_json(result.publication_to_callback)},
+        {"detections_to_callback", to_json(result.detections_to_callback)}}},
       {"service", {{"cpu_percent", result.service_cpu_percent}, {"peak_rss_mb", result.service_peak_rss_mb}}},
-      {"viewer", result.viewer ? to_json(*result.viewer) : nlohmann::json()}};
+      {"viewer", result.viewer ? viewer_json(*result.viewer) : nlohmann::json()}};
 }
 
 void print(const bench::LatencySpec& spec, const bench::LatencyResult& result) {
@@ -82,10 +82,10 @@ void print(const bench::LatencySpec& spec, const bench::LatencyResult& result) {
         spec.viewers, result.viewer->cpu_percent, result.viewer->peak_rss_mb, result.viewer->frames_per_s);
 }
 
-void latency(const Options& options) {
+void latency(const BenchLatencyOptions& options) {
   const bench::LatencySpec spec = latency_spec(options);
   const bench::LatencyResult result = measure_latency(spec);
-  options.json ? fmt::print("{}\n", to_json(spec, result).dump()) : print(spec, result);
+  options.json ? fmt::print("{}\n", latency_json(spec, result).dump()) : print(spec, result);
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ void latency(const Options& options) {
 void add_bench_latency(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand(
       "latency", "Times ticks and maps of a real service, from a real publisher to this process, over DDS");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchLatencyOptions>();
   options->drive.duration_s = 30.0;
   add_bench_road(*command, options->drive);
   command->add_option("--domain", options->dds.domain, "DDS domain")

@@ -16,10 +16,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kBytesPerMB = 1024.0 * 1024.0;
 constexpr std::array<std::size_t, 5> kFactors{1, 2, 4, 8, 16};
 
-struct Options {
+struct BenchScaleOptions {
   BenchDrive drive;
   std::size_t minutes = 60;
   bool as_json = false;
@@ -30,8 +29,8 @@ json cost_json(const bench::MapperCost& cost) {
           {"stages", to_json(cost.stages)},
           {"markings", cost.markings_per_map()},
           {"allocations_per_frame", cost.allocations_per_update()},
-          {"heap_mb", static_cast<double>(cost.heap_bytes) / kBytesPerMB},
-          {"peak_heap_mb", static_cast<double>(cost.peak_heap_bytes) / kBytesPerMB}};
+          {"heap_mb", static_cast<double>(cost.heap_bytes) / bench::kBytesPerMB},
+          {"peak_heap_mb", static_cast<double>(cost.peak_heap_bytes) / bench::kBytesPerMB}};
 }
 
 /// A row of the result. Its subject is under `key`.
@@ -41,7 +40,7 @@ json row(const char* key, std::size_t value, const bench::MapperCost& cost) {
   return result;
 }
 
-json by_detections(const Options& options, const std::vector<experiment::SimulatedFrame>& frames) {
+json by_detections(const BenchScaleOptions& options, const std::vector<experiment::SimulatedFrame>& frames) {
   const MapperConfig config = options.drive.mapper_config();
   json rows = json::array();
   for (const std::size_t copies : kFactors) {
@@ -53,7 +52,7 @@ json by_detections(const Options& options, const std::vector<experiment::Simulat
   return rows;
 }
 
-json by_range(const Options& options) {
+json by_range(const BenchScaleOptions& options) {
   json rows = json::array();
   for (const std::size_t factor : {1U, 2U, 4U, 8U}) {
     const auto times = static_cast<double>(factor);
@@ -67,7 +66,7 @@ json by_range(const Options& options) {
 }
 
 /// The cost of a drive, minute by minute.
-json by_time(const Options& options, const experiment::DriveSpec& drive) {
+json by_time(const BenchScaleOptions& options, const experiment::DriveSpec& drive) {
   json rows = json::array();
   bench::drive_minutes(options.drive.mapper_config(), drive, options.minutes,
                        [&](const bench::MinuteCost& minute) {
@@ -77,14 +76,14 @@ json by_time(const Options& options, const experiment::DriveSpec& drive) {
   return rows;
 }
 
-json standing_still(const Options& options) {
+json standing_still(const BenchScaleOptions& options) {
   experiment::DriveSpec drive = options.drive.spec();
   drive.road = std::make_shared<const simulation::Road>(
       bench::standing(*drive.road, 0.5 * drive.road->drive.duration_s()));
   return by_time(options, drive);
 }
 
-json by_vehicles(const Options& options, const std::vector<experiment::SimulatedFrame>& frames) {
+json by_vehicles(const BenchScaleOptions& options, const std::vector<experiment::SimulatedFrame>& frames) {
   json rows = json::array();
   for (const std::size_t vehicles : kFactors)
     rows.push_back({{"vehicles", vehicles},
@@ -124,7 +123,7 @@ void print(const json& result) {
                row.at("ms").at("mean").get<double>(), row.at("ms").at("p99").get<double>());
 }
 
-void scale(const Options& options) {
+void scale(const BenchScaleOptions& options) {
   json result;
   // This comes first, while this process has little else in memory.
   result["driving"] = by_time(options, options.drive.spec());
@@ -143,7 +142,7 @@ void add_bench_scale(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand(
       "scale",
       "Measures how the mapper's time and memory grow with detections, range, duration and vehicles");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchScaleOptions>();
   add_bench_drive(*command, options->drive);
   command->add_option("--minutes", options->minutes, "Simulated minutes of driving round, and of standing")
       ->check(CLI::Range(1, 1440))

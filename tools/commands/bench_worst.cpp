@@ -13,13 +13,13 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct BenchWorstOptions {
   std::string config;
   std::uint64_t frames = 50;
   bool as_json = false;
 };
 
-void worst(const Options& options) {
+void worst(const BenchWorstOptions& options) {
   const Config config = config::resolve_config(options.config, {});
   nlohmann::json result;
   if (!options.as_json) print_time_header("milliseconds");
@@ -36,7 +36,7 @@ void worst(const Options& options) {
 void add_bench_worst(CLI::App& bench) {
   CLI::App* command =
       bench.add_subcommand("worst", "Times the most expensive frames that a message can hold, by kind");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchWorstOptions>();
   command->add_option("--config", options->config, "Configuration file; its gate bounds the work");
   command->add_option("--frames", options->frames, "Frames of each kind")
       ->check(CLI::Range(1, 10000))

@@ -13,7 +13,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
   RoadList roads;
   std::string noise = "inhouse";
   int steps = 15;
@@ -52,7 +52,7 @@ void print_result(const experiment::CalibrationStep& step, const experiment::Cal
              step.noise.flutter_stddev_m);
 }
 
-void run_calibration(const Options& options) {
+void run_calibration(const CalibrateOptions& options) {
   const experiment::CalibrationTarget target = experiment::calibration_target(options.noise);
   const simulation::NoiseProfile start = simulation::noise_profile(options.noise);
   Config ranged;
@@ -67,7 +67,7 @@ void run_calibration(const Options& options) {
 void add_calibrate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "calibrate", "Fits a noise profile until single detections score as the paper's network does");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CalibrateOptions>();
   add_road_list(*command, options->roads);
   command->add_option("--noise", options->noise, "The profile, and the data set of the paper")
       ->check(CLI::IsMember({"inhouse", "av2"}))

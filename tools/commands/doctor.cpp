@@ -20,15 +20,15 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct DoctorOptions {
   DdsConfig dds;
   std::string config_problem;
   double duration_s = 3.0;
   bool json = false;
 };
 
-/// Reads the configuration file. Options given beside it are parsed after it, and thereby override it.
-void read_config(const std::string& file, Options& options) {
+/// Reads the configuration file. DoctorOptions given beside it are parsed after it, and thereby override it.
+void read_config(const std::string& file, DoctorOptions& options) {
   try {
     options.dds = config::load_config(file).dds;
   } catch (const ConfigError& error) {
@@ -49,7 +49,7 @@ doctor::Finding refused_participant(const std::string& problem) {
 }
 
 /// The observations and the findings in them.
-std::pair<doctor::Observed, doctor::Findings> examine(const Options& options) {
+std::pair<doctor::Observed, doctor::Findings> examine(const DoctorOptions& options) {
   doctor::Observed seen;
   seen.dds = options.dds;
   if (!options.config_problem.empty()) return {seen, {refused_configuration(options.config_problem)}};
@@ -64,7 +64,7 @@ std::pair<doctor::Observed, doctor::Findings> examine(const Options& options) {
   return {seen, findings(seen)};
 }
 
-void doctor(const Options& options) {
+void doctor(const DoctorOptions& options) {
   catch_stop_signals();
   const auto [seen, found] = examine(options);
   if (options.json)
@@ -80,7 +80,7 @@ void doctor(const Options& options) {
 void add_doctor(CLI::App& app) {
   CLI::App* command = app.add_subcommand("doctor", "Finds why nothing arrives");
   command->footer(fmt::format("Exit code: {} where something wrong was found.", +kFoundWrong));
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DoctorOptions>();
   command
       ->add_option_function<std::string>(
           "--config", [options](const std::string& file) { read_config(file, *options); },

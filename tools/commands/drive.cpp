@@ -27,7 +27,7 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kPatience{10};
 
-struct Options {
+struct DriveOptions {
   RoadList roads;
   NoiseOption noise;
   double duration_s = 120.0;
@@ -39,23 +39,23 @@ struct Options {
   bool json = false;
 };
 
-bool is_over(const Options& options, const drive::ClosedLoop& loop) {
+bool is_over(const DriveOptions& options, const drive::ClosedLoop& loop) {
   return options.km > 0.0 ? loop.driven_m() >= 1000.0 * options.km : loop.time_s() >= options.duration_s;
 }
 
-drive::ClosedLoopSpec loop_spec(const experiment::DriveSpec& drive, const Options& options) {
+drive::ClosedLoopSpec loop_spec(const experiment::DriveSpec& drive, const DriveOptions& options) {
   return {
       .noise = drive.noise, .seed = drive.seed, .speed_mps = options.roads.speed_mps, .drift = drive.drift};
 }
 
-Config read_config(const Options& options) {
+Config read_config(const DriveOptions& options) {
   const Config config = config::resolve_config(options.config, options.preset);
   config::validate(config);
   return config;
 }
 
 std::vector<DriveResult> drive_offline(const std::vector<experiment::DriveSpec>& drives,
-                                       const Options& options) {
+                                       const DriveOptions& options) {
   const Config config = read_config(options);
   std::vector<DriveResult> results(drives.size());
   experiment::in_parallel(drives.size(), [&](std::size_t i) {
@@ -82,7 +82,7 @@ void connect(const drive::DdsMapService& service) {
 }
 
 std::vector<DriveResult> drive_over_dds(const std::vector<experiment::DriveSpec>& drives,
-                                        const Options& options) {
+                                        const DriveOptions& options) {
   if (drives.size() != 1) throw std::runtime_error("over DDS it is one road with one seed");
   drive::DdsMapService service(options.dds);
   connect(service);
@@ -97,7 +97,7 @@ std::vector<DriveResult> drive_over_dds(const std::vector<experiment::DriveSpec>
   return {{drives.front().road->name, drives.front().seed, loop.score()}};
 }
 
-void drive(const Options& options) {
+void drive(const DriveOptions& options) {
   catch_stop_signals();
   const std::vector<experiment::DriveSpec> drives = options.roads.drives({options.noise.profile()});
   const auto start = SteadyClock::now();
@@ -122,7 +122,7 @@ void add_drive(CLI::App& app) {
   command->footer(
       "Exit code: 2 the vehicle left its lane (--require-lane); 3 no service is there, or no map came "
       "(--dds).");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DriveOptions>();
   add_roads(*command, options->roads);
   command->add_option("--speed", options->roads.speed_mps, "Greatest speed of the vehicle in m/s")
       ->check(within(1.0, 40.0))

@@ -23,7 +23,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct EvaluateOptions {
   bool later = false;
   std::string in, config, truth, frames, map, json, plots;
   RangeConfig range;
@@ -68,7 +68,7 @@ struct Comparison {
   std::string account;  ///< how much is compared, in words
 };
 
-Comparison comparison(const Options& options) {
+Comparison comparison(const EvaluateOptions& options) {
   if (options.map.empty()) {
     Moments frames = frame_moments(options.frames);
     return {frames.stamps, fmt::format("{} of {} frames", frames.stamps.size(), frames.count)};
@@ -87,7 +87,7 @@ Comparison comparison(const Options& options) {
   return {std::move(common), account};
 }
 
-evaluation::MapEvaluation evaluate_detections(const Options& options, const simulation::Road& truth,
+evaluation::MapEvaluation evaluate_detections(const EvaluateOptions& options, const simulation::Road& truth,
                                               const Stamps& stamps) {
   evaluation::MapEvaluation evaluation(truth, options.range, evaluation::Subject::detections);
   evaluation::for_each_frame(options.frames,
@@ -98,7 +98,7 @@ evaluation::MapEvaluation evaluate_detections(const Options& options, const simu
   return evaluation;
 }
 
-evaluation::MapEvaluation evaluate_maps(const Options& options, const simulation::Road& truth,
+evaluation::MapEvaluation evaluate_maps(const EvaluateOptions& options, const simulation::Road& truth,
                                         const Stamps& stamps) {
   evaluation::MapEvaluation evaluation(truth, options.range, evaluation::Subject::maps);
   evaluation::for_each_map(options.map, [&](const LocalMap& map) {
@@ -114,7 +114,7 @@ void write_json(const nlohmann::json& json, const std::string& path) {
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
-void rate_by_later(const Options& options) {
+void rate_by_later(const EvaluateOptions& options) {
   const evaluation::LaterMeter meter = evaluate_later({.in = options.in,
                                                        .config = options.config,
                                                        .frames = options.frames,
@@ -124,7 +124,7 @@ void rate_by_later(const Options& options) {
   if (!options.json.empty()) write_json(later_json(meter), options.json);
 }
 
-void rate_by_truth(const Options& options) {
+void rate_by_truth(const EvaluateOptions& options) {
   const simulation::Road truth = simulation::load_truth(options.truth);
   const auto [stamps, account] = comparison(options);
   std::vector<NamedScore> scores;
@@ -144,7 +144,7 @@ void rate_by_truth(const Options& options) {
   write_json(json, options.json);
 }
 
-void evaluate(const Options& options) {
+void evaluate(const EvaluateOptions& options) {
   if (!options.later) return rate_by_truth(options);
   if (options.in.empty() && (options.frames.empty() || options.map.empty()))
     throw CLI::RequiredError("--later: --in, or --frames and --map");
@@ -159,7 +159,7 @@ void add_evaluate(CLI::App& app) {
       "Rates detections and maps. Your own drive needs no truth, but is rated by what is seen later from "
       "close "
       "by: laneloom evaluate --later --in drive.mcap. By truth: precision, recall, stability, lanes, trust");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EvaluateOptions>();
   CLI::Option_group* references = command->add_option_group("Rated by", "one of");
   CLI::Option* later =
       references->add_flag("--later", options->later,

@@ -16,7 +16,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct ExperimentOptions {
   RoadList roads;
   std::vector<std::string> noises{"inhouse"};
   bool without_view = false;
@@ -42,7 +42,7 @@ experiment::NamedConfig read_config(const std::string& spec, const std::string& 
   return named;
 }
 
-void experiment(const Options& options) {
+void experiment(const ExperimentOptions& options) {
   experiment::ExperimentSpec spec;
   std::vector<simulation::NoiseProfile> noises;
   for (const std::string& name : options.noises)
@@ -65,7 +65,7 @@ void experiment(const Options& options) {
 void add_experiment(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("experiment", "Rates detections, configurations, a peer and an oracle on drives");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExperimentOptions>();
   add_road_list(*command, options->roads);
   command
       ->add_option("--noise", options->noises,

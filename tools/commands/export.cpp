@@ -27,7 +27,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string in, config, preset, lanelet2, geojson;
   std::optional<exports::Origin> origin;
   bool plain = false;
@@ -88,7 +88,7 @@ void map_frames(const std::string& path, const Config& config, DriveReader& take
   replay_input(path, config, replay);
 }
 
-exports::DriveAccumulator::Drive read_drive(const Options& options, const Config& config) {
+exports::DriveAccumulator::Drive read_drive(const ExportOptions& options, const Config& config) {
   DriveReader taker(config.mapper.range);
   const bool recorded = recording::is_recording(options.in);
   if (recorded) take_recorded_maps(options.in, taker);
@@ -113,7 +113,7 @@ exports::Origin origin(const std::string& text) {
   return {degrees(text.substr(0, comma), 90.0), degrees(text.substr(comma + 1), 180.0)};
 }
 
-void check_files(const Options& options) {
+void check_files(const ExportOptions& options) {
   std::error_code error;
   for (const std::string& out : {options.lanelet2, options.geojson})
     if (!out.empty() && std::filesystem::equivalent(out, options.in, error))
@@ -121,7 +121,7 @@ void check_files(const Options& options) {
   if (options.lanelet2 == options.geojson) throw std::runtime_error(options.geojson + ": is given twice");
 }
 
-void export_drive(const Options& options) {
+void export_drive(const ExportOptions& options) {
   check_files(options);
   const Config config = config::resolve_config(options.config, options.preset);
   const LocalMap map = weave(read_drive(options, config), config.mapper);
@@ -139,7 +139,7 @@ void export_drive(const Options& options) {
 
 void add_export(CLI::App& app) {
   CLI::App* command = app.add_subcommand("export", "Makes one map of a drive, for other programs");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   command
       ->add_option("--in", options->in,
                    "Maps (.mcap or .jsonl), or detections and poses to map (.mcap or .frames.jsonl)")

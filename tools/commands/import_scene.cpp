@@ -11,12 +11,12 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct ImportSceneOptions {
   std::string in, out;
   std::string map_frame_id = "map";
 };
 
-void import_scene(const Options& options) {
+void import_scene(const ImportSceneOptions& options) {
   const scene::SceneRecordingReport report = scene::add_scene(options.in, options.out, options.map_frame_id);
   warn_of(options.in, report.refused, report.cut_off);
   fmt::print("{}: {} messages, {} of scenes\n", options.out, report.messages + report.scenes, report.scenes);
@@ -27,7 +27,7 @@ void import_scene(const Options& options) {
 void add_import_scene(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("scene", "Adds scenes for the 3D panels of Foxglove and Lichtblick to a recording");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImportSceneOptions>();
   command->add_option("--in", options->in, "Recording (.mcap)")->required()->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
   command->add_option("--map-frame-id", options->map_frame_id, "Frame of the poses; default: map");

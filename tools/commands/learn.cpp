@@ -15,11 +15,11 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct LearnOptions {
   std::string in, out, config;
 };
 
-NetworkProfiles learned_from(const Options& options) {
+NetworkProfiles learned_from(const LearnOptions& options) {
   const Config config = config::resolve_config(options.config, {});
   if (!config.mapper.fusion.learn)
     throw std::runtime_error(options.config + ": mapper.fusion.learn is false: nothing would be learned");
@@ -33,7 +33,7 @@ NetworkProfiles learned_from(const Options& options) {
   return networks;
 }
 
-void learn(const Options& options) {
+void learn(const LearnOptions& options) {
   const NetworkProfiles networks = learned_from(options);
   std::ofstream file(options.out);
   file << "# What laneloom learned from a drive: mapper.fusion.profile_file starts with it. A weight is how "
@@ -50,7 +50,7 @@ void learn(const Options& options) {
 }  // namespace
 
 void add_learn(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LearnOptions>();
   CLI::App& command =
       *app.add_subcommand("learn",
                           "Learns from a recorded drive how its networks err, for a service to start with "

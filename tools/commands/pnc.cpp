@@ -24,7 +24,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-struct Options {
+struct PncOptions {
   DdsConfig dds;
   bool json = false;
   bool require_lanes = false;
@@ -106,7 +106,7 @@ struct Tally {
 /// Follows the map until the time is over or the program is to end.
 class Follower {
  public:
-  explicit Follower(const Options& options) : options_(options), display_(options.json) {
+  explicit Follower(const PncOptions& options) : options_(options), display_(options.json) {
     if (!options.record.empty()) record_ = std::make_unique<io::JsonLinesWriter>(options.record);
   }
 
@@ -143,14 +143,14 @@ class Follower {
     display_.show(notice);
   }
 
-  const Options& options_;
+  const PncOptions& options_;
   Display display_;
   std::unique_ptr<io::JsonLinesWriter> record_;
   std::optional<PublishedMap> previous_;
   Tally tally_;
 };
 
-void pnc(const Options& options) {
+void pnc(const PncOptions& options) {
   catch_stop_signals();
   const Tally tally = Follower(options).run();
   const ExitCode code = tally.exit_code(options.require_lanes);
@@ -177,7 +177,7 @@ void add_pnc(CLI::App& app) {
   command->footer(
       "Exit code: 0 maps were received, none broke the contract; 2 one did, or was refused; 3 no map came; "
       "4 no map had a lane (--require-lanes).");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PncOptions>();
   add_dds(*command, options->dds);
   command->add_flag("--json", options->json, "One JSON object per update");
   command->add_option("--record", options->record, "Maps to write, one per fused frame (.jsonl)");

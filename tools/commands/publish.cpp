@@ -30,7 +30,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::int64_t kPosePeriod_ns = 10'000'000;
 constexpr std::int64_t kPosesPerFrame = 10;
 
-struct Options {
+struct PublishOptions {
   RoadSource source;
   DdsConfig dds;
   double speed_up = 1.0;
@@ -45,7 +45,7 @@ struct Options {
 /// and then runs with the simulation.
 class Publisher {
  public:
-  Publisher(const Options& options, const simulation::Road& road)
+  Publisher(const PublishOptions& options, const simulation::Road& road)
       : participant_(options.dds, "laneloom publish"),
         detections_(participant_),
         poses_(participant_),
@@ -119,14 +119,14 @@ class Publisher {
   std::uint64_t not_taken_ = 0;
 };
 
-std::int64_t step_count(const Options& options, const simulation::Road& road) {
+std::int64_t step_count(const PublishOptions& options, const simulation::Road& road) {
   constexpr double kPosesPerSecond = 1e9 / static_cast<double>(kPosePeriod_ns);
   if (options.duration_s > 0.0) return std::llround(options.duration_s * kPosesPerSecond);
   if (options.loop) return std::numeric_limits<std::int64_t>::max();
   return std::llround(std::floor((road.drive.duration_s() - options.from_s) * kPosesPerSecond));
 }
 
-void publish(const Options& options) {
+void publish(const PublishOptions& options) {
   catch_stop_signals();
   const simulation::Road road = options.source.load();
   const double drive_s = road.drive.duration_s();
@@ -161,7 +161,7 @@ void list() {
 void add_publish(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("publish", "Test publisher: drives over a known road and publishes what is seen");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PublishOptions>();
   add_road_source(*command, options->source);
   add_dds(*command, options->dds);
   command->add_option("--speed-up", options->speed_up, "Simulated seconds per second")

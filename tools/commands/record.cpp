@@ -36,7 +36,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kFlushPeriod{1};
 constexpr double kBytesPerMB = 1e6;
 
-struct Options {
+struct RecordOptions {
   DdsConfig dds;
   recording::RecordingOptions recording;
   std::string out;
@@ -91,7 +91,7 @@ class Unwritten {
 /// Records all messages that a vehicle's participants exchange.
 class Recorder {
  public:
-  explicit Recorder(const Options& options)
+  explicit Recorder(const RecordOptions& options)
       : writer_(options.out, options.recording),
         scene_(options.scene ? std::optional<scene::SceneMaker>(options.dds.map_frame_id) : std::nullopt),
         participant_(options.dds, "laneloom record"),
@@ -155,7 +155,7 @@ std::string default_name() {
   return fmt::format("laneloom_{:%Y%m%d_%H%M%S}", fmt::gmtime(std::time(nullptr)));
 }
 
-void record(Options options) {
+void record(RecordOptions options) {
   catch_stop_signals();
   if (options.out.empty()) options.out = default_name();
   if (std::filesystem::is_directory(options.out)) options.out += "/" + default_name();
@@ -177,7 +177,7 @@ void record(Options options) {
 
 void add_record(CLI::App& app) {
   CLI::App* command = app.add_subcommand("record", "Records all topics of a vehicle into MCAP files");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RecordOptions>();
   add_dds(*command, options->dds);
   command->add_option("--out", options->out,
                       "File (.mcap), or a folder; default: laneloom_<UTC time>.mcap here");

@@ -19,7 +19,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct RenderOptions {
   std::string frames, map, truth, out, title;
   std::vector<double> at_s;
   std::size_t sequence = 0;
@@ -37,7 +37,7 @@ struct Inputs {
   std::optional<simulation::Road> truth;
 };
 
-Inputs read(const Options& options) {
+Inputs read(const RenderOptions& options) {
   Inputs inputs;
   if (!options.truth.empty()) inputs.truth = simulation::load_truth(options.truth);
   if (!options.frames.empty()) {
@@ -75,7 +75,7 @@ std::pair<std::int64_t, std::int64_t> time_span(const Inputs& inputs) {
   return {0, std::llround(inputs.truth->drive.duration_s() * 1e9)};
 }
 
-std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) {
+std::vector<std::int64_t> moments(const RenderOptions& options, const Inputs& inputs) {
   const auto [first_ns, last_ns] = time_span(inputs);
   std::vector<std::int64_t> stamps_ns;
   const auto span_ns = static_cast<double>(last_ns - first_ns);
@@ -94,7 +94,7 @@ std::vector<std::int64_t> moments(const Options& options, const Inputs& inputs) 
 }
 
 /// The things that every panel of a moment shows.
-drawing::Drawing surroundings(const Options& options, const Eigen::Isometry3d& T_map_body) {
+drawing::Drawing surroundings(const RenderOptions& options, const Eigen::Isometry3d& T_map_body) {
   drawing::Drawing drawing;
   add_range(options.range, T_map_body, drawing);
   add_vehicle(T_map_body, drawing);
@@ -107,7 +107,7 @@ Eigen::Isometry3d pose_at(const Inputs& inputs, std::int64_t stamp_ns) {
   return transform(inputs.truth->drive.pose_at(static_cast<double>(stamp_ns) * 1e-9));
 }
 
-render::Moment draw_moment(const Options& options, const Inputs& inputs, std::int64_t stamp_ns) {
+render::Moment draw_moment(const RenderOptions& options, const Inputs& inputs, std::int64_t stamp_ns) {
   render::Moment moment;
   moment.T_map_body = pose_at(inputs, stamp_ns);
   moment.label = fmt::format("t = {:.1f} s", static_cast<double>(stamp_ns - time_span(inputs).first) * 1e-9);
@@ -128,7 +128,7 @@ render::Moment draw_moment(const Options& options, const Inputs& inputs, std::in
   return moment;
 }
 
-void render(const Options& options) {
+void render(const RenderOptions& options) {
   const Inputs inputs = read(options);
   render::Figure figure{options.title, options.range, {}};
   if (figure.title.empty()) figure.title = inputs.truth ? inputs.truth->name : "laneloom";
@@ -141,7 +141,7 @@ void render(const Options& options) {
 
 void add_render(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "Draws detections, maps and truth side by side");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderOptions>();
   CLI::Option_group* inputs = command->add_option_group("Inputs", "any of");
   inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl or .mcap)");
   inputs->add_option("--map", options->map, "Fused maps (.jsonl or .mcap)");

@@ -27,7 +27,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-struct Options {
+struct ReplayOptions {
   std::string in, report, preset, truth;
   std::vector<std::string> config_files, out;
   std::string compression = "zstd";
@@ -61,7 +61,7 @@ class ProgressBar {
   SteadyClock::time_point next_;
 };
 
-Config read_config(const Options& options, const std::string& file) {
+Config read_config(const ReplayOptions& options, const std::string& file) {
   Config config = config::resolve_config(file, options.preset);
   if (options.range_given) {
     config.mapper.range.forward_min_m = options.range.forward_min_m;
@@ -73,7 +73,7 @@ Config read_config(const Options& options, const std::string& file) {
 }
 
 /// Replays the whole input with one configuration.
-ReplayResult run(const Options& options, const std::string& config_file, const std::string& out,
+ReplayResult run(const ReplayOptions& options, const std::string& config_file, const std::string& out,
                  const simulation::Road* truth) {
   const Config config = read_config(options, config_file);
   const std::unique_ptr<replay::MessageSource> source =
@@ -132,7 +132,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 }
 
 /// Refuses to write a file that is read, or one that is written already.
-void check_files(const Options& options) {
+void check_files(const ReplayOptions& options) {
   std::vector<std::string> written = options.out;
   if (!options.report.empty()) written.push_back(options.report);
   for (auto path = written.begin(); path != written.end(); ++path) {
@@ -145,7 +145,7 @@ void check_files(const Options& options) {
   }
 }
 
-void replay(Options& options) {
+void replay(ReplayOptions& options) {
   check_files(options);
   if (!options.out.empty() && options.out.size() != std::max<std::size_t>(1, options.config_files.size()))
     throw std::runtime_error("replay: --out is needed once per --config, or not at all");
@@ -175,7 +175,7 @@ void replay(Options& options) {
   }
 }
 
-void play(const Options& options) {
+void play(const ReplayOptions& options) {
   catch_stop_signals();
   const std::unique_ptr<replay::MessageSource> source =
       replay::open_messages(options.in, options.dds.map_frame_id);
@@ -201,7 +201,7 @@ void play(const Options& options) {
 void add_replay(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("replay", "Fuses recorded detections into maps, or publishes them again");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayOptions>();
   command->add_option("--in", options->in, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
   auto* out =

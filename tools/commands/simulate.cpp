@@ -13,7 +13,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   RoadSource source;
   double duration_s = 0.0;
   std::string frames, truth;
@@ -36,7 +36,7 @@ void simulate(const RoadSource& source, double duration_s, const std::string& fr
   fmt::print("{}: {} frames of {}\n", frames_file, frames, road.name);
 }
 
-void simulate_each(const Options& options) {
+void simulate_each(const SimulateOptions& options) {
   for (const RoadSource& source : options.source.each()) {
     const auto file = [&](const std::string& path, const char* ending) {
       return file_of_log(path, options.source.argoverse2, source.argoverse2, ending);
@@ -50,7 +50,7 @@ void simulate_each(const Options& options) {
 
 void add_simulate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate", "Writes detections of a drive over a road, without DDS");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   add_road_source(*command, options->source);
   command->add_option("--duration", options->duration_s, "Seconds; default: the drive once")
       ->check(positive_seconds());

@@ -16,7 +16,7 @@
 namespace laneloom::commands {
 namespace {
 
-struct Options {
+struct SoakOptions {
   endurance::SoakSpec spec;
   double minutes = 1.0;
   double recovery_s = 5.0;
@@ -42,7 +42,7 @@ void print(const endurance::SoakResult& result) {
   fmt::print("{}\n", result.passed() ? "passed" : "FAILED");
 }
 
-void run(Options& options) {
+void run(SoakOptions& options) {
   catch_stop_signals();
   endurance::SoakSpec& spec = options.spec;
   spec.duration = std::chrono::duration<double>(60.0 * options.minutes);
@@ -63,7 +63,7 @@ void add_soak(CLI::App& app) {
   CLI::App* command = app.add_subcommand("soak",
                                          "Runs publisher, service, planner and other perceptions under "
                                          "random faults, and accounts for every frame");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SoakOptions>();
   command->add_option("--minutes", options->minutes, "Minutes to run")
       ->check(within(1e-3, 1e6))
       ->capture_default_str();

@@ -28,7 +28,7 @@ constexpr double kPatience_s = 5.0;  ///< for the first status, with --once
 /// A service that was silent for this long is no longer shown beside one that is heard.
 constexpr std::chrono::seconds kForgotten{10};
 
-struct Options {
+struct StatusOptions {
   DdsConfig dds;
   bool json = false;
   bool once = false;
@@ -64,7 +64,7 @@ struct Heard {
 /// Follows the services of one vehicle, of which there should be one.
 class Watch {
  public:
-  explicit Watch(const Options& options) : options_(options) {}
+  explicit Watch(const StatusOptions& options) : options_(options) {}
 
   /// Follows the services. Returns the exit code by the newest status.
   ExitCode run() {
@@ -121,13 +121,13 @@ class Watch {
     return text;
   }
 
-  const Options& options_;
+  const StatusOptions& options_;
   LiveDisplay output_;
   std::map<std::uint64_t, Heard> heard_;  ///< by session
   ExitCode exit_code_ = kNobodyHeard;
 };
 
-void status(const Options& options) {
+void status(const StatusOptions& options) {
   catch_stop_signals();
   const ExitCode code = Watch(options).run();
   if (code == kNobodyHeard && !options.json)
@@ -141,7 +141,7 @@ void status(const Options& options) {
 void add_status(CLI::App& app) {
   CLI::App* command = app.add_subcommand("status", "Health of the running service, live");
   command->footer("Exit code, by the newest status: 0 OK; 2 DEGRADED; 4 STALE; 3 no service was heard.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StatusOptions>();
   add_dds(*command, options->dds);
   command->add_flag(
       "--once", options->once,

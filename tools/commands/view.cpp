@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{200};  // between looks at whether a recording can be read
 
-struct Options {
+struct ViewOptions {
   DdsConfig dds;
   view::WebServerConfig server{.port = 8642};
   RecordedInputs recorded;
@@ -29,7 +29,7 @@ struct Options {
 };
 
 /// Prints the URLs. If the server listens on all addresses, "localhost" stands for them.
-void print_urls(const Options& options, std::uint16_t port) {
+void print_urls(const ViewOptions& options, std::uint16_t port) {
   std::string host = options.server.address;
   if (host == "0.0.0.0" || host == "::") host = "localhost";
   if (host.find(':') != std::string::npos) host = "[" + host + "]";
@@ -39,7 +39,7 @@ void print_urls(const Options& options, std::uint16_t port) {
   std::fflush(stdout);
 }
 
-void view_live(const Options& options) {
+void view_live(const ViewOptions& options) {
   view::Site site(fmt::format("vehicle {}, domain {}", options.dds.vehicle_id, options.dds.domain), "[]",
                   nullptr);
   LiveView view(options.dds, options.range);
@@ -48,7 +48,7 @@ void view_live(const Options& options) {
   view.run(site, server, options.foxglove);
 }
 
-void view_recording(const Options& options) {
+void view_recording(const ViewOptions& options) {
   view::FrameStore store;
   const view::Site site(options.recorded.title(), truth_elements(options.recorded), &store,
                         options.recorded.names());
@@ -67,7 +67,7 @@ void view_recording(const Options& options) {
   if (const std::string failure = store.failure(); !failure.empty()) throw std::runtime_error(failure);
 }
 
-void view(Options options) {
+void view(ViewOptions options) {
   catch_stop_signals();
   if (!view::is_loopback(options.server.address)) options.server.token = view::random_token();
   if (options.foxglove) options.server.foxglove_topics = scene::scene_topics();
@@ -79,7 +79,7 @@ void view(Options options) {
 void add_view(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("view", "Shows the live map, or a recording, in a browser: prints the URL");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ViewOptions>();
   add_dds(*command, options->dds);
   command->add_option("--port", options->server.port, "Port of the web server; 0: a free one")
       ->capture_default_str();

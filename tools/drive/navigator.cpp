@@ -14,10 +14,10 @@ namespace laneloom::drive {
 namespace {
 
 constexpr double kSample_m = 4.0;
-constexpr double kMaxLateral_m = 2.0;
-constexpr double kMinAlignment = 0.9;   // cosine
-constexpr std::size_t kPassed = 3;      // lanes that may be passed in one step
-constexpr std::size_t kLookahead = 12;  // lanes
+constexpr double kMaxLaneLateral_m = 2.0;
+constexpr double kMinLaneAlignment = 0.9;  // cosine
+constexpr std::size_t kPassed = 3;         // lanes that may be passed in one step
+constexpr std::size_t kLookahead = 12;     // lanes
 constexpr double kAfterIntersection_m = 3.0;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -25,12 +25,12 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 std::size_t lane_of(const simulation::Road& road, const LaneTracker& lanes, const VehiclePose& pose) {
   const Eigen::Vector2d direction = transform(pose).linear().col(0).head<2>().normalized();
   std::size_t best = kNone;
-  double best_m = kMaxLateral_m;
+  double best_m = kMaxLaneLateral_m;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     if (road.lanes[i].in_intersection) continue;
     const Projection foot = lanes.centerline(i).project(pose.position);
     if (!foot.inside || foot.distance_m >= best_m || !geometry::same_level(foot.foot, pose.position) ||
-        lanes.centerline(i).direction(foot.arc_m).dot(direction) < kMinAlignment)
+        lanes.centerline(i).direction(foot.arc_m).dot(direction) < kMinLaneAlignment)
       continue;
     best = i;
     best_m = foot.distance_m;

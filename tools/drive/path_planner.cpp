@@ -19,8 +19,8 @@ constexpr double kStep_m = 0.5;
 constexpr double kBehind_m = 12.0;  // enough to tell a bend from noise
 constexpr double kHorizon_m = 45.0;
 // These decide on which lane a plan runs.
-constexpr double kMaxLateral_m = 1.6;
-constexpr double kMinAlignment = 0.8;  // cosine
+constexpr double kMaxPathLateral_m = 1.6;
+constexpr double kMinPathAlignment = 0.8;  // cosine
 constexpr double kCompared_m = 12.0;
 constexpr double kCostPerMetreAhead = 0.1;
 constexpr double kCostOfOncoming_m = 1.0;
@@ -70,7 +70,7 @@ std::optional<Entry> entry_into(const Lane& lane, const MeasuredPolyline& track,
     if (entry && ahead_m > entry->ahead_m + kCompared_m) break;
     const Projection foot = line.project(track.at(vehicle_m + ahead_m));
     const double along = line.direction(foot.arc_m).dot(track.direction(vehicle_m + ahead_m));
-    if (!foot.inside || foot.distance_m > kMaxLateral_m || std::abs(along) < kMinAlignment) continue;
+    if (!foot.inside || foot.distance_m > kMaxPathLateral_m || std::abs(along) < kMinPathAlignment) continue;
     const bool against = along < 0.0;
     if (!entry) entry = {{&lane, against}, against ? line.length() - foot.arc_m : foot.arc_m, ahead_m};
     if (entry->way.against != against) continue;
@@ -98,7 +98,7 @@ std::optional<Entry> on_passage(const LaneGraph& graph, const Passing& passing, 
   const Passage* const begun = find(all, passing.into);
   if (begun == nullptr || begun->path.empty()) return std::nullopt;
   const Projection foot = MeasuredPolyline(begun->path).project(vehicle);
-  if (!foot.inside || foot.distance_m > kMaxLateral_m) return std::nullopt;
+  if (!foot.inside || foot.distance_m > kMaxPathLateral_m) return std::nullopt;
   return Entry{.way = way, .arc_m = length(from->centerline), .between = true};
 }
 
@@ -178,7 +178,7 @@ Polyline way_ahead(const LaneGraph& graph, const Entry& entry, const Bicycle& ve
 void remember(const Plan& earlier, Plan& way) {
   const MeasuredPolyline track(earlier.path);
   const Projection foot = track.project(way.path.back());
-  if (!foot.inside || foot.distance_m > kMaxLateral_m) return;
+  if (!foot.inside || foot.distance_m > kMaxPathLateral_m) return;
   const Point shift = way.path.back() - foot.foot;
   const std::vector<double> arcs_m = arc_lengths(earlier.path);
   for (std::size_t i = 0; i < earlier.path.size(); ++i) {

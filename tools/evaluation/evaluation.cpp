@@ -11,7 +11,6 @@ namespace laneloom::evaluation {
 namespace {
 
 constexpr double kSampleStep_m = 0.1;
-constexpr double kMatchShare = 0.75;
 
 /// A prediction that may be a truth line's true positive.
 struct Candidate {

@@ -28,6 +28,8 @@ namespace laneloom::evaluation {
 
 /// A sample matches a line that has one closer than this.
 inline constexpr double kMatchDistance_m = 0.5;
+/// A line is found if more than this share of its samples match.
+inline constexpr double kMatchShare = 0.75;
 
 enum class LineKind : std::uint8_t { laneline, roadedge, stopline, lane };
 inline constexpr std::size_t kLineKindCount = 4;

@@ -11,7 +11,6 @@
 namespace laneloom::evaluation {
 namespace {
 
-constexpr double kMatchShare = 0.75;
 constexpr double kStoplineGap_m = 3.0;
 constexpr double kLevel_m = 2.0;         // a lane on a bridge does not end at a stopline below it
 constexpr std::size_t kEndSamples = 50;  // 5 m

@@ -5,7 +5,7 @@
 namespace laneloom::evaluation {
 namespace {
 
-constexpr double kStep_m = 1.0;
+constexpr double kStyleStep_m = 1.0;
 
 MarkingStyle style_at(const KindLine& line, double arc_m) {
   for (const StyleRange& style : line.styles)
@@ -32,7 +32,7 @@ void add_styles(const FrameComparison& frame, const std::vector<KindLine>& truth
     const LinePiece& piece = lanelines.predictions[match.prediction];
     const KindLine& prediction = predictions[piece.line];
     const MeasuredPolyline found(prediction.points), true_line(truth_line.points);
-    for (const Point& sample : MeasuredPolyline(piece.points).resample(kStep_m)) {
+    for (const Point& sample : MeasuredPolyline(piece.points).resample(kStyleStep_m)) {
       const Point place = frame.T_map_body * sample;
       if (true_line.project(place).distance_m >= kMatchDistance_m) continue;
       const MarkingStyle style = style_at(prediction, found.project(place).arc_m);

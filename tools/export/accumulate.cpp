@@ -11,10 +11,10 @@
 namespace laneloom::exports {
 namespace {
 
-constexpr double kStep_m = 2.0;      // driven between the maps that are used
+constexpr double kMapStep_m = 2.0;   // driven between the maps that are used
 constexpr double kMinCosine = 0.98;  // of the turn between two maps; with less, the later one is used
 constexpr double kOverlap_m = 3.0;   // of a stretch that left the map with the rest, by which they are joined
-constexpr double kSampleStep_m = 0.5;
+constexpr double kLineStep_m = 0.5;
 
 /// The lines of a map that were seen, without inferred ones.
 std::vector<Marking> seen_lines(const LocalMap& map) {
@@ -28,14 +28,14 @@ std::vector<Marking> seen_lines(const LocalMap& map) {
 }
 
 bool is_step(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  return (to.translation() - from.translation()).norm() >= kStep_m ||
+  return (to.translation() - from.translation()).norm() >= kMapStep_m ||
          from.linear().col(0).dot(to.linear().col(0)) < kMinCosine;
 }
 
 /// The stretches of a line outside of the range, each with an overlap to the inside.
 std::vector<Stretch> stretches_outside(const MeasuredPolyline& line, const geometry::MapBox& range) {
   std::vector<Stretch> stretches;
-  const Polyline samples = line.resample(kSampleStep_m);
+  const Polyline samples = line.resample(kLineStep_m);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (range.keeps(samples[i])) continue;
     const double arc_m = line.length() * static_cast<double>(i) / static_cast<double>(samples.size() - 1);

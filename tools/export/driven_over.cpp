@@ -12,7 +12,7 @@ namespace {
 constexpr double kHalfBody_m = 0.8;  // of a narrow car, because a true edge may be near a broad one
 constexpr double kMaxStep_m = 5.0;   // between poses of one pass
 constexpr double kSampleStep_m = 0.5;
-constexpr double kMinLength_m = 2.0;
+constexpr double kMinRest_m = 2.0;
 
 /// The ways that the vehicle drove, one per pass.
 std::vector<MeasuredPolyline> ways_of(const std::vector<Eigen::Isometry3d>& poses) {
@@ -61,7 +61,7 @@ std::vector<Marking> without_edges_driven_over(const std::vector<Marking>& marki
       continue;
     }
     for (const Stretch& stretch : remaining_stretches(MeasuredPolyline(marking.points), ways))
-      if (stretch.to_m - stretch.from_m >= kMinLength_m) kept.push_back(markings::slice(marking, stretch));
+      if (stretch.to_m - stretch.from_m >= kMinRest_m) kept.push_back(markings::slice(marking, stretch));
   }
   for (ElementId id = 0; Marking & marking : kept) marking.id = ++id;
   return kept;

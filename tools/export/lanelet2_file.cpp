@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "laneloom/element_names.hpp"
+
 namespace laneloom::exports {
 namespace {
 
@@ -94,18 +96,6 @@ void add_ways(const RoadNetwork& network, const Ids& ids, pugi::xml_node& osm) {
     add_known(element, "laneloom:existence", way.existence_probability);
     add_known(element, "laneloom:stddev_m", way.lateral_stddev_m);
   }
-}
-
-const char* name(ElementStatus status) {
-  switch (status) {
-    case ElementStatus::tentative:
-      return "tentative";
-    case ElementStatus::confirmed:
-      return "confirmed";
-    case ElementStatus::inferred:
-      break;
-  }
-  return "inferred";
 }
 
 /// Whether a u-turn bends to the left.

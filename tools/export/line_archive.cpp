@@ -10,9 +10,9 @@
 namespace laneloom::exports {
 namespace {
 
-constexpr double kStep_m = 1.0;    // between vertices
-constexpr double kMinAlong = 0.9;  // cosine between a piece and the line that it lies along
-constexpr double kAtEnd_m = 1.5;   // a match that is nearer to the line's end leads beyond it
+constexpr double kVertexStep_m = 1.0;  // between vertices
+constexpr double kMinAlong = 0.9;      // cosine between a piece and the line that it lies along
+constexpr double kAtEnd_m = 1.5;       // a match that is nearer to the line's end leads beyond it
 constexpr double kMinLength_m = 2.0;
 constexpr double kShadow = 0.8;       // share of a shadow that lies along another line
 constexpr double kRepeated_m = 0.05;  // vertices that are nearer are one
@@ -48,7 +48,7 @@ LineArchive::Vertices LineArchive::vertices_of(const ArchivedPiece& archived) {
   const Marking& piece = archived.marking;
   const MeasuredPolyline line(piece.points);
   const std::vector<double> arcs_m = arc_lengths(piece.points);
-  const Polyline points = line.resample(kStep_m);
+  const Polyline points = line.resample(kVertexStep_m);
   Vertices vertices;
   vertices.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -141,7 +141,7 @@ bool LineArchive::extend(const Match& beside, const Vertices& beyond) {
   Vertices added = beyond;
   std::erase_if(added, [&](const Vertex& vertex) {
     const Eigen::Vector2d from_end = (vertex.position - end).head<2>();
-    return from_end.norm() < 2.0 * kStep_m && from_end.dot(leaving) < 0.3 * kStep_m;
+    return from_end.norm() < 2.0 * kVertexStep_m && from_end.dot(leaving) < 0.3 * kVertexStep_m;
   });
   if (added.empty()) return true;
   line.vertices.insert(at_back ? line.vertices.end() : line.vertices.begin(), added.begin(), added.end());

@@ -10,9 +10,9 @@
 namespace laneloom::exports {
 namespace {
 
-constexpr double kStep_m = 1.0;     // between nodes of a virtual line
-constexpr double kMinStep_m = 0.3;  // nodes that are nearer, or go back, are left out
-constexpr double kMinEnd_m = 0.5;   // a shorter rest of a boundary is left out
+constexpr double kNodeStep_m = 1.0;  // between nodes of a virtual line
+constexpr double kMinStep_m = 0.3;   // nodes that are nearer, or go back, are left out
+constexpr double kMinEnd_m = 0.5;    // a shorter rest of a boundary is left out
 
 using Way = RoadNetwork::Way;
 
@@ -110,13 +110,13 @@ RoadNetwork::Side NetworkBuilder::stretch(std::size_t from, std::size_t to) {
 RoadNetwork::Side NetworkBuilder::virtual_side(std::size_t from, std::size_t to, const Polyline& middle,
                                                double from_m, double to_m) {
   const MeasuredPolyline path(middle);
-  const int steps = std::max(1, static_cast<int>(std::ceil(path.length() / kStep_m)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(path.length() / kNodeStep_m)));
   const Point begin = network_.nodes[node_of(from)], end = network_.nodes[node_of(to)];
   Polyline points;
   for (int i = 1; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps, arc_m = share * path.length();
     const Eigen::Vector2d along =
-        (path.at(arc_m + kStep_m) - path.at(arc_m - kStep_m)).head<2>().normalized();
+        (path.at(arc_m + kNodeStep_m) - path.at(arc_m - kNodeStep_m)).head<2>().normalized();
     const double lateral_m = from_m + share * (to_m - from_m);
     const Point point = geometry::beside(path.at(arc_m), along, lateral_m);
     const Point& last = points.empty() ? begin : points.back();

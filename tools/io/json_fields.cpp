@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMaxDepth = 16;
 constexpr double kMaxCoordinate_m = 1e7;
 
 template <typename Enum, std::size_t N>
@@ -40,7 +39,7 @@ JsonError JsonError::inside(const std::string& key) const {
 
 json parse_json(std::string_view text) {
   const auto limit_depth = [](int depth, json::parse_event_t, const json&) {
-    if (depth > kMaxDepth) throw JsonError("is nested too deeply");
+    if (depth > kMaxJsonDepth) throw JsonError("is nested too deeply");
     return true;
   };
   try {

@@ -31,6 +31,8 @@ class JsonError : public std::runtime_error {
   std::string key_, complaint_;
 };
 
+constexpr int kMaxJsonDepth = 16;
+
 /// Parses a text. Throws JsonError if it is not JSON, or is nested deeper than any of our formats.
 nlohmann::json parse_json(std::string_view text);
 

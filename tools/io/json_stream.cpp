@@ -12,8 +12,6 @@ namespace {
 using nlohmann::json;
 using Event = json::parse_event_t;
 
-constexpr int kMaxDepth = 16;
-
 using Visit = std::function<void(const std::string& name, const json& value)>;
 
 /// The kind of the container that holds the objects.
@@ -31,7 +29,7 @@ class ElementVisitor {
 
   /// Takes an event of the parser. Returns whether the parser should keep the value.
   bool operator()(int depth, Event event, const json& value) {
-    if (depth > kMaxDepth) throw JsonError("is nested too deeply");
+    if (depth > kMaxJsonDepth) throw JsonError("is nested too deeply");
     if (event == Event::key && depth == 1 && depth_ == 1) return in_member_ = value == key_;
     if (!in_member_) return depth == 0;
     if (depth == depth_) check_container(event);

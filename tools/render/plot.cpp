@@ -18,7 +18,7 @@ constexpr double kLeft = 52.0;
 constexpr double kRight = 18.0;
 constexpr double kAbove = 40.0;  // title and legend
 constexpr double kBelow = 40.0;  // ticks and label
-constexpr double kMargin = 8.0;
+constexpr double kPlotMargin = 8.0;
 constexpr double kTickText = 11.0;
 constexpr double kCurveWidth = 1.4;
 constexpr int kYTicks = 5;
@@ -143,14 +143,14 @@ void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, bool marke
 
 /// Draws the legend in one line, which ends at `right_end`.
 void draw_legend(Canvas& canvas, const std::vector<Curve>& curves, const Pixel& right_end) {
-  constexpr double kSwatch = 26.0, kSpace = 5.0, kLetter = 7.0, kGap = 16.0;
+  constexpr double kSwatch = 26.0, kSpace = 5.0, kLetter = 7.0, kLegendGap = 16.0;
   const auto width = [](const Curve& curve) {
     return kSwatch + kSpace + kLetter * static_cast<double>(curve.name.size());
   };
   Pixel at = right_end;
-  for (const Curve& curve : curves) at.x() -= width(curve) + kGap;
+  for (const Curve& curve : curves) at.x() -= width(curve) + kLegendGap;
   for (const Curve& curve : curves) {
-    at.x() += kGap;
+    at.x() += kLegendGap;
     canvas.stroke({at - Pixel(0.0, 4.0), at + Pixel(kSwatch, -4.0)}, pen_of(curve));
     canvas.text(at + Pixel(kSwatch + kSpace, 0.0), curve.name, kTickText, drawing::palette::kText);
     at.x() += width(curve);
@@ -181,9 +181,9 @@ double tick_step(double span, int ticks) {
 
 void draw_plots(const std::vector<Plot>& plots, const std::string& path) {
   constexpr double kHeight = kAbove + kPlotHeight + kBelow;
-  Canvas canvas(path, kWidth, 2 * kMargin + static_cast<double>(plots.size()) * kHeight);
+  Canvas canvas(path, kWidth, 2 * kPlotMargin + static_cast<double>(plots.size()) * kHeight);
   for (std::size_t i = 0; i < plots.size(); ++i)
-    draw_plot(canvas, plots[i], {0.0, kMargin + static_cast<double>(i) * kHeight});
+    draw_plot(canvas, plots[i], {0.0, kPlotMargin + static_cast<double>(i) * kHeight});
   canvas.finish();
 }
 

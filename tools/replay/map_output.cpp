@@ -34,14 +34,13 @@ class MapLines : public MapOutput {
   io::JsonLinesWriter writer_;
 };
 
-struct FreeState {
-  void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-};
-
 }  // namespace
 
 struct Digest::State {
-  std::unique_ptr<XXH3_state_t, FreeState> xxh3{XXH3_createState()};
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> xxh3{XXH3_createState()};
 };
 
 Digest::Digest() : state_(std::make_unique<State>()) { XXH3_128bits_reset(state_->xxh3.get()); }

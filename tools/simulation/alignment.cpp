@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/degree.hpp"
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/smooth_step.hpp"
 
 namespace laneloom::simulation {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kParallel_rad = 0.01;
 
 Frame advance(const Frame& start, const Segment& segment, double along_m) {

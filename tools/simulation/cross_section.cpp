@@ -9,7 +9,7 @@ namespace laneloom::simulation {
 namespace {
 
 constexpr double kDoubleLine_m = 0.24;  // between the two lines
-constexpr double kStep_m = 1.0;
+constexpr double kGapStep_m = 1.0;
 constexpr double kTiny_m = 1e-6;
 
 // Collects the borders of one side, from the reference line outwards.
@@ -161,7 +161,7 @@ std::vector<double> stations(const std::vector<Border>& borders, double from_m, 
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const double gap_m = ends[i] - ends[i - 1];
     if (gap_m < kTiny_m) continue;
-    const int steps = std::max(1, static_cast<int>(std::ceil(gap_m / kStep_m - kTiny_m)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(gap_m / kGapStep_m - kTiny_m)));
     for (int k = 1; k <= steps; ++k) out.push_back(ends[i - 1] + gap_m * k / steps);
   }
   return out;

@@ -11,7 +11,7 @@
 namespace laneloom::simulation {
 namespace {
 
-constexpr double kStep_m = 0.25;
+constexpr double kPoseStep_m = 0.25;
 constexpr int kSmoothingSteps = 8;  // either way: 2 m
 constexpr double kClosed_m = 0.01;
 constexpr double kClosed_rad = 0.01;
@@ -19,7 +19,7 @@ constexpr double kClosed_rad = 0.01;
 double seconds(std::int64_t stamp_ns) { return static_cast<double>(stamp_ns) * 1e-9; }
 std::int64_t nanoseconds(double t_s) { return static_cast<std::int64_t>(std::llround(t_s * 1e9)); }
 
-bool is_ring(const Polyline& path) { return (path.front() - path.back()).norm() < kClosed_m; }
+bool returns_to_start(const Polyline& path) { return (path.front() - path.back()).norm() < kClosed_m; }
 
 // Replaces points by the mean over the neighbours either way. On a ring the window goes round; otherwise it
 // shrinks to nothing at an end.
@@ -48,11 +48,11 @@ Eigen::Quaterniond heading_along(const Point& tangent) {
 }  // namespace
 
 Drive Drive::along(const Polyline& path, double speed_mps) {
-  if (path.size() < 2 || !(length(path) > kStep_m))
+  if (path.size() < 2 || !(length(path) > kPoseStep_m))
     throw std::invalid_argument("a drive needs a path with a length");
   if (!(speed_mps > 0.0)) throw std::invalid_argument("a drive needs a positive speed");
-  const bool ring = is_ring(path);
-  Polyline points = MeasuredPolyline(path).resample(kStep_m);
+  const bool ring = returns_to_start(path);
+  Polyline points = MeasuredPolyline(path).resample(kPoseStep_m);
   for (int pass = 0; pass < 2; ++pass) points = moving_average(points, ring);
 
   Drive drive;

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/degree.hpp"
 #include "laneloom/polyline.hpp"
 #include "simulation/line_noise.hpp"
 
 namespace laneloom::simulation {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // A line anywhere ahead of the vehicle: roughly along its heading, or across it for a stopline.
 Polyline anywhere(MarkingType type, const SensorView& view, Random& random) {

@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/degree.hpp"
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/left_of.hpp"
 
 namespace laneloom::simulation {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDenseStep_m = 0.5;
 constexpr std::size_t kNetworkPoints = 20;
 constexpr double kNetworkStep_m = 2.5;  // greatest distance between points, also of long lines
-constexpr double kMinLength_m = 1.0;
+constexpr double kMinPiece_m = 1.0;
 
 Eigen::Vector2d left_normal(const MeasuredPolyline& line, double arc_m) {
   return geometry::left_of(line.direction(arc_m));
@@ -203,8 +202,8 @@ std::vector<LineNoise::Seen> LineNoise::detect(const VisiblePiece& truth, Markin
   std::vector<Seen> out{{detection, true}};
   const MeasuredPolyline measured(whole);
   const double gap_m = cut_gap_ * noise.cut_gap_m, cut_m = cut_at_ * measured.length();
-  if (cut_.on(noise.cut, places, arc_m) && cut_m > kMinLength_m &&
-      measured.length() - cut_m - gap_m > kMinLength_m) {
+  if (cut_.on(noise.cut, places, arc_m) && cut_m > kMinPiece_m &&
+      measured.length() - cut_m - gap_m > kMinPiece_m) {
     out.front().detection.points = measured.slice({0.0, cut_m});
     out.push_back({detection, true});
     out.back().detection.points = measured.slice({cut_m + gap_m, measured.length()});

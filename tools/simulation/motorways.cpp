@@ -8,8 +8,7 @@
 namespace laneloom::simulation {
 namespace {
 
-constexpr double kWidth_m = 3.5;
-constexpr double kMainWidth_m = 3.0 * kWidth_m;
+constexpr double kMainWidth_m = 3.0 * kLaneWidth_m;
 constexpr double kGore_m = 60.0;
 constexpr double kRampEnd_m = 60.0;
 
@@ -32,9 +31,9 @@ Road exit_road(double speed_mps, const Ramp& shape) {
   RoadBuilder builder("exit");
   builder.add_street(way, section);
   builder.add_street(ramp, {.forward = {}, .gore_begin_m = kGore_m});
-  const Point begin = way.point(10.0, -2.5 * kWidth_m);
-  return std::move(builder).build({begin, shape.driven ? ramp.point(ramp.length() - 10.0, -0.5 * kWidth_m)
-                                                       : way.point(290.0, -2.5 * kWidth_m)},
+  const Point begin = way.point(10.0, -2.5 * kLaneWidth_m);
+  return std::move(builder).build({begin, shape.driven ? ramp.point(ramp.length() - 10.0, -0.5 * kLaneWidth_m)
+                                                       : way.point(290.0, -2.5 * kLaneWidth_m)},
                                   speed_mps);
 }
 
@@ -53,9 +52,10 @@ Road entry_road(double speed_mps, const Ramp& shape) {
   RoadBuilder builder("entry");
   builder.add_street(way, section);
   builder.add_street(ramp, {.forward = {}, .gore_end_m = kGore_m});
-  const Point end = way.point(290.0, -2.5 * kWidth_m);
+  const Point end = way.point(290.0, -2.5 * kLaneWidth_m);
   return std::move(builder).build(
-      {shape.driven ? ramp.point(10.0, -0.5 * kWidth_m) : way.point(10.0, -2.5 * kWidth_m), end}, speed_mps);
+      {shape.driven ? ramp.point(10.0, -0.5 * kLaneWidth_m) : way.point(10.0, -2.5 * kLaneWidth_m), end},
+      speed_mps);
 }
 
 Road divided_road(const DividedRoad& divided, double speed_mps) {
@@ -77,7 +77,7 @@ Road divided_road(const DividedRoad& divided, double speed_mps) {
     if (!divided.kerbs) section.gore_begin_m = other.length();
     builder.add_street(other, section);
   }
-  const double left_m = -(divided.driven - 0.5) * kWidth_m;
+  const double left_m = -(divided.driven - 0.5) * kLaneWidth_m;
   return std::move(builder).build({way.point(10.0, left_m)}, speed_mps);
 }
 

@@ -11,6 +11,9 @@
 /// Right-hand traffic.
 namespace laneloom::simulation {
 
+inline constexpr double kLaneWidth_m = 3.5;
+inline constexpr double kCornerRadius_m = 8.0;  // of the edges of an intersection
+
 /// A change in the number of lanes: from `at_m` on, a side has `lanes` lanes. Over a taper its edge moves
 /// outwards or inwards, and the new (or ending) lane is beside the edge. Without a taper another street takes
 /// the lane away or brings it: the edge jumps, and the lane's border is painted solid along the gore on the
@@ -37,7 +40,7 @@ struct Section {
   RoadHalf forward{};
   RoadHalf backward{.lanes = 0, .changes = {}};  ///< 0: one-way, and the reference line is the left edge
   CentreLine centre = CentreLine::solid;
-  double lane_width_m = 3.5;
+  double lane_width_m = kLaneWidth_m;
   int solid_after = 0;        ///< the border after so many lanes from the reference line is solid; 0: none
   double shoulder_m = 0.0;    ///< below 2.5; from a solid line to the edge, where no lane begins or ends
   bool visible_edges = true;  ///< else the street ends in grass
@@ -46,7 +49,7 @@ struct Section {
 };
 Section two_way(int forward, int backward, CentreLine centre);
 /// The distance from the reference line to the outer border of `lanes` lanes.
-double half_width_m(int lanes, CentreLine centre, double lane_width_m = 3.5);
+double half_width_m(int lanes, CentreLine centre, double lane_width_m = kLaneWidth_m);
 
 /// The mouth of a street at an intersection. `outward` is the end of its reference line there, heading away
 /// from the intersection.
@@ -55,7 +58,7 @@ struct Mouth {
   int leaving = 1;   ///< number of lanes away from the intersection
   int arriving = 1;  ///< number of lanes towards it
   CentreLine centre = CentreLine::solid;
-  double lane_width_m = 3.5;
+  double lane_width_m = kLaneWidth_m;
 };
 
 Mouth mouth_at_start(const Alignment& alignment, const Section& section);

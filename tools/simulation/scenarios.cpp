@@ -11,21 +11,18 @@
 namespace laneloom::simulation {
 namespace {
 
-constexpr double kWidth_m = 3.5;
-constexpr double kCornerRadius_m = 8.0;
-
 Road straight_road(double speed_mps) {
   const Alignment way({}, {straight(300.0)});
   RoadBuilder builder("straight");
   builder.add_street(way, two_way(3, 3, CentreLine::double_solid));
-  return std::move(builder).build({way.point(10.0, -1.5 * kWidth_m)}, speed_mps);
+  return std::move(builder).build({way.point(10.0, -1.5 * kLaneWidth_m)}, speed_mps);
 }
 
 Road curve(double speed_mps) {
   const Alignment way({}, {straight(80.0), bend(12.0, 90.0), straight(80.0)});
   RoadBuilder builder("curve");
   builder.add_street(way, two_way(1, 1, CentreLine::solid));
-  return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m)}, speed_mps);
+  return std::move(builder).build({way.point(10.0, -0.5 * kLaneWidth_m)}, speed_mps);
 }
 
 // Two lanes each way, with shoulders.
@@ -35,7 +32,7 @@ Road motorway(double speed_mps) {
   section.shoulder_m = 2.4;
   RoadBuilder builder("motorway");
   builder.add_street(way, section);
-  return std::move(builder).build({way.point(10.0, -1.5 * kWidth_m)}, speed_mps);
+  return std::move(builder).build({way.point(10.0, -1.5 * kLaneWidth_m)}, speed_mps);
 }
 
 // A residential street, whose line between the directions ends.
@@ -46,7 +43,7 @@ Road street(double speed_mps) {
   builder.add_street(marked, two_way(1, 1, CentreLine::dashed));
   builder.add_street(unmarked, two_way(1, 1, CentreLine::none));
   return std::move(builder).build(
-      {marked.point(10.0, -0.5 * kWidth_m), unmarked.point(200.0, -0.5 * kWidth_m)}, speed_mps);
+      {marked.point(10.0, -0.5 * kLaneWidth_m), unmarked.point(200.0, -0.5 * kLaneWidth_m)}, speed_mps);
 }
 
 // A road over land, where only the line between the directions can be seen.
@@ -58,8 +55,8 @@ Road country_road(double speed_mps) {
   builder.add_street(edged, section);
   section.visible_edges = false;
   builder.add_street(open, section);
-  return std::move(builder).build({edged.point(10.0, -0.5 * kWidth_m), open.point(210.0, -0.5 * kWidth_m)},
-                                  speed_mps);
+  return std::move(builder).build(
+      {edged.point(10.0, -0.5 * kLaneWidth_m), open.point(210.0, -0.5 * kLaneWidth_m)}, speed_mps);
 }
 
 // A lane is added on the right, and further on it leaves as an exit.
@@ -68,12 +65,12 @@ Road split(double speed_mps) {
   const Alignment way({}, {straight(300.0)});
   Section section = two_way(1, 1, CentreLine::solid);
   section.forward.changes = {{.at_m = 80.0, .lanes = 2}, {.at_m = exit_at_m, .lanes = 1, .taper_m = 0.0}};
-  const Alignment exit(way.at(exit_at_m).moved(-kWidth_m), {bend(60.0, -40.0), straight(60.0)});
+  const Alignment exit(way.at(exit_at_m).moved(-kLaneWidth_m), {bend(60.0, -40.0), straight(60.0)});
   RoadBuilder builder("split");
   builder.add_street(way, section);
   builder.add_street(exit, {.forward = {}, .gore_begin_m = 15.0});
-  return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m), way.point(290.0, -0.5 * kWidth_m)},
-                                  speed_mps);
+  return std::move(builder).build(
+      {way.point(10.0, -0.5 * kLaneWidth_m), way.point(290.0, -0.5 * kLaneWidth_m)}, speed_mps);
 }
 
 // A ramp joins on the right, and further on its lane ends.
@@ -83,13 +80,14 @@ Road merge(double speed_mps) {
   Section section = two_way(1, 1, CentreLine::solid);
   section.forward.changes = {{.at_m = entry_at_m, .lanes = 2, .taper_m = 0.0}, {.at_m = 190.0, .lanes = 1}};
   // The ramp is laid out backwards from the place where it joins, to find its start.
-  const Alignment back(way.at(entry_at_m).moved(-kWidth_m).turned(180.0), {bend(60.0, 40.0), straight(60.0)});
+  const Alignment back(way.at(entry_at_m).moved(-kLaneWidth_m).turned(180.0),
+                       {bend(60.0, 40.0), straight(60.0)});
   const Alignment ramp(back.end().turned(180.0), {straight(60.0), bend(60.0, -40.0)});
   RoadBuilder builder("merge");
   builder.add_street(way, section);
   builder.add_street(ramp, {.forward = {}, .gore_end_m = 15.0});
-  return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m), way.point(290.0, -0.5 * kWidth_m)},
-                                  speed_mps);
+  return std::move(builder).build(
+      {way.point(10.0, -0.5 * kLaneWidth_m), way.point(290.0, -0.5 * kLaneWidth_m)}, speed_mps);
 }
 
 // Streets of one lane per direction that lead away from the origin.
@@ -101,7 +99,7 @@ struct Crossroads {
     const Section section = two_way(1, 1, CentreLine::solid);
     std::vector<Mouth> mouths;
     for (const double heading_deg : headings_deg) {
-      const Frame begin = Frame{}.turned(heading_deg).moved(0.0, kWidth_m + kCornerRadius_m);
+      const Frame begin = Frame{}.turned(heading_deg).moved(0.0, kLaneWidth_m + kCornerRadius_m);
       streets.emplace_back(begin, std::vector{straight(100.0)});
       builder.add_street(streets.back(), section);
       mouths.push_back(mouth_at_start(streets.back(), section));
@@ -112,7 +110,8 @@ struct Crossroads {
   // A drive in by one street and out by the other.
   Road drive(std::size_t in, std::size_t out, double speed_mps) && {
     return std::move(builder).build(
-        {streets[in].point(90.0, 0.5 * kWidth_m), streets[out].point(90.0, -0.5 * kWidth_m)}, speed_mps);
+        {streets[in].point(90.0, 0.5 * kLaneWidth_m), streets[out].point(90.0, -0.5 * kLaneWidth_m)},
+        speed_mps);
   }
 };
 
@@ -130,7 +129,7 @@ Road hill(double speed_mps) {
   const Alignment way({}, {straight(420.0)}, elevation);
   RoadBuilder builder("hill");
   builder.add_street(way, two_way(1, 1, CentreLine::dashed));
-  return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m)}, speed_mps);
+  return std::move(builder).build({way.point(10.0, -0.5 * kLaneWidth_m)}, speed_mps);
 }
 
 // A road over a bridge 6 m high, round three quarters of a circle, and through under the bridge.
@@ -141,7 +140,7 @@ Road overpass(double speed_mps) {
                       {straight(before_m + after_m), bend(radius_m, 270.0), straight(170.0)}, elevation);
   RoadBuilder builder("overpass");
   builder.add_street(way, two_way(1, 1, CentreLine::solid));
-  return std::move(builder).build({way.point(10.0, -0.5 * kWidth_m)}, speed_mps);
+  return std::move(builder).build({way.point(10.0, -0.5 * kLaneWidth_m)}, speed_mps);
 }
 
 Road exit(double speed_mps) { return exit_road(speed_mps); }

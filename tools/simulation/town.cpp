@@ -8,8 +8,6 @@
 namespace laneloom::simulation {
 namespace {
 
-constexpr double kWidth_m = 3.5;
-constexpr double kCornerRadius_m = 8.0;
 constexpr double kSideStreet_m = 60.0;
 constexpr double kWideBend_m = 42.0;  // radius
 
@@ -18,7 +16,7 @@ double reach_m(int lanes, CentreLine centre) { return half_width_m(lanes, centre
 
 // A point in the middle of the leftmost lane, which leads round the town.
 Point on_lane(const Alignment& way, double s_m, const Section& section) {
-  return way.point(s_m, -half_width_m(0, section.centre) - 0.5 * kWidth_m);
+  return way.point(s_m, -half_width_m(0, section.centre) - 0.5 * kLaneWidth_m);
 }
 
 Mouth add_side_street(RoadBuilder& builder, const Frame& centre, double distance_m) {
