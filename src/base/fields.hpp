@@ -5,14 +5,15 @@
 #include <type_traits>
 #include <utility>
 
-#include "laneloom/types.hpp"
+#include "laneloom/messages.hpp"
 
-/// The members of map elements, each named once, in the order of the IDL. Conversion to and from messages,
-/// the check of a message's bytes and bounds, JSON and the bytes of a mapper's state follow from these
-/// tables.
+/// The members of map elements and detections, each named once, in the order of the IDL. Conversion to and
+/// from messages, the check of a message's bytes and bounds, JSON and the bytes of a mapper's state follow
+/// from these tables.
 namespace laneloom {
 
-/// One member that is published. `OfMessage` gives the member of the same name of the IDL's type.
+/// One member that is published. `OfMessage` gives the member of the IDL's type that holds it. A stamp whose
+/// member there is a double is sent as an age in seconds, at the stamp of the message.
 template <class Struct, class Value, class OfMessage>
 struct Field {
   constexpr Field(const char* its_name, Value Struct::*its_member, OfMessage its_of_message)
@@ -29,12 +30,28 @@ struct Field {
     field.is_needed = true;
     return field;
   }
+  /// The elements' JSON leaves this member out.
+  constexpr Field not_in_json() const { return as(nullptr); }
+  /// The number is read from JSON only if it is from 0 to 1.
+  constexpr Field share() const {
+    Field field = *this;
+    field.is_share = true;
+    return field;
+  }
+  /// The value may be unknown: a share of -1, or a stamp of 0, whose age is sent as -1.
+  constexpr Field or_unknown() const {
+    Field field = *this;
+    field.may_be_unknown = true;
+    return field;
+  }
 
-  const char* name;  ///< of the member of the struct
-  const char* key;   ///< in JSON
+  const char* name;  ///< of the message's member
+  const char* key;   ///< in JSON; null: it is not there
   Value Struct::*member;
   OfMessage of_message;    ///< returns the message's member
   bool is_needed = false;  ///< in JSON
+  bool is_share = false;
+  bool may_be_unknown = false;
 };
 
 #define LANELOOM_FIELD_AS(Struct, member, name) \
@@ -43,6 +60,35 @@ struct Field {
 
 template <class Struct>
 inline constexpr std::nullptr_t kFields = nullptr;
+
+template <>
+inline constexpr auto kFields<Stretch> = std::tuple(LANELOOM_FIELD(Stretch, from_m),
+                                                    LANELOOM_FIELD(Stretch, to_m));
+
+template <>
+inline constexpr auto kFields<Detection> =
+    std::tuple(LANELOOM_FIELD(Detection, type).needed(), LANELOOM_FIELD(Detection, style),
+               LANELOOM_FIELD(Detection, confidence).as("score").needed().share(),
+               LANELOOM_FIELD(Detection, points).needed(), LANELOOM_FIELD(Detection, stddev_m).as("stddev"));
+
+template <>
+inline constexpr auto kFields<StyleRange> = std::tuple(LANELOOM_FIELD(StyleRange, range),
+                                                       LANELOOM_FIELD(StyleRange, style));
+
+template <>
+inline constexpr auto kFields<Marking> = std::tuple(
+    LANELOOM_FIELD(Marking, id).needed(), LANELOOM_FIELD(Marking, type).needed(),
+    LANELOOM_FIELD(Marking, status), LANELOOM_FIELD(Marking, points).needed(),
+    LANELOOM_FIELD(Marking, styles), LANELOOM_FIELD(Marking, lateral_stddev_m).as("lateral_stddev"),
+    LANELOOM_FIELD(Marking, existence_probability).as("existence").share().or_unknown(),
+    LANELOOM_FIELD(Marking, observations),
+    LANELOOM_FIELD_AS(Marking, first_seen_ns, age_s).as("first_seen_ns"),
+    LANELOOM_FIELD_AS(Marking, last_seen_ns, unseen_s).as("last_seen_ns").or_unknown());
+
+template <>
+inline constexpr auto kFields<LineageEvent> = std::tuple(LANELOOM_FIELD(LineageEvent, kind),
+                                                         LANELOOM_FIELD(LineageEvent, id),
+                                                         LANELOOM_FIELD(LineageEvent, other));
 
 template <>
 inline constexpr auto kFields<Neighbour> = std::tuple(LANELOOM_FIELD(Neighbour, lane).needed(),
@@ -57,13 +103,26 @@ inline constexpr auto kFields<Lane> = std::tuple(
     LANELOOM_FIELD(Lane, centerline).needed(), LANELOOM_FIELD(Lane, width_m).as("width"),
     LANELOOM_FIELD(Lane, left_neighbours), LANELOOM_FIELD(Lane, right_neighbours),
     LANELOOM_FIELD(Lane, direction), LANELOOM_FIELD(Lane, section), LANELOOM_FIELD(Lane, status),
-    LANELOOM_FIELD(Lane, existence_probability).as("existence"), LANELOOM_FIELD(Lane, inferred_ranges));
+    LANELOOM_FIELD(Lane, existence_probability).as("existence").share().or_unknown(),
+    LANELOOM_FIELD(Lane, inferred_ranges));
+
+// In JSON, the marking is in the list of all markings.
+template <>
+inline constexpr auto kFields<Stopline> = std::tuple(LANELOOM_FIELD(Stopline, marking).not_in_json(),
+                                                     LANELOOM_FIELD(Stopline, lanes),
+                                                     LANELOOM_FIELD(Stopline, heading));
 
 template <>
-inline constexpr auto kFields<Linkage> = std::tuple(
-    LANELOOM_FIELD_AS(Linkage, from, from_lane).as("from").needed(),
-    LANELOOM_FIELD_AS(Linkage, to, to_lane).as("to").needed(), LANELOOM_FIELD(Linkage, kind),
-    LANELOOM_FIELD(Linkage, turn), LANELOOM_FIELD(Linkage, confidence), LANELOOM_FIELD(Linkage, path));
+inline constexpr auto kFields<Linkage> =
+    std::tuple(LANELOOM_FIELD_AS(Linkage, from, from_lane).as("from").needed(),
+               LANELOOM_FIELD_AS(Linkage, to, to_lane).as("to").needed(), LANELOOM_FIELD(Linkage, kind),
+               LANELOOM_FIELD(Linkage, turn), LANELOOM_FIELD(Linkage, confidence).share(),
+               LANELOOM_FIELD(Linkage, path));
+
+template <>
+inline constexpr auto kFields<FusedFrame> = std::tuple(
+    LANELOOM_FIELD(FusedFrame, source), LANELOOM_FIELD(FusedFrame, session_id),
+    LANELOOM_FIELD_AS(FusedFrame, sequence, sequence_number), LANELOOM_FIELD(FusedFrame, stamp_ns));
 
 #undef LANELOOM_FIELD
 #undef LANELOOM_FIELD_AS
@@ -81,6 +140,10 @@ constexpr void for_each_field(Visit visit) {
 template <class Enum>
 inline constexpr Enum kLast = Enum{};
 template <>
+inline constexpr auto kLast<MarkingType> = MarkingType::stopline;
+template <>
+inline constexpr auto kLast<MarkingStyle> = MarkingStyle::dashed;
+template <>
 inline constexpr auto kLast<ElementStatus> = ElementStatus::inferred;
 template <>
 inline constexpr auto kLast<Lane::Direction> = Lane::Direction::against_centerline;
@@ -88,6 +151,12 @@ template <>
 inline constexpr auto kLast<Linkage::Kind> = Linkage::Kind::ego_track;
 template <>
 inline constexpr auto kLast<Linkage::Turn> = Linkage::Turn::u_turn;
+template <>
+inline constexpr auto kLast<LineageEvent::Kind> = LineageEvent::Kind::retired;
+template <>
+inline constexpr auto kLast<MapState> = MapState::stale;
+template <>
+inline constexpr auto kLast<StateReason> = StateReason::source_not_fused;
 
 /// Converts to the type of any member of an aggregate.
 struct AnyMember {
@@ -105,11 +174,19 @@ constexpr std::size_t count_members() {
     return sizeof...(Members);
 }
 template <HasFields Struct>
-inline constexpr std::size_t kUnpublishedMembers =
-    count_members<Struct>() - std::tuple_size_v<std::remove_cv_t<decltype(kFields<Struct>)>>;
+inline constexpr std::size_t kFieldCount = std::tuple_size_v<std::remove_cv_t<decltype(kFields<Struct>)>>;
+template <HasFields Struct>
+inline constexpr std::size_t kUnpublishedMembers = count_members<Struct>() - kFieldCount<Struct>;
 
+static_assert(kUnpublishedMembers<Stretch> == 0);
+static_assert(kUnpublishedMembers<Detection> == 0);
+static_assert(kUnpublishedMembers<StyleRange> == 0);
+static_assert(kUnpublishedMembers<Marking> == 0);
+static_assert(kUnpublishedMembers<LineageEvent> == 0);
 static_assert(kUnpublishedMembers<Neighbour> == 0);
 static_assert(kUnpublishedMembers<Lane> == 2, "the reversed flags alone are not published");
+static_assert(kUnpublishedMembers<Stopline> == 0);
 static_assert(kUnpublishedMembers<Linkage> == 0);
+static_assert(kUnpublishedMembers<FusedFrame> == 0);
 
 }  // namespace laneloom

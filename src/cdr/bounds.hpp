@@ -1,10 +1,53 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
-#include "laneloom/messages.hpp"
+#include "Common.h"
+#include "base/fields.hpp"
 
 namespace laneloom::dds {
+
+/// The bound of the IDL for lists of such elements, the same wherever there is such a list.
+///@{
+constexpr std::size_t max_length(const Point*) { return msg::MAX_POINTS; }
+constexpr std::size_t max_length(const double*) { return msg::MAX_POINTS; }
+constexpr std::size_t max_length(const Polyline*) { return msg::MAX_AREAS; }
+constexpr std::size_t max_length(const MarkingType*) { return msg::MAX_TYPES; }
+constexpr std::size_t max_length(const Detection*) { return msg::MAX_MARKINGS; }
+constexpr std::size_t max_length(const StateReason*) { return msg::MAX_REASONS; }
+constexpr std::size_t max_length(const FusedFrame*) { return msg::MAX_FRAMES; }
+constexpr std::size_t max_length(const StyleRange*) { return msg::MAX_STYLES; }
+constexpr std::size_t max_length(const Marking*) { return msg::MAX_MARKINGS; }
+constexpr std::size_t max_length(const Stretch*) { return msg::MAX_RANGES; }
+constexpr std::size_t max_length(const Neighbour*) { return msg::MAX_NEIGHBOURS; }
+constexpr std::size_t max_length(const Lane*) { return msg::MAX_LANES; }
+constexpr std::size_t max_length(const ElementId*) { return msg::MAX_STOPLINE_LANES; }
+constexpr std::size_t max_length(const Stopline*) { return msg::MAX_MARKINGS; }
+constexpr std::size_t max_length(const Linkage*) { return msg::MAX_LINKAGES; }
+constexpr std::size_t max_length(const LineageEvent*) { return msg::MAX_LINKAGES; }
+///@}
+template <class Element>
+inline constexpr std::size_t kMaxLength = max_length(static_cast<const Element*>(nullptr));
+
+/// Whether all lists within a value are within the bounds of the IDL.
+///@{
+template <class Element>
+bool fits(const std::vector<Element>& list);
+template <class Value>
+bool fits(const Value& value) {
+  bool all = true;
+  if constexpr (HasFields<Value>)
+    for_each_field<Value>([&](const auto& field) { all = all && fits(value.*field.member); });
+  return all;
+}
+template <class Element>
+bool fits(const std::vector<Element>& list) {
+  return list.size() <= kMaxLength<Element> &&
+         std::ranges::all_of(list, [](const Element& element) { return fits(element); });
+}
+///@}
 
 /// Removes from a map the elements that exceed the bounds of the IDL, and all that refer to them, so that
 /// every id that is referred to stays in the map. Of a list that is too long, the first elements stay. An

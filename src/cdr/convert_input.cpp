@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "cdr/bounds.hpp"
 #include "cdr/convert.hpp"
 #include "cdr/convert_parts.hpp"
 
 namespace laneloom::dds {
 namespace {
-
-using dds::to_msg;  // beside the overload here
 
 constexpr const char* kBodyFrame = "body";
 
@@ -23,60 +22,27 @@ std::vector<MarkingType> fitting(std::vector<MarkingType> types) {
   return types;
 }
 
-bool is_in_bounds(const Polyline& line) { return line.size() <= msg::MAX_POINTS; }
-
-msg::Area area_to_msg(const Polyline& from) {
-  msg::Area to;
-  to.outline(to_msg(from));
-  return to;
-}
-
-msg::Detection to_msg(const Detection& from) {
-  msg::Detection to;
-  to.type(enum_to_msg<msg::MarkingType>(from.type));
-  to.style(enum_to_msg<msg::MarkingStyle>(from.style));
-  to.confidence(from.confidence);
-  to.points(to_msg(from.points));
-  to.stddev_m(from.stddev_m);
-  return to;
-}
-
-Detection from_msg(const msg::Detection& from, Intake& intake) {
-  Detection to;
-  to.type = intake.enumeration(from.type(), MarkingType::stopline);
-  to.style = intake.enumeration(from.style(), MarkingStyle::dashed);
-  to.confidence = intake.number(from.confidence());
-  to.points = intake.polyline(from.points());
-  to.stddev_m = intake.numbers(from.stddev_m());
-  intake.sizes_match(to.stddev_m.size(), to.points.size());
-  return to;
+/// Puts elements into a message: those that fit, as many as the IDL allows. Returns how many were left out.
+template <class From, class To>
+std::size_t put_fitting(const std::vector<From>& from, std::vector<To>& to) {
+  to.clear();
+  for (const From& element : from) {
+    if (to.size() < kMaxLength<From> && fits(element)) ToMessage().put(element, to.emplace_back());
+  }
+  return from.size() - to.size();
 }
 
 }  // namespace
 
 std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id*/, msg::Detections& to) {
-  std::size_t left_out = 0;
   to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, kBodyFrame));
   to.source(from.source.c_str());  // cut to its bound; readers may then take two sources for one
-  left_out += from.source.size() <= kMaxName ? 0U : 1U;
-  to.detected_types(convert_all<msg::MarkingType>(
-      fitting(from.detected_types), [](MarkingType type) { return enum_to_msg<msg::MarkingType>(type); }));
-  to.field_of_view(is_in_bounds(from.field_of_view) ? to_msg(from.field_of_view) : std::vector<msg::Point>{});
-  left_out += is_in_bounds(from.field_of_view) ? 0U : 1U;
-
-  to.occluded_areas().clear();
-  for (const auto& area : from.occluded_areas) {
-    const bool taken = is_in_bounds(area) && to.occluded_areas().size() < msg::MAX_AREAS;
-    if (taken) to.occluded_areas().push_back(area_to_msg(area));
-    left_out += taken ? 0U : 1U;
-  }
-  to.detections().clear();
-  for (const auto& detection : from.detections) {
-    const bool taken = is_in_bounds(detection.points) && detection.stddev_m.size() <= msg::MAX_POINTS &&
-                       to.detections().size() < msg::MAX_MARKINGS;
-    if (taken) to.detections().push_back(to_msg(detection));
-    left_out += taken ? 0U : 1U;
-  }
+  std::size_t left_out = from.source.size() <= kMaxName ? 0U : 1U;
+  ToMessage().put(fitting(from.detected_types), to.detected_types());
+  ToMessage().put(fits(from.field_of_view) ? from.field_of_view : Polyline{}, to.field_of_view());
+  left_out += fits(from.field_of_view) ? 0U : 1U;
+  left_out += put_fitting(from.occluded_areas, to.occluded_areas());
+  left_out += put_fitting(from.detections, to.detections());
   return left_out;
 }
 
@@ -89,16 +55,13 @@ Refusal from_msg(msg::Detections&& from, const std::string& map_frame_id, Detect
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();
   to.source = intake.text(from.source().to_string());
-  to.detected_types = convert_all<MarkingType>(from.detected_types(), [&](msg::MarkingType type) {
-    return intake.enumeration(type, MarkingType::stopline);
-  });
-  to.field_of_view = intake.polyline(from.field_of_view());
-  to.occluded_areas = convert_all<Polyline>(
-      from.occluded_areas(), [&](const msg::Area& area) { return intake.polyline(area.outline()); });
+  intake.take(from.detected_types(), to.detected_types);
+  intake.take(from.field_of_view(), to.field_of_view);
+  intake.take(from.occluded_areas(), to.occluded_areas);
   to.detections.clear();
   to.detections.reserve(from.detections().size());
   for (msg::Detection& detection : from.detections()) {
-    to.detections.push_back(from_msg(detection, intake));
+    intake.take(detection, to.detections.emplace_back());
     detection = msg::Detection();
   }
   return intake.refusal();

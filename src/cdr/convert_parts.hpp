@@ -1,39 +1,57 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "RoadMarkings.h"
+#include "base/seconds.hpp"
 #include "cdr/intake.hpp"
-#include "laneloom/types.hpp"
 
 /// Parts that several messages share.
 namespace laneloom::dds {
 
-msg::Point to_msg(const Point& from);
-std::vector<msg::Point> to_msg(const Polyline& from);
-msg::Range to_msg(const laneloom::Stretch& from);
 msg::Pose pose_to_msg(const Point& position, const Eigen::Quaterniond& orientation);
 msg::Header header_to_msg(std::int64_t stamp_ns, std::uint64_t sequence, std::uint64_t session_id,
                           const std::string& frame_id);
 
-/// `stamp_ns` is the stamp of the message. Times of the marking are sent as ages at that stamp.
-msg::Marking to_msg(const Marking& from, std::int64_t stamp_ns);
-Marking from_msg(const msg::Marking& from, std::int64_t stamp_ns, Intake& intake);
+/// Puts values into a message: values of any type that an element of a message has. Text is cut to its bound.
+struct ToMessage {
+  std::int64_t stamp_ns = 0;  ///< of the message; ages are given at it
 
-/// Converts all elements of a vector.
-template <class To, class From, class Convert>
-std::vector<To> convert_all(const std::vector<From>& from, Convert convert) {
-  std::vector<To> to;
-  to.reserve(from.size());
-  for (const auto& element : from) to.push_back(convert(element));
-  return to;
-}
-
-/// Converts an enumerator to the IDL's enumeration, which lists the same values in the same order.
-template <class To, class From>
-To enum_to_msg(From value) {
-  return static_cast<To>(static_cast<std::uint32_t>(value));
-}
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void put(Number from, Number& to) const { to = from; }
+  /// Both enumerations list the same values in the same order.
+  template <class Enum, class MsgEnum>
+  requires std::is_enum_v<Enum>
+  void put(Enum from, MsgEnum& to) const { to = static_cast<MsgEnum>(from); }
+  template <class Text>
+  void put(const std::string& from, Text& to) const {
+    to = from.c_str();
+  }
+  static void put(const Point& from, msg::Point& to) {
+    to.x(from.x());
+    to.y(from.y());
+    to.z(from.z());
+  }
+  void put(const Polyline& from, msg::Area& to) const { put(from, to.outline()); }
+  template <class From, class To>
+  void put(const std::vector<From>& from, std::vector<To>& to) const {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) put(from[i], to[i]);
+  }
+  template <HasFields From, class To>
+  void put(const From& from, To& to) const {
+    for_each_field<From>([&]<class Member, class Of>(const Field<From, Member, Of>& field) {
+      const Member& member = from.*field.member;
+      auto& sent = field.of_message(to);
+      if constexpr (kIsSentAsAge<Member, decltype(sent)>)
+        sent = member == 0 && field.may_be_unknown ? -1.0 : seconds(stamp_ns - member);
+      else
+        put(member, sent);
+    });
+  }
+};
 
 }  // namespace laneloom::dds

@@ -58,9 +58,8 @@ SourceStatus from_msg(const msg::SourceStatus& from, Intake& intake) {
 
 std::size_t to_msg(const ServiceStatus& from, const std::string& /*map_frame_id*/, msg::ServiceStatus& to) {
   to.header(header_to_msg(from.published_ns, from.sequence, from.session_id, ""));
-  to.state(enum_to_msg<msg::MapState>(from.state));
-  to.reasons(convert_all<msg::StateReason>(
-      from.reasons, [](StateReason reason) { return enum_to_msg<msg::StateReason>(reason); }));
+  ToMessage().put(from.state, to.state());
+  ToMessage().put(from.reasons, to.reasons());
   to.uptime_s(from.uptime_s);
   to.detections_age_s(from.detections_age_s);
   to.poses_age_s(from.poses_age_s);
@@ -99,10 +98,8 @@ Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_
   to.published_ns = from.header().stamp_ns();
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();
-  to.state = intake.enumeration(from.state(), MapState::stale);
-  to.reasons = convert_all<StateReason>(from.reasons(), [&](msg::StateReason reason) {
-    return intake.enumeration(reason, StateReason::source_not_fused);
-  });
+  intake.take(from.state(), to.state);
+  intake.take(from.reasons(), to.reasons);
   to.uptime_s = intake.number(from.uptime_s());
   to.detections_age_s = intake.number(from.detections_age_s());
   to.poses_age_s = intake.number(from.poses_age_s());
@@ -112,8 +109,8 @@ Refusal from_msg(const msg::ServiceStatus& from, const std::string& /*map_frame_
   to.counters.clear();
   for (const auto& counter : from.counters())
     to.counters.emplace_back(counter.name().to_string(), counter.value());
-  to.sources =
-      convert_all<SourceStatus>(from.sources(), [&](const auto& source) { return from_msg(source, intake); });
+  to.sources.clear();
+  for (const auto& source : from.sources()) to.sources.push_back(from_msg(source, intake));
   to.version = from.version().to_string();
   to.config_hash = from.config_hash().to_string();
   to.configuration.clear();

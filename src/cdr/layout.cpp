@@ -1,9 +1,10 @@
 #include "cdr/layout.hpp"
 
+#include <string>
 #include <type_traits>
 #include <vector>
 
-#include "base/fields.hpp"
+#include "cdr/bounds.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -22,32 +23,9 @@ void header(CdrScanner& cdr) {
   cdr.text(kTextBound);
 }
 
-void polyline(CdrScanner& cdr) { cdr.double_sequence(3, msg::MAX_POINTS); }
-void point_values(CdrScanner& cdr) { cdr.double_sequence(1, msg::MAX_POINTS); }
 void pose(CdrScanner& cdr) { cdr.numbers(kDouble, 7); }
 
-void detection(CdrScanner& cdr) {
-  cdr.numbers(kEnum, 2);
-  cdr.numbers(kDouble);
-  polyline(cdr);
-  point_values(cdr);
-}
-
-void marking(CdrScanner& cdr) {
-  cdr.numbers(kLongLong);
-  cdr.numbers(kEnum, 2);
-  polyline(cdr);
-  cdr.sequence(msg::MAX_STYLES, [](CdrScanner& style_range) {
-    style_range.numbers(kDouble, 2);
-    style_range.numbers(kEnum);
-  });
-  point_values(cdr);
-  cdr.numbers(kDouble);
-  cdr.numbers(kLongLong);
-  cdr.numbers(kDouble, 2);
-}
-
-/// The layout in CDR of a member of this type.
+/// The layout in CDR of a value of this type. A stamp is as long as the age that is sent for it.
 template <class Value>
 struct Layout {
   static void scan(CdrScanner& cdr) {
@@ -60,31 +38,30 @@ struct Layout {
   }
 };
 template <>
-struct Layout<Stretch> {
-  static void scan(CdrScanner& cdr) { cdr.numbers(kDouble, 2); }
+struct Layout<std::string> {
+  static void scan(CdrScanner& cdr) { cdr.text(kTextBound); }
 };
+template <>
+struct Layout<Point> {
+  static void scan(CdrScanner& cdr) { cdr.numbers(kDouble, 3); }
+};
+template <class Element>
+struct Layout<std::vector<Element>> {
+  static void scan(CdrScanner& cdr) { cdr.sequence(kMaxLength<Element>, Layout<Element>::scan); }
+};
+// The long lists are skipped in one step.
 template <>
 struct Layout<Polyline> {
-  static void scan(CdrScanner& cdr) { polyline(cdr); }
+  static void scan(CdrScanner& cdr) { cdr.double_sequence(3, kMaxLength<Point>); }
 };
 template <>
-struct Layout<std::vector<Stretch>> {
-  static void scan(CdrScanner& cdr) { cdr.double_sequence(2, msg::MAX_RANGES); }
-};
-template <>
-struct Layout<std::vector<Neighbour>> {
-  static void scan(CdrScanner& cdr) { cdr.sequence(msg::MAX_NEIGHBOURS, Layout<Neighbour>::scan); }
+struct Layout<std::vector<double>> {
+  static void scan(CdrScanner& cdr) { cdr.double_sequence(1, kMaxLength<double>); }
 };
 
-void stopline(CdrScanner& cdr) {
-  marking(cdr);
-  cdr.number_sequence(kLongLong, msg::MAX_STOPLINE_LANES);
-  cdr.numbers(kDouble, 3);
-}
-
-void lineage_event(CdrScanner& cdr) {
-  cdr.numbers(kEnum);
-  cdr.numbers(kLongLong, 2);
+template <class... Values>
+void values(CdrScanner& cdr) {
+  (Layout<Values>::scan(cdr), ...);
 }
 
 void counter(CdrScanner& cdr) {
@@ -111,11 +88,7 @@ void setting(CdrScanner& cdr) {
 
 void scan(CdrScanner& cdr, const msg::Detections* /*type*/) {
   header(cdr);
-  cdr.text(kTextBound);
-  cdr.number_sequence(kEnum, msg::MAX_TYPES);
-  polyline(cdr);
-  cdr.sequence(msg::MAX_AREAS, polyline);
-  cdr.sequence(msg::MAX_MARKINGS, detection);
+  values<std::string, std::vector<MarkingType>, Polyline, std::vector<Polyline>, std::vector<Detection>>(cdr);
 }
 
 void scan(CdrScanner& cdr, const msg::VehiclePose* /*type*/) {
@@ -128,29 +101,20 @@ void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
   header(cdr);
   cdr.numbers(kLongLong, 2);
   cdr.numbers(kDouble, 2);
-  cdr.numbers(kEnum);
-  cdr.number_sequence(kEnum, msg::MAX_REASONS);
+  values<MapState, std::vector<StateReason>>(cdr);
   pose(cdr);
-  cdr.sequence(msg::MAX_FRAMES, [](CdrScanner& frame) {
-    frame.text(kTextBound);
-    frame.numbers(kLongLong, 3);
-  });
-  cdr.sequence(msg::MAX_MARKINGS, marking);
-  cdr.sequence(msg::MAX_LANES, Layout<Lane>::scan);
-  cdr.sequence(msg::MAX_MARKINGS, stopline);
-  cdr.sequence(msg::MAX_LINKAGES, Layout<Linkage>::scan);
-  cdr.sequence(msg::MAX_LINKAGES, lineage_event);
+  values<std::vector<FusedFrame>, std::vector<Marking>, std::vector<Lane>, std::vector<Stopline>,
+         std::vector<Linkage>, std::vector<LineageEvent>>(cdr);
 }
 
 void scan(CdrScanner& cdr, const msg::RoadMarkings* /*type*/) {
   header(cdr);
-  cdr.sequence(msg::MAX_MARKINGS, marking);
+  values<std::vector<Marking>>(cdr);
 }
 
 void scan(CdrScanner& cdr, const msg::ServiceStatus* /*type*/) {
   header(cdr);
-  cdr.numbers(kEnum);
-  cdr.number_sequence(kEnum, msg::MAX_REASONS);
+  values<MapState, std::vector<StateReason>>(cdr);
   cdr.numbers(kDouble, 11);
   cdr.numbers(kLong);
   cdr.sequence(msg::MAX_COUNTERS, counter);

@@ -152,6 +152,11 @@ TEST(Refuse, DeviationsThatMatchNoPoints) {
   EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "wrong_size");
   message.detections()[0].stddev_m().clear();
   EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "");
+
+  RoadMarkings markings;
+  auto marking_message = RandomMessages(4).road_markings();
+  marking_message.markings()[0].lateral_stddev_m().push_back(0.1);
+  EXPECT_EQ(from_msg(marking_message, "map", markings), "wrong_size");
 }
 
 TEST(Refuse, NamesThatAreNotUtf8) {

@@ -20,7 +20,10 @@ template <class Enum>
 requires std::is_enum_v<Enum> json of(Enum value) { return static_cast<std::uint32_t>(value); }
 
 static json of(const Point& m) { return {{"x", m.x()}, {"y", m.y()}, {"z", m.z()}}; }
-static json of(const Range& m) { return {{"from_m", m.from_m()}, {"to_m", m.to_m()}}; }
+template <std::size_t kBound>
+static json of(const eprosima::fastrtps::fixed_string<kBound>& text) {
+  return text.to_string();
+}
 
 template <class T>
 static json of(const std::vector<T>& list) {
@@ -28,6 +31,24 @@ static json of(const std::vector<T>& list) {
   for (const auto& element : list) array.push_back(of(element));
   return array;
 }
+
+/// The members by the names of the table. The decoders of others compare these with the IDL's.
+template <class Plain>
+static json of_fields(const auto& m) {
+  json object;
+  for_each_field<Plain>([&](const auto& field) { object[field.name] = of(field.of_message(m)); });
+  return object;
+}
+static json of(const Range& m) { return of_fields<laneloom::Stretch>(m); }
+static json of(const Detection& m) { return of_fields<laneloom::Detection>(m); }
+static json of(const StyleRange& m) { return of_fields<laneloom::StyleRange>(m); }
+static json of(const Marking& m) { return of_fields<laneloom::Marking>(m); }
+static json of(const LineageEvent& m) { return of_fields<laneloom::LineageEvent>(m); }
+static json of(const Neighbour& m) { return of_fields<laneloom::Neighbour>(m); }
+static json of(const Lane& m) { return of_fields<laneloom::Lane>(m); }
+static json of(const Stopline& m) { return of_fields<laneloom::Stopline>(m); }
+static json of(const Linkage& m) { return of_fields<laneloom::Linkage>(m); }
+static json of(const FusedFrame& m) { return of_fields<laneloom::FusedFrame>(m); }
 
 static json of(const Header& m) {
   return {{"crc", of(m.crc())},
@@ -45,56 +66,6 @@ static json of(const Pose& m) {
 }
 
 static json of(const Area& m) { return {{"outline", of(m.outline())}}; }
-
-static json of(const Detection& m) {
-  return {{"type", of(m.type())},
-          {"style", of(m.style())},
-          {"confidence", m.confidence()},
-          {"points", of(m.points())},
-          {"stddev_m", of(m.stddev_m())}};
-}
-
-static json of(const StyleRange& m) { return {{"range", of(m.range())}, {"style", of(m.style())}}; }
-
-static json of(const Marking& m) {
-  return {{"id", of(m.id())},
-          {"type", of(m.type())},
-          {"status", of(m.status())},
-          {"points", of(m.points())},
-          {"styles", of(m.styles())},
-          {"lateral_stddev_m", of(m.lateral_stddev_m())},
-          {"existence_probability", m.existence_probability()},
-          {"observations", of(m.observations())},
-          {"age_s", m.age_s()},
-          {"unseen_s", m.unseen_s()}};
-}
-
-static json of(const LineageEvent& m) {
-  return {{"kind", of(m.kind())}, {"id", of(m.id())}, {"other", of(m.other())}};
-}
-
-/// The members by the names of the table. The decoders of others compare these with the IDL's.
-template <class Plain>
-static json of_fields(const auto& m) {
-  json object;
-  for_each_field<Plain>([&](const auto& field) { object[field.name] = of(field.of_message(m)); });
-  return object;
-}
-static json of(const Neighbour& m) { return of_fields<laneloom::Neighbour>(m); }
-static json of(const Lane& m) { return of_fields<laneloom::Lane>(m); }
-
-static json of(const Stopline& m) {
-  return {{"marking", of(m.marking())}, {"lanes", of(m.lanes())}, {"heading", of(m.heading())}};
-}
-
-static json of(const Linkage& m) { return of_fields<laneloom::Linkage>(m); }
-
-static json of(const FusedFrame& m) {
-  return {{"source", m.source().to_string()},
-          {"session_id", of(m.session_id())},
-          {"sequence_number", of(m.sequence_number())},
-          {"stamp_ns", of(m.stamp_ns())}};
-}
 
 static json of(const TimeSummary& m) {
   return {{"mean_ms", m.mean_ms()}, {"p50_ms", m.p50_ms()}, {"p99_ms", m.p99_ms()}, {"max_ms", m.max_ms()}};
