@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "io/json_fields.hpp"
+#include "io/element_json.hpp"
 #include "io/json_lines.hpp"
 #include "io/stamp_and_pose.hpp"
 
@@ -12,20 +12,14 @@ using nlohmann::json;
 constexpr double kMaxTime_s = 9e9;  // nanoseconds of a later time do not fit
 
 json to_json(const Detection& detection) {
-  json out{{"type", name(detection.type)},
-           {"score", detection.confidence},
-           {"style", name(detection.style)},
-           {"points", polyline_json(detection.points)}};
-  if (!detection.stddev_m.empty()) out["stddev"] = detection.stddev_m;
+  json out = ToJson::of(detection);
+  if (detection.stddev_m.empty()) out.erase("stddev");
   return out;
 }
 
 Detection detection(const json& value) {
-  Detection out{.type = required(value, "type", marking_type),
-                .style = optional(value, "style", marking_style).value_or(MarkingStyle::unknown),
-                .confidence = required(value, "score", share),
-                .points = required(value, "points", line),
-                .stddev_m = optional(value, "stddev", numbers).value_or(std::vector<double>{})};
+  auto out = FromJson::element<Detection>(value);
+  if (out.points.size() < 2) throw JsonError("points", "must have at least two points");
   if (!out.stddev_m.empty() && out.stddev_m.size() != out.points.size())
     throw JsonError("stddev", "must have one value per point");
   return out;

@@ -70,12 +70,6 @@ double coordinate(const json& value) {
   return result_m;
 }
 
-double share(const json& value) {
-  const double result = number(value);
-  if (result < 0.0 || result > 1.0) throw JsonError("must be from 0 to 1");
-  return result;
-}
-
 std::int64_t integer(const json& value) {
   if (!value.is_number_integer()) throw JsonError("must be an integer");
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX) throw JsonError("is too large");

@@ -41,7 +41,6 @@ nlohmann::json load_json(const std::filesystem::path& path);
 
 double number(const nlohmann::json& value);      ///< finite
 double coordinate(const nlohmann::json& value);  ///< within 10 000 km, so that samples fit into memory
-double share(const nlohmann::json& value);       ///< 0..1
 std::int64_t integer(const nlohmann::json& value);
 std::uint64_t count(const nlohmann::json& value);  ///< an integer, not negative
 bool boolean(const nlohmann::json& value);
