@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 #include "base/fields.hpp"
 
@@ -30,57 +31,10 @@ namespace laneloom {
 
 // A member that is missing in a structured binding, or in a table of fields, is an error of the compiler.
 
-template <class Archive>
-void serialize(Archive& archive, Stretch& range) {
-  auto& [from_m, to_m] = range;
-  archive(from_m, to_m);
-}
-
-template <class Archive>
-void serialize(Archive& archive, StyleRange& style_range) {
-  auto& [range, style] = style_range;
-  archive(range, style);
-}
-
-template <class Archive>
-void serialize(Archive& archive, LineageEvent& event) {
-  auto& [kind, id, other] = event;
-  archive(kind, id, other);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Marking& marking) {
-  auto& [id, type, status, points, styles, lateral_stddev_m, existence_probability, observations,
-         first_seen_ns, last_seen_ns] = marking;
-  archive(id, type, status, points, styles, lateral_stddev_m, existence_probability, observations,
-          first_seen_ns, last_seen_ns);
-}
-
 template <class Archive, HasFields Struct>
-void serialize_fields(Archive& archive, Struct& element) {
+void serialize(Archive& archive, Struct& element) {
   for_each_field<Struct>([&](const auto& field) { archive(element.*field.member); });
-}
-
-template <class Archive>
-void serialize(Archive& archive, Neighbour& neighbour) {
-  serialize_fields(archive, neighbour);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Lane& lane) {
-  serialize_fields(archive, lane);
-  archive(lane.left_reversed, lane.right_reversed);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Stopline& stopline) {
-  auto& [marking, lanes, heading] = stopline;
-  archive(marking, lanes, heading);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Linkage& linkage) {
-  serialize_fields(archive, linkage);
+  if constexpr (std::is_same_v<Struct, Lane>) archive(element.left_reversed, element.right_reversed);
 }
 
 template <class Archive>
