@@ -62,17 +62,18 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
 /// Finds the lanes on one side of a line after the other.
 class OneSidedLanes {
  public:
-  OneSidedLanes(const boundaries::Boundaries& boundaries, const geometry::MapBox& map_box,
+  OneSidedLanes(const boundaries::SectionGraph& road, const geometry::MapBox& map_box,
                 const LaneConfig& config, TakenSpace& taken)
-      : boundaries_(boundaries), map_box_(map_box), config_(config), taken_(taken) {
-    boxes_.reserve(boundaries.size());
-    for (const boundaries::LaneBoundary& boundary : boundaries)
+      : road_(road), boundaries_(road.boundaries), map_box_(map_box), config_(config), taken_(taken) {
+    boxes_.reserve(boundaries_.size());
+    for (const boundaries::LaneBoundary& boundary : boundaries_)
       boxes_.push_back(box_around(boundary.course.points()));
   }
 
   void add(const OpenSide& side, std::uint32_t road_section) {
     const boundaries::LaneBoundary& line = boundaries_[side.line];
-    if (line.marking.type != MarkingType::laneline || !line.is_confirmed()) return;
+    if (!line.is_confirmed()) return;
+    if (line.is_edge() && (is_marked(road_section) || !is_driven_along(side))) return;
     const std::vector<std::size_t> others = others_near(side.line);
     const std::vector<CrossSection> sections = open_sections(side, others);
     for (std::size_t begin = 0; begin < sections.size();) {
@@ -95,6 +96,13 @@ class OneSidedLanes {
   std::vector<InferredBoundary> take() { return std::move(found_); }
 
  private:
+  /// Whether a section of the road has painted lines, which tell more about its lanes than an edge does.
+  bool is_marked(std::uint32_t road_section) const {
+    return std::ranges::any_of(road_.sections[road_section].boundaries, [&](std::size_t i) {
+      return !boundaries_[i].is_edge() && boundaries_[i].is_confirmed();
+    });
+  }
+
   /// Whether something else lies just before and just behind a run.
   bool is_gap(const OpenSide& side, const std::vector<std::size_t>& others,
               const std::vector<CrossSection>& sections, std::span<const CrossSection> run) const {
@@ -160,6 +168,7 @@ class OneSidedLanes {
     });
   }
 
+  const boundaries::SectionGraph& road_;
   const boundaries::Boundaries& boundaries_;
   const geometry::MapBox& map_box_;
   const LaneConfig& config_;
@@ -174,7 +183,7 @@ std::vector<InferredBoundary> one_sided_lanes(const boundaries::SectionGraph& ro
                                               const geometry::MapBox& box, const LaneConfig& config,
                                               TakenSpace& taken) {
   if (!config.one_sided_lanes) return {};
-  OneSidedLanes lanes(road.boundaries, box, config, taken);
+  OneSidedLanes lanes(road, box, config, taken);
   for (std::uint32_t section = 0; section < road.sections.size(); ++section) {
     for (const std::size_t line : road.sections[section].boundaries) {
       lanes.add({line, Side::right}, section);

@@ -99,6 +99,21 @@ TEST_F(OneSidedLanes, LieBesideASolidLineWhereTheVehicleDrives) {
   EXPECT_EQ(lanes_from(Eigen::Translation3d(0, 0, 6) * test::at(10, 1.5)), 0U) << "on a bridge above";
 }
 
+TEST_F(OneSidedLanes, LieBesideAnEdgeWhereTheVehicleDrives) {
+  map({edge(1, 0)}, test::at(10, 1.6));
+  ASSERT_EQ(lanes_.size(), 1U);
+  EXPECT_EQ(lanes_[0].right_boundary, 1U);
+  for (const Point& point : lanes_[0].centerline) EXPECT_NEAR(point.y(), 1.65, 1e-9);
+  EXPECT_EQ(lanes_with({edge(1, 0)}), 0U) << "the vehicle is far from it";
+}
+
+TEST_F(OneSidedLanes, AreNotBesideAnEdgeOfAMarkedRoad) {
+  EXPECT_EQ(lanes_with({edge(1, 0), solid(2, 12)}, test::at(10, 1.6)), 0U);
+  boundaries::LaneBoundary unsure = solid(2, 12);
+  unsure.marking.status = ElementStatus::tentative;
+  EXPECT_EQ(lanes_with({edge(1, 0), unsure}, test::at(10, 1.6)), 1U);
+}
+
 TEST_F(OneSidedLanes, EndWithTheDashes) {
   boundaries::LaneBoundary line = dashed(1, 0);
   line.marking.styles = {{{0, 20}, MarkingStyle::dashed}, {{20, 40}, MarkingStyle::solid}};
