@@ -252,6 +252,8 @@ bool turns_past(Direction direction, MarkingStyle divider) {
   const auto get = [&](ElementId id) -> Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
   get(4).centerline = straight({-5.25, 25, 0}, {-5.25, 10, 0});
   get(4).left_neighbours = {{.lane = 24, .range = {0.0, 20.0}}};
+  get(4).left_boundary = 51;
+  get(4).left_range = {0, 15};
   get(14).centerline = straight({1.75, 10, 0}, {1.75, 25, 0});
   get(14).left_neighbours = {{.lane = 24, .range = {0.0, 20.0}}};
   get(14).left_boundary = 50;
@@ -260,7 +262,9 @@ bool turns_past(Direction direction, MarkingStyle divider) {
   lanes.back().direction = direction;
   lanes.back().left_neighbours = {{.lane = 4, .range = {0.0, 20.0}}};
   lanes.back().right_neighbours = {{.lane = 14, .range = {0.0, 20.0}}};
-  std::vector<boundaries::LaneBoundary> boundaries{test::boundary(50, straight({0, 10, 0}, {0, 25, 0}))};
+  std::vector<boundaries::LaneBoundary> boundaries{
+      test::boundary(50, straight({0, 10, 0}, {0, 25, 0})),
+      test::boundary(51, straight({-3.5, 25, 0}, {-3.5, 10, 0}))};
   boundaries[0].marking.styles = {{{0, 15}, divider}};
   const auto left = pairs_of(crossings(lanes, {}, {}, boundaries), Linkage::Turn::left);
   return std::ranges::count(left, Pair(1, 14)) > 0;
