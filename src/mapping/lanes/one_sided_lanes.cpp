@@ -59,21 +59,27 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
   return strip;
 }
 
+/// Whether a section of a road has painted lines, which tell more about its lanes than an edge does.
+bool is_marked(const boundaries::RoadSection& section, const boundaries::Boundaries& boundaries) {
+  return std::ranges::any_of(section.boundaries, [&](std::size_t i) {
+    return !boundaries[i].is_edge() && boundaries[i].is_confirmed();
+  });
+}
+
 /// Finds the lanes on one side of a line after the other.
 class OneSidedLanes {
  public:
-  OneSidedLanes(const boundaries::SectionGraph& road, const geometry::MapBox& map_box,
+  OneSidedLanes(const boundaries::Boundaries& boundaries, const geometry::MapBox& map_box,
                 const LaneConfig& config, TakenSpace& taken)
-      : road_(road), boundaries_(road.boundaries), map_box_(map_box), config_(config), taken_(taken) {
-    boxes_.reserve(boundaries_.size());
-    for (const boundaries::LaneBoundary& boundary : boundaries_)
+      : boundaries_(boundaries), map_box_(map_box), config_(config), taken_(taken) {
+    boxes_.reserve(boundaries.size());
+    for (const boundaries::LaneBoundary& boundary : boundaries)
       boxes_.push_back(box_around(boundary.course.points()));
   }
 
   void add(const OpenSide& side, std::uint32_t road_section) {
     const boundaries::LaneBoundary& line = boundaries_[side.line];
     if (!line.is_confirmed()) return;
-    if (line.is_edge() && (is_marked(road_section) || !is_driven_along(side))) return;
     const std::vector<std::size_t> others = others_near(side.line);
     const std::vector<CrossSection> sections = open_sections(side, others);
     for (std::size_t begin = 0; begin < sections.size();) {
@@ -96,13 +102,6 @@ class OneSidedLanes {
   std::vector<InferredBoundary> take() { return std::move(found_); }
 
  private:
-  /// Whether a section of the road has painted lines, which tell more about its lanes than an edge does.
-  bool is_marked(std::uint32_t road_section) const {
-    return std::ranges::any_of(road_.sections[road_section].boundaries, [&](std::size_t i) {
-      return !boundaries_[i].is_edge() && boundaries_[i].is_confirmed();
-    });
-  }
-
   /// Whether something else lies just before and just behind a run.
   bool is_gap(const OpenSide& side, const std::vector<std::size_t>& others,
               const std::vector<CrossSection>& sections, std::span<const CrossSection> run) const {
@@ -113,15 +112,18 @@ class OneSidedLanes {
 
   std::vector<CrossSection> open_sections(const OpenSide& side,
                                           const std::vector<std::size_t>& others) const {
-    const Marking& marking = boundaries_[side.line].marking;
+    const boundaries::LaneBoundary& line = boundaries_[side.line];
+    const Marking& marking = line.marking;
     const bool driven = is_driven_along(side);
-    if (!driven && std::ranges::count(marking.styles, MarkingStyle::dashed, &StyleRange::style) == 0)
-      return {};
+    const auto has_dashes = [&] {
+      return !line.is_edge() &&
+             std::ranges::count(marking.styles, MarkingStyle::dashed, &StyleRange::style) > 0;
+    };
+    if (!driven && !has_dashes()) return {};
     const auto is_dashed = [&](double arc_m) {
       return markings::dashed_excess_m(marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) > 0.0;
     };
-    auto sections =
-        strip_beside(boundaries_[side.line].course, side, config_.assumed_width_m, config_.step_m);
+    auto sections = strip_beside(line.course, side, config_.assumed_width_m, config_.step_m);
     for (CrossSection& section : sections) {
       const Point &from = side.at_line(section), &border = side.border(section);
       section.valid = section.valid && (driven || is_dashed(section.left_arc_m)) && map_box_.shows(border) &&
@@ -168,7 +170,6 @@ class OneSidedLanes {
     });
   }
 
-  const boundaries::SectionGraph& road_;
   const boundaries::Boundaries& boundaries_;
   const geometry::MapBox& map_box_;
   const LaneConfig& config_;
@@ -183,9 +184,11 @@ std::vector<InferredBoundary> one_sided_lanes(const boundaries::SectionGraph& ro
                                               const geometry::MapBox& box, const LaneConfig& config,
                                               TakenSpace& taken) {
   if (!config.one_sided_lanes) return {};
-  OneSidedLanes lanes(road, box, config, taken);
+  OneSidedLanes lanes(road.boundaries, box, config, taken);
   for (std::uint32_t section = 0; section < road.sections.size(); ++section) {
+    const bool marked = is_marked(road.sections[section], road.boundaries);
     for (const std::size_t line : road.sections[section].boundaries) {
+      if (marked && road.boundaries[line].is_edge()) continue;
       lanes.add({line, Side::right}, section);
       lanes.add({line, Side::left}, section);
     }
