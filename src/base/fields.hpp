@@ -19,31 +19,15 @@ struct Field {
   constexpr Field(const char* its_name, Value Struct::*its_member, OfMessage its_of_message)
       : name(its_name), key(its_name), member(its_member), of_message(its_of_message) {}
   /// Sets the key in JSON, if it differs from the name.
-  constexpr Field as(const char* json_key) const {
-    Field field = *this;
-    field.key = json_key;
-    return field;
-  }
+  constexpr Field as(const char* json_key) const { return with(&Field::key, json_key); }
   /// An element that is read from JSON must have this member.
-  constexpr Field needed() const {
-    Field field = *this;
-    field.is_needed = true;
-    return field;
-  }
+  constexpr Field needed() const { return with(&Field::is_needed, true); }
   /// The elements' JSON leaves this member out.
   constexpr Field not_in_json() const { return as(nullptr); }
   /// The number is read from JSON only if it is from 0 to 1.
-  constexpr Field share() const {
-    Field field = *this;
-    field.is_share = true;
-    return field;
-  }
+  constexpr Field share() const { return with(&Field::is_share, true); }
   /// The value may be unknown: a share of -1, or a stamp of 0, whose age is sent as -1.
-  constexpr Field or_unknown() const {
-    Field field = *this;
-    field.may_be_unknown = true;
-    return field;
-  }
+  constexpr Field or_unknown() const { return with(&Field::may_be_unknown, true); }
 
   const char* name;  ///< of the message's member
   const char* key;   ///< in JSON; null: it is not there
@@ -52,6 +36,14 @@ struct Field {
   bool is_needed = false;  ///< in JSON
   bool is_share = false;
   bool may_be_unknown = false;
+
+ private:
+  template <class Attribute>
+  constexpr Field with(Attribute Field::*attribute, Attribute value) const {
+    Field field = *this;
+    field.*attribute = value;
+    return field;
+  }
 };
 
 #define LANELOOM_FIELD_AS(Struct, member, name) \
