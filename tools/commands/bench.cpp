@@ -102,7 +102,7 @@ void add_bench(CLI::App& app) {
   add_bench_latency(*command);
   add_bench_scale(*command);
   add_bench_worst(*command);
-  // Each measurement has its own options behind its name. BenchOptions before its name would be ignored.
+  // Each measurement has its own options behind its name. Options before its name would be ignored.
   for (CLI::App* measurement : command->get_subcommands({})) {
     for (CLI::Option* option : own) measurement->excludes(option);
   }

@@ -27,7 +27,7 @@ struct DoctorOptions {
   bool json = false;
 };
 
-/// Reads the configuration file. DoctorOptions given beside it are parsed after it, and thereby override it.
+/// Reads the configuration file. Options given beside it are parsed after it, and thereby override it.
 void read_config(const std::string& file, DoctorOptions& options) {
   try {
     options.dds = config::load_config(file).dds;
