@@ -40,21 +40,23 @@ MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
   assert(!points.empty());
   points_.reserve(points.size());
   arc_.reserve(points.size());
+  points_.push_back(points.front());
+  arc_.push_back(0.0);
   for (const Point& point : points) {
-    const double step_m = points_.empty() ? 0.0 : horizontal_distance(points_.back(), point);
-    if (!points_.empty() && step_m <= kCoincident_m) continue;
+    const double step_m = horizontal_distance(points_.back(), point);
+    if (step_m <= kCoincident_m) continue;
     points_.push_back(point);
-    arc_.push_back(length() + step_m);
+    arc_.push_back(arc_.back() + step_m);
   }
   const Eigen::Vector2d chord = (points_.back() - points_.front()).head<2>();
   if (chord.norm() > kCoincident_m) course_ = chord.normalized();
-  for (const Point& point : points_) {
-    const Eigen::Vector2d offset = (point - points_.front()).head<2>();
-    bounds_.extend(Eigen::Vector2d(course_.dot(offset), cross(course_, offset)));
-  }
+  bounds_.extend(Eigen::Vector2d(0.0, 0.0));
   for (std::size_t i = 1; i < points_.size(); ++i) {
+    const Eigen::Vector2d offset = (points_[i] - points_.front()).head<2>();
+    bounds_.extend(Eigen::Vector2d(course_.dot(offset), cross(course_, offset)));
     const double along_m = course_.dot((points_[i] - points_[i - 1]).head<2>());
-    cosine_ = std::min(cosine_, along_m / (arc_[i] - arc_[i - 1]));
+    const double step_m = arc_[i] - arc_[i - 1];
+    if (along_m < cosine_ * step_m) cosine_ = along_m / step_m;
   }
   cosine_ -= 1e-9;
   sine_ = std::sqrt(1.0 - cosine_ * cosine_);
@@ -123,15 +125,17 @@ void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest
 }
 
 /// Searches from the place of the point along the course to both sides. From each vertex on, the line stays
-/// within a cone about the course. Once the point lies behind that cone, the rest of the line is further away
-/// than the vertex.
+/// within a cone about the course. Once that cone is further away than the nearest foot, so is the rest of
+/// the line.
 void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest) const {
   const auto ahead = [&](const Point& vertex) { return course_.dot((point - vertex).head<2>()); };
-  const auto is_behind = [&](const Point& vertex, double sense) {
+  const auto is_past = [&](const Point& vertex, double sense) {
     const Eigen::Vector2d offset = (point - vertex).head<2>();
-    const double along_edge =
-        sense * course_.dot(offset) * cosine_ + std::abs(cross(course_, offset)) * sine_;
-    return along_edge <= 0.0 && offset.squaredNorm() > nearest.bound_m2;
+    const double along_m = sense * course_.dot(offset), aside_m = std::abs(cross(course_, offset));
+    const double along_edge_m = along_m * cosine_ + aside_m * sine_;
+    if (along_edge_m <= 0.0) return offset.squaredNorm() > nearest.bound_m2;
+    const double from_edge_m = aside_m * cosine_ - along_m * sine_;
+    return from_edge_m > 0.0 && from_edge_m * from_edge_m > nearest.bound_m2;
   };
   // Vertices mostly are evenly spaced.
   const std::size_t last = points_.size() - 2;
@@ -140,8 +144,8 @@ void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest)
   while (middle < last && ahead(points_[middle + 1]) >= 0.0) ++middle;
   while (middle > 0 && ahead(points_[middle]) < 0.0) --middle;
   consider(middle, point, nearest);
-  for (std::size_t i = middle + 1; i <= last && !is_behind(points_[i], 1.0); ++i) consider(i, point, nearest);
-  for (std::size_t i = middle; i > 0 && !is_behind(points_[i], -1.0); --i) consider(i - 1, point, nearest);
+  for (std::size_t i = middle + 1; i <= last && !is_past(points_[i], 1.0); ++i) consider(i, point, nearest);
+  for (std::size_t i = middle; i > 0 && !is_past(points_[i], -1.0); --i) consider(i - 1, point, nearest);
 }
 
 void MeasuredPolyline::consider_block(std::size_t block, const Point& point, Nearest& nearest) const {
