@@ -98,8 +98,7 @@ LineMatcher::LineMatcher(const std::vector<Line>& lines, const FusionConfig& con
     : lines_(lines),
       config_(config),
       min_cosine_(cos_degrees(config.gate_angle_deg)),
-      along_(lines, false, config.gate_m),
-      across_(lines, true, config.gate_m),
+      nearest_stations_(lines, config.gate_m),
       found_(lines.size()) {
   courses_.reserve(lines.size());
   confirmed_.reserve(lines.size());
@@ -124,12 +123,12 @@ std::optional<StationFoot> LineMatcher::foot(const NearestStation& nearest, cons
 /// Finds all lines that samples of a detection lie beside, with these samples.
 void LineMatcher::find_candidates(std::size_t index, const SampledDetection& detection, std::size_t stride,
                                   Candidates& candidates) {
-  NearestStations& nearest_stations = is_stopline(detection.type) ? across_ : along_;
+  const bool across = is_stopline(detection.type);
   hits_.clear();
   for (std::size_t i = 0; i < detection.samples.size(); i += stride) {
     const Point& sample = detection.samples[i];
     const Eigen::Vector2d direction = direction_of(detection.samples, i);
-    for (const NearestStation& nearest : nearest_stations.around(sample)) {
+    for (const NearestStation& nearest : nearest_stations_.around(sample, across)) {
       const auto foot = this->foot(nearest, sample, direction);
       if (!foot) continue;
       const double fit = foot->lateral_m / config_.gate_m;

@@ -104,7 +104,7 @@ class LineMatcher {
   const std::vector<Line>& lines_;
   FusionConfig config_;
   double min_cosine_;
-  NearestStations along_, across_;
+  NearestStations nearest_stations_;
   std::vector<Course> courses_;  ///< of the lines
   std::vector<bool> confirmed_;  ///< by line
   // Scratch for one detection; empty between two of them.

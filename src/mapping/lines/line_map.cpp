@@ -66,14 +66,12 @@ Eigen::Vector2d direction_at(const Line& line, std::size_t station) {
   return (line.stations[after].position - line.stations[before].position).head<2>().normalized();
 }
 
-StationGrid station_grid(const std::vector<Line>& lines, bool of_stoplines) {
-  const auto wanted = [&](const Line& line) { return is_stopline(line.type()) == of_stoplines; };
+StationGrid station_grid(const std::vector<Line>& lines) {
   std::size_t count = 0;
-  for (const Line& line : lines) count += wanted(line) ? line.stations.size() : 0U;
+  for (const Line& line : lines) count += line.stations.size();
   std::vector<StationPlace> all;
   all.reserve(count);
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    if (!wanted(lines[i])) continue;
     const auto& stations = lines[i].stations;
     for (std::uint32_t k = 0; k < stations.size(); ++k) all.push_back({stations[k].position, i, k});
   }

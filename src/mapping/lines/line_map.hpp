@@ -118,7 +118,7 @@ struct StationPlace {
 /// Finds the stations of one instant by place.
 using StationGrid = geometry::PointGrid<StationPlace>;
 
-/// The stations of all stoplines, or of all other lines.
-StationGrid station_grid(const std::vector<Line>& lines, bool of_stoplines);
+/// The stations of all lines.
+StationGrid station_grid(const std::vector<Line>& lines);
 
 }  // namespace laneloom::lines

@@ -50,16 +50,19 @@ bool passes(const Polyline& course, std::size_t station, const Point& point, dou
 class BesideSearch {
  public:
   BesideSearch(const std::vector<Line>& lines, const FusionConfig& config)
-      : along_(station_grid(lines, false)),
-        across_(station_grid(lines, true)),
+      : grid_(station_grid(lines)),
         courses_(courses_of(lines)),
         others_(lines.size()),
-        spacing_m_(config.station_spacing_m) {}
+        spacing_m_(config.station_spacing_m) {
+    types_.reserve(lines.size());
+    for (const Line& line : lines) types_.push_back(line.type());
+  }
 
+  MarkingType type(std::size_t line) const { return types_[line]; }
   /// Calls `found(other)` for each longer line that `line` lies beside, within `distance_m`. Of equally long
   /// lines, the first one counts as longer.
   template <class Found>
-  void beside(std::size_t line, bool is_stopline, double distance_m, Found&& found) {
+  void beside(std::size_t line, double distance_m, Found&& found) {
     // A line that passes this near has a station within reach, unless its stations are more than twice as far
     // apart as wanted.
     const double reach_m = std::sqrt(distance_m * distance_m + spacing_m_ * spacing_m_);
@@ -67,11 +70,12 @@ class BesideSearch {
     const auto needed = static_cast<std::size_t>(std::ceil(kMinBeside * static_cast<double>(course.size())));
     for (std::size_t j = 0; j < others_.size(); ++j) {
       const bool is_longer = std::pair(courses_[j].size(), line) > std::pair(course.size(), j);
-      others_[j] = {.needed = needed, .next = is_longer ? 0 : kNever};
+      const bool is_alike = is_stopline(types_[j]) == is_stopline(types_[line]);
+      others_[j] = {.needed = needed, .next = is_longer && is_alike ? 0 : kNever};
     }
     for (std::size_t k = 0; k < course.size(); ++k) {
       const Point& point = course[k];
-      (is_stopline ? across_ : along_).around(point, reach_m, [&](const StationPlace& entry) {
+      grid_.around(point, reach_m, [&](const StationPlace& entry) {
         Other& other = others_[entry.line];
         if (other.next > k || (entry.position - point).head<2>().squaredNorm() >= reach_m * reach_m) return;
         if (other.needed > course.size() - k) {
@@ -93,34 +97,39 @@ class BesideSearch {
     std::size_t next = kNever;  ///< the next station to look at
   };
 
-  StationGrid along_, across_;
+  StationGrid grid_;
+  std::vector<MarkingType> types_;
   std::vector<Polyline> courses_;
   std::vector<Other> others_;
   double spacing_m_;
 };
 
 /// Pairs of lines that lie side by side along enough of the shorter one, in ascending order.
-std::vector<IndexPair> side_by_side(const std::vector<Line>& lines, double distance_m, BesideSearch& search) {
+std::vector<IndexPair> side_by_side(std::size_t lines, double distance_m, BesideSearch& search) {
   std::vector<IndexPair> pairs;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    search.beside(i, is_stopline(lines[i].type()), distance_m,
-                  [&](std::size_t j) { pairs.emplace_back(std::minmax(i, j)); });
+  for (std::size_t i = 0; i < lines; ++i)
+    search.beside(i, distance_m, [&](std::size_t j) { pairs.emplace_back(std::minmax(i, j)); });
   std::ranges::sort(pairs);
   return pairs;
 }
 
-/// Pairs of road edges that are one kerb, in ascending order.
-std::vector<IndexPair> doubled_kerbs(const std::vector<Line>& lines, BesideSearch& search) {
-  const auto is_kerb = [&](std::size_t i) { return lines[i].type() == MarkingType::roadedge; };
-  std::vector<IndexPair> pairs;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!is_kerb(i)) continue;
-    search.beside(i, false, kKerb_m, [&](std::size_t j) {
-      if (is_kerb(j)) pairs.emplace_back(std::minmax(i, j));
+/// Those of the pairs that are road edges of one kerb, in ascending order.
+std::vector<IndexPair> doubled_kerbs(const std::vector<IndexPair>& pairs, BesideSearch& search) {
+  const auto is_kerb = [&](std::size_t i) { return search.type(i) == MarkingType::roadedge; };
+  std::vector<std::size_t> kerbs;
+  for (const auto& [i, j] : pairs)
+    if (is_kerb(i) && is_kerb(j)) kerbs.insert(kerbs.end(), {i, j});
+  std::ranges::sort(kerbs);
+  const auto repeated = std::ranges::unique(kerbs);
+  kerbs.erase(repeated.begin(), repeated.end());
+  std::vector<IndexPair> doubled;
+  for (const std::size_t i : kerbs) {
+    search.beside(i, kKerb_m, [&](std::size_t j) {
+      if (is_kerb(j)) doubled.emplace_back(std::minmax(i, j));
     });
   }
-  std::ranges::sort(pairs);
-  return pairs;
+  std::ranges::sort(doubled);
+  return doubled;
 }
 
 /// Whether the present frame observed more stations of the line than it missed.
@@ -142,8 +151,9 @@ std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::v
   std::vector<markings::Relative> merged;
   std::vector<bool> gone(lines.size(), false);
   BesideSearch search(lines, config);
-  const std::vector<IndexPair> kerbs = doubled_kerbs(lines, search);
-  for (const auto& [i, j] : side_by_side(lines, config.merge_distance_m, search)) {
+  const std::vector<IndexPair> pairs = side_by_side(lines.size(), config.merge_distance_m, search);
+  const std::vector<IndexPair> kerbs = doubled_kerbs(pairs, search);
+  for (const auto& [i, j] : pairs) {
     if (gone[i] || gone[j]) continue;
     const bool i_seen = mostly_observed(lines[i]), j_seen = mostly_observed(lines[j]);
     const auto [a, b] = std::minmax(lines[i].id, lines[j].id);

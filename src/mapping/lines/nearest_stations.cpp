@@ -34,24 +34,26 @@ double squared_reach_m2(const Line& line, double gate_m) {
 
 }  // namespace
 
-NearestStations::NearestStations(const std::vector<Line>& lines, bool of_stoplines, double gate_m)
-    : grid_(station_grid(lines, of_stoplines)), slots_(lines.size(), kNone) {
+NearestStations::NearestStations(const std::vector<Line>& lines, double gate_m)
+    : grid_(station_grid(lines)), slots_(lines.size(), kNone) {
+  is_stopline_.reserve(lines.size());
   squared_reach_m2_.reserve(lines.size());
   for (const Line& line : lines) {
-    const bool wanted = is_stopline(line.type()) == of_stoplines;
-    squared_reach_m2_.push_back(wanted ? squared_reach_m2(line, gate_m) : 0.0);
+    is_stopline_.push_back(is_stopline(line.type()));
+    squared_reach_m2_.push_back(squared_reach_m2(line, gate_m));
     furthest_m_ = std::max(furthest_m_, std::sqrt(squared_reach_m2_.back()));
   }
 }
 
-const std::vector<NearestStation>& NearestStations::around(const Point& point) {
+const std::vector<NearestStation>& NearestStations::around(const Point& point, bool of_stoplines) {
   for (const NearestStation& nearest : near_) slots_[nearest.line] = kNone;
   near_.clear();
   const double* const reach_m2 = squared_reach_m2_.data();
-  grid_.around(point, furthest_m_, [this, reach_m2, center = point](const StationPlace& entry) {
+  grid_.around(point, furthest_m_, [=, this, center = point](const StationPlace& entry) {
     const Point offset = entry.position - center;
     const double squared_m2 = offset.head<2>().squaredNorm();
     if (squared_m2 > reach_m2[entry.line] || !geometry::same_level(entry.position, center)) return;
+    if (is_stopline_[entry.line] != of_stoplines) return;
     std::uint32_t& slot = slots_[entry.line];
     if (slot == kNone) {
       slot = static_cast<std::uint32_t>(near_.size());

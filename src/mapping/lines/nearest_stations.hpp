@@ -17,16 +17,17 @@ struct NearestStation {
 /// Finds the lines that a point may lie on, each with its nearest station. Not thread-safe.
 class NearestStations {
  public:
-  /// Searches all stoplines, or all other lines. A point lies on a line if its foot (see foot_at()) is no
-  /// further aside than `gate_m`, or, outside of a sharp bend, within 2 m. `lines` are copied.
-  NearestStations(const std::vector<Line>& lines, bool of_stoplines, double gate_m);
+  /// A point lies on a line if its foot (see foot_at()) is no further aside than `gate_m`, or, outside of a
+  /// sharp bend, within 2 m. `lines` are copied.
+  NearestStations(const std::vector<Line>& lines, double gate_m);
 
-  /// The lines that `point` may lie on, each once, in no meaningful order. Lines on another level are left
-  /// out. The reference holds until the next call.
-  const std::vector<NearestStation>& around(const Point& point);
+  /// The stoplines, or the other lines, that `point` may lie on, each once, in no meaningful order. Lines on
+  /// another level are left out. The reference holds until the next call.
+  const std::vector<NearestStation>& around(const Point& point, bool of_stoplines);
 
  private:
   StationGrid grid_;
+  std::vector<bool> is_stopline_;         ///< per line
   std::vector<double> squared_reach_m2_;  ///< per line: greatest of a point from a station
   double furthest_m_ = 0.0;               ///< root of the largest of these
   std::vector<std::uint32_t> slots_;      ///< per line: its place in near_

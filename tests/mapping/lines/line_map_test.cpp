@@ -35,7 +35,7 @@ TEST(StationFoot, BeyondAnEndTheIndexSaysHowFar) {
 TEST(StationGrid, FindsEveryStationWithinReach) {
   const std::vector<Line> lines{test::line(1, test::straight({-30, 5, 0}, {40, 8, 0}, 71)),
                                 test::line(2, test::arc({0, 0, 0}, 12, 0, 270))};
-  const StationGrid grid = station_grid(lines, false);
+  const StationGrid grid = station_grid(lines);
   for (const Point& point :
        {Point(0, 6, 0), Point(-12, 0, 0), Point(40, 8, 0), Point(1e9, -1e9, 0), Point(-30, 5, 9)}) {
     for (const double reach_m : {0.4, 0.9, 2.3, 1e10}) {
@@ -59,14 +59,14 @@ TEST(StationGrid, FindsEveryStationWithinReach) {
 TEST(StationGrid, HoldsAStationJustBeforeTheEndOfItsLastCell) {
   const double last_m = std::nextafter(8.0, 0.0);  // one more cell is 9 when rounded
   const std::vector<Line> lines{test::line(1, {{0, 0, 0}, {last_m, last_m, 0}})};
-  const StationGrid grid = station_grid(lines, false);
+  const StationGrid grid = station_grid(lines);
   std::set<std::uint32_t> found;
   grid.around({last_m, last_m, 0}, 0.5, [&](const StationPlace& entry) { found.insert(entry.station); });
   EXPECT_EQ(found, std::set<std::uint32_t>{1});
 }
 
 TEST(StationGrid, OfNothingFindsNothing) {
-  station_grid({}, false).around({0, 0, 0}, 5.0, [](const StationPlace&) { ADD_FAILURE(); });
+  station_grid({}).around({0, 0, 0}, 5.0, [](const StationPlace&) { ADD_FAILURE(); });
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ bool lies_on(const Line& line, std::size_t nearest, const Point& point) {
 
 Places found(NearestStations& nearest_stations, const std::vector<Line>& lines, const Point& point) {
   Places places;
-  for (const NearestStation& nearest : nearest_stations.around(point)) {
+  for (const NearestStation& nearest : nearest_stations.around(point, false)) {
     if (!lies_on(lines[nearest.line], nearest.station, point)) continue;
     EXPECT_TRUE(places.emplace(nearest.line, nearest.station).second);
   }
@@ -73,7 +73,7 @@ TEST(NearestStations, MissNoLineThatAPointLiesOn) {
     for (const double turn_rad : {0.02, 0.3, 1.2, 3.0}) {  // to sharp corners
       std::vector<Line> lines;
       for (ElementId id = 1; id <= 12; ++id) lines.push_back(wandering_line(id, step_m, turn_rad, random));
-      NearestStations nearest_stations(lines, false, kGate_m);
+      NearestStations nearest_stations(lines, kGate_m);
       for (const Line& line : lines) {
         for (std::size_t k = 1; k < line.stations.size(); ++k) {
           const Point &a = line.stations[k - 1].position, &b = line.stations[k].position;
@@ -90,36 +90,36 @@ TEST(NearestStations, MissNoLineThatAPointLiesOn) {
 
 TEST(NearestStations, FindALineWhoseStationsAreFarApart) {
   const std::vector<Line> lines{test::line(1, test::straight({0, 0, 0}, {9, 0, 0}))};
-  NearestStations nearest_stations(lines, false, kGate_m);
-  ASSERT_EQ(nearest_stations.around({4.4, 0.6, 0}).size(), 1U);
-  EXPECT_EQ(nearest_stations.around({4.4, 0.6, 0}).front().station, 0U);
-  EXPECT_EQ(nearest_stations.around({4.6, 0.6, 0}).front().station, 1U);
+  NearestStations nearest_stations(lines, kGate_m);
+  ASSERT_EQ(nearest_stations.around({4.4, 0.6, 0}, false).size(), 1U);
+  EXPECT_EQ(nearest_stations.around({4.4, 0.6, 0}, false).front().station, 0U);
+  EXPECT_EQ(nearest_stations.around({4.6, 0.6, 0}, false).front().station, 1U);
 }
 
 TEST(NearestStations, OfASharpBendAreFoundTwoMetresOutsideOfIt) {
   const std::vector<Line> lines{test::line(1, {{-1, 0, 0}, {0, 0, 0}, {-1, 0.1, 0}})};
-  NearestStations nearest_stations(lines, false, kGate_m);
-  EXPECT_EQ(nearest_stations.around({1.9, 0, 0}).size(), 1U);
-  EXPECT_TRUE(nearest_stations.around({2.1, 0, 0}).empty());
+  NearestStations nearest_stations(lines, kGate_m);
+  EXPECT_EQ(nearest_stations.around({1.9, 0, 0}, false).size(), 1U);
+  EXPECT_TRUE(nearest_stations.around({2.1, 0, 0}, false).empty());
 }
 
 TEST(NearestStations, AreOfStoplinesOrOfAllOthers) {
   const std::vector<Line> lines{
       test::line(1, test::straight({0, 0, 0}, {10, 0, 0}, 11)),
       test::line(2, test::straight({0, 0, 0}, {10, 0, 0}, 11), MarkingType::stopline)};
-  NearestStations along(lines, false, kGate_m), across(lines, true, kGate_m);
-  ASSERT_EQ(along.around({5, 0, 0}).size(), 1U);
-  EXPECT_EQ(along.around({5, 0, 0}).front().line, 0U);
-  ASSERT_EQ(across.around({5, 0, 0}).size(), 1U);
-  EXPECT_EQ(across.around({5, 0, 0}).front().line, 1U);
+  NearestStations nearest_stations(lines, kGate_m);
+  ASSERT_EQ(nearest_stations.around({5, 0, 0}, false).size(), 1U);
+  EXPECT_EQ(nearest_stations.around({5, 0, 0}, false).front().line, 0U);
+  ASSERT_EQ(nearest_stations.around({5, 0, 0}, true).size(), 1U);
+  EXPECT_EQ(nearest_stations.around({5, 0, 0}, true).front().line, 1U);
 }
 
 TEST(NearestStations, LeaveOutWhatIsTooFarToLieOn) {
   const std::vector<Line> lines{test::line(1, test::straight({0, 0, 0}, {10, 0, 0}, 11))};
-  NearestStations nearest_stations(lines, false, kGate_m);
-  EXPECT_EQ(nearest_stations.around({5.4, 0.5, 0}).size(), 1U);
-  EXPECT_TRUE(nearest_stations.around({5.4, 1.5, 0}).empty());
-  EXPECT_TRUE(nearest_stations.around({5.4, 0.5, 3}).empty());  // on another level
+  NearestStations nearest_stations(lines, kGate_m);
+  EXPECT_EQ(nearest_stations.around({5.4, 0.5, 0}, false).size(), 1U);
+  EXPECT_TRUE(nearest_stations.around({5.4, 1.5, 0}, false).empty());
+  EXPECT_TRUE(nearest_stations.around({5.4, 0.5, 3}, false).empty());  // on another level
 }
 
 }  // namespace
