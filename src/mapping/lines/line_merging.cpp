@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "mapping/geometry/levels.hpp"
@@ -116,12 +117,9 @@ std::vector<IndexPair> side_by_side(std::size_t lines, double distance_m, Beside
 /// Those of the pairs that are road edges of one kerb, in ascending order.
 std::vector<IndexPair> doubled_kerbs(const std::vector<IndexPair>& pairs, BesideSearch& search) {
   const auto is_kerb = [&](std::size_t i) { return search.type(i) == MarkingType::roadedge; };
-  std::vector<std::size_t> kerbs;
+  std::set<std::size_t> kerbs;
   for (const auto& [i, j] : pairs)
-    if (is_kerb(i) && is_kerb(j)) kerbs.insert(kerbs.end(), {i, j});
-  std::ranges::sort(kerbs);
-  const auto repeated = std::ranges::unique(kerbs);
-  kerbs.erase(repeated.begin(), repeated.end());
+    if (is_kerb(i) && is_kerb(j)) kerbs.insert({i, j});
   std::vector<IndexPair> doubled;
   for (const std::size_t i : kerbs) {
     search.beside(i, kKerb_m, [&](std::size_t j) {
