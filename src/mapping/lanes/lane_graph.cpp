@@ -52,6 +52,9 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to) {
 }
 
 std::optional<Projection> foot_in(const Lane& lane, const Point& place) {
+  Eigen::AlignedBox2d bounds;
+  for (const Point& point : lane.centerline) bounds.extend(point.head<2>());
+  if (bounds.exteriorDistance(Eigen::Vector2d(place.head<2>())) > 0.5 * lane.width_m) return std::nullopt;
   const Projection foot = MeasuredPolyline(lane.centerline).project(place);
   const bool inside =
       foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::same_level(foot.foot, place);

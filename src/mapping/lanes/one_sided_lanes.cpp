@@ -79,7 +79,7 @@ class OneSidedLanes {
 
   void add(const OpenSide& side, std::uint32_t road_section) {
     const boundaries::LaneBoundary& line = boundaries_[side.line];
-    if (!line.is_confirmed()) return;
+    if (!line.is_confirmed() || free_length_m(side) < kMinInferredLength_m) return;
     const std::vector<std::size_t> others = others_near(side.line);
     const std::vector<CrossSection> sections = open_sections(side, others);
     for (std::size_t begin = 0; begin < sections.size();) {
@@ -102,6 +102,14 @@ class OneSidedLanes {
   std::vector<InferredBoundary> take() { return std::move(found_); }
 
  private:
+  /// The length of the line along which no lane lies beside it.
+  double free_length_m(const OpenSide& side) const {
+    double free_m = boundaries_[side.line].course.length();
+    for (const Stretch& lane : taken_.beside({boundaries_[side.line].marking.id, side.side}))
+      free_m -= lane.length();
+    return free_m;
+  }
+
   /// Whether something else lies just before and just behind a run.
   bool is_gap(const OpenSide& side, const std::vector<std::size_t>& others,
               const std::vector<CrossSection>& sections, std::span<const CrossSection> run) const {

@@ -74,7 +74,8 @@ class BesideSearch {
       const bool is_alike = is_stopline(types_[j]) == is_stopline(types_[line]);
       others_[j] = {.needed = needed, .next = is_longer && is_alike ? 0 : kNever};
     }
-    for (std::size_t k = 0; k < course.size(); ++k) {
+    std::size_t most = 0;  // stations that were found beside one other line
+    for (std::size_t k = 0; k < course.size() && needed <= most + course.size() - k; ++k) {
       const Point& point = course[k];
       grid_.around(point, reach_m, [&](const StationPlace& entry) {
         Other& other = others_[entry.line];
@@ -85,6 +86,7 @@ class BesideSearch {
         }
         if (!passes(courses_[entry.line], entry.station, point, distance_m)) return;
         other.next = --other.needed == 0 ? kNever : k + 1;
+        most = std::max(most, needed - other.needed);
         if (other.needed == 0) found(entry.line);
       });
     }
