@@ -72,7 +72,7 @@ struct DetectionFrame {
   std::uint64_t session_id = 0;  ///< of the source's run; another value means that it was restarted
   std::string source;            ///< names the perception stack
   std::vector<MarkingType> detected_types;  ///< types that the network can detect; empty: every type
-  Polyline field_of_view;                   ///< body frame polygon; empty: all of mapper.range
+  Polyline field_of_view;                   ///< body frame polygon; empty: not known
   std::vector<Polyline> occluded_areas;     ///< body frame polygons, within which nothing is seen
   std::vector<Detection> detections;        ///< empty: nothing was seen
 };
