@@ -52,6 +52,8 @@ DetectionFrame frame(Values& values, std::int64_t stamp_ns) {
     Detection detection{.type = static_cast<MarkingType>(values.next<std::uint8_t>() % 3),
                         .confidence = static_cast<double>(values.next<std::uint8_t>()) / 255.0,
                         .points = polyline(values)};
+    if (values.next<std::uint8_t>() % 4 == 0)
+      for (std::size_t k = 0; k < detection.points.size(); ++k) detection.stddev_m.push_back(values.number());
     result.detections.push_back(detection);
   }
   return result;

@@ -8,8 +8,9 @@
 namespace laneloom::lines {
 namespace {
 
-constexpr double kNear_m = 10.0;       // a view from within this range is taken as right
-constexpr double kMinStddev_m = 0.02;  // least deviation of a sample, whatever its network says
+constexpr double kNear_m = 10.0;  // a view from within this range is taken as right
+// Least and greatest deviation of a sample, whatever its network says. A huge one says that nothing is known.
+constexpr double kMinStddev_m = 0.02, kMaxStddev_m = 10.0;
 
 double distance(const Point& point, const Point& origin) { return (point - origin).head<2>().norm(); }
 
@@ -27,7 +28,7 @@ void weigh(const NetworkModel& network, const Point& origin, std::vector<Sampled
     if (detection.stddev_m.empty())
       for (const Point& sample : detection.samples)
         detection.stddev_m.push_back(network.stddev_m(distance(sample, origin)));
-    for (double& stddev_m : detection.stddev_m) stddev_m = std::max(kMinStddev_m, stddev_m);
+    for (double& stddev_m : detection.stddev_m) stddev_m = std::clamp(stddev_m, kMinStddev_m, kMaxStddev_m);
   }
 }
 
