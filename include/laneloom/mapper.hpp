@@ -46,6 +46,9 @@ class Mapper {
   /// starts with this knowledge.
   NetworkProfiles profiles() const;
 
+  /// Number of lines that the last update forgot because there was no room: a mapper keeps at most 256 lines
+  /// with 20000 places together. The lines of the least evidence go. 0 with the voxel method.
+  std::size_t lines_forgotten() const;
   /// Forgets everything except which ids were given out and what was learned of the networks.
   void reset();
 

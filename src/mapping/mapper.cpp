@@ -107,6 +107,11 @@ std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& s
   return values;
 }
 
+std::size_t Mapper::lines_forgotten() const {
+  const lines::LineMapper* lines = state_->fusion.lines();
+  return lines != nullptr ? lines->forgotten() : 0;
+}
+
 NetworkProfiles Mapper::profiles() const {
   NetworkProfiles profiles;
   if (const lines::LineMapper* lines = state_->fusion.lines())
@@ -118,6 +123,7 @@ NetworkProfiles Mapper::profiles() const {
 void Mapper::reset() {
   MapperState fresh(config_);
   fresh.ids = state_->ids;
+  fresh.frame = state_->frame;  // the networks that are kept know when they were seen last
   if (lines::LineMapper* lines = state_->fusion.lines()) {
     lines->reset();
     fresh.fusion = std::move(state_->fusion);

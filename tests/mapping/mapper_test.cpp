@@ -268,6 +268,24 @@ TEST_P(EitherMapper, AfterAResetNoIdComesAgain) {
   for (const Marking& boundary : drive.steps(20).boundaries) EXPECT_GT(boundary.id, highest);
 }
 
+TEST(Mapper, AfterAResetTheNetworkThatIsHeardIsStillKnown) {
+  Mapper mapper{MapperConfig{}};
+  int number = 0;
+  const auto see = [&](const std::string& source) {
+    DetectionFrame frame = frame_at(number, road(), number + 1);
+    frame.source = source;
+    mapper.update(frame, test::at(number));
+    ++number;
+  };
+  for (const char* gone : {"a", "b", "c", "d", "e", "f", "g"}) see(gone);
+  for (int i = 0; i < 20; ++i) see("heard");
+  mapper.reset();
+  see("heard");
+  see("new");
+  EXPECT_FALSE(mapper.learned("heard").empty());
+  EXPECT_TRUE(mapper.learned("a").empty());
+}
+
 TEST_P(EitherMapper, TellsTheObserverItsStagesInOrder) {
   struct Recorder : StageObserver {
     void update_begins() override { ++updates; }

@@ -10,7 +10,8 @@
 namespace laneloom::lines {
 namespace {
 
-constexpr std::size_t kMaxLines = 256;  // a flood of false detections must not make frames slow
+// A flood of false detections must not make frames slow.
+constexpr std::size_t kRoomForLines = 256, kRoomForStations = 20000;
 constexpr double kStandingShare = 0.3;  // least share of a view's evidence, while a station is not confirmed
 constexpr std::array kMilestones{8.0, 16.0, 32.0, 64.0};
 
@@ -34,13 +35,25 @@ bool View::detects(MarkingType type) const {
 
 bool View::unlimited() const { return frame->field_of_view.empty() && frame->occluded_areas.empty(); }
 
+Outline::Outline(const Polyline& polygon) : polygon_(&polygon) {
+  for (const Point& point : polygon) bounds_.extend(point.head<2>());
+}
+
+bool Outline::contains(const Point& point) const {
+  return bounds_.contains(Eigen::Vector2d(point.head<2>())) && lines::contains(*polygon_, point);
+}
+
+View::View(const Eigen::Isometry3d& T_body_map_, const DetectionFrame& frame_, double news_)
+    : T_body_map(T_body_map_), frame(&frame_), news(news_), field_of_view_(frame_.field_of_view) {
+  for (const Polyline& area : frame_.occluded_areas) occluded_areas_.emplace_back(area);
+}
+
 bool View::sees(const Point& point_map, MarkingType type, const geometry::MapBox& range) const {
   if (!detects(type)) return false;
   const Point point = T_body_map * point_map;
-  const bool in_view =
-      frame->field_of_view.empty() ? range.shows(point_map) : contains(frame->field_of_view, point);
-  return in_view && std::ranges::none_of(frame->occluded_areas,
-                                         [&](const Polyline& area) { return contains(area, point); });
+  const bool in_view = frame->field_of_view.empty() ? range.shows(point_map) : field_of_view_.contains(point);
+  return in_view &&
+         std::ranges::none_of(occluded_areas_, [&](const Outline& area) { return area.contains(point); });
 }
 
 double existence(std::span<const Station> stations, const Confidences& confidences) {
@@ -128,7 +141,7 @@ void discount_unobserved(const View& view, const geometry::MapBox& range, const 
     for (Station& station : line.stations) {
       const Point place = view.T_body_map * station.position;
       const bool seen = station.sight == Sight::observed;
-      const bool in_view = view.sees(station.position, type, range);
+      const bool in_view = !seen && view.sees(station.position, type, range);
       const bool could_see = seen || in_view || (view.unlimited() && view.detects(type));
       if (teaches && could_see && station.log_odds >= config.confirm_log_odds)
         model.learn_rate(type, place, seen);
@@ -166,28 +179,45 @@ std::vector<Line> living_pieces(Line& line, const geometry::MapBox& range, const
   return pieces;
 }
 
-void forget_least_believed(std::vector<Line>& lines) {
-  if (lines.size() <= kMaxLines) return;
-  const auto belief = [](const Line& line) { return existence(line.stations, line.confidences); };
-  std::vector<double> beliefs(lines.size());
-  std::ranges::transform(lines, beliefs.begin(), belief);
-  std::ranges::sort(beliefs, std::ranges::greater{});
-  std::erase_if(lines, [&](const Line& line) { return belief(line) <= beliefs[kMaxLines]; });
+bool are_too_many(const std::vector<Line>& lines) {
+  std::size_t stations = 0;
+  for (const Line& line : lines) stations += line.stations.size();
+  return lines.size() > kRoomForLines || stations > kRoomForStations;
+}
+
+/// Keeps as many lines as the limits allow: those that are believed most, and of equals the first ones.
+/// Returns how many are forgotten.
+std::size_t forget_least_believed(std::vector<Line>& lines) {
+  if (!are_too_many(lines)) return 0;
+  std::vector<std::pair<double, std::size_t>> by_disbelief;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    by_disbelief.emplace_back(-existence(lines[i].stations, lines[i].confidences), i);
+  std::ranges::sort(by_disbelief);
+  std::vector<bool> kept(lines.size(), false);
+  std::size_t count = 0, stations = 0;
+  for (const auto& [disbelief, i] : by_disbelief) {
+    if (count == kRoomForLines || stations + lines[i].stations.size() > kRoomForStations) continue;
+    kept[i] = true;
+    ++count;
+    stations += lines[i].stations.size();
+  }
+  std::size_t index = 0;
+  return std::erase_if(lines, [&](const Line&) { return !kept[index++]; });
 }
 
 }  // namespace
 
-std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const FusionConfig& config,
-                                            DetectionModel& model, std::vector<Line>& lines,
-                                            markings::IdSource& ids) {
+Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, DetectionModel& model,
+                   std::vector<Line>& lines, markings::IdSource& ids) {
   std::vector<Line> kept, cut_off;
-  std::vector<markings::Relative> relatives;
+  Pruned pruned;
   for (Line& line : lines) {
+    const MarkingType type = line.type();
     const bool leaves =
         std::ranges::any_of(line.stations, [&](const Station& s) { return !range.keeps(s.position); });
     std::vector<Line> pieces = living_pieces(line, range, config);
     if (pieces.empty()) {
-      if (config.learn && !leaves) model.learn_wrong(line.type(), line.confidences);
+      if (config.learn && !leaves) model.learn_wrong(type, line.confidences);
       continue;
     }
     const auto longest =
@@ -195,15 +225,15 @@ std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
       if (piece == longest) continue;
       piece->id = ids.next();
-      relatives.push_back({piece->id, line.id});
+      pruned.pieces.push_back({piece->id, line.id});
       cut_off.push_back(std::move(*piece));
     }
     kept.push_back(std::move(*longest));
   }
   lines = std::move(kept);
   std::ranges::move(cut_off, std::back_inserter(lines));
-  forget_least_believed(lines);
-  return relatives;
+  pruned.forgotten = forget_least_believed(lines);
+  return pruned;
 }
 
 }  // namespace laneloom::lines

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -14,11 +15,25 @@
 
 namespace laneloom::lines {
 
+/// The inside of a polygon, seen from above. The polygon must outlive it; an empty one contains nothing.
+class Outline {
+ public:
+  explicit Outline(const Polyline& polygon);
+  bool contains(const Point& point) const;
+
+ private:
+  const Polyline* polygon_;
+  Eigen::AlignedBox2d bounds_;
+};
+
 /// The view of a frame on the map.
 struct View {
-  Eigen::Isometry3d T_body_map = Eigen::Isometry3d::Identity();
-  const DetectionFrame* frame = nullptr;  ///< the frame that sees
-  double news = 1.0;  ///< 0..1; 1 is an independent view. Evidence counts by independent views, not by frames
+  /// The frame must outlive the view.
+  View(const Eigen::Isometry3d& T_body_map, const DetectionFrame& frame, double news = 1.0);
+
+  Eigen::Isometry3d T_body_map;
+  const DetectionFrame* frame;  ///< the frame that sees
+  double news;  ///< 0..1; 1 is an independent view. Evidence counts by independent views, not by frames
 
   bool is_independent() const { return news >= 1.0; }
   /// Whether the network detects markings of `type`.
@@ -28,6 +43,10 @@ struct View {
 
   /// Whether a marking of `type` at a point of the map would have been seen.
   bool sees(const Point& point_map, MarkingType type, const geometry::MapBox& range) const;
+
+ private:
+  Outline field_of_view_;
+  std::vector<Outline> occluded_areas_;
 };
 
 /// Log odds that a line exists: the mean of its stations plus those of its confidences.
@@ -48,12 +67,16 @@ void credit_observed(const View& view, const Association& association, const Fus
 void discount_unobserved(const View& view, const geometry::MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines);
 
+/// What prune_lines() did.
+struct Pruned {
+  std::vector<markings::Relative> pieces;  ///< each with the line that it was cut off from
+  std::size_t forgotten = 0;               ///< lines beyond the limits
+};
+
 /// Removes stations that have lost their evidence or left the range. A line that loses stations in between is
-/// split; its longest piece keeps the id. Returns the other pieces, each with the line that it was cut off
-/// from. The model learns which lines were wrong. Of more than 256 lines, those of the least evidence are
-/// removed.
-std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const FusionConfig& config,
-                                            DetectionModel& model, std::vector<Line>& lines,
-                                            markings::IdSource& ids);
+/// split; its longest piece keeps the id. The model learns which lines were wrong. There is room for 256
+/// lines with 20000 stations together: of more, the lines of the least evidence are forgotten.
+Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, DetectionModel& model,
+                   std::vector<Line>& lines, markings::IdSource& ids);
 
 }  // namespace laneloom::lines

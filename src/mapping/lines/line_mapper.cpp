@@ -41,7 +41,7 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
   log.done(Stage::association);
 
   fuse_matches(association, from, fusion, networks_, lines_);
-  const View view{observed.T_map_body.inverse(), &observed.frame, network.standpoint.news(origin)};
+  const View view(observed.T_map_body.inverse(), observed.frame, network.standpoint.news(origin));
   credit_observed(view, association, fusion, network.detection, lines_);
   discount_unobserved(view, scene.box, fusion, network.detection, lines_);
   log.done(Stage::line_update);
@@ -53,8 +53,9 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
     lines_.push_back(std::move(line));
   }
   std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
-  std::ranges::copy(prune_lines(scene.box, fusion, network.detection, lines_, ids),
-                    std::back_inserter(relatives));
+  const Pruned pruned = prune_lines(scene.box, fusion, network.detection, lines_, ids);
+  std::ranges::copy(pruned.pieces, std::back_inserter(relatives));
+  forgotten_ = pruned.forgotten;
   log.done(Stage::line_set);
 
   return log.done(Stage::polylines, markings::FusedMarkings{publish_lines(lines_, doubles_, config), joints_,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -29,6 +30,8 @@ class LineMapper {
 
   const std::vector<Line>& lines() const { return lines_; }
   const Networks& networks() const { return networks_; }
+  /// Number of lines that the last frame was too much for: there is no room for more, see prune_lines().
+  std::size_t forgotten() const { return forgotten_; }
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -44,6 +47,7 @@ class LineMapper {
   markings::PairHistories joints_;                 ///< how ends of lines that lie near each other were seen
   FrameError lasting_error_ = FrameError::Zero();  ///< running mean, see align_frame()
   Networks networks_;                              ///< what was learned of the sources
+  std::size_t forgotten_ = 0;                      ///< not saved
 };
 
 }  // namespace laneloom::lines

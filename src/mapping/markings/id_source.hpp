@@ -11,6 +11,9 @@ class IdSource {
 
   ElementId next() { return next_++; }
 
+  /// Leaves out more ids than a service can give out between a snapshot and its end.
+  void leave_out_unknown() { next_ += ElementId{1} << 24; }
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(next_);
