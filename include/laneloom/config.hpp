@@ -208,6 +208,8 @@ struct GateConfig {
   double max_stamp_step_s = 2.0;       ///< a stamp further from its predecessor is an outlier
   double max_speed_mps = 80.0;         ///< highest speed of the vehicle that is believed
   double max_pose_jump_m = 2.0;        ///< beyond what that speed explains; a longer jump is an outlier
+  double max_turn_rate_degps = 120.0;  ///< quickest turn of the vehicle that is believed
+  double max_pose_turn_deg = 15.0;     ///< beyond what that rate explains; a larger turn is an outlier
   double max_coordinate_m = 1e7;       ///< messages with larger coordinates are refused
   int max_frame_detections = 128;      ///< of more, the least trusted are left out; it bounds the work
   double max_frame_length_m = 2000.0;  ///< of all markings of a frame together, likewise

@@ -317,14 +317,19 @@ void visit(auto& v, Is<SyncConfig> auto& c) {
 }
 
 void visit(auto& v, Is<GateConfig> auto& c) {
-  auto& [max_stamp_step_s, max_speed_mps, max_pose_jump_m, max_coordinate_m, max_frame_detections,
-         max_frame_length_m] = c;
+  auto& [max_stamp_step_s, max_speed_mps, max_pose_jump_m, max_turn_rate_degps, max_pose_turn_deg,
+         max_coordinate_m, max_frame_detections, max_frame_length_m] = c;
   v.number("max_stamp_step_s", max_stamp_step_s, {"s", 0.01, 60},
            "A stamp that is further than this from the one before is an outlier.");
   v.number("max_speed_mps", max_speed_mps, {"m/s", 1, 200}, "Highest speed of the vehicle that is believed.");
   v.number("max_pose_jump_m", max_pose_jump_m, {"m", 0.01, 1000},
            "A pose is an outlier if it is more than this further from the pose before than max_speed_mps "
            "explains.");
+  v.number("max_turn_rate_degps", max_turn_rate_degps, {"deg/s", 1, 720},
+           "Quickest turn of the vehicle that is believed.");
+  v.number("max_pose_turn_deg", max_pose_turn_deg, {"deg", 0.1, 180},
+           "A pose is an outlier if its orientation is more than this further from the pose before than "
+           "max_turn_rate_degps explains.");
   v.number("max_coordinate_m", max_coordinate_m, {"m", 1000, 1e7},
            "Messages with larger coordinates are refused.");
   v.number("max_frame_detections", max_frame_detections, {"", 1, 512},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/degree.hpp"
 #include "base/seconds.hpp"
 #include "base/unit_rotation.hpp"
 
@@ -10,6 +11,7 @@ namespace laneloom::session {
 namespace {
 
 constexpr int kOutliersToBelieve = 3;
+constexpr double kLateToBelieve_s = 0.2;
 constexpr std::size_t kSessionsRemembered = 8;
 constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;  // differences of smaller stamps do not overflow
 
@@ -41,7 +43,10 @@ bool follows(const StreamPoint& point, const StreamPoint& before, const GateConf
              double max_step_s) {
   const double step_s = seconds(point.stamp_ns - before.stamp_ns);
   return before.session_id == point.session_id && step_s > 0.0 && step_s <= max_step_s &&
-         (point.position - before.position).norm() <= config.max_pose_jump_m + config.max_speed_mps * step_s;
+         (point.position - before.position).norm() <=
+             config.max_pose_jump_m + config.max_speed_mps * step_s &&
+         point.orientation.angularDistance(before.orientation) <=
+             kDegree * (config.max_pose_turn_deg + config.max_turn_rate_degps * step_s);
 }
 
 Gate::Verdict Gate::check(const StreamPoint& point) {
@@ -54,7 +59,8 @@ Gate::Verdict Gate::check(const StreamPoint& point) {
   }
   const double step_s = seconds(point.stamp_ns - last_->stamp_ns);
   if (point.stamp_ns == last_->stamp_ns) return Verdict::repeated;
-  if (step_s < 0.0 && step_s >= -config_.max_stamp_step_s) return Verdict::late;
+  if (step_s < 0.0 && step_s >= -config_.max_stamp_step_s) return check_late(point);
+  late_.reset();
   if (!plausible(*last_, point)) return check_outlier(point);
   last_ = point;
   outliers_in_a_row_ = 0;
@@ -69,6 +75,13 @@ bool Gate::is_superseded(std::uint64_t session_id) const {
   return std::find(superseded_.begin(), superseded_.end(), session_id) != superseded_.end();
 }
 
+Gate::Verdict Gate::check_late(const StreamPoint& point) {
+  if (!late_ || !plausible(*late_, point)) first_late_ = point;
+  late_ = point;
+  const bool lasts = seconds(point.stamp_ns - first_late_->stamp_ns) >= kLateToBelieve_s;
+  return late_anew_ && lasts ? begin_anew(point) : Verdict::late;
+}
+
 Gate::Verdict Gate::check_outlier(const StreamPoint& point) {
   const bool agrees = outliers_in_a_row_ > 0 && plausible(*outlier_, point);
   outliers_in_a_row_ = agrees ? outliers_in_a_row_ + 1 : 1;
@@ -81,6 +94,7 @@ Gate::Verdict Gate::begin_anew(const StreamPoint& point) {
   if (point.session_id != last_->session_id) superseded_.push_back(last_->session_id);
   if (superseded_.size() > kSessionsRemembered) superseded_.pop_front();
   last_ = point;
+  late_.reset();
   outliers_in_a_row_ = 0;
   return Verdict::begins_anew;
 }

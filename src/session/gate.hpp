@@ -15,16 +15,17 @@ struct StreamPoint {
   std::int64_t stamp_ns = 0;       ///< sensor clock
   std::uint64_t session_id = 0;    ///< of the writer's run
   Point position = Point::Zero();  ///< of a pose, map frame; zero in a stream of detections
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< likewise
 };
 
 /// Whether a point may follow another one of its stream, at most `max_step_s` later: in the same session, and
-/// at a place that the vehicle can have reached.
+/// at a place and an orientation that the vehicle can have reached.
 bool follows(const StreamPoint& point, const StreamPoint& before, const GateConfig& config,
              double max_step_s);
 
-/// Decides which messages of one stream are believed. A message that jumps in stamp or position is an
-/// outlier. The third outlier in a row that agrees with its predecessors is believed, and so is the first
-/// message of a new session: the stream begins anew with it.
+/// Decides which messages of one stream are believed. A message that jumps in stamp, position or orientation
+/// is an outlier. The third outlier in a row that agrees with its predecessors is believed, and so is the
+/// first message of a new session: the stream begins anew with it.
 class Gate {
  public:
   enum class Verdict {
@@ -32,22 +33,27 @@ class Gate {
     begins_anew,  ///< accepted; it does not continue the messages before
     repeated,     ///< has the stamp that was accepted last
     late,         ///< older than that, by a plausible step
-    outlier       ///< jumps in stamp or position
+    outlier       ///< jumps in stamp, position or orientation
   };
 
-  explicit Gate(const GateConfig& config) : config_(config) {}
+  /// If `late_anew`, the stream also begins anew with late messages that follow one another for 0.2 s, with
+  /// no other message in between: the clock was set back.
+  explicit Gate(const GateConfig& config, bool late_anew = false) : config_(config), late_anew_(late_anew) {}
 
   Verdict check(const StreamPoint& point);
 
  private:
   bool plausible(const StreamPoint& from, const StreamPoint& to) const;
   bool is_superseded(std::uint64_t session_id) const;
+  Verdict check_late(const StreamPoint& point);
   Verdict check_outlier(const StreamPoint& point);
   Verdict begin_anew(const StreamPoint& point);
 
   GateConfig config_;
-  std::optional<StreamPoint> last_;     ///< of the newest accepted message
-  std::optional<StreamPoint> outlier_;  ///< of the newest outlier
+  bool late_anew_;
+  std::optional<StreamPoint> first_late_, late_;  ///< the first and the newest of late messages in a row
+  std::optional<StreamPoint> last_;               ///< of the newest accepted message
+  std::optional<StreamPoint> outlier_;            ///< of the newest outlier
   int outliers_in_a_row_ = 0;
   /// Sessions that newer ones took the place of. If their writer is still alive (two perception stacks by
   /// mistake), it can not take its place back with a single message.

@@ -18,9 +18,11 @@ namespace {
 
 using Checkpoint = MappingSession::Checkpoint;
 
-StreamPoint place(const VehiclePose& pose) { return {pose.stamp_ns, pose.session_id, pose.position}; }
+StreamPoint place(const VehiclePose& pose) {
+  return {pose.stamp_ns, pose.session_id, pose.position, pose.orientation};
+}
 StreamPoint place(const Checkpoint& checkpoint) {
-  return {checkpoint.pose_stamp_ns, checkpoint.pose_session_id, checkpoint.position};
+  return {checkpoint.pose_stamp_ns, checkpoint.pose_session_id, checkpoint.position, checkpoint.orientation};
 }
 
 MapperConfig with_profiles(MapperConfig config) {
@@ -50,7 +52,7 @@ struct MappingSession::State {
   explicit State(const Config& c)
       : gate_config(c.gate),
         max_pause_s(c.service.snapshot_max_age_s),
-        pose_gate(c.gate),
+        pose_gate(c.gate, true),
         sources(c.gate),
         synchroniser(c.sync),
         mapper(with_profiles(c.mapper), sd_map::load_sd_map(c.sd_map)) {}
@@ -142,6 +144,8 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   newest_arrival_ns = synchronised.pending.arrival_ns;
   sources.note_fused(frame, synchronised.pending.arrival_ns);
   counters.add("frames_fused");
+  if (const auto forgotten = mapper.lines_forgotten(); forgotten > 0)
+    counters.add("lines_forgotten", forgotten);
   progress.fused.push_back({frame.source, frame.session_id, frame.sequence, frame.stamp_ns});
   if (map_observer) map_observer(progress.fused.back(), map);
   progress.lineage.insert(progress.lineage.end(), map.lineage.begin(), map.lineage.end());
@@ -151,6 +155,7 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
 void MappingSession::State::reset() {
   refuse_frames("reset", synchroniser.clear_frames());
   mapper.reset();
+  progress.lineage.clear();  // it tells of ids of the old map
   newest_stamp_ns.reset();
   newest_arrival_ns.reset();
   counters.add("map_resets");
@@ -199,11 +204,13 @@ MappingSession::Progress MappingSession::take_progress() { return std::exchange(
 std::optional<MappingSession::Checkpoint> MappingSession::checkpoint() const {
   const State& state = *state_;
   if (!state.newest_stamp_ns || state.counters["frames_fused"] == 0) return std::nullopt;
-  return Checkpoint{*state.newest_stamp_ns, *state.newest_arrival_ns, state.newest_pose->stamp_ns,
-                    state.newest_pose->session_id, state.newest_pose->position};
+  return Checkpoint{*state.newest_stamp_ns,      *state.newest_arrival_ns,
+                    state.newest_pose->stamp_ns, state.newest_pose->session_id,
+                    state.newest_pose->position, state.newest_pose->orientation};
 }
 
 void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
+  state.ids.leave_out_unknown();
   state_->mapper.set_state(std::move(state));
   state_->newest_stamp_ns = checkpoint.frame_stamp_ns;
   state_->newest_arrival_ns = checkpoint.frame_arrival_ns;

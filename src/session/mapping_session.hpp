@@ -72,11 +72,12 @@ class MappingSession {
     std::int64_t pose_stamp_ns = 0;     ///< of the newest pose
     std::uint64_t pose_session_id = 0;  ///< of the newest pose
     Point position = Point::Zero();     ///< of the newest pose, map frame
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< of the newest pose
 
     template <class Archive>
     void serialize(Archive& archive) {
       archive(frame_stamp_ns, frame_arrival_ns, pose_stamp_ns, pose_session_id, position.x(), position.y(),
-              position.z());
+              position.z(), orientation.w(), orientation.x(), orientation.y(), orientation.z());
     }
   };
   /// The checkpoint of the present map. None: this session has not yet fused a frame into it.

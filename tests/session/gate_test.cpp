@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "base/degree.hpp"
 #include "milliseconds.hpp"
 
 namespace laneloom::session {
@@ -63,6 +64,41 @@ TEST_F(GateTest, RepeatedAndLateMessagesAreNoOutliers) {
   EXPECT_EQ(gate_.check(at(10'100)), Verdict::repeated);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(gate_.check(at(10'000 + i)), Verdict::late);
   EXPECT_EQ(gate_.check(at(10'200)), Verdict::accepted);
+}
+
+StreamPoint turned(std::int64_t stamp_ms, double yaw_deg) {
+  StreamPoint point = at(stamp_ms);
+  point.orientation = Eigen::AngleAxisd(yaw_deg * kDegree, Eigen::Vector3d::UnitZ());
+  return point;
+}
+
+TEST_F(GateTest, ATurnThatNoVehicleMakesIsAnOutlier) {
+  EXPECT_EQ(gate_.check(turned(10'100, 26.0)), Verdict::accepted);
+  EXPECT_EQ(gate_.check(turned(10'200, 54.0)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(turned(10'210, 26.0)), Verdict::accepted);
+  EXPECT_EQ(gate_.check(turned(10'220, -154.0)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(turned(10'230, -154.0)), Verdict::outlier);
+  EXPECT_EQ(gate_.check(turned(10'240, -154.0)), Verdict::begins_anew);
+}
+
+TEST_F(GateTest, AClockThatIsSetBackBeginsAnewIfThatIsWanted) {
+  Gate anew(GateConfig{}, true);
+  EXPECT_EQ(anew.check(at(10'000)), Verdict::accepted);
+  for (int t = 9'000; t < 9'200; t += 10) {
+    EXPECT_EQ(anew.check(at(t)), Verdict::late);
+    EXPECT_EQ(gate_.check(at(t)), Verdict::late);
+  }
+  EXPECT_EQ(anew.check(at(9'200)), Verdict::begins_anew);
+  EXPECT_EQ(gate_.check(at(9'200)), Verdict::late);
+  EXPECT_EQ(anew.check(at(9'210)), Verdict::accepted);
+}
+
+TEST_F(GateTest, LateMessagesBetweenOthersAreNoClockThatIsSetBack) {
+  Gate anew(GateConfig{}, true);
+  for (int t = 10'000; t < 11'000; t += 10) {
+    EXPECT_EQ(anew.check(at(t)), Verdict::accepted);
+    EXPECT_EQ(anew.check(at(t - 500)), Verdict::late);
+  }
 }
 
 TEST_F(GateTest, ANewSessionIsBelievedAtOnce) {

@@ -203,6 +203,50 @@ TEST_F(MappingSessionTest, OneOutlierIsRefusedThreeResetTheMap) {
   EXPECT_GT(session_.map().boundaries[0].id, id);
 }
 
+TEST_F(MappingSessionTest, AHeadingThatJumpsResetsTheMap) {
+  drive(10'000, 12'000);
+  for (const std::int64_t t : {12'000, 12'010, 12'020}) {
+    VehiclePose turned = pose(t);
+    turned.orientation = Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitZ());
+    session_.add(turned);
+  }
+  EXPECT_EQ(session_.counters()["poses_refused_outlier"], 2U);
+  EXPECT_EQ(session_.counters()["map_resets"], 1U);
+  EXPECT_TRUE(session_.map().lanes.empty());
+}
+
+TEST_F(MappingSessionTest, AClockThatIsSetBackResetsTheMap) {
+  drive(10'000, 12'000);
+  drive(11'000, 11'300);
+  EXPECT_EQ(session_.counters()["poses_refused_late"], 20U);
+  EXPECT_EQ(session_.counters()["map_resets"], 1U);
+}
+
+TEST_F(MappingSessionTest, WhatBecameOfTheOldMapIsNotToldOfTheNewOne) {
+  drive(10'000, 12'000);
+  session_.add(pose(12'010, 2));
+  const auto progress = session_.take_progress();
+  EXPECT_EQ(progress.resets, 1U);
+  EXPECT_FALSE(progress.fused.empty());
+  EXPECT_TRUE(progress.lineage.empty());
+}
+
+TEST_F(MappingSessionTest, DeviationsBeyondAllBoundsHarmNothing) {
+  drive(10'000, 11'000);
+  for (const double stddev_m : {1e155, std::numeric_limits<double>::max()}) {
+    for (std::int64_t t = 11'000; t < 12'000; t += 100) {
+      DetectionFrame unsure = frame(t + (stddev_m > 1e200 ? 1'000 : 0));
+      for (Detection& detection : unsure.detections) detection.stddev_m = {stddev_m, stddev_m};
+      add(unsure);
+    }
+  }
+  for (std::int64_t t = 11'000; t < 13'100; t += 10) session_.add(pose(t));
+  EXPECT_EQ(session_.counters()["frames_fused"], 30U);
+  ASSERT_EQ(session_.map().lanes.size(), 1U);
+  for (const Marking& boundary : session_.map().boundaries)
+    for (const double stddev_m : boundary.lateral_stddev_m) EXPECT_LT(stddev_m, 11.0);
+}
+
 TEST_F(MappingSessionTest, PosesThatPausedGoOnWithTheMap) {
   drive(10'000, 12'000);
   drive(18'900, 21'000);
@@ -248,6 +292,30 @@ TEST_F(MappingSessionTest, AnotherSessionGoesOnWhereOneEnded) {
   EXPECT_EQ(next.map().lanes[0].id, session_.map().lanes[0].id);
 }
 
+TEST_F(MappingSessionTest, IdsThatWereGivenOutAfterTheCheckpointDoNotComeAgain) {
+  drive(10'000, 12'000);
+  const auto checkpoint = *session_.checkpoint();
+  const MapperState state = session_.mapper().state();
+  const auto with_line_at = [](std::int64_t t, double y) {
+    DetectionFrame more = frame(t);
+    more.detections.push_back(Detection{.confidence = 0.9, .points = {{0.0, y, 0.0}, {25.0, y, 0.0}}});
+    return more;
+  };
+  MappingSession next{Config{}};
+  next.resume(checkpoint, state);
+  for (std::int64_t t = 12'000; t < 13'000; t += 10) {
+    session_.add(pose(t));
+    next.add(pose(t));
+    if (t % 100 != 0) continue;
+    add(with_line_at(t, 5.25));
+    next.add(with_line_at(t, -5.25), 0);
+  }
+  ASSERT_EQ(session_.map().lanes.size(), 2U);
+  ASSERT_EQ(next.map().lanes.size(), 2U);
+  EXPECT_EQ(next.map().lanes.front().id, session_.map().lanes.front().id);
+  EXPECT_GT(next.map().lanes.back().id, session_.map().lanes.back().id + 1'000'000U);
+}
+
 TEST_F(MappingSessionTest, AMapOfAnotherPoseFrameIsNotGoneOnWith) {
   drive(10'000, 12'000);
   const auto checkpoint = *session_.checkpoint();
@@ -255,7 +323,9 @@ TEST_F(MappingSessionTest, AMapOfAnotherPoseFrameIsNotGoneOnWith) {
   far.position.x() += 200.0;
   auto late = pose(60'000);
   late.position.x() = 120.0;
-  for (const auto& first : {pose(12'500, 2), pose(11'000), far, late}) {
+  auto turned = pose(12'100);
+  turned.orientation = Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0);
+  for (const auto& first : {pose(12'500, 2), pose(11'000), far, late, turned}) {
     MappingSession next{Config{}};
     next.resume(checkpoint, session_.mapper().state());
     next.add(first);
