@@ -12,13 +12,6 @@ Marking inferred_marking(const Polyline& points) {
           .styles = {{{0.0, length(points)}, MarkingStyle::unknown}}};
 }
 
-Box box_around(const Polyline& line, double margin_m) {
-  const Point margin(margin_m, margin_m, geometry::kLevel_m);
-  Box box;
-  for (const Point& point : line) box.extend(point);
-  return {box.min() - margin, box.max() + margin};
-}
-
 TakenSpace::TakenSpace(const std::vector<Lane>& lanes) {
   for (const Lane& lane : lanes) {
     add(lane.centerline, 0.5 * lane.width_m);

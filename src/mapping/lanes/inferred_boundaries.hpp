@@ -36,11 +36,6 @@ struct InferredBoundary {
 /// A marking of status inferred through `points`, without an id.
 Marking inferred_marking(const Polyline& points);
 
-/// Bounds everything within `margin_m` of a line, on its level. It serves to exclude quickly what is further
-/// away.
-using Box = Eigen::AlignedBox3d;
-Box box_around(const Polyline& line, double margin_m = 0.0);
-
 /// The space that is taken by lanes: stretches along the sides of boundaries, and strips of the road.
 class TakenSpace {
  public:

@@ -58,6 +58,13 @@ Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
 
 }  // namespace
 
+Box box_around(const Polyline& line, double margin_m) {
+  const Point margin(margin_m, margin_m, geometry::kLevel_m);
+  Box box;
+  for (const Point& point : line) box.extend(point);
+  return {box.min() - margin, box.max() + margin};
+}
+
 std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m) {
   return static_cast<std::size_t>(std::ranges::count_if(line, [&](const Point& point) {
     const Projection foot = other.project(point, max_distance_m);

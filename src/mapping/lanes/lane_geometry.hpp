@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <compare>
 #include <cstddef>
 #include <optional>
@@ -12,6 +12,11 @@
 
 /// How a lane lies along its boundaries, and how it leads into another lane.
 namespace laneloom::lanes {
+
+/// Bounds everything within `margin_m` of a line, on its level. It serves to exclude quickly what is further
+/// away.
+using Box = Eigen::AlignedBox3d;
+Box box_around(const Polyline& line, double margin_m = 0.0);
 
 /// Number of points of `line` that lie beside `other`, nearer than `max_distance_m` and on its level.
 std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, double max_distance_m);

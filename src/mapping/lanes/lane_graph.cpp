@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mapping/geometry/levels.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
 
 namespace laneloom {
 namespace {
@@ -52,9 +53,7 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to) {
 }
 
 std::optional<Projection> foot_in(const Lane& lane, const Point& place) {
-  Eigen::AlignedBox2d bounds;
-  for (const Point& point : lane.centerline) bounds.extend(point.head<2>());
-  if (bounds.exteriorDistance(Eigen::Vector2d(place.head<2>())) > 0.5 * lane.width_m) return std::nullopt;
+  if (!lanes::box_around(lane.centerline, 0.5 * lane.width_m).contains(place)) return std::nullopt;
   const Projection foot = MeasuredPolyline(lane.centerline).project(place);
   const bool inside =
       foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::same_level(foot.foot, place);
