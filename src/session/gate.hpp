@@ -15,7 +15,8 @@ struct StreamPoint {
   std::int64_t stamp_ns = 0;       ///< sensor clock
   std::uint64_t session_id = 0;    ///< of the writer's run
   Point position = Point::Zero();  ///< of a pose, map frame; zero in a stream of detections
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< likewise
+  /// Of a pose, map frame; the identity in a stream of detections.
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
 /// Whether a point may follow another one of its stream, at most `max_step_s` later: in the same session, and
@@ -37,7 +38,7 @@ class Gate {
   };
 
   /// If `late_anew`, the stream also begins anew with late messages that follow one another for 0.2 s, with
-  /// no other message in between: the clock was set back.
+  /// no newer message in between: the clock was set back.
   explicit Gate(const GateConfig& config, bool late_anew = false) : config_(config), late_anew_(late_anew) {}
 
   Verdict check(const StreamPoint& point);

@@ -43,9 +43,9 @@ bool Outline::contains(const Point& point) const {
   return bounds_.contains(Eigen::Vector2d(point.head<2>())) && lines::contains(*polygon_, point);
 }
 
-View::View(const Eigen::Isometry3d& T_body_map_, const DetectionFrame& frame_, double news_)
-    : T_body_map(T_body_map_), frame(&frame_), news(news_), field_of_view_(frame_.field_of_view) {
-  for (const Polyline& area : frame_.occluded_areas) occluded_areas_.emplace_back(area);
+View::View(const Eigen::Isometry3d& transform, const DetectionFrame& of, double weight)
+    : T_body_map(transform), frame(&of), news(weight), field_of_view_(of.field_of_view) {
+  for (const Polyline& area : of.occluded_areas) occluded_areas_.emplace_back(area);
 }
 
 bool View::sees(const Point& point_map, MarkingType type, const geometry::MapBox& range) const {

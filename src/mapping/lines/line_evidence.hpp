@@ -28,8 +28,8 @@ class Outline {
 
 /// The view of a frame on the map.
 struct View {
-  /// The frame must outlive the view.
-  View(const Eigen::Isometry3d& T_body_map, const DetectionFrame& frame, double news = 1.0);
+  /// `transform` is T_body_map, and `weight` is the news. The frame must outlive the view.
+  View(const Eigen::Isometry3d& transform, const DetectionFrame& of, double weight = 1.0);
 
   Eigen::Isometry3d T_body_map;
   const DetectionFrame* frame;  ///< the frame that sees
@@ -67,7 +67,7 @@ void credit_observed(const View& view, const Association& association, const Fus
 void discount_unobserved(const View& view, const geometry::MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines);
 
-/// What prune_lines() did.
+/// The result of prune_lines().
 struct Pruned {
   std::vector<markings::Relative> pieces;  ///< each with the line that it was cut off from
   std::size_t forgotten = 0;               ///< lines beyond the limits
