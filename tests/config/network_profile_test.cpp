@@ -34,7 +34,7 @@ class NetworkProfileFile : public ::testing::Test {
 
 TEST_F(NetworkProfileFile, ReadsBackWhatItWrote) {
   const NetworkProfiles profiles{
-      {"front: camera", {{"pitch_gain", {0.875, 12.5}}, {"correlation_m", {7.5, 300}}}},
+      {"front: camera", {{"pitch_gain", {0.875, 12.5}}, {"alignment_gain", {0.25, 300}}}},
       {"", {{"stddev_at_8_m", {0.03125, 50}}}}};
   EXPECT_EQ(load(dump(profiles)), profiles);
 }

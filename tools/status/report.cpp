@@ -59,7 +59,6 @@ std::string learned_lines(const SourceStatus& source) {
   line("lateral deviation", " m at 8, 12, 18, 26, 36, 48 m",
        {"stddev_at_8_m", "stddev_at_12_m", "stddev_at_18_m", "stddev_at_26_m", "stddev_at_36_m",
         "stddev_at_48_m"});
-  line("errors last", " m", {"correlation_m"});
   line("believed of pitch, pose", " of what is suspected", {"pitch_gain", "alignment_gain"});
   for (const std::string type : {"laneline", "roadedge"})
     line((type + "s seen").c_str(), " of those there, 0, 10, 20, 30 m ahead",

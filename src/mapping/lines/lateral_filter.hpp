@@ -7,9 +7,8 @@ namespace laneloom::lines {
 
 /// One view of a place on a line.
 struct LateralView {
-  double lateral_m = 0.0;      ///< of the view, left of the place as it is known so far
-  double stddev_m = 0.0;       ///< of the view
-  double correlation_m = 1.0;  ///< distance driven over which the network's error changes
+  double lateral_m = 0.0;  ///< of the view, left of the place as it is known so far
+  double stddev_m = 0.0;   ///< of the view
   Eigen::Vector2d seen_from = Eigen::Vector2d::Zero();  ///< place of the vehicle, map frame
   std::int64_t stamp_ns = 0;                            ///< of the frame
 };

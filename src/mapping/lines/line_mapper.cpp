@@ -21,7 +21,6 @@ Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
   return {.T_map_body = observed.T_map_body,
           .stamp_ns = observed.frame.stamp_ns,
           .source = static_cast<std::uint32_t>(source),
-          .correlation_m = network.correlation_m(),
           .pitch_gain = network.pitch_gain(),
           .alignment_gain = network.alignment_gain()};
 }

@@ -11,13 +11,10 @@
 namespace laneloom::lines {
 namespace {
 
-constexpr double kMemory = 20000.0;    // views; those of neighbouring stations are nearly the same
-constexpr double kPriorViews = 50.0;   // weight of the configured deviation, in views
-constexpr double kPriorGain = 100.0;   // evidence that speaks against any suspicion, in squared deviations
-constexpr double kPriorPairs = 100.0;  // weight of the correlation below, in pairs
-constexpr double kPriorCorrelation_m = 10.0, kPriorDistance_m = 8.0;
+constexpr double kMemory = 20000.0;   // views; those of neighbouring stations are nearly the same
+constexpr double kPriorViews = 50.0;  // weight of the configured deviation, in views
+constexpr double kPriorGain = 100.0;  // evidence that speaks against any suspicion, in squared deviations
 constexpr double kMinStddev_m = 0.02, kMaxStddev_m = 1.0;
-constexpr double kMinCorrelation_m = 2.0, kMaxCorrelation_m = 15.0;
 constexpr double kOutlier = 3.0;  // deviations; a larger error counts as this
 
 /// A range between two nodes: the nearer node, and the share of the way to the next one.
@@ -33,8 +30,7 @@ Between between(double range_m) {
   return {node, std::clamp((range_m - nodes_m[node]) / (nodes_m[node + 1] - nodes_m[node]), 0.0, 1.0)};
 }
 
-constexpr const char *kCorrelation = "correlation_m", *kPitchGain = "pitch_gain",
-                     *kAlignmentGain = "alignment_gain";
+constexpr const char *kPitchGain = "pitch_gain", *kAlignmentGain = "alignment_gain";
 
 std::string stddev_name(double range_m) { return "stddev_at_" + std::to_string(std::lround(range_m)) + "_m"; }
 
@@ -65,12 +61,6 @@ NetworkModel::NetworkModel(const FusionConfig& config, const NetworkProfile& pro
     views_[i] = views;
     squares_m2_[i] = views * stddev_m * stddev_m;
   }
-  const auto [correlation_m, pairs] = known(kCorrelation, {kPriorCorrelation_m, kPriorPairs});
-  pairs_ = pairs;
-  products_ = pairs * kShared *
-              geometry::reproducible::exp(-kPriorDistance_m /
-                                          std::clamp(correlation_m, kMinCorrelation_m, kMaxCorrelation_m));
-  distances_m_ = pairs * kPriorDistance_m;
   pitch_.start_with(known(kPitchGain, {}));
   alignment_.start_with(known(kAlignmentGain, {}));
 }
@@ -82,21 +72,11 @@ double NetworkModel::stddev_m(double range_m) const {
   return std::clamp(std::sqrt(here_m2), kMinStddev_m, kMaxStddev_m);
 }
 
-double NetworkModel::correlation_m() const {
-  const double correlation = std::clamp(products_ / pairs_ / kShared, 0.01, 0.99);
-  return std::clamp(-distances_m_ / pairs_ / geometry::reproducible::log(correlation), kMinCorrelation_m,
-                    kMaxCorrelation_m);
-}
-
-double NetworkModel::error_m(const FarView& view, double near_m) const {
-  const double limit_m = kOutlier * stddev_m(view.range_m);
-  return std::clamp(
+void NetworkModel::learn(const FarView& view, double near_m) {
+  const double stddev_m = this->stddev_m(view.range_m), limit_m = kOutlier * stddev_m;
+  const double error_m = std::clamp(
       view.lateral_m - near_m - pitch_gain() * view.stretched_m - alignment_gain() * view.misplaced_m,
       -limit_m, limit_m);
-}
-
-void NetworkModel::learn(const FarView& view, double near_m) {
-  const double stddev_m = this->stddev_m(view.range_m), error_m = this->error_m(view, near_m);
   // Each gain learns from the error that the other one leaves.
   const double stretched = view.stretched_m / stddev_m, misplaced = view.misplaced_m / stddev_m;
   const double left = error_m / stddev_m;
@@ -109,16 +89,8 @@ void NetworkModel::learn(const FarView& view, double near_m) {
   }
 }
 
-void NetworkModel::learn(const FarView& one, const FarView& other, double near_m) {
-  add(1.0, pairs_);
-  add(error_m(one, near_m) / stddev_m(one.range_m) * error_m(other, near_m) / stddev_m(other.range_m),
-      products_);
-  add(std::abs(one.range_m - other.range_m), distances_m_);
-}
-
 NetworkProfile NetworkModel::profile() const {
-  NetworkProfile profile{{kCorrelation, {correlation_m(), pairs_}},
-                         {kPitchGain, {pitch_gain(), pitch_.evidence()}},
+  NetworkProfile profile{{kPitchGain, {pitch_gain(), pitch_.evidence()}},
                          {kAlignmentGain, {alignment_gain(), alignment_.evidence()}}};
   for (std::size_t i = 0; i < kNodes_m.size(); ++i)
     profile[stddev_name(kNodes_m[i])] = {stddev_m(kNodes_m[i]), views_[i]};

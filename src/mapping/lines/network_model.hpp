@@ -48,12 +48,9 @@ class Gain {
 
 /// Learns how one network errs in the lateral place of lines. Every place that is seen from far is seen again
 /// from near, which tells how wrong the far view was. From that it learns the standard deviation by range,
-/// the distance driven over which an error changes, and how much is true of the pitch and the pose errors
-/// that are suspected of whole frames.
+/// and how much is true of the pitch and the pose errors that are suspected of whole frames.
 class NetworkModel {
  public:
-  /// Share of a view's variance that fades with the distance driven; the rest is new in every frame.
-  static constexpr double kShared = 0.9;
   /// Ranges at which the standard deviation is learned.
   static constexpr std::array<double, 6> kNodes_m{8.0, 12.0, 18.0, 26.0, 36.0, 48.0};
 
@@ -63,8 +60,6 @@ class NetworkModel {
 
   /// Lateral standard deviation of a sample that is seen from `range_m` away.
   double stddev_m(double range_m) const;
-  /// Distance driven over which the correlation of the errors falls to 1/e.
-  double correlation_m() const;
   /// Share of a frame's suspected pitch that is to be taken out, 0..1.
   double pitch_gain() const { return pitch_.value(); }
   /// Share of a frame's suspected pose error that is to be taken out, 0..1.
@@ -73,24 +68,18 @@ class NetworkModel {
   /// Learns from a view whose place has proved, from near, to lie at `near_m`, in the terms of
   /// FarView::lateral_m.
   void learn(const FarView& view, double near_m);
-  /// Learns likewise from two views of a place, at ranges that follow one another.
-  void learn(const FarView& one, const FarView& other, double near_m);
 
   /// The values that were learned, in the form that the constructor takes.
   NetworkProfile profile() const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(views_, squares_m2_, pairs_, products_, distances_m_, pitch_, alignment_);
+    archive(views_, squares_m2_, pitch_, alignment_);
   }
 
  private:
-  double error_m(const FarView& view, double near_m) const;
-
   // Sums over views; older views count less.
   std::array<double, kNodes_m.size()> views_{}, squares_m2_{};  ///< at each range
-  double pairs_ = 0.0, products_ = 0.0,
-         distances_m_ = 0.0;  ///< of errors in deviations, and between the views
   Gain pitch_, alignment_;
 };
 

@@ -46,7 +46,6 @@ Station new_station(const Point& position, const Viewpoint& from, const SampledD
 void observe(const Observation& seen, const Viewpoint& from, Station& station) {
   const double step_m = station.lateral.update({.lateral_m = seen.lateral_m,
                                                 .stddev_m = seen.stddev_m,
-                                                .correlation_m = from.correlation_m,
                                                 .seen_from = from.T_map_body.translation().head<2>(),
                                                 .stamp_ns = from.stamp_ns});
   station.moved_m += step_m;
@@ -69,12 +68,8 @@ void learn(const Observation& seen, const Viewpoint& from, Station& station, Net
     if (view.source == FarView::kNone) view = {from.source, range_m, said_m, stretched_m, misplaced_m};
     return;
   }
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (views[i].source == FarView::kNone) continue;
-    NetworkModel& network = networks[views[i].source].lateral;
-    if (i > 0 && views[i - 1].source == views[i].source) network.learn(views[i - 1], views[i], said_m);
-    network.learn(views[i], said_m);
-  }
+  for (const FarView& view : views)
+    if (view.source != FarView::kNone) networks[view.source].lateral.learn(view, said_m);
   views.fill({});
 }
 

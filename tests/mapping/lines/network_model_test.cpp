@@ -29,7 +29,6 @@ TEST_F(LateralModel, IsAsConfiguredAtFirst) {
   EXPECT_EQ(network_.stddev_m(0.0), network_.stddev_m(8.0));
   EXPECT_EQ(network_.stddev_m(90.0), network_.stddev_m(48.0));
   EXPECT_EQ(network_.pitch_gain(), 0.0);
-  EXPECT_NEAR(network_.correlation_m(), 10.0, 1e-9);
 }
 
 TEST_F(LateralModel, LearnsItsDeviationByRange) {
@@ -79,22 +78,9 @@ TEST_F(LateralModel, ThePoseIsBelievedAsFarAsItComesTrueBesideThePitch) {
   EXPECT_NEAR(network_.alignment_gain(), 0.5, 0.06);
 }
 
-TEST_F(LateralModel, LearnsHowLongItsErrorsLast) {
-  const double correlation_m = 14.0, distance_m = 8.0;
-  const double fading = NetworkModel::kShared * std::exp(-distance_m / correlation_m);
-  for (int i = 0; i < 20000; ++i) {
-    const double here = random(), there = fading * here + std::sqrt(1.0 - fading * fading) * random();
-    const FarView one = view(18.0, 0.05 * here), other = view(18.0 + distance_m, 0.08 * there);
-    network_.learn(one, other, 0.0);
-    network_.learn(one, 0.0);
-    network_.learn(other, 0.0);
-  }
-  EXPECT_NEAR(network_.correlation_m(), correlation_m, 2.0);
-}
-
 TEST_F(LateralModel, ShowsWhatItLearned) {
   const NetworkProfile profile = network_.profile();
-  EXPECT_EQ(profile.size(), NetworkModel::kNodes_m.size() + 3);
+  EXPECT_EQ(profile.size(), NetworkModel::kNodes_m.size() + 2);
   EXPECT_NEAR(profile.at("stddev_at_8_m").value, network_.stddev_m(8.0), 1e-12);
   EXPECT_EQ(profile.at("alignment_gain"), LearnedValue{});
 }

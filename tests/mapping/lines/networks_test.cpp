@@ -41,14 +41,12 @@ TEST(Networks, TheOneThatWasNotHeardOfForLongestIsForgotten) {
 TEST(Networks, StartsWithWhatTheProfileOfASourceKnows) {
   MapperConfig config;
   config.networks["front"] = {{"stddev_at_26_m", {0.4, 1000}},
-                              {"correlation_m", {5.0, 500}},
                               {"pitch_gain", {0.8, 900}},
                               {"rate_roadedge_behind_10_m", {0.5, 700}},
                               {"confidence_deficit_laneline", {0.25, 60}}};
   Networks networks;
   const Network front = networks[networks.number("front", 1, config)];
   EXPECT_NEAR(front.lateral.stddev_m(26.0), 0.4, 1e-12);
-  EXPECT_NEAR(front.lateral.correlation_m(), 5.0, 1e-9);
   EXPECT_NEAR(front.lateral.pitch_gain(), 0.8, 1e-12);
   EXPECT_EQ(front.detection.rate(MarkingType::roadedge, {-15, 0, 0}), 0.5);
   EXPECT_EQ(front.lateral.stddev_m(8.0), NetworkModel(config.fusion).stddev_m(8.0)) << "not in the profile";

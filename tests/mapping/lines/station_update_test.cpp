@@ -17,7 +17,6 @@ class StationUpdate : public ::testing::Test {
   void see(double range_m, double lateral_m, double stretch_per_m = 0.0, double pitch_gain = 0.0) {
     const Viewpoint from{.T_map_body = test::at(-range_m),
                          .source = 0,
-                         .correlation_m = 10.0,
                          .stretch_per_m = stretch_per_m,
                          .pitch_gain = pitch_gain};
     const Observation seen{.lateral_m = lateral_m - station_.position.y(), .height_m = 0.0, .stddev_m = 0.1};
