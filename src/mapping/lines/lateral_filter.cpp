@@ -9,7 +9,7 @@ namespace laneloom::lines {
 namespace {
 
 constexpr double kShared = 0.9;  // of a view's variance fades with the distance driven; the rest is new
-constexpr double kCorrelation_m = 5.0;      // distance driven over which that correlation falls to 1/e
+constexpr double kCorrelation_m = 5.0;      // distance driven over which that share falls to 1/e
 constexpr double kPassing_m_per_ns = 6e-9;  // errors change with time as if no vehicle drove below 6 m/s
 constexpr double kDrift_m2_per_m = 1.5e-3;  // of the poses: 0.12 m after 10 m; what is seen last decides
 

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "mapping/geometry/reproducible.hpp"
-
 namespace laneloom::lines {
 namespace {
 
