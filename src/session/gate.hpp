@@ -12,10 +12,11 @@ namespace laneloom::session {
 
 /// A message's place in its stream.
 struct StreamPoint {
-  std::int64_t stamp_ns = 0;       ///< sensor clock
-  std::uint64_t session_id = 0;    ///< of the writer's run
-  Point position = Point::Zero();  ///< of a pose, map frame; zero in a stream of detections
-  /// Of a pose, map frame; the identity in a stream of detections.
+  std::int64_t stamp_ns = 0;     ///< sensor clock
+  std::uint64_t session_id = 0;  ///< of the writer's run
+  /// The pose's position in the map frame. A stream of detections has zero here.
+  Point position = Point::Zero();
+  /// The pose's orientation in the map frame. A stream of detections has the identity here.
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
