@@ -7,8 +7,8 @@
 
 namespace laneloom::lanes {
 
-/// Finds the lanes of a road: lanes between boundaries (paper, Sec. III-D-3) without the shoulders, and
-/// inferred lanes on roads without lines and beside single lines.
+/// Finds the lanes of a road: lanes between boundaries (paper, Sec. III-D-3) without the shoulders,
+/// cut at forks, and inferred lanes on roads without lines and beside single lines.
 FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::Scene& scene, const LaneConfig& config);
 
 }  // namespace laneloom::lanes

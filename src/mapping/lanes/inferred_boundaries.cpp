@@ -6,6 +6,14 @@
 #include "mapping/geometry/levels.hpp"
 
 namespace laneloom::lanes {
+
+std::vector<Marking*> markings_of(std::vector<InferredBoundary>& inferred) {
+  std::vector<Marking*> markings;
+  markings.reserve(inferred.size());
+  for (InferredBoundary& one : inferred) markings.push_back(&one.marking);
+  return markings;
+}
+
 Marking inferred_marking(const Polyline& points) {
   return {.status = ElementStatus::inferred,
           .points = points,
@@ -36,7 +44,7 @@ bool TakenSpace::contains(const Point& point) const {
 
 LaneLayout laid_out(FoundLanes found) {
   const Occupied nothing;
-  LaneLayout layout{.boundaries = {}, .lanes = std::move(found.lanes)};
+  LaneLayout layout{.boundaries = {}, .lanes = std::move(found.lanes), .forks = std::move(found.forks)};
   std::vector<boundaries::LaneBoundary> added;
   for (InferredBoundary& one : found.inferred) {
     added.push_back({.marking = one.marking, .members = {one.marking.id}, .two_way = one.two_way});

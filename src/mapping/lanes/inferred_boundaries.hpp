@@ -33,6 +33,9 @@ struct InferredBoundary {
   std::uint32_t section = 0;                ///< index of the road section
 };
 
+/// The markings of inferred boundaries.
+std::vector<Marking*> markings_of(std::vector<InferredBoundary>& inferred);
+
 /// A marking of status inferred through `points`, without an id.
 Marking inferred_marking(const Polyline& points);
 
@@ -62,6 +65,7 @@ struct FoundLanes {
   boundaries::Boundaries boundaries;
   std::vector<Lane> lanes;
   std::vector<InferredBoundary> inferred;
+  std::vector<Fork> forks{};
 };
 
 /// Adds the inferred boundaries to the boundaries, and the lanes beside them to the lanes. The inferred

@@ -51,12 +51,14 @@ geometry::OrientedGroups group(const RoadGraph& road) {
   };
   geometry::OrientedGroups groups(lanes.size());
   std::map<ElementId, std::size_t> index;
-  std::map<lanes::BoundarySide, First> beside;
+  std::map<std::pair<lanes::BoundarySide, std::size_t>, First> beside;  // by stretches between forks
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     index.emplace(lanes[i].id, i);
     for (const Side one : kSides) {
       const lanes::LaneSide side = lanes::lane_side(lanes[i], one);
-      const First& first = beside.emplace(side.of, First{i, side.reversed}).first->second;
+      const First& first =
+          beside.emplace(std::pair(side.of, lanes::forks_before(side, road.forks)), First{i, side.reversed})
+              .first->second;
       groups.join(first.lane, i, side.reversed != first.reversed);
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -12,6 +13,11 @@
 
 namespace laneloom::topology {
 namespace {
+
+constexpr double kOnTip_m = 0.5;          // before a tip, where a branch may begin
+constexpr double kMaxBranchGap_m = 45.0;  // from a tip to its branch
+constexpr double kMaxStemGap_m = 5.0;     // from a tip to the end of its stem
+constexpr double kForkConfidence = 0.75;
 
 /// The gap from the end of one lane to the start of another, along the boundary that both lie beside. Empty:
 /// they share no boundary, or `to` does not follow.
@@ -54,8 +60,10 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
   double next_gap_m = std::numeric_limits<double>::infinity();
   for (const Lane& to : layout.lanes) {
     if (to.id == from.id) continue;
-    const auto gap_m = shared_gap(begun, lanes::lane_side(to, side), config.max_shared_gap_m);
+    const lanes::LaneSide continued = lanes::lane_side(to, side);
+    const auto gap_m = shared_gap(begun, continued, config.max_shared_gap_m);
     if (!gap_m || *gap_m >= next_gap_m) continue;
+    if (lanes::forks_before(begun, layout.forks) != lanes::forks_before(continued, layout.forks)) continue;
     next = &to;
     next_gap_m = *gap_m;
   }
@@ -69,6 +77,49 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
     linkage.path = path_along(layout.boundaries.of(begun.of.boundary).course, begun.end_m(),
                               lanes::lane_side(*next, side).begin_m(), from, *next);
   return linkage;
+}
+
+/// The lane on a side of a boundary that ends (or begins) nearest to a place ahead, as the lanes run. Null:
+/// none does within `max_m`.
+template <class Ahead>
+const Lane* nearest_ahead(const lanes::BoundarySide& of, double max_m, const lanes::LaneLayout& layout,
+                          Ahead ahead_m) {
+  const Lane* nearest = nullptr;
+  for (const Lane& lane : layout.lanes) {
+    for (const Side side : kSides) {
+      const lanes::LaneSide along = lanes::lane_side(lane, side);
+      if (along.of != of) continue;
+      const double distance_m = ahead_m(along);
+      if (distance_m < -kOnTip_m || distance_m > max_m) continue;
+      nearest = &lane;
+      max_m = distance_m;
+    }
+  }
+  return nearest;
+}
+
+/// The linkage between the stem and the branch of a fork. Empty: no stem ends there, because it was too short
+/// to be cut, or the branch is gone.
+std::optional<Linkage> link_at(const lanes::Fork& fork, const lanes::LaneLayout& layout) {
+  const bool opens = fork.end == End::front;
+  const double sense = opens != fork.reversed ? 1.0 : -1.0;  // from the tip into the branch
+  const Lane* branch = nearest_ahead(fork.branch, kMaxBranchGap_m, layout, [&](const lanes::LaneSide& along) {
+    return along.reversed != fork.reversed ? std::numeric_limits<double>::infinity()
+                                           : sense * ((opens ? along.begin_m() : along.end_m()) - fork.arc_m);
+  });
+  const Lane* stem =
+      nearest_ahead(fork.branch.other(), kMaxStemGap_m, layout, [&](const lanes::LaneSide& along) {
+        return along.reversed != fork.reversed
+                   ? std::numeric_limits<double>::infinity()
+                   : std::abs((opens ? along.end_m() : along.begin_m()) - fork.arc_m);
+      });
+  if (stem == nullptr || branch == nullptr) return std::nullopt;
+  const Lane &from = opens ? *stem : *branch, &to = opens ? *branch : *stem;
+  return Linkage{.from = from.id,
+                 .to = to.id,
+                 .kind = Linkage::Kind::shared_boundary,
+                 .confidence = kForkConfidence,
+                 .path = lanes::path_ahead(from, to)};
 }
 
 /// The confidence that `to` continues `from`, by the alignment of their centerlines. Empty: it does not.
@@ -102,6 +153,8 @@ RoadGraph link_lanes(lanes::LaneLayout layout, const LinkageConfig& config) {
                           .path = lanes::path_ahead(from, to)});
     }
   }
+  for (const lanes::Fork& fork : road.forks)
+    if (auto linkage = link_at(fork, road)) linkages.push_back(std::move(*linkage));
   road.sort_linkages();
   const auto same = [](const Linkage& a, const Linkage& b) { return a.from == b.from && a.to == b.to; };
   linkages.erase(std::unique(linkages.begin(), linkages.end(), same), linkages.end());
