@@ -6,6 +6,7 @@
 #include "mapping/boundaries/lane_boundaries.hpp"
 #include "mapping/boundaries/road_sections.hpp"
 #include "mapping/geometry/scene.hpp"
+#include "mapping/lanes/continued_edges.hpp"
 #include "mapping/lanes/find_lanes.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/markings/preprocess.hpp"
@@ -78,6 +79,9 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   boundaries::Boundaries boundaries =
       log.done(Stage::lane_boundaries,  // III-D-1
                boundaries::lane_boundaries(fused.markings, fused.joints, config_.boundary));
+  boundaries.insert(
+      state.lane_memory.recognise(lanes::continued_edges(boundaries, scene.box, config_.lane),  // ours
+                                  scene, config_.lane, state.ids));
   boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config_.section));  // III-D-2

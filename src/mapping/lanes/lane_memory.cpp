@@ -47,18 +47,19 @@ bool covers_enough(std::size_t covered, const Polyline& one, const Polyline& oth
   return 2 * covered >= std::min(one.size(), other.size());
 }
 
-Recognition recognised(const std::vector<InferredBoundary>& inferred,
-                       const std::vector<KnownInferred>& known) {
+Recognition recognised(const std::vector<Marking*>& inferred, const std::vector<KnownInferred>& known,
+                       std::uint64_t frame) {
   std::vector<Box> boxes;
   boxes.reserve(inferred.size());
-  for (const InferredBoundary& one : inferred) boxes.push_back(box_around(one.marking.points));
+  for (const Marking* one : inferred) boxes.push_back(box_around(one->points));
   std::vector<Cover> covers;
   for (std::size_t k = 0; k < known.size(); ++k) {
+    if (known[k].last_frame == frame) continue;  // it has been recognised already
     const MeasuredPolyline line(known[k].points);
     const Box near = box_around(known[k].points, kSameInferred_m);
     for (std::size_t i = 0; i < inferred.size(); ++i) {
       if (!near.intersects(boxes[i])) continue;
-      const Polyline& points = inferred[i].marking.points;
+      const Polyline& points = inferred[i]->points;
       const std::size_t covered = points_beside(points, line, kSameInferred_m);
       if (covers_enough(covered, points, known[k].points)) covers.push_back({covered, i, k});
     }
@@ -119,14 +120,14 @@ bool is_expired(std::uint64_t last_frame, const geometry::Scene& scene, const La
 
 }  // namespace
 
-void LaneMemory::identify(std::vector<InferredBoundary>& inferred, const geometry::Scene& scene,
+void LaneMemory::identify(const std::vector<Marking*>& inferred, const geometry::Scene& scene,
                           const LaneConfig& config, markings::IdSource& ids) {
-  const Recognition recognition = recognised(inferred, inferred_);
+  const Recognition recognition = recognised(inferred, inferred_, scene.frame);
   for (std::size_t i = 0; i < inferred.size(); ++i) {
     const auto same = recognition.known_of(i);
     if (!same) inferred_.push_back({.id = ids.next(), .first_seen_ns = scene.stamp_ns, .points = {}});
     KnownInferred& known = same ? inferred_[*same] : inferred_.back();
-    Marking& marking = inferred[i].marking;
+    Marking& marking = *inferred[i];
     marking.id = known.id;
     marking.first_seen_ns = known.first_seen_ns;
     known.points = marking.points;
@@ -166,11 +167,28 @@ void LaneMemory::identify(std::vector<Lane>& lanes, const geometry::Scene& scene
 
 LaneLayout LaneMemory::recognise(FoundLanes found, const geometry::Scene& scene, const LaneConfig& config,
                                  markings::IdSource& ids) {
-  identify(found.inferred, scene, config, ids);
+  identify(markings_of(found.inferred), scene, config, ids);
   LaneLayout layout = laid_out(std::move(found));
   identify(layout.lanes, scene, config, ids);
   find_neighbours(layout);
   return layout;
+}
+
+std::vector<boundaries::LaneBoundary> LaneMemory::recognise(std::vector<Marking> inferred,
+                                                            const geometry::Scene& scene,
+                                                            const LaneConfig& config,
+                                                            markings::IdSource& ids) {
+  std::vector<Marking*> markings;
+  markings.reserve(inferred.size());
+  for (Marking& marking : inferred) markings.push_back(&marking);
+  identify(markings, scene, config, ids);
+  std::vector<boundaries::LaneBoundary> result;
+  for (Marking& marking : inferred) {
+    const ElementId id = marking.id;
+    const Stretch whole{0.0, length(marking.points)};
+    result.push_back({.marking = std::move(marking), .members = {id}, .bridged = {whole}});
+  }
+  return result;
 }
 
 const KnownLane* LaneMemory::find(ElementId lane) const {

@@ -52,9 +52,14 @@ class LaneMemory {
   LaneLayout recognise(FoundLanes found, const geometry::Scene& scene, const LaneConfig& config,
                        markings::IdSource& ids);
 
-  /// Gives every inferred boundary the id of the known boundary that it covers most of, or else a new id.
-  void identify(std::vector<InferredBoundary>& inferred, const geometry::Scene& scene,
-                const LaneConfig& config, markings::IdSource& ids);
+  /// Gives inferred markings their ids, and makes boundaries of them that lanes can lie beside.
+  std::vector<boundaries::LaneBoundary> recognise(std::vector<Marking> inferred, const geometry::Scene& scene,
+                                                  const LaneConfig& config, markings::IdSource& ids);
+
+  /// Gives every inferred boundary the id of the known boundary that it covers most of, or else a new id. A
+  /// known boundary that was recognised in the same frame is left out.
+  void identify(const std::vector<Marking*>& inferred, const geometry::Scene& scene, const LaneConfig& config,
+                markings::IdSource& ids);
   /// Gives every lane the id of the known lane that it covers most of, or else a new id. Known lanes between
   /// the same boundaries come first. The known lane takes over the lane's present shape. Sorts the lanes by
   /// their ids.

@@ -82,7 +82,7 @@ class Divisions {
 
   void add(const boundaries::BoundaryPair& pair) {
     if ((!pair.left_kerb && !pair.right_kerb) || pair.crosses_kerb) return;
-    if (!boundaries_[pair.left].is_confirmed() || !boundaries_[pair.right].is_confirmed()) return;
+    if (boundaries_[pair.left].is_tentative() || boundaries_[pair.right].is_tentative()) return;
     Occupied& left_taken = taken_.beside({boundaries_[pair.left].marking.id, pair.inner(Side::left)});
     Occupied& right_taken = taken_.beside({boundaries_[pair.right].marking.id, pair.inner(Side::right)});
     const LaneBorder left(boundaries_[pair.left], pair.left_reversed, left_taken);

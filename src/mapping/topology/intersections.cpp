@@ -60,14 +60,27 @@ std::optional<double> turn_misfit(const Lane& from, const Lane& to, const Linkag
   return longer_m / config.max_turn_gap_m;
 }
 
+/// Whether a boundary is an edge that was continued where it is not seen. A street may begin there.
+bool is_unseen_edge(const boundaries::LaneBoundary& boundary) {
+  return boundary.is_edge() && boundary.is_inferred();
+}
+
 /// The turns by which lanes are left and entered already.
 class Taken {
  public:
-  /// `linkages` are those that follow from markings.
-  explicit Taken(const std::vector<Linkage>& linkages) {
-    for (const Linkage& linkage : linkages) {
+  /// The linkages of `road` are those that follow from markings.
+  explicit Taken(const RoadGraph& road) {
+    const auto beside_unseen_edge = [&](ElementId id) {
+      const Lane& lane = road.lane(id);
+      return std::ranges::any_of(road.boundaries, [&](const boundaries::LaneBoundary& boundary) {
+        const ElementId of = boundary.marking.id;
+        return is_unseen_edge(boundary) && (of == lane.left_boundary || of == lane.right_boundary);
+      });
+    };
+    for (const Linkage& linkage : road.linkages) {
       take(linkage.from, linkage.to, linkage.turn);
       if (linkage.turn != Turn::straight) continue;
+      if (beside_unseen_edge(linkage.from) || beside_unseen_edge(linkage.to)) continue;
       // Where markings lead straight on, there is no intersection.
       for (const Turn side : {Turn::left, Turn::right, Turn::u_turn}) take(linkage.from, linkage.to, side);
     }
@@ -146,7 +159,8 @@ std::vector<Crossing> possible_crossings(const RoadGraph& road, const SdMap& sd_
 
 bool crosses_edge(const Polyline& path, const boundaries::Boundaries& boundaries) {
   return std::ranges::any_of(boundaries, [&](const boundaries::LaneBoundary& boundary) {
-    return boundary.is_edge() && intersect(path, boundary.marking.points, geometry::kLevel_m);
+    return boundary.is_edge() && !is_unseen_edge(boundary) &&
+           intersect(path, boundary.marking.points, geometry::kLevel_m);
   });
 }
 
@@ -214,7 +228,7 @@ void turn_unknown_ahead(const LinkageConfig& config, RoadGraph& road) {
 
 void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config, RoadGraph& road) {
   turn_unknown_ahead(config, road);
-  Taken taken(road.linkages);
+  Taken taken(road);
   const auto link = [&](const Crossing& crossing) {
     Lane &from = road.lanes[crossing.from], &to = road.lanes[crossing.to];
     if (taken.contains(from.id, to.id, crossing.turn)) return;

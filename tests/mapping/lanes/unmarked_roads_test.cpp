@@ -35,7 +35,7 @@ class Dividers : public ::testing::Test {
   }
 
   void lay_out(FoundLanes found) {
-    memory_.identify(found.inferred, test::scene(frame_), config_, ids_);
+    memory_.identify(markings_of(found.inferred), test::scene(frame_), config_, ids_);
     LaneLayout layout = laid_out(std::move(found));
     boundaries_ = std::move(layout.boundaries);
     lanes_ = std::move(layout.lanes);

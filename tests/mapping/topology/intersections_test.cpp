@@ -11,8 +11,10 @@ namespace {
 
 using test::lane;
 using test::straight;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using Direction = Lane::Direction;
 using Pair = std::pair<ElementId, ElementId>;
 
@@ -277,6 +279,18 @@ TEST(Crossings, ALaneOfUnknownDirectionStandsBetweenOnlyAcrossDashes) {
   EXPECT_FALSE(turns_past(Direction::along_centerline, MarkingStyle::solid));
 }
 
+TEST(Crossings, TurnsArePossibleWhereAnEdgeIsOnlyContinued) {
+  std::vector<Lane> lanes = crossroads();
+  lanes.front().right_boundary = 50;
+  const std::vector<Linkage> straight_on{{.from = 1, .to = 13}};
+  std::vector<boundaries::LaneBoundary> edge{
+      test::boundary(50, straight({-25, -4, 0}, {-10, -4, 0}), MarkingType::roadedge)};
+  EXPECT_THAT(pairs_of(crossings(lanes, straight_on, {}, edge), Linkage::Turn::right),
+              Not(Contains(Pair(1, 12))));
+  edge.front().marking.status = ElementStatus::inferred;
+  EXPECT_THAT(pairs_of(crossings(lanes, straight_on, {}, edge), Linkage::Turn::right), Contains(Pair(1, 12)));
+}
+
 TEST(Crossings, NoWayLeadsOverAnEdge) {
   const std::vector<boundaries::LaneBoundary> corner{
       test::boundary(50, test::arc({-10, -10, 0}, 7.0, 0, 90), MarkingType::roadedge)};
@@ -285,10 +299,13 @@ TEST(Crossings, NoWayLeadsOverAnEdge) {
   const std::vector<boundaries::LaneBoundary> flyover{
       test::boundary(50, straight({-9, -9, 6}, {0, 0, 6}), MarkingType::roadedge)};
   EXPECT_EQ(crossings(crossroads(), {}, {}, flyover).size(), crossings(crossroads()).size());
-  const std::vector<boundaries::LaneBoundary> island{
+  std::vector<boundaries::LaneBoundary> island{
       test::boundary(50, straight({-9, -9, 0}, {0, 0, 0}), MarkingType::roadedge)};
   EXPECT_THAT(pairs_of(crossings(crossroads(), {}, {}, island), Linkage::Turn::right),
               ElementsAre(Pair(2, 13), Pair(3, 14), Pair(4, 11)));
+  // One that nobody saw may be the mouth of a street.
+  island.front().marking.status = ElementStatus::inferred;
+  EXPECT_EQ(crossings(crossroads(), {}, {}, island).size(), crossings(crossroads()).size());
 }
 
 TEST(Crossings, NoTurnIsTooTightOrTooWide) {
