@@ -45,6 +45,9 @@ class MeasuredPolyline {
   Eigen::Vector2d direction(double arc_m) const;
   /// The horizontal unit direction at a foot on this line. Needs no search.
   Eigen::Vector2d direction(const Projection& foot) const;
+  /// Horizontal unit direction from the point at one arc length to that at another, both clamped to the line;
+  /// zero where they are one point.
+  Eigen::Vector2d chord(double from_m, double to_m) const;
   /// The nearest foot of `point`; the first one where several are equally near. Where no foot is as near as
   /// `within_m`, the result has an infinite `distance_m` and is not `inside`.
   Projection project(const Point& point, double within_m = std::numeric_limits<double>::infinity()) const;

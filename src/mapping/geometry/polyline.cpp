@@ -95,6 +95,10 @@ Eigen::Vector2d MeasuredPolyline::direction(double arc_m) const {
   return segment_direction(i);
 }
 
+Eigen::Vector2d MeasuredPolyline::chord(double from_m, double to_m) const {
+  return (at(to_m) - at(from_m)).head<2>().normalized();
+}
+
 Eigen::Vector2d MeasuredPolyline::direction(const Projection& foot) const {
   if (points_.size() < 2) return Eigen::Vector2d::Zero();
   std::size_t i = foot.segment + 1;

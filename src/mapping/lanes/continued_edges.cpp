@@ -88,8 +88,7 @@ class EdgeContinuation {
       const double arc_m = across.arc_m + across.sense * ahead_m;
       if (arc_m < 0.0 || arc_m > course.length() || turns_off(course, arc_m)) break;
       const Point from = course.at(arc_m);
-      const Eigen::Vector2d along =
-          (course.at(arc_m + kHeading_m) - course.at(arc_m - kHeading_m)).head<2>().normalized();
+      const Eigen::Vector2d along = course.chord(arc_m - kHeading_m, arc_m + kHeading_m);
       Point place = geometry::beside(from, along, across.lateral_m);
       place.z() += across.height_m;
       const std::size_t itself = ahead_m < kBesideEnd_m ? edge : across.edge;
@@ -110,9 +109,10 @@ class EdgeContinuation {
   }
 
   static bool turns_off(const MeasuredPolyline& course, double arc_m) {
-    const Eigen::Vector2d before = (course.at(arc_m) - course.at(arc_m - kHeading_m)).head<2>().normalized();
-    const Eigen::Vector2d behind = (course.at(arc_m + kHeading_m) - course.at(arc_m)).head<2>().normalized();
-    return before.norm() > 0.0 && behind.norm() > 0.0 && before.dot(behind) < cos_degrees(kMaxBend_deg);
+    const Eigen::Vector2d before = course.chord(arc_m - kHeading_m, arc_m);
+    const Eigen::Vector2d behind = course.chord(arc_m, arc_m + kHeading_m);
+    const bool at_end = before.isZero() || behind.isZero();
+    return !at_end && before.dot(behind) < cos_degrees(kMaxBend_deg);
   }
 
   /// Whether nothing but the two edges lies between two places on them, or close behind.

@@ -88,9 +88,8 @@ class Opening {
   }
   /// The direction ahead of a border that ends at a distance before the tip.
   Eigen::Vector2d chord_before(Side side, double distance_m) const {
-    const MeasuredPolyline& line = border(side).line();
     const double to_m = ahead(at_tip(side), -distance_m);
-    return (line.at(to_m) - line.at(ahead(to_m, -kChord_m))).head<2>().normalized();
+    return border(side).line().chord(ahead(to_m, -kChord_m), to_m);
   }
   /// By how much a border turns aside from the course before the tip, away from the lane, until it is beside
   /// the lane.

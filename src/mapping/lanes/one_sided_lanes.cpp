@@ -43,8 +43,7 @@ std::vector<CrossSection> strip_beside(const MeasuredPolyline& line, const OpenS
   for (const Point& point : points) {
     const double arc_m =
         line.length() * static_cast<double>(strip.size()) / static_cast<double>(points.size() - 1);
-    const Eigen::Vector2d along =
-        (line.at(arc_m + kChord_m) - line.at(arc_m - kChord_m)).head<2>().normalized();
+    const Eigen::Vector2d along = line.chord(arc_m - kChord_m, arc_m + kChord_m);
     const Point border = geometry::beside(point, along, side.is_left() ? width_m : -width_m);
     CrossSection section{.left_arc_m = arc_m,
                          .right_arc_m = arc_m,

@@ -41,10 +41,7 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
   for (int i = 1; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     const double arc_m = from_m + share * (to_m - from_m);
-    const Eigen::Vector2d along =
-        (boundary.at(arc_m + lanes::kPathStep_m) - boundary.at(arc_m - lanes::kPathStep_m))
-            .head<2>()
-            .normalized();
+    const Eigen::Vector2d along = boundary.chord(arc_m - lanes::kPathStep_m, arc_m + lanes::kPathStep_m);
     const double lateral_m = start_m + share * (end_m - start_m);
     path.push_back(geometry::beside(boundary.at(arc_m), along, lateral_m));
   }

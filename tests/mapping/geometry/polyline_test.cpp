@@ -63,6 +63,14 @@ TEST(MeasuredPolyline, SlicesWithInnerVertices) {
   EXPECT_DOUBLE_EQ(length(part), 4.0);
 }
 
+TEST(MeasuredPolyline, ChordsLeadFromOneArcLengthToAnother) {
+  const MeasuredPolyline line({{0, 0, 0}, {3, 0, 5}, {3, 3, 0}});
+  EXPECT_TRUE(line.chord(1.0, 2.0).isApprox(Eigen::Vector2d(1, 0)));
+  EXPECT_TRUE(line.chord(-1.0, 7.0).isApprox(Eigen::Vector2d(1, 1).normalized()));
+  EXPECT_TRUE(line.chord(5.0, 4.0).isApprox(Eigen::Vector2d(0, -1)));
+  EXPECT_TRUE(line.chord(6.0, 8.0).isZero());
+}
+
 TEST(MeasuredPolyline, ResamplesBothEnds) {
   const Polyline samples = MeasuredPolyline(kCorner).resample(2.0);
   ASSERT_EQ(samples.size(), 5U);
