@@ -5,11 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/stretches.hpp"
 #include "mapping/lanes/cross_sections.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 constexpr double kTip_m = 0.5;         // borders that are nearer have met
 constexpr double kMaxTip_m = 1.2;      // borders that come no nearer than this do not meet
-constexpr double kWedgeNoise_m = 0.2;  // by which a wedge may grow towards its tip, between two sections
+constexpr double kWedgeNoise_m = 0.2;  // by which a wedge may grow towards its tip, from place to place
 constexpr double kMaxWedge_m = 40.0;   // length
 constexpr double kChord_m = 8.0;       // over which the course before the tip is measured
 constexpr double kRounded_m = 4.0;     // before the tip, where borders turn aside already
@@ -34,14 +36,8 @@ class Opening {
       : front_(end == End::front),
         left_(boundaries.of(lane.left_boundary), lane.left_reversed, nothing_),
         right_(boundaries.of(lane.right_boundary), lane.right_reversed, nothing_),
-        begin_{begin_of(left_, lane.left_range), begin_of(right_, lane.right_range)} {
-    const auto sections = cross_sections(left_, right_, {.max_m = config.max_kerb_width_m}, config);
-    const double share = begin_[index(Side::right)] / right_.line().length();
-    const auto begin = sections.begin() + std::lround(share * static_cast<double>(sections.size() - 1));
-    const CrossSection* tip = front_ ? narrowest(std::reverse_iterator(std::next(begin)), sections.rend())
-                                     : narrowest(begin, sections.end());
-    if (tip != nullptr && tip->width_m < kMaxTip_m) tip_ = {tip->left_arc_m, tip->right_arc_m};
-  }
+        begin_{begin_of(left_, lane.left_range), begin_of(right_, lane.right_range)},
+        tip_(find_tip(config)) {}
 
   bool has_tip() const { return tip_.has_value(); }
   /// The tip on the boundary of one side, as the boundary itself runs.
@@ -67,19 +63,24 @@ class Opening {
   double at_tip(Side side) const { return (*tip_)[index(side)]; }
   double ahead(double from_m, double by_m) const { return front_ ? from_m + by_m : from_m - by_m; }
 
-  /// The narrowest of the cross-sections from the lane's end to where its borders meet. The iterators lead
-  /// away from the lane. Null: there is none.
-  template <class Iterator>
-  const CrossSection* narrowest(Iterator section, Iterator last) const {
-    const CrossSection* tip = nullptr;
-    for (; section != last && section->valid; ++section) {
-      if (std::abs(section->right_arc_m - begin_[index(Side::right)]) > kMaxWedge_m) break;
-      if (tip != nullptr && tip->width_m < kTip_m) break;
-      const double noise_m = tip != nullptr && tip->width_m < kMaxTip_m ? 0.0 : kWedgeNoise_m;
-      if (tip != nullptr && section->width_m > tip->width_m + noise_m) break;
-      tip = &*section;
+  /// Where the borders meet before the lane's end: the wedge between them narrows from there to its tip.
+  /// Empty: they do not meet.
+  std::optional<std::array<double, 2>> find_tip(const LaneConfig& config) const {
+    const MeasuredPolyline &left = left_.line(), &right = right_.line();
+    std::array<double, 2> tip{};
+    double width_m = std::numeric_limits<double>::infinity();
+    for (double before_m = 0.0; before_m <= kMaxWedge_m && width_m >= kTip_m; before_m += config.step_m) {
+      const double right_m = ahead(begin_[index(Side::right)], -before_m);
+      if (right_m < 0.0 || right_m > right.length()) break;
+      const Point place = right.at(right_m);
+      const Projection foot = left.project(place, config.max_kerb_width_m);
+      if (!foot.inside || foot.lateral_m >= 0.0 || !geometry::same_level(foot.foot, place)) break;
+      const double noise_m = width_m < kMaxTip_m ? 0.0 : kWedgeNoise_m;
+      if (foot.distance_m > width_m + noise_m) break;
+      width_m = foot.distance_m;
+      tip = {foot.arc_m, right_m};
     }
-    return tip;
+    return width_m < kMaxTip_m ? std::optional(tip) : std::nullopt;
   }
 
   /// The length of a border before the tip.
