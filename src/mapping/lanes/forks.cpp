@@ -39,12 +39,12 @@ class Opening {
         begin_{begin_of(left_, lane.left_range), begin_of(right_, lane.right_range)},
         tip_(find_tip(config)) {}
 
-  bool has_tip() const { return tip_.has_value(); }
   /// The tip on the boundary of one side, as the boundary itself runs.
   double tip_m(Side side) const { return border(side).own({at_tip(side), at_tip(side)}).from_m; }
 
-  /// The side on which the road clearly gives way to the lane. Empty: neither.
+  /// The side on which the road clearly gives way to the lane. Empty: neither, or there is no tip.
   std::optional<Side> stem_side() const {
+    if (!tip_) return std::nullopt;
     const Side before = reach_before_m(Side::left) >= reach_before_m(Side::right) ? Side::left : Side::right;
     if (reach_before_m(before) < kRounded_m + kChord_m) return std::nullopt;
     const Eigen::Vector2d course = chord_before(before, kRounded_m);
@@ -63,8 +63,8 @@ class Opening {
   double at_tip(Side side) const { return (*tip_)[index(side)]; }
   double ahead(double from_m, double by_m) const { return front_ ? from_m + by_m : from_m - by_m; }
 
-  /// Where the borders meet before the lane's end: the wedge between them narrows from there to its tip.
-  /// Empty: they do not meet.
+  /// The tip, by its arc lengths on the two borders. The wedge between them narrows from the lane's end to
+  /// there. Empty: the borders do not meet.
   std::optional<std::array<double, 2>> find_tip(const LaneConfig& config) const {
     const MeasuredPolyline &left = left_.line(), &right = right_.line();
     std::array<double, 2> tip{};
@@ -126,7 +126,7 @@ struct Stem {
 std::optional<Stem> stem_of(const Lane& branch, End end, const std::vector<Lane>& lanes,
                             const boundaries::Boundaries& boundaries, const LaneConfig& config) {
   const Opening opening(branch, end, boundaries, config);
-  const auto side = opening.has_tip() ? opening.stem_side() : std::nullopt;
+  const auto side = opening.stem_side();
   if (!side) return std::nullopt;
   const LaneSide shared = lane_side(branch, *side);
   const Fork fork{shared.of, opening.tip_m(*side), end, shared.reversed};

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -76,17 +75,17 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
   return linkage;
 }
 
-/// The lane on a side of a boundary that ends (or begins) nearest to a place ahead, as the lanes run. Null:
-/// none does within `max_m`.
-template <class Ahead>
-const Lane* nearest_ahead(const lanes::BoundarySide& of, double max_m, const lanes::LaneLayout& layout,
-                          Ahead ahead_m) {
+/// The lane on one side of a fork's boundary whose `gap_m` from the tip is least. The lane runs as the branch
+/// does. Null: there is none within `max_m`.
+template <class Gap>
+const Lane* nearest_to_tip(const lanes::Fork& fork, const lanes::BoundarySide& of, double max_m,
+                           const lanes::LaneLayout& layout, Gap gap_m) {
   const Lane* nearest = nullptr;
   for (const Lane& lane : layout.lanes) {
     for (const Side side : kSides) {
       const lanes::LaneSide along = lanes::lane_side(lane, side);
-      if (along.of != of) continue;
-      const double distance_m = ahead_m(along);
+      if (along.of != of || along.reversed != fork.reversed) continue;
+      const double distance_m = gap_m(along);
       if (distance_m < -kOnTip_m || distance_m > max_m) continue;
       nearest = &lane;
       max_m = distance_m;
@@ -100,15 +99,13 @@ const Lane* nearest_ahead(const lanes::BoundarySide& of, double max_m, const lan
 std::optional<Linkage> link_at(const lanes::Fork& fork, const lanes::LaneLayout& layout) {
   const bool opens = fork.end == End::front;
   const double sense = opens != fork.reversed ? 1.0 : -1.0;  // from the tip into the branch
-  const Lane* branch = nearest_ahead(fork.branch, kMaxBranchGap_m, layout, [&](const lanes::LaneSide& along) {
-    return along.reversed != fork.reversed ? std::numeric_limits<double>::infinity()
-                                           : sense * ((opens ? along.begin_m() : along.end_m()) - fork.arc_m);
-  });
+  const Lane* branch =
+      nearest_to_tip(fork, fork.branch, kMaxBranchGap_m, layout, [&](const lanes::LaneSide& along) {
+        return sense * ((opens ? along.begin_m() : along.end_m()) - fork.arc_m);
+      });
   const Lane* stem =
-      nearest_ahead(fork.branch.other(), kMaxStemGap_m, layout, [&](const lanes::LaneSide& along) {
-        return along.reversed != fork.reversed
-                   ? std::numeric_limits<double>::infinity()
-                   : std::abs((opens ? along.end_m() : along.begin_m()) - fork.arc_m);
+      nearest_to_tip(fork, fork.branch.other(), kMaxStemGap_m, layout, [&](const lanes::LaneSide& along) {
+        return std::abs((opens ? along.end_m() : along.begin_m()) - fork.arc_m);
       });
   if (stem == nullptr || branch == nullptr) return std::nullopt;
   const Lane &from = opens ? *stem : *branch, &to = opens ? *branch : *stem;
