@@ -142,6 +142,26 @@ TEST(Mapper, ADoubleThatIsNeverSeenWithItsLineIsNotPublished) {
     EXPECT_EQ(drive.step(i % 2 == 0 ? displaced : road()).boundaries.size(), 3U) << i;
 }
 
+TEST(Mapper, PiecesOfALineThatIsThenSeenWholeBecomeOneMarkingThatKeepsItsId) {
+  Drive drive;
+  std::vector<Detection> in_pieces = road();
+  in_pieces[1].points = straight({-50, 0.1, 0.1}, {10, 0.1, 0.1});
+  in_pieces.push_back(test::detection(MarkingType::laneline, straight({12.5, 0.1, 0.1}, {300, 0.1, 0.1})));
+  for (int i = 0; i < 3; ++i) drive.step(in_pieces);
+  const auto lanelines = [&] {
+    std::vector<ElementId> ids;
+    for (const Marking& marking : drive.mapper.map().markings)
+      if (marking.type == MarkingType::laneline) ids.push_back(marking.id);
+    return ids;
+  };
+  const std::vector<ElementId> pieces = lanelines();
+  ASSERT_EQ(pieces.size(), 2U);
+  drive.steps(15);
+  EXPECT_THAT(lanelines(), testing::ElementsAre(pieces[0]));
+  drive.steps(80);
+  EXPECT_THAT(lanelines(), testing::ElementsAre(pieces[0])) << "the older piece is far behind";
+}
+
 TEST(VoxelMapper, NothingBeforeAlphaNDetectionsThenTheRoad) {
   Drive drive("voxels");
   EXPECT_TRUE(drive.steps(10).boundaries.empty());

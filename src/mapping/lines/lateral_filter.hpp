@@ -25,6 +25,9 @@ class LateralFilter {
   /// Takes in another view. Returns how far to the left the place moves.
   double update(const LateralView& view);
 
+  /// Lets left be right, for a line that runs the other way.
+  void mirror() { error_m_ = -error_m_; }
+
   double variance_m2() const { return covariance_(0, 0); }
 
   template <class Archive>

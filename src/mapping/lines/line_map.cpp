@@ -13,11 +13,25 @@ constexpr double kCell_m = 1.0;  // as the gate and the spacing of stations: sea
 
 }  // namespace
 
+bool mostly_observed(std::span<const Station> stations) {
+  const auto count = [&](Sight sight) { return std::ranges::count(stations, sight, &Station::sight); };
+  return count(Sight::observed) > count(Sight::missed);
+}
+
 MarkingType Line::type() const {
   std::array<double, kMarkingTypeCount> votes{};
   for (const Station& station : stations)
     for (std::size_t i = 0; i < votes.size(); ++i) votes[i] += station.type_votes[i];
   return static_cast<MarkingType>(std::ranges::max_element(votes) - votes.begin());
+}
+
+void reverse(Line& line) {
+  std::ranges::reverse(line.stations);
+  for (Station& station : line.stations) {
+    station.lateral.mirror();
+    station.moved_m = -station.moved_m;
+    for (FarView& view : station.far_views) view.mirror();
+  }
 }
 
 StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point) {

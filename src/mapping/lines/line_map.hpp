@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "laneloom/types.hpp"
@@ -33,6 +34,9 @@ struct Station {
     archive(position, lateral, log_odds, type_votes, style_votes, moved_m, far_views);
   }
 };
+
+/// Whether the present frame observed more of the stations than it missed.
+bool mostly_observed(std::span<const Station> stations);
 
 /// The confidences with which a line was detected.
 struct Confidences {
@@ -67,6 +71,9 @@ struct Line {
     archive(id, stations, observations, first_seen_ns, last_seen_ns, confidences);
   }
 };
+
+/// Lets a line run the other way: what was left of it is right of it then.
+void reverse(Line& line);
 
 /// Whether a type is matched apart from the others. Stoplines are, because they cross the others; lanelines
 /// and roadedges are told apart by vote.

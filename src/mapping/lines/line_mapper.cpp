@@ -9,6 +9,7 @@
 #include "mapping/lines/line_evidence.hpp"
 #include "mapping/lines/line_fusion.hpp"
 #include "mapping/lines/line_growth.hpp"
+#include "mapping/lines/line_joining.hpp"
 #include "mapping/lines/line_merging.hpp"
 #include "mapping/lines/line_publishing.hpp"
 #include "mapping/markings/dashes.hpp"
@@ -52,6 +53,7 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
     lines_.push_back(std::move(line));
   }
   std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
+  std::ranges::copy(join_lines(fusion, joints_, lines_, overlaps_), std::back_inserter(relatives));
   const Pruned pruned = prune_lines(scene.box, fusion, network.detection, lines_, ids);
   std::ranges::copy(pruned.pieces, std::back_inserter(relatives));
   forgotten_ = pruned.forgotten;

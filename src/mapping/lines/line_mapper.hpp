@@ -35,7 +35,7 @@ class LineMapper {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(lines_, doubles_, joints_, lasting_error_, networks_);
+    archive(lines_, doubles_, overlaps_, joints_, lasting_error_, networks_);
   }
 
  private:
@@ -44,6 +44,7 @@ class LineMapper {
 
   std::vector<Line> lines_;
   markings::PairHistories doubles_;                ///< how lines that lie side by side were seen
+  markings::PairHistories overlaps_;               ///< how ends of lines that lie side by side were seen
   markings::PairHistories joints_;                 ///< how ends of lines that lie near each other were seen
   FrameError lasting_error_ = FrameError::Zero();  ///< running mean, see align_frame()
   Networks networks_;                              ///< what was learned of the sources

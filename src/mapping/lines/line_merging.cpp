@@ -132,12 +132,6 @@ std::vector<IndexPair> doubled_kerbs(const std::vector<IndexPair>& pairs, Beside
   return doubled;
 }
 
-/// Whether the present frame observed more stations of the line than it missed.
-bool mostly_observed(const Line& line) {
-  const auto count = [&](Sight sight) { return std::ranges::count(line.stations, sight, &Station::sight); };
-  return count(Sight::observed) > count(Sight::missed);
-}
-
 }  // namespace
 
 double weight(const Line& line, const FusionConfig& config) {
@@ -155,7 +149,7 @@ std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::v
   const std::vector<IndexPair> kerbs = doubled_kerbs(pairs, search);
   for (const auto& [i, j] : pairs) {
     if (gone[i] || gone[j]) continue;
-    const bool i_seen = mostly_observed(lines[i]), j_seen = mostly_observed(lines[j]);
+    const bool i_seen = mostly_observed(lines[i].stations), j_seen = mostly_observed(lines[j].stations);
     const auto [a, b] = std::minmax(lines[i].id, lines[j].id);
     const markings::PairHistory history =
         continued(doubles, markings::PairSighting{a, b, i_seen && j_seen, i_seen != j_seen});

@@ -19,6 +19,13 @@ struct FarView {
   double stretched_m = 0.0;      ///< part of it that is suspected to come from the frame's pitch
   double misplaced_m = 0.0;      ///< part of it that is suspected to come from the frame's pose
 
+  /// Lets left be right, for a line that runs the other way.
+  void mirror() {
+    lateral_m = -lateral_m;
+    stretched_m = -stretched_m;
+    misplaced_m = -misplaced_m;
+  }
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(source, range_m, lateral_m, stretched_m, misplaced_m);

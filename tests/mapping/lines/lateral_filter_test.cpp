@@ -89,6 +89,17 @@ TEST_F(Place, ViewsThatHaveNothingInCommonAverage) {
   EXPECT_NEAR(estimate_m_, 0.0, 0.03);
 }
 
+TEST(LateralFilter, SeenFromTheOtherSideItIsMirrored) {
+  const auto view = [](double lateral_m, double x, double stddev_m) {
+    return LateralView{.lateral_m = lateral_m, .stddev_m = stddev_m, .seen_from = {x, 0.0}, .stamp_ns = 0};
+  };
+  LateralFilter filter(view(0.0, 0.0, 0.3)), mirrored(view(0.0, 0.0, 0.3));
+  EXPECT_DOUBLE_EQ(filter.update(view(0.4, 1.0, 0.2)), mirrored.update(view(0.4, 1.0, 0.2)));
+  mirrored.mirror();
+  EXPECT_DOUBLE_EQ(filter.update(view(0.3, 2.0, 0.1)), -mirrored.update(view(-0.3, 2.0, 0.1)));
+  EXPECT_DOUBLE_EQ(filter.variance_m2(), mirrored.variance_m2());
+}
+
 TEST_F(Place, ErrsAsMuchAsItSays) {
   constexpr double kShared = 0.9, kCorrelation_m = 5.0;
   std::mt19937 generator(1);
