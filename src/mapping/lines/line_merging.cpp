@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
 constexpr double kKerb_m = 0.3;     // two road edges nearer to each other are one
+constexpr double kPaint_m = 0.15;   // two lanelines nearer to each other would touch: paint is 0.1 m wide
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
@@ -116,20 +117,26 @@ std::vector<IndexPair> side_by_side(std::size_t lines, double distance_m, Beside
   return pairs;
 }
 
-/// Those of the pairs that are road edges of one kerb, in ascending order.
-std::vector<IndexPair> doubled_kerbs(const std::vector<IndexPair>& pairs, BesideSearch& search) {
-  const auto is_kerb = [&](std::size_t i) { return search.type(i) == MarkingType::roadedge; };
-  std::set<std::size_t> kerbs;
+/// The least distance between two lines of a type.
+double least_distance_m(MarkingType type) {
+  if (type == MarkingType::roadedge) return kKerb_m;
+  return type == MarkingType::laneline ? kPaint_m : 0.0;
+}
+
+/// Those of the pairs that have no room between them, in ascending order.
+std::vector<IndexPair> without_room(const std::vector<IndexPair>& pairs, BesideSearch& search) {
+  std::set<std::size_t> candidates;
   for (const auto& [i, j] : pairs)
-    if (is_kerb(i) && is_kerb(j)) kerbs.insert({i, j});
-  std::vector<IndexPair> doubled;
-  for (const std::size_t i : kerbs) {
-    search.beside(i, kKerb_m, [&](std::size_t j) {
-      if (is_kerb(j)) doubled.emplace_back(std::minmax(i, j));
+    if (search.type(i) == search.type(j)) candidates.insert({i, j});
+  std::vector<IndexPair> result;
+  for (const std::size_t i : candidates) {
+    const MarkingType type = search.type(i);
+    search.beside(i, least_distance_m(type), [&](std::size_t j) {
+      if (search.type(j) == type) result.emplace_back(std::minmax(i, j));
     });
   }
-  std::ranges::sort(doubled);
-  return doubled;
+  std::ranges::sort(result);
+  return result;
 }
 
 }  // namespace
@@ -146,14 +153,14 @@ std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::v
   std::vector<bool> gone(lines.size(), false);
   BesideSearch search(lines, config);
   const std::vector<IndexPair> pairs = side_by_side(lines.size(), config.merge_distance_m, search);
-  const std::vector<IndexPair> kerbs = doubled_kerbs(pairs, search);
+  const std::vector<IndexPair> one = without_room(pairs, search);
   for (const auto& [i, j] : pairs) {
     if (gone[i] || gone[j]) continue;
     const bool i_seen = mostly_observed(lines[i].stations), j_seen = mostly_observed(lines[j].stations);
     const auto [a, b] = std::minmax(lines[i].id, lines[j].id);
     const markings::PairHistory history =
         continued(doubles, markings::PairSighting{a, b, i_seen && j_seen, i_seen != j_seen});
-    if (!seen_apart(history) && !std::ranges::binary_search(kerbs, IndexPair(i, j))) {
+    if (!seen_apart(history) && !std::ranges::binary_search(one, IndexPair(i, j))) {
       kept.push_back(history);
       continue;
     }

@@ -61,6 +61,22 @@ TEST_F(LineMerging, TwoRoadEdgesWithoutRoomBetweenThemAreOne) {
   EXPECT_EQ(lines_[0].id, 1U);
 }
 
+TEST_F(LineMerging, TwoLanelinesThatWouldTouchAreOne) {
+  for (Station& station : lines_[1].stations) station.position.y() = 0.12;
+  frame(true, true);
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(lines_[0].id, 1U);
+}
+
+TEST_F(LineMerging, ALanelineAtTheFootOfAKerbIsNoDouble) {
+  for (Station& station : lines_[1].stations) {
+    station.position.y() = 0.12;
+    station.type_votes[index(MarkingType::roadedge)] = 1.0e6;
+  }
+  for (int i = 0; i < 100; ++i) frame(true, true);
+  EXPECT_EQ(lines_.size(), 2U);
+}
+
 TEST_F(LineMerging, ThePaintOfADoubleLineStays) {
   for (Station& station : lines_[1].stations) station.position.y() = 0.25;
   for (int i = 0; i < 100; ++i) frame(true, true);
