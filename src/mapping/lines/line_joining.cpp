@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
+#include "mapping/lines/line_evidence.hpp"
 #include "mapping/lines/nearest_stations.hpp"
 #include "mapping/markings/chains.hpp"
 
@@ -19,20 +22,23 @@ constexpr double kMeeting_m = 1.5;      // ends that are nearer meet
 constexpr double kMinTogether = 8.0;    // faded number of frames in which a detection ran through both ends
 constexpr std::size_t kMinOverlap = 3;  // stations
 constexpr double kMaxOverlap = 0.6;     // share of either line: of two that overlap more, one may be a double
+constexpr double kMaxBend_deg = 40.0;   // between the two lines; sharper tips are left to the boundaries
 
-using markings::LineEnd;
+/// An end of a line, by the number of the line.
+using LineTip = markings::LineEnd;
 
-const Point& tip(const Line& line, End end) {
-  return end == End::back ? line.stations.back().position : line.stations.front().position;
+const Point& place_of(const LineTip& at, const std::vector<Line>& lines) {
+  const std::vector<Station>& stations = lines[at.line].stations;
+  return at.end == End::back ? stations.back().position : stations.front().position;
 }
 
-ElementId id_of(const LineEnd& at, const std::vector<Line>& lines) {
+ElementId id_of(const LineTip& at, const std::vector<Line>& lines) {
   return markings::end_id(lines[at.line].id, at.end);
 }
 
 /// An end that lies beside another line.
 struct EndBeside {
-  LineEnd end;
+  LineTip end;
   std::size_t other = 0;  ///< number of the other line
   double index = 0.0;     ///< place on the other line, see StationFoot
 };
@@ -42,14 +48,17 @@ std::vector<EndBeside> ends_beside(const std::vector<Line>& lines, double distan
   NearestStations nearest(lines, distance_m);
   std::vector<MarkingType> types;
   std::ranges::transform(lines, std::back_inserter(types), &Line::type);
+  std::vector<std::optional<Course>> courses(lines.size());
   std::vector<EndBeside> result;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (is_stopline(types[i])) continue;
     for (const End end : kEnds) {
-      const Point& point = tip(lines[i], end);
+      const Point& point = place_of({i, end}, lines);
       for (const NearestStation& near : nearest.around(point, false)) {
         if (near.line == i || types[near.line] != types[i]) continue;
-        const StationFoot foot = foot_at(lines[near.line], near.station, point);
+        std::optional<Course>& course = courses[near.line];
+        if (!course) course.emplace(lines[near.line]);
+        const StationFoot foot = course->foot(near.station, point);
         if (foot.inside && std::abs(foot.lateral_m) < distance_m)
           result.push_back({{i, end}, near.line, foot.index});
       }
@@ -72,75 +81,91 @@ bool is_overlap(std::span<const Station> stretch, const Line& line) {
 
 /// Two ends that lie side by side, each beside the other one's line.
 struct Overlap {
-  LineEnd a, b;
-  markings::PairSighting sighting;  ///< of the two stretches that lie side by side
+  LineTip a, b;
+  std::size_t count_a = 0, count_b = 0;  ///< stations side by side
+  bool a_is_better = true;               ///< has more evidence there
+  markings::PairSighting sighting;       ///< of the two stretches
 };
 
+double mean_log_odds(std::span<const Station> stations) { return existence(stations, {}); }
+
+std::optional<Overlap> overlap_of(const EndBeside& a, const EndBeside& b, const std::vector<Line>& lines) {
+  const Line &line_a = lines[a.end.line], &line_b = lines[b.end.line];
+  const auto along_a = stretch_to(b.index, line_a, a.end.end),
+             along_b = stretch_to(a.index, line_b, b.end.end);
+  if (!is_overlap(along_a, line_a) || !is_overlap(along_b, line_b)) return std::nullopt;
+  const bool a_seen = mostly_observed(along_a), b_seen = mostly_observed(along_b);
+  const auto [low, high] = std::minmax({id_of(a.end, lines), id_of(b.end, lines)});
+  return Overlap{.a = a.end,
+                 .b = b.end,
+                 .count_a = along_a.size(),
+                 .count_b = along_b.size(),
+                 .a_is_better = mean_log_odds(along_a) >= mean_log_odds(along_b),
+                 .sighting = {low, high, a_seen && b_seen, a_seen != b_seen}};
+}
+
+/// The overlaps of lines that overlap at one end, by ascending ids. Two that overlap at both ends are rings.
 std::vector<Overlap> overlaps_of(const std::vector<Line>& lines, double distance_m) {
   const std::vector<EndBeside> ends = ends_beside(lines, distance_m);
+  const auto line_of = [](const EndBeside& beside) { return beside.end.line; };
   std::vector<Overlap> overlaps;
   for (const EndBeside& a : ends) {
-    for (const EndBeside& b : ends) {
-      if (a.end.line > b.end.line || a.other != b.end.line || b.other != a.end.line) continue;
-      const Line &line_a = lines[a.end.line], &line_b = lines[b.end.line];
-      const auto along_a = stretch_to(b.index, line_a, a.end.end);
-      const auto along_b = stretch_to(a.index, line_b, b.end.end);
-      if (!is_overlap(along_a, line_a) || !is_overlap(along_b, line_b)) continue;
-      const bool a_seen = mostly_observed(along_a), b_seen = mostly_observed(along_b);
-      const auto [low, high] = std::minmax({id_of(a.end, lines), id_of(b.end, lines)});
-      overlaps.push_back({a.end, b.end, {low, high, a_seen && b_seen, a_seen != b_seen}});
+    if (a.other < a.end.line) continue;
+    for (auto b = std::ranges::lower_bound(ends, a.other, {}, line_of);
+         b != ends.end() && line_of(*b) == a.other; ++b) {
+      if (b->other != a.end.line) continue;
+      if (const auto overlap = overlap_of(a, *b, lines)) overlaps.push_back(*overlap);
     }
   }
   std::ranges::sort(overlaps, {}, [](const Overlap& o) { return std::pair(o.sighting.a, o.sighting.b); });
+  std::map<std::pair<std::size_t, std::size_t>, int> counts;
+  for (const Overlap& o : overlaps) ++counts[{o.a.line, o.b.line}];
+  std::erase_if(overlaps, [&](const Overlap& o) { return counts[{o.a.line, o.b.line}] > 1; });
   return overlaps;
 }
 
-/// The first station of `next` that lies ahead of the back of `line`. Empty: `next` does not go on there.
-std::optional<std::size_t> first_ahead(const Line& line, const Line& next, double max_aside_m) {
+/// The first station of `next`, from its station `first` on, that lies ahead of the back of `line`. Empty:
+/// `next` does not go on there.
+std::optional<std::size_t> first_ahead(const Line& line, const Line& next, std::size_t first,
+                                       const FusionConfig& config) {
   const Point& back = line.stations.back().position;
-  const auto distance_m = [&](const Station& station) { return (station.position - back).head<2>().norm(); };
-  const auto nearest = std::ranges::min_element(next.stations, {}, distance_m);
-  if (!geometry::same_level(nearest->position, back)) return std::nullopt;
-  const auto foot = foot_at(next, static_cast<std::size_t>(nearest - next.stations.begin()), back);
-  if (foot.index < 0.0)
-    return distance_m(next.stations.front()) < kMeeting_m ? std::optional(0UL) : std::nullopt;
-  const auto first = static_cast<std::size_t>(std::floor(foot.index)) + 1;
-  if (!foot.inside || std::abs(foot.lateral_m) >= max_aside_m || first >= next.stations.size())
+  const Eigen::Vector2d direction = direction_at(line, line.stations.size() - 1);
+  const auto ahead_m = [&](std::size_t i) {
+    return direction.dot((next.stations[i].position - back).head<2>());
+  };
+  const std::size_t limit = std::min(first + kMinOverlap, next.stations.size());
+  while (first < limit && ahead_m(first) < 0.5 * config.station_spacing_m) ++first;
+  if (first == limit) return std::nullopt;
+  const Point& front = next.stations[first].position;
+  const bool goes_on = direction.dot(direction_at(next, first)) >= cos_degrees(kMaxBend_deg);
+  const double aside_m = std::abs(cross(direction, (front - back).head<2>()));
+  if (!goes_on || aside_m >= config.merge_distance_m || !geometry::same_level(front, back))
     return std::nullopt;
-  return first;
-}
-
-/// Lets `line` go on with the stations of `next` from `first` on.
-void append(const Line& next, std::size_t first, Line& line) {
-  line.stations.insert(line.stations.end(), next.stations.begin() + static_cast<std::ptrdiff_t>(first),
-                       next.stations.end());
-  line.observations += next.observations;
-  line.first_seen_ns = std::min(line.first_seen_ns, next.first_seen_ns);
-  line.last_seen_ns = std::max(line.last_seen_ns, next.last_seen_ns);
-  if (next.confidences.count > line.confidences.count) line.confidences = next.confidences;
+  return (front - back).head<2>().norm() < kMeeting_m ? std::optional(first) : std::nullopt;
 }
 
 /// Joins lines, each once per frame.
 class Joining {
  public:
-  Joining(std::vector<Line>& lines, double max_aside_m)
-      : lines_(lines), max_aside_m_(max_aside_m), is_done_(lines.size(), false) {}
+  Joining(const FusionConfig& config, std::vector<Line>& lines)
+      : config_(config), lines_(lines), is_done_(lines.size(), false) {}
 
-  /// Joins two lines at these ends, if one goes on there where the other one ends.
-  void join(LineEnd a, LineEnd b) {
-    if (is_done_[a.line] || is_done_[b.line]) return;
-    if (lines_[b.line].id < lines_[a.line].id) std::swap(a, b);
-    Line &line = lines_[a.line], &next = lines_[b.line];
-    if (a.end == End::front) reverse(line);
-    if (b.end == End::back) reverse(next);
-    if (const auto first = first_ahead(line, next, max_aside_m_)) {
-      append(next, *first, line);
-      is_done_[a.line] = is_done_[b.line] = true;
-      gone_.push_back({next.id, line.id});
-    } else if (b.end == End::back) {
-      reverse(next);
-    }
-    if (a.end == End::front) reverse(line);
+  /// Joins two lines at these ends, if the one goes on where the other one ends. `whole` keeps its stations;
+  /// the other line's follow, without the `skipped` ones at its end.
+  void join(const LineTip& whole, const LineTip& rest, std::size_t skipped = 0) {
+    if (whole.line == rest.line || is_done_[whole.line] || is_done_[rest.line]) return;
+    Line line = lines_[whole.line], next = lines_[rest.line];
+    if (whole.end == End::front) reverse(line);
+    if (rest.end == End::back) reverse(next);
+    const auto first = first_ahead(line, next, skipped, config_);
+    if (!first) return;
+    line.stations.insert(line.stations.end(), next.stations.begin() + static_cast<std::ptrdiff_t>(*first),
+                         next.stations.end());
+    line.observations = std::max(line.observations, next.observations);
+    line.first_seen_ns = std::min(line.first_seen_ns, next.first_seen_ns);
+    line.last_seen_ns = std::max(line.last_seen_ns, next.last_seen_ns);
+    if (next.confidences.count > line.confidences.count) line.confidences = next.confidences;
+    keep(line, whole, rest);
   }
 
   /// The same, for two ends of lines of one type that are still there.
@@ -149,41 +174,59 @@ class Joining {
     if (a && b && lines_[a->line].type() == lines_[b->line].type()) join(*a, *b);
   }
 
-  /// Removes the lines that are part of others now, and returns them.
-  std::vector<markings::Relative> finish() {
+  /// Removes the lines that are part of others now, and returns the ends that met.
+  std::vector<Joined> finish() {
     std::erase_if(lines_, [&](const Line& line) {
-      return std::ranges::find(gone_, line.id, &markings::Relative::id) != gone_.end();
+      return std::ranges::find(joined_, line.id, &Joined::gone) != joined_.end();
     });
-    return std::move(gone_);
+    return std::move(joined_);
   }
 
  private:
-  /// The end of an id, see markings::end_id(). Empty: its line is gone.
-  std::optional<LineEnd> end_of(ElementId id) const {
-    const auto line = std::ranges::find(lines_, id / 2, &Line::id);
-    if (line == lines_.end()) return std::nullopt;
-    return LineEnd{static_cast<std::size_t>(line - lines_.begin()), kEnds[id % 2]};
+  /// Gives the joined line the id and the direction of the older one.
+  void keep(Line& line, const LineTip& whole, const LineTip& rest) {
+    const bool whole_is_older = lines_[whole.line].id < lines_[rest.line].id;
+    const LineTip &older = whole_is_older ? whole : rest, &younger = whole_is_older ? rest : whole;
+    if (whole_is_older ? older.end == End::front : older.end == End::back) reverse(line);
+    line.id = lines_[older.line].id;
+    joined_.push_back({line.id, older.end, lines_[younger.line].id, younger.end});
+    lines_[older.line] = std::move(line);
+    is_done_[older.line] = is_done_[younger.line] = true;
   }
 
+  /// The end of an id, see markings::end_id(). Empty: its line is gone.
+  std::optional<LineTip> end_of(ElementId id) const {
+    const auto line = std::ranges::find(lines_, id / 2, &Line::id);
+    if (line == lines_.end()) return std::nullopt;
+    return LineTip{static_cast<std::size_t>(line - lines_.begin()), kEnds[id % 2]};
+  }
+
+  const FusionConfig& config_;
   std::vector<Line>& lines_;
-  double max_aside_m_;
   std::vector<bool> is_done_;
-  std::vector<markings::Relative> gone_;
+  std::vector<Joined> joined_;
 };
 
 }  // namespace
 
-std::vector<markings::Relative> join_lines(const FusionConfig& config, const markings::PairHistories& joints,
-                                           std::vector<Line>& lines, markings::PairHistories& overlaps) {
+std::vector<Joined> join_lines(const FusionConfig& config, const markings::PairHistories& joints,
+                               std::vector<Line>& lines, markings::PairHistories& overlaps) {
   const std::vector<Overlap> side_by_side = overlaps_of(lines, config.merge_distance_m);
   std::vector<markings::PairSighting> sightings;
   std::ranges::transform(side_by_side, std::back_inserter(sightings), &Overlap::sighting);
   overlaps = continued(overlaps, sightings);
-  Joining joining(lines, config.merge_distance_m);
+  Joining joining(config, lines);
   for (const markings::PairHistory& joint : joints)
     if (seen_together(joint) && joint.together >= kMinTogether) joining.join(joint);
-  for (std::size_t i = 0; i < overlaps.size(); ++i)
-    if (seen_apart(overlaps[i])) joining.join(side_by_side[i].a, side_by_side[i].b);
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    const Overlap& overlap = side_by_side[i];
+    if (!seen_apart(overlaps[i])) continue;
+    if (overlap.a_is_better) {
+      joining.join(overlap.a, overlap.b, overlap.count_b);
+    } else {
+      joining.join(overlap.b, overlap.a, overlap.count_a);
+    }
+  }
   return joining.finish();
 }
 

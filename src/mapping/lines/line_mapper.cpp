@@ -53,7 +53,7 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
     lines_.push_back(std::move(line));
   }
   std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
-  std::ranges::copy(join_lines(fusion, joints_, lines_, overlaps_), std::back_inserter(relatives));
+  if (view.is_independent()) join(fusion, relatives);
   const Pruned pruned = prune_lines(scene.box, fusion, network.detection, lines_, ids);
   std::ranges::copy(pruned.pieces, std::back_inserter(relatives));
   forgotten_ = pruned.forgotten;
@@ -75,6 +75,19 @@ Association LineMapper::associated(const markings::ObservedFrame& observed, cons
   from.error = align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);
   weigh(network.lateral, T_map_body.translation(), detections);
   return associate(matcher, std::move(detections));
+}
+
+/// Joins lines. What is known of a line that is gone is known of the line that it is part of now.
+void LineMapper::join(const FusionConfig& config, std::vector<markings::Relative>& relatives) {
+  for (const auto& [stays, end, gone, gone_end] : join_lines(config, joints_, lines_, overlaps_)) {
+    relatives.push_back({gone, stays});
+    rename(gone, stays, doubles_);
+    for (markings::PairHistories* const ends : {&joints_, &overlaps_}) {
+      forget(markings::end_id(stays, end), *ends);
+      forget(markings::end_id(gone, gone_end), *ends);
+      rename(markings::end_id(gone, opposite(gone_end)), markings::end_id(stays, end), *ends);
+    }
+  }
 }
 
 void LineMapper::reset() {

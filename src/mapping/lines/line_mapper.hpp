@@ -41,6 +41,7 @@ class LineMapper {
  private:
   Association associated(const markings::ObservedFrame& observed, const Network& network,
                          const FusionConfig& config, Viewpoint& from);
+  void join(const FusionConfig& config, std::vector<markings::Relative>& relatives);
 
   std::vector<Line> lines_;
   markings::PairHistories doubles_;                ///< how lines that lie side by side were seen

@@ -1,6 +1,7 @@
 #include "mapping/markings/pair_history.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace laneloom::markings {
@@ -45,6 +46,25 @@ PairHistories continued(const PairHistories& histories, const std::vector<PairSi
     result.push_back(advanced(is_known ? *known : PairHistory{sighting.a, sighting.b}, sighting));
   }
   return result;
+}
+
+void forget(ElementId id, PairHistories& histories) {
+  std::erase_if(histories, [=](const PairHistory& h) { return h.a == id || h.b == id; });
+}
+
+void rename(ElementId from, ElementId to, PairHistories& histories) {
+  for (PairHistory& history : histories) {
+    if (history.a != from && history.b != from) continue;
+    std::tie(history.a, history.b) = std::minmax({to, history.a == from ? history.b : history.a});
+  }
+  std::erase_if(histories, [](const PairHistory& h) { return h.a == h.b; });
+  // The one of more frames comes first, so that it stays.
+  std::ranges::sort(histories, {},
+                    [](const PairHistory& h) { return std::tuple(h.a, h.b, -(h.together + h.apart)); });
+  const auto is_same = [](const PairHistory& h, const PairHistory& next) {
+    return key_of(h) == key_of(next);
+  };
+  histories.erase(std::unique(histories.begin(), histories.end(), is_same), histories.end());
 }
 
 bool seen_apart(const PairHistory& history) {

@@ -45,6 +45,13 @@ PairHistory continued(const PairHistories& histories, const PairSighting& sighti
 /// `sightings` are sorted by their ids.
 PairHistories continued(const PairHistories& histories, const std::vector<PairSighting>& sightings);
 
+/// Forgets the histories of an id.
+void forget(ElementId id, PairHistories& histories);
+
+/// Lets the histories of the id `from` be those of `to`. Of two histories of one pair, the one of more frames
+/// stays. A history of the two with each other is forgotten.
+void rename(ElementId from, ElementId to, PairHistories& histories);
+
 /// Whether the two were seen in enough frames, and in few of these together.
 bool seen_apart(const PairHistory& history);
 
