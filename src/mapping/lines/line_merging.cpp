@@ -13,9 +13,10 @@
 namespace laneloom::lines {
 namespace {
 
-constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
-constexpr double kKerb_m = 0.3;     // two road edges nearer to each other are one
-constexpr double kPaint_m = 0.15;   // between two painted lines that are nearer there is no gap
+constexpr double kMinBeside = 0.6;    // share of the shorter line that lies beside the other
+constexpr double kKerb_m = 0.3;       // two road edges nearer to each other are one
+constexpr double kPaint_m = 0.15;     // between two painted lines that are nearer there is no gap
+constexpr double kMinTouching = 0.9;  // as kMinBeside, of these; lines that converge are two
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
@@ -61,15 +62,15 @@ class BesideSearch {
   }
 
   MarkingType type(std::size_t line) const { return types_[line]; }
-  /// Calls `found(other)` for each longer line that `line` lies beside, within `distance_m`. Of equally long
-  /// lines, the first one counts as longer.
+  /// Calls `found(other)` for each longer line beside which at least `share` of `line` lies, within
+  /// `distance_m`. Of equally long lines, the first one counts as longer.
   template <class Found>
-  void beside(std::size_t line, double distance_m, Found&& found) {
+  void beside(std::size_t line, double distance_m, double share, Found&& found) {
     // A line that passes this near has a station within reach, unless its stations are more than twice as far
     // apart as wanted.
     const double reach_m = std::sqrt(distance_m * distance_m + spacing_m_ * spacing_m_);
     const Polyline& course = courses_[line];
-    const auto needed = static_cast<std::size_t>(std::ceil(kMinBeside * static_cast<double>(course.size())));
+    const auto needed = static_cast<std::size_t>(std::ceil(share * static_cast<double>(course.size())));
     for (std::size_t j = 0; j < others_.size(); ++j) {
       const bool is_longer = std::pair(courses_[j].size(), line) > std::pair(course.size(), j);
       const bool is_alike = is_stopline(types_[j]) == is_stopline(types_[line]);
@@ -112,15 +113,9 @@ class BesideSearch {
 std::vector<IndexPair> side_by_side(std::size_t lines, double distance_m, BesideSearch& search) {
   std::vector<IndexPair> pairs;
   for (std::size_t i = 0; i < lines; ++i)
-    search.beside(i, distance_m, [&](std::size_t j) { pairs.emplace_back(std::minmax(i, j)); });
+    search.beside(i, distance_m, kMinBeside, [&](std::size_t j) { pairs.emplace_back(std::minmax(i, j)); });
   std::ranges::sort(pairs);
   return pairs;
-}
-
-/// The least distance between two lines of a type.
-double least_distance_m(MarkingType type) {
-  if (type == MarkingType::roadedge) return kKerb_m;
-  return type == MarkingType::laneline ? kPaint_m : 0.0;
 }
 
 /// Those of the pairs that have no room between them, in ascending order.
@@ -131,9 +126,11 @@ std::vector<IndexPair> without_room(const std::vector<IndexPair>& pairs, BesideS
   std::vector<IndexPair> result;
   for (const std::size_t i : candidates) {
     const MarkingType type = search.type(i);
-    search.beside(i, least_distance_m(type), [&](std::size_t j) {
+    const auto found = [&](std::size_t j) {
       if (search.type(j) == type) result.emplace_back(std::minmax(i, j));
-    });
+    };
+    if (type == MarkingType::roadedge) search.beside(i, kKerb_m, kMinBeside, found);
+    if (type == MarkingType::laneline) search.beside(i, kPaint_m, kMinTouching, found);
   }
   std::ranges::sort(result);
   return result;

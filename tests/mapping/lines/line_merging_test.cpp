@@ -68,6 +68,15 @@ TEST_F(LineMerging, TwoLanelinesThatWouldTouchAreOne) {
   EXPECT_EQ(lines_[0].id, 1U);
 }
 
+TEST_F(LineMerging, LanelinesThatConvergeStay) {
+  for (Station& station : lines_[1].stations) {
+    const double diverged_m = std::max(0.0, 0.1 * (station.position.x() - 14.0));
+    station.position.y() = 0.1 + diverged_m;
+  }
+  for (int i = 0; i < 100; ++i) frame(true, true);
+  EXPECT_EQ(lines_.size(), 2U);
+}
+
 TEST_F(LineMerging, ALanelineAtTheFootOfAKerbIsNoDouble) {
   for (Station& station : lines_[1].stations) {
     station.position.y() = 0.12;
