@@ -13,10 +13,9 @@
 namespace laneloom::lines {
 namespace {
 
-constexpr double kMinBeside = 0.6;    // share of the shorter line that lies beside the other
-constexpr double kKerb_m = 0.3;       // two road edges nearer to each other are one
-constexpr double kPaint_m = 0.15;     // between two painted lines that are nearer there is no gap
-constexpr double kMinTouching = 0.9;  // as kMinBeside, of these; lines that converge are two
+constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
+constexpr double kKerb_m = 0.3;     // two road edges nearer to each other are one
+constexpr double kPaint_m = 0.15;   // between two painted lines that are nearer there is no gap
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
@@ -130,7 +129,7 @@ std::vector<IndexPair> without_room(const std::vector<IndexPair>& pairs, BesideS
       if (search.type(j) == type) result.emplace_back(std::minmax(i, j));
     };
     if (type == MarkingType::roadedge) search.beside(i, kKerb_m, kMinBeside, found);
-    if (type == MarkingType::laneline) search.beside(i, kPaint_m, kMinTouching, found);
+    if (type == MarkingType::laneline) search.beside(i, kPaint_m, 1.0, found);
   }
   std::ranges::sort(result);
   return result;

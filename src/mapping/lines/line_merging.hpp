@@ -14,9 +14,9 @@ double weight(const Line& line, const FusionConfig& config);
 
 /// Counts for neighbouring lines in how many frames both were seen, and in how many only one of them. Two
 /// real lines are seen together; a line and its double take turns. Two road edges that lie within 0.3 m of
-/// each other, and two lanelines within 0.15 m, are doubles however often they are seen together. Of a line
-/// and its double, the one of less weight is removed. Returns the removed lines, each with the line that
-/// stays.
+/// each other, and two lanelines within 0.15 m all along the shorter one, are doubles however often they are
+/// seen together. Of a line and its double, the one of less weight is removed. Returns the removed lines,
+/// each with the line that stays.
 std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
                                               markings::PairHistories& doubles);
 
