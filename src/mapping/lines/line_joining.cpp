@@ -81,13 +81,11 @@ bool is_overlap(std::span<const Station> stretch, const Line& line) {
 
 /// Two ends that lie side by side, each beside the other one's line.
 struct Overlap {
-  LineTip a, b;
-  std::size_t count_a = 0, count_b = 0;  ///< stations side by side
-  bool a_is_better = true;               ///< has more evidence there
-  markings::PairSighting sighting;       ///< of the two stretches
+  LineTip whole;                    ///< its line has more evidence in the overlap
+  LineTip rest;                     ///< of the other line
+  std::size_t skipped = 0;          ///< stations of the other line in the overlap
+  markings::PairSighting sighting;  ///< of the two lines there
 };
-
-double mean_log_odds(std::span<const Station> stations) { return existence(stations, {}); }
 
 std::optional<Overlap> overlap_of(const EndBeside& a, const EndBeside& b, const std::vector<Line>& lines) {
   const Line &line_a = lines[a.end.line], &line_b = lines[b.end.line];
@@ -96,15 +94,14 @@ std::optional<Overlap> overlap_of(const EndBeside& a, const EndBeside& b, const 
   if (!is_overlap(along_a, line_a) || !is_overlap(along_b, line_b)) return std::nullopt;
   const bool a_seen = mostly_observed(along_a), b_seen = mostly_observed(along_b);
   const auto [low, high] = std::minmax({id_of(a.end, lines), id_of(b.end, lines)});
-  return Overlap{.a = a.end,
-                 .b = b.end,
-                 .count_a = along_a.size(),
-                 .count_b = along_b.size(),
-                 .a_is_better = mean_log_odds(along_a) >= mean_log_odds(along_b),
-                 .sighting = {low, high, a_seen && b_seen, a_seen != b_seen}};
+  const markings::PairSighting sighting{low, high, a_seen && b_seen, a_seen != b_seen};
+  if (existence(along_a, {}) >= existence(along_b, {}))
+    return Overlap{a.end, b.end, along_b.size(), sighting};
+  return Overlap{b.end, a.end, along_a.size(), sighting};
 }
 
-/// The overlaps of lines that overlap at one end, by ascending ids. Two that overlap at both ends are rings.
+/// The overlaps of lines that overlap at one end, by ascending ids. Lines that overlap at both ends are
+/// rings, and are left out.
 std::vector<Overlap> overlaps_of(const std::vector<Line>& lines, double distance_m) {
   const std::vector<EndBeside> ends = ends_beside(lines, distance_m);
   const auto line_of = [](const EndBeside& beside) { return beside.end.line; };
@@ -117,10 +114,13 @@ std::vector<Overlap> overlaps_of(const std::vector<Line>& lines, double distance
       if (const auto overlap = overlap_of(a, *b, lines)) overlaps.push_back(*overlap);
     }
   }
-  std::ranges::sort(overlaps, {}, [](const Overlap& o) { return std::pair(o.sighting.a, o.sighting.b); });
+  const auto lines_of = [](const Overlap& o) {
+    return std::pair<std::size_t, std::size_t>(std::minmax(o.whole.line, o.rest.line));
+  };
   std::map<std::pair<std::size_t, std::size_t>, int> counts;
-  for (const Overlap& o : overlaps) ++counts[{o.a.line, o.b.line}];
-  std::erase_if(overlaps, [&](const Overlap& o) { return counts[{o.a.line, o.b.line}] > 1; });
+  for (const Overlap& overlap : overlaps) ++counts[lines_of(overlap)];
+  std::erase_if(overlaps, [&](const Overlap& overlap) { return counts[lines_of(overlap)] > 1; });
+  std::ranges::sort(overlaps, {}, [](const Overlap& o) { return std::pair(o.sighting.a, o.sighting.b); });
   return overlaps;
 }
 
@@ -187,18 +187,18 @@ class Joining {
   void keep(Line& line, const LineTip& whole, const LineTip& rest) {
     const bool whole_is_older = lines_[whole.line].id < lines_[rest.line].id;
     const LineTip &older = whole_is_older ? whole : rest, &younger = whole_is_older ? rest : whole;
-    if (whole_is_older ? older.end == End::front : older.end == End::back) reverse(line);
+    if ((older.end == End::front) == whole_is_older) reverse(line);
     line.id = lines_[older.line].id;
     joined_.push_back({line.id, older.end, lines_[younger.line].id, younger.end});
     lines_[older.line] = std::move(line);
     is_done_[older.line] = is_done_[younger.line] = true;
   }
 
-  /// The end of an id, see markings::end_id(). Empty: its line is gone.
+  /// The end of an id, as markings::end_id() gives it. Empty: its line is gone.
   std::optional<LineTip> end_of(ElementId id) const {
-    const auto line = std::ranges::find(lines_, id / 2, &Line::id);
+    const auto line = std::ranges::find(lines_, markings::line_of(id), &Line::id);
     if (line == lines_.end()) return std::nullopt;
-    return LineTip{static_cast<std::size_t>(line - lines_.begin()), kEnds[id % 2]};
+    return LineTip{static_cast<std::size_t>(line - lines_.begin()), markings::end_of(id)};
   }
 
   const FusionConfig& config_;
@@ -219,13 +219,8 @@ std::vector<Joined> join_lines(const FusionConfig& config, const markings::PairH
   for (const markings::PairHistory& joint : joints)
     if (seen_together(joint) && joint.together >= kMinTogether) joining.join(joint);
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
-    const Overlap& overlap = side_by_side[i];
-    if (!seen_apart(overlaps[i])) continue;
-    if (overlap.a_is_better) {
-      joining.join(overlap.a, overlap.b, overlap.count_b);
-    } else {
-      joining.join(overlap.b, overlap.a, overlap.count_a);
-    }
+    const auto& [whole, rest, skipped, sighting] = side_by_side[i];
+    if (seen_apart(overlaps[i])) joining.join(whole, rest, skipped);
   }
   return joining.finish();
 }

@@ -16,10 +16,11 @@ struct Joined {
   End gone_end = End::front;
 };
 
-/// Makes one line of two of which one continues the other. Either detections have run from the end of one to
-/// the end of the other (`joints`), and these meet. Or the two lie side by side where they end, and are not
-/// seen together there; `overlaps` counts this, and is continued by one frame. The older line keeps its id.
-/// Where the two overlap, the stations of more evidence stay. Returns what was joined. Ours.
+/// Makes one line of two of which one continues the other. Two ends are joined if they meet and detections
+/// have run through both (`joints`). Two ends are joined as well if they lie side by side and are not seen
+/// together there. `overlaps` counts that, and is continued by one frame. The joined line has the id of the
+/// older one. Of an overlap, it has the stations of the line with more evidence there. Returns what was
+/// joined. Ours.
 std::vector<Joined> join_lines(const FusionConfig& config, const markings::PairHistories& joints,
                                std::vector<Line>& lines, markings::PairHistories& overlaps);
 

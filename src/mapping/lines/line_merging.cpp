@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMinBeside = 0.6;  // share of the shorter line that lies beside the other
 constexpr double kKerb_m = 0.3;     // two road edges nearer to each other are one
-constexpr double kPaint_m = 0.15;   // between two painted lines that are nearer there is no gap
+constexpr double kPaint_m = 0.15;   // two lanelines nearer to each other have no gap between their paint
 
 using IndexPair = std::pair<std::size_t, std::size_t>;
 

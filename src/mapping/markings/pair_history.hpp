@@ -20,8 +20,12 @@ struct PairHistory {
   }
 };
 
-/// An id for an end of a line.
+///@{
+/// An id for an end of a line, and what it stands for.
 constexpr ElementId end_id(ElementId line, End end) { return 2 * line + index(end); }
+constexpr ElementId line_of(ElementId end_id) { return end_id / 2; }
+constexpr End end_of(ElementId end_id) { return kEnds[end_id % 2]; }
+///@}
 
 /// Histories of pairs, sorted by the ids `a` and then `b`.
 using PairHistories = std::vector<PairHistory>;
@@ -48,8 +52,8 @@ PairHistories continued(const PairHistories& histories, const std::vector<PairSi
 /// Forgets the histories of an id.
 void forget(ElementId id, PairHistories& histories);
 
-/// Lets the histories of the id `from` be those of `to`. Of two histories of one pair, the one of more frames
-/// stays. A history of the two with each other is forgotten.
+/// Lets the histories of the id `from` be those of `to`. The history of more frames stays where a pair has
+/// two then. A history of the two with each other is forgotten.
 void rename(ElementId from, ElementId to, PairHistories& histories);
 
 /// Whether the two were seen in enough frames, and in few of these together.
