@@ -162,6 +162,22 @@ TEST(Mapper, PiecesOfALineThatIsThenSeenWholeBecomeOneMarkingThatKeepsItsId) {
   EXPECT_THAT(lanelines(), testing::ElementsAre(pieces[0])) << "the older piece is far behind";
 }
 
+TEST(Mapper, AStandingCarJoinsNothing) {
+  Drive drive;
+  std::vector<Detection> in_pieces = road();
+  in_pieces[1].points = straight({-50, 0.1, 0.1}, {10, 0.1, 0.1});
+  in_pieces.push_back(test::detection(MarkingType::laneline, straight({12.5, 0.1, 0.1}, {300, 0.1, 0.1})));
+  for (int i = 0; i < 3; ++i) drive.step(in_pieces);
+  const auto lanelines = [&] {
+    return std::ranges::count(drive.mapper.map().markings, MarkingType::laneline, &Marking::type);
+  };
+  for (int i = 0; i < 30; ++i)
+    drive.mapper.update(frame_at(drive.x, road(), ++drive.number), test::at(drive.x));
+  EXPECT_EQ(lanelines(), 2);
+  drive.steps(2);
+  EXPECT_EQ(lanelines(), 1);
+}
+
 TEST(VoxelMapper, NothingBeforeAlphaNDetectionsThenTheRoad) {
   Drive drive("voxels");
   EXPECT_TRUE(drive.steps(10).boundaries.empty());
@@ -355,6 +371,25 @@ TEST_P(EitherMapper, SavedLoadedAndContinuedIsTheSameToTheLastBit) {
   }
   EXPECT_FALSE(one.mapper.map().lanes.empty());
   EXPECT_EQ(one.mapper.save(), two.mapper.save());
+}
+
+TEST(MapperState, HowEndsThatLieSideBySideWereSeenIsSaved) {
+  std::vector<Detection> first = road(), second = road();
+  first[1].points = straight({-50, 0.1, 0.1}, {16, 0.1, 0.1});
+  second[1].points = straight({10, 0.8, 0.1}, {300, 0.8, 0.1});
+  Drive one, two;
+  const auto lanelines = [](const Drive& drive) {
+    return std::ranges::count(drive.mapper.map().markings, MarkingType::laneline, &Marking::type);
+  };
+  for (int i = 0; i < 6; ++i) one.step(i % 2 == 0 ? first : second);
+  ASSERT_EQ(lanelines(one), 2);
+  two.mapper.load(one.mapper.save());
+  two.x = one.x;
+  two.number = one.number;
+  one.step(second);
+  two.step(second);
+  EXPECT_EQ(lanelines(one), 1);
+  EXPECT_EQ(lanelines(two), 1);
 }
 
 TEST(MapperState, DamagedBytesAreRefused) {

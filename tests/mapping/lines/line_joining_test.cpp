@@ -277,6 +277,13 @@ TEST_F(Meeting, ALineIsNotFoldedBackOnItself) {
   EXPECT_EQ(lines_.size(), 2U);
 }
 
+TEST_F(Meeting, ALineThatTurnsOffSharplyStaysTwo) {
+  lines_[1] = line(2, straight({10.7, 0.4, 0}, {15.7, 9.06, 0}, 11));
+  joint(End::back, End::front);
+  join();
+  EXPECT_EQ(lines_.size(), 2U);
+}
+
 TEST_F(Meeting, OfAShortPieceTheEndThatFacesTheOtherLineIsJoined) {
   lines_ = {line(1, straight({0, 0, 0}, {1, 0, 0}, 2)), line(2, straight({1.3, 0, 0}, {9.3, 0, 0}, 9))};
   joints_ = {{markings::end_id(1, End::front), markings::end_id(2, End::front), 10.0, 0.0},
