@@ -9,6 +9,8 @@
 #include "mapping/boundaries/road_sections.hpp"
 #include "mapping/geometry/map_box.hpp"
 #include "mapping/geometry/scene.hpp"
+#include "mapping/lanes/continued_edges.hpp"
+#include "mapping/lanes/forks.hpp"
 #include "mapping/lanes/inferred_boundaries.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/lane_memory.hpp"
@@ -70,11 +72,12 @@ lanes::FoundLanes lanes_of(const DriveAccumulator::Drive& drive, boundaries::Sec
   const auto pairs = boundary_pairs(sections);
   const auto strips = lanes::generate_lanes(pairs, sections.boundaries, last.translation(), config);
   lanes::TakenSpace taken(strips);
-  auto lanes = lanes::without_shoulders(strips, pairs, sections.boundaries, last, config);
+  auto marked = lanes::without_shoulders(strips, pairs, sections.boundaries, last, config);
+  auto forks = lanes::cut_at_forks(sections.boundaries, config, marked);
   auto inferred = divide_unmarked(pairs, sections.boundaries, config, taken);
-  std::ranges::move(lanes_beside_one_line(sections, lanes, drive.poses, config, taken),
+  std::ranges::move(lanes_beside_one_line(sections, marked, drive.poses, config, taken),
                     std::back_inserter(inferred));
-  return {std::move(sections.boundaries), std::move(lanes), std::move(inferred)};
+  return {std::move(sections.boundaries), std::move(marked), std::move(inferred), std::move(forks)};
 }
 
 void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, lanes::LaneMemory& memory,
@@ -95,8 +98,11 @@ LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config)
   const geometry::Scene scene{.box = geometry::MapBox(everything(), drive.poses.back()), .frame = 1};
   markings::IdSource ids(drive.markings.size() + 1);
   lanes::LaneMemory memory;
+  boundaries::Boundaries boundaries = boundaries_of(drive, config.boundary, ids);
+  boundaries.insert(
+      memory.recognise(lanes::continued_edges(boundaries, scene.box, config.lane), scene, config.lane, ids));
   boundaries::SectionGraph sections =
-      road_sections(boundaries_of(drive, config.boundary, ids), scene.T_map_body(), config.section);
+      road_sections(std::move(boundaries), scene.T_map_body(), config.section);
   lanes::FoundLanes found = lanes_of(drive, std::move(sections), config.lane);
   topology::RoadGraph road =
       topology::link_lanes(memory.recognise(std::move(found), scene, config.lane, ids), config.linkage);

@@ -1,0 +1,73 @@
+#include "export/weave.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "laneloom/polyline.hpp"
+
+namespace laneloom::exports {
+namespace {
+
+Marking line(ElementId id, MarkingType type, Polyline points) {
+  return {.id = id, .type = type, .points = std::move(points)};
+}
+
+/// The points (x, y(x)) from one x to another, half a metre apart.
+template <class Course>
+Polyline along_x(double from_x, double to_x, Course&& y) {
+  Polyline points;
+  for (double x = from_x; x <= to_x; x += 0.5) points.emplace_back(x, y(x), 0.0);
+  return points;
+}
+
+/// A drive along the x axis, from 0 to 60 m, at y = `beside_m`.
+DriveAccumulator::Drive drive(double beside_m, std::vector<Marking> markings) {
+  DriveAccumulator::Drive result{.markings = std::move(markings), .poses = {}};
+  for (double x = 0.0; x <= 60.0; x += 2.0) result.poses.emplace_back(Eigen::Translation3d(x, beside_m, 0.0));
+  return result;
+}
+
+/// Whether a lane's centerline passes within half a metre of a place.
+bool passes(const Lane& lane, const Point& place) {
+  const Projection foot = MeasuredPolyline(lane.centerline).project(place);
+  return foot.inside && foot.distance_m < 0.5;
+}
+
+TEST(Weave, ALaneThatGivesWayIsLinkedWithTheOneThatOpens) {
+  const auto turning_aside = [](double y) {
+    return [y](double x) { return y - 3.0 * std::clamp((x - 30.0) / 15.0, 0.0, 1.0); };
+  };
+  const LocalMap map =
+      weave(drive(-1.75, {line(1, MarkingType::laneline, along_x(30.0, 60.0, [](double) { return 0.1; })),
+                          line(2, MarkingType::laneline, along_x(0.0, 60.0, turning_aside(0.0))),
+                          line(3, MarkingType::laneline, along_x(0.0, 60.0, turning_aside(-3.5)))}),
+            {});
+  const auto lane_at = [&](const Point& place) {
+    const auto found = std::ranges::find_if(map.lanes, [&](const Lane& lane) { return passes(lane, place); });
+    return found == map.lanes.end() ? kNoElement : found->id;
+  };
+  const ElementId stem = lane_at({10.0, -1.75, 0.0}), opened = lane_at({55.0, -1.45, 0.0});
+  ASSERT_NE(stem, kNoElement);
+  ASSERT_NE(opened, kNoElement);
+  EXPECT_TRUE(std::ranges::any_of(
+      map.linkages, [&](const Linkage& linkage) { return linkage.from == stem && linkage.to == opened; }));
+}
+
+TEST(Weave, AnEdgeIsContinuedWhereItWasNotSeen) {
+  const auto beside = [](double y) { return [y](double) { return y; }; };
+  const LocalMap map =
+      weave(drive(-1.75, {line(1, MarkingType::roadedge, along_x(0.0, 60.0, beside(3.5))),
+                          line(2, MarkingType::roadedge, along_x(0.0, 22.0, beside(-3.5))),
+                          line(3, MarkingType::roadedge, along_x(38.0, 60.0, beside(-3.5)))}),
+            {});
+  for (const double x : {10.0, 26.0, 30.0, 34.0, 50.0}) {
+    SCOPED_TRACE(x);
+    EXPECT_TRUE(std::ranges::any_of(map.lanes, [&](const Lane& lane) {
+      return passes(lane, {x, -1.75, 0.0});
+    }));
+  }
+}
+
+}  // namespace
+}  // namespace laneloom::exports
