@@ -29,6 +29,11 @@ function(use_precompiled name folder needs)
   endforeach()
 endfunction()
 
+# The headers' code is optimised as they are, not as the source that uses them.
+precompile(mapping "")
+get_property(options DIRECTORY ${PROJECT_SOURCE_DIR}/src/mapping PROPERTY COMPILE_OPTIONS)
+target_compile_options(laneloom_precompiled_mapping PRIVATE ${options})
+use_precompiled(mapping ${PROJECT_SOURCE_DIR}/src/mapping .)
 precompile(service "")
 use_precompiled(service ${PROJECT_SOURCE_DIR}/src .)
 if(LANELOOM_BUILD_PYTHON)
