@@ -147,7 +147,7 @@ struct FusionConfig {
   double stddev_per_m = 0.0035;  ///< growth of the lateral deviation per metre of distance, likewise
   /// Standard deviation of the lateral error that lasts from far to near. It does not average out, and is not
   /// learned.
-  double bias_stddev_m = 0.1;
+  double bias_stddev_m = 0.14;
   double fade_m = 5.0;  ///< the lateral step between an extension and its line fades out over this length
   // Evidence that a line exists at a station, as log odds.
   double birth_log_odds = -1.5;        ///< of the stations of a new line
