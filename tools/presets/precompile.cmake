@@ -29,7 +29,7 @@ function(use_precompiled name folder needs)
   endforeach()
 endfunction()
 
-# The headers' code is optimised as they are, not as the source that uses them.
+# The code in these headers is optimised as the headers are compiled, whatever the options of the source that uses them.
 precompile(mapping "")
 get_property(options DIRECTORY ${PROJECT_SOURCE_DIR}/src/mapping PROPERTY COMPILE_OPTIONS)
 target_compile_options(laneloom_precompiled_mapping PRIVATE ${options})
