@@ -142,40 +142,41 @@ TEST(Mapper, ADoubleThatIsNeverSeenWithItsLineIsNotPublished) {
     EXPECT_EQ(drive.step(i % 2 == 0 ? displaced : road()).boundaries.size(), 3U) << i;
 }
 
+/// The road with its laneline in two pieces, the second one 2.5 m beyond the first.
+std::vector<Detection> road_in_pieces() {
+  std::vector<Detection> pieces = road();
+  pieces[1].points = straight({-50, 0.1, 0.1}, {10, 0.1, 0.1});
+  pieces.push_back(test::detection(MarkingType::laneline, straight({12.5, 0.1, 0.1}, {300, 0.1, 0.1})));
+  return pieces;
+}
+
+/// The ids of the lanelines of a map.
+std::vector<ElementId> lanelines(const Drive& drive) {
+  std::vector<ElementId> ids;
+  for (const Marking& marking : drive.mapper.map().markings)
+    if (marking.type == MarkingType::laneline) ids.push_back(marking.id);
+  return ids;
+}
+
 TEST(Mapper, PiecesOfALineThatIsThenSeenWholeBecomeOneMarkingThatKeepsItsId) {
   Drive drive;
-  std::vector<Detection> in_pieces = road();
-  in_pieces[1].points = straight({-50, 0.1, 0.1}, {10, 0.1, 0.1});
-  in_pieces.push_back(test::detection(MarkingType::laneline, straight({12.5, 0.1, 0.1}, {300, 0.1, 0.1})));
-  for (int i = 0; i < 3; ++i) drive.step(in_pieces);
-  const auto lanelines = [&] {
-    std::vector<ElementId> ids;
-    for (const Marking& marking : drive.mapper.map().markings)
-      if (marking.type == MarkingType::laneline) ids.push_back(marking.id);
-    return ids;
-  };
-  const std::vector<ElementId> pieces = lanelines();
+  for (int i = 0; i < 3; ++i) drive.step(road_in_pieces());
+  const std::vector<ElementId> pieces = lanelines(drive);
   ASSERT_EQ(pieces.size(), 2U);
   drive.steps(15);
-  EXPECT_THAT(lanelines(), testing::ElementsAre(pieces[0]));
+  EXPECT_THAT(lanelines(drive), testing::ElementsAre(pieces[0]));
   drive.steps(80);
-  EXPECT_THAT(lanelines(), testing::ElementsAre(pieces[0])) << "the older piece is far behind";
+  EXPECT_THAT(lanelines(drive), testing::ElementsAre(pieces[0])) << "the older piece is far behind";
 }
 
 TEST(Mapper, AStandingCarJoinsNothing) {
   Drive drive;
-  std::vector<Detection> in_pieces = road();
-  in_pieces[1].points = straight({-50, 0.1, 0.1}, {10, 0.1, 0.1});
-  in_pieces.push_back(test::detection(MarkingType::laneline, straight({12.5, 0.1, 0.1}, {300, 0.1, 0.1})));
-  for (int i = 0; i < 3; ++i) drive.step(in_pieces);
-  const auto lanelines = [&] {
-    return std::ranges::count(drive.mapper.map().markings, MarkingType::laneline, &Marking::type);
-  };
+  for (int i = 0; i < 3; ++i) drive.step(road_in_pieces());
   for (int i = 0; i < 30; ++i)
     drive.mapper.update(frame_at(drive.x, road(), ++drive.number), test::at(drive.x));
-  EXPECT_EQ(lanelines(), 2);
+  EXPECT_EQ(lanelines(drive).size(), 2U);
   drive.steps(2);
-  EXPECT_EQ(lanelines(), 1);
+  EXPECT_EQ(lanelines(drive).size(), 1U);
 }
 
 TEST(VoxelMapper, NothingBeforeAlphaNDetectionsThenTheRoad) {
@@ -378,18 +379,15 @@ TEST(MapperState, HowEndsThatLieSideBySideWereSeenIsSaved) {
   first[1].points = straight({-50, 0.1, 0.1}, {16, 0.1, 0.1});
   second[1].points = straight({10, 0.8, 0.1}, {300, 0.8, 0.1});
   Drive one, two;
-  const auto lanelines = [](const Drive& drive) {
-    return std::ranges::count(drive.mapper.map().markings, MarkingType::laneline, &Marking::type);
-  };
   for (int i = 0; i < 6; ++i) one.step(i % 2 == 0 ? first : second);
-  ASSERT_EQ(lanelines(one), 2);
+  ASSERT_EQ(lanelines(one).size(), 2U);
   two.mapper.load(one.mapper.save());
   two.x = one.x;
   two.number = one.number;
   one.step(second);
   two.step(second);
-  EXPECT_EQ(lanelines(one), 1);
-  EXPECT_EQ(lanelines(two), 1);
+  EXPECT_EQ(lanelines(one).size(), 1U);
+  EXPECT_EQ(lanelines(two).size(), 1U);
 }
 
 TEST(MapperState, DamagedBytesAreRefused) {
