@@ -152,7 +152,7 @@ struct FusionConfig {
   // Evidence that a line exists at a station, as log odds.
   double birth_log_odds = -1.5;        ///< of the stations of a new line
   double extension_log_odds = -0.5;    ///< of a new station that extends a line
-  double hit_log_odds = 0.4;           ///< gained by an observation of confidence 0.5
+  double hit_log_odds = 0.4;           ///< gained by an observation that is believed by half
   double miss_log_odds = 0.13;         ///< a miss adds this times ln(1 - the network's rate of detection)
   double max_log_odds = 6.0;           ///< upper limit of a station
   double min_log_odds = -4.0;          ///< a station below this is removed

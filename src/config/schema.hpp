@@ -142,8 +142,10 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("birth_log_odds", birth_log_odds, {"", -10, 0}, "Log odds of the stations of a new line.");
   v.number("extension_log_odds", extension_log_odds, {"", -10, 10},
            "Log odds of a new station by which a line is extended.");
-  v.number("hit_log_odds", hit_log_odds, {"", 0.01, 5},
-           "Log odds that a station gains by an observation of confidence 0.5.");
+  v.number(
+      "hit_log_odds", hit_log_odds, {"", 0.01, 5},
+      "Log odds that a station gains by an observation that is believed by half: its confidence is 5/6 of "
+      "the mean that this network gives to established lines.");
   v.number("miss_log_odds", miss_log_odds, {"", 0, 5},
            "Weight of a miss. A station in view that is not observed loses this, times the negative "
            "logarithm of the rate at which the network misses lines that exist.");

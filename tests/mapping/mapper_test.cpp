@@ -120,6 +120,31 @@ TEST(Mapper, AGhostGoesAgain) {
   EXPECT_EQ(drive.mapper.map().boundaries.size(), 3U);
 }
 
+/// Number of frames in which a new line has to be seen until it is published, by a network that has given all
+/// lines of a road `confidence` for a while.
+int frames_until_published(double confidence) {
+  const auto told = [=](std::vector<Detection> detections) {
+    for (Detection& detection : detections) detection.confidence = confidence;
+    return detections;
+  };
+  Drive drive;
+  for (int i = 0; i < 60; ++i) drive.step(told(road()));
+  auto with_new_line = road();
+  with_new_line.push_back(
+      test::detection(MarkingType::laneline, straight({drive.x, 12, 0.1}, {drive.x + 15, 12, 0.1})));
+  const std::size_t known = drive.mapper.map().markings.size();
+  int frames = 1;
+  while (frames < 30 && drive.step(told(with_new_line)).markings.size() == known) ++frames;
+  return frames;
+}
+
+TEST(Mapper, NetworksThatAreSureAndUnsureAreBelievedAlike) {
+  const int usual = frames_until_published(0.6);
+  EXPECT_GT(usual, 2);
+  EXPECT_NEAR(frames_until_published(0.95), usual, 1);
+  EXPECT_NEAR(frames_until_published(0.35), usual, 1);
+}
+
 TEST(Mapper, WhatLiesBeyondAShoulderIsNoRoad) {
   const auto along = [](MarkingType type, double y) {
     return test::detection(type, straight({-50, y, 0}, {300, y, 0}), MarkingStyle::solid);
@@ -378,6 +403,10 @@ TEST(MapperState, HowEndsThatLieSideBySideWereSeenIsSaved) {
   std::vector<Detection> first = road(), second = road();
   first[1].points = straight({-50, 0.1, 0.1}, {16, 0.1, 0.1});
   second[1].points = straight({10, 0.8, 0.1}, {300, 0.8, 0.1});
+  // The lines are surer than the edges, so that few frames suffice.
+  for (std::vector<Detection>* const frame : {&first, &second})
+    for (Detection& detection : *frame)
+      detection.confidence = detection.type == MarkingType::laneline ? 1.0 : 0.6;
   Drive one, two;
   for (int i = 0; i < 6; ++i) one.step(i % 2 == 0 ? first : second);
   ASSERT_EQ(lanelines(one).size(), 2U);

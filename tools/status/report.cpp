@@ -64,8 +64,7 @@ std::string learned_lines(const SourceStatus& source) {
     line((type + "s seen").c_str(), " of those there, 0, 10, 20, 30 m ahead",
          {"rate_" + type + "_ahead_0_m", "rate_" + type + "_ahead_10_m", "rate_" + type + "_ahead_20_m",
           "rate_" + type + "_ahead_30_m"});
-  line("wrong lines' confidence", " less, of lanelines, roadedges",
-       {"confidence_deficit_laneline", "confidence_deficit_roadedge"});
+  line("confidence", " of lines that are there", {"confidence"});
   return text;
 }
 

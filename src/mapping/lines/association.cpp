@@ -85,7 +85,8 @@ std::vector<SampledDetection> sample_detections(const std::vector<markings::Obse
     SampledDetection detection{.samples = line.resample(config.sample_step_m),
                                .type = marking.type,
                                .style = marking.style,
-                               .confidence = marking.confidence};
+                               .confidence = marking.confidence,
+                               .belief = marking.belief};
     detection.spacing_m = line.length() / static_cast<double>(detection.samples.size() - 1);
     if (!marking.stddev_m.empty()) detection.stddev_m = deviations(marking, detection);
     detection.explained.assign(detection.samples.size(), false);
@@ -104,7 +105,7 @@ LineMatcher::LineMatcher(const std::vector<Line>& lines, const FusionConfig& con
   confirmed_.reserve(lines.size());
   for (const Line& line : lines) {
     courses_.emplace_back(line);
-    confirmed_.push_back(existence(line.stations, line.confidences) >= config.confirm_log_odds);
+    confirmed_.push_back(existence(line.stations, line.beliefs) >= config.confirm_log_odds);
   }
 }
 

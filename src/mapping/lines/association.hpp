@@ -36,9 +36,9 @@ struct SampledDetection {
   double spacing_m = 0.0;  ///< between samples along the detection, at most `sample_step_m`
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
-  double confidence = 0.0;
-  std::vector<double> stddev_m{};  ///< lateral standard deviation per sample; empty: not given
-  std::vector<bool> explained{};   ///< per sample: a line observed it, or was extended by it
+  double confidence = 0.0, belief = 0.0;  ///< as in markings::ObservedMarking
+  std::vector<double> stddev_m{};         ///< lateral standard deviation per sample; empty: not given
+  std::vector<bool> explained{};          ///< per sample: a line observed it, or was extended by it
 
   /// The length of the detection that a sample stands for, in metres: half of the way to each neighbour.
   double share_m(std::size_t sample) const {

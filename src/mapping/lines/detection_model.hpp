@@ -9,6 +9,9 @@
 
 namespace laneloom::lines {
 
+/// The mean belief in detections of lines that are there.
+constexpr double kUsualBelief = 0.6;
+
 /// A mean that is learned. It starts from a prior, which counts as `weight` values. Once it has `max_weight`
 /// values, old ones are forgotten gradually.
 struct LearnedMean {
@@ -22,9 +25,8 @@ struct LearnedMean {
   }
 };
 
-/// Learns of one network, while it is used, how often it sees lines that are there, and how far its
-/// confidences tell right lines from wrong ones. Only evidence that does not depend on confidences says which
-/// lines are right or wrong, so that no belief in confidences confirms itself. Ours.
+/// Learns of one network, while it is used, how often it sees lines that are there, and how high its
+/// confidences of them are. Ours.
 class DetectionModel {
  public:
   /// Values in `profile` replace the priors, which hold for networks in general.
@@ -37,41 +39,28 @@ class DetectionModel {
   /// The share of frames in which the network sees a place on a line that is there, 0..1.
   double rate(MarkingType type, const Point& point_body) const;
 
-  /// Learns from the confidence of a detection of an established line, seen from `range_m` away.
-  void learn_confidence(MarkingType type, double range_m, double confidence);
+  /// Learns from the confidence of a detection of an established line.
+  void learn_confidence(double confidence);
   /// Whether enough confidences were learned to compare others with.
   bool knows_confidences() const;
-  /// How far a confidence lies above those of established lines at the same range.
-  double surplus(MarkingType type, double range_m, double confidence) const;
-
-  /// Learns from the confidences of an established line, or of a line that turned out not to be there.
-  void learn_right(const Confidences& confidences);
-  void learn_wrong(MarkingType type, const Confidences& confidences);
-  /// The log odds that a line exists, by its confidences alone.
-  double log_odds(MarkingType type, const Confidences& confidences) const;
+  /// A confidence on a scale that all networks share, where established lines have kUsualBelief in the mean:
+  /// 0..1.
+  double belief(double confidence) const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(rates_, level_, levels_, variance_, lasting_, deficits_);
+    archive(rates_, confidence_);
   }
 
  private:
-  static constexpr std::size_t kRings = 6, kRanges = 4;
-  template <std::size_t Count>
-  using ByTypeAnd = std::array<std::array<LearnedMean, Count>, kMarkingTypeCount>;
+  static constexpr std::size_t kRings = 6;
 
   /// Calls `visit(name, mean)` for each value that is learned, of a model that may be const.
   static void each(auto& model, const auto& visit);
 
-  /// Variance of the mean of `count` confidences of a right line.
-  double variance_of_mean(double count) const;
-
-  ByTypeAnd<2 * kRings> rates_;  ///< rates of detection, by range ahead and then by range behind
-  LearnedMean level_;            ///< mean confidence of established lines
-  ByTypeAnd<kRanges> levels_;    ///< likewise, by type and range
-  LearnedMean variance_;         ///< of single confidences of right lines
-  LearnedMean lasting_;          ///< share of that variance which all confidences of a line have in common
-  std::array<LearnedMean, kMarkingTypeCount> deficits_;  ///< by how much wrong lines are less confident
+  /// Rates of detection by type, by range ahead and then by range behind.
+  std::array<std::array<LearnedMean, 2 * kRings>, kMarkingTypeCount> rates_;
+  LearnedMean confidence_;  ///< mean confidence of established lines
 };
 
 }  // namespace laneloom::lines

@@ -13,7 +13,11 @@ namespace {
 // A flood of false detections must not make frames slow.
 constexpr std::size_t kRoomForLines = 256, kRoomForStations = 20000;
 constexpr double kStandingShare = 0.3;  // least share of a view's evidence, while a station is not confirmed
-constexpr std::array kMilestones{8.0, 16.0, 32.0, 64.0};
+
+// What the mean belief in a line's detections says of the line's existence. All of them have a share of their
+// variance in common, so that many say little more than some.
+constexpr double kPerBelief = 3.5, kCommonShare = 0.3;
+constexpr double kMostAgainst = 4.0, kMostFor = 1.0;  // log odds: many wrong lines look right, too
 
 /// Whether a polygon contains a point, by the number of its crossings of a ray (even-odd rule).
 bool contains(const Polyline& polygon, const Point& point) {
@@ -24,6 +28,13 @@ bool contains(const Polyline& polygon, const Point& point) {
     if (point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y())) inside = !inside;
   }
   return inside;
+}
+
+/// Log odds that a line exists, by the beliefs in its detections alone.
+double log_odds(const Beliefs& beliefs) {
+  if (beliefs.count <= 0.0) return 0.0;
+  const double variance = kCommonShare + (1.0 - kCommonShare) / std::max(1.0, beliefs.count);
+  return std::clamp(kPerBelief * (beliefs.mean - kUsualBelief) / variance, -kMostAgainst, kMostFor);
 }
 
 }  // namespace
@@ -56,28 +67,20 @@ bool View::sees(const Point& point_map, MarkingType type, const geometry::MapBox
          std::ranges::none_of(occluded_areas_, [&](const Outline& area) { return area.contains(point); });
 }
 
-double existence(std::span<const Station> stations, const Confidences& confidences) {
+double existence(std::span<const Station> stations, const Beliefs& beliefs) {
   double sum = 0.0;
   for (const Station& station : stations) sum += station.log_odds;
-  return sum / static_cast<double>(stations.size()) + confidences.log_odds;
+  return sum / static_cast<double>(stations.size()) + log_odds(beliefs);
 }
 
 namespace {
 
-double mean_range_m(const SampledDetection& detection, const Point& origin) {
-  double sum_m = 0.0;
-  for (const Point& sample : detection.samples) sum_m += (sample - origin).head<2>().norm();
-  return sum_m / static_cast<double>(detection.samples.size());
-}
-
-/// Whether a line is confirmed by its stations alone, without its confidences.
+/// Whether a line is confirmed by its stations alone, without the beliefs in its detections.
 bool is_established(const Line& line, const FusionConfig& config) {
   return existence(line.stations, {}) >= config.confirm_log_odds;
 }
 
-double hit(const SampledDetection& detection, const FusionConfig& config) {
-  return config.hit_log_odds * 4.0 * detection.confidence * detection.confidence;
-}
+double hit(double belief, const FusionConfig& config) { return config.hit_log_odds * 4.0 * belief * belief; }
 
 /// The limit up to which a standing vehicle raises the evidence: a line may come to be published, but not
 /// confirmed.
@@ -101,35 +104,22 @@ void credit_stations(const LineMatch& match, double log_odds, double news, const
   }
 }
 
-/// Whether a line's confidences reach a count at which the model learns from them. Each such count is twice
-/// the one before.
-bool reaches_milestone(double count, double news) {
-  return std::ranges::any_of(kMilestones, [=](double m) { return count < m && count + news >= m; });
-}
-
 }  // namespace
 
-void add_confidence(const SampledDetection& detection, const Point& origin, double news,
-                    const DetectionModel& model, Line& line) {
-  if (!model.knows_confidences()) return;
-  const double range_m = mean_range_m(detection, origin);
-  line.confidences.add(model.surplus(line.type(), range_m, detection.confidence), news);
-  line.confidences.log_odds = model.log_odds(line.type(), line.confidences);
+void add_belief(double belief, double news, const DetectionModel& model, Line& line) {
+  if (model.knows_confidences()) line.beliefs.add(belief, news);
 }
 
 void credit_observed(const View& view, const Association& association, const FusionConfig& config,
                      DetectionModel& model, std::vector<Line>& lines) {
-  const Point origin = view.T_body_map.inverse().translation();
   for (const LineMatch& match : association.matches) {
     const SampledDetection& detection = association.detections[match.detection];
     Line& line = lines[match.line];
     line.last_seen_ns = std::max(line.last_seen_ns, view.frame->stamp_ns);
-    credit_stations(match, hit(detection, config), view.news, config, line);
-    if (config.learn && view.is_independent() && is_established(line, config)) {
-      model.learn_confidence(line.type(), mean_range_m(detection, origin), detection.confidence);
-      if (reaches_milestone(line.confidences.count, view.news)) model.learn_right(line.confidences);
-    }
-    add_confidence(detection, origin, view.news, model, line);
+    credit_stations(match, hit(detection.belief, config), view.news, config, line);
+    if (config.learn && view.is_independent() && is_established(line, config))
+      model.learn_confidence(detection.confidence);
+    add_belief(detection.belief, view.news, model, line);
   }
 }
 
@@ -191,7 +181,7 @@ std::size_t forget_least_believed(std::vector<Line>& lines) {
   if (!are_too_many(lines)) return 0;
   std::vector<std::pair<double, std::size_t>> by_disbelief;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    by_disbelief.emplace_back(-existence(lines[i].stations, lines[i].confidences), i);
+    by_disbelief.emplace_back(-existence(lines[i].stations, lines[i].beliefs), i);
   std::ranges::sort(by_disbelief);
   std::vector<bool> kept(lines.size(), false);
   std::size_t count = 0, stations = 0;
@@ -207,19 +197,13 @@ std::size_t forget_least_believed(std::vector<Line>& lines) {
 
 }  // namespace
 
-Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, DetectionModel& model,
-                   std::vector<Line>& lines, markings::IdSource& ids) {
+Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, std::vector<Line>& lines,
+                   markings::IdSource& ids) {
   std::vector<Line> kept, cut_off;
   Pruned pruned;
   for (Line& line : lines) {
-    const MarkingType type = line.type();
-    const bool leaves =
-        std::ranges::any_of(line.stations, [&](const Station& s) { return !range.keeps(s.position); });
     std::vector<Line> pieces = living_pieces(line, range, config);
-    if (pieces.empty()) {
-      if (config.learn && !leaves) model.learn_wrong(type, line.confidences);
-      continue;
-    }
+    if (pieces.empty()) continue;
     const auto longest =
         std::ranges::max_element(pieces, {}, [](const Line& piece) { return piece.stations.size(); });
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {

@@ -49,12 +49,11 @@ struct View {
   std::vector<Outline> occluded_areas_;
 };
 
-/// Log odds that a line exists: the mean of its stations plus those of its confidences.
-double existence(std::span<const Station> stations, const Confidences& confidences);
+/// Log odds that a line exists: the mean of its stations plus those of its beliefs.
+double existence(std::span<const Station> stations, const Beliefs& beliefs);
 
-/// Adds the confidence of one more detection to a line.
-void add_confidence(const SampledDetection& detection, const Point& origin, double news,
-                    const DetectionModel& model, Line& line);
+/// Adds the belief in one more detection to a line, once the model knows the network's confidences.
+void add_belief(double belief, double news, const DetectionModel& model, Line& line);
 
 /// Raises the evidence of the stations that were observed. The model learns the confidences of established
 /// lines.
@@ -74,9 +73,9 @@ struct Pruned {
 };
 
 /// Removes stations that have lost their evidence or left the range. A line that loses stations in between is
-/// split; its longest piece keeps the id. The model learns which lines were wrong. There is room for 256
-/// lines with 20000 stations together: of more, the lines of the least evidence are forgotten.
-Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, DetectionModel& model,
-                   std::vector<Line>& lines, markings::IdSource& ids);
+/// split; its longest piece keeps the id. There is room for 256 lines with 20000 stations together: of more,
+/// the lines of the least evidence are forgotten.
+Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, std::vector<Line>& lines,
+                   markings::IdSource& ids);
 
 }  // namespace laneloom::lines

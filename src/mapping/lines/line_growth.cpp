@@ -138,7 +138,7 @@ std::vector<Line> new_lines(const std::vector<SampledDetection>& detections, con
         if (!near) line.stations.push_back(new_station(sample, from, detection, i, config.birth_log_odds));
       }
       if (line.stations.size() < 2 || length_m < config.min_birth_length_m) continue;
-      add_confidence(detection, from.T_map_body.translation(), 1.0, model, line);
+      add_belief(detection.belief, 1.0, model, line);
       lines.push_back(std::move(line));
     }
   }

@@ -164,7 +164,7 @@ class Joining {
     line.observations = std::max(line.observations, next.observations);
     line.first_seen_ns = std::min(line.first_seen_ns, next.first_seen_ns);
     line.last_seen_ns = std::max(line.last_seen_ns, next.last_seen_ns);
-    if (next.confidences.count > line.confidences.count) line.confidences = next.confidences;
+    if (next.beliefs.count > line.beliefs.count) line.beliefs = next.beliefs;
     keep(line, whole, rest);
   }
 

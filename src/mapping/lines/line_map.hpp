@@ -38,19 +38,18 @@ struct Station {
 /// Whether the present frame observed more of the stations than it missed.
 bool mostly_observed(std::span<const Station> stations);
 
-/// The confidences with which a line was detected.
-struct Confidences {
-  double count = 0.0;     ///< number of independent views
-  double mean = 0.0;      ///< mean surplus over the confidences of established lines
-  double log_odds = 0.0;  ///< that the line exists, by the confidences alone
+/// The beliefs in the detections of a line, see DetectionModel::belief().
+struct Beliefs {
+  double count = 0.0;  ///< number of independent views
+  double mean = 0.0;
 
-  void add(double surplus, double news) {
+  void add(double belief, double news) {
     count += news;
-    mean += news / count * (surplus - mean);
+    mean += news / count * (belief - mean);
   }
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(count, mean, log_odds);
+    archive(count, mean);
   }
 };
 
@@ -61,14 +60,14 @@ struct Line {
   std::uint64_t observations = 0;  ///< number of detections that observed it
   std::int64_t first_seen_ns = 0;  ///< stamp of the frame that made it
   std::int64_t last_seen_ns = 0;   ///< stamp of the newest frame that observed it
-  Confidences confidences{};
+  Beliefs beliefs{};
 
   /// The type with most votes of all stations; of equals, the first one.
   MarkingType type() const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(id, stations, observations, first_seen_ns, last_seen_ns, confidences);
+    archive(id, stations, observations, first_seen_ns, last_seen_ns, beliefs);
   }
 };
 

@@ -54,7 +54,7 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
   }
   std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
   if (view.is_independent()) join(fusion, relatives);
-  const Pruned pruned = prune_lines(scene.box, fusion, network.detection, lines_, ids);
+  const Pruned pruned = prune_lines(scene.box, fusion, lines_, ids);
   std::ranges::copy(pruned.pieces, std::back_inserter(relatives));
   forgotten_ = pruned.forgotten;
   log.done(Stage::line_set);
@@ -68,7 +68,10 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
 Association LineMapper::associated(const markings::ObservedFrame& observed, const Network& network,
                                    const FusionConfig& config, Viewpoint& from) {
   const Eigen::Isometry3d& T_map_body = observed.T_map_body;
-  auto detections = sample_detections(join_dashes(observed.markings), config);
+  std::vector<markings::ObservedMarking> markings = observed.markings;
+  for (markings::ObservedMarking& marking : markings)
+    marking.belief = network.detection.belief(marking.confidence);
+  auto detections = sample_detections(join_dashes(std::move(markings)), config);
   from.stretch_per_m = estimate_stretch_per_m(detections, T_map_body);
   unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
   LineMatcher matcher(lines_, config);

@@ -138,7 +138,7 @@ std::vector<IndexPair> without_room(const std::vector<IndexPair>& pairs, BesideS
 }  // namespace
 
 double weight(const Line& line, const FusionConfig& config) {
-  const double above = existence(line.stations, line.confidences) - config.min_log_odds;
+  const double above = existence(line.stations, line.beliefs) - config.min_log_odds;
   return static_cast<double>(line.stations.size()) * std::max(0.0, above);
 }
 

@@ -89,7 +89,7 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
   } else {
     marking.styles = styles_along(stations, marking.points, config.style);
   }
-  const double log_odds = existence(stations, line.confidences);
+  const double log_odds = existence(stations, line.beliefs);
   const bool confirmed = log_odds >= config.fusion.confirm_log_odds;
   marking.status = confirmed ? ElementStatus::confirmed : ElementStatus::tentative;
   marking.existence_probability = existence_probability(log_odds, config.fusion);
@@ -109,7 +109,7 @@ std::vector<Marking> publish_lines(const std::vector<Line>& lines, const marking
   for (const Line& line : lines) {
     if (std::ranges::find(held_back, line.id) != held_back.end()) continue;
     const Stations stations = published_stretch(line, fusion);
-    if (stations.size() < 2 || existence(stations, line.confidences) < fusion.publish_log_odds) continue;
+    if (stations.size() < 2 || existence(stations, line.beliefs) < fusion.publish_log_odds) continue;
     Marking marking = as_marking(line, stations, config);
     if (length(marking.points) >= fusion.min_length_m) markings.push_back(std::move(marking));
   }

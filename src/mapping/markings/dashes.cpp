@@ -64,7 +64,7 @@ std::vector<Join> possible_joins(const std::vector<ObservedMarking>& markings) {
 
 ObservedMarking joined(const std::vector<Link>& chain, std::vector<ObservedMarking>& markings) {
   ObservedMarking line{.type = MarkingType::laneline};
-  double doubt = 1.0;
+  double doubt = 1.0, sum = 0.0;
   std::size_t dashes = 0;
   bool has_stddev = true;
   for (const Link& link : chain) {
@@ -73,7 +73,8 @@ ObservedMarking joined(const std::vector<Link>& chain, std::vector<ObservedMarki
       std::ranges::reverse(piece.points);
       std::ranges::reverse(piece.stddev_m);
     }
-    doubt *= 1.0 - piece.confidence;
+    sum += piece.confidence;
+    doubt *= 1.0 - piece.belief;
     if (is_dash(piece)) ++dashes;
     if (piece.style == MarkingStyle::dashed || dashes >= kMinDashes) line.style = MarkingStyle::dashed;
     has_stddev = has_stddev && !piece.stddev_m.empty();
@@ -81,7 +82,8 @@ ObservedMarking joined(const std::vector<Link>& chain, std::vector<ObservedMarki
     line.stddev_m.insert(line.stddev_m.end(), piece.stddev_m.begin(), piece.stddev_m.end());
   }
   if (!has_stddev) line.stddev_m.clear();
-  line.confidence = 1.0 - doubt;
+  line.confidence = sum / static_cast<double>(chain.size());
+  line.belief = 1.0 - doubt;
   return line;
 }
 

@@ -11,9 +11,10 @@ namespace laneloom::markings {
 struct ObservedMarking {
   MarkingType type = MarkingType::laneline;
   MarkingStyle style = MarkingStyle::unknown;
-  double confidence = 0.0;         ///< 0..1
+  double confidence = 0.0;         ///< 0..1, as it was told; of joined dashes the mean
   Polyline points;                 ///< map frame
   std::vector<double> stddev_m{};  ///< lateral standard deviation per point; empty: not given
+  double belief = 0.0;  ///< 0..1, on the scale of all networks; of joined dashes that of all together
 };
 
 /// A frame with those of its detections that passed the filters.

@@ -7,52 +7,29 @@ namespace {
 
 constexpr auto kLine = MarkingType::laneline, kEdge = MarkingType::roadedge;
 
-/// Established lines have confidences about 0.7.
-DetectionModel learned() {
+DetectionModel taught(double confidence) {
   DetectionModel model;
-  for (int i = 0; i < 200; ++i) model.learn_confidence(kLine, 10.0, i % 2 == 0 ? 0.6 : 0.8);
+  for (int i = 0; i < 2000; ++i) model.learn_confidence(confidence);
   return model;
 }
 
-Confidences confidences(double count, double mean) { return {.count = count, .mean = mean}; }
-
-TEST(DetectionModel, KnowsNoLevelAtFirst) {
-  DetectionModel model;
+TEST(DetectionModel, TakesConfidencesAsTheyAreAtFirst) {
+  const DetectionModel model;
   EXPECT_FALSE(model.knows_confidences());
-  EXPECT_EQ(model.log_odds(kLine, {}), 0.0);
-  EXPECT_TRUE(learned().knows_confidences());
+  EXPECT_DOUBLE_EQ(model.belief(0.5), 0.5);
+  EXPECT_TRUE(taught(0.9).knows_confidences());
 }
 
-TEST(DetectionModel, AConfidenceIsComparedWithWhatEstablishedLinesHaveThere) {
-  DetectionModel model = learned();
-  EXPECT_NEAR(model.surplus(kLine, 10.0, 0.7), 0.0, 0.02);
-  for (int i = 0; i < 500; ++i) model.learn_confidence(kLine, 30.0, 0.5);
-  EXPECT_NEAR(model.surplus(kLine, 30.0, 0.5), 0.0, 0.02);
-  EXPECT_NEAR(model.surplus(kLine, 10.0, 0.7) - model.surplus(kLine, 30.0, 0.7), -0.2, 0.05);
+TEST(DetectionModel, NetworksThatAreSureAndUnsureAreBelievedAlike) {
+  EXPECT_NEAR(taught(0.9).belief(0.9), kUsualBelief, 0.01);
+  EXPECT_NEAR(taught(0.3).belief(0.3), kUsualBelief, 0.01);
+  EXPECT_NEAR(taught(0.9).belief(0.45), 0.5 * kUsualBelief, 0.01);
 }
 
-TEST(DetectionModel, LowConfidencesSpeakAgainstALineTheMoreTheMoreTheyAre) {
-  const DetectionModel model = learned();
-  EXPECT_LT(model.log_odds(kLine, confidences(1.0, -0.15)), -0.1);
-  EXPECT_LT(model.log_odds(kLine, confidences(20.0, -0.15)), model.log_odds(kLine, confidences(1.0, -0.15)));
-  EXPECT_GT(model.log_odds(kLine, confidences(20.0, 0.05)), 0.5);
-}
-
-TEST(DetectionModel, WhereWrongLinesScoreAsRightOnesConfidencesSayNothing) {
-  DetectionModel model = learned();
-  for (int i = 0; i < 300; ++i) model.learn_wrong(kLine, confidences(5.0, 0.0));
-  EXPECT_NEAR(model.log_odds(kLine, confidences(20.0, -0.15)), 0.0, 0.1);
-  EXPECT_LT(model.log_odds(kEdge, confidences(20.0, -0.15)), -1.0) << "each type by itself";
-}
-
-TEST(DetectionModel, ConfidencesThatErrTogetherCountAsFew) {
-  DetectionModel lasting = learned(), passing = learned();
-  for (int i = 0; i < 100; ++i) {
-    lasting.learn_right(confidences(16.0, i % 2 == 0 ? 0.1 : -0.1));
-    passing.learn_right(confidences(16.0, i % 2 == 0 ? 0.02 : -0.02));
-  }
-  EXPECT_GT(lasting.log_odds(kLine, confidences(30.0, -0.1)),
-            2.0 / 3.0 * passing.log_odds(kLine, confidences(30.0, -0.1)));
+TEST(DetectionModel, BeliefIsAProbability) {
+  EXPECT_EQ(taught(0.3).belief(1.0), 1.0);
+  EXPECT_EQ(taught(0.0).belief(1.0), 1.0);
+  EXPECT_EQ(taught(0.0).belief(0.0), 0.0);
 }
 
 TEST(DetectionModel, RatesAreLearnedByTypeAndPlaceWithinBounds) {

@@ -22,10 +22,11 @@ class LineFusion : public ::testing::Test {
   void see(const std::vector<Polyline>& polylines, MarkingType type = MarkingType::laneline) {
     std::vector<markings::ObservedMarking> markings;
     for (const Polyline& points : polylines) markings.push_back({type, MarkingStyle::solid, 0.8, points});
-    see_markings(markings);
+    see_markings(std::move(markings));
   }
 
-  void see_markings(const std::vector<markings::ObservedMarking>& markings) {
+  void see_markings(std::vector<markings::ObservedMarking> markings) {
+    for (markings::ObservedMarking& marking : markings) marking.belief = model_.belief(marking.confidence);
     Association association = associated(markings);
     fuse_matches(association, {}, config_, networks_, lines_);
     const View view(Eigen::Isometry3d::Identity(), frame_);
@@ -36,8 +37,7 @@ class LineFusion : public ::testing::Test {
       line.id = ids_.next();
       lines_.push_back(std::move(line));
     }
-    std::ranges::copy(prune_lines(range_, config_, model_, lines_, ids_).pieces,
-                      std::back_inserter(cut_off_));
+    std::ranges::copy(prune_lines(range_, config_, lines_, ids_).pieces, std::back_inserter(cut_off_));
   }
 
   Association associated(const std::vector<markings::ObservedMarking>& markings) {
@@ -209,23 +209,11 @@ TEST_F(LineFusion, NoMoreThan20000StationsAreKept) {
   for (ElementId id = 1; id <= 60; ++id)
     lines_.push_back(test::line(id, straight({-20, 0, 0}, {20, 0, 0}, 500)));
   lines_.back().stations.front().log_odds = 1.0;
-  const Pruned pruned = prune_lines(range_, config_, model_, lines_, ids_);
+  const Pruned pruned = prune_lines(range_, config_, lines_, ids_);
   EXPECT_EQ(pruned.forgotten, 20U);
   EXPECT_EQ(lines_.size(), 40U);
   EXPECT_EQ(lines_.front().id, 1U);
   EXPECT_EQ(lines_.back().id, 60U) << "is believed most";
-}
-
-TEST_F(LineFusion, AFalseEdgeTeachesOfEdges) {
-  lines_.push_back(test::line(1, straight({0, 0, 0}, {10, 0, 0}, 11), MarkingType::roadedge));
-  for (Station& station : lines_[0].stations) station.log_odds = -9.0;
-  for (int i = 0; i < 20; ++i) lines_[0].confidences.add(-0.2, 1.0);
-  NetworkProfile before = model_.profile();
-  prune_lines(range_, config_, model_, lines_, ids_);
-  EXPECT_TRUE(lines_.empty());
-  NetworkProfile after = model_.profile();
-  EXPECT_GT(after["confidence_deficit_roadedge"].weight, before["confidence_deficit_roadedge"].weight);
-  EXPECT_EQ(after["confidence_deficit_laneline"].weight, before["confidence_deficit_laneline"].weight);
 }
 
 TEST_F(LineFusion, WhereTheNetworkHardlySeesALineAMissSaysLittle) {

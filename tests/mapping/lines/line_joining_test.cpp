@@ -150,13 +150,13 @@ TEST_F(Meeting, ALineIsJoinedOncePerFrame) {
   EXPECT_TRUE(runs_forth(lines_[0]));
 }
 
-TEST_F(Meeting, TheBetterKnownConfidencesStay) {
-  lines_[0].confidences = {.count = 2.0, .mean = 0.1, .log_odds = 0.2};
-  lines_[1].confidences = {.count = 5.0, .mean = -0.1, .log_odds = -0.5};
+TEST_F(Meeting, TheBetterKnownBeliefsStay) {
+  lines_[0].beliefs = {.count = 2.0, .mean = 0.7};
+  lines_[1].beliefs = {.count = 5.0, .mean = 0.4};
   joint(End::back, End::front);
   join();
   ASSERT_EQ(lines_.size(), 1U);
-  EXPECT_DOUBLE_EQ(lines_[0].confidences.log_odds, -0.5);
+  EXPECT_EQ(lines_[0].beliefs.mean, 0.4);
 }
 
 class Overlapping : public LineJoining {

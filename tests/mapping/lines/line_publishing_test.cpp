@@ -44,13 +44,13 @@ TEST_F(LinePublishing, AWeakStretchInTheMiddleIsPublishedWithTheLine) {
   EXPECT_NEAR(length(markings[0].points), 50.0, 1e-9);
 }
 
-TEST_F(LinePublishing, ALineExistsByItsMeanAndItsConfidences) {
+TEST_F(LinePublishing, ALineExistsByItsMeanAndTheBeliefsInIt) {
   believe(0, 51, 0.0);
   EXPECT_TRUE(publish().empty());
-  line_.confidences.log_odds = 1.0;
+  line_.beliefs = {.count = 20.0, .mean = 0.7};
   EXPECT_EQ(publish().size(), 1U);
   believe(0, 51, 3.0);
-  line_.confidences.log_odds = -4.0;
+  line_.beliefs = {.count = 20.0, .mean = 0.3};
   EXPECT_TRUE(publish().empty());
 }
 

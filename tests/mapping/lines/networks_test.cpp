@@ -43,12 +43,13 @@ TEST(Networks, StartsWithWhatTheProfileOfASourceKnows) {
   config.networks["front"] = {{"stddev_at_26_m", {0.4, 1000}},
                               {"pitch_gain", {0.8, 900}},
                               {"rate_roadedge_behind_10_m", {0.5, 700}},
-                              {"confidence_deficit_laneline", {0.25, 60}}};
+                              {"confidence", {0.3, 60}}};
   Networks networks;
   const Network front = networks[networks.number("front", 1, config)];
   EXPECT_NEAR(front.lateral.stddev_m(26.0), 0.4, 1e-12);
   EXPECT_NEAR(front.lateral.pitch_gain(), 0.8, 1e-12);
   EXPECT_EQ(front.detection.rate(MarkingType::roadedge, {-15, 0, 0}), 0.5);
+  EXPECT_NEAR(front.detection.belief(0.3), kUsualBelief, 1e-12);
   EXPECT_EQ(front.lateral.stddev_m(8.0), NetworkModel(config.fusion).stddev_m(8.0)) << "not in the profile";
 
   const Network rear = networks[networks.number("rear", 2, config)];
@@ -63,7 +64,7 @@ TEST(Networks, AProfileGivesTheSameNetworkAgain) {
     const FarView view{.source = 0, .range_m = 20.0, .lateral_m = 0.1, .stretched_m = 0.08};
     taught.lateral.learn(view, 0.0);
     taught.detection.learn_rate(MarkingType::laneline, {12, 0, 0}, i % 3 != 0);
-    taught.detection.learn_confidence(MarkingType::laneline, 12.0, 0.6);
+    taught.detection.learn_confidence(0.8);
   }
   config.networks["front"] = taught.profile();
   Networks again;

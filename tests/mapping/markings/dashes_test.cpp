@@ -13,8 +13,8 @@ namespace {
 
 using test::straight;
 
-ObservedMarking piece(const Point& from, const Point& to, double confidence = 0.5) {
-  return {.type = MarkingType::laneline, .confidence = confidence, .points = straight(from, to)};
+ObservedMarking piece(const Point& from, const Point& to) {
+  return {.type = MarkingType::laneline, .confidence = 0.8, .points = straight(from, to), .belief = 0.5};
 }
 
 /// Dashes of 3 m with gaps of 9 m, as on a motorway.
@@ -30,7 +30,15 @@ TEST(JoinDashes, MakesOneDashedLineOfARow) {
   EXPECT_EQ(lines[0].style, MarkingStyle::dashed);
   EXPECT_EQ(lines[0].points.front(), Point(0, 1.8, 0));
   EXPECT_EQ(lines[0].points.back(), Point(27, 1.8, 0));
-  EXPECT_DOUBLE_EQ(lines[0].confidence, 1.0 - 0.5 * 0.5 * 0.5);
+  EXPECT_DOUBLE_EQ(lines[0].belief, 1.0 - 0.5 * 0.5 * 0.5);
+}
+
+TEST(JoinDashes, ARowHasTheMeanConfidenceOfItsDashes) {
+  auto dashes = row(1.8, 2);
+  dashes[0].confidence = 0.4;
+  const auto lines = join_dashes(dashes);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_DOUBLE_EQ(lines[0].confidence, 0.6);
 }
 
 TEST(JoinDashes, TheOrderAndTheDirectionOfTheDashesDoNotMatter) {
