@@ -55,7 +55,9 @@ double lateral_stddev_m(const Station& station, const FusionConfig& config) {
 
 /// The published probability. It grows with the evidence from existence_at_publish to existence_at_max.
 double existence_probability(double log_odds, const FusionConfig& config) {
-  const double span = std::max(1e-9, config.max_log_odds - config.publish_log_odds);
+  // Hardly any line has max_log_odds at all of its stations.
+  constexpr double kSure = 5.0;
+  const double span = std::max(1e-9, std::min(kSure, config.max_log_odds) - config.publish_log_odds);
   const double share = std::clamp((log_odds - config.publish_log_odds) / span, 0.0, 1.0);
   return config.existence_at_publish + share * (config.existence_at_max - config.existence_at_publish);
 }
