@@ -155,7 +155,7 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("extent_log_odds", extent_log_odds, {"", -20, 20},
            "A published line reaches from its first to its last station with log odds of at least this.");
   v.number("publish_log_odds", publish_log_odds, {"", -10, 10},
-           "A line is published if its log odds, the mean of its stations with what the confidences of its "
+           "A line is published if its log odds, the mean of its stations with what the beliefs in its "
            "detections tell, are at least this.");
   v.number("confirm_log_odds", confirm_log_odds, {"", -10, 10},
            "A published line is confirmed if its log odds are at least this, and tentative otherwise.");

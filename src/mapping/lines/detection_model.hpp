@@ -5,7 +5,6 @@
 
 #include "laneloom/network_profile.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/lines/line_map.hpp"
 
 namespace laneloom::lines {
 

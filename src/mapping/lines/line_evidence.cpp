@@ -1,7 +1,6 @@
 #include "mapping/lines/line_evidence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

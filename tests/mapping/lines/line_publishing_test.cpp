@@ -82,8 +82,26 @@ TEST_F(LinePublishing, CertaintyGrowsWithEvidenceAndNearness) {
   ASSERT_EQ(unsure.lateral_stddev_m.size(), unsure.points.size());
   EXPECT_NEAR(unsure.lateral_stddev_m.front(), config.bias_stddev_m, 1e-6);
   EXPECT_NEAR(unsure.lateral_stddev_m.back(), std::hypot(config.bias_stddev_m, 0.2), 1e-6);
-  believe(0, 51, config.max_log_odds);
-  EXPECT_NEAR(publish()[0].existence_probability, config.existence_at_max, 1e-9);
+  believe(0, 51, 4.9);
+  EXPECT_LT(publish()[0].existence_probability, config.existence_at_max);
+  for (const double sure : {5.0, config.max_log_odds}) {
+    believe(0, 51, sure);
+    EXPECT_NEAR(publish()[0].existence_probability, config.existence_at_max, 1e-9);
+  }
+}
+
+TEST_F(LinePublishing, ManyViewsOfLowBeliefSayMoreThanOneAndNoMoreThanTheLimit) {
+  believe(0, 51, 1.0);
+  const auto published_with = [&](Beliefs beliefs) {
+    line_.beliefs = beliefs;
+    return !publish().empty();
+  };
+  EXPECT_TRUE(published_with({.count = 1.0, .mean = 0.5}));
+  EXPECT_FALSE(published_with({.count = 20.0, .mean = 0.5}));
+  believe(0, 51, 4.6);
+  EXPECT_TRUE(published_with({.count = 100.0, .mean = 0.0})) << "beliefs take at most 4";
+  believe(0, 51, -0.6);
+  EXPECT_FALSE(published_with({.count = 100.0, .mean = 1.0})) << "beliefs give at most 1";
 }
 
 TEST_F(LinePublishing, ZigzagBetweenStationsIsSmoothed) {
