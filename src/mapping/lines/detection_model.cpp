@@ -36,14 +36,14 @@ void LearnedMean::add(double value, double max_weight) {
 }
 
 void DetectionModel::each(auto& model, const auto& visit) {
-  const auto named = [](std::string prefix, MarkingType type) { return prefix.append(name(type)); };
-  const auto from = [](std::string name, std::size_t ring) {
-    return name.append(std::to_string(std::lround(static_cast<double>(ring) * kRing_m))).append("_m");
+  const auto rate_name = [](MarkingType type, const char* side, std::size_t ring) {
+    const long from_m = std::lround(static_cast<double>(ring) * kRing_m);
+    return std::string("rate_").append(name(type)).append(side).append(std::to_string(from_m)).append("_m");
   };
   for (const MarkingType type : kMarkingTypes) {
     for (std::size_t ring = 0; ring < kRings; ++ring) {
-      visit(from(named("rate_", type).append("_ahead_"), ring), model.rates_[index(type)][ring]);
-      visit(from(named("rate_", type).append("_behind_"), ring), model.rates_[index(type)][kRings + ring]);
+      visit(rate_name(type, "_ahead_", ring), model.rates_[index(type)][ring]);
+      visit(rate_name(type, "_behind_", ring), model.rates_[index(type)][kRings + ring]);
     }
   }
   visit(std::string("confidence"), model.confidence_);
