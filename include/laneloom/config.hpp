@@ -160,7 +160,7 @@ struct FusionConfig {
   double publish_log_odds = 0.5;       ///< a line with at least this is published
   double confirm_log_odds = 2.0;       ///< a published line with at least this is confirmed, else tentative
   double existence_at_publish = 0.45;  ///< existence probability of a line with publish_log_odds
-  double existence_at_max = 0.94;      ///< existence probability of a line with max_log_odds
+  double existence_at_max = 0.94;      ///< likewise with log odds of 5, or max_log_odds if lower
   double min_birth_length_m = 2.0;     ///< a shorter part of a detection starts no line
   double min_length_m = 2.0;           ///< shorter lines are not published
   double merge_distance_m = 1.0;       ///< lines closer than this that are not seen together are one

@@ -142,10 +142,9 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("birth_log_odds", birth_log_odds, {"", -10, 0}, "Log odds of the stations of a new line.");
   v.number("extension_log_odds", extension_log_odds, {"", -10, 10},
            "Log odds of a new station by which a line is extended.");
-  v.number(
-      "hit_log_odds", hit_log_odds, {"", 0.01, 5},
-      "Log odds that a station gains by an observation that is believed by half: its confidence is 5/6 of "
-      "the mean that this network gives to established lines.");
+  v.number("hit_log_odds", hit_log_odds, {"", 0.01, 5},
+           "Log odds that a station gains by an observation that is believed by half. Its confidence is 5/6 "
+           "of the mean that this network gives to established lines.");
   v.number("miss_log_odds", miss_log_odds, {"", 0, 5},
            "Weight of a miss. A station in view that is not observed loses this, times the negative "
            "logarithm of the rate at which the network misses lines that exist.");
@@ -162,7 +161,8 @@ void visit(auto& v, Is<FusionConfig> auto& c) {
   v.number("existence_at_publish", existence_at_publish, {"", 0, 1},
            "Existence probability that is published for a line whose log odds equal publish_log_odds.");
   v.number("existence_at_max", existence_at_max, {"", 0, 1},
-           "Existence probability that is published for a line whose log odds equal max_log_odds.");
+           "Existence probability that is published for a line with log odds of at least 5, or of "
+           "max_log_odds if that is lower.");
   v.number("min_birth_length_m", min_birth_length_m, {"m", 0, 50},
            "A part of a detection that no line explains starts a new line only if it is at least this long.");
   v.number("min_length_m", min_length_m, {"m", 0.1, 50}, "Lines shorter than this are not published.");

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kRoomForLines = 256, kRoomForStations = 20000;
 constexpr double kStandingShare = 0.3;  // least share of a view's evidence, while a station is not confirmed
 
-// What the mean belief in a line's detections says of the line's existence. All of them have a share of their
-// variance in common, so that many say little more than some.
+// The mean belief in a line's detections adds this much per unit to the log odds that the line exists. All
+// detections of a line have a share of their variance in common, so that many say little more than some.
 constexpr double kPerBelief = 3.5, kCommonShare = 0.3;
 constexpr double kMostAgainst = 4.0, kMostFor = 1.0;  // log odds: many wrong lines look right, too
 
