@@ -76,6 +76,11 @@ class MeasuredPolyline {
   std::vector<Eigen::AlignedBox2d> blocks_;  ///< bounds of a few segments each, where the line turns far
 };
 
+/// The point at one end of a polyline, which must not be empty.
+inline const Point& end_point(const Polyline& line, End end) {
+  return end == End::back ? line.back() : line.front();
+}
+
 /// Horizontal direction in which `line` is left at one of its ends, over its last `reach_m`. Unit length;
 /// zero for a line without horizontal extent.
 Eigen::Vector2d end_direction(const Polyline& line, End end, double reach_m = 3.0);

@@ -22,7 +22,7 @@ struct Tip {
   const Marking& marking;
   End end;
 
-  const Point& point() const { return end == End::back ? marking.points.back() : marking.points.front(); }
+  const Point& point() const { return end_point(marking.points, end); }
   Eigen::Vector2d outwards() const { return end_direction(marking.points, end); }
   MarkingStyle style() const {
     if (marking.styles.empty()) return MarkingStyle::unknown;

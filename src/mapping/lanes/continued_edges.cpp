@@ -81,8 +81,7 @@ class EdgeContinuation {
 
   std::optional<Marking> continuation(std::size_t edge, End end, const Across& across) const {
     const MeasuredPolyline& course = boundaries_[across.edge].course;
-    const Polyline& points = boundaries_[edge].course.points();
-    Polyline line{end == End::back ? points.back() : points.front()};
+    Polyline line{end_point(boundaries_[edge].course.points(), end)};
     for (double ahead_m = config_.step_m; ahead_m <= kMaxContinued_m; ahead_m += config_.step_m) {
       const double arc_m = across.arc_m + across.sense * ahead_m;
       if (arc_m < 0.0 || arc_m > course.length() || turns_off(course, arc_m)) break;

@@ -35,12 +35,14 @@ std::vector<Tip> tips_of(const std::vector<ObservedMarking>& markings) {
     if (marking.type != MarkingType::laneline || marking.style == MarkingStyle::solid) continue;
     const bool of_dash = is_dash(marking);
     for (const End end : kEnds)
-      tips.push_back({{i, end},
-                      of_dash,
-                      end == End::back ? marking.points.back() : marking.points.front(),
-                      end_direction(marking.points, end)});
+      tips.push_back({{i, end}, of_dash, end_point(marking.points, end), end_direction(marking.points, end)});
   }
   return tips;
+}
+
+/// What the angles to a gap allow, also where two ends meet, and there is no gap.
+bool are_aligned(const Tip& a, const Tip& b) {
+  return a.leaving.dot(b.leaving) <= -cos_degrees(2.0 * kMaxAngle_deg);
 }
 
 bool goes_on(const Tip& tip, const Eigen::Vector2d& gap) {

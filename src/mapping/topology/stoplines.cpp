@@ -7,7 +7,7 @@
 
 namespace laneloom::topology {
 bool crosses_end(const Marking& stopline, const Lane& lane, End lane_end, const StoplineConfig& config) {
-  const Point& at = lane_end == End::back ? lane.centerline.back() : lane.centerline.front();
+  const Point& at = end_point(lane.centerline, lane_end);
   if (!geometry::same_level(at, stopline.points.front())) return false;
   const Eigen::Vector2d end = at.head<2>();
   const Eigen::Vector2d leaving = end_direction(lane.centerline, lane_end);
