@@ -37,7 +37,8 @@ bool are_aligned(const Tip& a, const Tip& b, const BoundaryConfig& config) {
   const Eigen::Vector2d leaving = a.outwards(), entering = -b.outwards();
   const double max_angle_deg = gap.norm() < kMeeting_m ? kMaxBend_deg : config.max_angle_deg;
   if (leaving.dot(entering) < cos_degrees(max_angle_deg)) return false;
-  return std::abs(cross(leaving, gap)) <= config.max_lateral_m;
+  return std::abs(cross(leaving, gap)) <= config.max_lateral_m &&
+         std::abs(cross(entering, gap)) <= config.max_lateral_m;
 }
 
 /// Whether the two ends differ in style: a network sees a line that changes its style as two.

@@ -35,9 +35,13 @@ TEST(LaneBoundaries, JoinsWhateverTheirDirections) {
 TEST(LaneBoundaries, LeavesApartWhatIsNotOneLine) {
   const Marking line = marking(1, straight({0, 0, 0}, {10, 0, 0}));
   const auto count = [&](const Marking& other) { return lane_boundaries({line, other}, {}, {}).size(); };
-  EXPECT_EQ(count(marking(2, straight({16, 0, 0}, {20, 0, 0}))), 2U);                         // too far
-  EXPECT_EQ(count(marking(2, straight({12, 1, 0}, {20, 1, 0}))), 2U);                         // beside
-  EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {15, 3, 0}))), 2U);                         // turning off
+  EXPECT_EQ(count(marking(2, straight({16, 0, 0}, {20, 0, 0}))), 2U);  // too far
+  EXPECT_EQ(count(marking(2, straight({12, 1, 0}, {20, 1, 0}))), 2U);  // beside
+  EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {15, 3, 0}))), 2U);  // turning off
+  // The extension of the one meets the other, and the extension of the other passes by: no id decides.
+  const Polyline askew = straight({14.9, 0, 0}, {24.3, 3.3, 0});
+  EXPECT_EQ(count(marking(2, askew)), 2U);
+  EXPECT_EQ(lane_boundaries({marking(1, askew), marking(2, line.points)}, {}, {}).size(), 2U);
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {20, 0, 0}), MarkingType::roadedge)), 2U);  // another type
   EXPECT_EQ(count(marking(2, straight({12, 0, 6}, {20, 0, 6}))), 2U);                         // on a bridge
   EXPECT_EQ(count(marking(2, straight({12, 0, 0}, {20, 0, 0}))), 1U);
