@@ -58,7 +58,8 @@ std::vector<Join> possible_joins(const std::vector<ObservedMarking>& markings) {
       if (a->id.line == b->id.line || (!a->of_dash && !b->of_dash)) continue;
       const Eigen::Vector2d gap = (b->place - a->place).head<2>();
       if (gap.squaredNorm() > kMaxGap_m * kMaxGap_m || !geometry::same_level(a->place, b->place)) continue;
-      if (goes_on(*a, gap) && goes_on(*b, -gap)) joins.push_back({gap.norm(), a->id, b->id});
+      if (are_aligned(*a, *b) && goes_on(*a, gap) && goes_on(*b, -gap))
+        joins.push_back({gap.norm(), a->id, b->id});
     }
   }
   return joins;

@@ -75,6 +75,8 @@ TEST(JoinDashes, LeavesWhatIsNoRow) {
   EXPECT_EQ(too_far.size(), 2U);
   const auto beside = join_dashes({piece({0, 0, 0}, {3, 0, 0}), piece({6, 1, 0}, {9, 1, 0})});
   EXPECT_EQ(beside.size(), 2U);
+  const auto tip = join_dashes({piece({0, 0, 0}, {8, 0, 0}), piece({8, 0, 0}, {2, 3, 0})});
+  EXPECT_EQ(tip.size(), 2U) << "the ends meet, and the lines part";
   const auto above = join_dashes({piece({0, 0, 0}, {3, 0, 0}), piece({6, 0, 5}, {9, 0, 5})});
   EXPECT_EQ(above.size(), 2U);
 }
