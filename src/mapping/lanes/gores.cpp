@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 
+#include "mapping/geometry/levels.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom::lanes {
@@ -53,7 +54,9 @@ void remove_from_meeting(const LaneBorder& left, const LaneBorder& right, Iterat
 
 bool is_driven_in(std::span<const CrossSection> run, const Point& vehicle) {
   return std::ranges::any_of(run, [&](const CrossSection& section) {
-    return (section.middle() - vehicle).norm() < 0.5 * section.width_m;
+    const Point middle = section.middle();
+    return (middle - vehicle).head<2>().norm() < 0.5 * section.width_m &&
+           geometry::same_level(middle, vehicle);
   });
 }
 

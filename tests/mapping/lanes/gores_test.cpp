@@ -91,6 +91,8 @@ TEST_F(Gores, AreNotEnteredAcrossDashesThatEndWhereTheyBegin) {
 TEST_F(Gores, WhatIsDrivenInIsNone) {
   apart(1.5, 4.2);
   EXPECT_GT(lanes_m({30.0, -1.8, 0.0}), 10.0);
+  EXPECT_GT(lanes_m({30.0, -1.8, 1.8}), 10.0) << "the origin of the body frame is on the roof";
+  EXPECT_EQ(lanes_m({30.0, -1.8, 6.0}), 0.0) << "the vehicle is on a bridge";
 }
 
 }  // namespace
