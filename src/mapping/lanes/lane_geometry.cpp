@@ -96,6 +96,11 @@ const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {
   return across;
 }
 
+Linkage::Turn reversed(Linkage::Turn turn) {
+  if (turn == Linkage::Turn::left) return Linkage::Turn::right;
+  return turn == Linkage::Turn::right ? Linkage::Turn::left : turn;
+}
+
 Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline, End::back); }
 Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, End::front); }
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {

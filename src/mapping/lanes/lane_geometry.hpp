@@ -60,6 +60,9 @@ Eigen::Vector2d entering(const Lane& lane);
 /// The vector from the end of `from` to the start of `to`; map frame, horizontal, in metres.
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to);
 
+/// The turn of a way that is driven from its end to its start.
+Linkage::Turn reversed(Linkage::Turn turn);
+
 /// Greatest overlap of a lane with the lane that it continues, in metres.
 inline constexpr double kMaxOverlap_m = 2.0;
 

@@ -22,11 +22,7 @@ Polyline walked(Polyline line, bool against) {
   return line;
 }
 
-Turn walked(Turn turn, bool against) {
-  if (against && turn == Turn::left) return Turn::right;
-  if (against && turn == Turn::right) return Turn::left;
-  return turn;
-}
+Turn walked(Turn turn, bool against) { return against ? lanes::reversed(turn) : turn; }
 
 Turn turn_onto(const DirectedLane& from, const DirectedLane& to) {
   return laneloom::turn_between(end_direction(from.centerline(), End::back),

@@ -6,6 +6,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/stretches.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
 
 namespace laneloom::topology {
 namespace {
@@ -46,6 +47,7 @@ void RoadGraph::turn(const std::vector<ElementId>& ids) {
   for (Linkage& linkage : linkages) {
     if (!turned(linkage.from)) continue;
     std::swap(linkage.from, linkage.to);
+    linkage.turn = lanes::reversed(linkage.turn);
     std::ranges::reverse(linkage.path);
   }
 }

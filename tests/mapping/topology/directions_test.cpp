@@ -360,6 +360,14 @@ TEST_F(Directions, AWayIsTurnedWithItsLanes) {
   EXPECT_EQ(linkages_[0].path.front().x(), 20.0);
 }
 
+TEST_F(Directions, ALeftTurnThatIsDrivenTheOtherWayIsARightTurn) {
+  RoadGraph road{{{}, lanes_}, {{.from = 11, .to = 12, .turn = Linkage::Turn::left}}};
+  road.turn({11, 12});
+  ASSERT_EQ(road.linkages.size(), 1U);
+  EXPECT_EQ(road.linkages[0].from, 12U);
+  EXPECT_EQ(road.linkages[0].turn, Linkage::Turn::right);
+}
+
 TEST_F(Directions, NoWayLeadsFromATurnedLaneIntoOneThatIsNot) {
   RoadGraph road{{{}, lanes_}, {{.from = 11, .to = 12}, {.from = 12, .to = 11}}};
   road.turn({11});
