@@ -81,7 +81,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
                boundaries::lane_boundaries(fused.markings, fused.joints, config_.boundary));
   boundaries.insert(
       state.lane_memory.recognise(lanes::continued_edges(boundaries, scene.box, config_.lane),  // ours
-                                  scene, config_.lane, state.ids));
+                                  scene, state.ids));
   boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config_.section));  // III-D-2

@@ -99,8 +99,7 @@ LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config)
   markings::IdSource ids(drive.markings.size() + 1);
   lanes::LaneMemory memory;
   boundaries::Boundaries boundaries = boundaries_of(drive, config.boundary, ids);
-  boundaries.insert(
-      memory.recognise(lanes::continued_edges(boundaries, scene.box, config.lane), scene, config.lane, ids));
+  boundaries.insert(memory.recognise(lanes::continued_edges(boundaries, scene.box, config.lane), scene, ids));
   boundaries::SectionGraph sections =
       road_sections(std::move(boundaries), scene.T_map_body(), config.section);
   lanes::FoundLanes found = lanes_of(drive, std::move(sections), config.lane);

@@ -121,7 +121,7 @@ bool is_expired(std::uint64_t last_frame, const geometry::Scene& scene, const La
 }  // namespace
 
 void LaneMemory::identify(const std::vector<Marking*>& inferred, const geometry::Scene& scene,
-                          const LaneConfig& config, markings::IdSource& ids) {
+                          markings::IdSource& ids) {
   const Recognition recognition = recognised(inferred, inferred_, scene.frame);
   for (std::size_t i = 0; i < inferred.size(); ++i) {
     const auto same = recognition.known_of(i);
@@ -133,7 +133,6 @@ void LaneMemory::identify(const std::vector<Marking*>& inferred, const geometry:
     known.points = marking.points;
     known.last_frame = scene.frame;
   }
-  std::erase_if(inferred_, [&](const KnownInferred& k) { return is_expired(k.last_frame, scene, config); });
 }
 
 void LaneMemory::identify(std::vector<Lane>& lanes, const geometry::Scene& scene, const LaneConfig& config,
@@ -167,7 +166,8 @@ void LaneMemory::identify(std::vector<Lane>& lanes, const geometry::Scene& scene
 
 LaneLayout LaneMemory::recognise(FoundLanes found, const geometry::Scene& scene, const LaneConfig& config,
                                  markings::IdSource& ids) {
-  identify(markings_of(found.inferred), scene, config, ids);
+  identify(markings_of(found.inferred), scene, ids);
+  std::erase_if(inferred_, [&](const KnownInferred& k) { return is_expired(k.last_frame, scene, config); });
   LaneLayout layout = laid_out(std::move(found));
   identify(layout.lanes, scene, config, ids);
   find_neighbours(layout);
@@ -176,12 +176,11 @@ LaneLayout LaneMemory::recognise(FoundLanes found, const geometry::Scene& scene,
 
 std::vector<boundaries::LaneBoundary> LaneMemory::recognise(std::vector<Marking> inferred,
                                                             const geometry::Scene& scene,
-                                                            const LaneConfig& config,
                                                             markings::IdSource& ids) {
   std::vector<Marking*> markings;
   markings.reserve(inferred.size());
   for (Marking& marking : inferred) markings.push_back(&marking);
-  identify(markings, scene, config, ids);
+  identify(markings, scene, ids);
   std::vector<boundaries::LaneBoundary> result;
   for (Marking& marking : inferred) {
     const ElementId id = marking.id;

@@ -48,18 +48,18 @@ class LaneMemory {
   explicit LaneMemory(std::vector<KnownLane> lanes) : lanes_(std::move(lanes)) {}
 
   /// Gives the inferred boundaries their ids, then all lanes, also those beside inferred boundaries. Returns
-  /// them with the lanes' neighbours.
+  /// them with the lanes' neighbours. Forgets the inferred boundaries that were not found for a while: call
+  /// it last in a frame.
   LaneLayout recognise(FoundLanes found, const geometry::Scene& scene, const LaneConfig& config,
                        markings::IdSource& ids);
 
   /// Gives inferred markings their ids, and makes boundaries of them that lanes can lie beside.
   std::vector<boundaries::LaneBoundary> recognise(std::vector<Marking> inferred, const geometry::Scene& scene,
-                                                  const LaneConfig& config, markings::IdSource& ids);
+                                                  markings::IdSource& ids);
 
   /// Gives every inferred boundary the id of the known boundary that it covers most of, or else a new id. A
   /// known boundary that was recognised in the same frame is left out.
-  void identify(const std::vector<Marking*>& inferred, const geometry::Scene& scene, const LaneConfig& config,
-                markings::IdSource& ids);
+  void identify(const std::vector<Marking*>& inferred, const geometry::Scene& scene, markings::IdSource& ids);
   /// Gives every lane the id of the known lane that it covers most of, or else a new id. Known lanes between
   /// the same boundaries come first. The known lane takes over the lane's present shape. Sorts the lanes by
   /// their ids.
@@ -67,7 +67,6 @@ class LaneMemory {
                 markings::IdSource& ids);
 
   const std::vector<KnownLane>& lanes() const { return lanes_; }
-  const std::vector<KnownInferred>& inferred() const { return inferred_; }
   /// The known lane of an id. Null: there is none.
   const KnownLane* find(ElementId lane) const;
   KnownLane* find(ElementId lane);

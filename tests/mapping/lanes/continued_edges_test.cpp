@@ -139,7 +139,7 @@ class RoadWithAnUnseenEdge : public ::testing::Test {
   LaneLayout map(double end_x) {
     const geometry::Scene scene = wide_scene(++frame_);
     boundaries::Boundaries boundaries = std::vector{edge(1, 3.5, -20, end_x), edge(2, -3.5, -20, 20)};
-    boundaries.insert(memory_.recognise(continued_edges(boundaries, scene.box, {}), scene, {}, ids_));
+    boundaries.insert(memory_.recognise(continued_edges(boundaries, scene.box, {}), scene, ids_));
     return memory_.recognise(find_lanes(road_sections(std::move(boundaries), test::at(0), {}), scene, {}),
                              scene, {}, ids_);
   }

@@ -37,7 +37,7 @@ class OneSidedLanes : public ::testing::Test {
     boundaries::SectionGraph road{.boundaries = std::move(boundaries), .sections = {all}, .beside = {}};
     TakenSpace taken(known_lanes_);
     auto inferred = one_sided_lanes(road, geometry::MapBox(range_, vehicle), config_, taken);
-    memory_.identify(markings_of(inferred), test::scene(++frame_), config_, ids_);
+    memory_.identify(markings_of(inferred), test::scene(++frame_), ids_);
     LaneLayout layout = laid_out({std::move(road.boundaries), known_lanes_, std::move(inferred)});
     boundaries_ = std::move(layout.boundaries);
     lanes_ = std::move(layout.lanes);

@@ -16,7 +16,7 @@ boundaries::LaneBoundary road_edge(ElementId id, double y, double from_x = 0.0, 
   return boundary(id, straight({from_x, y, 0}, {to_x, y, 0}), MarkingType::roadedge);
 }
 
-boundaries::LaneBoundary line(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
+boundaries::LaneBoundary road_line(ElementId id, double y, double from_x = 0.0, double to_x = 60.0) {
   return boundary(id, straight({from_x, y, 0}, {to_x, y, 0}));
 }
 
@@ -26,6 +26,7 @@ class Dividers : public ::testing::Test {
   /// Boundaries that run forward.
   void map(std::vector<boundaries::LaneBoundary> boundaries) {
     ++frame_;
+    memory_.recognise(std::vector<Marking>{}, test::scene(frame_), ids_);  // no edge is continued
     boundaries::SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
     const auto pairs = boundary_pairs(graph);
     auto lanes = generate_lanes(pairs, graph.boundaries, Point::Zero(), config_);
@@ -35,8 +36,7 @@ class Dividers : public ::testing::Test {
   }
 
   void lay_out(FoundLanes found) {
-    memory_.identify(markings_of(found.inferred), test::scene(frame_), config_, ids_);
-    LaneLayout layout = laid_out(std::move(found));
+    LaneLayout layout = memory_.recognise(std::move(found), test::scene(frame_), config_, ids_);
     boundaries_ = std::move(layout.boundaries);
     lanes_ = std::move(layout.lanes);
   }
@@ -109,9 +109,9 @@ TEST_F(Dividers, NeedRoomForTwoLanes) {
   EXPECT_EQ(lanes_between(road_edge(1, 6.6), road_edge(2, 0)), 2U);
   EXPECT_EQ(lanes_between(road_edge(1, 12.9), road_edge(2, 0)), 2U) << "with room to park on both sides";
   EXPECT_EQ(lanes_between(road_edge(1, 13.1), road_edge(2, 0)), 0U);
-  EXPECT_EQ(lanes_between(line(1, 8.9), road_edge(2, 0)), 2U);
-  EXPECT_EQ(lanes_between(line(1, 9.1), road_edge(2, 0)), 0U) << "beside a line, three lanes";
-  EXPECT_EQ(lanes_between(line(1, 8), line(2, 0)), 0U) << "between lines, a median";
+  EXPECT_EQ(lanes_between(road_line(1, 8.9), road_edge(2, 0)), 2U);
+  EXPECT_EQ(lanes_between(road_line(1, 9.1), road_edge(2, 0)), 0U) << "beside a line, three lanes";
+  EXPECT_EQ(lanes_between(road_line(1, 8), road_line(2, 0)), 0U) << "between lines, a median";
   EXPECT_EQ(lanes_between(road_edge(1, 9, 0, 7.5), road_edge(2, 0)), 0U) << "too short";
   config_.unmarked_roads = false;
   EXPECT_EQ(lanes_between(road_edge(1, 9), road_edge(2, 0)), 0U) << "turned off";
@@ -132,8 +132,9 @@ TEST_F(Dividers, AreNotWhereAnotherBoundaryIs) {
     map({edges[0], edges[1], middle});
     return inferred().size();
   };
-  EXPECT_EQ(lanes_with(line(3, 6, 26, 34), ElementStatus::confirmed), 4U) << "before and behind the line";
-  EXPECT_EQ(lanes_with(line(3, 6, 26, 34), ElementStatus::tentative), 2U);
+  EXPECT_EQ(lanes_with(road_line(3, 6, 26, 34), ElementStatus::confirmed), 4U)
+      << "before and behind the line";
+  EXPECT_EQ(lanes_with(road_line(3, 6, 26, 34), ElementStatus::tentative), 2U);
   EXPECT_EQ(lanes_with(road_edge(3, 6, 26, 34), ElementStatus::confirmed), 4U) << "an island";
   EXPECT_EQ(lanes_with(road_edge(3, 6, 26, 34), ElementStatus::tentative), 4U) << "maybe an island";
   EXPECT_EQ(lanes_with(boundary(3, straight({30, 2, 0}, {30, 10, 0})), ElementStatus::confirmed), 2U)
@@ -141,15 +142,16 @@ TEST_F(Dividers, AreNotWhereAnotherBoundaryIs) {
 }
 
 TEST_F(Dividers, DoNotCountALineAlongAnEdgeAsOne) {
-  map({road_edge(1, 9), road_edge(2, 0), line(3, 0.5)});
+  map({road_edge(1, 9), road_edge(2, 0), road_line(3, 0.5)});
   EXPECT_EQ(inferred().size(), 2U);
-  map({road_edge(1, 9), road_edge(2, 0), line(3, 0.5), line(4, 8.5)});
+  map({road_edge(1, 9), road_edge(2, 0), road_line(3, 0.5), road_line(4, 8.5)});
   EXPECT_EQ(inferred().size(), 2U) << "neither twice";
 }
 
 TEST_F(Dividers, AreNotInAMedian) {
   const auto road = [this](double from_y, double to_y) {  // a lane beyond either edge
-    map({line(1, 12), line(2, to_y), road_edge(3, 8), road_edge(4, 0), line(5, from_y), line(6, -4)});
+    map({road_line(1, 12), road_line(2, to_y), road_edge(3, 8), road_edge(4, 0), road_line(5, from_y),
+         road_line(6, -4)});
     EXPECT_EQ(lanes_.size(), 2U + inferred().size());
     return inferred().size();
   };
@@ -158,7 +160,7 @@ TEST_F(Dividers, AreNotInAMedian) {
 }
 
 TEST_F(Dividers, DoNotCrossAKerb) {
-  map({road_edge(1, 11.2), line(2, 8), road_edge(3, 7.6), road_edge(4, 0), line(5, -3.2)});
+  map({road_edge(1, 11.2), road_line(2, 8), road_edge(3, 7.6), road_edge(4, 0), road_line(5, -3.2)});
   EXPECT_TRUE(inferred().empty());
 }
 
@@ -202,7 +204,7 @@ TEST_F(Dividers, EndWhereTheRoadOpensIntoAnIntersection) {
 }
 
 TEST_F(Dividers, ContinueALineThatEnds) {
-  map({road_edge(1, 9), road_edge(2, 0), line(3, 5.5, 0, 20)});
+  map({road_edge(1, 9), road_edge(2, 0), road_line(3, 5.5, 0, 20)});
   EXPECT_EQ(lanes_.size(), 4U);
   ASSERT_EQ(inferred().size(), 2U);
   for (const Point& point : divider().points) EXPECT_NEAR(point.y(), 5.5, 1e-9);
@@ -210,21 +212,21 @@ TEST_F(Dividers, ContinueALineThatEnds) {
 }
 
 TEST_F(Dividers, LeadFromOneLineToTheNext) {
-  map({road_edge(1, 9), road_edge(2, 0), line(3, 5.5, 0, 20), line(4, 3.5, 40, 60)});
+  map({road_edge(1, 9), road_edge(2, 0), road_line(3, 5.5, 0, 20), road_line(4, 3.5, 40, 60)});
   ASSERT_EQ(inferred().size(), 2U);
   EXPECT_NEAR(divider().points.front().y(), 5.5, 1e-9);
   EXPECT_NEAR(divider().points.back().y(), 3.5, 1e-9);
 }
 
 TEST_F(Dividers, LeaveNoLaneTooNarrowOrTooWide) {
-  map({road_edge(1, 8), road_edge(2, 0), line(3, 1.5, 0, 20)});
+  map({road_edge(1, 8), road_edge(2, 0), road_line(3, 1.5, 0, 20)});
   EXPECT_TRUE(inferred().empty()) << "1.5 m";
-  map({road_edge(1, 12), road_edge(2, 0), line(3, 2.5, 0, 20)});
+  map({road_edge(1, 12), road_edge(2, 0), road_line(3, 2.5, 0, 20)});
   EXPECT_TRUE(inferred().empty()) << "9.5 m";
 }
 
 TEST_F(Dividers, BeyondTheEdgeOfARoadWithLanesAreNone) {
-  map({line(1, 12.5), road_edge(2, 9), road_edge(3, 0)});
+  map({road_line(1, 12.5), road_edge(2, 9), road_edge(3, 0)});
   EXPECT_EQ(lanes_.size(), 1U);
   EXPECT_TRUE(inferred().empty());
 }
@@ -247,9 +249,9 @@ TEST_F(Dividers, AreOfTwoWaysBetweenKerbsOnly) {
   };
   map({road_edge(1, 9), road_edge(2, 0)});
   EXPECT_TRUE(two_way());
-  map({road_edge(1, 9.5), line(2, 9), line(3, 0.5), road_edge(4, 0)});
+  map({road_edge(1, 9.5), road_line(2, 9), road_line(3, 0.5), road_edge(4, 0)});
   EXPECT_TRUE(two_way());
-  map({line(1, 8), road_edge(2, 0)});
+  map({road_line(1, 8), road_edge(2, 0)});
   ASSERT_EQ(inferred().size(), 2U);
   EXPECT_FALSE(two_way());
 }
@@ -272,6 +274,14 @@ TEST_F(Dividers, OnTheBridgeIsAnotherThanBelow) {
     for (Point& point : boundary.marking.points) point.z() = 6.0;
   map(above);
   EXPECT_NE(divider().id, id);
+}
+
+TEST_F(Dividers, KeepTheirIdsFromFrameToFrameHoweverShortTheMemory) {
+  config_.id_memory_frames = 0;
+  map({road_edge(1, 9), road_edge(2, 0)});
+  const ElementId id = divider().id;
+  map({road_edge(1, 9), road_edge(2, 0)});
+  EXPECT_EQ(divider().id, id);
 }
 
 TEST_F(Dividers, AreForgottenAfterAWhile) {
