@@ -118,7 +118,8 @@ Eigen::Vector2d stretched_by(double stretch_per_m, const Point& point, const Eig
   const Eigen::Vector2d arm = (point - T_map_body.translation()).head<2>();
   const double ahead_m = arm.dot(T_map_body.linear().col(0).head<2>().normalized()) - kPitchPivot_m;
   if (ahead_m <= 0.0) return Eigen::Vector2d::Zero();
-  const double stretch = stretch_per_m * ahead_m;
+  // The fit says nothing beyond: a place that far would be thrown beyond the horizon.
+  const double stretch = stretch_per_m * std::min(ahead_m, kFurthest_m - kPitchPivot_m);
   return stretch / (1.0 + stretch) * arm;
 }
 

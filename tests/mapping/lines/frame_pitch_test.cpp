@@ -73,6 +73,14 @@ TEST_F(Pitch, IsTakenOutAgain) {
   EXPECT_LT(test::max_distance(frame[0].samples, truth), 0.2 * stretched_m);
 }
 
+TEST_F(Pitch, MovesWhatIsFarBeyondTheFitNoFurtherThanInProportion) {
+  for (const double x : {80.0, 91.3, 92.0, 200.0}) {
+    const Point place = T_map_body_ * Point(x, 2, 0);
+    EXPECT_LT(stretched_by(-0.012, place, T_map_body_).norm(), 2.0 * x);
+    EXPECT_LT(stretched_by(0.012, place, T_map_body_).norm(), x);
+  }
+}
+
 TEST_F(Pitch, WhatIsNearIsLeftAsItIs) {
   EXPECT_EQ(stretched_by(0.004, T_map_body_ * Point(5, 2, 0), T_map_body_), Eigen::Vector2d::Zero());
   EXPECT_EQ(stretched_by(0.004, T_map_body_ * Point(-30, 2, 0), T_map_body_), Eigen::Vector2d::Zero());
