@@ -20,7 +20,8 @@ class PointGrid {
     Eigen::AlignedBox2d bounds;
     for (const Entry& entry : entries) bounds.extend(place_of(entry));
     origin_ = bounds.min();
-    size_ = (bounds.sizes() / cell_m).array().floor().template cast<int>() + 1;
+    while ((bounds.sizes() / cell_m_).prod() > kMaxCells) cell_m_ *= 2.0;
+    size_ = (bounds.sizes() / cell_m_).array().floor().template cast<int>() + 1;
     sort(std::move(entries));
   }
 
@@ -42,11 +43,13 @@ class PointGrid {
   }
 
  private:
+  static constexpr double kMaxCells = 4.0e6;  // cells are wider over things that are scattered further
+
   static Eigen::Vector2d place_of(const Entry& entry) { return entry.position.template head<2>(); }
 
   /// A counting sort by cell.
   void sort(std::vector<Entry> entries) {
-    starts_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
+    starts_.assign(size_.cast<std::size_t>().prod() + 1, 0);
     std::vector<std::size_t> cells;
     cells.reserve(entries.size());
     for (const Entry& entry : entries) {
