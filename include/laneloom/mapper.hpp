@@ -30,20 +30,18 @@ class Mapper {
 
   /// Fuses one frame, seen from T_map_body, and rebuilds the local map about the newest pose so far. A frame
   /// may be older than the one before it. All values must be finite; this is not checked here. `observer` may
-  /// be
-  /// null.
+  /// be null.
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 
   /// The map after the last update.
   const LocalMap& map() const;
 
-  /// Returns, by name, the values that the mapper has learned of one source's network, as standard deviations
-  /// by range. The list is empty where the mapper does not know the source.
+  /// Returns, by name, the values that the mapper has learned of one source's network. The list is empty
+  /// where the mapper does not know the source.
   std::vector<std::pair<std::string, double>> learned(const std::string& source) const;
   /// The learned values of all sources, with their weights. A mapper whose MapperConfig::networks is set to
-  /// them
-  /// starts with this knowledge.
+  /// them starts with this knowledge.
   NetworkProfiles profiles() const;
 
   /// Number of lines that the last update forgot because there was no room: a mapper keeps at most 256 lines

@@ -78,8 +78,7 @@ void bind_mapper(py::module_& module) {
       .def_property_readonly("map", py::cpp_function(&SharedMapper::map, Release()),
                              "The map after the last update.")
       .def("learned", &learned, py::arg("source"),
-           "What was learned of a source's network: standard deviations by range, by name. Empty: the source "
-           "is unknown.")
+           "The values that were learned of a source's network, by name. Empty: the source is unknown.")
       .def("reset", &SharedMapper::reset, Release(),
            "Forgets everything but the ids that were given out and what was learned of the networks.");
 }
