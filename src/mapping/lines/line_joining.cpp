@@ -92,9 +92,8 @@ std::optional<Overlap> overlap_of(const EndBeside& a, const EndBeside& b, const 
   const auto along_a = stretch_to(b.index, line_a, a.end.end),
              along_b = stretch_to(a.index, line_b, b.end.end);
   if (!is_overlap(along_a, line_a) || !is_overlap(along_b, line_b)) return std::nullopt;
-  const bool a_seen = mostly_observed(along_a), b_seen = mostly_observed(along_b);
   const auto [low, high] = std::minmax({id_of(a.end, lines), id_of(b.end, lines)});
-  const markings::PairSighting sighting{low, high, a_seen && b_seen, a_seen != b_seen};
+  const auto sighting = sighting_of(low, sight_of(along_a), high, sight_of(along_b));
   if (existence(along_a, {}) >= existence(along_b, {}))
     return Overlap{a.end, b.end, along_b.size(), sighting};
   return Overlap{b.end, a.end, along_a.size(), sighting};

@@ -13,9 +13,19 @@ constexpr double kCell_m = 1.0;  // as the gate and the spacing of stations: sea
 
 }  // namespace
 
-bool mostly_observed(std::span<const Station> stations) {
-  const auto count = [&](Sight sight) { return std::ranges::count(stations, sight, &Station::sight); };
-  return count(Sight::observed) > count(Sight::missed);
+Sight sight_of(std::span<const Station> stretch) {
+  const auto count = [&](Sight sight) { return std::ranges::count(stretch, sight, &Station::sight); };
+  const auto observed = count(Sight::observed), missed = count(Sight::missed);
+  if (observed > missed) return Sight::observed;
+  return missed > 0 ? Sight::missed : Sight::out_of_view;
+}
+
+markings::PairSighting sighting_of(ElementId a, Sight a_sight, ElementId b, Sight b_sight) {
+  const bool both_in_view = a_sight != Sight::out_of_view && b_sight != Sight::out_of_view;
+  return {.a = a,
+          .b = b,
+          .together = a_sight == Sight::observed && b_sight == Sight::observed,
+          .apart = both_in_view && a_sight != b_sight};
 }
 
 MarkingType Line::type() const {

@@ -12,6 +12,7 @@
 #include "mapping/lines/lateral_filter.hpp"
 #include "mapping/lines/network_model.hpp"
 #include "mapping/markings/markings.hpp"
+#include "mapping/markings/pair_history.hpp"
 
 namespace laneloom::lines {
 
@@ -35,8 +36,12 @@ struct Station {
   }
 };
 
-/// Whether the present frame observed more of the stations than it missed.
-bool mostly_observed(std::span<const Station> stations);
+/// How the present frame saw a stretch: as most of its stations that are in view. Out of view: all of them
+/// are.
+Sight sight_of(std::span<const Station> stretch);
+
+/// How the present frame showed two lines, `a` with the smaller id.
+markings::PairSighting sighting_of(ElementId a, Sight a_sight, ElementId b, Sight b_sight);
 
 /// The beliefs in the detections of a line, see DetectionModel::belief().
 struct Beliefs {

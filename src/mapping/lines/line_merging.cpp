@@ -152,10 +152,9 @@ std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::v
   const std::vector<IndexPair> one = without_room(pairs, search);
   for (const auto& [i, j] : pairs) {
     if (gone[i] || gone[j]) continue;
-    const bool i_seen = mostly_observed(lines[i].stations), j_seen = mostly_observed(lines[j].stations);
     const auto [a, b] = std::minmax(lines[i].id, lines[j].id);
     const markings::PairHistory history =
-        continued(doubles, markings::PairSighting{a, b, i_seen && j_seen, i_seen != j_seen});
+        continued(doubles, sighting_of(a, sight_of(lines[i].stations), b, sight_of(lines[j].stations)));
     if (!seen_apart(history) && !std::ranges::binary_search(one, IndexPair(i, j))) {
       kept.push_back(history);
       continue;

@@ -48,6 +48,9 @@ TEST_F(LineMerging, WhatIsOutOfViewDoesNotTell) {
   for (std::size_t k = 0; k < 8; ++k) lines_[0].stations[k].sight = Sight::observed;
   for (int i = 0; i < 100; ++i) merge();
   EXPECT_EQ(lines_.size(), 2U) << "both are seen as far as the camera looks";
+  for (Station& station : lines_[0].stations) station.sight = Sight::out_of_view;
+  for (int i = 0; i < 100; ++i) merge();
+  EXPECT_EQ(lines_.size(), 2U) << "a truck hides one of them";
 }
 
 TEST_F(LineMerging, TwoRoadEdgesWithoutRoomBetweenThemAreOne) {
