@@ -349,6 +349,27 @@ TEST(Mapper, AfterAResetTheNetworkThatIsHeardIsStillKnown) {
   EXPECT_TRUE(mapper.learned("a").empty());
 }
 
+TEST(Mapper, ANetworkThatTakesThePlaceOfAForgottenOneIsNotTaughtByItsViews) {
+  const auto learned_by_the_ninth = [](double first_errs_m) {
+    Mapper mapper{MapperConfig{}};
+    int number = 0;
+    const auto see = [&](const std::string& source, double x, double from_m, double to_m, double y) {
+      const Polyline line = straight({from_m, y, 0}, {to_m, y, 0}, 31);
+      DetectionFrame frame = frame_at(x, {test::detection(MarkingType::laneline, line)}, ++number);
+      frame.source = source;
+      mapper.update(frame, test::at(x));
+    };
+    for (int i = 0; i < 5; ++i) see("first", i, 15, 45, first_errs_m);
+    for (const char* silent : {"b", "c", "d", "e", "f", "g", "h"}) see(silent, 5, -30, -20, 8);
+    for (int i = 10; i < 40; ++i) see("ninth", i, i, i + 8, 0);
+    auto learned = mapper.learned("ninth");
+    std::erase_if(learned, [](const auto& value) { return !value.first.starts_with("stddev"); });
+    return learned;
+  };
+  ASSERT_FALSE(learned_by_the_ninth(0.4).empty());
+  EXPECT_EQ(learned_by_the_ninth(0.4), learned_by_the_ninth(0.0));
+}
+
 TEST_P(EitherMapper, TellsTheObserverItsStagesInOrder) {
   struct Recorder : StageObserver {
     void update_begins() override { ++updates; }

@@ -26,6 +26,14 @@ Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
           .alignment_gain = network.alignment_gain()};
 }
 
+/// Forgets the views of a source that is forgotten, and whose number another one has now.
+void forget_views_of(std::size_t source, std::vector<Line>& lines) {
+  for (Line& line : lines)
+    for (Station& station : line.stations)
+      for (FarView& view : station.far_views)
+        if (view.source == source) view = {};
+}
+
 }  // namespace
 
 markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed,
@@ -33,7 +41,9 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
                                          markings::IdSource& ids, const markings::StageLog& log) {
   const FusionConfig& fusion = config.fusion;
   const Point origin = observed.T_map_body.translation();
+  const bool is_new = networks_.find(observed.frame.source) == nullptr;
   const std::size_t source = networks_.number(observed.frame.source, scene.frame, config);
+  if (is_new) forget_views_of(source, lines_);
   Network& network = networks_[source];
   Viewpoint from = viewpoint(observed, source, network.lateral);
   Association association = associated(observed, network, fusion, from);
