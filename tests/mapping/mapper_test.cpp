@@ -93,6 +93,19 @@ TEST(Mapper, AStandingCarPublishesWhatItSeesAndConfirmsNothing) {
     EXPECT_EQ(boundary.status, ElementStatus::confirmed);
 }
 
+TEST(Mapper, DrivingMendsTheStyleThatAStandingCarMistook) {
+  Drive drive;
+  auto mistaken = road();
+  mistaken[1].style = MarkingStyle::solid;
+  drive.step(mistaken);
+  for (int i = 2; i < 200; ++i) drive.mapper.update(frame_at(drive.x, mistaken, i), test::at(drive.x));
+  drive.number = 200;
+  const LocalMap& map = drive.steps(10);
+  const auto line = std::ranges::find(map.markings, MarkingType::laneline, &Marking::type);
+  ASSERT_NE(line, map.markings.end());
+  for (const StyleRange& range : line->styles) EXPECT_EQ(range.style, MarkingStyle::dashed);
+}
+
 TEST(Mapper, AGhostThatOnlyAStandingCarSawGoesAgain) {
   Drive drive;
   drive.steps(20);

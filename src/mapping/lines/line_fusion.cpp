@@ -75,8 +75,8 @@ void fuse_matches(const Association& association, const Viewpoint& from, const F
       Station& station = line.stations[observation.station];
       if (config.learn) learn(observation, from, station, networks);
       observe(observation, from, station);
-      station.type_votes[index(detection.type)] += 1.0;
-      station.style_votes[index(detection.style)] += 1.0;
+      station.type_votes[index(detection.type)] += from.news;
+      station.style_votes[index(detection.style)] += from.news;
     }
     ++line.observations;
   }

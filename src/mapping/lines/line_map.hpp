@@ -24,8 +24,8 @@ struct Station {
   Point position = Point::Zero();                      ///< map frame
   LateralFilter lateral;                               ///< estimate of the position across the line
   double log_odds = 0.0;                               ///< that the line is there, by how often it was seen
-  std::array<double, kMarkingTypeCount> type_votes{};  ///< one vote per observation
-  markings::StyleVotes style_votes{};                  ///< one vote per observation
+  std::array<double, kMarkingTypeCount> type_votes{};  ///< one vote per independent view
+  markings::StyleVotes style_votes{};                  ///< one vote per independent view
   double moved_m = 0.0;                                ///< to the left, since the station was made
   std::array<FarView, NetworkModel::kNodes_m.size()> far_views{};  ///< the first view at each range
   Sight sight = Sight::out_of_view;                                ///< in the present frame; not saved

@@ -17,13 +17,13 @@
 namespace laneloom::lines {
 namespace {
 
-Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
-                    const NetworkModel& network) {
+Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source, Network& network) {
   return {.T_map_body = observed.T_map_body,
           .stamp_ns = observed.frame.stamp_ns,
           .source = static_cast<std::uint32_t>(source),
-          .pitch_gain = network.pitch_gain(),
-          .alignment_gain = network.alignment_gain()};
+          .news = network.standpoint.news(observed.T_map_body.translation()),
+          .pitch_gain = network.lateral.pitch_gain(),
+          .alignment_gain = network.lateral.alignment_gain()};
 }
 
 /// Forgets the views of a source that is forgotten, and whose number another one has now.
@@ -40,18 +40,17 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
                                          const geometry::Scene& scene, const MapperConfig& config,
                                          markings::IdSource& ids, const markings::StageLog& log) {
   const FusionConfig& fusion = config.fusion;
-  const Point origin = observed.T_map_body.translation();
   const bool is_new = networks_.find(observed.frame.source) == nullptr;
   const std::size_t source = networks_.number(observed.frame.source, scene.frame, config);
   if (is_new) forget_views_of(source, lines_);
   Network& network = networks_[source];
-  Viewpoint from = viewpoint(observed, source, network.lateral);
+  Viewpoint from = viewpoint(observed, source, network);
   Association association = associated(observed, network, fusion, from);
   count_joints(association.matches, lines_, config.boundary.max_gap_m, joints_);
   log.done(Stage::association);
 
   fuse_matches(association, from, fusion, networks_, lines_);
-  const View view(observed.T_map_body.inverse(), observed.frame, network.standpoint.news(origin));
+  const View view(observed.T_map_body.inverse(), observed.frame, from.news);
   credit_observed(view, association, fusion, network.detection, lines_);
   discount_unobserved(view, scene.box, fusion, network.detection, lines_);
   log.done(Stage::line_update);
