@@ -51,7 +51,9 @@ void visit(auto& v, Is<RangeConfig> auto& c) {
 void visit(auto& v, Is<PreprocessConfig> auto& c) {
   auto& [reject_zigzag, min_confidence, zigzag_angle_deg, zigzag_turns, zigzag_min_segment_m] = c;
   v.flag("reject_zigzag", reject_zigzag, "Whether polylines that zigzag are dropped.");
-  v.number("min_confidence", min_confidence, {"", 0, 1}, "A detection with a lower confidence is dropped.");
+  v.number("min_confidence", min_confidence, {"", 0, 1},
+           "A detection with a lower confidence is dropped. The method `lines` keeps it if its network is as "
+           "unsure of established lines: if at least this is left when their mean is scaled to 0.6.");
   v.number("zigzag_angle_deg", zigzag_angle_deg, {"deg", 1, 180},
            "A turn of a polyline between consecutive segments counts as a zigzag turn if it is larger than "
            "this. Ours.");

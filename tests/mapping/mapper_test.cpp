@@ -159,6 +159,32 @@ TEST(Mapper, NetworksThatAreSureAndUnsureAreBelievedAlike) {
   EXPECT_NEAR(frames_until_published(0.35), usual, 1);
 }
 
+TEST(Mapper, WhatIsOfLowConfidenceIsDroppedUnlessItsNetworkIsUnsure) {
+  const auto lines_with_doubt = [](double usual, double doubtful, bool learn) {
+    MapperConfig config;
+    config.fusion.learn = learn;
+    Mapper mapper{config};
+    auto detections = road();
+    for (Detection& detection : detections) detection.confidence = usual;
+    detections.push_back(test::detection(MarkingType::laneline, straight({-50, 8, 0}, {300, 8, 0})));
+    const auto drive = [&](int from, int to) {
+      for (int i = from; i < to; ++i) mapper.update(frame_at(i, detections, i + 1), test::at(i));
+    };
+    detections.back().confidence = 0.0;
+    drive(0, 60);
+    detections.back().confidence = doubtful;
+    drive(60, 61);
+    const lines::LineMapper* const fused = mapper.state().fusion.lines();
+    return fused != nullptr ? fused->lines().size() : 0;
+  };
+  EXPECT_EQ(lines_with_doubt(0.9, 0.32, true), 5U);
+  EXPECT_EQ(lines_with_doubt(0.9, 0.28, true), 4U);
+  EXPECT_EQ(lines_with_doubt(0.3, 0.18, true), 5U);
+  EXPECT_EQ(lines_with_doubt(0.3, 0.12, true), 4U);
+  EXPECT_EQ(lines_with_doubt(0.6, 0.28, false), 4U) << "with nothing known, as told";
+  EXPECT_EQ(lines_with_doubt(0.6, 0.32, false), 5U);
+}
+
 TEST(Mapper, WhatLiesBeyondAShoulderIsNoRoad) {
   const auto along = [](MarkingType type, double y) {
     return test::detection(type, straight({-50, y, 0}, {300, y, 0}), MarkingStyle::solid);

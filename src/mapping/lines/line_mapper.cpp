@@ -26,6 +26,14 @@ Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
           .alignment_gain = network.lateral.alignment_gain()};
 }
 
+/// The detections that are sure enough, with the beliefs in them.
+std::vector<markings::ObservedMarking> believed(std::vector<markings::ObservedMarking> markings,
+                                                const DetectionModel& model, const PreprocessConfig& config) {
+  for (markings::ObservedMarking& marking : markings) marking.belief = model.belief(marking.confidence);
+  drop_unsure(config, markings);
+  return markings;
+}
+
 /// Forgets the views of a source that is forgotten, and whose number another one has now.
 void forget_views_of(std::size_t source, std::vector<Line>& lines) {
   for (Line& line : lines)
@@ -45,7 +53,7 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
   if (is_new) forget_views_of(source, lines_);
   Network& network = networks_[source];
   Viewpoint from = viewpoint(observed, source, network);
-  Association association = associated(observed, network, fusion, from);
+  Association association = associated(observed, network, config, from);
   count_joints(association.matches, lines_, config.boundary.max_gap_m, joints_);
   log.done(Stage::association);
 
@@ -75,15 +83,13 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
 /// Samples the detections, takes the suspected pitch and pose error of the frame out of them, and matches
 /// them with the lines. Notes the suspected errors in `from`.
 Association LineMapper::associated(const markings::ObservedFrame& observed, const Network& network,
-                                   const FusionConfig& config, Viewpoint& from) {
+                                   const MapperConfig& config, Viewpoint& from) {
   const Eigen::Isometry3d& T_map_body = observed.T_map_body;
-  std::vector<markings::ObservedMarking> markings = observed.markings;
-  for (markings::ObservedMarking& marking : markings)
-    marking.belief = network.detection.belief(marking.confidence);
-  auto detections = sample_detections(join_dashes(std::move(markings)), config);
+  auto detections = sample_detections(
+      join_dashes(believed(observed.markings, network.detection, config.preprocess)), config.fusion);
   from.stretch_per_m = estimate_stretch_per_m(detections, T_map_body);
   unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
-  LineMatcher matcher(lines_, config);
+  LineMatcher matcher(lines_, config.fusion);
   from.error = align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);
   weigh(network.lateral, T_map_body.translation(), detections);
   return associate(matcher, std::move(detections));

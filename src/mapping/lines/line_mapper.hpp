@@ -40,7 +40,7 @@ class LineMapper {
 
  private:
   Association associated(const markings::ObservedFrame& observed, const Network& network,
-                         const FusionConfig& config, Viewpoint& from);
+                         const MapperConfig& config, Viewpoint& from);
   void join(const FusionConfig& config, std::vector<markings::Relative>& relatives);
 
   std::vector<Line> lines_;

@@ -1,5 +1,6 @@
 #include "mapping/markings/preprocess.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -29,18 +30,25 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
   std::vector<ObservedMarking> markings;
   markings.reserve(frame.detections.size());
   for (const Detection& detection : frame.detections) {
-    if (detection.points.size() < 2 || detection.confidence < config.min_confidence) continue;
+    if (detection.points.size() < 2) continue;
     if (config.reject_zigzag && is_zigzag(detection.points, config)) continue;
     ObservedMarking marking{.type = detection.type,
                             .style = detection.style,
                             .confidence = detection.confidence,
                             .points = {},
-                            .stddev_m = detection.stddev_m};
+                            .stddev_m = detection.stddev_m,
+                            .belief = detection.confidence};
     marking.points.reserve(detection.points.size());
     for (const Point& point_body : detection.points) marking.points.push_back(T_map_body * point_body);
     markings.push_back(std::move(marking));
   }
   return markings;
+}
+
+void drop_unsure(const PreprocessConfig& config, std::vector<ObservedMarking>& markings) {
+  std::erase_if(markings, [&](const ObservedMarking& marking) {
+    return std::max(marking.confidence, marking.belief) < config.min_confidence;
+  });
 }
 
 }  // namespace laneloom::markings

@@ -24,10 +24,14 @@ struct ObservedFrame {
   std::vector<ObservedMarking> markings;
 };
 
-/// Rejects detections of low confidence and zigzagging ones, and transforms the rest to the map frame (paper,
-/// Sec. III-A).
+/// Rejects zigzagging detections, and transforms the rest to the map frame (paper, Sec. III-A). Believes the
+/// confidences as they are told.
 std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                                         const PreprocessConfig& config);
+
+/// Rejects what is of low confidence (paper, Sec. III-A), unless its network is as unsure of lines that are
+/// there.
+void drop_unsure(const PreprocessConfig& config, std::vector<ObservedMarking>& markings);
 
 /// Whether consecutive segments turn by more than the configured angle, the configured number of times.
 bool is_zigzag(const Polyline& points, const PreprocessConfig& config);

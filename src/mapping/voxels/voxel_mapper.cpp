@@ -10,8 +10,10 @@ markings::FusedMarkings VoxelMapper::fuse(const markings::ObservedFrame& observe
                                           const geometry::Scene& scene, const MapperConfig& config,
                                           markings::IdSource& ids, const markings::StageLog& log) {
   auto& [voxels, co_observation, instances] = map_;
-  const auto touched = log.done(Stage::voxel_update, update_voxels(observed.markings, scene.box,
-                                                                   config.voxel_map, voxels, co_observation));
+  std::vector<markings::ObservedMarking> sure = observed.markings;
+  drop_unsure(config.preprocess, sure);
+  const auto touched =
+      log.done(Stage::voxel_update, update_voxels(sure, scene.box, config.voxel_map, voxels, co_observation));
   const auto reliable = log.done(Stage::reliable_voxels, reliable_voxels(touched.all, voxels, instances,
                                                                          config.voxel_map.min_detections));
   cluster(reliable, config.clustering, observed.frame.stamp_ns, map_, ids);

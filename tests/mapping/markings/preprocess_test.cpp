@@ -19,12 +19,15 @@ DetectionFrame frame_of(std::vector<Detection> detections) {
   return frame;
 }
 
-TEST(Preprocess, KeepsTheThresholdAndDropsWhatIsBelow) {
+TEST(DropUnsure, KeepsTheThresholdAndDropsWhatIsBelow) {
   auto weak = detection(MarkingType::laneline, straight({0, 0, 0}, {10, 0, 0}));
   auto enough = weak;
   weak.confidence = 0.2999;
   enough.confidence = 0.3;
-  EXPECT_EQ(preprocess(frame_of({weak, enough}), test::at(0), {}).size(), 1U);
+  auto markings = preprocess(frame_of({weak, enough}), test::at(0), {});
+  drop_unsure({}, markings);
+  ASSERT_EQ(markings.size(), 1U);
+  EXPECT_EQ(markings[0].confidence, 0.3);
 }
 
 TEST(Preprocess, DropsWhatIsNoLine) {
