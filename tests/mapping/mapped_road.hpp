@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 
 /// A road, and a vehicle that maps it, frame by frame.
 namespace laneloom::test {
+
 inline constexpr double kStep_m = 1.0;  // 10 m/s at 10 Hz
 
 /// A road along x with two lanes of 3.6 m between voxel centres, a dashed line between them, and a stopline
