@@ -38,6 +38,9 @@ Station new_station(const Point& position, const Viewpoint& from, const SampledD
                           .seen_from = from.T_map_body.translation().head<2>(),
                           .stamp_ns = from.stamp_ns};
   Station station{.position = position, .lateral = LateralFilter(first), .log_odds = log_odds};
+  // The map did not know it: a line that is born beside one that the frame observed may be its double, and
+  // counts as seen apart from it.
+  station.sight = Sight::missed;
   station.type_votes[index(detection.type)] = 1.0;
   station.style_votes[index(detection.style)] = 1.0;
   return station;

@@ -57,6 +57,14 @@ class LineFusion : public ::testing::Test {
   std::vector<markings::Relative> cut_off_;
 };
 
+TEST_F(LineFusion, ALineIsUnknownToTheFrameThatBearsIt) {
+  see({straight({5, 0, 0}, {15, 0, 0})});
+  ASSERT_EQ(lines_.size(), 1U);
+  EXPECT_EQ(sight_of(lines_[0].stations), Sight::missed);
+  see({straight({5, 0, 0}, {15, 0, 0})});
+  EXPECT_EQ(sight_of(lines_[0].stations), Sight::observed);
+}
+
 TEST_F(LineFusion, ALineIsBornWithAStationAboutEveryMetre) {
   see({straight({0, 0, 0}, {20, 0, 0})});
   ASSERT_EQ(lines_.size(), 1U);
