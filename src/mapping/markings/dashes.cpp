@@ -40,7 +40,8 @@ std::vector<Tip> tips_of(const std::vector<ObservedMarking>& markings) {
   return tips;
 }
 
-/// What the angles to a gap allow, also where two ends meet, and there is no gap.
+/// Whether two ends face each other. The angles to the gap between them tell that, too, but not where the
+/// ends meet.
 bool are_aligned(const Tip& a, const Tip& b) {
   return a.leaving.dot(b.leaving) <= -cos_degrees(2.0 * kMaxAngle_deg);
 }
