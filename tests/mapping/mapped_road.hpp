@@ -54,6 +54,7 @@ class Drive {
   int number = 0;
 };
 
+/// The ids of the lanelines of a map.
 inline std::vector<ElementId> lanelines(const Drive& drive) {
   std::vector<ElementId> ids;
   for (const Marking& marking : drive.mapper.map().markings)

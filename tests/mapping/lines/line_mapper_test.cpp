@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "mapping/mapped_road.hpp"
 #include "mapping/state.hpp"
 
@@ -169,7 +171,6 @@ std::vector<Detection> road_in_pieces() {
   return pieces;
 }
 
-/// The ids of the lanelines of a map.
 TEST(LineMapper, PiecesOfALineThatIsThenSeenWholeBecomeOneMarkingThatKeepsItsId) {
   Drive drive;
   for (int i = 0; i < 3; ++i) drive.step(road_in_pieces());
