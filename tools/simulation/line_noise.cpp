@@ -45,8 +45,9 @@ std::size_t nearest_to_body(const Polyline& line) {
 }
 
 Point beyond(const Polyline& line, bool at_back, double by_m) {
-  const Eigen::Vector2d direction = end_direction(line, at_back ? End::back : End::front);
-  return (at_back ? line.back() : line.front()) + by_m * Point(direction.x(), direction.y(), 0.0);
+  const End end = at_back ? End::back : End::front;
+  const Eigen::Vector2d direction = end_direction(line, end);
+  return end_point(line, end) + by_m * Point(direction.x(), direction.y(), 0.0);
 }
 
 MarkingType swapped_type(MarkingType type) {
