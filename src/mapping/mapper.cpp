@@ -70,12 +70,12 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const markings::StageLog log(observer);
   MapperState& state = *state_;
   const geometry::Scene scene = next_scene(frame, T_map_body, config_.range, state);
-  const markings::ObservedFrame observed{
+  markings::ObservedFrame observed{
       frame, T_map_body,
       log.done(Stage::preprocess,
                markings::preprocess(frame, T_map_body, config_.preprocess))};  // paper, III-A
   markings::FusedMarkings fused =
-      state.fusion.update(observed, scene, config_, state.ids, log);  // III-B and III-C
+      state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   boundaries::Boundaries boundaries =
       log.done(Stage::lane_boundaries,  // III-D-1
                boundaries::lane_boundaries(fused.markings, fused.joints, config_.boundary));

@@ -24,10 +24,11 @@ class Fusion {  // NOLINT(bugprone-exception-escape)
     if (config.method == FusionMethod::voxels) method_.emplace<voxels::VoxelMapper>(config.voxel_map);
   }
 
-  markings::FusedMarkings update(const markings::ObservedFrame& observed, const geometry::Scene& scene,
+  markings::FusedMarkings update(markings::ObservedFrame observed, const geometry::Scene& scene,
                                  const MapperConfig& config, markings::IdSource& ids,
                                  const markings::StageLog& log) {
-    return std::visit([&](auto& method) { return method.fuse(observed, scene, config, ids, log); }, method_);
+    return std::visit([&](auto& method) { return method.fuse(std::move(observed), scene, config, ids, log); },
+                      method_);
   }
 
   /// The state of the method `lines` or `voxels`. Null: the mapper uses the other method.

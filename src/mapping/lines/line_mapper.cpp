@@ -44,16 +44,17 @@ void forget_views_of(std::size_t source, std::vector<Line>& lines) {
 
 }  // namespace
 
-markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed,
-                                         const geometry::Scene& scene, const MapperConfig& config,
-                                         markings::IdSource& ids, const markings::StageLog& log) {
+markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const geometry::Scene& scene,
+                                         const MapperConfig& config, markings::IdSource& ids,
+                                         const markings::StageLog& log) {
   const FusionConfig& fusion = config.fusion;
   const bool is_new = networks_.find(observed.frame.source) == nullptr;
   const std::size_t source = networks_.number(observed.frame.source, scene.frame, config);
   if (is_new) forget_views_of(source, lines_);
   Network& network = networks_[source];
   Viewpoint from = viewpoint(observed, source, network);
-  Association association = associated(observed, network, config, from);
+  Association association = associated(
+      believed(std::move(observed.markings), network.detection, config.preprocess), network, fusion, from);
   count_joints(association.matches, lines_, config.boundary.max_gap_m, joints_);
   log.done(Stage::association);
 
@@ -82,14 +83,13 @@ markings::FusedMarkings LineMapper::fuse(const markings::ObservedFrame& observed
 
 /// Samples the detections, takes the suspected pitch and pose error of the frame out of them, and matches
 /// them with the lines. Notes the suspected errors in `from`.
-Association LineMapper::associated(const markings::ObservedFrame& observed, const Network& network,
-                                   const MapperConfig& config, Viewpoint& from) {
-  const Eigen::Isometry3d& T_map_body = observed.T_map_body;
-  auto detections = sample_detections(
-      join_dashes(believed(observed.markings, network.detection, config.preprocess)), config.fusion);
+Association LineMapper::associated(std::vector<markings::ObservedMarking> markings, const Network& network,
+                                   const FusionConfig& config, Viewpoint& from) {
+  const Eigen::Isometry3d& T_map_body = from.T_map_body;
+  auto detections = sample_detections(join_dashes(std::move(markings)), config);
   from.stretch_per_m = estimate_stretch_per_m(detections, T_map_body);
   unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
-  LineMatcher matcher(lines_, config.fusion);
+  LineMatcher matcher(lines_, config);
   from.error = align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);
   weigh(network.lateral, T_map_body.translation(), detections);
   return associate(matcher, std::move(detections));

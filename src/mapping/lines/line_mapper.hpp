@@ -21,7 +21,7 @@ namespace laneloom::lines {
 /// evidence. A value type.
 class LineMapper {
  public:
-  markings::FusedMarkings fuse(const markings::ObservedFrame& observed, const geometry::Scene& scene,
+  markings::FusedMarkings fuse(markings::ObservedFrame observed, const geometry::Scene& scene,
                                const MapperConfig& config, markings::IdSource& ids,
                                const markings::StageLog& log);
 
@@ -39,8 +39,8 @@ class LineMapper {
   }
 
  private:
-  Association associated(const markings::ObservedFrame& observed, const Network& network,
-                         const MapperConfig& config, Viewpoint& from);
+  Association associated(std::vector<markings::ObservedMarking> markings, const Network& network,
+                         const FusionConfig& config, Viewpoint& from);
   void join(const FusionConfig& config, std::vector<markings::Relative>& relatives);
 
   std::vector<Line> lines_;

@@ -6,14 +6,13 @@
 
 namespace laneloom::voxels {
 
-markings::FusedMarkings VoxelMapper::fuse(const markings::ObservedFrame& observed,
-                                          const geometry::Scene& scene, const MapperConfig& config,
-                                          markings::IdSource& ids, const markings::StageLog& log) {
+markings::FusedMarkings VoxelMapper::fuse(markings::ObservedFrame observed, const geometry::Scene& scene,
+                                          const MapperConfig& config, markings::IdSource& ids,
+                                          const markings::StageLog& log) {
   auto& [voxels, co_observation, instances] = map_;
-  std::vector<markings::ObservedMarking> sure = observed.markings;
-  drop_unsure(config.preprocess, sure);
-  const auto touched =
-      log.done(Stage::voxel_update, update_voxels(sure, scene.box, config.voxel_map, voxels, co_observation));
+  drop_unsure(config.preprocess, observed.markings);
+  const auto touched = log.done(Stage::voxel_update, update_voxels(observed.markings, scene.box,
+                                                                   config.voxel_map, voxels, co_observation));
   const auto reliable = log.done(Stage::reliable_voxels, reliable_voxels(touched.all, voxels, instances,
                                                                          config.voxel_map.min_detections));
   cluster(reliable, config.clustering, observed.frame.stamp_ns, map_, ids);

@@ -15,7 +15,7 @@ class VoxelMapper {
  public:
   explicit VoxelMapper(const VoxelMapConfig& config) : map_{VoxelMap(config)} {}
 
-  markings::FusedMarkings fuse(const markings::ObservedFrame& observed, const geometry::Scene& scene,
+  markings::FusedMarkings fuse(markings::ObservedFrame observed, const geometry::Scene& scene,
                                const MapperConfig& config, markings::IdSource& ids,
                                const markings::StageLog& log);
 
