@@ -95,6 +95,9 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   find_directions(config_.direction, state.lane_memory, road);
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
+  const auto renamed = state.lane_memory.publish(road.lanes, state.ids);
+  road.rename(renamed);
+  state.ego_track.forget(renamed);
   state.map = log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline,
                                                   state.published));
   return state.map;

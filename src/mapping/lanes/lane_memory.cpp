@@ -77,12 +77,20 @@ bool has_same_boundaries(const Lane& lane, const KnownLane& known) {
   return boundary_pair(lane) == std::pair(known.boundary_a, known.boundary_b);
 }
 
-/// The covers of known lanes by lanes that are not yet recognised. Only pairs between the same boundaries are
-/// compared if `same_boundaries`, else only pairs between others.
+/// Which pairs of a found and a known lane are compared.
+struct Round {
+  bool recent = false;           ///< with lanes of the last map, else with older ones
+  bool same_boundaries = false;  ///< between the same boundaries, else between others
+};
+
+/// The covers of known lanes by lanes that are not yet recognised.
 std::vector<Cover> covers_of(const std::vector<Lane>& lanes, const std::vector<KnownLane>& known,
-                             const Recognition& recognition, double max_distance_m, bool same_boundaries) {
+                             const Recognition& recognition, double max_distance_m, std::uint64_t frame,
+                             const Round& round) {
+  const bool same_boundaries = round.same_boundaries;
   std::vector<Cover> covers;
   for (std::size_t k = 0; k < known.size(); ++k) {
+    if ((known[k].last_frame + 1 == frame) != round.recent) continue;
     std::optional<MeasuredPolyline> line;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       if (!recognition.is_open(i, k) || has_same_boundaries(lanes[i], known[k]) != same_boundaries) continue;
@@ -97,12 +105,15 @@ std::vector<Cover> covers_of(const std::vector<Lane>& lanes, const std::vector<K
   return covers;
 }
 
-/// Recognises lanes between the same boundaries first, and then lanes that lie where a known lane lay.
+/// Recognises lanes of the last map first, so that a lane whose boundary was taken for another one keeps its
+/// id; of these, lanes between the same boundaries first, and then lanes that lie where a known lane lay.
 Recognition recognised(const std::vector<Lane>& lanes, const std::vector<KnownLane>& known,
-                       const LaneConfig& config) {
+                       std::uint64_t frame, const LaneConfig& config) {
   Recognition recognition(lanes.size(), known.size());
-  for (const bool same_boundaries : {true, false})
-    recognition.settle(covers_of(lanes, known, recognition, 0.5 * config.min_width_m, same_boundaries));
+  for (const bool recent : {true, false})
+    for (const bool same_boundaries : {true, false})
+      recognition.settle(covers_of(lanes, known, recognition, 0.5 * config.min_width_m, frame,
+                                   {.recent = recent, .same_boundaries = same_boundaries}));
   return recognition;
 }
 
@@ -137,7 +148,7 @@ void LaneMemory::identify(const std::vector<Marking*>& inferred, const geometry:
 
 void LaneMemory::identify(std::vector<Lane>& lanes, const geometry::Scene& scene, const LaneConfig& config,
                           markings::IdSource& ids) {
-  const Recognition recognition = recognised(lanes, lanes_, config);
+  const Recognition recognition = recognised(lanes, lanes_, scene.frame, config);
   std::vector<KnownLane> now;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
@@ -150,6 +161,9 @@ void LaneMemory::identify(std::vector<Lane>& lanes, const geometry::Scene& scene
       known.id = before.id;
       known.direction_log_odds = sense * before.direction_log_odds;
       known.kept_direction = sense * before.kept_direction;
+      known.belief = sense * before.belief;
+      known.told_direction = sense * before.told_direction;
+      known.published = sense * before.published;
     } else {
       known.id = ids.next();
     }
@@ -188,6 +202,26 @@ std::vector<boundaries::LaneBoundary> LaneMemory::recognise(std::vector<Marking>
     result.push_back({.marking = std::move(marking), .members = {id}, .bridged = {whole}});
   }
   return result;
+}
+
+std::map<ElementId, ElementId> LaneMemory::publish(const std::vector<Lane>& lanes, markings::IdSource& ids) {
+  std::map<ElementId, ElementId> renamed;
+  for (const Lane& lane : lanes) {
+    KnownLane* known = find(lane.id);
+    if (known == nullptr) continue;
+    const int sense = lane.centerline.front() == known->centerline.front() ? 1 : -1;
+    if (known->published == -sense) {
+      known->id = ids.next();
+      renamed.emplace(lane.id, known->id);
+    }
+    if (sense < 0) std::ranges::reverse(known->centerline);
+    known->direction_log_odds *= sense;
+    known->kept_direction *= sense;
+    known->belief *= sense;
+    known->told_direction = lane.direction == Lane::Direction::unknown ? 0 : 1;
+    known->published = 1;
+  }
+  return renamed;
 }
 
 const KnownLane* LaneMemory::find(ElementId lane) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -18,13 +19,17 @@ struct KnownLane {
   ElementId id = kNoElement;
   ElementId boundary_a = kNoElement;  ///< the smaller of the two ids
   ElementId boundary_b = kNoElement;
-  Polyline centerline;              ///< map frame, as it was last found
+  Polyline centerline;              ///< map frame, as it was last found; once published, as it runs there
   std::uint64_t last_frame = 0;     ///< number of the frame that last found it
   double direction_log_odds = 0.0;  ///< that traffic runs along the centerline
   int kept_direction = 0;           ///< 1: traffic was sure to run along it; -1: against it; 0: neither
+  double belief = 0.0;              ///< log odds of its direction, smoothed over frames
+  int told_direction = 0;           ///< 1, -1: the last map told that it runs so; 0: it told no direction
+  int published = 0;                ///< 1: the last map's lane ran along it; -1: against it; 0: a new lane
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(id, boundary_a, boundary_b, centerline, last_frame, direction_log_odds, kept_direction);
+    archive(id, boundary_a, boundary_b, centerline, last_frame, direction_log_odds, kept_direction, belief,
+            told_direction, published);
   }
 };
 
@@ -70,6 +75,10 @@ class LaneMemory {
   /// The known lane of an id. Null: there is none.
   const KnownLane* find(ElementId lane) const;
   KnownLane* find(ElementId lane);
+
+  /// Remembers how each lane runs in the map. A lane whose id was published running the other way is another
+  /// lane from now on: it gets a new id. Returns the former and the new id of each of these.
+  std::map<ElementId, ElementId> publish(const std::vector<Lane>& lanes, markings::IdSource& ids);
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -25,6 +25,9 @@ constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost la
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
 constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
 constexpr double kKnown = 1.5;             // from here on, a direction is published
+constexpr double kNews = 0.1;              // share of a frame in the belief in a direction
+constexpr double kGrowth = 0.3;            // likewise, where the frame says more than the belief
+constexpr double kDoubted = 0.5;           // below, a direction is published no longer
 constexpr double kSure = 3.0;              // from here on, it is kept
 constexpr double kKeptEvidence = 3.0;      // of a direction that is kept
 
@@ -206,6 +209,47 @@ std::vector<double> beliefs(Model model, double side) {
   return belief;
 }
 
+/// What the last map told of the lanes of each group, in the sense of its first lane.
+struct Told {
+  std::vector<Mean> belief;         ///< in a direction
+  std::vector<double> direction;    ///< sum of the directions that were told
+  std::vector<double> orientation;  ///< metres of lanes that ran along the first one, less those against it
+};
+
+Told told(const std::vector<Lane>& lanes, const geometry::OrientedGroups& groups,
+          const lanes::LaneMemory& memory) {
+  Told told{std::vector<Mean>(lanes.size()), std::vector<double>(lanes.size(), 0.0),
+            std::vector<double>(lanes.size(), 0.0)};
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const lanes::KnownLane* known = memory.find(lanes[i].id);
+    if (known == nullptr || known->published == 0) continue;
+    const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
+    told.belief[groups.group(i)].add(sense * known->belief);
+    told.direction[groups.group(i)] += sense * known->told_direction;
+    told.orientation[groups.group(i)] += sense * known->published * length(known->centerline);
+  }
+  return told;
+}
+
+/// A belief that follows the log odds of each frame: quickly where they grow, slowly where they fall, since
+/// lanes and borders that tell a direction come and go.
+double followed(double belief, double log_odds) {
+  const bool grows = belief * log_odds >= 0.0 && std::abs(log_odds) > std::abs(belief);
+  return belief + (grows ? kGrowth : kNews) * (log_odds - belief);
+}
+
+/// Whether a direction of these log odds is published. `told` has the sign of the one that the last map told.
+bool is_known(double log_odds, double told) {
+  return std::abs(log_odds) >= (log_odds * told > 0.0 ? kDoubted : kKnown);
+}
+
+/// The sense in which the lanes of a group are published, with respect to its first lane: as traffic runs; if
+/// that is not known, as they ran in the last map; else as traffic rather runs.
+double sense_of(double log_odds, double told_direction, double told_orientation) {
+  if (is_known(log_odds, told_direction) || told_orientation == 0.0) return log_odds < 0.0 ? -1.0 : 1.0;
+  return told_orientation;
+}
+
 /// Keeps the direction of a lane, once it is sure, until it is no longer known.
 void keep_direction(double log_odds, ElementId lane, lanes::LaneMemory& memory) {
   lanes::KnownLane* remembered = memory.find(lane);
@@ -236,15 +280,20 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 void find_directions(const DirectionConfig& config, lanes::LaneMemory& memory, RoadGraph& road) {
   const geometry::OrientedGroups groups = group(road);
   const double side = driving_side(config);
-  const std::vector<double> belief = beliefs(build_model(road, groups, memory, side), side);
+  std::vector<double> belief = beliefs(build_model(road, groups, memory, side), side);
+  const Told before = told(road.lanes, groups, memory);
+  for (std::size_t i = 0; i < belief.size(); ++i)
+    if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];
-    const double log_odds = (is_opposed(groups, i) ? -1.0 : 1.0) * belief[groups.group(i)];
-    keep_direction(log_odds, lane.id, memory);
-    if (std::abs(log_odds) < kKnown) continue;
-    lane.direction = Lane::Direction::along_centerline;
-    if (log_odds < 0.0) against.push_back(lane.id);
+    const std::size_t of = groups.group(i);
+    const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
+    keep_direction(sense * belief[of], lane.id, memory);
+    if (lanes::KnownLane* known = memory.find(lane.id)) known->belief = sense * belief[of];
+    if (is_known(belief[of], before.direction[of])) lane.direction = Lane::Direction::along_centerline;
+    if (sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0)
+      against.push_back(lane.id);
   }
   road.turn(against);
   for (Linkage& linkage : road.linkages)

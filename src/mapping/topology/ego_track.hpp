@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,13 @@ struct EgoTrack {
   using Step = std::pair<ElementId, ElementId>;  ///< from one lane into another
   ElementId lane = kNoElement;                   ///< the lane that the vehicle was in last
   std::vector<Step> steps;                       ///< each once, between lanes that are still in the map
+
+  /// Forgets what was driven in lanes that run the other way now.
+  void forget(const std::map<ElementId, ElementId>& renamed) {
+    std::erase_if(steps,
+                  [&](const Step& s) { return renamed.contains(s.first) || renamed.contains(s.second); });
+    if (renamed.contains(lane)) lane = kNoElement;
+  }
 
   template <class Archive>
   void serialize(Archive& archive) {

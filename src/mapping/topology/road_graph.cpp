@@ -52,4 +52,22 @@ void RoadGraph::turn(const std::vector<ElementId>& ids) {
   }
 }
 
+void RoadGraph::rename(const std::map<ElementId, ElementId>& ids) {
+  const auto rename = [&](ElementId& id) {
+    if (const auto renamed = ids.find(id); renamed != ids.end()) id = renamed->second;
+  };
+  for (Lane& lane : lanes) {
+    rename(lane.id);
+    for (const Side side : kSides)
+      for (Neighbour& neighbour : side == Side::left ? lane.left_neighbours : lane.right_neighbours)
+        rename(neighbour.lane);
+  }
+  for (Linkage& linkage : linkages) {
+    rename(linkage.from);
+    rename(linkage.to);
+  }
+  std::ranges::sort(lanes, {}, &Lane::id);
+  sort_linkages();
+}
+
 }  // namespace laneloom::topology

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "mapping/lanes/lane_layout.hpp"
@@ -15,6 +16,8 @@ struct RoadGraph : lanes::LaneLayout {
   /// Lets lanes run the other way, with their sides, neighbours and linkages. A linkage between a lane that
   /// is turned and one that is not is removed.
   void turn(const std::vector<ElementId>& ids);
+  /// Gives lanes other ids, by their former ones.
+  void rename(const std::map<ElementId, ElementId>& ids);
 };
 
 }  // namespace laneloom::topology

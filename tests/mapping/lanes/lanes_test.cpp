@@ -344,6 +344,45 @@ TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
   EXPECT_EQ(both[1].id, 101U);
 }
 
+TEST(LaneIds, StayWithTheLaneOfTheLastMapWhenABoundaryIsTakenForAnotherOne) {
+  const auto lane_beside = [](ElementId right, double y) {
+    return Lane{
+        .left_boundary = 1, .right_boundary = right, .centerline = straight({0, y, 0}, {20, y, 0}, 21)};
+  };
+  LaneMemory memory;
+  markings::IdSource ids(100);
+  std::vector<Lane> both{lane_beside(2, 0.0), lane_beside(3, 0.5)};
+  memory.identify(both, test::scene(1), {}, ids);
+  std::vector<Lane> second{lane_beside(3, 0.5)};
+  memory.identify(second, test::scene(2), {}, ids);
+  EXPECT_EQ(second[0].id, 101U);
+  std::vector<Lane> first{lane_beside(2, 0.0)};
+  memory.identify(first, test::scene(3), {}, ids);
+  EXPECT_EQ(first[0].id, 101U);
+}
+
+TEST(LaneIds, ALaneThatIsTurnedRoundIsAnotherLane) {
+  LaneMemory memory;
+  markings::IdSource ids(100);
+  std::vector<Lane> lanes{
+      {.left_boundary = 1, .right_boundary = 2, .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
+  const auto publish = [&](std::uint64_t frame, bool turned) {
+    memory.identify(lanes, test::scene(frame), {}, ids);
+    const std::vector<Lane> found = lanes;
+    if (turned) std::ranges::reverse(lanes[0].centerline);
+    const auto renamed = memory.publish(lanes, ids);
+    lanes = found;
+    return renamed;
+  };
+  EXPECT_TRUE(publish(1, true).empty()) << "a new lane runs as it likes";
+  EXPECT_TRUE(publish(2, true).empty());
+  EXPECT_THAT(publish(3, false), testing::ElementsAre(testing::Pair(100, 101)));
+  EXPECT_EQ(memory.find(100), nullptr);
+  EXPECT_TRUE(publish(4, false).empty());
+  EXPECT_EQ(memory.lanes().size(), 1U);
+  EXPECT_NE(memory.find(101), nullptr);
+}
+
 TEST(LaneIds, ComeBackAfterAShortGapOnly) {
   Lane lane;
   lane.left_boundary = 1;

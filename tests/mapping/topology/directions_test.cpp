@@ -107,6 +107,32 @@ TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
   EXPECT_EQ(lanes::main_neighbour(get(12), Side::left), 11U);
 }
 
+TEST_F(Directions, ADirectionIsToldUntilItIsInDoubt) {
+  memory_ = lanes::LaneMemory({{.id = 11, .centerline = lanes_[0].centerline, .published = 1},
+                               {.id = 12, .centerline = lanes_[1].centerline, .published = 1}});
+  for (lanes::KnownLane* lane : {memory_.find(11), memory_.find(12)}) lane->belief = 1.0;
+  find(DrivingSide::unknown);
+  EXPECT_FALSE(known(11) || known(12)) << "1 is less than it takes to begin";
+  for (lanes::KnownLane* lane : {memory_.find(11), memory_.find(12)}) {
+    lane->belief = 1.0;
+    lane->told_direction = 1;
+  }
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(11) && known(12));
+  for (lanes::KnownLane* lane : {memory_.find(11), memory_.find(12)}) lane->belief = 0.5;
+  for (Lane& lane : lanes_) lane.direction = Direction::unknown;
+  find(DrivingSide::unknown);
+  EXPECT_FALSE(known(11) || known(12));
+}
+
+TEST_F(Directions, WhileTheirDirectionIsUnknownLanesRunAsTheyDidBefore) {
+  memory_ = lanes::LaneMemory({{.id = 11, .centerline = lanes_[0].centerline, .published = -1}});
+  find(DrivingSide::unknown);
+  EXPECT_FALSE(known(11) || known(12));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(runs_forward(12));
+}
+
 TEST_F(Directions, InLeftHandTrafficTheOtherWayRound) {
   divider(MarkingStyle::solid);
   find(DrivingSide::left);
