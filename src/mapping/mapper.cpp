@@ -17,6 +17,7 @@
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/topology/intersections.hpp"
 #include "mapping/topology/linkages.hpp"
+#include "mapping/topology/meeting.hpp"
 #include "mapping/topology/stoplines.hpp"
 
 namespace laneloom {
@@ -98,6 +99,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const auto renamed = state.lane_memory.publish(road.lanes, state.ids);
   road.rename(renamed);
   state.ego_track.forget(renamed);
+  meet_at_joints(road);
   state.map = log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline,
                                                   state.published));
   return state.map;

@@ -1,0 +1,127 @@
+#include "mapping/topology/meeting.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/smooth_step.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
+
+namespace laneloom::topology {
+namespace {
+
+constexpr double kMaxShift_m = 1.2;    // of a lane's end, to the point where lanes meet
+constexpr double kMinBlend_m = 5.0;    // length over which the shift of an end fades
+constexpr double kBlendPerShift = 60;  // and, for a larger shift, as a multiple of it
+constexpr double kMinAhead = 0.5;      // cosine between a lane's end and the way to the next lane
+
+/// The end of a lane, by the lane's id.
+using LaneEnd = std::pair<ElementId, End>;
+
+Point& end_point(Lane& lane, End end) {
+  return end == End::front ? lane.centerline.front() : lane.centerline.back();
+}
+
+/// Ends of lanes that meet in one point.
+struct Node {
+  std::vector<LaneEnd> ends;
+  Point place = Point::Zero();  ///< the mean of the ends
+};
+
+/// The points where lanes meet.
+class Nodes {
+ public:
+  explicit Nodes(RoadGraph& road) : road_(road) {
+    for (Lane& lane : road.lanes) lanes_.emplace(lane.id, &lane);
+  }
+
+  Lane& lane(ElementId id) const { return *lanes_.at(id); }
+
+  /// Lets two ends meet, with those that meet either of them already, if none of them has to move far.
+  void join(const LaneEnd& a, const LaneEnd& b) {
+    const std::size_t to = node_of(a), from = node_of(b);
+    if (to == from) return;
+    Node both{nodes_[to].ends};
+    both.ends.insert(both.ends.end(), nodes_[from].ends.begin(), nodes_[from].ends.end());
+    for (const LaneEnd& end : both.ends) both.place += place_of(end) / static_cast<double>(both.ends.size());
+    const bool near = std::ranges::all_of(
+        both.ends, [&](const LaneEnd& end) { return (place_of(end) - both.place).norm() <= kMaxShift_m; });
+    if (!near) return;
+    for (const LaneEnd& end : nodes_[from].ends) index_[end] = to;
+    nodes_[to] = std::move(both);
+    nodes_[from].ends.clear();
+  }
+
+  /// The shift of each end that meets others.
+  std::map<LaneEnd, Point> shifts() const {
+    std::map<LaneEnd, Point> shifts;
+    for (const Node& node : nodes_)
+      for (const LaneEnd& end : node.ends) shifts.emplace(end, node.place - place_of(end));
+    return shifts;
+  }
+
+ private:
+  Point place_of(const LaneEnd& end) const { return end_point(lane(end.first), end.second); }
+  std::size_t node_of(const LaneEnd& end) {
+    const auto [found, is_new] = index_.emplace(end, nodes_.size());
+    if (is_new) nodes_.push_back({{end}, place_of(end)});
+    return found->second;
+  }
+
+  RoadGraph& road_;
+  std::map<ElementId, Lane*> lanes_;
+  std::map<LaneEnd, std::size_t> index_;
+  std::vector<Node> nodes_;
+};
+
+/// Shifts both ends of a line. What lies between follows, less and less with the distance.
+void bend(Polyline& line, const Point& front_shift, const Point& back_shift) {
+  const std::vector<double> arcs_m = arc_lengths(line);
+  const double length_m = arcs_m.back();
+  const auto weight = [&](double distance_m, const Point& shift) {
+    const double over_m = std::min(length_m, std::max(kMinBlend_m, kBlendPerShift * shift.norm()));
+    return 1.0 - geometry::smooth_step(std::min(1.0, distance_m / over_m));
+  };
+  for (std::size_t i = 0; i < line.size(); ++i)
+    line[i] +=
+        weight(arcs_m[i], front_shift) * front_shift + weight(length_m - arcs_m[i], back_shift) * back_shift;
+}
+
+}  // namespace
+
+void meet_at_joints(RoadGraph& road) {
+  Nodes nodes(road);
+  std::vector<std::pair<double, const Linkage*>> nearest;
+  for (const Linkage& linkage : road.linkages)
+    if (linkage.path.empty())
+      nearest.emplace_back(lanes::gap_between(nodes.lane(linkage.from), nodes.lane(linkage.to)).norm(),
+                           &linkage);
+  std::ranges::stable_sort(nearest, {}, [](const auto& one) { return one.first; });
+  for (const auto& [gap_m, linkage] : nearest)
+    nodes.join({linkage->from, End::back}, {linkage->to, End::front});
+
+  const std::map<LaneEnd, Point> shifts = nodes.shifts();
+  const auto shift_of = [&](ElementId lane, End end) -> Point {
+    const auto found = shifts.find({lane, end});
+    return found == shifts.end() ? Point::Zero() : found->second;
+  };
+  for (Lane& lane : road.lanes)
+    bend(lane.centerline, shift_of(lane.id, End::front), shift_of(lane.id, End::back));
+  for (Linkage& linkage : road.linkages) {
+    if (!linkage.path.empty()) {
+      bend(linkage.path, shift_of(linkage.from, End::back), shift_of(linkage.to, End::front));
+    } else if (lanes::gap_between(nodes.lane(linkage.from), nodes.lane(linkage.to)).norm() > 1e-6) {
+      linkage.path = lanes::path_between(nodes.lane(linkage.from), nodes.lane(linkage.to));
+    }
+  }
+  std::erase_if(road.linkages, [&](const Linkage& linkage) {
+    const Lane &from = nodes.lane(linkage.from), &to = nodes.lane(linkage.to);
+    const Eigen::Vector2d gap = lanes::gap_between(from, to);
+    return gap.norm() > 1e-6 && gap.dot(lanes::leaving(from)) < kMinAhead * gap.norm();
+  });
+}
+
+}  // namespace laneloom::topology

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "mapping/topology/road_graph.hpp"
+
+namespace laneloom::topology {
+
+/// Lets linked lanes meet. Where the end of one lane and the beginning of the next lie within a short
+/// distance, both centerlines are led to one point between them, smoothly over the last metres. Elsewhere the
+/// linkage gets a path from the one to the other. A linkage that would lead aside more than ahead is removed.
+void meet_at_joints(RoadGraph& road);
+
+}  // namespace laneloom::topology

@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/shapes.hpp"
+#include "mapping/topology/meeting.hpp"
+
+namespace laneloom::topology {
+namespace {
+
+using test::lane;
+using test::straight;
+
+RoadGraph met(std::vector<Lane> lanes, std::vector<Linkage> linkages) {
+  RoadGraph road{{{}, std::move(lanes)}, std::move(linkages)};
+  meet_at_joints(road);
+  return road;
+}
+
+/// The largest change of direction from one segment of a line to the next, as the sine of the angle.
+double largest_kink(const Polyline& line) {
+  double largest = 0.0;
+  for (std::size_t i = 2; i < line.size(); ++i) {
+    const Eigen::Vector2d a = (line[i - 1] - line[i - 2]).head<2>(), b = (line[i] - line[i - 1]).head<2>();
+    largest = std::max(largest, std::abs(cross(a.normalized(), b.normalized())));
+  }
+  return largest;
+}
+
+TEST(MeetAtJoints, LanesWithAGapAndAStepMeetBetweenTheirEndsWithoutAKink) {
+  const RoadGraph road =
+      met({lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {21, 0.3, 0}, {40, 0.3, 0})}, {{.from = 1, .to = 2}});
+  const Polyline &from = road.lanes[0].centerline, &to = road.lanes[1].centerline;
+  EXPECT_TRUE(from.back().isApprox(Point(20.5, 0.15, 0)));
+  EXPECT_EQ(from.back(), to.front());
+  EXPECT_EQ(from.front(), Point(0, 0, 0));
+  EXPECT_EQ(to.back(), Point(40, 0.3, 0));
+  Polyline way = from;
+  way.insert(way.end(), to.begin() + 1, to.end());
+  EXPECT_LT(largest_kink(way), 0.02);
+}
+
+TEST(MeetAtJoints, LanesThatOverlapMeet) {
+  const RoadGraph road =
+      met({lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {18.5, 0, 0}, {40, 0, 0})}, {{.from = 1, .to = 2}});
+  EXPECT_EQ(road.lanes[0].centerline.back(), road.lanes[1].centerline.front());
+  const Polyline& line = road.lanes[0].centerline;
+  for (std::size_t i = 1; i < line.size(); ++i) EXPECT_GT(line[i].x(), line[i - 1].x());
+}
+
+TEST(MeetAtJoints, ThreeLanesMeetInOnePoint) {
+  const RoadGraph road = met({lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {20.5, 0.3, 0}, {40, 2, 0}),
+                              lane(3, {20.5, -0.3, 0}, {40, -2, 0})},
+                             {{.from = 1, .to = 2}, {.from = 1, .to = 3}});
+  EXPECT_EQ(road.lanes[0].centerline.back(), road.lanes[1].centerline.front());
+  EXPECT_EQ(road.lanes[0].centerline.back(), road.lanes[2].centerline.front());
+}
+
+TEST(MeetAtJoints, ALinkageBetweenLanesThatLieFarApartGetsAPath) {
+  const RoadGraph road =
+      met({lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {30, 2, 0}, {50, 2, 0})}, {{.from = 1, .to = 2}});
+  ASSERT_EQ(road.linkages.size(), 1U);
+  EXPECT_TRUE(road.linkages[0].path.front().isApprox(Point(20, 0, 0)));
+  EXPECT_TRUE(road.linkages[0].path.back().isApprox(Point(30, 2, 0)));
+}
+
+TEST(MeetAtJoints, APathFollowsTheEndsThatItJoins) {
+  const RoadGraph road =
+      met({lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {20, 0.4, 0}, {40, 0, 0}),
+           lane(3, {30, -10, 0}, {30, -30, 0})},
+          {{.from = 1, .to = 2}, {.from = 1, .to = 3, .path = {{20, 0, 0}, {27, -3, 0}, {30, -10, 0}}}});
+  EXPECT_TRUE(road.linkages[1].path.front().isApprox(road.lanes[0].centerline.back()));
+  EXPECT_TRUE(road.linkages[1].path.back().isApprox(Point(30, -10, 0)));
+}
+
+TEST(MeetAtJoints, NoLinkageLeadsAside) {
+  const RoadGraph road =
+      met({lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {20.5, 5, 0}, {40, 5, 0})}, {{.from = 1, .to = 2}});
+  EXPECT_TRUE(road.linkages.empty());
+}
+
+}  // namespace
+}  // namespace laneloom::topology
