@@ -93,7 +93,7 @@ struct LaneConfig {
   double min_divided_width_m = 6.5;   ///< narrower roads without lines are not divided
   bool one_sided_lanes = true;        ///< infers lanes beside a line with nothing else on that side
   double assumed_width_m = 3.3;       ///< width of such an inferred lane
-  double max_width_variation_m = 0.8;  ///< between the widest and the narrowest place of a lane
+  double max_width_variation_m = 1.6;  ///< between the widest and the narrowest place of a lane
   double min_length_m = 4.0;           ///< shorter lanes are not built
   double step_m = 1.0;                 ///< between cross-sections, and so between the points of a centerline
   int id_memory_frames = 50;           ///< a lane that comes back within this many frames keeps its id
