@@ -63,6 +63,7 @@ PublishedMap good_map() {
   Linkage linkage;
   linkage.from = 10;
   linkage.to = 11;
+  linkage.path = {{20, 1.5, 0}, {0, 4.5, 0}};
   map.map.linkages = {linkage};
   return map;
 }
@@ -101,6 +102,7 @@ TEST(Contract, HoldsForNeighboursOfOppositeDirections) {
     std::reverse(line->begin(), line->end());
   upper.left_range = upper.right_range = {20.0, 0.0};
   std::swap(upper.left_neighbours, upper.right_neighbours);
+  map.map.linkages[0].path.back() = upper.centerline.front();
   EXPECT_TRUE(contract::check_contract(map, nullptr).empty());
 }
 
@@ -217,6 +219,14 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"sequence_reverses", contract::ContractRule::ascending_sequence,
               [](auto& m) { m.sequence = 5; }},
         Fault{"age_negative", contract::ContractRule::possible_age, [](auto& m) { m.age_s = -0.5; }},
+        Fault{"linkage_over_a_gap", contract::ContractRule::joined_lanes_meet,
+              [](auto& m) { m.map.linkages[0].path.clear(); }},
+        Fault{"path_that_begins_late", contract::ContractRule::joined_lanes_meet,
+              [](auto& m) { m.map.linkages[0].path.front().x() += 0.1; }},
+        Fault{"path_that_ends_early", contract::ContractRule::joined_lanes_meet,
+              [](auto& m) { m.map.linkages[0].path.back().x() += 0.1; }},
+        Fault{"turned_lane", contract::ContractRule::kept_orientation,
+              [](auto& m) { std::reverse(lower(m).centerline.begin(), lower(m).centerline.end()); }},
         Fault{"age_none", contract::ContractRule::possible_age, [](auto& m) { m.age_s = -1.0; }},
         Fault{"age_without_stamp", contract::ContractRule::possible_age, [](auto& m) { m.map.stamp_ns = 0; }},
         Fault{"age_falls", contract::ContractRule::possible_age, [](auto& m) { m.age_s = 0.01; }},

@@ -113,6 +113,7 @@ void check_succession(const PublishedMap& map, const PublishedMap& previous, Fin
   findings.require(!nothing_new || map.age_s >= previous.age_s, ContractRule::possible_age,
                    "age fell from " + std::to_string(previous.age_s) + " s to " + std::to_string(map.age_s) +
                        " s though nothing was fused");
+  if (map.map_id == previous.map_id) check_orientations(map.map, previous.map, findings);
 }
 
 }  // namespace
@@ -133,6 +134,10 @@ const char* name(ContractRule rule) {
       return "centered_line";
     case ContractRule::neighbours_across_boundary:
       return "neighbours_across_boundary";
+    case ContractRule::joined_lanes_meet:
+      return "joined_lanes_meet";
+    case ContractRule::kept_orientation:
+      return "kept_orientation";
     case ContractRule::range_in_boundary:
       return "range_in_boundary";
     case ContractRule::valid_values:
@@ -179,6 +184,7 @@ std::vector<Violation> check_contract(const PublishedMap& map, const PublishedMa
   check_markings(map.map, findings);
   check_lanes(map.map, findings);
   check_linkages(map.map, findings);
+  check_joints(map.map, findings);
   if (previous != nullptr) check_succession(map, *previous, findings);
   return findings.take();
 }

@@ -17,11 +17,14 @@ enum class ContractRule : std::uint8_t {
   centered_line,               ///< a lane's centerline lies between its sides
   neighbours_across_boundary,  ///< a lane and its neighbour share the boundary between them, and each names
                                ///< the other
-  range_in_boundary,           ///< ranges lie within the line that they are a stretch of
-  valid_values,                ///< probabilities, confidences, deviations and widths are possible
-  ascending_sequence,          ///< within a session, sequence numbers neither repeat nor go back
-  possible_age,                ///< the age fits the stamp, and grows while nothing new is fused
-  stated_reasons               ///< a map that is not OK has reasons, and one that is OK has none
+  joined_lanes_meet,   ///< a linkage leads from the end of one lane to the beginning of the other, without a
+                       ///< path only where both are one point
+  kept_orientation,    ///< a lane's points run one way as long as its id lasts
+  range_in_boundary,   ///< ranges lie within the line that they are a stretch of
+  valid_values,        ///< probabilities, confidences, deviations and widths are possible
+  ascending_sequence,  ///< within a session, sequence numbers neither repeat nor go back
+  possible_age,        ///< the age fits the stamp, and grows while nothing new is fused
+  stated_reasons       ///< a map that is not OK has reasons, and one that is OK has none
 };
 const char* name(ContractRule rule);
 

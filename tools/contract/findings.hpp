@@ -38,4 +38,10 @@ void check_probability(double value, const std::string& what, Findings& findings
 /// Checks the rules about lanes: sides, centerlines, boundaries and neighbours.
 void check_lanes(const LocalMap& map, Findings& findings);
 
+/// Checks that linkages lead from lane to lane.
+void check_joints(const LocalMap& map, Findings& findings);
+
+/// Checks that lanes run as they did in the map before.
+void check_orientations(const LocalMap& map, const LocalMap& previous, Findings& findings);
+
 }  // namespace laneloom::contract

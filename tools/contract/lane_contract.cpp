@@ -11,6 +11,7 @@ namespace {
 /// A lane's sides are fitted to noisy boundaries, so that sides and centerline may cross each other by this
 /// much.
 constexpr double kSideTolerance_m = 0.05;
+constexpr double kJointTolerance_m = 0.01;
 
 using BoundariesById = std::map<ElementId, const Marking*>;
 
@@ -96,7 +97,40 @@ void check_neighbour(const Lane& lane, const Neighbour& neighbour, Side side, co
                    ContractRule::neighbours_across_boundary, what + " is not across the boundary");
 }
 
+/// Whether the middle of a lane runs as another one does beside it. Lanes that are not side by side do.
+bool runs_as(const Lane& lane, const Lane& other) {
+  const MeasuredPolyline line(lane.centerline), other_line(other.centerline);
+  const double middle_m = 0.5 * line.length();
+  const Projection foot = other_line.project(line.at(middle_m));
+  return !foot.inside || line.direction(middle_m).dot(other_line.direction(foot.arc_m)) > 0.0;
+}
+
 }  // namespace
+
+void check_joints(const LocalMap& map, Findings& findings) {
+  const LaneGraph lanes(map);
+  const auto meet = [](const Point& a, const Point& b) { return (a - b).norm() <= kJointTolerance_m; };
+  for (const Linkage& linkage : map.linkages) {
+    const Lane *from = lanes.find(linkage.from), *to = lanes.find(linkage.to);
+    if (from == nullptr || to == nullptr || from->centerline.empty() || to->centerline.empty()) continue;
+    const Point &end = from->centerline.back(), &begin = to->centerline.front();
+    const bool joined = linkage.path.empty()
+                            ? meet(end, begin)
+                            : meet(end, linkage.path.front()) && meet(linkage.path.back(), begin);
+    findings.require(joined, ContractRule::joined_lanes_meet,
+                     "linkage " + std::to_string(linkage.from) + " -> " + std::to_string(linkage.to) +
+                         " does not lead from the one to the other");
+  }
+}
+
+void check_orientations(const LocalMap& map, const LocalMap& previous, Findings& findings) {
+  const LaneGraph before(previous);
+  for (const Lane& lane : map.lanes) {
+    const Lane* same = before.find(lane.id);
+    if (same == nullptr || !is_measurable(lane.centerline) || !is_measurable(same->centerline)) continue;
+    findings.require(runs_as(lane, *same), ContractRule::kept_orientation, label(lane) + " was turned round");
+  }
+}
 
 void check_lanes(const LocalMap& map, Findings& findings) {
   const LaneGraph lanes(map);
