@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "base/seconds.hpp"
+#include "dds/guarded_transport.hpp"
 #include "dds/qos.hpp"
 #include "dds/writer_id.hpp"
 
@@ -93,6 +94,7 @@ DomainParticipantQos observer_qos(const DdsConfig& config, const std::string& na
   auto qos = participant_qos(config, name);
   auto& protocol = qos.wire_protocol().builtin.discovery_config.discoveryProtocol;
   if (protocol == DiscoveryProtocol_t::CLIENT) protocol = DiscoveryProtocol_t::SUPER_CLIENT;
+  guard_transports(qos);
   return qos;
 }
 

@@ -18,6 +18,8 @@ void check_files(const DdsConfig& config) { participant_qos(config, ""); }
 Participant::Participant(const DdsConfig& config, const std::string& name, Presence presence)
     : impl_(std::make_shared<Impl>(config, name, presence)) {}
 
+Counters Participant::refused_datagrams() const { return impl_->refused_datagrams(); }
+
 Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presence presence,
                         const std::string& user_data)
     : map_frame_id_(config.map_frame_id), security_directory_(config.security_directory) {
@@ -25,6 +27,7 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presen
   set_user_data(user_data, qos);
   if (presence == Presence::hidden)
     qos.wire_protocol().builtin.discovery_config.discoveryProtocol = DiscoveryProtocol_t::NONE;
+  door_ = guard_transports(qos);
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
       static_cast<DomainId_t>(config.domain), qos);
   if (!participant_) refuse("participant in domain " + std::to_string(config.domain));

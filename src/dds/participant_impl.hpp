@@ -4,9 +4,11 @@
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "dds/guarded_transport.hpp"
 #include "laneloom/dds/participant.hpp"
 
 namespace laneloom::dds {
@@ -27,6 +29,7 @@ class Participant::Impl {
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }
+  Counters refused_datagrams() const { return door_->refused(); }
   /// Throws, as Participant() does, because DDS made no `entity`. DDS itself does not tell why.
   [[noreturn]] void refuse(const std::string& entity) const;
 
@@ -35,6 +38,7 @@ class Participant::Impl {
 
   std::string map_frame_id_;
   std::string security_directory_;
+  std::shared_ptr<const Door> door_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;

@@ -79,6 +79,7 @@ class Endpoints::Impl {
     failed += segments_.write(&segments) ? 0U : 1U;
     return failed;
   }
+  Counters refused_datagrams() const { return participant_->refused_datagrams(); }
   std::size_t write(const ServiceStatus& status) {
     auto diagnostics = to_diagnostics(status, full_node_name(config_.ros2), config_.dds.vehicle_id);
     return diagnostics_.write(&diagnostics) ? 0 : 1;
@@ -114,5 +115,6 @@ Endpoints::~Endpoints() = default;
 
 std::size_t Endpoints::write(const PublishedMap& map) { return impl_->write(map); }
 std::size_t Endpoints::write(const ServiceStatus& status) { return impl_->write(status); }
+Counters Endpoints::refused_datagrams() const { return impl_->refused_datagrams(); }
 
 }  // namespace laneloom::ros2

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "laneloom/config.hpp"
+#include "laneloom/counters.hpp"
 #include "laneloom/dds/participant.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/messages.hpp"
@@ -29,6 +30,8 @@ class Endpoints {
   std::size_t write(const PublishedMap& map);
   /// Writes the diagnostics. Returns how many messages DDS did not take.
   std::size_t write(const ServiceStatus& status);
+  /// As dds::Participant::refused_datagrams().
+  Counters refused_datagrams() const;
 
  private:
   class Impl;

@@ -52,4 +52,10 @@ Endpoints::Endpoints(const Config& config, std::uint64_t session_id, IngestionQu
       config, ros2::Endpoints::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns)}, presence);
 }
 
+Counters Endpoints::refused_datagrams() const {
+  Counters result = participant_.refused_datagrams();
+  if (ros2) result.add(ros2->refused_datagrams());
+  return result;
+}
+
 }  // namespace laneloom::service

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "laneloom/config.hpp"
+#include "laneloom/counters.hpp"
 #include "laneloom/dds/participant.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
@@ -22,6 +23,9 @@ class Endpoints {
   Endpoints(const Config& config, std::uint64_t session_id, IngestionQueue& queue,
             const std::function<std::int64_t()>& now_ns,
             dds::Participant::Presence presence = dds::Participant::Presence::shown);
+
+  /// As dds::Participant::refused_datagrams(), of all participants.
+  Counters refused_datagrams() const;
 
  private:
   dds::Participant participant_;

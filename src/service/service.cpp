@@ -72,6 +72,7 @@ void Service::check_reopening() {
 
 void Service::reopen() {
   check_reopening();
+  if (endpoints_) counters_.add(endpoints_->refused_datagrams());
   endpoints_.reset();  // before the new ones are made, or others would see two services of one vehicle
   endpoints_ = std::make_unique<Endpoints>(config_, core_.session_id(), queue_, now_ns_);
 }
@@ -93,6 +94,7 @@ void Service::tick(const core::Tick& tick) {
 core::Arrivals Service::take_arrivals() {
   core::Arrivals arrivals = queue_.take();
   arrivals.counters.add(counters_);
+  arrivals.counters.add(endpoints_->refused_datagrams());
   if (snapshots_) {
     const auto snapshots = snapshots_->totals();
     arrivals.counters.add("snapshots_written", snapshots.written);

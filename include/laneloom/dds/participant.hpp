@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/counters.hpp"
 #include "laneloom/error.hpp"
 
 namespace laneloom::dds {
@@ -42,6 +43,9 @@ class Participant {
   /// `name` is shown to others. Throws ConfigError as check_files(), NotPermitted where there is security and
   /// DDS refuses, else std::runtime_error.
   Participant(const DdsConfig& config, const std::string& name, Presence presence = Presence::shown);
+
+  /// The received datagrams that were not handed to DDS: datagrams_refused_<reason>. Thread-safe.
+  Counters refused_datagrams() const;
 
   class Impl;
   const std::shared_ptr<Impl>& impl() const { return impl_; }  ///< for readers and writers

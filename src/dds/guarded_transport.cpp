@@ -1,0 +1,100 @@
+#include "dds/guarded_transport.hpp"
+
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+#include <fastdds/rtps/transport/UDPTransportDescriptor.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+namespace laneloom::dds {
+namespace {
+
+using namespace eprosima::fastdds::rtps;
+using eprosima::fastdds::dds::DomainParticipantQos;
+using eprosima::fastrtps::rtps::Locator_t;
+using eprosima::fastrtps::rtps::LocatorsIterator;
+using eprosima::fastrtps::rtps::octet;
+using eprosima::fastrtps::rtps::SenderResource;
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// Hands on what is sent, and of what is received what the door lets in.
+class GuardedTransport : public ChainingTransport {
+ public:
+  GuardedTransport(const ChainingTransportDescriptor& descriptor, std::shared_ptr<Door> door)
+      : ChainingTransport(descriptor), door_(std::move(door)) {}
+
+  TransportDescriptorInterface* get_configuration() override {
+    return low_level_transport_->get_configuration();
+  }
+  bool send(SenderResource* sender, const octet* bytes, std::uint32_t size, LocatorsIterator* begin,
+            LocatorsIterator* end, const std::chrono::steady_clock::time_point& timeout) override {
+    return sender->send(bytes, size, begin, end, timeout);
+  }
+  void receive(TransportReceiverInterface* receiver, const octet* bytes, std::uint32_t size,
+               const Locator_t& local, const Locator_t& remote) override {
+    if (door_->lets_in({bytes, size})) receiver->OnDataReceived(bytes, size, local, remote);
+  }
+
+ private:
+  std::shared_ptr<Door> door_;
+};
+
+struct GuardedDescriptor : ChainingTransportDescriptor {
+  GuardedDescriptor(std::shared_ptr<TransportDescriptorInterface> guarded, std::shared_ptr<Door> its_door)
+      : ChainingTransportDescriptor(std::move(guarded)), door(std::move(its_door)) {}
+  TransportInterface* create_transport() const override { return new GuardedTransport(*this, door); }
+
+  std::shared_ptr<Door> door;
+};
+
+/// Makes the transports that Fast DDS 2.9 has by itself.
+void name_builtin_transports(DomainParticipantQos& qos) {
+  auto& transport = qos.transport();
+  if (!transport.use_builtin_transports) return;
+  transport.use_builtin_transports = false;
+  auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  udp->sendBufferSize = transport.send_socket_buffer_size;
+  udp->receiveBufferSize = transport.listen_socket_buffer_size;
+  auto shared_memory = std::make_shared<SharedMemTransportDescriptor>();
+  shared_memory->segment_size(2 * std::max(udp->sendBufferSize, udp->receiveBufferSize));
+  shared_memory->max_message_size(udp->max_message_size());
+  transport.user_transports.insert(transport.user_transports.begin(), {udp, shared_memory});
+}
+
+}  // namespace
+
+bool Door::lets_in(std::span<const std::uint8_t> datagram) {
+  const std::lock_guard lock(mutex_);
+  const auto refusal = guard_.check(datagram, now_ns());
+  if (refusal) ++refused_[static_cast<std::size_t>(*refusal)];
+  return !refusal;
+}
+
+Counters Door::refused() const {
+  const std::lock_guard lock(mutex_);
+  Counters result;
+  for (std::size_t i = 0; i < refused_.size(); ++i)
+    if (refused_[i] > 0) result.add("datagrams_refused_" + std::string(kDatagramRefusals[i]), refused_[i]);
+  return result;
+}
+
+std::shared_ptr<const Door> guard_transports(DomainParticipantQos& qos) {
+  auto door = std::make_shared<Door>();
+  name_builtin_transports(qos);
+  for (auto& transport : qos.transport().user_transports)
+    if (std::dynamic_pointer_cast<UDPTransportDescriptor>(transport))
+      transport = std::make_shared<GuardedDescriptor>(transport, door);
+  return door;
+}
+
+}  // namespace laneloom::dds

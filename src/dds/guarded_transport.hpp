@@ -1,0 +1,33 @@
+#pragma once
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+
+#include "dds/rtps_guard.hpp"
+#include "laneloom/counters.hpp"
+
+namespace laneloom::dds {
+
+/// The guard of one participant, for all its sockets, with what it has refused. Thread-safe.
+class Door {
+ public:
+  bool lets_in(std::span<const std::uint8_t> datagram);
+  /// datagrams_refused_<reason>, for the reasons that occurred.
+  Counters refused() const;
+
+ private:
+  mutable std::mutex mutex_;
+  RtpsGuard guard_;
+  std::array<std::uint64_t, kDatagramRefusals.size()> refused_{};
+};
+
+/// Puts a guard in front of each UDP transport, also in front of that which Fast DDS would make by itself.
+/// TCP and shared memory have none.
+std::shared_ptr<const Door> guard_transports(eprosima::fastdds::dds::DomainParticipantQos& qos);
+
+}  // namespace laneloom::dds

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+
+#include "laneloom/dds/participant.hpp"
+
+namespace laneloom::dds {
+
+/// How a sample is cut into fragments.
+struct Fragmentation {
+  std::int64_t sequence = 0;
+  std::uint32_t sample_bytes = 0;
+  std::uint32_t fragment_bytes = 0;
+  bool operator==(const Fragmentation&) const = default;
+};
+
+/// What remote writers have sent, so that a number of a stranger in their name does not leap. Memory is
+/// bounded: the writer that was heard least recently is forgotten first.
+class HeardWriters {
+ public:
+  /// Whether a writer may have come to this sequence number.
+  bool may_have_sent(const WriterId& writer, std::int64_t sequence, std::int64_t now_ns) const;
+  /// Whether no other fragmentation of the same sample is known.
+  bool is_cut_like(const WriterId& writer, const Fragmentation& cut) const;
+
+  void note(const WriterId& writer, std::int64_t sequence, std::int64_t now_ns);
+  void note(const WriterId& writer, const Fragmentation& cut, std::int64_t now_ns);
+
+ private:
+  struct Heard {
+    WriterId writer{};
+    std::int64_t newest = 0;
+    std::int64_t heard_ns = 0;
+    std::array<Fragmentation, 8> cuts{};  ///< the newest ones, in a ring
+    std::size_t next_cut = 0;
+  };
+
+  Heard& heard(const WriterId& writer, std::int64_t now_ns);
+  const Heard* find(const WriterId& writer) const;
+
+  std::list<Heard> newest_first_;
+  std::map<WriterId, std::list<Heard>::iterator> by_writer_;
+};
+
+}  // namespace laneloom::dds

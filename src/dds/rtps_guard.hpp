@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "dds/heard_writers.hpp"
+
+namespace laneloom::dds {
+
+/// Why a datagram is not handed to Fast DDS.
+enum class DatagramRefusal {
+  header,      ///< no RTPS of version 2
+  length,      ///< a submessage is longer than its datagram, or shorter than what it holds
+  kind,        ///< an unknown submessage
+  vendor,      ///< a submessage of a vendor that does not end its datagram
+  fragments,   ///< fragments that do not fit to their sample
+  sequence,    ///< sequence numbers that no writer has
+  leap,        ///< sequence numbers far beyond those that the writer has sent
+  bitmap,      ///< a set of more numbers than RTPS allows
+  parameters,  ///< a list of parameters that does not end, or of other lengths than it says
+};
+inline constexpr std::array<std::string_view, 9> kDatagramRefusals{
+    "header", "length", "kind", "vendor", "fragments", "sequence", "leap", "bitmap", "parameters"};
+
+/// A guard at the door of Fast DDS 2.9, which ends, loops or corrupts its memory over some malformed
+/// datagrams. It knows nothing of sockets and clocks. Not thread-safe.
+class RtpsGuard {
+ public:
+  /// Why a received datagram is refused; nothing: it may pass. `now_ns` is of a steady clock.
+  std::optional<DatagramRefusal> check(std::span<const std::uint8_t> datagram, std::int64_t now_ns);
+
+ private:
+  HeardWriters heard_;
+};
+
+}  // namespace laneloom::dds
