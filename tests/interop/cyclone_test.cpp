@@ -143,6 +143,8 @@ TEST_F(Cyclone, DrivesTheServiceAndReadsItsMap) {
     return !status.at("sources").empty() && status.at("sources")[0].at("source") == "cyclone";
   }));
 
+  EXPECT_EQ(service.errors().find("datagrams_refused"), std::string::npos) << service.errors();
+
   // Its planner learns that the service is gone.
   service.signal(SIGKILL);
   ASSERT_TRUE(wait_for("alive", 1, [](const json& writers) { return writers == 0; }));
