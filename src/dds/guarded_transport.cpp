@@ -36,6 +36,7 @@ class GuardedTransport : public ChainingTransport {
   TransportDescriptorInterface* get_configuration() override {
     return low_level_transport_->get_configuration();
   }
+  // NOLINTNEXTLINE(readability-function-size): as Fast DDS calls it
   bool send(SenderResource* sender, const octet* bytes, std::uint32_t size, LocatorsIterator* begin,
             LocatorsIterator* end, const std::chrono::steady_clock::time_point& timeout) override {
     return sender->send(bytes, size, begin, end, timeout);

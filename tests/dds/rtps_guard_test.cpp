@@ -59,6 +59,8 @@ Packet fragments(const Cut& cut, std::int64_t sequence = 1) {
                          .u32(cut.sample_bytes);
   return submessage(0x16, 0, RtpsWriter(fixed).zeros(cut.payload_bytes).take());
 }
+std::size_t bitmap_bytes(std::size_t bits) { return (bits + 31) / 32 * 4; }
+
 Packet gap(std::int64_t start, std::int64_t base, std::uint32_t bits = 0) {
   return submessage(0x08, 0,
                     RtpsWriter()
@@ -67,7 +69,7 @@ Packet gap(std::int64_t start, std::int64_t base, std::uint32_t bits = 0) {
                         .sequence(start)
                         .sequence(base)
                         .u32(bits)
-                        .zeros((bits + 31) / 32 * 4)
+                        .zeros(bitmap_bytes(bits))
                         .take());
 }
 Packet ack_nack(std::int64_t base, std::uint32_t bits) {
@@ -77,7 +79,7 @@ Packet ack_nack(std::int64_t base, std::uint32_t bits) {
                         .entity(kWriter)
                         .sequence(base)
                         .u32(bits)
-                        .zeros((bits + 31) / 32 * 4)
+                        .zeros(bitmap_bytes(bits))
                         .u32(1)
                         .take());
 }
@@ -194,7 +196,7 @@ TEST_F(RtpsGuardTest, SetsHaveAtMost256Numbers) {
   EXPECT_EQ(check_all({gap(1, 2, 257)}), DatagramRefusal::bitmap);
   const auto nack_fragments = [&](std::uint32_t base, std::uint32_t bits) {
     const auto fixed = RtpsWriter().entity(kReader).entity(kWriter).sequence(1).u32(base).u32(bits);
-    return check_all({submessage(0x12, 0, RtpsWriter(fixed).zeros((bits + 31) / 32 * 4 + 4).take())});
+    return check_all({submessage(0x12, 0, RtpsWriter(fixed).zeros(bitmap_bytes(bits) + 4).take())});
   };
   EXPECT_EQ(nack_fragments(1, 256), Refusal());
   EXPECT_EQ(nack_fragments(1, 257), DatagramRefusal::bitmap);
@@ -212,6 +214,9 @@ TEST_F(RtpsGuardTest, ListsOfParametersEnd) {
        {parameter(5, text(9)), parameter(0x29, text(3)), parameter(0x59, text(0xffffffff)),
         parameter(0x2c, text(9)), parameter(0x2f, text(1))})
     EXPECT_EQ(passes(RtpsWriter().bytes(wrong).bytes(kEndOfParameters).take()), DatagramRefusal::parameters);
+}
+
+TEST_F(RtpsGuardTest, ParametersOfAnySampleEnd) {
   const auto inline_qos = RtpsWriter(data_of(kWriter, 1)).bytes(parameter(0x71, Packet(4))).take();
   EXPECT_EQ(check_all({submessage(0x15, 2, inline_qos)}), DatagramRefusal::parameters);
 }
