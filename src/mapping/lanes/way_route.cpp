@@ -1,0 +1,235 @@
+#include "mapping/lanes/way_route.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mapping/geometry/levels.hpp"
+#include "mapping/geometry/smooth_step.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+using Turn = Linkage::Turn;
+
+constexpr double kMaxBesidePath_m = 1.75;
+constexpr double kMinAlongPath = 0.7;  // cosine
+constexpr double kMinGap_m = 3.0;      // a longer one is bridged by a bend, a shorter one by smoothing
+constexpr double kBendStep_m = 1.0;
+
+const WayLane* find(const Way* way, const DirectedLane& lane) {
+  if (way == nullptr) return nullptr;
+  const auto found = std::ranges::find_if(
+      way->lanes, [&](const WayLane& one) { return one.id == lane.lane->id && one.against == lane.against; });
+  return found == way->lanes.end() ? nullptr : &*found;
+}
+
+Turn turn_of(WayWish wish) {
+  if (wish == WayWish::left) return Turn::left;
+  return wish == WayWish::right ? Turn::right : Turn::straight;
+}
+
+/// The passage to take. A passage that was chosen before stays, even where its turn or its confidence is
+/// judged anew, unless another one makes the wished turn at last. Null: there is none.
+const Passage* chosen(const std::vector<Passage>& passages, Turn wished, const Way* before) {
+  const bool is_offered = std::ranges::find(passages, wished, &Passage::turn) != passages.end();
+  for (const Passage& passage : passages) {
+    const WayLane* kept = find(before, passage.to);
+    if (kept == nullptr || kept->entry == Turn::unknown) continue;
+    if (!is_offered || passage.turn == wished || kept->entry == wished) return &passage;
+  }
+  return best_passage(passages, wished);
+}
+
+bool is_walked(const std::vector<Passage>& way, const DirectedLane& first, const Lane* lane) {
+  return lane == first.lane ||
+         std::ranges::any_of(way, [&](const Passage& passage) { return passage.to.lane == lane; });
+}
+
+/// The passages over `reach_m` from the beginning of a lane. The first one leads into `into`, if that is a
+/// lane.
+std::vector<Passage> passages_ahead(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish,
+                                    double reach_m) {
+  std::vector<Passage> way;
+  Turn wished = turn_of(wish.wish);
+  DirectedLane last = start.lane;
+  for (double length_m = length(last.lane->centerline); length_m < reach_m;) {
+    std::vector<Passage> next = graph.successors(last);
+    std::erase_if(next, [&](const Passage& passage) {
+      const bool elsewhere = way.empty() && start.into != kNoElement && passage.to.lane->id != start.into;
+      return elsewhere || is_walked(way, start.lane, passage.to.lane);
+    });
+    const Passage* best = chosen(next, wished, wish.before);
+    if (best == nullptr) break;
+    if (best->turn == wished) wished = Turn::straight;
+    last = best->to;
+    length_m += length(best->path) + length(last.lane->centerline);
+    way.push_back(*best);
+  }
+  return way;
+}
+
+/// Joins lines to a route.
+class RouteBuilder {
+ public:
+  explicit RouteBuilder(Route& route) : route_(route) {}
+
+  /// Appends what lies ahead of the end. Arc lengths on the line begin with `arc_m`.
+  void append(const Polyline& line, const RoutePiece& piece, double arc_m = 0.0) {
+    const MeasuredPolyline measured(line);
+    double from_m = 0.0;
+    if (!route_.points.empty()) {
+      from_m = join(measured, piece);
+      if (from_m >= measured.length()) return;
+    }
+    route_.pieces.push_back(piece);
+    const std::vector<double> arcs_m = arc_lengths(measured.points());
+    if (from_m > 0.0) add(measured.at(from_m), arc_m + from_m);
+    for (std::size_t i = 0; i < arcs_m.size(); ++i)
+      if (arcs_m[i] >= from_m) add(measured.points()[i], arc_m + arcs_m[i]);
+  }
+
+ private:
+  /// Bridges the gap to a line. Returns the arc length from which on the line lies ahead of the end.
+  double join(const MeasuredPolyline& line, const RoutePiece& piece) {
+    const RoutePoint end = route_.points.back();
+    const Projection foot = line.project(end.point);
+    if (!foot.inside && foot.arc_m > 0.0) return line.length();  // all of the line lies behind the end
+    const double from_m = foot.arc_m;
+    const Point begin = line.at(from_m);
+    const double gap_m = (begin - end.point).head<2>().norm();
+    if (!foot.inside && gap_m > kMinGap_m) {
+      bridge(begin, line.chord(0.0, kMinGap_m), piece.entry);
+    } else {
+      route_.joints.push_back({end.along_m + 0.5 * gap_m, std::abs(foot.lateral_m)});
+    }
+    return from_m;
+  }
+
+  /// A cubic in Hermite's basis that leaves and enters along the lines.
+  void bridge(const Point& to, const Eigen::Vector2d& entering, Turn entry) {
+    Polyline last;
+    for (std::size_t i = route_.points.size() - std::min<std::size_t>(4, route_.points.size());
+         i < route_.points.size(); ++i)
+      last.push_back(route_.points[i].point);
+    const Eigen::Vector2d leaving = end_direction(last, End::back);
+    const Point from = last.back(), gap = to - from;
+    const double gap_m = gap.head<2>().norm();
+    const int steps = static_cast<int>(std::ceil(gap_m / kBendStep_m));
+    route_.pieces.push_back({.lane = {}, .entry = entry});
+    for (int i = 1; i < steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      Point point = from + geometry::smooth_step(t) * gap;
+      point.head<2>() += t * (1.0 - t) * gap_m * ((1.0 - t) * leaving - t * entering);
+      add(point, 0.0);
+    }
+  }
+
+  void add(const Point& point, double arc_m) {
+    double along_m = 0.0;
+    if (!route_.points.empty()) {
+      const RoutePoint& last = route_.points.back();
+      const double step_m = (point - last.point).head<2>().norm();
+      if (step_m < 1e-6) return;
+      along_m = last.along_m + step_m;
+    }
+    route_.points.push_back({point, route_.pieces.size() - 1, arc_m, along_m});
+  }
+
+  Route& route_;
+};
+
+void append(RouteBuilder& builder, const Passage& passage) {
+  if (passage.path.size() >= 2) builder.append(passage.path, {.lane = {}, .entry = passage.turn});
+  builder.append(passage.to.centerline(), {passage.to, passage.turn});
+}
+
+/// The lanes and paths behind the start, furthest first, until `behind_m` are reached.
+void append_behind(const LaneGraph& graph, const RouteStart& start, double behind_m, RouteBuilder& builder) {
+  const DirectedLane back{start.lane.lane, !start.lane.against};
+  const double lane_m = length(start.lane.lane->centerline);
+  const auto behind = passages_ahead(graph, {.lane = back}, {}, lane_m - start.arc_m + behind_m);
+  for (auto passage = behind.rbegin(); passage != behind.rend(); ++passage) {
+    const DirectedLane from{passage->to.lane, !passage->to.against};
+    const MeasuredPolyline line(from.centerline());
+    const double from_m = std::max(0.0, line.length() - behind_m);
+    builder.append(line.slice({from_m, line.length()}), {.lane = from}, from_m);
+    if (passage->path.size() < 2) continue;
+    builder.append({passage->path.rbegin(), passage->path.rend()}, {.lane = {}});
+  }
+}
+
+std::optional<RouteStart> start_in_lane(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
+                                        const Way* before) {
+  const Lane* own = nullptr;
+  double best = 0.0, best_worth = 0.0;
+  for (const Lane& lane : graph.map().lanes) {
+    const double along = ego_alignment(lane, T_map_body);
+    if (along == 0.0) continue;
+    const double worth = std::abs(along) + (find(before, {&lane, along < 0.0}) != nullptr ? 1.0 : 0.0);
+    if (worth <= best_worth) continue;
+    own = &lane;
+    best = along;
+    best_worth = worth;
+  }
+  if (own == nullptr) return std::nullopt;
+  const DirectedLane lane{own, best < 0.0};
+  return RouteStart{lane, MeasuredPolyline(lane.centerline()).project(T_map_body.translation()).arc_m};
+}
+
+/// The path of a linkage, or the gap where it has none.
+Polyline path_of(const LaneGraph& graph, const Linkage& linkage) {
+  if (linkage.path.size() >= 2) return linkage.path;
+  const Lane *from = graph.find(linkage.from), *to = graph.find(linkage.to);
+  if (from == nullptr || to == nullptr) return {};
+  return {from->centerline.back(), to->centerline.front()};
+}
+
+std::optional<RouteStart> start_on_passage(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
+                                           const Way* before) {
+  const Point place = T_map_body.translation();
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>().normalized();
+  std::optional<RouteStart> start;
+  double best_worth = 0.0;
+  for (const Linkage& linkage : graph.map().linkages) {
+    const Polyline path = path_of(graph, linkage);
+    if (path.empty()) continue;
+    const MeasuredPolyline line(path);
+    const Projection foot = line.project(place, kMaxBesidePath_m);
+    if (!foot.inside || !geometry::same_level(foot.foot, place)) continue;
+    const double along = line.direction(foot).dot(heading);
+    const bool against = along < 0.0;
+    const Lane *from = graph.find(against ? linkage.to : linkage.from),
+               *to = graph.find(against ? linkage.from : linkage.to);
+    if (from == nullptr || to == nullptr || std::abs(along) < kMinAlongPath) continue;
+    const double worth =
+        std::abs(along) - 0.1 * foot.distance_m + 1.0 + (find(before, {to, against}) != nullptr ? 1.0 : 0.0);
+    if (worth <= best_worth) continue;
+    best_worth = worth;
+    start = RouteStart{{from, against}, length(from->centerline), to->id};
+  }
+  return start;
+}
+
+}  // namespace
+
+std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
+                                   const RouteWish& wish) {
+  if (const auto start = start_in_lane(graph, T_map_body, wish.before)) return start;
+  return start_on_passage(graph, T_map_body, wish.before);
+}
+
+Route route_through(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish, double behind_m,
+                    double ahead_m) {
+  Route route;
+  RouteBuilder builder(route);
+  if (start.arc_m < behind_m) append_behind(graph, start, behind_m - start.arc_m, builder);
+  const MeasuredPolyline own(start.lane.centerline());
+  const double from_m = std::max(0.0, start.arc_m - behind_m);
+  builder.append(from_m < own.length() ? own.slice({from_m, own.length()}) : own.points(),
+                 {.lane = start.lane}, from_m < own.length() ? from_m : 0.0);
+  for (const Passage& passage : passages_ahead(graph, start, wish, start.arc_m + ahead_m))
+    append(builder, passage);
+  return route;
+}
+
+}  // namespace laneloom::lanes

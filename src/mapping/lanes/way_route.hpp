@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "laneloom/lane_graph.hpp"
+#include "laneloom/way.hpp"
+
+/// The lanes and passages that a way leads through.
+namespace laneloom::lanes {
+
+/// A stretch of a route: a lane, or a passage with a path.
+struct RoutePiece {
+  DirectedLane lane;  ///< no lane: a passage
+  Linkage::Turn entry = Linkage::Turn::unknown;
+};
+
+/// A point of a route.
+struct RoutePoint {
+  Point point = Point::Zero();  ///< map frame
+  std::size_t piece = 0;        ///< index of the piece
+  double arc_m = 0.0;           ///< along the piece's lane, as it is walked
+  double along_m = 0.0;         ///< along the route
+};
+
+/// A place where the map's lines do not join.
+struct RouteJoint {
+  double along_m = 0.0;  ///< along the route
+  double step_m = 0.0;   ///< from the one line to the other, across
+};
+
+struct Route {
+  std::vector<RoutePiece> pieces;
+  std::vector<RoutePoint> points;  ///< one or more
+  std::vector<RouteJoint> joints;
+};
+
+/// A place from which a route leads on.
+struct RouteStart {
+  DirectedLane lane;
+  double arc_m = 0.0;           ///< along the lane, as it is walked
+  ElementId into = kNoElement;  ///< on the passage from the lane's end into this lane, if not kNoElement
+};
+
+/// What decides where lanes fork.
+struct RouteWish {
+  WayWish wish = WayWish::straight;
+  const Way* before = nullptr;  ///< with the same wish; null: there is none
+};
+
+/// The place of the vehicle: in a lane, or else on a passage. Empty: in neither.
+std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
+                                   const RouteWish& wish);
+
+/// The route from `behind_m` behind a place to `ahead_m` ahead of it, or somewhat more; less where lanes end.
+Route route_through(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish, double behind_m,
+                    double ahead_m);
+
+}  // namespace laneloom::lanes

@@ -1,0 +1,345 @@
+#include "laneloom/way.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+using test::straight;
+using ::testing::ElementsAre;
+using Turn = Linkage::Turn;
+
+Polyline shifted(const Polyline& line, double left_m) {
+  Polyline out;
+  const MeasuredPolyline measured(line);
+  for (const double arc_m : arc_lengths(line)) {
+    const Eigen::Vector2d along = measured.chord(arc_m - 0.5, arc_m + 0.5);
+    out.emplace_back(measured.at(arc_m) + left_m * Point(-along.y(), along.x(), 0.0));
+  }
+  return out;
+}
+
+/// A lane, 3.5 m wide, between borders of its own.
+Lane road_lane(ElementId id, const Polyline& centerline) {
+  Lane lane = test::lane(id, centerline);
+  lane.left = shifted(centerline, 1.75);
+  lane.right = shifted(centerline, -1.75);
+  return lane;
+}
+
+Lane road_lane(ElementId id, const Point& from, const Point& to) {
+  return road_lane(id, straight(from, to, 1 + static_cast<int>((to - from).norm())));
+}
+
+Linkage link(ElementId from, ElementId to, Turn turn = Turn::straight, Polyline path = {}) {
+  return {.from = from, .to = to, .turn = turn, .confidence = 0.5, .path = std::move(path)};
+}
+
+Way way_on(const LocalMap& map, const Eigen::Isometry3d& T_map_body, WayWish wish = WayWish::straight,
+           const Way* before = nullptr) {
+  return way_ahead(LaneGraph(map), T_map_body, wish, before).value_or(Way{});
+}
+
+std::vector<ElementId> ids(const Way& way) {
+  std::vector<ElementId> result;
+  for (const WayLane& one : way.lanes) result.push_back(one.id);
+  return result;
+}
+
+Polyline points(const Way& way) {
+  Polyline line;
+  for (const WayStation& station : way.stations) line.push_back(station.point);
+  return line;
+}
+
+/// The largest angle between directions `within_m` apart, in degrees.
+double largest_kink_deg(const Way& way, double within_m) {
+  double largest = 0.0;
+  const auto apart = static_cast<std::size_t>(within_m / way.step_m);
+  for (std::size_t i = 0; i + apart < way.stations.size(); ++i)
+    largest =
+        std::max(largest, std::abs(cross(way.stations[i].direction, way.stations[i + apart].direction)));
+  return std::asin(largest) * 180.0 / std::numbers::pi;
+}
+
+double largest_curvature_per_m(const Way& way) {
+  double largest = 0.0;
+  for (const WayStation& station : way.stations)
+    largest = std::max(largest, std::abs(station.curvature_per_m));
+  return largest;
+}
+
+/// Lane 1 leads east into lane 2 (straight on), 3 (left) and 4 (right), each behind a path.
+LocalMap fork() {
+  LocalMap map;
+  const Polyline left = test::arc({20, 12, 0}, 12.0, -90, 0), right = test::arc({20, -12, 0}, 12.0, 90, 0);
+  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {32, 0, 0}, {80, 0, 0}),
+               road_lane(3, {32, 12, 0}, {32, 60, 0}), road_lane(4, {32, -12, 0}, {32, -60, 0})};
+  map.linkages = {link(1, 2, Turn::straight, straight({20, 0, 0}, {32, 0, 0}, 13)),
+                  link(1, 3, Turn::left, left), link(1, 4, Turn::right, right)};
+  return map;
+}
+
+/// Lanes 1 and 2 lead east, lane 2 on the left; the line between them is dashed from 0 to 100 m.
+LocalMap two_lanes() {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {120, 0, 0}), road_lane(2, {0, 3.5, 0}, {120, 3.5, 0})};
+  map.lanes[0].left_neighbours = {{.lane = 2, .range = {0, 120}, .crossable = {{0, 100}}}};
+  map.lanes[1].right_neighbours = {{.lane = 1, .range = {0, 120}, .crossable = {{0, 100}}}};
+  return map;
+}
+
+TEST(Way, OnAStraightRoadRunsInTheMiddleOfTheLaneFromBesideTheVehicle) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {100, 0, 0})};
+  map.lanes[0].left_boundary = 7;
+  map.lanes[0].right_boundary = 8;
+  map.boundaries = {test::marking(7, map.lanes[0].left), test::marking(8, map.lanes[0].right)};
+  map.boundaries[0].lateral_stddev_m.assign(map.boundaries[0].points.size(), 0.06);
+  map.boundaries[1].lateral_stddev_m.assign(map.boundaries[1].points.size(), 0.08);
+  const Way way = way_on(map, test::at(20, 0.8, 0.1));
+  ASSERT_EQ(way.stations.size(), 61U);
+  EXPECT_NEAR(way.known_m, 60.0, 1e-9);
+  EXPECT_NEAR(way.confirmed_m, 60.0, 1e-9);
+  EXPECT_THAT(ids(way), ElementsAre(1));
+  EXPECT_NEAR(way.lanes[0].range.to_m, 60.0, 1e-9);
+  for (std::size_t i = 0; i < way.stations.size(); ++i) {
+    const WayStation& station = way.stations[i];
+    EXPECT_NEAR((station.point - Point(20.0 + static_cast<double>(i), 0, 0)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR(station.direction.x(), 1.0, 1e-9);
+    EXPECT_NEAR(station.curvature_per_m, 0.0, 1e-9);
+    EXPECT_NEAR(station.left_m, 1.75, 1e-6);
+    EXPECT_NEAR(station.right_m, 1.75, 1e-6);
+    EXPECT_NEAR(station.width_m, 3.5, 1e-6);
+    EXPECT_NEAR(station.lateral_stddev_m, 0.05, 1e-9);
+    EXPECT_EQ(station.lane, 1U);
+  }
+}
+
+TEST(Way, AgainstTheOrderOfALanesPointsItsSidesAreThoseOfTheVehicle) {
+  LocalMap map = two_lanes();
+  map.lanes[0].left = shifted(map.lanes[0].centerline, 1.5);
+  const Way way = way_on(map, test::at(90, 0, std::numbers::pi));
+  ASSERT_EQ(way.stations.size(), 61U);
+  EXPECT_TRUE(way.lanes[0].against);
+  EXPECT_NEAR(way.stations[10].point.x(), 80.0, 1e-6);
+  EXPECT_NEAR(way.stations[10].left_m, 1.75, 1e-6);
+  EXPECT_NEAR(way.stations[10].right_m, 1.5, 1e-6);
+  EXPECT_TRUE(way.stations[10].may_change_right);
+  EXPECT_FALSE(way.stations[10].may_change_left);
+}
+
+TEST(Way, CutsNoBend) {
+  LocalMap map;
+  Polyline road = straight({-30, -12, 0}, {0, -12, 0}, 31);
+  const Polyline bend = test::arc({0, 0, 0}, 12.0, -90, 90), out = straight({-1, 12, 0}, {-30, 12, 0}, 30);
+  road.insert(road.end(), bend.begin(), bend.end());
+  road.insert(road.end(), out.begin(), out.end());
+  map.lanes = {road_lane(1, road)};
+  const Way way = way_on(map, test::at(-10, -12));
+  ASSERT_GT(way.length(), 59.0);
+  EXPECT_LT(test::max_distance(points(way), road), 0.05);
+  EXPECT_NEAR(way.stations[29].curvature_per_m, 1.0 / 12.0, 0.003);
+  EXPECT_LT(largest_curvature_per_m(way), 1.25 / 12.0);
+}
+
+TEST(Way, BridgesAGapAndAStepWithoutAKink) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {40, 0, 0}), road_lane(2, {41, 0.2, 0}, {100, 0.2, 0})};
+  map.linkages = {link(1, 2)};
+  for (const double x : {10.0, 38.0, 40.5, 42.0}) {
+    const Way way = way_on(map, test::at(x));
+    ASSERT_GT(way.length(), 50.0) << x;
+    EXPECT_NEAR(way.stations.back().point.y(), 0.2, 0.01);
+    EXPECT_LT(largest_kink_deg(way, 2.0), 3.0);
+    EXPECT_LT(largest_curvature_per_m(way), 0.02);
+    EXPECT_EQ(way.confirmed_m, way.known_m) << "nothing is doubtful about a short gap";
+  }
+  EXPECT_NEAR(way_on(map, test::at(10)).stations.front().point.y(), 0.0, 0.01);
+}
+
+TEST(Way, LeadsWhereItIsWishedAtAFork) {
+  const LocalMap map = fork();
+  const Way straight_on = way_on(map, test::at(5)), left = way_on(map, test::at(5), WayWish::left),
+            right = way_on(map, test::at(5), WayWish::right);
+  EXPECT_THAT(ids(straight_on), ElementsAre(1, 2));
+  EXPECT_THAT(ids(left), ElementsAre(1, 3));
+  EXPECT_THAT(ids(right), ElementsAre(1, 4));
+  EXPECT_NEAR(left.stations.back().direction.y(), 1.0, 0.01);
+  EXPECT_NEAR(right.stations.back().direction.y(), -1.0, 0.01);
+  EXPECT_LT(largest_curvature_per_m(left), 1.25 / 12.0);
+  EXPECT_NEAR(left.confirmed_m, 15.0, 1.0) << "nobody saw a lane on the passage";
+  EXPECT_EQ(left.stations[20].lane, kNoElement);
+  EXPECT_EQ(left.stations[20].left_m, kNotKnown_m);
+}
+
+TEST(Way, KeepsABranchWhileItLasts) {
+  LocalMap map = fork();
+  for (Linkage& linkage : map.linkages) linkage.turn = Turn::straight;
+  map.linkages[0].confidence = 0.9;
+  const Way first = way_on(map, test::at(5));
+  ASSERT_THAT(ids(first), ElementsAre(1, 2));
+  map.linkages[0].confidence = 0.3;
+  EXPECT_THAT(ids(way_on(map, test::at(6))), ElementsAre(1, 3)) << "no way before";
+  const Way second = way_on(map, test::at(6), WayWish::straight, &first);
+  EXPECT_THAT(ids(second), ElementsAre(1, 2));
+  map.linkages[2].turn = Turn::right;
+  EXPECT_THAT(ids(way_on(map, test::at(7), WayWish::right, &second)), ElementsAre(1, 4)) << "another wish";
+  map.linkages.erase(map.linkages.begin());
+  EXPECT_THAT(ids(way_on(map, test::at(7), WayWish::straight, &second)), ElementsAre(1, 3)) << "it is gone";
+}
+
+TEST(Way, TakesTheWishedTurnOnceTheMapHasIt) {
+  LocalMap map = fork();
+  const Linkage left = map.linkages[1];
+  map.linkages.erase(map.linkages.begin() + 1);
+  const Way first = way_on(map, test::at(5), WayWish::left);
+  EXPECT_THAT(ids(first), ElementsAre(1, 2));
+  map.linkages.push_back(left);
+  EXPECT_THAT(ids(way_on(map, test::at(6), WayWish::left, &first)), ElementsAre(1, 3));
+}
+
+TEST(Way, ChangesToTheLaneOnTheLeftWhereThatIsAllowed) {
+  const LocalMap map = two_lanes();
+  Way way = way_on(map, test::at(10), WayWish::change_left);
+  ASSERT_THAT(ids(way), ElementsAre(1, 2));
+  EXPECT_NEAR(way.stations.front().point.y(), 0.0, 0.05);
+  EXPECT_NEAR(way.stations.back().point.y(), 3.5, 0.02);
+  EXPECT_LT(largest_curvature_per_m(way), 0.02);
+  // It stays where it is in the map while the vehicle follows it.
+  const Way first = way;
+  for (double s_m = 1.0; s_m < 55.0; s_m += 1.0) {
+    const Point vehicle = first.to_map({s_m, 0.0});
+    way = way_on(map, test::at(vehicle.x(), vehicle.y()), WayWish::change_left, &way);
+    ASSERT_FALSE(way.stations.empty()) << s_m;
+    EXPECT_NEAR(way.to_way(vehicle).d_m, 0.0, 0.03) << s_m;
+  }
+  EXPECT_THAT(ids(way), ElementsAre(2));
+}
+
+TEST(Way, ChangesOnlyOnceForOneWish) {
+  LocalMap map = two_lanes();
+  map.lanes.push_back(road_lane(3, {0, 7, 0}, {120, 7, 0}));
+  map.lanes[1].left_neighbours = {{.lane = 3, .range = {0, 120}, .crossable = {{0, 120}}}};
+  const Way first = way_on(map, test::at(10), WayWish::change_left);
+  const Way last = way_on(map, test::at(60, 3.5), WayWish::change_left, &first);
+  EXPECT_NEAR(last.stations.back().point.y(), 3.5, 0.02);
+  const Way again = way_on(map, test::at(60, 3.5), WayWish::change_left);
+  EXPECT_NEAR(again.stations.back().point.y(), 7.0, 0.02);
+}
+
+TEST(Way, DoesNotChangeWhereThatIsForbidden) {
+  LocalMap solid = two_lanes(), oncoming = two_lanes(), turned = two_lanes();
+  solid.lanes[0].left_neighbours[0].crossable.clear();
+  oncoming.lanes[1].direction = Lane::Direction::against_centerline;
+  std::ranges::reverse(turned.lanes[1].centerline);
+  turned.lanes[1].direction = Lane::Direction::along_centerline;
+  for (const LocalMap& map : {solid, oncoming, turned}) {
+    const Way way = way_on(map, test::at(10), WayWish::change_left);
+    EXPECT_THAT(ids(way), ElementsAre(1));
+    EXPECT_NEAR(way.stations.back().point.y(), 0.0, 1e-6);
+    EXPECT_FALSE(way.stations[20].may_change_left);
+  }
+  EXPECT_THAT(ids(way_on(two_lanes(), test::at(10), WayWish::change_right)), ElementsAre(1)) << "no lane";
+}
+
+TEST(Way, ChangesOnlyAcrossTheDashedStretch) {
+  LocalMap map = two_lanes();
+  map.lanes[0].left_neighbours[0].crossable = {{50, 100}};
+  const Way way = way_on(map, test::at(10), WayWish::change_left);
+  for (const WayStation& station : way.stations)
+    EXPECT_LT(station.point.y(), station.point.x() < 50.0 ? 1.0 : 3.6);
+  EXPECT_FALSE(way.stations[35].may_change_left);
+  EXPECT_TRUE(way.stations[42].may_change_left);
+}
+
+TEST(Way, GoesOnAlongThePassageThatTheVehicleIsOn) {
+  LocalMap map = fork();
+  const Way first = way_on(map, test::at(18), WayWish::left);
+  const Eigen::Isometry3d at_begin = test::at(21, 0.05, 0.05), within = test::at(28.5, 3.5, 0.8);
+  EXPECT_THAT(ids(way_on(map, at_begin, WayWish::left, &first)), ElementsAre(3)) << "as the way before";
+  EXPECT_THAT(ids(way_on(map, test::at(27, 0))), ElementsAre(2)) << "by its direction";
+  const Way way = way_on(map, within);
+  EXPECT_THAT(ids(way), ElementsAre(3));
+  EXPECT_LT(std::abs(way.to_way(within.translation()).s_m), 0.1);
+  EXPECT_EQ(way.stations.front().lane, kNoElement);
+  EXPECT_EQ(way.confirmed_m, 0.0);
+}
+
+TEST(Way, EndsWhereTheMapEnds) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {50, 0, 0})};
+  map.lanes[0].inferred_ranges = {{30.0, 40.0}};
+  const Way way = way_on(map, test::at(12.5));
+  EXPECT_NEAR(way.known_m, 37.0, 0.01);
+  EXPECT_EQ(way.stations.size(), 38U);
+  EXPECT_NEAR(way.confirmed_m, 18.0, 1e-9);
+  EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(60), WayWish::straight)) << "behind the end";
+  EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(49.8), WayWish::straight)) << "nothing is left";
+  EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(20, 5), WayWish::straight)) << "beside";
+  EXPECT_FALSE(way_ahead(LaneGraph(LocalMap{}), test::at(0), WayWish::straight));
+}
+
+TEST(Way, CoordinatesGoThereAndBack) {
+  const LocalMap map = fork();
+  const Way way = way_on(map, test::at(5), WayWish::left);
+  for (double s_m = -5.0; s_m < 65.0; s_m += 0.37) {
+    for (const double d_m : {-3.0, 0.0, 1.2, 4.0}) {
+      const WayPlace back = way.to_way(way.to_map({s_m, d_m}));
+      EXPECT_NEAR(back.s_m, s_m, 1e-6) << d_m;
+      EXPECT_NEAR(back.d_m, d_m, 1e-6) << s_m;
+    }
+  }
+  EXPECT_NEAR(way.to_way({8, 1, 0}).s_m, 3.0, 0.03);
+  EXPECT_NEAR(way.to_way({8, 1, 0}).d_m, 1.0, 0.03);
+}
+
+/// Curvatures over chords of 5 m.
+std::vector<double> chord_curvatures_per_m(const Way& way) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i + 10 < way.stations.size(); ++i) {
+    const Eigen::Vector2d in = (way.stations[i + 5].point - way.stations[i].point).head<2>(),
+                          out = (way.stations[i + 10].point - way.stations[i + 5].point).head<2>();
+    result.push_back(std::abs(cross(in.normalized(), out.normalized())) / 5.0);
+  }
+  return result;
+}
+
+TEST(Way, IsSmoothOnNoisyRoads) {
+  std::mt19937 random(7);  // gives the same numbers everywhere
+  const auto noise_m = [&] {
+    double sum = 0.0;  // nearly normal
+    for (int i = 0; i < 12; ++i) sum += static_cast<double>(random()) / 4294967296.0 - 0.5;
+    return 0.05 * sum;
+  };
+  std::vector<double> curvatures_per_m;
+  for (int road = 0; road < 40; ++road) {
+    LocalMap map;
+    Polyline line;
+    for (int x = 0; x <= 100; ++x) line.emplace_back(x, noise_m(), 0.0);
+    map.lanes = {road_lane(1, line)};
+    const Way way = way_on(map, test::at(20));
+    ASSERT_EQ(way.stations.size(), 61U);
+    for (std::size_t i = 1; i < way.stations.size(); ++i) {
+      const double step_m = (way.stations[i].point - way.stations[i - 1].point).head<2>().norm();
+      EXPECT_NEAR(step_m, way.step_m, 0.01);
+    }
+    EXPECT_LT(largest_kink_deg(way, 1.0), 0.5);
+    EXPECT_LT(largest_curvature_per_m(way), 0.006);
+    const std::vector<double> more = chord_curvatures_per_m(way);
+    curvatures_per_m.insert(curvatures_per_m.end(), more.begin(), more.end());
+  }
+  std::ranges::sort(curvatures_per_m);
+  EXPECT_LT(curvatures_per_m[curvatures_per_m.size() * 99 / 100], 0.002);
+  RecordProperty("p99_per_m", std::to_string(curvatures_per_m[curvatures_per_m.size() * 99 / 100]));
+}
+
+}  // namespace
+}  // namespace laneloom::lanes
