@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "experiment/drive_simulation.hpp"
@@ -11,6 +12,7 @@
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/mapper.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/way.hpp"
 #include "simulation/scenarios.hpp"
 
 namespace laneloom::bench {
@@ -115,6 +117,18 @@ void map_to_json_line(benchmark::State& state) {
   for ([[maybe_unused]] auto iteration : state) benchmark::DoNotOptimize(io::to_json_line(last_map().map));
 }
 
+/// As a planner does with each map: from the map to the way, with the way before.
+void way_of_60_m(benchmark::State& state) {
+  const LocalMap& map = last_map().map;
+  std::optional<Way> way;
+  for ([[maybe_unused]] auto iteration : state) {
+    const LaneGraph graph(map);
+    way = way_ahead(graph, map.T_map_body, WayWish::straight, way ? &*way : nullptr);
+    benchmark::DoNotOptimize(way);
+  }
+  state.counters["metres"] = way ? way->known_m : 0.0;
+}
+
 /// Registers the stages that updates of a method reach.
 void register_stages(FusionMethod method, const std::string& method_name) {
   MapperConfig config;
@@ -142,6 +156,7 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("detections_from_cdr", laneloom::bench::detections_from_cdr);
   benchmark::RegisterBenchmark("frame_from_json", laneloom::bench::frame_from_json_line);
   benchmark::RegisterBenchmark("map_to_json", laneloom::bench::map_to_json_line);
+  benchmark::RegisterBenchmark("way_of_60_m", laneloom::bench::way_of_60_m);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
