@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "commands/steadiness_table.hpp"
 #include "laneloom/element_names.hpp"
 
 namespace laneloom::commands {
@@ -199,8 +200,10 @@ nlohmann::json style_json(const evaluation::StyleScore& styles) {
 }  // namespace
 
 std::string evaluation_tables(const std::vector<NamedEvaluation>& evaluations) {
-  return stability_table(evaluations) + topology_table(evaluations) + style_lines(evaluations) +
-         trust_table(evaluations) + ap_table(evaluations);
+  std::string tables = stability_table(evaluations) + topology_table(evaluations) + style_lines(evaluations) +
+                       trust_table(evaluations) + ap_table(evaluations);
+  for (const auto& [who, evaluation] : evaluations) tables += steadiness_table(evaluation.steadiness());
+  return tables;
 }
 
 nlohmann::json evaluation_json(const std::vector<NamedEvaluation>& evaluations) {
@@ -215,6 +218,8 @@ nlohmann::json evaluation_json(const std::vector<NamedEvaluation>& evaluations) 
     json[who]["trust"] = {{"markings", trust_json(evaluation.trust().markings())},
                           {"lane", trust_json(evaluation.trust().lanes())}};
     json[who]["average_precision"] = ap_json(evaluation.average_precision());
+    const evaluation::Steadiness steadiness = evaluation.steadiness();
+    if (steadiness.maps > 0) json[who]["planner"] = steadiness_json(steadiness);
   }
   return json;
 }

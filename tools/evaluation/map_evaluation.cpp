@@ -18,7 +18,8 @@ MapEvaluation::MapEvaluation(const simulation::Road& truth, const RangeConfig& r
       range_(range),
       stability_(truth_, range),
       trust_(truth_, range),
-      profile_(range) {}
+      profile_(range),
+      steadiness_(truth) {}
 
 FrameComparison MapEvaluation::add_lines(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_body,
                                          const std::vector<KindLine>& lines) {
@@ -37,6 +38,7 @@ void MapEvaluation::add(const LocalMap& map) {
   const FrameComparison frame = add_lines(map.stamp_ns, map.T_map_body, kind_lines(map));
   add_topology(truth_topology_, frame, map, range_, topology_);
   add_top_ll(truth_topology_, frame, map, range_, top_ll_);
+  steadiness_.add(map);
 }
 
 void MapEvaluation::add(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,

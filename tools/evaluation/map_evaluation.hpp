@@ -8,6 +8,7 @@
 #include "evaluation/linkages.hpp"
 #include "evaluation/profile.hpp"
 #include "evaluation/stability.hpp"
+#include "evaluation/steadiness.hpp"
 #include "evaluation/styles.hpp"
 #include "evaluation/top_ll.hpp"
 #include "evaluation/trust.hpp"
@@ -26,6 +27,7 @@ struct Measures {
   TopologyScore topology;
   TopLl top_ll;
   AveragePrecisionMeter average_precision;
+  Steadiness steadiness;
 
   /// The stability of lanelines, roadedges and stoplines together.
   Stability markings_stability() const;
@@ -50,6 +52,7 @@ class MapEvaluation {
   const StyleScore& styles() const { return styles_; }
   const TopologyScore& topology() const { return topology_; }
   const TopLl& top_ll() const { return top_ll_; }
+  Steadiness steadiness() const { return steadiness_.steadiness(); }  ///< no maps where detections are rated
   Measures measures() const;
 
  private:
@@ -67,6 +70,7 @@ class MapEvaluation {
   StyleScore styles_;
   TopologyScore topology_;
   TopLl top_ll_;
+  SteadinessMeter steadiness_;
 };
 
 }  // namespace laneloom::evaluation

@@ -60,6 +60,7 @@ Measures& Measures::operator+=(const Measures& other) {
   top_ll.average_precisions += other.top_ll.average_precisions;
   top_ll.vertices += other.top_ll.vertices;
   average_precision.add(other.average_precision);
+  steadiness += other.steadiness;
   return *this;
 }
 
@@ -70,7 +71,8 @@ Measures MapEvaluation::measures() const {
                .styles = styles_,
                .topology = topology_,
                .top_ll = top_ll_,
-               .average_precision = average_precision_};
+               .average_precision = average_precision_,
+               .steadiness = steadiness_.steadiness()};
   for (std::size_t i = 0; i < kLineKindCount; ++i) all.stability[i] = stability_.of(static_cast<LineKind>(i));
   return all;
 }
