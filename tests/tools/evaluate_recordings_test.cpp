@@ -247,6 +247,8 @@ TEST_F(EvaluateLater, RatesTheMapsOfARecording) {
   record(kMoments);
   ASSERT_EQ(later({"--frames", file("drive.mcap"), "--map", file("drive.mcap")}), 0) << output();
   EXPECT_NEAR(at_20_m().at("map").at("lateral_rms_m"), 0.1, 1e-6);
+  EXPECT_THAT(output(), HasSubstr("What the planner takes, from 27 maps"));
+  EXPECT_EQ(score("planner").at("own_lane"), 0.0);
 }
 
 TEST_F(EvaluateLater, SaysWhenADriveIsTooShort) {

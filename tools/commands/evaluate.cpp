@@ -16,6 +16,7 @@
 #include "commands/options.hpp"
 #include "commands/profile_tables.hpp"
 #include "commands/score_table.hpp"
+#include "commands/steadiness_table.hpp"
 #include "commands/warn_of.hpp"
 #include "evaluation/inputs.hpp"
 #include "evaluation/map_evaluation.hpp"
@@ -115,13 +116,17 @@ void write_json(const nlohmann::json& json, const std::string& path) {
 }
 
 void rate_by_later(const EvaluateOptions& options) {
-  const evaluation::LaterMeter meter = evaluate_later({.in = options.in,
-                                                       .config = options.config,
-                                                       .frames = options.frames,
-                                                       .map = options.map,
-                                                       .min_confidence = options.min_confidence});
-  fmt::print("{}", later_table(meter));
-  if (!options.json.empty()) write_json(later_json(meter), options.json);
+  const auto [later, steadiness] = evaluate_later({.in = options.in,
+                                                   .config = options.config,
+                                                   .frames = options.frames,
+                                                   .map = options.map,
+                                                   .min_confidence = options.min_confidence});
+  const evaluation::Steadiness steady = steadiness.steadiness();
+  fmt::print("{}{}", later_table(later), steadiness_table(steady));
+  if (options.json.empty()) return;
+  nlohmann::json json = later_json(later);
+  json["planner"] = steadiness_json(steady);
+  write_json(json, options.json);
 }
 
 void rate_by_truth(const EvaluateOptions& options) {

@@ -13,21 +13,22 @@
 namespace laneloom::commands {
 namespace {
 
-/// Pairs each map with the frame after which it was made.
+/// Pairs each map with the frame after which it was made. A planner takes all maps, with frame or without.
 class Pairs {
  public:
-  explicit Pairs(evaluation::LaterMeter& meter) : meter_(meter) {}
+  explicit Pairs(LaterRating& rating) : rating_(rating) {}
 
   void add(const DetectionFrame& frame) { frames_.insert_or_assign(frame.stamp_ns, frame); }
   void add(const LocalMap& map) {
+    if (map.stamp_ns > 0) rating_.steadiness.add(map);  // else: no frame was fused yet
     const auto frame = frames_.find(map.stamp_ns);
     if (frame == frames_.end()) return;
-    meter_.add(frame->second, map.T_map_body, map);
+    rating_.later.add(frame->second, map.T_map_body, map);
     frames_.erase(frames_.begin(), std::next(frame));
   }
 
  private:
-  evaluation::LaterMeter& meter_;
+  LaterRating& rating_;
   std::map<std::int64_t, DetectionFrame> frames_;  // newer than the last map, by stamp
 };
 
@@ -56,12 +57,12 @@ void rate_files(const LaterInputs& inputs, Pairs& pairs) {
 
 }  // namespace
 
-evaluation::LaterMeter evaluate_later(const LaterInputs& inputs) {
-  evaluation::LaterMeter meter(inputs.min_confidence);
-  Pairs pairs(meter);
+LaterRating evaluate_later(const LaterInputs& inputs) {
+  LaterRating rating{evaluation::LaterMeter(inputs.min_confidence), {}};
+  Pairs pairs(rating);
   inputs.in.empty() ? rate_files(inputs, pairs) : rate_replay(inputs, pairs);
-  require_rated(meter, inputs.in.empty() ? inputs.frames : inputs.in);
-  return meter;
+  require_rated(rating.later, inputs.in.empty() ? inputs.frames : inputs.in);
+  return rating;
 }
 
 }  // namespace laneloom::commands

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "evaluation/later.hpp"
+#include "evaluation/steadiness.hpp"
 
 namespace laneloom::commands {
 
@@ -14,8 +15,14 @@ struct LaterInputs {
   double min_confidence = 0.0;
 };
 
+/// How accurate the maps of a drive are, and how steady for a planner.
+struct LaterRating {
+  evaluation::LaterMeter later;
+  evaluation::SteadinessMeter steadiness;
+};
+
 /// Rates a drive by detections that were seen later. Throws std::runtime_error if there were none, and as
 /// evaluation/inputs.hpp if a file cannot be read.
-evaluation::LaterMeter evaluate_later(const LaterInputs& inputs);
+LaterRating evaluate_later(const LaterInputs& inputs);
 
 }  // namespace laneloom::commands
