@@ -23,6 +23,7 @@ LocalMap in_true_frame(LocalMap map, const SimulatedFrame& frame) {
   for (Lane& lane : map.lanes) {
     for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) move(T, *line);
   }
+  for (Linkage& linkage : map.linkages) move(T, linkage.path);
   map.T_map_body = frame.T_map_body;
   return map;
 }
