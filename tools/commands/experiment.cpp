@@ -10,6 +10,7 @@
 #include "commands/noise_option.hpp"
 #include "commands/road_list.hpp"
 #include "config/config_file.hpp"
+#include "experiment/paired_table.hpp"
 #include "experiment/results_table.hpp"
 #include "experiment/spread_table.hpp"
 
@@ -58,6 +59,7 @@ void experiment(const ExperimentOptions& options) {
   const std::vector<experiment::DriveResults> results = run(spec);
   fmt::print("{}", results_table(sum(results)));
   if (options.spread) fmt::print("\n{}", spread_table(spec.drives, results));
+  if (spec.configs.size() > 1) fmt::print("\n{}", paired_table(results, spec.configs.size()));
 }
 
 }  // namespace

@@ -1,0 +1,131 @@
+#include "experiment/paired_table.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace laneloom::experiment {
+namespace {
+
+using evaluation::Measures;
+using Value = std::optional<double>;
+
+struct Figure {
+  const char* name;
+  Value (*of)(const Measures&);
+};
+
+Value percent(std::size_t part, std::size_t whole) {
+  return whole > 0 ? Value(100.0 * static_cast<double>(part) / static_cast<double>(whole)) : std::nullopt;
+}
+
+Value f1_percent(const evaluation::Score& score) {
+  return score.predictions + score.truths > 0 ? Value(100.0 * score.f1()) : std::nullopt;
+}
+
+Value per_second(const Measures& m, std::size_t events) {
+  return m.steadiness.duration_s > 0.0 ? Value(m.steadiness.per_second(events)) : std::nullopt;
+}
+
+Value quantile(const Distribution& of, double share) {
+  return of.count() > 0 ? Value(of.quantile(share)) : std::nullopt;
+}
+
+constexpr std::array kFigures{
+    Figure{"F1 %", [](const Measures& m) { return f1_percent(m.score.markings()); }},
+    Figure{"lanes F1 %",
+           [](const Measures& m) { return f1_percent(m.score.of(evaluation::LineKind::lane)); }},
+    Figure{"lanes in a map",
+           [](const Measures& m) {
+             const Value lanes_percent = percent(m.steadiness.lanes, m.steadiness.maps);
+             return lanes_percent ? Value(*lanes_percent / 100.0) : std::nullopt;
+           }},
+    Figure{"blinks /s", [](const Measures& m) { return per_second(m, m.steadiness.blinks); }},
+    Figure{"short lives %",
+           [](const Measures& m) { return percent(m.steadiness.short_lives, m.steadiness.ended); }},
+    Figure{"turned /s", [](const Measures& m) { return per_second(m, m.steadiness.turned); }},
+    Figure{"doubted /s", [](const Measures& m) { return per_second(m, m.steadiness.doubted); }},
+    Figure{"own lane %",
+           [](const Measures& m) { return percent(m.steadiness.own_lanes, m.steadiness.own_wanted); }},
+    Figure{"way right %",
+           [](const Measures& m) { return percent(m.steadiness.right_ways, m.steadiness.true_ways); }},
+    Figure{"own ids /km",
+           [](const Measures& m) {
+             return m.steadiness.driven_m > 0.0 ? Value(m.steadiness.own_changes_per_km()) : std::nullopt;
+           }},
+    Figure{"reach p5 m", [](const Measures& m) { return quantile(m.steadiness.reach_m, 0.05); }},
+    Figure{"reach p50 m", [](const Measures& m) { return quantile(m.steadiness.reach_m, 0.5); }},
+    Figure{"gap p95 m", [](const Measures& m) { return quantile(m.steadiness.gap_m, 0.95); }},
+    Figure{"step p95 m", [](const Measures& m) { return quantile(m.steadiness.step_m, 0.95); }},
+    Figure{"kink p99 deg", [](const Measures& m) { return quantile(m.steadiness.kink_deg, 0.99); }},
+    Figure{"jump p99 m, 0 m ahead", [](const Measures& m) { return quantile(m.steadiness.jump_m[0], 0.99); }},
+    Figure{"jump p99 m, 10 m ahead",
+           [](const Measures& m) { return quantile(m.steadiness.jump_m[1], 0.99); }},
+    Figure{"jump p99 m, 20 m ahead",
+           [](const Measures& m) { return quantile(m.steadiness.jump_m[2], 0.99); }}};
+
+/// The 97.5 % quantile of Student's t; from 31 degrees of freedom on, to 0.2 %.
+double t_quantile(std::size_t degrees_of_freedom) {
+  constexpr std::array kQuantiles{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
+                                  2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
+                                  2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
+  if (degrees_of_freedom <= kQuantiles.size()) return kQuantiles.at(degrees_of_freedom - 1);
+  return 1.960 + 2.4 / static_cast<double>(degrees_of_freedom);
+}
+
+std::vector<double> differences(const std::vector<DriveResults>& results, std::size_t subject,
+                                const Figure& figure) {
+  std::vector<double> differences;
+  for (const DriveResults& drive : results) {
+    const Value first = figure.of(drive.at(1).measures), other = figure.of(drive.at(subject).measures);
+    if (first && other) differences.push_back(*other - *first);
+  }
+  return differences;
+}
+
+std::string cell(const MeanDifference& difference) {
+  if (difference.count == 0) return "-";
+  const std::string interval = difference.count > 1 ? fmt::format(" ± {:.2f}", difference.half_width) : "";
+  return fmt::format("{:+.2f}{} ({})", difference.mean, interval, difference.count);
+}
+
+std::string row(const std::vector<DriveResults>& results, std::size_t configs, const Figure& figure) {
+  Distribution first;
+  for (const DriveResults& drive : results)
+    if (const Value value = figure.of(drive.at(1).measures)) first.add(*value);
+  std::string row =
+      fmt::format("| {} | {} |", figure.name, first.count() > 0 ? fmt::format("{:.2f}", first.mean()) : "-");
+  for (std::size_t subject = 2; subject <= configs; ++subject)
+    row += fmt::format(" {} |", cell(mean_difference(differences(results, subject, figure))));
+  return row + "\n";
+}
+
+}  // namespace
+
+MeanDifference mean_difference(const std::vector<double>& differences) {
+  const Distribution all(differences);
+  MeanDifference result{.count = differences.size(), .mean = all.mean()};
+  if (result.count < 2) return result;
+  double squares = 0.0;
+  for (const double difference : differences)
+    squares += (difference - result.mean) * (difference - result.mean);
+  const auto count = static_cast<double>(result.count);
+  result.half_width = t_quantile(result.count - 1) * std::sqrt(squares / (count - 1.0) / count);
+  return result;
+}
+
+std::string paired_table(const std::vector<DriveResults>& results, std::size_t configs) {
+  if (results.empty() || configs < 2) return {};
+  std::string head = fmt::format("| mean over drives | {} |", results.front().at(1).name), rule = "|---|---|";
+  for (std::size_t subject = 2; subject <= configs; ++subject) {
+    head += fmt::format(" {}: difference ± 95 % (drives) |", results.front().at(subject).name);
+    rule += "---|";
+  }
+  std::string table = head + "\n" + rule + "\n";
+  for (const Figure& figure : kFigures) table += row(results, configs, figure);
+  return table;
+}
+
+}  // namespace laneloom::experiment
