@@ -15,8 +15,9 @@ namespace {
 struct Figures {
   double f1, precision, lanes_f1, linkage_precision, direction_precision;
   double id_switches_per_100_m;
+  double blinks_per_s, turned_per_s, own_lane, right_way, gap_p95_m, jump_p99_20_m;  // what a planner takes
 };
-constexpr double kMargin = 1.0, kMarginPer100_m = 0.1;
+constexpr double kMargin = 1.0, kMarginPer100_m = 0.1, kMarginPerSecond = 0.1, kMargin_m = 0.05;
 
 struct Network {
   const char* noise;
@@ -24,6 +25,18 @@ struct Network {
 };
 
 void PrintTo(const Network& network, std::ostream* out) { *out << network.noise; }
+
+void expect_as_steady(const evaluation::Steadiness& steadiness, const Figures& measured) {
+  const auto percent = [](std::size_t part, std::size_t whole) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  };
+  EXPECT_LE(steadiness.per_second(steadiness.blinks), measured.blinks_per_s + kMarginPerSecond);
+  EXPECT_LE(steadiness.per_second(steadiness.turned), measured.turned_per_s + kMarginPerSecond);
+  EXPECT_GE(percent(steadiness.own_lanes, steadiness.own_wanted), measured.own_lane - kMargin);
+  EXPECT_GE(percent(steadiness.right_ways, steadiness.true_ways), measured.right_way - kMargin);
+  EXPECT_LE(steadiness.gap_m.quantile(0.95), measured.gap_p95_m + kMargin_m);
+  EXPECT_LE(steadiness.jump_m[2].quantile(0.99), measured.jump_p99_20_m + kMargin_m);
+}
 
 class Regression : public ::testing::TestWithParam<Network> {};
 
@@ -45,12 +58,15 @@ TEST_P(Regression, NoPointIsLost) {
   EXPECT_GE(100.0 * measures.topology.directions.precision(), measured.direction_precision - kMargin);
   EXPECT_LE(0.1 * measures.markings_stability().id_switches_per_km(),
             measured.id_switches_per_100_m + kMarginPer100_m);
+  expect_as_steady(measures.steadiness, measured);
 }
 
-INSTANTIATE_TEST_SUITE_P(Networks, Regression,
-                         ::testing::Values(Network{"inhouse", {86.6, 87.2, 84.8, 89.3, 100.0, 0.33}},
-                                           Network{"random:1", {89.0, 90.3, 89.7, 95.8, 100.0, 0.23}},
-                                           Network{"random:2", {78.3, 76.3, 78.5, 82.4, 100.0, 0.20}}));
+INSTANTIATE_TEST_SUITE_P(
+    Networks, Regression,
+    ::testing::Values(
+        Network{"inhouse", {86.6, 87.2, 84.8, 89.3, 100.0, 0.33, 1.09, 0.62, 94.2, 91.7, 1.00, 0.17}},
+        Network{"random:1", {89.0, 90.3, 89.7, 95.8, 100.0, 0.23, 0.50, 0.23, 93.1, 90.5, 0.99, 0.10}},
+        Network{"random:2", {78.3, 76.3, 78.5, 82.4, 100.0, 0.20, 2.55, 0.75, 90.9, 83.6, 1.03, 0.49}}));
 
 }  // namespace
 }  // namespace laneloom::experiment
