@@ -1,6 +1,7 @@
 #include "evaluation/steadiness.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace laneloom::evaluation {
@@ -157,10 +158,10 @@ void SteadinessMeter::add_way(const Way& way, const Eigen::Isometry3d& T_map_bod
 }
 
 void SteadinessMeter::add(const LocalMap& map) {
-  if (!begin_ns_) stamp_ns_ = *(begin_ns_ = map.stamp_ns + kWarmUp_ns);
+  if (!stamp_ns_) stamp_ns_ = map.stamp_ns + kWarmUp_ns;
   const bool first = entries_.empty();
-  if (map.stamp_ns < stamp_ns_ || (!first && map.stamp_ns == stamp_ns_)) return;
-  const std::int64_t passed_ns = map.stamp_ns - stamp_ns_;
+  if (map.stamp_ns < *stamp_ns_ || (!first && map.stamp_ns == *stamp_ns_)) return;
+  const std::int64_t passed_ns = map.stamp_ns - *stamp_ns_;
   Lanes lanes = lanes_of(map);
   Way way = way_ahead(map, map.T_map_body);
   Steadiness added{.maps = 1, .duration_s = 1e-9 * static_cast<double>(passed_ns), .lanes = lanes.size()};

@@ -83,8 +83,7 @@ class SteadinessMeter {
   void add_way(const Way& way, const Eigen::Isometry3d& T_map_body, Steadiness& added) const;
 
   std::optional<LocalMap> truth_;         ///< its lanes and linkages
-  std::optional<std::int64_t> begin_ns_;  ///< of what counts
-  std::int64_t stamp_ns_ = 0;             ///< of the map before, or the begin of what counts
+  std::optional<std::int64_t> stamp_ns_;  ///< of the map before, or from when on maps count
   std::vector<Entry> entries_;
   // Of the map before:
   Eigen::Isometry3d T_map_body_ = Eigen::Isometry3d::Identity();
