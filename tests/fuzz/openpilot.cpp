@@ -3,6 +3,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const laneloom::MemoryFile file(data, size);
-  laneloom::take_or_refuse([&] { laneloom::imports::read_openpilot(file.path()); });
+  laneloom::LeftOut left_out;
+  laneloom::take_or_refuse([&] { laneloom::imports::read_openpilot(file.path(), left_out); });
   return 0;
 }

@@ -147,7 +147,7 @@ TEST_F(NuScenes, WhatIsWrongIsNamed) {
   write("sensor.json", R"([{"token":"cam","channel":"CAM_FRONT"}])");
   EXPECT_THAT(scene_error(), HasSubstr("LIDAR_TOP"));
   write("sample.json", "{}");
-  EXPECT_THAT(scene_error(), HasSubstr("sample.json: must be an array of objects"));
+  EXPECT_THAT(scene_error(), HasSubstr("sample.json: must be an array"));
   std::filesystem::remove(file("sample.json"));
   EXPECT_THAT(scene_error(), HasSubstr("sample.json: cannot be read"));
 }

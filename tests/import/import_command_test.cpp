@@ -109,6 +109,22 @@ TEST_F(ImportCommand, AnOpenpilotLogBecomesARecording) {
   EXPECT_TRUE(reader.refused().values().empty());
 }
 
+TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {
+  const std::string line = R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2],[30,NaN]]})";
+  write("results.json",
+        R"({"results":[{"sample_token":"log_1250000000","vectors":[)" + line + "," + line + "]}]}");
+  const std::vector<std::string> maptr{"maptr", "--results", file("results.json"), "--argoverse2",
+                                       file("log"), "--out", file("drive.mcap")};
+  std::vector<std::string> strict = maptr;
+  strict.push_back("--strict");
+  EXPECT_EQ(run(strict), 1);
+  EXPECT_THAT(output(), HasSubstr("results.json: results[0].vectors[0].pts[1]: must be finite"));
+  EXPECT_FALSE(std::filesystem::exists(file("drive.mcap")));
+  EXPECT_EQ(run(maptr), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("results.json: left out: 2 x vectors[].pts[]: must be finite (first: "
+                                  "results[0].vectors[0])\n"));
+}
+
 TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   const auto border = [](double y) {
     const std::string at = R"(,"y":)" + std::to_string(y) + R"(,"z":0})";

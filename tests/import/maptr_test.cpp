@@ -29,13 +29,16 @@ class MapTr : public testing::Test {
   ImportedFrames read(const std::string& samples, const DriveLog& of = drive()) {
     return read_text(R"({"meta":{"use_lidar":false},"results":[)" + samples + "]}", of);
   }
-  ImportedFrames read_text(const std::string& text, const DriveLog& of = drive()) {
+  ImportedFrames read_text(const std::string& text, const DriveLog& of = drive(), bool strict = false) {
     std::ofstream(folder_.file("results.json")) << text;
-    return read_maptr(folder_.file("results.json"), of);
+    left_out_ = LeftOut(strict);
+    return read_maptr(folder_.file("results.json"), of, left_out_);
   }
+  std::string left_out() const { return left_out_.summary(); }
+  /// What a strict reader says.
   std::string error(const std::string& text) {
     try {
-      read_text(text);
+      read_text(text, drive(), true);
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -45,6 +48,7 @@ class MapTr : public testing::Test {
 
  private:
   TemporaryFolder folder_;
+  LeftOut left_out_;
 };
 
 TEST_F(MapTr, ClassesBecomeTypesAndOthersAreCounted) {
@@ -93,13 +97,44 @@ TEST_F(MapTr, WhatIsWrongIsNamed) {
   EXPECT_THAT(sample_error(sample("drive_1", "") + "," + sample("drive_1", "")),
               HasSubstr("results[1].sample_token: a second one"));
   EXPECT_THAT(sample_error(sample("other_1", "")), HasSubstr("no sample of drive"));
-  EXPECT_THAT(sample_error("1"), HasSubstr("results: must be an array of objects"));
+  EXPECT_THAT(sample_error("1"), HasSubstr("results[0]: must be an object"));
   EXPECT_THAT(error("{}"), HasSubstr("results: is missing"));
   EXPECT_THAT(error("[]"), HasSubstr("results"));
-  EXPECT_THAT(error(R"({"results":{}})"), HasSubstr("results: must be an array of objects"));
+  EXPECT_THAT(error(R"({"results":{}})"), HasSubstr("results: must be an array"));
   EXPECT_THAT(error(R"({"results":[{"sample_token":"drive_1","vectors")"), HasSubstr("is not JSON"));
   EXPECT_THAT(error(R"({"results":[{"sample_token":)" + std::string(100'000, '[')), HasSubstr("too deeply"));
-  EXPECT_THAT(error(""), HasSubstr("is not JSON"));
+  EXPECT_THAT(error(""), HasSubstr("is empty"));
+  EXPECT_THAT(error("\x80\x04 pickle"), HasSubstr("is a pickle of Python; the results are needed as JSON"));
+}
+
+TEST_F(MapTr, WhatIsWrongIsLeftOutAndTheRestComes) {
+  const ImportedFrames imported =
+      read(sample("drive_1", vector("divider", "[[1,2],[NaN,4]]") + "," + vector("divider") + "," +
+                                 vector("divider", "[[1,-Infinity],[3,4]]") + "," + vector("kerb") + "," +
+                                 vector("divider", "[[1,2],[3,4]]", "NaN")) +
+           R"(,null,{"sample_token":"drive_2"},)" + sample("drive_3", "") + "," + sample("drive_3", "") +
+           "," + sample("drive_2", vector("divider")));
+  ASSERT_EQ(imported.frames.size(), 3u);
+  EXPECT_EQ(imported.frames[0].detections.size(), 1u);
+  EXPECT_EQ(imported.frames[1].detections.size(), 1u) << "the first of this stamp that is whole";
+  EXPECT_EQ(left_out(),
+            "2 x vectors[].pts[]: must be finite (first: results[0].vectors[0]), "
+            "1 x vectors[].cls_name: must be divider, boundary, ped_crossing or centerline, and is kerb "
+            "(first: results[0].vectors[3]), "
+            "1 x vectors[].confidence_level: must be finite (first: results[0].vectors[4]), "
+            "1 x must be an object (first: results[1]), "
+            "1 x vectors: is missing (first: results[2]), "
+            "1 x sample_token: a second one of this stamp (first: results[4])");
+  EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2],[NaN,4]]"))),
+              HasSubstr("results[0].vectors[0].pts[1]: must be finite"));
+}
+
+TEST_F(MapTr, AFileThatIsCutOffIsReadUpToThere) {
+  const std::string cut = R"({"results":[)" + sample("drive_1", vector("divider")) + "," +
+                          sample("drive_2", vector("divider")).substr(0, 50);
+  EXPECT_EQ(read_text(cut).frames.size(), 1u);
+  EXPECT_EQ(left_out(), "1 x the rest of the file, which is damaged or cut off (first: results[1])");
+  EXPECT_THAT(error(cut), HasSubstr("is not JSON"));
 }
 
 }  // namespace

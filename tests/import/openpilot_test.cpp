@@ -36,13 +36,23 @@ std::string pose(std::int64_t stamp_ns, double yaw_rad, double speed_mps, bool v
 
 class Openpilot : public testing::Test {
  protected:
-  OpenpilotDrive read(const std::vector<std::string>& events) {
-    std::ofstream(folder_.file("rlog.jsonl")) << fmt::format("{}\n", fmt::join(events, "\n"));
-    return read_openpilot(folder_.file("rlog.jsonl"));
+  OpenpilotDrive read(const std::vector<std::string>& events, bool strict = false) {
+    return read_text(fmt::format("{}\n", fmt::join(events, "\n")), strict);
   }
+  OpenpilotDrive read_text(const std::string& text, bool strict = false) {
+    std::ofstream(folder_.file("rlog.jsonl")) << text;
+    left_out_ = LeftOut(strict);
+    return read_openpilot(folder_.file("rlog.jsonl"), left_out_);
+  }
+  std::string left_out() const { return left_out_.summary(); }
+  /// What a strict reader says.
   std::string error(const std::vector<std::string>& events) {
+    return error_of([&] { read(events, true); });
+  }
+  template <typename Read>
+  static std::string error_of(Read read) {
     try {
-      read(events);
+      read();
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -51,6 +61,7 @@ class Openpilot : public testing::Test {
 
  private:
   TemporaryFolder folder_;
+  LeftOut left_out_;
 };
 
 TEST_F(Openpilot, LinesAndEdgesWithTheirProbabilitiesAndDeviations) {
@@ -119,19 +130,82 @@ TEST_F(Openpilot, WhatOpenpilotDoesNotBelieveIsCounted) {
 TEST_F(Openpilot, WhatIsWrongIsNamed) {
   EXPECT_THAT(error({model(100, R"({"x": [0], "y": [0, 1], "z": [0, 1]})")}),
               HasSubstr("rlog.jsonl:1: modelV2.laneLines[0]: x, y and z must be equally many"));
-  EXPECT_THAT(error({pose(1, 0, 0), model(100, kLine, "[1, 1]")}),
-              HasSubstr("rlog.jsonl:2: modelV2.laneLines: must be as many"));
-  EXPECT_THAT(error({model(100, kLine, "[1.5]")}), HasSubstr("refuse this frame: confidence"));
+  EXPECT_THAT(error({pose(1, 0, 0), model(100, kLine, "[]")}),
+              HasSubstr("rlog.jsonl:2: modelV2.laneLines[0]: has no value in laneLineProbs"));
+  EXPECT_THAT(error({model(100, kLine, "[1.5]")}), HasSubstr("laneLines[0]: must be from 0 to 1"));
+  EXPECT_THAT(error({model(100), pose(7, 0, 0), pose(7, 0, 0)}), HasSubstr(":3: livePose: a second pose"));
   EXPECT_THAT(error({model(100), model(100)}), HasSubstr(":2: modelV2.timestampEof: a second frame"));
   EXPECT_THAT(error({model(0)}), HasSubstr("refuse this frame: stamp"));
   EXPECT_THAT(error({R"({"logMonoTime": "x"})"}), HasSubstr(":1: logMonoTime: must be an integer"));
   EXPECT_THAT(error({"{}"}), HasSubstr("logMonoTime: is missing"));
   EXPECT_THAT(error({"[]"}), HasSubstr(":1: must be an object"));
   EXPECT_THAT(error({"{"}), HasSubstr(":1: "));
-  EXPECT_THAT(error({pose(1, 0, 0)}), HasSubstr("has no valid modelV2"));
+  EXPECT_THAT(error({pose(1, 0, 0)}), HasSubstr("has no modelV2"));
   EXPECT_THAT(error({model(100), pose(1, 0, 0)}), HasSubstr("fewer than two valid livePose"));
   EXPECT_THAT(error({model(100), pose(1, 0, 1e12), pose(1'000'000'001, 0, 1e12)}),
-              HasSubstr("refuse a pose: coordinate"));
+              HasSubstr("velocityDevice: is too fast"));
+  EXPECT_THAT(error({model(100), pose(-1, 0, 1), pose(1, 0, 1)}), HasSubstr("refuse a pose: stamp"));
+}
+
+TEST_F(Openpilot, WhatIsWrongIsLeftOutAndTheRestComes) {
+  const std::string nan = R"({"x": [0, 10], "y": [-1.5, NaN], "z": [1.2, 1.3]})";
+  const std::string as_text = R"({"x": [0, 10], "y": [-1.5, "NaN"], "z": [1.2, 1.3]})";
+  const OpenpilotDrive drive = read({pose(1, 0, 1), "}", model(100), model(200, nan), model(300, as_text),
+                                     model(0), "{}", pose(5, 0, 1e12), pose(400, 0, 1)});
+  ASSERT_EQ(drive.frames.size(), 3u);
+  EXPECT_EQ(drive.frames[0].detections.size(), 3u);
+  EXPECT_EQ(drive.frames[1].detections.size(), 2u) << "the road edges";
+  EXPECT_EQ(drive.poses.size(), 2u);
+  EXPECT_EQ(left_out(),
+            "1 x is not JSON (first: line 2), "
+            "2 x laneLines[].y[]: must be finite (first: line 4: modelV2.laneLines[0]), "
+            "1 x modelV2: the service would refuse this frame: stamp (first: line 6), "
+            "1 x logMonoTime: is missing (first: line 7), "
+            "1 x livePose.velocityDevice: is too fast (first: line 8)");
+}
+
+TEST_F(Openpilot, EventsThatComeTwiceAreTakenOnce) {
+  const OpenpilotDrive drive =
+      read({pose(1, 0, 1), model(100), model(100), pose(200, 0, 1), pose(200, 0, 1), model(100)});
+  EXPECT_EQ(drive.frames.size(), 1u);
+  EXPECT_EQ(drive.poses.size(), 2u);
+  EXPECT_EQ(left_out(),
+            "2 x modelV2.timestampEof: a second frame of this stamp (first: line 3), "
+            "1 x livePose: a second pose of this stamp (first: line 5)");
+}
+
+TEST_F(Openpilot, ALastLineThatIsCutOffIsNamed) {
+  const std::string whole = fmt::format("{}\n{}\n{}\n", pose(1, 0, 1), pose(200, 0, 1), model(100));
+  EXPECT_EQ(read_text(whole + model(150).substr(0, 100)).frames.size(), 1u);
+  EXPECT_EQ(left_out(), "1 x the last line is cut off (first: line 4)");
+  EXPECT_EQ(read_text(whole + model(150)).frames.size(), 2u) << "a last line without its end";
+  EXPECT_EQ(left_out(), "");
+  EXPECT_THAT(error_of([&] { read_text(whole + "{", true); }), HasSubstr(":4: is not JSON"));
+}
+
+TEST_F(Openpilot, LinesWithoutAProbabilityAreLeftOut) {
+  const std::string three = fmt::format("{0}, {0}, {0}", kLine);
+  const OpenpilotDrive drive = read({pose(1, 0, 1), model(100, three), pose(200, 0, 1)});
+  EXPECT_EQ(drive.frames.at(0).detections.size(), 3u) << "the first, and two road edges";
+  EXPECT_EQ(left_out(),
+            "2 x laneLines[]: has no value in laneLineProbs (first: line 2: modelV2.laneLines[1])");
+}
+
+TEST_F(Openpilot, FilesOfAnotherKindAreNamed) {
+  const auto complaint = [&](const std::string& text) { return error_of([&] { read_text(text); }); };
+  const std::string qlog = R"({"logMonoTime": "7", "drivingModelData": {"frameId": 1}})";
+  EXPECT_THAT(complaint(qlog),
+              HasSubstr("is a qlog: it has drivingModelData, and no modelV2; the rlog is needed"));
+  EXPECT_THAT(complaint(R"({"logMonoTime": "7", "carState": {}})"), HasSubstr("has no modelV2, as qlogs"));
+  EXPECT_THAT(complaint("{\n\"logMonoTime\": \"7\"\n}\n"), HasSubstr("has no event of openpilot; the rlog"));
+  EXPECT_THAT(complaint("\x28\xb5\x2f\xfd..."), HasSubstr("is compressed with zstd; the rlog is needed"));
+  EXPECT_THAT(complaint(std::string(40, '\0')), HasSubstr("is binary"));
+  EXPECT_THAT(complaint(""), HasSubstr("rlog.jsonl: is empty"));
+  EXPECT_THAT(error_of([&] {
+                LeftOut left_out;
+                read_openpilot("/no/such/log", left_out);
+              }),
+              HasSubstr("/no/such/log: cannot be read"));
 }
 
 }  // namespace

@@ -21,14 +21,17 @@ class StreamMapNet : public testing::Test {
  protected:
   /// `samples` are the members of results.
   ImportedFrames read(const std::string& samples, const DriveLog& of = drive(-0.3),
-                      StreamNetwork network = StreamNetwork::streammapnet) {
+                      StreamNetwork network = StreamNetwork::streammapnet, bool strict = false) {
     std::ofstream(folder_.file("submission_vector.json"))
         << R"({"meta": {"output_format": "vector"}, "results": {)" << samples << "}}";
-    return read_streammapnet(folder_.file("submission_vector.json"), of, network);
+    left_out_ = LeftOut(strict);
+    return read_streammapnet(folder_.file("submission_vector.json"), of, network, left_out_);
   }
+  std::string left_out() const { return left_out_.summary(); }
+  /// What a strict reader says.
   std::string error(const std::string& samples) {
     try {
-      read(samples);
+      read(samples, drive(-0.3), StreamNetwork::streammapnet, true);
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -37,6 +40,7 @@ class StreamMapNet : public testing::Test {
 
  private:
   TemporaryFolder folder_;
+  LeftOut left_out_;
 };
 
 TEST_F(StreamMapNet, LabelsBecomeTypesAndOthersAreCounted) {
@@ -81,19 +85,32 @@ TEST_F(StreamMapNet, WhatIsWrongIsNamed) {
            "}";
   };
   EXPECT_THAT(error(sample("[[[1,2],[3,4]]]", "[1]", "[3]")),
-              HasSubstr("submission_vector.json: results.drive_1.labels[0]: must be 0, 1 or 2"));
-  EXPECT_THAT(error(sample("[[[1,2],[3,4]]]", "[1.5]", "[1]")), HasSubstr("scores[0]: must be from 0 to 1"));
+              HasSubstr("submission_vector.json: results.drive_1.vectors[0]: must be 0, 1 or 2"));
+  EXPECT_THAT(error(sample("[[[1,2],[3,4]]]", "[1.5]", "[1]")), HasSubstr("vectors[0]: must be from 0 to 1"));
   EXPECT_THAT(error(sample("[[[1,2],[3,4]]]", "[1, 1]", "[1]")), HasSubstr("vectors: must be as many as"));
   EXPECT_THAT(error(sample("[[[1,2]]]", "[1]", "[1]")),
               HasSubstr("vectors[0]: must have at least two points"));
   EXPECT_THAT(error(sample("[[[1,2],[1e8,4]]]", "[1]", "[1]")), HasSubstr("coordinate"));
   EXPECT_THAT(error(R"("drive_1": {"vectors": []})"), HasSubstr("results.drive_1.scores: is missing"));
-  EXPECT_THAT(error(R"("drive_1": [])"), HasSubstr("results: must be an object of objects"));
+  EXPECT_THAT(error(R"("drive_1": [])"), HasSubstr("results.drive_1: must be an object"));
   EXPECT_THAT(
       error(sample("[]", "[]", "[]") + R"(, "drive_01": {"vectors": [], "scores": [], "labels": []})"),
       HasSubstr("results.drive_01: a second one of this stamp"));
   EXPECT_THAT(error(R"("other": {})"), HasSubstr("no sample of drive"));
   EXPECT_THAT(error(R"("drive_1": nul)"), HasSubstr("is not JSON"));
+}
+
+TEST_F(StreamMapNet, WhatIsWrongIsLeftOutAndTheRestComes) {
+  const ImportedFrames imported = read(
+      R"("drive_1": {"vectors": [[[1, NaN], [3, 4]], [[5, 6], [7, 8]], [[0, 1], [0, 2]]], "scores": [0.5, NaN, 1],)"
+      R"("labels": [1, 2, 1]}, "drive_2": {"vectors": []}, "drive_3": nul)");
+  ASSERT_EQ(imported.frames.size(), 1u);
+  EXPECT_EQ(imported.frames[0].detections.size(), 1u);
+  EXPECT_EQ(left_out(),
+            "1 x vectors[][]: must be finite (first: results.drive_1.vectors[0]), "
+            "1 x vectors[]: must be finite (first: results.drive_1.vectors[1]), "
+            "1 x scores: is missing (first: results.drive_2), "
+            "1 x the rest of the file, which is damaged or cut off (first: results.drive_3)");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "commands/import_scene.hpp"
 #include "commands/log_files.hpp"
+#include "commands/warn_of.hpp"
 #include "import/drive_log.hpp"
 #include "import/drive_recording.hpp"
 #include "import/maptr.hpp"
@@ -28,6 +29,7 @@ struct ResultsOptions {
   std::string results, out;
   std::string argoverse2, nuscenes, scene, poses, samples;
   std::string axes = kForwardLeft;
+  bool strict = false;
 };
 
 imports::DriveLog load_drive(const ResultsOptions& options) {
@@ -40,11 +42,31 @@ imports::DriveLog load_drive(const ResultsOptions& options) {
 
 /// Reads the part of a file of results that belongs to the drive.
 using ReadResults = imports::ImportedFrames (*)(const std::filesystem::path& results,
-                                                const imports::DriveLog& drive);
+                                                const imports::DriveLog& drive, LeftOut& left_out);
+
+/// Calls `read` with what it leaves out, and warns of that, also if nothing is left.
+template <typename Read>
+auto read_and_warn(const std::string& file, bool strict, Read read) {
+  LeftOut left_out(strict);
+  try {
+    auto result = read(left_out);
+    warn_of(file, left_out);
+    return result;
+  } catch (const std::runtime_error&) {
+    warn_of(file, left_out);
+    throw;
+  }
+}
+
+void add_strict(CLI::App& command, bool& strict) {
+  command.add_flag("--strict", strict, "Fail at the first thing that is wrong, instead of leaving it out");
+}
 
 void import_results(const ResultsOptions& options, ReadResults read) {
   const imports::DriveLog drive = load_drive(options);
-  imports::ImportedFrames imported = read(options.results, drive);
+  imports::ImportedFrames imported = read_and_warn(options.results, options.strict, [&](LeftOut& left_out) {
+    return read(options.results, drive, left_out);
+  });
   const std::size_t without_pose = imports::drop_frames_without_pose(imported.frames, drive.poses);
   if (imported.frames.empty())
     throw std::runtime_error(options.results + ": no sample is within the poses of " + drive.name);
@@ -86,15 +108,19 @@ void add_results(CLI::App& app, const std::string& name, const std::string& whos
       ->required();
   add_drive(*command, *options);
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  add_strict(*command, options->strict);
   command->callback([options, read] { import_results(*options, read); });
 }
 
 struct OpenpilotOptions {
   std::string log, out;
+  bool strict = false;
 };
 
 void import_openpilot(const OpenpilotOptions& options) {
-  imports::OpenpilotDrive drive = imports::read_openpilot(options.log);
+  imports::OpenpilotDrive drive = read_and_warn(options.log, options.strict, [&](LeftOut& left_out) {
+    return imports::read_openpilot(options.log, left_out);
+  });
   const std::size_t without_pose = imports::drop_frames_without_pose(drive.frames, drive.poses);
   if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");
   imports::write_drive(options.out, drive.poses, drive.frames);
@@ -110,6 +136,7 @@ void add_openpilot(CLI::App& app) {
   const auto options = std::make_shared<OpenpilotOptions>();
   command->add_option("--log", options->log, "The log as JSON, one event a line (.jsonl)")->required();
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  add_strict(*command, options->strict);
   command->footer(
       "The log as JSON: zstdcat rlog.zst | capnp convert --short binary:json openpilot/cereal/log.capnp "
       "Event");
@@ -153,11 +180,13 @@ void add_import(CLI::App& app) {
   command->require_subcommand(1);
   add_argoverse2(*command);
   add_results(*command, "maptr", "MapTR or MapTRv2", "…map_results.json", imports::read_maptr);
-  const auto streammapnet = [](const std::filesystem::path& results, const imports::DriveLog& drive) {
-    return read_streammapnet(results, drive, imports::StreamNetwork::streammapnet);
+  const auto streammapnet = [](const std::filesystem::path& results, const imports::DriveLog& drive,
+                               LeftOut& left_out) {
+    return read_streammapnet(results, drive, imports::StreamNetwork::streammapnet, left_out);
   };
-  const auto maptracker = [](const std::filesystem::path& results, const imports::DriveLog& drive) {
-    return read_streammapnet(results, drive, imports::StreamNetwork::maptracker);
+  const auto maptracker = [](const std::filesystem::path& results, const imports::DriveLog& drive,
+                             LeftOut& left_out) {
+    return read_streammapnet(results, drive, imports::StreamNetwork::maptracker, left_out);
   };
   add_results(*command, "streammapnet", "StreamMapNet", "submission_vector.json", streammapnet);
   add_results(*command, "maptracker", "MapTracker", "submission_vector.json", maptracker);

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/file_kind.hpp"
 #include "io/json_fields.hpp"
+#include "io/json_stream.hpp"
 #include "session/gate.hpp"
 
 namespace laneloom::imports {
@@ -34,11 +36,27 @@ double confidence(const json& value) {
   return confidence;
 }
 
-FrameCollector::FrameCollector(const DriveLog& drive, std::string source,
+void check_line(const Detection& line) {
+  constexpr std::int64_t kAnyStamp_ns = 1;
+  const DetectionFrame frame{.stamp_ns = kAnyStamp_ns, .detections = {line}};
+  if (const auto why = session::defect(frame, GateConfig{}); !why.empty())
+    throw io::JsonError("the service would refuse this line: " + std::string(why));
+}
+
+FrameCollector::FrameCollector(const DriveLog& drive, std::string source, LeftOut& left_out,
                                const Eigen::Isometry3d& T_drive_points)
-    : drive_(drive), T_body_points_(drive.T_body_points * T_drive_points) {
+    : drive_(drive), left_out_(left_out), T_body_points_(drive.T_body_points * T_drive_points) {
   frame_.source = std::move(source);
   frame_.detected_types = {MarkingType::laneline, MarkingType::roadedge};
+}
+
+void FrameCollector::add_sample(const std::string& place, const std::function<void()>& read) {
+  place_ = place;
+  io::take_or_leave_out(left_out_, place, "", read);
+}
+
+void FrameCollector::add_line(std::size_t number, const std::function<void()>& read) {
+  io::take_or_leave_out(left_out_, place_ + ".", "vectors[" + std::to_string(number) + "]", read);
 }
 
 bool FrameCollector::begin(const std::string& sample) {
@@ -47,7 +65,7 @@ bool FrameCollector::begin(const std::string& sample) {
     ++imported_.other_drives;
     return false;
   }
-  if (!stamps_.insert(*stamp_ns).second) throw io::JsonError("a second one of this stamp");
+  if (stamps_.contains(*stamp_ns)) throw io::JsonError("a second one of this stamp");
   frame_.stamp_ns = *stamp_ns;
   frame_.detections.clear();
   return true;
@@ -62,17 +80,28 @@ void FrameCollector::add(const std::string& class_name, double confidence, const
   Detection detection{.type = *type, .confidence = confidence};
   detection.points = io::list(points, [&](const json& point) { return in_body(point); });
   if (detection.points.size() < 2) throw io::JsonError("must have at least two points");
+  check_line(detection);
   frame_.detections.push_back(std::move(detection));
 }
 
 void FrameCollector::end() {
   if (const auto why = session::defect(frame_, GateConfig{}); !why.empty())
     throw io::JsonError("the service would refuse this frame: " + std::string(why));
+  stamps_.insert(frame_.stamp_ns);
   imported_.frames.push_back(frame_);
 }
 
-ImportedFrames FrameCollector::finish(const std::string& file) && {
-  if (imported_.frames.empty()) throw std::runtime_error(file + ": has no sample of " + drive_.name);
+ImportedFrames FrameCollector::collect(const std::filesystem::path& file,
+                                       const std::function<void()>& walk) && {
+  if (const std::string kind = io::file_kind(file); !kind.empty())
+    throw std::runtime_error(file.string() + ": " + kind + "; the results are needed as JSON");
+  try {
+    walk();
+  } catch (const io::DamagedJson& damage) {
+    if (left_out_.strict() || imported_.frames.empty()) throw;
+    left_out_.add("the rest of the file, which is damaged or cut off", damage.where());
+  }
+  if (imported_.frames.empty()) throw std::runtime_error(file.string() + ": has no sample of " + drive_.name);
   std::ranges::sort(imported_.frames, {}, &DetectionFrame::stamp_ns);
   return std::move(imported_);
 }

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -9,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/left_out.hpp"
 #include "import/drive_log.hpp"
 #include "laneloom/types.hpp"
 
@@ -21,34 +24,45 @@ struct ImportedFrames {
   std::size_t other_drives = 0;                 ///< number of samples of other drives
 };
 
-/// Collects the lines that a network with MapTR's classes saw in the samples of one drive. Not thread-safe.
-/// All functions except finish() throw JsonError.
+/// Collects the lines that a network with MapTR's classes saw in the samples of one drive. A line that is
+/// wrong is left out, and so is a frame. Not thread-safe.
 class FrameCollector {
  public:
   /// `source` names the network. `T_drive_points` takes the network's points to the frame of points of
-  /// `drive`.
-  FrameCollector(const DriveLog& drive, std::string source,
+  /// `drive`. `drive` and `left_out` must live as long.
+  FrameCollector(const DriveLog& drive, std::string source, LeftOut& left_out,
                  const Eigen::Isometry3d& T_drive_points = Eigen::Isometry3d::Identity());
 
-  /// Begins the frame of a sample. False: the sample is of another drive, and is counted.
+  /// Takes a sample of the file: `read` calls begin(), add_line() and end(). What it throws as JsonError
+  /// makes that the sample, which is at `place`, is left out. The error passes through if that is strict.
+  void add_sample(const std::string& place, const std::function<void()>& read);
+
+  /// Begins the frame of a sample. False: the sample is of another drive, and is counted. Throws JsonError.
   bool begin(const std::string& sample);
+  /// Adds line number `number` of the sample. `read` calls add(). Throws JsonError if that is strict.
+  void add_line(std::size_t number, const std::function<void()>& read);
   /// Adds a line to the frame. `points` is [[x, y], …] or [[x, y, z], …]; without z they are on the road. A
   /// divider is a laneline and a boundary a roadedge; ped_crossing and centerline are counted, and left out.
+  /// Throws JsonError.
   void add(const std::string& class_name, double confidence, const nlohmann::json& points);
-  /// Ends the frame. A frame that the service would refuse is an error.
+  /// Ends the frame. A frame that the service would refuse is a JsonError.
   void end();
 
-  /// The frames. Throws std::runtime_error naming the file if there are none.
-  ImportedFrames finish(const std::string& file) &&;
+  /// Calls `walk`, which walks over the samples of `file`. If the file is damaged, the samples before that
+  /// are kept. Returns the frames. Throws std::runtime_error naming the file if there are none, or it is
+  /// damaged and that is strict.
+  ImportedFrames collect(const std::filesystem::path& file, const std::function<void()>& walk) &&;
 
  private:
   Point in_body(const nlohmann::json& value) const;
 
   const DriveLog& drive_;
+  LeftOut& left_out_;
   Eigen::Isometry3d T_body_points_;
   DetectionFrame frame_;
   ImportedFrames imported_;
   std::set<std::int64_t> stamps_;
+  std::string place_;  ///< of the sample
 };
 
 /// The name of one of the classes. Throws JsonError.
@@ -56,5 +70,8 @@ std::string class_name(const nlohmann::json& value);
 
 /// A number from 0 to 1. Throws JsonError.
 double confidence(const nlohmann::json& value);
+
+/// Throws JsonError if the service would refuse a frame because of this line.
+void check_line(const Detection& line);
 
 }  // namespace laneloom::imports

@@ -23,21 +23,22 @@ void read_sample(const json& result, FrameCollector& frames) {
   const bool ours =
       io::required(result, "sample_token", [&](const json& token) { return frames.begin(io::text(token)); });
   if (!ours) return;
-  io::required(result, "vectors", [&](const json& vectors) {
-    return io::list(vectors, [&](const json& vector) {
-      read_vector(vector, frames);
-      return true;
-    });
-  });
+  const json& vectors = *io::required(result, "vectors", io::array);
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    frames.add_line(i, [&] { read_vector(vectors[i], frames); });
   frames.end();
 }
 
 }  // namespace
 
-ImportedFrames read_maptr(const std::filesystem::path& path, const DriveLog& drive) {
-  FrameCollector frames(drive, "maptr");
-  io::for_each_json_object(path, "results", [&](const json& result) { read_sample(result, frames); });
-  return std::move(frames).finish(path.string());
+ImportedFrames read_maptr(const std::filesystem::path& path, const DriveLog& drive, LeftOut& left_out) {
+  FrameCollector frames(drive, "maptr", left_out);
+  std::size_t number = 0;
+  return std::move(frames).collect(path, [&] {
+    io::for_each_json_element(path, "results", [&](const json& result) {
+      frames.add_sample("results[" + std::to_string(number++) + "]", [&] { read_sample(result, frames); });
+    });
+  });
 }
 
 }  // namespace laneloom::imports

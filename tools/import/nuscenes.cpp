@@ -60,7 +60,7 @@ class SceneReader {
 
  private:
   void for_each(const std::string& table, const std::function<void(const json&)>& visit) const {
-    io::for_each_json_object(path(table), "", visit);
+    io::for_each_json_element(path(table), "", visit);
   }
   std::filesystem::path path(const std::string& table) const { return tables_ / (table + ".json"); }
 

@@ -8,6 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "import/frame_collector.hpp"
+#include "import/openpilot_odometry.hpp"
+#include "io/file_kind.hpp"
 #include "io/json_fields.hpp"
 #include "session/gate.hpp"
 
@@ -16,8 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Takes forward, right, down to forward, left, up, and back.
-const Eigen::DiagonalMatrix<double, 3> kTurned(1.0, -1.0, -1.0);
+constexpr const char* kNeeded =
+    "the rlog is needed, as JSON with one event a line (capnp convert --short binary:json)";
 
 /// Reads an integer of 64 bits, which Cap'n Proto writes as a text.
 std::int64_t long_integer(const json& value) {
@@ -29,63 +32,71 @@ std::int64_t long_integer(const json& value) {
   return number;
 }
 
-/// Reads a vector: [x, y, z], or an object of x, y and z.
-Eigen::Vector3d vector(const json& value) {
-  if (value.is_array()) return io::point(value);
-  return {io::required(value, "x", io::number), io::required(value, "y", io::number),
-          io::required(value, "z", io::number)};
+Polyline points(const json& line) {
+  const auto x = io::required(line, "x", io::numbers), y = io::required(line, "y", io::numbers),
+             z = io::required(line, "z", io::numbers);
+  if (x.size() != y.size() || x.size() != z.size()) throw io::JsonError("x, y and z must be equally many");
+  Polyline points;
+  for (std::size_t i = 0; i < x.size(); ++i) points.push_back(kTurned * Point(x[i], y[i], z[i]));
+  return points;
 }
 
-Eigen::Matrix3d rotation(const Eigen::Vector3d& roll_pitch_yaw) {
-  using Eigen::AngleAxisd;
-  return (AngleAxisd(roll_pitch_yaw.z(), Point::UnitZ()) * AngleAxisd(roll_pitch_yaw.y(), Point::UnitY()) *
-          AngleAxisd(roll_pitch_yaw.x(), Point::UnitX()))
-      .toRotationMatrix();
-}
-
-/// A value, and whether openpilot believes it. It is an object of x, y and z in livePose, and a list in
-/// liveLocationKalman.
-struct Measurement {
-  Eigen::Vector3d value;
-  bool valid = false;
+/// A kind of lines in modelV2.
+struct LinesOfModel {
+  MarkingType type;
+  std::string lines, confidences, deviations;  ///< keys
+  double (*confidence)(const json& value);
 };
 
-Measurement measurement(const json& object) {
-  const bool valid = io::required(object, "valid", io::boolean);
-  if (!valid) return {};
-  return {object.contains("value") ? io::required(object, "value", vector) : vector(object), true};
+double edge_confidence(const json& deviation_m) {
+  return std::clamp(1.0 - io::number(deviation_m), 0.0, 1.0);
 }
 
-struct Odometry {
-  Eigen::Matrix3d T_ned_device;
-  Eigen::Vector3d velocity_ned;  ///< m/s
-};
+const LinesOfModel kLaneLines{MarkingType::laneline, "laneLines", "laneLineProbs", "laneLineStds",
+                              confidence};
+const LinesOfModel kRoadEdges{MarkingType::roadedge, "roadEdges", "roadEdgeStds", "roadEdgeStds",
+                              edge_confidence};
 
 class LogReader {
  public:
-  void read(const json& event) {
+  explicit LogReader(LeftOut& left_out) : left_out_(left_out) {}
+
+  /// Takes an event, which is at `place`.
+  void read(const json& event, const std::string& place) {
     if (!event.is_object()) throw io::JsonError("must be an object");
     const std::int64_t stamp_ns = io::required(event, "logMonoTime", long_integer);
+    has_events_ = true;
+    has_driving_model_ = has_driving_model_ || event.contains("drivingModelData");
     const bool valid = io::optional(event, "valid", io::boolean).value_or(true);
-    io::optional(event, "modelV2", [&](const json& model) { return read_model(model, valid); });
+    io::optional(event, "modelV2", [&](const json& model) { return read_model(model, valid, place); });
     for (const char* name : {"livePose", "liveLocationKalman"})
       io::optional(event, name, [&](const json& pose) { return read_pose(pose, stamp_ns, valid); });
-    io::optional(event, "liveCalibration",
-                 [&](const json& calibration) { return read_calibration(calibration, stamp_ns); });
+    io::optional(event, "liveCalibration", [&](const json& calibration) {
+      odometry_.add_calibration(calibration, stamp_ns);
+      return true;
+    });
   }
 
   OpenpilotDrive finish() && {
     for (auto& [stamp_ns, frame] : frames_) drive_.frames.push_back(std::move(frame));
-    if (drive_.frames.empty()) throw std::runtime_error("has no valid modelV2");
-    add_poses();
+    if (drive_.frames.empty()) throw std::runtime_error(why_no_frames());
+    drive_.poses = odometry_.poses(left_out_);
     if (drive_.poses.size() < 2)
       throw std::runtime_error("has fewer than two valid livePose or liveLocationKalman");
     return std::move(drive_);
   }
 
  private:
-  // Each returns whether the event was used.
-  bool read_model(const json& model, bool valid) {
+  std::string why_no_frames() const {
+    if (!has_events_) return std::string("has no event of openpilot; ") + kNeeded;
+    if (has_model_) return "has no valid modelV2";
+    if (has_driving_model_)
+      return std::string("is a qlog: it has drivingModelData, and no modelV2; ") + kNeeded;
+    return std::string("has no modelV2, as qlogs have none; ") + kNeeded;
+  }
+
+  bool read_model(const json& model, bool valid, const std::string& place) {
+    has_model_ = true;
     if (!valid) {
       ++drive_.invalid_frames;
       return false;
@@ -93,115 +104,85 @@ class LogReader {
     DetectionFrame frame{.stamp_ns = io::required(model, "timestampEof", long_integer),
                          .source = "openpilot",
                          .detected_types = {MarkingType::laneline, MarkingType::roadedge}};
-    add(lines(model, "laneLines", MarkingType::laneline, io::required(model, "laneLineProbs", io::numbers),
-              io::required(model, "laneLineStds", io::numbers)),
-        frame);
-    const auto deviations = io::required(model, "roadEdgeStds", io::numbers);
-    std::vector<double> confidences;
-    for (const double deviation_m : deviations)
-      confidences.push_back(std::clamp(1.0 - deviation_m, 0.0, 1.0));
-    add(lines(model, "roadEdges", MarkingType::roadedge, confidences, deviations), frame);
+    // Before its lines, so that those of a frame that is given twice are not counted again.
+    if (frames_.contains(frame.stamp_ns)) throw io::JsonError("timestampEof", "a second frame of this stamp");
+    add_lines(model, kLaneLines, place, frame);
+    add_lines(model, kRoadEdges, place, frame);
     if (const auto why = session::defect(frame, GateConfig{}); !why.empty())
       throw io::JsonError("the service would refuse this frame: " + std::string(why));
-    if (!frames_.emplace(frame.stamp_ns, frame).second)
-      throw io::JsonError("timestampEof", "a second frame of this stamp");
+    frames_.emplace(frame.stamp_ns, std::move(frame));
     return true;
   }
 
-  static std::vector<Detection> lines(const json& model, const char* key, MarkingType type,
-                                      const std::vector<double>& confidences,
-                                      const std::vector<double>& deviations) {
-    const auto all = io::required(model, key, [](const json& value) { return io::list(value, points); });
-    if (all.size() != deviations.size() || all.size() != confidences.size())
-      throw io::JsonError(key, "must be as many as their probabilities and standard deviations");
-    std::vector<Detection> lines;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      lines.push_back({.type = type,
-                       .confidence = confidences[i],
-                       .points = all[i],
-                       .stddev_m = std::vector<double>(all[i].size(), deviations[i])});
-    return lines;
-  }
-
-  static void add(std::vector<Detection>&& lines, DetectionFrame& frame) {
-    std::ranges::move(lines, std::back_inserter(frame.detections));
-  }
-
-  static Polyline points(const json& line) {
-    const auto x = io::required(line, "x", io::numbers), y = io::required(line, "y", io::numbers),
-               z = io::required(line, "z", io::numbers);
-    if (x.size() != y.size() || x.size() != z.size()) throw io::JsonError("x, y and z must be equally many");
-    Polyline points;
-    for (std::size_t i = 0; i < x.size(); ++i) points.push_back(kTurned * Point(x[i], y[i], z[i]));
-    return points;
+  void add_lines(const json& model, const LinesOfModel& kind, const std::string& place,
+                 DetectionFrame& frame) {
+    const json& lines = *io::required(model, kind.lines.c_str(), io::array);
+    const json& confidences = *io::required(model, kind.confidences.c_str(), io::array);
+    const json& deviations = *io::required(model, kind.deviations.c_str(), io::array);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::string key = kind.lines + "[" + std::to_string(i) + "]";
+      io::take_or_leave_out(left_out_, place + ": modelV2.", key, [&] {
+        if (i >= confidences.size()) throw io::JsonError("has no value in " + kind.confidences);
+        if (i >= deviations.size()) throw io::JsonError("has no value in " + kind.deviations);
+        Detection line{
+            .type = kind.type, .confidence = kind.confidence(confidences[i]), .points = points(lines[i])};
+        line.stddev_m.assign(line.points.size(), io::number(deviations[i]));
+        check_line(line);
+        frame.detections.push_back(std::move(line));
+      });
+    }
   }
 
   bool read_pose(const json& pose, std::int64_t stamp_ns, bool valid) {
-    const Measurement orientation = io::required(pose, "orientationNED", measurement);
-    const Measurement velocity = io::required(pose, "velocityDevice", measurement);
-    if (!valid || !orientation.valid || !velocity.valid) {
-      ++drive_.invalid_poses;
-      return false;
-    }
-    const Eigen::Matrix3d T_ned_device = rotation(orientation.value);
-    odometry_[stamp_ns] = {T_ned_device, T_ned_device * velocity.value};
-    return true;
+    const bool used = valid && odometry_.add_pose(pose, stamp_ns);
+    if (!used) ++drive_.invalid_poses;
+    return used;
   }
 
-  bool read_calibration(const json& calibration, std::int64_t stamp_ns) {
-    if (io::required(calibration, "calStatus", io::text) != "calibrated") return false;
-    calibrations_[stamp_ns] = rotation(io::required(calibration, "rpyCalib", io::point));
-    return true;
-  }
-
-  /// The newest calibration at a stamp. Before the first calibration, it is the first one.
-  Eigen::Matrix3d T_device_calibrated(std::int64_t stamp_ns) const {
-    if (calibrations_.empty()) return Eigen::Matrix3d::Identity();
-    const auto after = calibrations_.upper_bound(stamp_ns);
-    return after == calibrations_.begin() ? after->second : std::prev(after)->second;
-  }
-
-  void add_poses() {
-    Point position_ned = Point::Zero();
-    for (auto now = odometry_.begin(); now != odometry_.end(); ++now) {
-      if (now != odometry_.begin()) {
-        const auto before = std::prev(now);
-        const double step_s = 1e-9 * static_cast<double>(now->first - before->first);
-        position_ned += 0.5 * step_s * (before->second.velocity_ned + now->second.velocity_ned);
-      }
-      const Eigen::Matrix3d turned(kTurned);
-      const Eigen::Matrix3d T_ned_calibrated = now->second.T_ned_device * T_device_calibrated(now->first);
-      VehiclePose pose{.stamp_ns = now->first, .position = kTurned * position_ned};
-      pose.orientation = Eigen::Quaterniond(Eigen::Matrix3d(turned * T_ned_calibrated * turned)).normalized();
-      if (const auto why = session::defect(pose, GateConfig{}); !why.empty())
-        throw std::runtime_error("the service would refuse a pose: " + std::string(why));
-      drive_.poses.push_back(pose);
-    }
-  }
-
+  LeftOut& left_out_;
   OpenpilotDrive drive_;
-  std::map<std::int64_t, DetectionFrame> frames_;         ///< by stamp, as logs are not in its order
-  std::map<std::int64_t, Odometry> odometry_;             ///< likewise
-  std::map<std::int64_t, Eigen::Matrix3d> calibrations_;  ///< T_device_calibrated, likewise
+  std::map<std::int64_t, DetectionFrame> frames_;  ///< by stamp, as logs are not in its order
+  OpenpilotOdometry odometry_;
+  bool has_events_ = false, has_model_ = false, has_driving_model_ = false;
 };
 
-}  // namespace
+/// Reads a line. `is_last`: nothing comes behind it, and not even its end.
+void read_line(const std::string& line, bool is_last, const std::string& place, LogReader& log,
+               LeftOut& left_out) {
+  json event;
+  try {
+    event = io::parse_json(line);
+  } catch (const io::JsonError& error) {
+    if (left_out.strict()) throw;
+    left_out.add(is_last ? "the last line is cut off" : error.reason(), place);
+    return;
+  }
+  io::take_or_leave_out(left_out, place, "", [&] { log.read(event, place); });
+}
 
-OpenpilotDrive read_openpilot(const std::filesystem::path& path) {
+void read_lines(const std::filesystem::path& path, LogReader& log, LeftOut& left_out) {
   std::ifstream in(path);
   if (!in) throw std::runtime_error(path.string() + ": cannot be read");
-  LogReader log;
   std::size_t number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
-    if (line.empty()) continue;
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
-      log.read(io::parse_json(line));
+      read_line(line, in.eof(), "line " + std::to_string(number), log, left_out);
     } catch (const io::JsonError& error) {
       throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
     }
   }
   if (in.bad()) throw std::runtime_error(path.string() + ": cannot be read");
+}
+
+}  // namespace
+
+OpenpilotDrive read_openpilot(const std::filesystem::path& path, LeftOut& left_out) {
+  if (const std::string kind = io::file_kind(path); !kind.empty())
+    throw std::runtime_error(path.string() + ": " + kind + "; " + kNeeded);
+  LogReader log(left_out);
+  read_lines(path, log, left_out);
   try {
     return std::move(log).finish();
   } catch (const std::runtime_error& error) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/left_out.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::imports {
@@ -36,8 +37,13 @@ struct OpenpilotDrive {
 /// in metres, and not below 0. The log has one standard deviation for a whole line, at the car: it is every
 /// point's.
 ///
-/// Throws std::runtime_error naming file, line and key of a malformed value, and if no frame or fewer than
-/// two poses are left.
-OpenpilotDrive read_openpilot(const std::filesystem::path& path);
+/// What is wrong is left out, and the rest comes: a line that is no event, or is cut off, a frame or a pose
+/// of a stamp that came before, a lane line or road edge with a bad value, or without a probability or
+/// standard deviation (logs of forks have more lines than probabilities), a velocity or pose that the service
+/// would refuse.
+///
+/// Throws std::runtime_error naming the file if it is no such log, and if no frame or fewer than two poses
+/// are left; also of the first wrong value, naming line and key, if `left_out` is strict.
+OpenpilotDrive read_openpilot(const std::filesystem::path& path, LeftOut& left_out);
 
 }  // namespace laneloom::imports

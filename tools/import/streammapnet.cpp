@@ -22,19 +22,14 @@ std::string class_of(const json& value) {
 
 void read_sample(const std::string& token, const json& sample, FrameCollector& frames) {
   if (!frames.begin(token)) return;
-  const auto scores =
-      io::required(sample, "scores", [](const json& values) { return io::list(values, confidence); });
-  const auto classes =
-      io::required(sample, "labels", [](const json& values) { return io::list(values, class_of); });
-  std::size_t next = 0;
-  io::required(sample, "vectors", [&](const json& vectors) {
-    if (!vectors.is_array() || vectors.size() != scores.size() || vectors.size() != classes.size())
-      throw io::JsonError("must be as many as scores and labels");
-    return io::list(vectors, [&](const json& points) {
-      frames.add(classes[next], scores[next], points);
-      return ++next;
-    });
-  });
+  const json& scores = *io::required(sample, "scores", io::array);
+  const json& labels = *io::required(sample, "labels", io::array);
+  const json& vectors = *io::required(sample, "vectors", io::array);
+  // None of them is known to be another's.
+  if (vectors.size() != scores.size() || vectors.size() != labels.size())
+    throw io::JsonError("vectors", "must be as many as scores and labels");
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    frames.add_line(i, [&] { frames.add(class_of(labels[i]), confidence(scores[i]), vectors[i]); });
   frames.end();
 }
 
@@ -50,13 +45,14 @@ Eigen::Isometry3d T_drive_points(const DriveLog& drive, StreamNetwork network) {
 }  // namespace
 
 ImportedFrames read_streammapnet(const std::filesystem::path& path, const DriveLog& drive,
-                                 StreamNetwork network) {
+                                 StreamNetwork network, LeftOut& left_out) {
   const char* const source = network == StreamNetwork::streammapnet ? "streammapnet" : "maptracker";
-  FrameCollector frames(drive, source, T_drive_points(drive, network));
-  io::for_each_json_member(path, "results", [&](const std::string& token, const json& sample) {
-    read_sample(token, sample, frames);
+  FrameCollector frames(drive, source, left_out, T_drive_points(drive, network));
+  return std::move(frames).collect(path, [&] {
+    io::for_each_json_member(path, "results", [&](const std::string& token, const json& sample) {
+      frames.add_sample("results." + token, [&] { read_sample(token, sample, frames); });
+    });
   });
-  return std::move(frames).finish(path.string());
 }
 
 }  // namespace laneloom::imports

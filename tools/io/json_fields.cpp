@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/unit_rotation.hpp"
+#include "io/json_not_finite.hpp"
 
 namespace laneloom::io {
 namespace {
@@ -27,14 +28,26 @@ Enum named(const json& value, const std::array<const char*, N>& names) {
 
 }  // namespace
 
-JsonError::JsonError(const std::string& key, const std::string& complaint)
-    : std::runtime_error(key.empty() ? complaint : key + ": " + complaint),
+JsonError::JsonError(const std::string& key, const std::string& complaint, const std::string& detail)
+    : std::runtime_error((key.empty() ? "" : key + ": ") + complaint + detail),
       key_(key),
-      complaint_(complaint) {}
+      complaint_(complaint),
+      detail_(detail) {}
 
 JsonError JsonError::inside(const std::string& key) const {
   const bool joined = key_.empty() || key_.front() == '[';
-  return {key + (joined ? "" : ".") + key_, complaint_};
+  return {key + (joined ? "" : ".") + key_, complaint_, detail_};
+}
+
+std::string JsonError::reason() const {
+  std::string reason;
+  bool within_index = false;
+  for (const char c : key_) {
+    if (c == ']') within_index = false;
+    if (!within_index) reason += c;
+    if (c == '[') within_index = true;
+  }
+  return reason.empty() ? complaint_ : reason + ": " + complaint_;
 }
 
 json parse_json(std::string_view text) {
@@ -42,10 +55,15 @@ json parse_json(std::string_view text) {
     if (depth > kMaxJsonDepth) throw JsonError("is nested too deeply");
     return true;
   };
+  const auto parse = [&](std::string_view written) {
+    return json::parse(written.begin(), written.end(), limit_depth);
+  };
   try {
-    return json::parse(text.begin(), text.end(), limit_depth);
+    if (text.find("NaN") == std::string_view::npos && text.find("Infinity") == std::string_view::npos)
+      return parse(text);
+    return parse(quote_not_finite(text));
   } catch (const json::exception& error) {
-    throw JsonError(std::string("is not JSON: ") + error.what());
+    throw JsonError("", "is not JSON", std::string(": ") + error.what());
   }
 }
 
@@ -58,6 +76,8 @@ json load_json(const std::filesystem::path& path) {
 }
 
 double number(const json& value) {
+  if (value.is_string() && is_not_finite(value.get_ref<const std::string&>()))
+    throw JsonError("must be finite");
   if (!value.is_number()) throw JsonError("must be a number");
   const auto result = value.get<double>();
   if (!std::isfinite(result)) throw JsonError("must be finite");
@@ -89,6 +109,11 @@ bool boolean(const json& value) {
 std::string text(const json& value) {
   if (!value.is_string()) throw JsonError("must be a string");
   return value.get<std::string>();
+}
+
+const json* array(const json& value) {
+  if (!value.is_array()) throw JsonError("must be an array");
+  return &value;
 }
 
 Point point(const json& value) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/left_out.hpp"
 #include "laneloom/element_names.hpp"
 #include "laneloom/types.hpp"
 
@@ -22,14 +23,32 @@ namespace laneloom::io {
 /// An error in JSON. what() reads "detections[3].points: must be an array".
 class JsonError : public std::runtime_error {
  public:
-  JsonError(const std::string& key, const std::string& complaint);
+  /// `detail` is what differs between errors of one kind.
+  JsonError(const std::string& key, const std::string& complaint, const std::string& detail = {});
   explicit JsonError(const std::string& complaint) : JsonError("", complaint) {}
   /// The same error, seen from the object or array around it.
   JsonError inside(const std::string& key) const;
+  /// The kind of the error, the same for all elements of an array: "detections[].points: must be an array".
+  std::string reason() const;
 
  private:
-  std::string key_, complaint_;
+  std::string key_, complaint_, detail_;
 };
+
+/// Does `work`. What is wrong is left out, with `around` and `key` as its place. A JsonError of `work` passes
+/// through if `left_out` is strict, as one inside of `key`. Returns whether `work` succeeded.
+template <typename Work>
+bool take_or_leave_out(LeftOut& left_out, const std::string& around, const std::string& key, Work work) {
+  try {
+    work();
+    return true;
+  } catch (const JsonError& error) {
+    const JsonError inside = key.empty() ? error : error.inside(key);
+    if (left_out.strict()) throw inside;
+    left_out.add(inside.reason(), around + key);
+    return false;
+  }
+}
 
 constexpr int kMaxJsonDepth = 16;
 
@@ -45,9 +64,10 @@ std::int64_t integer(const nlohmann::json& value);
 std::uint64_t count(const nlohmann::json& value);  ///< an integer, not negative
 bool boolean(const nlohmann::json& value);
 std::string text(const nlohmann::json& value);
-Point point(const nlohmann::json& value);        ///< [x, y, z]
-Polyline polyline(const nlohmann::json& value);  ///< [[x, y, z], …], possibly empty
-Polyline line(const nlohmann::json& value);      ///< a polyline of at least two points
+const nlohmann::json* array(const nlohmann::json& value);  ///< the value itself, never null
+Point point(const nlohmann::json& value);                  ///< [x, y, z]
+Polyline polyline(const nlohmann::json& value);            ///< [[x, y, z], …], possibly empty
+Polyline line(const nlohmann::json& value);                ///< a polyline of at least two points
 MarkingType marking_type(const nlohmann::json& value);
 MarkingStyle marking_style(const nlohmann::json& value);
 std::vector<double> numbers(const nlohmann::json& value);

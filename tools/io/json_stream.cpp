@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "io/json_fields.hpp"
+#include "io/json_not_finite.hpp"
 
 namespace laneloom::io {
 namespace {
@@ -14,7 +15,7 @@ using Event = json::parse_event_t;
 
 using Visit = std::function<void(const std::string& name, const json& value)>;
 
-/// The kind of the container that holds the objects.
+/// The kind of the container that holds the elements.
 enum class Container : std::uint8_t { array, object };
 
 /// Follows the parser: hands on the container's elements, and keeps nothing of the file.
@@ -38,8 +39,12 @@ class ElementVisitor {
   }
 
   bool found() const { return found_; }
+  /// The element that is read.
+  std::string where() const {
+    return key_ + (container_ == Container::array ? "[" + std::to_string(index_) + "]" : "." + name_);
+  }
   const char* expected() const {
-    return container_ == Container::array ? "must be an array of objects" : "must be an object of objects";
+    return container_ == Container::array ? "must be an array" : "must be an object";
   }
 
  private:
@@ -52,13 +57,11 @@ class ElementVisitor {
 
   bool on_element(Event event, const json& value) {
     if (event == Event::key) name_ = value.get<std::string>();
-    if (event == Event::object_start || event == Event::key) return true;
-    if (event != Event::object_end) throw JsonError(key_, expected());
+    if (event == Event::object_start || event == Event::array_start || event == Event::key) return true;
     try {
       visit_(name_, value);
     } catch (const JsonError& error) {
-      throw error.inside(key_ +
-                         (container_ == Container::array ? "[" + std::to_string(index_) + "]" : "." + name_));
+      throw error.inside(where());
     }
     ++index_;
     return false;
@@ -76,8 +79,10 @@ class ElementVisitor {
 
 void for_each_element(const std::filesystem::path& path, const std::string& key, Container container,
                       const Visit& visit) {
-  std::ifstream in(path);
-  if (!in) throw std::runtime_error(path.string() + ": cannot be read");
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+  NotFiniteQuoter quoter(*file.rdbuf());
+  std::istream in(&quoter);
   ElementVisitor visitor(key, container, visit);
   try {
     const json rest = json::parse(
@@ -86,14 +91,14 @@ void for_each_element(const std::filesystem::path& path, const std::string& key,
   } catch (const JsonError& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   } catch (const json::exception& error) {
-    throw std::runtime_error(path.string() + ": is not JSON: " + error.what());
+    throw DamagedJson(path.string() + ": is not JSON: " + error.what(), visitor.where());
   }
 }
 
 }  // namespace
 
-void for_each_json_object(const std::filesystem::path& path, const std::string& key,
-                          const std::function<void(const json&)>& visit) {
+void for_each_json_element(const std::filesystem::path& path, const std::string& key,
+                           const std::function<void(const json&)>& visit) {
   for_each_element(path, key, Container::array,
                    [&](const std::string& /*name*/, const json& value) { visit(value); });
 }

@@ -3,19 +3,33 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace laneloom::io {
 
-/// Calls visit(element) for every object of an array in a JSON file, one after the other, so that a large
-/// array need not fit into memory. The array is the whole file, or with a `key` the root object's member of
-/// that name. Throws std::runtime_error naming the file if it cannot be read, is not JSON, or has no such
-/// array of objects. Adds file and index of the element to a JsonError that visit() throws.
-void for_each_json_object(const std::filesystem::path& path, const std::string& key,
-                          const std::function<void(const nlohmann::json&)>& visit);
+/// A file that is not JSON, or is cut off.
+class DamagedJson : public std::runtime_error {
+ public:
+  DamagedJson(const std::string& complaint, std::string where)
+      : std::runtime_error(complaint), where_(std::move(where)) {}
+  const std::string& where() const { return where_; }  ///< the element that could not be read
 
-/// Does the same for an object of objects, which is the root object's member `key`: calls visit(name, object)
-/// for its members.
+ private:
+  std::string where_;
+};
+
+/// Calls visit(element) for every element of an array in a JSON file, one after the other, so that a large
+/// array need not fit into memory. The array is the whole file, or with a `key` the root object's member of
+/// that name. NaN and Infinity are read as texts. Throws std::runtime_error naming the file if it cannot be
+/// read or has no such array, and DamagedJson if it is not JSON. Adds file and index of the element to a
+/// JsonError that visit() throws.
+void for_each_json_element(const std::filesystem::path& path, const std::string& key,
+                           const std::function<void(const nlohmann::json&)>& visit);
+
+/// Does the same for an object, which is the root object's member `key`: calls visit(name, value) for its
+/// members.
 void for_each_json_member(const std::filesystem::path& path, const std::string& key,
                           const std::function<void(const std::string&, const nlohmann::json&)>& visit);
 

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace laneloom::io {
+
+/// What a file is by its first bytes, as "is compressed with zstd" or "is empty". Empty: it is a text, or
+/// nothing known, or cannot be read.
+std::string file_kind(const std::filesystem::path& path);
+
+}  // namespace laneloom::io
