@@ -124,6 +124,7 @@ SdMap read(const std::string& file, const SdMapConfig& config) {
     throw std::runtime_error(std::string(result.description()) + " at byte " + std::to_string(result.offset));
   const pugi::xml_node osm = document.child("osm");
   if (!osm) throw std::runtime_error("has no element osm");
+  remove_deleted(osm);
   const auto nodes = read_nodes(osm, config);
   std::vector<SdWay> ways;
   for (const pugi::xml_node& way : osm.children("way"))

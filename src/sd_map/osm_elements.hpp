@@ -24,4 +24,15 @@ inline std::string name_of(const pugi::xml_node& element) {
   return std::string(element.name()) + " " + element.attribute("id").as_string();
 }
 
+/// Removes the elements that are deleted. Editors (JOSM) keep them in the file until it is uploaded.
+inline void remove_deleted(pugi::xml_node osm) {
+  for (pugi::xml_node element = osm.first_child(); element;) {
+    const pugi::xml_node next = element.next_sibling();
+    if (std::string_view(element.attribute("action").as_string()) == "delete" ||
+        !element.attribute("visible").as_bool(true))
+      osm.remove_child(element);
+    element = next;
+  }
+}
+
 }  // namespace laneloom::sd_map

@@ -16,6 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const laneloom::io::WorkFolder folder;
   std::filesystem::create_symlink(poses_file.path(), folder.file("city_SE3_egovehicle.csv"));
   std::filesystem::create_symlink(map_file.path(), folder.file("log_map_archive_x.json"));
-  laneloom::take_or_refuse([&] { laneloom::simulation::load_argoverse2(folder.file("")); });
+  laneloom::LeftOut left_out;
+  laneloom::take_or_refuse([&] { laneloom::simulation::load_argoverse2(folder.file(""), left_out); });
   return 0;
 }

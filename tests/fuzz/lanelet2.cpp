@@ -3,6 +3,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const laneloom::MemoryFile file(data, size);
-  laneloom::take_or_refuse([&] { laneloom::simulation::load_lanelet2(file.path()); });
+  laneloom::LeftOut left_out;
+  laneloom::take_or_refuse([&] { laneloom::simulation::load_lanelet2(file.path(), 10.0, left_out); });
   return 0;
 }

@@ -28,6 +28,8 @@ class DriveLogs : public testing::Test {
     return "";
   }
 
+  LeftOut strict_{true};
+
  private:
   TemporaryFolder folder_;
 };
@@ -39,7 +41,7 @@ TEST_F(DriveLogs, Argoverse2NamesSamplesByLogAndStamp) {
   std::filesystem::create_directories(file("log-a"));
   write("log-a/city_SE3_egovehicle.csv", kPoses);
   for (const std::string directory : {"log-a", "log-a/"}) {
-    const DriveLog drive = argoverse2_drive(file(directory));
+    const DriveLog drive = argoverse2_drive(file(directory), strict_);
     EXPECT_EQ(drive.name, "log-a");
     ASSERT_EQ(drive.poses.size(), 2u);
     EXPECT_EQ(drive.poses[0].stamp_ns, 2000) << "the stamps of the log, not times since its start";
@@ -56,20 +58,39 @@ TEST_F(DriveLogs, Argoverse2NamesSamplesByLogAndStamp) {
 TEST_F(DriveLogs, PlainTablesGiveStampsAndAxes) {
   write("poses.csv", kPoses);
   write("samples.csv", "token,timestamp_ns\na,17\nb,18\r\n");
-  const DriveLog drive = plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::right_forward);
+  const DriveLog drive =
+      plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::right_forward, strict_);
   EXPECT_EQ(drive.stamp_ns_of("b"), 18);
   EXPECT_EQ(drive.stamp_ns_of("c"), std::nullopt);
   EXPECT_TRUE((drive.T_body_points * Point(2, 10, 1)).isApprox(Point(10, -2, 1)));
 
-  const auto load = [&] { plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left); };
+  const auto load = [&] {
+    plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left, strict_);
+  };
   write("samples.csv", "token,timestamp_ns\na,17\na,18\n");
-  EXPECT_THAT(error(load), HasSubstr("samples.csv:3: the sample a is given twice"));
+  EXPECT_THAT(error(load), HasSubstr("samples.csv:3: a sample that is given twice"));
   write("samples.csv", "token,timestamp_ns\na\n");
   EXPECT_THAT(error(load), HasSubstr("samples.csv:2: a number is expected"));
 }
 
+TEST_F(DriveLogs, RowsThatAreWrongAreLeftOut) {
+  write("poses.csv", std::string(kPoses) + "1500000000,1,0,0,0,nan,6,7\n2000000000,1,0\n");
+  write("samples.csv", "token,timestamp_ns\na,17\na,17\nb,18\nc,1");
+  LeftOut left_out;
+  const DriveLog drive =
+      plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left, left_out);
+  EXPECT_EQ(drive.poses.size(), 2u);
+  EXPECT_EQ(drive.stamp_ns_of("b"), 18);
+  EXPECT_EQ(left_out.summary(),
+            "1 x a sample that is given twice (first: samples.csv:3), "
+            "1 x a finite number is expected (first: poses.csv:4), "
+            "1 x a number is expected (first: poses.csv:5)");
+}
+
 TEST_F(DriveLogs, TablesOfOtherColumnsAreRefused) {
-  const auto load = [&] { plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left); };
+  const auto load = [&] {
+    plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left, strict_);
+  };
   const std::string rows = "2000,1,0,0,0,5,6,7\n1000002000,1,0,0,0,15,6,7\n";
   write("samples.csv", "token,timestamp_ns\na,17\n");
   write("poses.csv", "timestamp_ns,tx_m,ty_m,tz_m,qx,qy,qz,qw\n" + rows);  // as ROS orders them

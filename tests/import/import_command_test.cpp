@@ -113,8 +113,8 @@ TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {
   const std::string line = R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2],[30,NaN]]})";
   write("results.json",
         R"({"results":[{"sample_token":"log_1250000000","vectors":[)" + line + "," + line + "]}]}");
-  const std::vector<std::string> maptr{"maptr", "--results", file("results.json"), "--argoverse2",
-                                       file("log"), "--out", file("drive.mcap")};
+  const std::vector<std::string> maptr{"maptr",     "--results", file("results.json"), "--argoverse2",
+                                       file("log"), "--out",     file("drive.mcap")};
   std::vector<std::string> strict = maptr;
   strict.push_back("--strict");
   EXPECT_EQ(run(strict), 1);
@@ -167,6 +167,13 @@ TEST_F(ImportCommand, ADirectoryOfLogsGivesAFileEach) {
   ASSERT_EQ(run({"argoverse2", file("data"), "--out", file("poses")}), 0) << output();
   EXPECT_TRUE(std::filesystem::exists(file("poses/a.mcap")));
   EXPECT_TRUE(std::filesystem::exists(file("poses/b.mcap")));
+
+  std::filesystem::copy(file("data/val"), file("data/test"), std::filesystem::copy_options::recursive);
+  ASSERT_EQ(run({"argoverse2", file("data"), "--out", file("again")}), 0) << output();
+  EXPECT_TRUE(std::filesystem::exists(file("again/b.mcap")));
+  EXPECT_THAT(output(), HasSubstr("data: left out: 2 x a second log of this name (first: val/a)"));
+  EXPECT_EQ(run({"argoverse2", file("data"), "--out", file("strict"), "--strict"}), 1);
+  EXPECT_THAT(output(), HasSubstr("data/val/a: is a second log of this name"));
 }
 
 TEST_F(ImportCommand, WrongUseAndInputAreNamed) {

@@ -19,6 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<fs::path> logs_in(const fs::path& directory) {
+  LeftOut nothing(/*strict=*/true);
+  return argoverse2_logs(directory, nothing);
+}
+
 class RealLogs : public testing::Test {
  protected:
   void SetUp() override {
@@ -99,7 +104,7 @@ TEST_F(RealLogs, AsDistributedTheyGiveTheSameRoadAsWithACsv) {
       if (name.extension() != ".csv") fs::create_symlink(file, is_map ? given / "map" / name : given / name);
       if (name.extension() != ".feather") fs::create_symlink(file, converted / name);
     }
-    EXPECT_EQ(argoverse2_logs(folder.file("sensor")), std::vector{given});
+    EXPECT_EQ(logs_in(folder.file("sensor")), std::vector{given});
     save_truth(folder.file("given.json"), load_argoverse2(given));
     save_truth(folder.file("converted.json"), load_argoverse2(converted));
     EXPECT_EQ(bytes_of(folder.file("given.json")), bytes_of(folder.file("converted.json")));
@@ -192,13 +197,13 @@ TEST_F(MadeUpLog, ImpossiblePosesOfAFeatherFileAreNamedWithTheirRow) {
 }
 
 TEST_F(MadeUpLog, LogsAreFoundBelowADirectory) {
-  EXPECT_EQ(argoverse2_logs(directory), std::vector{directory}) << "it is one itself";
+  EXPECT_EQ(logs_in(directory), std::vector{directory}) << "it is one itself";
   const TemporaryFolder data_set;
   const fs::path val = fs::path(data_set.path()) / "sensor" / "val";
   for (const char* const log : {"b", "a", "no_poses"}) fs::create_directories(val / log / "map");
   for (const char* const log : {"a", "b"}) std::ofstream(val / log / "city_SE3_egovehicle.feather");
-  EXPECT_EQ(argoverse2_logs(data_set.path()), (std::vector{val / "a", val / "b"}));
-  EXPECT_THROW(argoverse2_logs(val / "no_poses"), std::runtime_error);
+  EXPECT_EQ(logs_in(data_set.path()), (std::vector{val / "a", val / "b"}));
+  EXPECT_THROW(logs_in(val / "no_poses"), std::runtime_error);
 }
 
 TEST_F(MadeUpLog, BadFilesAreNamedWithKeyOrLine) {

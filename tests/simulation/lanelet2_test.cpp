@@ -71,6 +71,12 @@ class MadeUpMap : public testing::Test {
     std::ofstream(path) << content;
     return load_lanelet2(path, 10.0);
   }
+  /// Leaves out what is wrong.
+  Road load_rest(const std::string& content) {
+    std::ofstream(path) << content;
+    left_out = LeftOut();
+    return load_lanelet2(path, 10.0, left_out);
+  }
   std::string error(const std::string& content) {
     try {
       load(content);
@@ -108,6 +114,7 @@ class MadeUpMap : public testing::Test {
   }
   const TemporaryFolder folder;
   const fs::path path = folder.file("made_up.osm");
+  LeftOut left_out;
 };
 
 TEST_F(MadeUpMap, BordersAreOrientedAndLanesConnected) {
@@ -145,7 +152,8 @@ TEST_F(MadeUpMap, DegreesBecomeMetres) {
 
 TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
   EXPECT_NE(error("<osm><node").find("made_up.osm"), std::string::npos);
-  EXPECT_NE(error("<html/>").find("has no element osm"), std::string::npos);
+  EXPECT_NE(error("<html/>").find("is a web page; a Lanelet2 map (.osm) is needed"), std::string::npos);
+  EXPECT_NE(error("<gpx/>").find("has no element osm"), std::string::npos);
   EXPECT_NE(error("<osm/>").find("has no lanes"), std::string::npos);
   EXPECT_NE(error(two_lanes() + lanelet(30, 11, 99) + "</osm>").find("relation 30: has no way 99"),
             std::string::npos);
@@ -158,6 +166,42 @@ TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
   const std::string far = two_lanes() + node(7, 2e5, 0) + node(8, 2e5, -3) + way(41, {1, 7}, "") +
                           way(42, {4, 8}, "") + lanelet(31, 41, 42) + "</osm>";
   EXPECT_NE(error(far).find("relation 31: is beyond 300 km of lines"), std::string::npos) << error(far);
+}
+
+TEST_F(MadeUpMap, WhatIsWrongIsLeftOutWithWhatHangsOnIt) {
+  const std::string bad =
+      "<node id='8' lat='nan' lon='3'><tag k='local_x' v='x'/><tag k='local_y' v='1'/></node>" +
+      way(40, {1, 77}, tag("type", "line_thin")) + way(41, {1, 8}, "") + lanelet(30, 40, 13) +
+      lanelet(31, 11, 99) + lanelet(22, 12, 14) + "</osm>";
+  const Road road = load_rest(two_lanes() + bad);
+  EXPECT_EQ(road.lanes.size(), 2u);
+  EXPECT_EQ(road.markings.size(), load(two_lanes() + "</osm>").markings.size());
+  EXPECT_EQ(left_out.summary(),
+            "1 x a node that local_x must be a number (first: node 8), "
+            "2 x a way that has no node (first: way 40), "
+            "2 x a relation that has no way (first: relation 30), "
+            "1 x a relation that is given twice (first: relation 22)");
+}
+
+TEST_F(MadeUpMap, DeletedElementsArePassedOver) {
+  const std::string deleted =
+      "<node id='9' action='delete' visible='true' lat='0' lon='0'/>"
+      "<way id='50' action='delete'><nd ref='9'/></way>"
+      "<relation id='60' visible='false'><member type='way' role='left' ref='11'/>"
+      "<member type='way' role='right' ref='13'/>" +
+      tag("type", "lanelet") + tag("subtype", "road") + "</relation></osm>";
+  const Road road = load(two_lanes() + deleted);
+  EXPECT_EQ(road.lanes.size(), 2u);
+  EXPECT_EQ(road.lanes[0].left.front(), Point(0.0, 0.0, 7.0)) << "in local coordinates";
+}
+
+TEST_F(MadeUpMap, AFileThatIsCutOffIsReadUpToThere) {
+  const std::string cut = two_lanes() + "<relation id='30'><member type='w";
+  EXPECT_EQ(load_rest(cut).lanes.size(), 2u);
+  EXPECT_NE(left_out.summary().find("1 x the rest of the file, which is damaged or cut off (first: byte "),
+            std::string::npos);
+  EXPECT_NE(error(cut).find(" at byte "), std::string::npos);
+  EXPECT_NE(error("").find("is empty; a Lanelet2 map (.osm) is needed"), std::string::npos);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "commands/commands.hpp"
 #include "commands/import_scene.hpp"
 #include "commands/log_files.hpp"
+#include "commands/options.hpp"
 #include "commands/warn_of.hpp"
 #include "import/drive_log.hpp"
 #include "import/drive_recording.hpp"
@@ -32,38 +33,22 @@ struct ResultsOptions {
   bool strict = false;
 };
 
-imports::DriveLog load_drive(const ResultsOptions& options) {
-  if (!options.argoverse2.empty()) return imports::argoverse2_drive(options.argoverse2);
+imports::DriveLog load_drive(const ResultsOptions& options, LeftOut& left_out) {
+  if (!options.argoverse2.empty()) return imports::argoverse2_drive(options.argoverse2, left_out);
   if (!options.nuscenes.empty()) return imports::nuscenes_drive(options.nuscenes, options.scene);
   const imports::PointAxes axes =
       options.axes == kForwardLeft ? imports::PointAxes::forward_left : imports::PointAxes::right_forward;
-  return plain_drive(options.poses, options.samples, axes);
+  return plain_drive(options.poses, options.samples, axes, left_out);
 }
 
 /// Reads the part of a file of results that belongs to the drive.
 using ReadResults = imports::ImportedFrames (*)(const std::filesystem::path& results,
                                                 const imports::DriveLog& drive, LeftOut& left_out);
 
-/// Calls `read` with what it leaves out, and warns of that, also if nothing is left.
-template <typename Read>
-auto read_and_warn(const std::string& file, bool strict, Read read) {
-  LeftOut left_out(strict);
-  try {
-    auto result = read(left_out);
-    warn_of(file, left_out);
-    return result;
-  } catch (const std::runtime_error&) {
-    warn_of(file, left_out);
-    throw;
-  }
-}
-
-void add_strict(CLI::App& command, bool& strict) {
-  command.add_flag("--strict", strict, "Fail at the first thing that is wrong, instead of leaving it out");
-}
-
 void import_results(const ResultsOptions& options, ReadResults read) {
-  const imports::DriveLog drive = load_drive(options);
+  const std::string& source = options.argoverse2.empty() ? options.poses : options.argoverse2;
+  const imports::DriveLog drive =
+      read_and_warn(source, options.strict, [&](LeftOut& left_out) { return load_drive(options, left_out); });
   imports::ImportedFrames imported = read_and_warn(options.results, options.strict, [&](LeftOut& left_out) {
     return read(options.results, drive, left_out);
   });
@@ -145,20 +130,29 @@ void add_openpilot(CLI::App& app) {
 
 struct LogOptions {
   std::string directory, out, truth;
+  bool strict = false;
 };
 
-void import_log(const std::filesystem::path& log, const std::string& out, const std::string& truth) {
-  if (!truth.empty()) save_truth(truth, simulation::load_argoverse2(log));
+void import_log(const std::filesystem::path& log, const std::string& out, const std::string& truth,
+                LeftOut& left_out) {
+  if (!truth.empty()) save_truth(truth, simulation::load_argoverse2(log, left_out));
   if (out.empty()) return;
-  const std::vector<VehiclePose> poses = simulation::argoverse2_poses(log);
+  const std::vector<VehiclePose> poses = simulation::argoverse2_poses(log, left_out);
   imports::write_drive(out, poses, {});
   fmt::print("{}: {} poses\n", log.string(), poses.size());
 }
 
 void import_argoverse2(const LogOptions& options) {
-  for (const auto& log : simulation::argoverse2_logs(options.directory))
-    import_log(log, file_of_log(options.out, options.directory, log, ".mcap"),
-               file_of_log(options.truth, options.directory, log, ".truth.json"));
+  const auto logs = read_and_warn(options.directory, options.strict, [&](LeftOut& left_out) {
+    return simulation::argoverse2_logs(options.directory, left_out);
+  });
+  for (const auto& log : logs) {
+    read_and_warn(log.string(), options.strict, [&](LeftOut& left_out) {
+      import_log(log, file_of_log(options.out, options.directory, log, ".mcap"),
+                 file_of_log(options.truth, options.directory, log, ".truth.json"), left_out);
+      return true;
+    });
+  }
 }
 
 void add_argoverse2(CLI::App& app) {
@@ -169,6 +163,7 @@ void add_argoverse2(CLI::App& app) {
   outputs->add_option("--out", options->out, "Recording of the poses to write (.mcap)");
   outputs->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   outputs->require_option(1, 2);
+  add_strict(*command, options->strict);
   command->footer("For a directory of logs, --out and --truth are folders, with a file per log.");
   command->callback([options] { import_argoverse2(*options); });
 }

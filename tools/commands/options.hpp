@@ -42,6 +42,11 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
       ->expected(4);
 }
 
+/// Adds --strict.
+inline void add_strict(CLI::App& command, bool& strict) {
+  command.add_flag("--strict", strict, "Fail at the first thing that is wrong, instead of leaving it out");
+}
+
 /// A reader that a writer knows already may need this much longer to know the writer. Messages sent before
 /// are lost.
 inline constexpr std::chrono::seconds kDiscovery{1};

@@ -14,8 +14,10 @@ std::vector<experiment::DriveSpec> RoadList::drives(
     roads.push_back(std::make_shared<const simulation::Road>(std::move(road)));
   };
   for (const std::string& name : scenarios) add(simulation::make_scenario(name, speed_mps));
+  LeftOut left_out;
   for (const std::string& directory : argoverse2)
-    for (const auto& log : simulation::argoverse2_logs(directory)) add(simulation::load_argoverse2(log));
+    for (const auto& log : simulation::argoverse2_logs(directory, left_out))
+      add(simulation::load_argoverse2(log));
   for (const std::string& file : lanelet2) add(simulation::load_lanelet2(file, speed_mps));
   std::vector<experiment::DriveSpec> drives;
   drives.reserve(roads.size() * noises.size() * seeds.size());

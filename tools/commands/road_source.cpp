@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "commands/options.hpp"
+#include "commands/warn_of.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/lanelet2.hpp"
 #include "simulation/scenarios.hpp"
@@ -13,11 +14,16 @@
 namespace laneloom::commands {
 namespace {
 
-std::filesystem::path only_log(const std::filesystem::path& directory) {
-  const std::vector<std::filesystem::path> logs = simulation::argoverse2_logs(directory);
+std::vector<std::filesystem::path> logs_in(const std::string& directory, bool strict) {
+  return read_and_warn(directory, strict,
+                       [&](LeftOut& left_out) { return simulation::argoverse2_logs(directory, left_out); });
+}
+
+std::filesystem::path only_log(const std::string& directory, bool strict) {
+  const std::vector<std::filesystem::path> logs = logs_in(directory, strict);
   if (logs.size() > 1)
-    throw std::runtime_error(fmt::format("{}: holds {} logs; name one, as {}", directory.string(),
-                                         logs.size(), logs.front().string()));
+    throw std::runtime_error(
+        fmt::format("{}: holds {} logs; name one, as {}", directory, logs.size(), logs.front().string()));
   return logs.front();
 }
 
@@ -26,7 +32,7 @@ std::filesystem::path only_log(const std::filesystem::path& directory) {
 std::vector<RoadSource> RoadSource::each() const {
   if (argoverse2.empty()) return {*this};
   std::vector<RoadSource> sources;
-  for (const auto& log : simulation::argoverse2_logs(argoverse2)) {
+  for (const auto& log : logs_in(argoverse2, strict)) {
     sources.push_back(*this);
     sources.back().argoverse2 = log.string();
   }
@@ -34,9 +40,15 @@ std::vector<RoadSource> RoadSource::each() const {
 }
 
 simulation::Road RoadSource::load() const {
-  if (!argoverse2.empty()) return simulation::load_argoverse2(only_log(argoverse2));
-  if (!lanelet2.empty()) return simulation::load_lanelet2(lanelet2, speed_mps);
-  return simulation::make_scenario(scenario, speed_mps);
+  if (!argoverse2.empty()) {
+    const std::filesystem::path log = only_log(argoverse2, strict);
+    return read_and_warn(log, strict,
+                         [&](LeftOut& left_out) { return simulation::load_argoverse2(log, left_out); });
+  }
+  if (lanelet2.empty()) return simulation::make_scenario(scenario, speed_mps);
+  return read_and_warn(lanelet2, strict, [&](LeftOut& left_out) {
+    return simulation::load_lanelet2(lanelet2, speed_mps, left_out);
+  });
 }
 
 simulation::Perception RoadSource::perception(const simulation::Road& road) const {
@@ -56,6 +68,7 @@ void add_road_source(CLI::App& command, RoadSource& source) {
       ->capture_default_str();
   add_noise(command, source.noise);
   command.add_option("--seed", source.seed, "Seed of the noise")->capture_default_str();
+  add_strict(command, source.strict);
 }
 
 }  // namespace laneloom::commands

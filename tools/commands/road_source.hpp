@@ -17,17 +17,18 @@ struct RoadSource {
   double speed_mps = 10.0;
   NoiseOption noise{.name = "none"};
   std::uint64_t seed = 1;
+  bool strict = false;
 
   /// One source per log if a directory of several logs is given, or else this one alone.
   std::vector<RoadSource> each() const;
-  /// Loads the road. Throws std::runtime_error or std::invalid_argument naming the problem with the road, or
-  /// if there are several.
+  /// Loads the road, and warns of what is wrong with it and was left out. Throws std::runtime_error or
+  /// std::invalid_argument naming the problem with the road, or if there are several.
   simulation::Road load() const;
   simulation::Perception perception(const simulation::Road& road) const;
 };
 
 /// Adds --scenario, --argoverse2 and --lanelet2, of which one is needed, and --speed, --noise,
-/// --no-field-of-view and --seed.
+/// --no-field-of-view, --seed and --strict.
 void add_road_source(CLI::App& command, RoadSource& source);
 
 }  // namespace laneloom::commands

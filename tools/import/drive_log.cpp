@@ -46,25 +46,25 @@ Eigen::Isometry3d from_right_forward() {
 
 }  // namespace
 
-DriveLog argoverse2_drive(const std::filesystem::path& log_directory) {
+DriveLog argoverse2_drive(const std::filesystem::path& log_directory, LeftOut& left_out) {
   const std::filesystem::path whole = std::filesystem::weakly_canonical(log_directory);
   const std::string log_id = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   DriveLog drive{.name = log_id,
-                 .poses = simulation::argoverse2_poses(log_directory),
+                 .poses = simulation::argoverse2_poses(log_directory, left_out),
                  .ground_z_m = kArgoverse2Ground_m};
   drive.stamp_ns_of = Argoverse2Samples{log_id, drive.poses.front().stamp_ns, drive.poses.back().stamp_ns};
   return drive;
 }
 
-DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
-                     PointAxes axes) {
+DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples, PointAxes axes,
+                     LeftOut& left_out) {
   std::map<std::string, std::int64_t> stamps;
-  io::for_each_csv_row(samples, "token,timestamp_ns", [&](std::string_view row) {
+  io::for_each_csv_row(samples, "token,timestamp_ns", left_out, [&](std::string_view row) {
     const std::string token(io::take_field(row));
     if (!stamps.emplace(token, io::take_number<std::int64_t>(row)).second)
-      throw std::runtime_error("the sample " + token + " is given twice");
+      throw std::runtime_error("a sample that is given twice");
   });
-  DriveLog drive{.name = samples.string(), .poses = simulation::read_pose_table(poses)};
+  DriveLog drive{.name = samples.string(), .poses = simulation::read_pose_table(poses, left_out)};
   drive.stamp_ns_of = [stamps = std::move(stamps)](const std::string& token) -> std::optional<std::int64_t> {
     const auto found = stamps.find(token);
     return found == stamps.end() ? std::nullopt : std::optional(found->second);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/left_out.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::imports {
@@ -27,7 +28,7 @@ struct DriveLog {
 /// The drive of a log of Argoverse 2 (its directory, named by the log's id). Samples are called `<log
 /// id>_<stamp in ns>`, or by the stamp alone: then a sample belongs to this log if it lies between the log's
 /// poses. Points are in the vehicle's frame.
-DriveLog argoverse2_drive(const std::filesystem::path& log_directory);
+DriveLog argoverse2_drive(const std::filesystem::path& log_directory, LeftOut& left_out);
 
 /// The drive of a scene of nuScenes, from the folder of tables (v1.0-…). Points are in a level frame at the
 /// LiDAR: x right, y forward. It is turned by the LiDAR's yaw alone, and the road is at z = 0. Throws
@@ -37,8 +38,9 @@ DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& 
 enum class PointAxes : std::uint8_t { forward_left, right_forward };
 
 /// A drive of any other data set, from poses as read_pose_table() reads them, and a table of samples with the
-/// columns token and timestamp_ns. Points are in the vehicle's frame, with axes as `axes` says.
-DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
-                     PointAxes axes);
+/// columns token and timestamp_ns. Points are in the vehicle's frame, with axes as `axes` says. Rows that are
+/// wrong, and samples that come twice, are left out.
+DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples, PointAxes axes,
+                     LeftOut& left_out);
 
 }  // namespace laneloom::imports

@@ -16,6 +16,12 @@ bool next_line(std::istream& in, std::string& line) {
 
 void for_each_csv_row(const std::filesystem::path& path, std::string_view columns,
                       const std::function<void(std::string_view)>& visit) {
+  LeftOut nothing(/*strict=*/true);
+  for_each_csv_row(path, columns, nothing, visit);
+}
+
+void for_each_csv_row(const std::filesystem::path& path, std::string_view columns, LeftOut& left_out,
+                      const std::function<void(std::string_view)>& visit) {
   std::ifstream in(path);
   std::string line;
   if (!next_line(in, line)) throw std::runtime_error(path.string() + ": cannot be read");
@@ -25,7 +31,9 @@ void for_each_csv_row(const std::filesystem::path& path, std::string_view column
     try {
       visit(line);
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
+      const std::string place = ":" + std::to_string(number);
+      if (left_out.strict()) throw std::runtime_error(path.string() + place + ": " + error.what());
+      left_out.add(error.what(), path.filename().string() + place);
     }
   }
 }

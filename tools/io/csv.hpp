@@ -9,6 +9,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/left_out.hpp"
+
 /// Checked reading of comma-separated values without quotes.
 namespace laneloom::io {
 
@@ -16,6 +18,10 @@ namespace laneloom::io {
 /// them. Throws std::runtime_error naming the file if it cannot be read or has other columns. Adds file and
 /// line to a std::runtime_error that visit() throws.
 void for_each_csv_row(const std::filesystem::path& path, std::string_view columns,
+                      const std::function<void(std::string_view)>& visit);
+
+/// Does the same, but leaves rows out whose visit() throws, unless `left_out` is strict.
+void for_each_csv_row(const std::filesystem::path& path, std::string_view columns, LeftOut& left_out,
                       const std::function<void(std::string_view)>& visit);
 
 /// Takes the first field off a row.

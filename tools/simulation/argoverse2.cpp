@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -113,32 +114,35 @@ class LaneReader {
   std::map<std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>>, ElementId> marking_of_;
 };
 
+/// Reads the members of an object. Those that are wrong are left out.
 template <typename Read>
-void for_each_member(const json& archive, const char* key, Read read) {
-  io::required(archive, key, [&](const json& members) {
+void for_each_member(const json& archive, const std::string& key, LeftOut& left_out, Read read) {
+  io::required(archive, key.c_str(), [&](const json& members) {
     if (!members.is_object()) throw io::JsonError("must be an object");
     for (const auto& [name, member] : members.items()) {
       try {
         read(member);
       } catch (const io::JsonError& error) {
-        throw error.inside(name);
+        if (left_out.strict()) throw error.inside(name);
+        left_out.add(key + ": " + error.reason(), key + "." + name);
       }
     }
     return true;
   });
 }
 
-Road read_map(const json& archive) {
+Road read_map(const json& archive, LeftOut& left_out) {
   Road road;
   LaneReader lanes;
-  for_each_member(archive, "lane_segments", [&](const json& segment) { lanes.read(segment); });
+  for_each_member(archive, "lane_segments", left_out, [&](const json& segment) { lanes.read(segment); });
   std::move(lanes).finish(road);
   join_markings(road, kJoin_m);
   std::vector<Polyline> areas;
   LengthLimit limit;
-  for_each_member(archive, "drivable_areas", [&](const json& area) {
-    areas.push_back(io::required(area, "area_boundary", xyz_line));
-    if (!limit.add(areas.back())) throw io::JsonError("area_boundary", LengthLimit::kComplaint);
+  for_each_member(archive, "drivable_areas", left_out, [&](const json& area) {
+    Polyline outline = io::required(area, "area_boundary", xyz_line);
+    if (!limit.add(outline)) throw io::JsonError("area_boundary", LengthLimit::kComplaint);
+    areas.push_back(std::move(outline));
   });
   Road edges;
   for (Polyline& edge : outer_edges(areas))
@@ -195,31 +199,39 @@ void add_logs(const std::filesystem::path& directory, int depth, std::vector<std
 
 }  // namespace
 
-std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& directory) {
+std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& directory,
+                                                   LeftOut& left_out) {
   std::vector<std::filesystem::path> logs;
   add_logs(directory, kMaxDepth, logs);
   if (logs.empty())
     throw std::runtime_error(directory.string() +
                              ": holds no log of Argoverse 2 (city_SE3_egovehicle.feather)");
   std::sort(logs.begin(), logs.end());
+  std::set<std::filesystem::path> names;
+  std::erase_if(logs, [&](const std::filesystem::path& log) {
+    if (names.insert(log.filename()).second) return false;
+    if (left_out.strict()) throw std::runtime_error(log.string() + ": is a second log of this name");
+    left_out.add("a second log of this name", std::filesystem::relative(log, directory).string());
+    return true;
+  });
   return logs;
 }
 
-std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory) {
+std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_directory, LeftOut& left_out) {
   const auto file = pose_table(log_directory);
   if (!file) throw std::runtime_error(log_directory.string() + ": has no city_SE3_egovehicle.feather");
-  std::vector<VehiclePose> poses = read_pose_table(*file);
+  std::vector<VehiclePose> poses = read_pose_table(*file, left_out);
   if (poses.back().stamp_ns - poses.front().stamp_ns > kMaxDrive_ns)
     throw std::runtime_error(file->string() + ": lasts longer than an hour");
   return poses;
 }
 
-Road load_argoverse2(const std::filesystem::path& log_directory) {
+Road load_argoverse2(const std::filesystem::path& log_directory, LeftOut& left_out) {
   const std::filesystem::path archive = map_archive(log_directory);
   try {
-    Road road = read_map(io::load_json(archive));
+    Road road = read_map(io::load_json(archive), left_out);
     road.name = std::filesystem::weakly_canonical(log_directory).filename().string();
-    road.drive = resampled(argoverse2_poses(log_directory));
+    road.drive = resampled(argoverse2_poses(log_directory, left_out));
     return road;
   } catch (const io::JsonError& error) {
     throw std::runtime_error(archive.string() + ": " + error.what());

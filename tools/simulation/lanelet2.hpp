@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/left_out.hpp"
 #include "simulation/road.hpp"
 
 namespace laneloom::simulation {
@@ -17,7 +18,16 @@ namespace laneloom::simulation {
 /// lanes share their right borders more often than their left ones, and at least every tenth does. The way is
 /// the longest one found, where lanes without a laneline count little.
 ///
-/// Throws std::runtime_error naming file and element.
-Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps = 10.0);
+/// Elements that an editor marked as deleted are passed over. What is wrong is left out, with what hangs on
+/// it: a node without a place, a way with a node that is not there, a lane with a border that is not there,
+/// an element that comes twice, what follows the place where the file is damaged. Throws std::runtime_error
+/// naming the file if there are no lanes; also naming the first wrong element if `left_out` is strict.
+Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps, LeftOut& left_out);
+
+/// Does so strictly.
+inline Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps = 10.0) {
+  LeftOut nothing(/*strict=*/true);
+  return load_lanelet2(osm_file, speed_mps, nothing);
+}
 
 }  // namespace laneloom::simulation

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/unit_rotation.hpp"
@@ -25,9 +26,9 @@ VehiclePose checked_pose(std::int64_t stamp_ns, const Numbers& v) {
   return pose;
 }
 
-std::vector<VehiclePose> read_csv(const std::filesystem::path& path) {
+std::vector<VehiclePose> read_csv(const std::filesystem::path& path, LeftOut& left_out) {
   std::vector<VehiclePose> poses;
-  io::for_each_csv_row(path, "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m", [&](std::string_view row) {
+  io::for_each_csv_row(path, "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m", left_out, [&](std::string_view row) {
     const auto stamp_ns = io::take_number<std::int64_t>(row);
     Numbers numbers{};
     for (double& number : numbers) number = io::take_number<double>(row);
@@ -36,7 +37,7 @@ std::vector<VehiclePose> read_csv(const std::filesystem::path& path) {
   return poses;
 }
 
-std::vector<VehiclePose> read_feather(const std::filesystem::path& path) {
+std::vector<VehiclePose> read_feather(const std::filesystem::path& path, LeftOut& left_out) {
   const io::FeatherTable table(path);
   const std::vector<std::int64_t> stamps_ns = table.column<std::int64_t>("timestamp_ns");
   std::vector<std::vector<double>> columns;
@@ -49,7 +50,9 @@ std::vector<VehiclePose> read_feather(const std::filesystem::path& path) {
     try {
       poses.push_back(checked_pose(stamps_ns[row], numbers));
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(path.string() + ": row " + std::to_string(row) + ": " + error.what());
+      const std::string place = ": row " + std::to_string(row);
+      if (left_out.strict()) throw std::runtime_error(path.string() + place + ": " + error.what());
+      left_out.add(error.what(), path.filename().string() + place);
     }
   }
   return poses;
@@ -57,9 +60,9 @@ std::vector<VehiclePose> read_feather(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<VehiclePose> read_pose_table(const std::filesystem::path& path) {
+std::vector<VehiclePose> read_pose_table(const std::filesystem::path& path, LeftOut& left_out) {
   std::vector<VehiclePose> poses =
-      cleaned_poses(path.extension() == ".feather" ? read_feather(path) : read_csv(path));
+      cleaned_poses(path.extension() == ".feather" ? read_feather(path, left_out) : read_csv(path, left_out));
   if (poses.size() < 2) throw std::runtime_error(path.string() + ": has fewer than two poses");
   return poses;
 }
