@@ -51,6 +51,7 @@ bool McapReader::OpenSection::operator<(const OpenSection& other) const {
 }
 
 std::optional<McapMessage> McapReader::next() {
+  if (told_damages_ < contents_.damages.size()) throw contents_.damages[told_damages_++];
   if (delivered_) advance_first();
   delivered_ = false;
   while (unopened_ < by_time_.size() && (open_.empty() || contents_.sections[by_time_[unopened_]].start_ns <=
@@ -85,8 +86,8 @@ void McapReader::open(std::size_t number) {
 void McapReader::check_count() {
   const auto expected = std::exchange(contents_.message_count, std::nullopt);  // so that it is reported once
   if (!expected || *expected == count_) return;
-  throw std::runtime_error(file_.path() + ": at its end: " + std::to_string(count_) +
-                           " messages were found, of " + std::to_string(*expected));
+  throw Damage(file_.path(), "its end",
+               std::to_string(count_) + " messages were found, of " + std::to_string(*expected));
 }
 
 void McapReader::advance_first() {

@@ -20,8 +20,8 @@ struct McapMessage {
 /// Reads the messages of an MCAP file in the order of their log times, and messages of equal log times in the
 /// order of the file. The file may have an index or not: sections whose times overlap are merged. Unknown
 /// records are passed over. Every length is checked against the file and the limits before anything is
-/// allocated. All throw std::runtime_error naming file and offset; next() may then be called again, and goes
-/// on behind the damage. Not thread-safe.
+/// allocated. All throw std::runtime_error naming the file. next() throws Damage; it may then be called
+/// again, and goes on behind it. Not thread-safe.
 class McapReader {
  public:
   explicit McapReader(const std::string& path, const RecordingLimits& limits = {});
@@ -59,6 +59,7 @@ class McapReader {
   std::size_t unopened_ = 0;          ///< place in by_time_ of the first section that is not opened
   std::vector<OpenSection> open_;     ///< heap: the one with the next message is first
   std::uint64_t open_bytes_ = 0;
+  std::size_t told_damages_ = 0;
   bool delivered_ = false;  ///< the first message of open_ was returned by next()
   std::uint64_t count_ = 0;
 };

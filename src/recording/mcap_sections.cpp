@@ -4,6 +4,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "recording/compression.hpp"
+
 namespace laneloom::recording {
 namespace {
 
@@ -11,6 +13,9 @@ constexpr std::uint64_t kWindowBytes = 4096;
 /// A stretch of messages outside of chunks is cut at this size, so that few of them are in memory at a time.
 constexpr std::uint64_t kMaxLooseBytes = 1U << 20U;
 constexpr std::size_t kLogTimeOffset = 6;  // in a message
+/// The most that comes before the records of a chunk: times, size, CRC, the name of a compression, length.
+constexpr std::size_t kChunkHeaderBytes = 3 * 8 + 4 + (4 + 4) + 8;
+constexpr std::size_t kMaxDamages = 1000;  // more are not worth memory
 
 struct Record {
   McapOpcode opcode{};
@@ -26,17 +31,17 @@ class Walk {
       : file_(file), limits_(limits), catalogue_(catalogue), end_(file.size()) {}
 
   McapContents contents() {
-    std::uint64_t offset = check_magic();
-    bool first = true, footer = false;
-    while (const auto record = record_at(offset)) {
-      if (first != (record->opcode == McapOpcode::header)) fail(offset, "a header is expected at the start");
-      first = false;
-      footer = record->opcode == McapOpcode::footer;
-      if (footer) break;
-      at_offset(file_, offset, [&] { take(*record); });
-      offset = record->end();
+    std::optional<std::uint64_t> offset = check_magic();
+    const std::uint64_t first = *offset;
+    while (offset) {
+      const std::uint64_t start = *offset;
+      try {
+        offset = take_at(start, start == first);
+      } catch (const Damage& damage) {
+        offset = next_chunk(start + 1);
+        add(damage);
+      }
     }
-    if (!footer && !contents_.cut_off) fail(offset, "there is no footer");
     return std::move(contents_);
   }
 
@@ -44,6 +49,59 @@ class Walk {
   [[noreturn]] void fail(std::uint64_t offset, const std::string& what) const {
     at_offset(file_, offset, [&] { throw std::runtime_error(what); });
     throw std::logic_error("not reached");
+  }
+
+  /// Takes a record. Returns the offset of the one behind it. None: there is none.
+  std::optional<std::uint64_t> take_at(std::uint64_t offset, bool is_first) {
+    const auto record = record_at(offset);
+    if (!record) {
+      if (!contents_.cut_off) fail(offset, "there is no footer");
+      if (next_chunk(offset + 1)) fail(offset, "a record that is longer than the file, or none");
+      return std::nullopt;
+    }
+    if (is_first != (record->opcode == McapOpcode::header)) fail(offset, "a header is expected at the start");
+    if (record->opcode == McapOpcode::footer) {
+      if (!contents_.cut_off && record->end() != end_) fail(offset, "a footer that is not at the end");
+      return std::nullopt;
+    }
+    // With a wrong length, what comes behind is no record, and other chunks may be lost with this one.
+    if (record->opcode == McapOpcode::chunk && !is_chunk(offset) && next_chunk(offset + 1))
+      fail(offset, "a chunk of another length than it says");
+    try {
+      at_offset(file_, offset, [&] { take(*record); });
+    } catch (const Damage& damage) {
+      add(damage);
+    }
+    return record->end();
+  }
+
+  void add(const Damage& damage) {
+    if (contents_.damages.size() < kMaxDamages) contents_.damages.push_back(damage);
+  }
+
+  /// The offset of the next chunk, told by its header. None: no other follows.
+  std::optional<std::uint64_t> next_chunk(std::uint64_t offset) {
+    offset = std::max(offset, next_chunk_);  // what was searched already is not searched again
+    for (; offset < end_; ++offset)
+      if (window(offset, 1)[0] == static_cast<std::uint8_t>(McapOpcode::chunk) && is_chunk(offset)) break;
+    next_chunk_ = std::min(offset, end_);
+    return next_chunk_ < end_ ? std::optional(next_chunk_) : std::nullopt;
+  }
+
+  bool is_chunk(std::uint64_t offset) try {
+    if (end_ - offset < kMcapRecordHeaderBytes + kChunkHeaderBytes) return false;
+    ByteReader reader(window(offset, kMcapRecordHeaderBytes + kChunkHeaderBytes));
+    reader.number<std::uint8_t>();
+    const auto length = reader.number<std::uint64_t>();
+    const auto start_ns = reader.number<std::uint64_t>(), end_ns = reader.number<std::uint64_t>();
+    reader.bytes(sizeof(std::uint64_t) + sizeof(std::uint32_t));  // size and CRC
+    compression_of(reader.text());
+    const auto records = reader.number<std::uint64_t>();
+    const std::uint64_t header = kChunkHeaderBytes - reader.remaining();
+    return start_ns <= end_ns && length <= end_ - offset - kMcapRecordHeaderBytes && records <= length &&
+           records + header == length;
+  } catch (const std::runtime_error&) {
+    return false;
   }
 
   /// Returns the offset of the first record.
@@ -136,6 +194,7 @@ class Walk {
   std::uint64_t end_;  ///< of the records
   McapContents contents_;
   bool data_ended_ = false;
+  std::uint64_t next_chunk_ = 0;  ///< none begins between the place of the last search and this one
   Bytes window_, content_;
   std::uint64_t window_offset_ = 0;
 };

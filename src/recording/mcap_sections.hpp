@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "recording/damage.hpp"
 #include "recording/files.hpp"
 #include "recording/mcap_catalogue.hpp"
 #include "recording/recording.hpp"
@@ -24,20 +25,21 @@ struct McapContents {
   bool has_summary = false;           ///< the summary described all channels, also those within chunks
   std::optional<std::uint64_t> message_count;  ///< by the file's statistics
   bool cut_off = false;                        ///< the file ends before its footer
+  std::vector<Damage> damages;                 ///< places that were passed over, in the order of the file
 };
 
 /// Walks over the file from record to record, without reading chunks and messages. An index is neither needed
-/// nor trusted. Throws std::runtime_error naming file and offset when the file is malformed. A file that is
-/// cut off behind its magic is not malformed.
+/// nor trusted. What is behind a malformed record, up to the next chunk, is passed over. Throws
+/// std::runtime_error naming the file when it does not begin as MCAP does.
 McapContents list_contents(const InputFile& file, const RecordingLimits& limits, McapCatalogue& catalogue);
 
-/// Calls `work`, and adds file and offset to a std::runtime_error that it throws.
+/// Calls `work`. A std::runtime_error that it throws becomes Damage at this offset.
 template <class Work>
 auto at_offset(const InputFile& file, std::uint64_t offset, Work work) {
   try {
     return work();
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(file.path() + ": at byte " + std::to_string(offset) + ": " + error.what());
+    throw Damage(file.path(), "byte " + std::to_string(offset), error.what());
   }
 }
 

@@ -105,6 +105,29 @@ TEST_F(McapTest, ADamagedChunkLeavesTheOthersReadableWithoutASummaryAndOrder) {
   EXPECT_EQ(count, messages.size() - 7);
 }
 
+TEST_F(McapTest, ADamagedLengthLosesOneChunkAlone) {
+  const auto messages = by_time(random_messages(70, 5));
+  // The third chunk's record is longer than the file, or swallows the fourth, or is shorter than it was.
+  for (const auto& [byte, value] : {std::pair(8, 0x7f), std::pair(2, 0x10), std::pair(2, 0x01)}) {
+    const auto ends = write_in_chunks(messages, Compression::none);
+    Bytes bytes = bytes_of(path_);
+    bytes[ends[2].size + static_cast<std::size_t>(byte)] = static_cast<std::uint8_t>(value);
+    write_bytes(path_, bytes);
+    McapReader reader(path_);
+    LeftOut left_out;
+    std::size_t count = 0;
+    while (next_or_leave_out(left_out, [&] { return reader.next(); })) ++count;
+    EXPECT_EQ(count, messages.size() - 7);
+    EXPECT_GE(left_out.count(), 2U);  // the chunk, and the messages that are missing
+    EXPECT_NE(left_out.summary().find("(first: byte " + std::to_string(ends[2].size) + ")"),
+              std::string::npos)
+        << left_out.summary();
+    LeftOut strict(/*strict=*/true);
+    McapReader again(path_);
+    EXPECT_THROW(next_or_leave_out(strict, [&] { return again.next(); }), Damage);
+  }
+}
+
 TEST_F(McapTest, AFullDiskKeepsWhatIsWritten) {
   const auto messages = by_time(random_messages(300, 5));
   std::size_t written = 0;
