@@ -101,6 +101,36 @@ TEST(Replay, JsonLinesAndRecordingsOfOneDriveHaveOneHash) {
   EXPECT_EQ(hash_of(folder.file("drive.mcap")), hash);
 }
 
+TEST(Replay, LinesThatAreNoFramesAreLeftOutUnlessThatIsStrict) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("drive.jsonl");
+  std::ofstream(path) << "{}\n" << io::to_json_line(drive().front()) << "\n";
+  const auto source = open_messages(path, "map");
+  EXPECT_TRUE(source->next());
+  EXPECT_TRUE(source->next());
+  EXPECT_FALSE(source->next());
+  EXPECT_EQ(source->left_out().summary(), "1 x t: is missing (first: line 1)");
+  EXPECT_THROW(open_messages(path, "map", /*strict=*/true)->next(), std::runtime_error);
+  std::ofstream(path) << "{}\n";
+  EXPECT_THROW(open_messages(path, "map")->next(), std::runtime_error) << "nothing is left";
+}
+
+TEST(Replay, FilesOfAnotherKindAreNamed) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("drive");
+  for (const auto& [begin, kind] :
+       {std::pair("SQLite format 3", "is a database of SQLite"),
+        std::pair("#ROSBAG V2.0", "is a bag of ROS 1"), std::pair("", "is empty")}) {
+    std::ofstream(path) << begin;
+    try {
+      open_messages(path, "map");
+      FAIL() << kind;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()).find(path + ": " + kind), 0U) << error.what();
+    }
+  }
+}
+
 TEST(Replay, RawMessagesOfLinesAreThoseOfTheirRecording) {
   const TemporaryFolder folder;
   io::JsonLinesWriter lines(folder.file("drive.jsonl"));

@@ -41,6 +41,7 @@ struct Moments {
 
 Moments moments(const std::string& path, Stamps stamps, const evaluation::InputAccount& account) {
   warn_of(path, account.refused, account.cut_off);
+  warn_of(path, account.left_out);
   if (stamps.empty())
     throw std::runtime_error(
         fmt::format("{}: of {} frames or maps, none can be compared", path, account.count));

@@ -42,6 +42,7 @@ void rate_replay(const LaterInputs& inputs, Pairs& pairs) {
     replay.add(std::move(*message));
   }
   warn_of(inputs.in, source->refused(), source->cut_off());
+  warn_of(inputs.in, source->left_out());
 }
 
 void rate_files(const LaterInputs& inputs, Pairs& pairs) {
@@ -50,9 +51,11 @@ void rate_files(const LaterInputs& inputs, Pairs& pairs) {
   };
   const evaluation::InputAccount frames = evaluation::for_each_frame(inputs.frames, add_frame);
   warn_of(inputs.frames, frames.refused, frames.cut_off);
+  warn_of(inputs.frames, frames.left_out);
   const evaluation::InputAccount maps =
       evaluation::for_each_map(inputs.map, [&](const LocalMap& map) { pairs.add(map); });
   warn_of(inputs.map, maps.refused, maps.cut_off);
+  warn_of(inputs.map, maps.left_out);
 }
 
 }  // namespace

@@ -22,6 +22,8 @@
 #include "export/lanelet2_file.hpp"
 #include "export/weave.hpp"
 #include "export/weld.hpp"
+#include "recording/damage.hpp"
+#include "recording/recording.hpp"
 #include "replay/replay.hpp"
 
 namespace laneloom::commands {
@@ -73,13 +75,17 @@ void take_json_maps(const std::string& path, DriveReader& taker) {
     taker.take(published);
   });
   warn_of(path, account.refused, account.cut_off);
+  warn_of(path, account.left_out);
 }
 
 void take_recorded_maps(const std::string& path, DriveReader& taker) {
   recording::RecordingReader reader(path);
-  while (const auto recorded = reader.next())
+  LeftOut left_out;
+  while (const auto recorded = recording::next_or_leave_out(left_out, [&] { return reader.next(); }))
     if (const auto* published = std::get_if<PublishedMap>(&recorded->message)) taker.take(*published);
-  if (taker.maps() > 0) warn_of(path, reader.refused(), reader.cut_off());
+  if (taker.maps() == 0) return;
+  warn_of(path, reader.refused(), reader.cut_off());
+  warn_of(path, left_out);
 }
 
 void map_frames(const std::string& path, const Config& config, DriveReader& taker) {

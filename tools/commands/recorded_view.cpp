@@ -14,6 +14,7 @@
 #include "drawing/drawing_json.hpp"
 #include "drawing/truth.hpp"
 #include "evaluation/inputs.hpp"
+#include "recording/damage.hpp"
 #include "recording/recording.hpp"
 #include "replay/message_source.hpp"
 #include "replay/replay.hpp"
@@ -45,7 +46,8 @@ class Storer {
 void load_recording(const std::string& path, Storer& storer) {
   recording::RecordingReader reader(path);
   view::MomentBuilder builder;
-  while (auto recorded = reader.next()) {
+  LeftOut left_out;
+  while (auto recorded = recording::next_or_leave_out(left_out, [&] { return reader.next(); })) {
     const auto add = [&](auto&& message) {
       return builder.add(std::forward<decltype(message)>(message), recorded->log_time_ns);
     };
@@ -53,6 +55,7 @@ void load_recording(const std::string& path, Storer& storer) {
   }
   if (const auto last = builder.finish()) storer.add(*last);
   warn_of(path, reader.refused(), reader.cut_off());
+  warn_of(path, left_out);
 }
 
 /// Maps one drive with several configurations, in step.
@@ -105,6 +108,7 @@ void load_comparison(const RecordedInputs& inputs, Storer& storer) {
       replay::open_messages(inputs.recording, config::load_config(inputs.configs.front()).dds.map_frame_id);
   while (const auto message = source->next_input()) comparison.add(*message, storer);
   warn_of(inputs.recording, source->refused(), source->cut_off());
+  warn_of(inputs.recording, source->left_out());
 }
 
 /// Maps by their stamps.

@@ -46,6 +46,7 @@ Inputs read(const RenderOptions& options) {
           inputs.frames.push_back({frame, T_map_body});
         });
     warn_of(options.frames, account.refused, account.cut_off);
+    warn_of(options.frames, account.left_out);
     if (inputs.frames.empty())
       throw std::runtime_error(fmt::format("{}: holds no frame with a pose", options.frames));
   }
@@ -53,6 +54,7 @@ Inputs read(const RenderOptions& options) {
     const evaluation::InputAccount account =
         evaluation::for_each_map(options.map, [&](const LocalMap& map) { inputs.maps.push_back(map); });
     warn_of(options.map, account.refused, account.cut_off);
+    warn_of(options.map, account.left_out);
     if (inputs.maps.empty()) throw std::runtime_error(options.map + ": holds no map");
   }
   return inputs;

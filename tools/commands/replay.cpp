@@ -35,6 +35,7 @@ struct ReplayOptions {
   bool range_given = false;
   bool verify = false;
   bool publish = false;
+  bool strict = false;
   int readers = 0;
   DdsConfig dds;
   double speed_up = 1.0;
@@ -77,7 +78,7 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
                  const simulation::Road* truth) {
   const Config config = read_config(options, config_file);
   const std::unique_ptr<replay::MessageSource> source =
-      replay::open_messages(options.in, config.dds.map_frame_id);
+      replay::open_messages(options.in, config.dds.map_frame_id, options.strict);
   const std::unique_ptr<replay::MapOutput> output =
       out.empty() ? nullptr : replay::create_map_output(out, kCompressions.at(options.compression));
   std::unique_ptr<evaluation::MapEvaluation> evaluation;
@@ -112,6 +113,7 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
   result.advice = advice_on(input, result, config.mapper);
   if (evaluation) result.score = evaluation->score();
   warn_of(options.in, source->refused(), source->cut_off());
+  warn_of(options.in, source->left_out());
   return result;
 }
 
@@ -178,7 +180,7 @@ void replay(ReplayOptions& options) {
 void play(const ReplayOptions& options) {
   catch_stop_signals();
   const std::unique_ptr<replay::MessageSource> source =
-      replay::open_messages(options.in, options.dds.map_frame_id);
+      replay::open_messages(options.in, options.dds.map_frame_id, options.strict);
   replay::Player player(options.dds, options.speed_up);
   while (player.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
@@ -191,6 +193,7 @@ void play(const ReplayOptions& options) {
   }
   bar.clear();
   warn_of(options.in, source->refused(), source->cut_off());
+  warn_of(options.in, source->left_out());
   fmt::print("{} detections and {} poses published", player.detections(), player.poses());
   if (player.not_taken() > 0) fmt::print(", {} messages not taken by DDS", player.not_taken());
   fmt::print("\n");
@@ -217,6 +220,7 @@ void add_replay(CLI::App& app) {
       command->add_option("--truth", options->truth, "Truth of the road (.json), to rate the maps by");
   auto* verify = command->add_flag("--verify", options->verify,
                                    "Fail unless the maps equal those that a live service published");
+  add_strict(*command, options->strict);
   CLI::Option* range = add_range(*command, options->range);
   CLI::Option* publish = command->add_flag("--publish", options->publish,
                                            "Publish the detections and poses on DDS, as they came");

@@ -13,6 +13,7 @@ void replay_input(const std::string& path, const Config& config, replay::Replay&
   while (std::optional<recording::RecordedMessage> message = source->next_input())
     replay.add(std::move(*message));
   warn_of(path, source->refused(), source->cut_off());
+  warn_of(path, source->left_out());
 }
 
 }  // namespace laneloom::commands

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "io/json_lines.hpp"
+#include "recording/damage.hpp"
 #include "recording/recording.hpp"
 #include "session/gate.hpp"
 #include "session/synchroniser.hpp"
@@ -101,7 +102,7 @@ InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame&
   if (recording::is_recording(path)) {
     recording::RecordingReader reader(path.string());
     RecordedFrames frames(visit);
-    while (auto recorded = reader.next()) {
+    while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {
       if (const auto* pose = std::get_if<VehiclePose>(&recorded->message)) frames.add(*pose);
       auto* frame = std::get_if<DetectionFrame>(&recorded->message);
       if (frame == nullptr) continue;
@@ -114,7 +115,7 @@ InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame&
   }
   io::JsonLinesReader in(path);
   Ascending ascending(visit);
-  for (; const auto record = in.next_frame(); ++account.count)
+  for (; const auto record = in.next_frame(account.left_out); ++account.count)
     ascending(record->frame, transform(record->pose));
   return account;
 }
@@ -124,7 +125,7 @@ InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& vis
   NewestMaps maps(visit);
   if (recording::is_recording(path)) {
     recording::RecordingReader reader(path.string());
-    while (auto recorded = reader.next()) {
+    while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {
       auto* published = std::get_if<PublishedMap>(&recorded->message);
       if (published == nullptr) continue;
       ++account.count;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "base/left_out.hpp"
 #include "laneloom/counters.hpp"
 #include "laneloom/types.hpp"
 
@@ -15,6 +16,7 @@ namespace laneloom::evaluation {
 struct InputAccount {
   std::size_t count = 0;  ///< of frames or maps in the file, visited or not
   Counters refused;       ///< messages that were refused, by "<topic>: <reason>"
+  LeftOut left_out;       ///< damaged parts of a recording, or lines that are no frames
   bool cut_off = false;   ///< the file is cut off
 };
 

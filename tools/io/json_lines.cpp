@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "io/json_fields.hpp"
+
 namespace laneloom::io {
 namespace {
 
@@ -23,12 +25,21 @@ double JsonLinesReader::progress() const {
 }
 
 std::optional<FrameRecord> JsonLinesReader::next_frame() {
-  if (!next_line()) return std::nullopt;
-  try {
-    return frame_from_json(line_);
-  } catch (const std::runtime_error& complaint) {
-    throw error(complaint.what());
+  LeftOut nothing(/*strict=*/true);
+  return next_frame(nothing);
+}
+
+std::optional<FrameRecord> JsonLinesReader::next_frame(LeftOut& left_out) {
+  while (next_line()) {
+    try {
+      return frame_from_json(line_);
+    } catch (const JsonError& complaint) {
+      if (left_out.strict()) throw error(complaint.what());
+      const bool cut = !line_ended_ && line_.find_last_of('}') != line_.size() - 1;
+      left_out.add(cut ? "the last line is cut off" : complaint.reason(), "line " + std::to_string(number_));
+    }
   }
+  return std::nullopt;
 }
 
 std::optional<LocalMap> JsonLinesReader::next_map() {
@@ -52,6 +63,7 @@ bool JsonLinesReader::next_line() {
       if (line_.size() == kMaxLineBytes) throw error("the line is too long");
       line_.push_back(static_cast<char>(c));
     }
+    line_ended_ = c == '\n';
     bytes_read_ += line_.size() + 1;
   } while (line_.find_first_not_of(" \t\r") == std::string::npos);
   return true;

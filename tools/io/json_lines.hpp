@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/left_out.hpp"
 #include "laneloom/types.hpp"
 
 /// Frames and maps as JSON, one per line. It is the simple interface for other tools.
@@ -71,6 +72,8 @@ class JsonLinesReader {
   /// key; reading may go on with the line after.
   std::optional<FrameRecord> next_frame();
   std::optional<LocalMap> next_map();
+  /// The next line that is a frame. Others are left out, unless that is strict.
+  std::optional<FrameRecord> next_frame(LeftOut& left_out);
 
   /// The share of the file that was read, 0..1.
   double progress() const;
@@ -85,6 +88,7 @@ class JsonLinesReader {
   std::uintmax_t bytes_read_ = 0;
   std::string line_;
   std::size_t number_ = 0;
+  bool line_ended_ = false;  ///< by a line feed, and not by the end of the file
 };
 
 /// Writes a file line by line. Not thread-safe.

@@ -39,6 +39,7 @@ void warn(const std::string& text) {
 void warn_of(const std::string& file, const evaluation::InputAccount& account) {
   for (const auto& [what, count] : account.refused.values())
     warn(fmt::format("{}: {} messages passed over: {}", file, count, what));
+  if (!account.left_out.empty()) warn(file + ": left out: " + account.left_out.summary());
   if (account.cut_off) warn(file + ": the recording is cut off");
 }
 

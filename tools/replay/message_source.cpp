@@ -1,42 +1,73 @@
 #include "replay/message_source.hpp"
 
-#include <array>
-#include <fstream>
+#include <stdexcept>
+#include <type_traits>
 #include <utility>
 
+#include "io/file_kind.hpp"
 #include "io/json_lines.hpp"
 #include "laneloom/dds/cdr.hpp"
+#include "recording/damage.hpp"
 
 namespace laneloom::replay {
 namespace {
 
+/// Throws if something was left out, and nothing is left.
+void check_rest(const std::string& path, const LeftOut& left_out, std::uint64_t count) {
+  if (count > 0 || left_out.empty()) return;
+  throw std::runtime_error(path + ": nothing of it can be read: " + left_out.summary());
+}
+
 class McapMessages : public MessageSource {
  public:
-  McapMessages(const std::string& path, const std::string& map_frame_id) : reader_(path, map_frame_id) {}
+  McapMessages(const std::string& path, const std::string& map_frame_id, bool strict)
+      : path_(path), reader_(path, map_frame_id), left_out_(strict) {}
 
-  std::optional<recording::RecordedMessage> next() override { return reader_.next(); }
-  std::optional<recording::RecordedMessage> next_input() override { return reader_.next_input(); }
-  std::optional<recording::RawMessage> next_raw() override { return reader_.next_raw(); }
+  std::optional<recording::RecordedMessage> next() override {
+    return rest([&] { return reader_.next(); });
+  }
+  std::optional<recording::RecordedMessage> next_input() override {
+    return rest([&] { return reader_.next_input(); });
+  }
+  std::optional<recording::RawMessage> next_raw() override {
+    return rest([&] { return reader_.next_raw(); });
+  }
   double progress() const override { return reader_.progress(); }
   Counters refused() const override { return reader_.refused(); }
+  const LeftOut& left_out() const override { return left_out_; }
   bool cut_off() const override { return reader_.cut_off(); }
 
  private:
+  template <typename Next>
+  std::invoke_result_t<Next> rest(Next next) {
+    auto message = recording::next_or_leave_out(left_out_, next);
+    if (!message) check_rest(path_, left_out_, count_);
+    ++count_;
+    return message;
+  }
+
+  std::string path_;
   recording::RecordingReader reader_;
+  LeftOut left_out_;
+  std::uint64_t count_ = 0;
 };
 
 class JsonLinesMessages : public MessageSource {
  public:
-  JsonLinesMessages(const std::string& path, std::string map_frame_id)
-      : reader_(path), map_frame_id_(std::move(map_frame_id)) {}
+  JsonLinesMessages(const std::string& path, std::string map_frame_id, bool strict)
+      : path_(path), reader_(path), map_frame_id_(std::move(map_frame_id)), left_out_(strict) {}
 
   std::optional<recording::RecordedMessage> next() override {
     if (frame_) {
       const std::int64_t stamp_ns = frame_->stamp_ns;
       return recording::RecordedMessage{stamp_ns, stamp_ns, *std::exchange(frame_, std::nullopt)};
     }
-    std::optional<io::FrameRecord> record = reader_.next_frame();
-    if (!record) return std::nullopt;
+    std::optional<io::FrameRecord> record = reader_.next_frame(left_out_);
+    if (!record) {
+      check_rest(path_, left_out_, count_);
+      return std::nullopt;
+    }
+    ++count_;
     frame_ = std::move(record->frame);
     return recording::RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
   }
@@ -53,19 +84,26 @@ class JsonLinesMessages : public MessageSource {
 
   double progress() const override { return reader_.progress(); }
   Counters refused() const override { return {}; }
+  const LeftOut& left_out() const override { return left_out_; }
   bool cut_off() const override { return false; }
 
  private:
+  std::string path_;
   io::JsonLinesReader reader_;
   std::string map_frame_id_;
+  LeftOut left_out_;
+  std::uint64_t count_ = 0;              ///< of frames
   std::optional<DetectionFrame> frame_;  ///< the next message; its pose was given out before it
 };
 
 }  // namespace
 
-std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id) {
-  if (recording::is_recording(path)) return std::make_unique<McapMessages>(path, map_frame_id);
-  return std::make_unique<JsonLinesMessages>(path, map_frame_id);
+std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id,
+                                             bool strict) {
+  if (recording::is_recording(path)) return std::make_unique<McapMessages>(path, map_frame_id, strict);
+  if (const std::string kind = io::file_kind(path); !kind.empty())
+    throw std::runtime_error(path + ": " + kind + "; a recording (MCAP) or frames as JSON lines are needed");
+  return std::make_unique<JsonLinesMessages>(path, map_frame_id, strict);
 }
 
 }  // namespace laneloom::replay

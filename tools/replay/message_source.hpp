@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/left_out.hpp"
 #include "recording/recording.hpp"
 
 namespace laneloom::replay {
@@ -13,7 +14,8 @@ class MessageSource {
  public:
   virtual ~MessageSource() = default;
 
-  /// The next message. None: the end. Throws std::runtime_error naming file and place of a malformed message.
+  /// The next message. None: the end. What is wrong is left out. Throws std::runtime_error naming the file if
+  /// nothing is left, and naming the place of the first thing that is wrong if the source is strict.
   virtual std::optional<recording::RecordedMessage> next() = 0;
   /// The next detections or pose. Messages that a service published are passed over unread.
   virtual std::optional<recording::RecordedMessage> next_input() = 0;
@@ -23,13 +25,16 @@ class MessageSource {
   virtual double progress() const = 0;
   /// Counts of the messages that were refused so far, by "<topic>: <reason>".
   virtual Counters refused() const = 0;
+  /// What was left out so far: damaged parts of a recording, or lines that are no frames.
+  virtual const LeftOut& left_out() const = 0;
   /// Whether the file is cut off.
   virtual bool cut_off() const = 0;
 };
 
 /// Opens a recording (MCAP), or frames with their poses as JSON lines (io/json_lines.hpp); the first bytes
 /// tell which. A line gives the pose and then the frame, both at the frame's stamp. `map_frame_id` is the
-/// frame of the poses. Throws std::runtime_error if the file cannot be read.
-std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id);
+/// frame of the poses. Throws std::runtime_error if the file cannot be read, or is of another kind.
+std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id,
+                                             bool strict = false);
 
 }  // namespace laneloom::replay
