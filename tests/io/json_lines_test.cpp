@@ -228,23 +228,6 @@ TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {
   EXPECT_FALSE(reader.next_frame());
 }
 
-TEST(JsonLines, LinesThatAreNoFramesAreLeftOut) {
-  const TemporaryFolder folder;
-  const fs::path path = folder.file("frames.jsonl");
-  const std::string frame = to_json_line(full_frame());
-  std::ofstream(path) << frame << "\n{\"t\":1}\n{\"t\":NaN}\n{\"t\":2}\n"
-                      << frame << "\n"
-                      << frame.substr(0, 50);
-  JsonLinesReader reader(path);
-  LeftOut left_out;
-  EXPECT_TRUE(reader.next_frame(left_out));
-  EXPECT_TRUE(reader.next_frame(left_out));
-  EXPECT_FALSE(reader.next_frame(left_out));
-  EXPECT_EQ(left_out.summary(),
-            "2 x pose: is missing (first: line 2), 1 x t: must be finite (first: line 3), "
-            "1 x the last line is cut off (first: line 6)");
-}
-
 TEST(JsonLines, FilesThatCannotBeOpenedAreErrors) {
   const TemporaryFolder folder;
   EXPECT_THROW(JsonLinesReader(folder.file("absent.jsonl")), std::runtime_error);

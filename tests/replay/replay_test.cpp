@@ -104,12 +104,15 @@ TEST(Replay, JsonLinesAndRecordingsOfOneDriveHaveOneHash) {
 TEST(Replay, LinesThatAreNoFramesAreLeftOutUnlessThatIsStrict) {
   const TemporaryFolder folder;
   const std::string path = folder.file("drive.jsonl");
-  std::ofstream(path) << "{}\n" << io::to_json_line(drive().front()) << "\n";
+  const std::string frame = io::to_json_line(drive().front());
+  std::ofstream(path) << "{}\n" << frame << "\n{\"t\":NaN}\n{}\n" << frame.substr(0, 50);
   const auto source = open_messages(path, "map");
   EXPECT_TRUE(source->next());
   EXPECT_TRUE(source->next());
   EXPECT_FALSE(source->next());
-  EXPECT_EQ(source->left_out().summary(), "1 x t: is missing (first: line 1)");
+  EXPECT_EQ(source->left_out().summary(),
+            "2 x t: is missing (first: line 1), 1 x t: must be finite (first: line 3), "
+            "1 x the last line is cut off (first: line 5)");
   EXPECT_THROW(open_messages(path, "map", /*strict=*/true)->next(), std::runtime_error);
   std::ofstream(path) << "{}\n";
   EXPECT_THROW(open_messages(path, "map")->next(), std::runtime_error) << "nothing is left";
