@@ -155,7 +155,10 @@ TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
                std::to_string(confidence) + R"(,"points":[[0,9,0],[10,9,0],[25,9,0]]}]})" + "\n";
     return lines;
   };
-  EXPECT_THAT(advice(""), HasSubstr("no map came of it: the input has no detections"));
+  EXPECT_THAT(advice("\n"), HasSubstr("no map came of it: the input has no detections"));
+  std::ofstream(file("empty.jsonl")).close();
+  EXPECT_EQ(run({"replay", "--in", file("empty.jsonl")}), 1);
+  EXPECT_THAT(output(), HasSubstr("is empty; a recording (MCAP) or frames"));
   EXPECT_THAT(advice(R"({"t":-1,"pose":[0,0,0,0,0,0,1],"detections":[]})"),
               HasSubstr("all poses were refused, most of them as 'stamp'"));
   EXPECT_THAT(advice(R"({"t":1,"pose":[0,0,0,0,0,0,1],"detections":[]})"),
