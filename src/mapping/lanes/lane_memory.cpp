@@ -79,18 +79,18 @@ bool has_same_boundaries(const Lane& lane, const KnownLane& known) {
 
 /// Which pairs of a found and a known lane are compared.
 struct Round {
-  bool recent = false;           ///< with lanes of the last map, else with older ones
+  std::uint64_t frame = 0;
+  bool recent = false;           ///< with lanes of the map before this frame, else with older ones
   bool same_boundaries = false;  ///< between the same boundaries, else between others
 };
 
 /// The covers of known lanes by lanes that are not yet recognised.
 std::vector<Cover> covers_of(const std::vector<Lane>& lanes, const std::vector<KnownLane>& known,
-                             const Recognition& recognition, double max_distance_m, std::uint64_t frame,
-                             const Round& round) {
+                             const Recognition& recognition, double max_distance_m, const Round& round) {
   const bool same_boundaries = round.same_boundaries;
   std::vector<Cover> covers;
   for (std::size_t k = 0; k < known.size(); ++k) {
-    if ((known[k].last_frame + 1 == frame) != round.recent) continue;
+    if ((known[k].last_frame + 1 == round.frame) != round.recent) continue;
     std::optional<MeasuredPolyline> line;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       if (!recognition.is_open(i, k) || has_same_boundaries(lanes[i], known[k]) != same_boundaries) continue;
@@ -112,8 +112,8 @@ Recognition recognised(const std::vector<Lane>& lanes, const std::vector<KnownLa
   Recognition recognition(lanes.size(), known.size());
   for (const bool recent : {true, false})
     for (const bool same_boundaries : {true, false})
-      recognition.settle(covers_of(lanes, known, recognition, 0.5 * config.min_width_m, frame,
-                                   {.recent = recent, .same_boundaries = same_boundaries}));
+      recognition.settle(covers_of(lanes, known, recognition, 0.5 * config.min_width_m,
+                                   {.frame = frame, .recent = recent, .same_boundaries = same_boundaries}));
   return recognition;
 }
 

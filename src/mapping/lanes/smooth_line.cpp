@@ -55,7 +55,7 @@ class BandMatrix {
 Polyline smooth_line(const Polyline& points, const std::vector<double>& weights) {
   if (points.size() <= kBand) return points;
   const BandMatrix matrix(weights);
-  const Point origin = points.front();
+  const Point& origin = points.front();
   Polyline line(points.size()), rest(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) line[i] = weights[i] * (points[i] - origin);
   matrix.solve(line);

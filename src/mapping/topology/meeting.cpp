@@ -34,7 +34,7 @@ struct Node {
 /// The points where lanes meet.
 class Nodes {
  public:
-  explicit Nodes(RoadGraph& road) : road_(road) {
+  explicit Nodes(RoadGraph& road) {
     for (Lane& lane : road.lanes) lanes_.emplace(lane.id, &lane);
   }
 
@@ -71,7 +71,6 @@ class Nodes {
     return found->second;
   }
 
-  RoadGraph& road_;
   std::map<ElementId, Lane*> lanes_;
   std::map<LaneEnd, std::size_t> index_;
   std::vector<Node> nodes_;
