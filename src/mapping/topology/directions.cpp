@@ -244,10 +244,12 @@ bool is_known(double log_odds, double told) {
 }
 
 /// The sense in which the lanes of a group are published, with respect to its first lane: as traffic runs; if
-/// that is not known, as they ran in the last map; else as traffic rather runs.
+/// that is not known, as they ran in the last map; else as traffic rather runs, or as the first lane.
 double sense_of(double log_odds, double told_direction, double told_orientation) {
-  if (is_known(log_odds, told_direction) || told_orientation == 0.0) return log_odds < 0.0 ? -1.0 : 1.0;
-  return told_orientation;
+  const double as_traffic = log_odds < 0.0 ? -1.0 : 1.0;
+  if (is_known(log_odds, told_direction)) return as_traffic;
+  if (told_orientation != 0.0) return told_orientation;
+  return std::abs(log_odds) >= kDoubted ? as_traffic : 1.0;
 }
 
 /// Keeps the direction of a lane, once it is sure, until it is no longer known.

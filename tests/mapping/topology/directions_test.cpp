@@ -251,10 +251,12 @@ TEST_F(Directions, ASolidLineAtTheSideSpeaksAsAnEdgeDoesButLess) {
     boundaries_[side].marking.styles = {{{0, 40}, MarkingStyle::solid}};
   }
   // With one frame's driving in it, an edge would do.
+  const std::vector<Lane> lanes = lanes_;
   observe(test::at(20, 1.75));
   find();
   EXPECT_FALSE(known(12));
   divider(MarkingStyle::solid);
+  lanes_ = lanes;
   memory_ = {};
   find();
   EXPECT_TRUE(known(11) && known(12));
