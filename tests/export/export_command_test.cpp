@@ -99,7 +99,7 @@ TEST_F(ExportCommand, WrongUseAndInputAreNamed) {
   EXPECT_THAT(output(), HasSubstr("broken.jsonl"));
   std::ofstream(file("empty.jsonl")) << "";
   EXPECT_EQ(run({"export", "--in", file("empty.jsonl"), "--lanelet2", file("map.osm")}), 1);
-  EXPECT_THAT(output(), HasSubstr("has no maps"));
+  EXPECT_THAT(output(), HasSubstr("empty.jsonl: is empty"));
   EXPECT_EQ(run({"export", "--in", file("empty.jsonl"), "--lanelet2", file("empty.jsonl")}), 1);
   EXPECT_THAT(output(), HasSubstr("written over"));
   EXPECT_FALSE(std::filesystem::exists(file("map.osm")));

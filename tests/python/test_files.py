@@ -72,12 +72,24 @@ def test_truth(tmp_path, truth):
 
 
 @pytest.mark.parametrize("read", [laneloom.read_frames, laneloom.read_maps, laneloom.Truth.load])
-def test_what_cannot_be_read_is_named(tmp_path, read):
+def test_a_file_that_is_not_there_is_named(tmp_path, read):
     with pytest.raises(RuntimeError, match="nowhere"):
         read(tmp_path / "nowhere")
+
+
+@pytest.mark.parametrize("read", [laneloom.read_maps, laneloom.Truth.load])
+def test_what_cannot_be_read_is_named(tmp_path, read):
     (tmp_path / "broken").write_text('{"t": 1}\n')
     with pytest.raises(RuntimeError, match="broken"):
         read(tmp_path / "broken")
+
+
+def test_a_line_that_is_no_frame_is_left_out_with_a_warning(tmp_path):
+    laneloom.write_frames(tmp_path / "a.jsonl", made_frames())
+    with open(tmp_path / "a.jsonl", "a") as file:
+        file.write('{"t": 1}\n')
+    with pytest.warns(RuntimeWarning, match="a.jsonl: left out: 1 x pose"):
+        assert len(laneloom.read_frames(tmp_path / "a.jsonl")) == len(made_frames())
 
 
 def test_a_recording_that_is_cut_off_is_a_warning(tmp_path):

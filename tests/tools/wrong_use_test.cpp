@@ -85,7 +85,8 @@ TEST_F(Commands, WrongInputIsNamed) {
   EXPECT_THAT(output(), HasSubstr("missing.jsonl"));
   std::ofstream(file("broken.jsonl")) << "\n{\"t\": 1}\n";
   EXPECT_EQ(run({"replay", "--in", file("broken.jsonl")}), 1);
-  EXPECT_THAT(output(), HasSubstr("broken.jsonl:2: pose"));
+  EXPECT_THAT(output(),
+              HasSubstr("broken.jsonl: nothing of it can be read: 1 x pose: is missing (first: line 2)"));
   EXPECT_EQ(run({"evaluate", "--truth", file("broken.jsonl"), "--map", file("broken.jsonl")}), 1);
   EXPECT_NE(run({"simulate", "--scenario", "nowhere", "--frames", file("x")}), 0);
   EXPECT_NE(run({"simulate", "--frames", file("x")}), 0);

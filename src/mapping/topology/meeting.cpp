@@ -89,6 +89,45 @@ void bend(Polyline& line, const Point& front_shift, const Point& back_shift) {
         weight(arcs_m[i], front_shift) * front_shift + weight(length_m - arcs_m[i], back_shift) * back_shift;
 }
 
+/// Takes arc lengths of a line to those of the same places after it was bent.
+class ArcsAfter {
+ public:
+  ArcsAfter(std::vector<double> before_m, std::vector<double> after_m)
+      : before_m_(std::move(before_m)), after_m_(std::move(after_m)) {}
+
+  void take(Stretch& stretch) const { stretch = {at(stretch.from_m), at(stretch.to_m)}; }
+  void take(std::vector<Stretch>& stretches) const {
+    for (Stretch& stretch : stretches) take(stretch);
+  }
+
+ private:
+  double at(double arc_m) const {
+    const auto next = std::ranges::upper_bound(before_m_, arc_m);
+    if (next == before_m_.begin()) return after_m_.front();
+    if (next == before_m_.end()) return after_m_.back();
+    const auto i = static_cast<std::size_t>(next - before_m_.begin());
+    const double share = (arc_m - before_m_[i - 1]) / (before_m_[i] - before_m_[i - 1]);
+    return after_m_[i - 1] + share * (after_m_[i] - after_m_[i - 1]);
+  }
+
+  std::vector<double> before_m_, after_m_;
+};
+
+/// Shifts both ends of a lane's centerline, and takes its stretches along.
+void bend(Lane& lane, const Point& front_shift, const Point& back_shift) {
+  if (front_shift.isZero(0.0) && back_shift.isZero(0.0)) return;
+  std::vector<double> before_m = arc_lengths(lane.centerline);
+  bend(lane.centerline, front_shift, back_shift);
+  const ArcsAfter arcs(std::move(before_m), arc_lengths(lane.centerline));
+  arcs.take(lane.inferred_ranges);
+  for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {
+    for (Neighbour& neighbour : *neighbours) {
+      arcs.take(neighbour.range);
+      arcs.take(neighbour.crossable);
+    }
+  }
+}
+
 }  // namespace
 
 void meet_at_joints(RoadGraph& road) {
@@ -107,8 +146,7 @@ void meet_at_joints(RoadGraph& road) {
     const auto found = shifts.find({lane, end});
     return found == shifts.end() ? Point::Zero() : found->second;
   };
-  for (Lane& lane : road.lanes)
-    bend(lane.centerline, shift_of(lane.id, End::front), shift_of(lane.id, End::back));
+  for (Lane& lane : road.lanes) bend(lane, shift_of(lane.id, End::front), shift_of(lane.id, End::back));
   for (Linkage& linkage : road.linkages) {
     if (!linkage.path.empty()) {
       bend(linkage.path, shift_of(linkage.from, End::back), shift_of(linkage.to, End::front));

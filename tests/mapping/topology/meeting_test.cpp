@@ -47,6 +47,19 @@ TEST(MeetAtJoints, LanesThatOverlapMeet) {
   for (std::size_t i = 1; i < line.size(); ++i) EXPECT_GT(line[i].x(), line[i - 1].x());
 }
 
+TEST(MeetAtJoints, StretchesOfALaneFollowItsCenterline) {
+  Lane from = lane(1, {0, 0, 0}, {20, 0, 0});
+  from.inferred_ranges = {{0.0, 20.0}};
+  from.left_neighbours = {{.lane = 3, .range = {0.0, 20.0}, .crossable = {{0.0, 2.0}}}};
+  const RoadGraph road = met({from, lane(2, {18.5, 0, 0}, {40, 0, 0})}, {{.from = 1, .to = 2}});
+  const Lane& shorter = road.lanes[0];
+  EXPECT_NEAR(length(shorter.centerline), 19.25, 1e-9);
+  EXPECT_NEAR(shorter.inferred_ranges[0].to_m, 19.25, 1e-9);
+  EXPECT_NEAR(shorter.left_neighbours[0].range.to_m, 19.25, 1e-9);
+  EXPECT_LE(shorter.left_neighbours[0].crossable[0].to_m, 2.0);
+  EXPECT_GT(shorter.left_neighbours[0].crossable[0].to_m, 1.8);
+}
+
 TEST(MeetAtJoints, ThreeLanesMeetInOnePoint) {
   const RoadGraph road = met({lane(1, {0, 0, 0}, {20, 0, 0}), lane(2, {20.5, 0.3, 0}, {40, 2, 0}),
                               lane(3, {20.5, -0.3, 0}, {40, -2, 0})},
