@@ -1,8 +1,9 @@
 #include "cdr/protection.hpp"
 
-#include <boost/crc.hpp>
-
+#include <array>
 #include <cstddef>
+
+#include "cdr/crc64.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -11,14 +12,13 @@ constexpr std::size_t kCrc = 4;  // behind the encapsulation
 constexpr std::size_t kDataId = kCrc + sizeof(std::uint64_t);
 constexpr std::size_t kBehind = kDataId + sizeof(std::uint32_t);
 
-using Crc64 = boost::crc_optimal<64, 0x42F0E1EBA9EA3693ULL, ~0ULL, ~0ULL, true, true>;
-
 std::uint64_t crc_of(std::span<const std::uint8_t> message) {
   Crc64 crc;
-  crc.process_bytes(message.data() + kDataId, message.size() - kDataId);
+  crc.add(message.subspan(kDataId));
   // RTPS pads a message to a multiple of four bytes, and does not always tell the reader.
-  for (std::size_t size = message.size(); size % 4 != 0; ++size) crc.process_byte(0);
-  return crc.checksum();
+  constexpr std::array<std::uint8_t, 3> kZeros{};
+  crc.add(std::span(kZeros).first((4 - message.size() % 4) % 4));
+  return crc.value();
 }
 
 /// Reads and writes numbers in the byte order that the encapsulation names.

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "cdr/crc64.hpp"
 #include "cdr/random_messages.hpp"
 #include "cdr/serialise.hpp"
 
@@ -29,6 +32,20 @@ std::uint64_t crc_of(std::string_view text) {
     for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xC96C5795D7870F42ULL : 0ULL);
   }
   return ~crc;
+}
+
+TEST(Crc64, IsThatOfSingleBitsForEveryLengthAndPlaceOfACut) {
+  std::string text;
+  for (int length = 0; length < 40; ++length) {
+    const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+    for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+      Crc64 crc;
+      crc.add(bytes.first(cut));
+      crc.add(bytes.subspan(cut));
+      EXPECT_EQ(crc.value(), crc_of(text)) << length << " bytes, cut at " << cut;
+    }
+    text.push_back(static_cast<char>(37 * length + 200));
+  }
 }
 
 TEST(Protection, IsTheCrcThatItSaysOfAMessageFilledUpWithZeros) {
