@@ -10,7 +10,7 @@ constexpr std::size_t kMostWriters = 4096;
 constexpr std::int64_t kLongestLeap = 1 << 20;
 // A writer that has been silent for longer may have sent anything in a network that was cut.
 constexpr std::int64_t kMemory_ns = 60'000'000'000;
-// What a writer may have sent before it was heard: 100 messages a second for more than a year.
+// A writer may have sent so many messages before it was heard: 100 a second for more than a year.
 constexpr std::int64_t kLastUnheard = std::int64_t{1} << 32;
 
 /// Whether a writer announces endpoints. It sends no more than one message for each change of one.

@@ -18,8 +18,8 @@ struct Fragmentation {
   bool operator==(const Fragmentation&) const = default;
 };
 
-/// What remote writers have sent, so that a number of a stranger in their name does not leap. Memory is
-/// bounded: the writer that was heard least recently is forgotten first.
+/// The newest numbers of remote writers, by which a stranger's leap in their name is seen. Memory is bounded:
+/// the writer that was heard least recently is forgotten first.
 class HeardWriters {
  public:
   /// Whether a writer may have come to this sequence number.

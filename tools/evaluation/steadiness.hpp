@@ -14,16 +14,14 @@
 ///
 /// The maps of the first 2 s do not count, nor those of the last 4 m, where the vehicle may stand at the end
 /// of the road. The inner range is 2 m behind the vehicle to 25 m ahead, and 12 m to each side.
-/// - A lane blinks where its id comes or goes, and more than 3 m of it lay in the inner range as seen from
-/// the
-///   map without it. So the border of the range makes nothing blink.
+/// - A lane blinks where its id comes or goes, and more than 3 m of it lay in the other map's inner range.
+///   So the border of the range makes nothing blink.
 /// - A life is short where the id of a lane that blinks away was in maps for less than 0.5 s.
 /// - A lane is turned where its centerline leads the other way round than in the map before.
 /// - A lane is doubted where its direction is another one than in the map before, or is no longer known.
 /// - The way (evaluation/way.hpp) has a reach, joints and kinks. It jumps sideways from one map to the next.
-/// - The own lane changes where another id is under the vehicle, no linkage joins the two, and the lane
-/// before
-///   is gone. If it is still there, the vehicle itself changed lanes.
+/// - The own lane changes where another id is under the vehicle, no linkage joins the two, and the former
+///   one is gone. If it is still there, the vehicle itself changed lanes.
 /// - With truth: the way is right where 75 % of the next 10 m of the true way lie within 0.5 m of it.
 namespace laneloom::evaluation {
 

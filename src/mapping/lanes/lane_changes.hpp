@@ -6,7 +6,7 @@
 
 namespace laneloom::lanes {
 
-/// Where a lane may be left for the one beside it.
+/// The places where a lane may be left for the one beside it.
 class LaneChanges {
  public:
   /// `graph` must outlive this.

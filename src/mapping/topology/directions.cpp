@@ -252,10 +252,12 @@ double sense_of(double log_odds, double told_direction, double told_orientation)
   return std::abs(log_odds) >= kDoubted ? as_traffic : 1.0;
 }
 
-/// Keeps the direction of a lane, once it is sure, until it is no longer known.
+/// Remembers the belief in the direction of a lane. Keeps the direction, once it is sure, until it is no
+/// longer known.
 void keep_direction(double log_odds, ElementId lane, lanes::LaneMemory& memory) {
   lanes::KnownLane* remembered = memory.find(lane);
   if (remembered == nullptr) return;
+  remembered->belief = log_odds;
   const int sense = log_odds < 0.0 ? -1 : 1;
   const bool kept = std::abs(log_odds) >= (remembered->kept_direction == sense ? kKnown : kSure);
   remembered->kept_direction = kept ? sense : 0;
@@ -292,7 +294,6 @@ void find_directions(const DirectionConfig& config, lanes::LaneMemory& memory, R
     const std::size_t of = groups.group(i);
     const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
     keep_direction(sense * belief[of], lane.id, memory);
-    if (lanes::KnownLane* known = memory.find(lane.id)) known->belief = sense * belief[of];
     if (is_known(belief[of], before.direction[of])) lane.direction = Lane::Direction::along_centerline;
     if (sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0)
       against.push_back(lane.id);

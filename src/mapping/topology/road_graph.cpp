@@ -58,9 +58,8 @@ void RoadGraph::rename(const std::map<ElementId, ElementId>& ids) {
   };
   for (Lane& lane : lanes) {
     rename(lane.id);
-    for (const Side side : kSides)
-      for (Neighbour& neighbour : side == Side::left ? lane.left_neighbours : lane.right_neighbours)
-        rename(neighbour.lane);
+    for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours})
+      for (Neighbour& neighbour : *neighbours) rename(neighbour.lane);
   }
   for (Linkage& linkage : linkages) {
     rename(linkage.from);
