@@ -19,7 +19,7 @@ struct DirectedLane {
 
   /// The lane's centerline in the order in which it is walked; map frame.
   Polyline centerline() const;
-  /// Whether traffic is known to run against the sense in which the lane is walked.
+  /// Whether traffic is known to run against the sense in which the lane is walked, or either way.
   bool oncoming() const;
 };
 
@@ -28,7 +28,7 @@ struct Passage {
   DirectedLane to;  ///< walked in the same sense as the lane that the passage leaves
   Polyline path;    ///< across the gap, map frame, as it is walked; empty: the lanes meet
   Linkage::Turn turn = Linkage::Turn::unknown;  ///< in the sense in which it is walked; never unknown
-  double confidence = 0.0;                      ///< 0..1
+  double probability = 0.0;                     ///< 0..1
 };
 
 /// A place in a lane.
@@ -72,14 +72,16 @@ class LaneGraph {
   const Lane* at(const Point& place) const;
 
   /// The lane that the vehicle drives in, walked in the vehicle's sense. Of overlapping lanes it is the one
-  /// with which the vehicle's heading is aligned best. Empty: the vehicle is in no lane of the map.
+  /// with which the vehicle's heading is aligned best. A shoulder or parking strip is it only where the
+  /// vehicle is in nothing else. Empty: the vehicle is in no lane of the map.
   std::optional<LanePosition> own_lane(const Eigen::Isometry3d& T_map_body) const;
 
   /// The passages from the end of a lane, in the order of the map's linkages.
   std::vector<Passage> successors(const DirectedLane& lane) const;
 
   /// The passages ahead, one after the other, over `reach_m` from the beginning of `lane`. Each is the best
-  /// for the wished turn; once that turn was made, straight on is wished. Each lane is walked once at most.
+  /// for the wished turn; once that turn was made, straight on is wished. Each lane is walked once at most,
+  /// and shoulders and parking strips never.
   std::vector<Passage> ahead(const DirectedLane& lane, Linkage::Turn wished, double reach_m) const;
 
   /// The neighbouring lane on a side at an arc length of the centerline. Side and arc length are as `lane` is
@@ -92,8 +94,8 @@ class LaneGraph {
 };
 
 /// The best passage for a wished turn: one that makes the turn, else one straight on, else any. Of equals it
-/// is the one of higher confidence. A passage into oncoming traffic counts one step less. Null: `passages` is
-/// empty.
+/// is the one of higher probability. A passage into oncoming traffic counts one step less. Null: `passages`
+/// is empty.
 const Passage* best_passage(const std::vector<Passage>& passages, Linkage::Turn wished);
 
 }  // namespace laneloom

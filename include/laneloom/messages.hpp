@@ -15,15 +15,18 @@ enum class MapState : std::uint8_t { ok, degraded, stale };
 
 /// Why a map is not OK.
 enum class StateReason : std::uint8_t {
-  no_detections,    ///< none arrived for longer than configured
-  no_poses,         ///< none arrived for longer than configured
-  unsynchronised,   ///< frames arrive that are not fused; the counters say why
-  starting,         ///< nothing was fused yet
-  reset,            ///< the map was cleared a moment ago, after a jump of pose or stamp
-  overloaded,       ///< frames were dropped, or a tick missed its deadline
-  another_service,  ///< one more service publishes maps for the same vehicle
-  outdated,         ///< the fused frames are far older than the poses, by their stamps
-  source_not_fused  ///< one of several sources of detections is no longer fused
+  no_detections,             ///< none arrived for longer than configured
+  no_poses,                  ///< none arrived for longer than configured
+  unsynchronised,            ///< frames arrive that are not fused; the counters say why
+  starting,                  ///< nothing was fused yet
+  reset,                     ///< the map was cleared a moment ago, after a jump of pose or stamp
+  overloaded,                ///< frames were dropped, or a tick missed its deadline
+  another_service,           ///< one more service publishes maps for the same vehicle
+  outdated,                  ///< the fused frames are far older than the poses, by their stamps
+  source_not_fused,          ///< one of several sources of detections is no longer fused
+  sources_disagree,          ///< two sources contradict each other by more than their deviations
+  poses_jumped,              ///< the poses jumped by less than the gate refuses; the map was moved or cleared
+  driving_side_contradicted  ///< traffic keeps to the other side than the configuration says
 };
 
 /// Names one detection frame that went into the map.

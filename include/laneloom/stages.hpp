@@ -19,9 +19,10 @@ enum class Stage : std::uint8_t {
   lane_boundaries,  ///< joins markings to boundaries
   road_sections,    ///< groups boundaries that run side by side
   lanes,            ///< builds lanes between boundaries, and gives them their ids
-  linkages          ///< links lanes, finds their directions, and ties stoplines to them
+  linkages,         ///< links lanes, finds their directions, and ties stoplines to them
+  way               ///< makes the own way
 };
-inline constexpr std::size_t kStageCount = 13;
+inline constexpr std::size_t kStageCount = 14;
 /// The name of the enumerator.
 const char* name(Stage stage);
 

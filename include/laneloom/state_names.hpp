@@ -42,6 +42,12 @@ inline const char* name(StateReason reason) {
       return "outdated";
     case StateReason::source_not_fused:
       return "source_not_fused";
+    case StateReason::sources_disagree:
+      return "sources_disagree";
+    case StateReason::poses_jumped:
+      return "poses_jumped";
+    case StateReason::driving_side_contradicted:
+      return "driving_side_contradicted";
   }
   return "unknown";
 }

@@ -79,6 +79,7 @@ inline constexpr auto kFields<Marking> = std::tuple(
 
 template <>
 inline constexpr auto kFields<LineageEvent> = std::tuple(LANELOOM_FIELD(LineageEvent, kind),
+                                                         LANELOOM_FIELD(LineageEvent, element),
                                                          LANELOOM_FIELD(LineageEvent, id),
                                                          LANELOOM_FIELD(LineageEvent, other));
 
@@ -88,15 +89,23 @@ inline constexpr auto kFields<Neighbour> = std::tuple(LANELOOM_FIELD(Neighbour, 
                                                       LANELOOM_FIELD(Neighbour, crossable).needed());
 
 template <>
-inline constexpr auto kFields<Lane> = std::tuple(
-    LANELOOM_FIELD(Lane, id).needed(), LANELOOM_FIELD(Lane, left_boundary),
-    LANELOOM_FIELD(Lane, right_boundary), LANELOOM_FIELD(Lane, left_range), LANELOOM_FIELD(Lane, right_range),
-    LANELOOM_FIELD(Lane, left).needed(), LANELOOM_FIELD(Lane, right).needed(),
-    LANELOOM_FIELD(Lane, centerline).needed(), LANELOOM_FIELD(Lane, width_m).as("width"),
-    LANELOOM_FIELD(Lane, left_neighbours), LANELOOM_FIELD(Lane, right_neighbours),
-    LANELOOM_FIELD(Lane, direction), LANELOOM_FIELD(Lane, section), LANELOOM_FIELD(Lane, status),
-    LANELOOM_FIELD(Lane, existence_probability).as("existence").share().or_unknown(),
-    LANELOOM_FIELD(Lane, inferred_ranges));
+inline constexpr auto kFields<Border> = std::tuple(LANELOOM_FIELD(Border, boundary).needed(),
+                                                   LANELOOM_FIELD(Border, range).needed(),
+                                                   LANELOOM_FIELD(Border, on_boundary).needed());
+
+template <>
+inline constexpr auto kFields<Lane> =
+    std::tuple(LANELOOM_FIELD(Lane, id).needed(), LANELOOM_FIELD(Lane, left_borders),
+               LANELOOM_FIELD(Lane, right_borders), LANELOOM_FIELD(Lane, left).needed(),
+               LANELOOM_FIELD(Lane, right).needed(), LANELOOM_FIELD(Lane, centerline).needed(),
+               LANELOOM_FIELD(Lane, width_m).as("width"), LANELOOM_FIELD(Lane, left_neighbours),
+               LANELOOM_FIELD(Lane, right_neighbours), LANELOOM_FIELD(Lane, direction),
+               LANELOOM_FIELD(Lane, direction_probability).share().or_unknown(),
+               LANELOOM_FIELD(Lane, direction_evidence), LANELOOM_FIELD(Lane, use),
+               LANELOOM_FIELD(Lane, use_probability).share().or_unknown(), LANELOOM_FIELD(Lane, section),
+               LANELOOM_FIELD(Lane, status),
+               LANELOOM_FIELD(Lane, existence_probability).as("existence").share().or_unknown(),
+               LANELOOM_FIELD(Lane, evidence), LANELOOM_FIELD(Lane, inferred_ranges));
 
 // In JSON, the marking is in the list of all markings.
 template <>
@@ -108,8 +117,37 @@ template <>
 inline constexpr auto kFields<Linkage> =
     std::tuple(LANELOOM_FIELD_AS(Linkage, from, from_lane).as("from").needed(),
                LANELOOM_FIELD_AS(Linkage, to, to_lane).as("to").needed(), LANELOOM_FIELD(Linkage, kind),
-               LANELOOM_FIELD(Linkage, turn), LANELOOM_FIELD(Linkage, confidence).share(),
-               LANELOOM_FIELD(Linkage, path));
+               LANELOOM_FIELD(Linkage, turn), LANELOOM_FIELD(Linkage, probability).share(),
+               LANELOOM_FIELD(Linkage, evidence), LANELOOM_FIELD(Linkage, path));
+
+template <>
+inline constexpr auto kFields<WayStation> = std::tuple(
+    LANELOOM_FIELD(WayStation, point).needed(),
+    LANELOOM_FIELD(WayStation, heading_rad).as("heading").needed(),
+    LANELOOM_FIELD(WayStation, curvature_per_m).as("curvature"), LANELOOM_FIELD(WayStation, lane),
+    LANELOOM_FIELD(WayStation, left_m).as("left"), LANELOOM_FIELD(WayStation, right_m).as("right"),
+    LANELOOM_FIELD(WayStation, width_m).as("width"),
+    LANELOOM_FIELD(WayStation, lateral_stddev_m).as("lateral_stddev"), LANELOOM_FIELD(WayStation, status),
+    LANELOOM_FIELD(WayStation, may_change_left), LANELOOM_FIELD(WayStation, may_change_right));
+
+template <>
+inline constexpr auto kFields<WayLane> = std::tuple(LANELOOM_FIELD_AS(WayLane, id, lane).as("lane").needed(),
+                                                    LANELOOM_FIELD(WayLane, against),
+                                                    LANELOOM_FIELD(WayLane, entry),
+                                                    LANELOOM_FIELD(WayLane, range));
+
+template <>
+inline constexpr auto kFields<Way> = std::tuple(LANELOOM_FIELD(Way, step_m).as("step").needed(),
+                                                LANELOOM_FIELD(Way, stations).needed(),
+                                                LANELOOM_FIELD(Way, lanes),
+                                                LANELOOM_FIELD(Way, known_m).as("known"),
+                                                LANELOOM_FIELD(Way, confirmed_m).as("confirmed"));
+
+template <>
+inline constexpr auto kFields<DrivenPath> =
+    std::tuple(LANELOOM_FIELD(DrivenPath, id).needed(), LANELOOM_FIELD(DrivenPath, points).needed(),
+               LANELOOM_FIELD(DrivenPath, lateral_stddev_m).as("lateral_stddev"),
+               LANELOOM_FIELD(DrivenPath, probability).share());
 
 template <>
 inline constexpr auto kFields<FusedFrame> = std::tuple(
@@ -138,17 +176,23 @@ inline constexpr auto kLast<MarkingStyle> = MarkingStyle::dashed;
 template <>
 inline constexpr auto kLast<ElementStatus> = ElementStatus::inferred;
 template <>
-inline constexpr auto kLast<Lane::Direction> = Lane::Direction::against_centerline;
+inline constexpr auto kLast<Lane::Direction> = Lane::Direction::both;
 template <>
-inline constexpr auto kLast<Linkage::Kind> = Linkage::Kind::ego_track;
+inline constexpr auto kLast<Lane::Use> = Lane::Use::parking;
+template <>
+inline constexpr auto kLast<Evidence> = Evidence{31};  // every kind
+template <>
+inline constexpr auto kLast<Linkage::Kind> = Linkage::Kind::traffic;
 template <>
 inline constexpr auto kLast<Linkage::Turn> = Linkage::Turn::u_turn;
 template <>
 inline constexpr auto kLast<LineageEvent::Kind> = LineageEvent::Kind::retired;
 template <>
+inline constexpr auto kLast<LineageEvent::Element> = LineageEvent::Element::lane;
+template <>
 inline constexpr auto kLast<MapState> = MapState::stale;
 template <>
-inline constexpr auto kLast<StateReason> = StateReason::source_not_fused;
+inline constexpr auto kLast<StateReason> = StateReason::driving_side_contradicted;
 
 /// Converts to the type of any member of an aggregate.
 struct AnyMember {
@@ -176,9 +220,15 @@ static_assert(kUnpublishedMembers<StyleRange> == 0);
 static_assert(kUnpublishedMembers<Marking> == 0);
 static_assert(kUnpublishedMembers<LineageEvent> == 0);
 static_assert(kUnpublishedMembers<Neighbour> == 0);
-static_assert(kUnpublishedMembers<Lane> == 2, "the reversed flags alone are not published");
+static_assert(kUnpublishedMembers<Border> == 1, "`reversed` alone is not published");
+static_assert(kUnpublishedMembers<Lane> == 0);
 static_assert(kUnpublishedMembers<Stopline> == 0);
 static_assert(kUnpublishedMembers<Linkage> == 0);
+static_assert(kUnpublishedMembers<WayStation> == 0);
+static_assert(kUnpublishedMembers<WayLane> == 0);
+static_assert(kUnpublishedMembers<Way> == 2,
+              "wish and change alone are not published: straight on, and none");
+static_assert(kUnpublishedMembers<DrivenPath> == 0);
 static_assert(kUnpublishedMembers<FusedFrame> == 0);
 
 }  // namespace laneloom

@@ -1,5 +1,6 @@
 #include "cdr/bounds.hpp"
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -33,7 +34,7 @@ std::set<ElementId> ids_of(const std::vector<T>& elements) {
 bool within_bounds(const PublishedMap& map) {
   const auto& m = map.map;
   return fits(map.reasons) && fits(map.fused_frames) && fits(m.boundaries) && fits(m.lanes) &&
-         fits(m.stoplines) && fits(m.linkages) && fits(m.lineage);
+         fits(m.stoplines) && fits(m.linkages) && fits(m.way) && fits(m.driven_paths) && fits(m.lineage);
 }
 
 bool within_bounds(const RoadMarkings& markings) { return fits(markings.markings); }
@@ -45,8 +46,12 @@ std::size_t keep_within_bounds(PublishedMap& map) {
   std::size_t gone = prune(map.reasons) + prune(map.fused_frames) + prune(m.lineage) + prune(m.boundaries);
 
   const auto boundaries = ids_of(m.boundaries);
+  const auto is_there = [&](const Border& border) {
+    return border.boundary == kNoElement || boundaries.contains(border.boundary);
+  };
   gone += prune(m.lanes, [&](const Lane& lane) {
-    return boundaries.contains(lane.left_boundary) && boundaries.contains(lane.right_boundary);
+    return std::ranges::all_of(lane.left_borders, is_there) &&
+           std::ranges::all_of(lane.right_borders, is_there);
   });
   const auto lanes = ids_of(m.lanes);
   for (auto& lane : m.lanes) {
@@ -60,6 +65,12 @@ std::size_t keep_within_bounds(PublishedMap& map) {
   gone += prune(m.linkages, [&](const Linkage& linkage) {
     return lanes.contains(linkage.from) && lanes.contains(linkage.to);
   });
+  gone += prune(m.driven_paths);
+  const auto in_map = [&](const WayLane& lane) { return lanes.contains(lane.id); };
+  if (m.way && !(fits(*m.way) && std::ranges::all_of(m.way->lanes, in_map))) {
+    m.way.reset();
+    ++gone;
+  }
   return gone;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "Common.h"
@@ -22,10 +23,14 @@ constexpr std::size_t max_length(const StyleRange*) { return msg::MAX_STYLES; }
 constexpr std::size_t max_length(const Marking*) { return msg::MAX_MARKINGS; }
 constexpr std::size_t max_length(const Stretch*) { return msg::MAX_RANGES; }
 constexpr std::size_t max_length(const Neighbour*) { return msg::MAX_NEIGHBOURS; }
+constexpr std::size_t max_length(const Border*) { return msg::MAX_BORDERS; }
 constexpr std::size_t max_length(const Lane*) { return msg::MAX_LANES; }
 constexpr std::size_t max_length(const ElementId*) { return msg::MAX_STOPLINE_LANES; }
 constexpr std::size_t max_length(const Stopline*) { return msg::MAX_MARKINGS; }
 constexpr std::size_t max_length(const Linkage*) { return msg::MAX_LINKAGES; }
+constexpr std::size_t max_length(const WayStation*) { return msg::MAX_WAY_STATIONS; }
+constexpr std::size_t max_length(const WayLane*) { return msg::MAX_WAY_LANES; }
+constexpr std::size_t max_length(const DrivenPath*) { return msg::MAX_DRIVEN_PATHS; }
 constexpr std::size_t max_length(const LineageEvent*) { return msg::MAX_LINKAGES; }
 ///@}
 template <class Element>
@@ -35,6 +40,8 @@ inline constexpr std::size_t kMaxLength = max_length(static_cast<const Element*>
 ///@{
 template <class Element>
 bool fits(const std::vector<Element>& list);
+template <class Value>
+bool fits(const std::optional<Value>& value);
 template <class Value>
 bool fits(const Value& value) {
   bool all = true;
@@ -47,11 +54,16 @@ bool fits(const std::vector<Element>& list) {
   return list.size() <= kMaxLength<Element> &&
          std::ranges::all_of(list, [](const Element& element) { return fits(element); });
 }
+template <class Value>
+bool fits(const std::optional<Value>& value) {
+  return !value || fits(*value);
+}
 ///@}
 
 /// Removes from a map the elements that exceed the bounds of the IDL, and all that refer to them, so that
 /// every id that is referred to stays in the map. Of a list that is too long, the first elements stay. An
-/// element that is too long itself is removed as a whole. Returns how many elements were removed.
+/// element that is too long itself is removed as a whole, and so is a way through a lane that is. Returns how
+/// many elements were removed.
 std::size_t keep_within_bounds(PublishedMap& map);
 
 /// Does the same for the topic road_markings.

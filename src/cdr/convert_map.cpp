@@ -3,6 +3,17 @@
 #include "cdr/convert_parts.hpp"
 
 namespace laneloom::dds {
+namespace {
+
+/// A way without stations is sent where there is none.
+void take_way(const msg::Way& from, Intake& intake, std::optional<Way>& to) {
+  to.reset();
+  if (from.stations().empty()) return;
+  intake.take(from, to.emplace());
+  if (!to->is_line()) intake.refuse("wrong_size");
+}
+
+}  // namespace
 
 std::size_t to_msg(const PublishedMap& from, const std::string& map_frame_id, msg::LaneMap& to) {
   if (!within_bounds(from)) {
@@ -25,6 +36,8 @@ std::size_t to_msg(const PublishedMap& from, const std::string& map_frame_id, ms
   out.put(from.map.lanes, to.lanes());
   out.put(from.map.stoplines, to.stoplines());
   out.put(from.map.linkages, to.linkages());
+  out.put(from.map.way.value_or(Way()), to.way());
+  out.put(from.map.driven_paths, to.driven_paths());
   out.put(from.map.lineage, to.lineage());
   return 0;
 }
@@ -48,6 +61,8 @@ Refusal from_msg(const msg::LaneMap& from, const std::string& /*map_frame_id*/, 
   intake.take(from.lanes(), to.map.lanes);
   intake.take(from.stoplines(), to.map.stoplines);
   intake.take(from.linkages(), to.map.linkages);
+  take_way(from.way(), intake, to.map.way);
+  intake.take(from.driven_paths(), to.map.driven_paths);
   intake.take(from.lineage(), to.map.lineage);
   return intake.refusal();
 }

@@ -104,7 +104,7 @@ void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
   values<MapState, std::vector<StateReason>>(cdr);
   pose(cdr);
   values<std::vector<FusedFrame>, std::vector<Marking>, std::vector<Lane>, std::vector<Stopline>,
-         std::vector<Linkage>, std::vector<LineageEvent>>(cdr);
+         std::vector<Linkage>, Way, std::vector<DrivenPath>, std::vector<LineageEvent>>(cdr);
 }
 
 void scan(CdrScanner& cdr, const msg::RoadMarkings* /*type*/) {

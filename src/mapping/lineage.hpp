@@ -20,4 +20,12 @@ Membership membership(const boundaries::Boundaries& boundaries, const std::vecto
 std::vector<LineageEvent> lineage(const Membership& before, const Membership& now,
                                   const std::vector<markings::Relative>& relatives);
 
+/// Marks the events of stoplines as such.
+void mark_stoplines(const std::vector<Stopline>& stoplines, std::vector<LineageEvent>& events);
+
+/// The events of lanes from one map to the next, by ascending id. A new lane is split from the lane beside
+/// whose former centerline half of it or more lies. A lane that is gone merged into the lane that lies beside
+/// half of it or more.
+std::vector<LineageEvent> lane_lineage(const std::vector<Lane>& before, const std::vector<Lane>& now);
+
 }  // namespace laneloom

@@ -1,8 +1,11 @@
 #include "laneloom/mapper.hpp"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
+#include "laneloom/way.hpp"
 #include "mapping/boundaries/lane_boundaries.hpp"
 #include "mapping/boundaries/road_sections.hpp"
 #include "mapping/geometry/scene.hpp"
@@ -33,13 +36,17 @@ geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d&
           .frame = ++state.frame};
 }
 
-/// The map of a frame. `published` is the membership of the map before, and is set to that of this map.
+/// The map of a frame, but for the way. `state` is that of the map before; its membership is set to that of
+/// this map.
 LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, topology::RoadGraph road,
-                   const StoplineConfig& config, Membership& published) {
+                   const StoplineConfig& config, MapperState& state) {
   LocalMap map{.stamp_ns = scene.stamp_ns, .T_map_body = scene.T_map_body()};
   map.stoplines = topology::tie_stoplines(fused.markings, road.lanes, config);
-  const Membership before = std::exchange(published, membership(road.boundaries, map.stoplines));
-  map.lineage = lineage(before, published, fused.relatives);
+  const Membership before = std::exchange(state.published, membership(road.boundaries, map.stoplines));
+  map.lineage = lineage(before, state.published, fused.relatives);
+  mark_stoplines(state.map.stoplines, map.lineage);
+  mark_stoplines(map.stoplines, map.lineage);
+  std::ranges::move(lane_lineage(state.map.lanes, road.lanes), std::back_inserter(map.lineage));
   for (boundaries::LaneBoundary& boundary : std::move(road.boundaries).take())
     map.boundaries.push_back(std::move(boundary.marking));
   map.markings = std::move(fused.markings);
@@ -54,7 +61,7 @@ const char* name(Stage stage) {
   static constexpr std::array<const char*, kStageCount> kNames{
       "preprocess",    "voxel_update", "reliable_voxels", "clustering", "local_range",
       "association",   "line_update",  "line_set",        "polylines",  "lane_boundaries",
-      "road_sections", "lanes",        "linkages"};
+      "road_sections", "lanes",        "linkages",        "way"};
   return kNames.at(static_cast<std::size_t>(stage));
 }
 
@@ -100,8 +107,11 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   road.rename(renamed);
   state.ego_track.forget(renamed);
   meet_at_joints(road);
-  state.map = log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline,
-                                                  state.published));
+  LocalMap map =
+      log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));
+  map.way = log.done(Stage::way, way_ahead(LaneGraph(map), map.T_map_body, WayWish::straight,
+                                           state.map.way ? &*state.map.way : nullptr));
+  state.map = std::move(map);
   return state.map;
 }
 

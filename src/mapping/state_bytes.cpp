@@ -3,6 +3,7 @@
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/deque.hpp>
+#include <cereal/types/optional.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
@@ -34,18 +35,19 @@ namespace laneloom {
 template <class Archive, HasFields Struct>
 void serialize(Archive& archive, Struct& element) {
   for_each_field<Struct>([&](const auto& field) { archive(element.*field.member); });
-  if constexpr (std::is_same_v<Struct, Lane>) archive(element.left_reversed, element.right_reversed);
+  if constexpr (std::is_same_v<Struct, Border>) archive(element.reversed);
 }
 
 template <class Archive>
 void serialize(Archive& archive, LocalMap& map) {
-  auto& [stamp_ns, T_map_body, markings, boundaries, stoplines, lanes, linkages, lineage] = map;
-  archive(stamp_ns, T_map_body, markings, boundaries, stoplines, lanes, linkages, lineage);
+  auto& [stamp_ns, T_map_body, markings, boundaries, stoplines, lanes, linkages, way, driven_paths, lineage] =
+      map;
+  archive(stamp_ns, T_map_body, markings, boundaries, stoplines, lanes, linkages, way, driven_paths, lineage);
 }
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x3c'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x3d'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLine_m = 0.15;
 constexpr double kStopline_m = 0.4;
 constexpr double kPath_m = 0.08;
+constexpr double kWay_m = 0.3;
 constexpr double kText_m = 1.0;
 constexpr std::int32_t kLifetime_s = 1;  // ten ticks
 
@@ -41,6 +42,7 @@ visualization_msgs::msg::dds_::MarkerArray_ Markers::update(const PublishedMap& 
   add_boundaries(map);
   add_stoplines(map);
   add_linkages(map);
+  add_way(map);
   add_state(map);
   delete_gone(map);
   visualization_msgs::msg::dds_::MarkerArray_ array;
@@ -85,6 +87,13 @@ void Markers::add_linkages(const PublishedMap& map) {
     make_line(linkage.path, kPath_m, {0.8F, 0.4F, 1.0F, 1.0F},
               add(map, {"linkages", linkage.from, linkage.to}));
   }
+}
+
+void Markers::add_way(const PublishedMap& map) {
+  if (!map.map.way) return;
+  Polyline points;
+  for (const WayStation& station : map.map.way->stations) points.push_back(station.point);
+  make_line(points, kWay_m, {1.0F, 0.6F, 0.1F, 0.9F}, add(map, {"way"}));
 }
 
 void Markers::add_state(const PublishedMap& map) {

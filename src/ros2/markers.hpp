@@ -42,6 +42,7 @@ class Markers {
   void add_lanes(const PublishedMap& map);
   void add_stoplines(const PublishedMap& map);
   void add_linkages(const PublishedMap& map);
+  void add_way(const PublishedMap& map);
   void add_state(const PublishedMap& map);
   void delete_gone(const PublishedMap& map);
 

@@ -21,8 +21,8 @@ PublishedMap road_of(std::size_t lanes) {
     std::vector<Neighbour> beside;
     if (next != kNoElement) beside.push_back({.lane = next, .range = {0.0, 1.0}, .crossable = {}});
     result.map.lanes.push_back(Lane{.id = 1001 + i,
-                                    .left_boundary = 1 + i,
-                                    .right_boundary = 2 + i,
+                                    .left_borders = {{.boundary = 1 + i}},
+                                    .right_borders = {{.boundary = 2 + i}},
                                     .left = kLine,
                                     .right = kLine,
                                     .centerline = kLine,
@@ -62,6 +62,31 @@ TEST(Bounds, AnElementThatIsTooLongGoesAsAWhole) {
   EXPECT_EQ(map.map.linkages[0].from, 1003U);
 }
 
+TEST(Bounds, AnUnseenBorderIsNoReasonToLeaveALaneOut) {
+  auto map = road_of(1);
+  map.map.lanes[0].left_borders.push_back({.boundary = kNoElement});
+  EXPECT_EQ(keep_within_bounds(map), 0U);
+  map.map.lanes[0].left_borders.push_back({.boundary = 99});
+  EXPECT_EQ(keep_within_bounds(map), 1U) << "its boundary is not there";
+  map = road_of(1);
+  map.map.lanes[0].left_borders.resize(msg::MAX_BORDERS + 1);
+  EXPECT_EQ(keep_within_bounds(map), 1U);
+}
+
+TEST(Bounds, AWayThroughALaneThatWentGoesToo) {
+  auto map = road_of(2);
+  map.map.way = Way{.stations = {{.lane = 1001}, {.lane = 1002}}, .lanes = {{.id = 1001}, {.id = 1002}}};
+  EXPECT_EQ(keep_within_bounds(map), 0U);
+  EXPECT_TRUE(map.map.way);
+  map.map.boundaries[2].points = kTooLong;  // of lane 1002
+  keep_within_bounds(map);
+  EXPECT_FALSE(map.map.way);
+  map = road_of(1);
+  map.map.way = Way{.stations = std::vector<WayStation>(msg::MAX_WAY_STATIONS + 1), .lanes = {}};
+  EXPECT_FALSE(within_bounds(map));
+  EXPECT_EQ(keep_within_bounds(map), 1U);
+}
+
 TEST(Bounds, EveryListIsBounded) {
   auto map = road_of(2);
   map.fused_frames.resize(msg::MAX_FRAMES + 1);
@@ -69,6 +94,7 @@ TEST(Bounds, EveryListIsBounded) {
   map.map.boundaries[2].styles.resize(65);
   map.map.stoplines[0].lanes.assign(33, 1001);
   map.map.linkages[0].path = kTooLong;
+  map.map.driven_paths.resize(msg::MAX_DRIVEN_PATHS + 1);
   keep_within_bounds(map);
   EXPECT_TRUE(within_bounds(map));
   RoadMarkings markings;

@@ -69,7 +69,11 @@ TEST(Convert, FieldsKeepTheirMeaning) {
   EXPECT_EQ(plain.map.stamp_ns, message.header().stamp_ns());
   EXPECT_EQ(plain.sequence, message.header().sequence_number());
   EXPECT_EQ(plain.session_id, message.header().session_id());
-  EXPECT_EQ(plain.map.lanes[0].left_boundary, message.lanes()[0].left_boundary());
+  EXPECT_EQ(plain.map.lanes[0].left_borders[0].boundary, message.lanes()[0].left_borders()[0].boundary());
+  EXPECT_EQ(plain.map.lanes[0].right_borders[0].on_boundary.to_m,
+            message.lanes()[0].right_borders()[0].on_boundary().to_m());
+  EXPECT_EQ(plain.map.way->stations[0].right_m, message.way().stations()[0].right_m());
+  EXPECT_EQ(plain.map.way->lanes[0].id, message.way().lanes()[0].lane());
   EXPECT_EQ(plain.map.lanes[0].left[0].y(), message.lanes()[0].left()[0].y());
   ASSERT_FALSE(plain.map.lanes[0].right_neighbours.empty());
   EXPECT_EQ(plain.map.lanes[0].right_neighbours[0].lane, message.lanes()[0].right_neighbours()[0].lane());
@@ -84,6 +88,33 @@ TEST(Convert, FieldsKeepTheirMeaning) {
   EXPECT_EQ(pose.pose().orientation().w(), half);
   EXPECT_EQ(pose.pose().orientation().z(), half);
   EXPECT_EQ(pose.pose().orientation().x(), 0.0);
+}
+
+TEST(Convert, AWayWithoutStationsIsNone) {
+  PublishedMap none, received;
+  msg::LaneMap message;
+  to_msg(none, "map", message);
+  EXPECT_TRUE(message.way().stations().empty());
+  ASSERT_EQ(from_msg(message, "map", received), "");
+  EXPECT_FALSE(received.map.way);
+}
+
+TEST(Convert, AWayThatIsNoLineIsRefused) {
+  for (const auto& [stations, step_m] : {std::pair(1, 1.0), std::pair(2, 0.0), std::pair(2, -1.0)}) {
+    msg::LaneMap message;
+    to_msg(PublishedMap{}, "map", message);
+    message.way().stations().resize(static_cast<std::size_t>(stations));
+    message.way().step_m(step_m);
+    PublishedMap received;
+    EXPECT_EQ(from_msg(message, "map", received), "wrong_size") << stations << " " << step_m;
+  }
+}
+
+TEST(Convert, EvidenceOfAnUnknownKindIsRefused) {
+  auto message = RandomMessages(1).lane_map();
+  message.lanes()[0].evidence(32);
+  PublishedMap received;
+  EXPECT_EQ(from_msg(message, "map", received), "unknown_enum");
 }
 
 TEST(Convert, AgesAreTakenFromTheStamp) {

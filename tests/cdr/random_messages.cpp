@@ -71,23 +71,34 @@ msg::Neighbour RandomMessages::neighbour() {
   return m;
 }
 
+msg::Border RandomMessages::border() {
+  msg::Border m;
+  m.boundary(id());
+  m.range(range());
+  m.on_boundary(range());
+  return m;
+}
+
 msg::Lane RandomMessages::lane() {
   msg::Lane m;
   m.id(id());
-  m.left_boundary(id());
-  m.right_boundary(id());
-  m.left_range(range());
-  m.right_range(range());
+  m.left_borders(several(3, [&] { return border(); }));
+  m.right_borders(several(3, [&] { return border(); }));
   m.left(polyline());
   m.right(polyline());
   m.centerline(polyline());
   m.width_m(number());
   m.left_neighbours(several(3, [&] { return neighbour(); }));
   m.right_neighbours(several(3, [&] { return neighbour(); }));
-  m.direction(one_of(msg::DIRECTION_AGAINST_CENTERLINE));
+  m.direction(one_of(msg::DIRECTION_BOTH));
+  m.direction_probability(number());
+  m.direction_evidence(evidence());
+  m.use(one_of(msg::USE_PARKING));
+  m.use_probability(number());
   m.section(static_cast<std::uint32_t>(whole(1000)));
   m.status(one_of(msg::STATUS_INFERRED));
   m.existence_probability(number());
+  m.evidence(evidence());
   m.inferred_ranges(several(4, [&] { return range(); }));
   return m;
 }
@@ -104,10 +115,45 @@ msg::Linkage RandomMessages::linkage() {
   msg::Linkage m;
   m.from_lane(id());
   m.to_lane(id());
-  m.kind(one_of(msg::LINKAGE_EGO_TRACK));
+  m.kind(one_of(msg::LINKAGE_TRAFFIC));
   m.turn(one_of(msg::TURN_U));
-  m.confidence(number());
+  m.probability(number());
+  m.evidence(evidence());
   m.path(polyline());
+  return m;
+}
+
+msg::WayStation RandomMessages::way_station() {
+  msg::WayStation m;
+  m.point(point());
+  m.heading_rad(number());
+  m.curvature_per_m(number());
+  m.lane(id());
+  m.left_m(number());
+  m.right_m(number());
+  m.width_m(number());
+  m.lateral_stddev_m(number());
+  m.status(one_of(msg::STATUS_INFERRED));
+  m.may_change_left(whole(2) == 1);
+  m.may_change_right(whole(2) == 1);
+  return m;
+}
+
+msg::Way RandomMessages::way() {
+  msg::Way m;
+  m.step_m(0.5);
+  m.stations(several(3, [&] { return way_station(); }));
+  m.stations().push_back(way_station());  // two at least
+  m.lanes(several(3, [&] {
+    msg::WayLane lane;
+    lane.lane(id());
+    lane.against(whole(2) == 1);
+    lane.entry(one_of(msg::TURN_U));
+    lane.range(range());
+    return lane;
+  }));
+  m.known_m(number());
+  m.confirmed_m(number());
   return m;
 }
 
@@ -150,7 +196,7 @@ msg::LaneMap RandomMessages::lane_map() {
   m.age_s(number());
   m.lag_s(number());
   m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_SOURCE_NOT_FUSED); }));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_DRIVING_SIDE_CONTRADICTED); }));
   m.pose(pose());
   m.fused_frames(several(4, [&] {
     msg::FusedFrame frame;
@@ -164,9 +210,19 @@ msg::LaneMap RandomMessages::lane_map() {
   m.lanes(several(4, [&] { return lane(); }));
   m.stoplines(several(3, [&] { return stopline(); }));
   m.linkages(several(4, [&] { return linkage(); }));
+  m.way(way());
+  m.driven_paths(several(3, [&] {
+    msg::DrivenPath path;
+    path.id(id());
+    path.points(polyline());
+    path.lateral_stddev_m(number());
+    path.probability(number());
+    return path;
+  }));
   m.lineage(several(4, [&] {
     msg::LineageEvent event;
     event.kind(one_of(msg::LINEAGE_RETIRED));
+    event.element(one_of(msg::ELEMENT_LANE));
     event.id(id());
     event.other(id());
     return event;
@@ -193,7 +249,7 @@ msg::ServiceStatus RandomMessages::service_status() {
   msg::ServiceStatus m;
   m.header(header());
   m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_SOURCE_NOT_FUSED); }));
+  m.reasons(several(3, [&] { return one_of(msg::REASON_DRIVING_SIDE_CONTRADICTED); }));
   m.uptime_s(number());
   m.detections_age_s(number());
   m.poses_age_s(number());

@@ -57,9 +57,13 @@ class RandomMessages {
   msg::Header header();
   msg::Marking marking();
   msg::Neighbour neighbour();
+  std::uint32_t evidence() { return static_cast<std::uint32_t>(whole(31)); }
+  msg::Border border();
   msg::Lane lane();
   msg::Stopline stopline();
   msg::Linkage linkage();
+  msg::WayStation way_station();
+  msg::Way way();
 
   std::mt19937_64 engine_;
 };

@@ -32,7 +32,7 @@ TEST(QualityOfService, EachPolicyIsNamedWithBothSides) {
     return found.empty() ? std::string() : found[0].found;
   };
   EXPECT_EQ(text_of([](dds::Endpoint& reader) { reader.deadline_s = 0.1; }),
-            "\"laneloomd\" (10.0.0.1) writes laneloom/v2/lane_map, but \"planner\" (10.0.0.1) can't read it: "
+            "\"laneloomd\" (10.0.0.1) writes laneloom/v3/lane_map, but \"planner\" (10.0.0.1) can't read it: "
             "deadline (offered: 0.25 s, requested: 0.1 s).");
   EXPECT_THAT(text_of([](dds::Endpoint& reader) { reader.durability = dds::Durability::persistent; }),
               HasSubstr("durability (offered: transient local, requested: persistent)"));

@@ -44,18 +44,18 @@ TEST(Topics, AnotherPartition) {
 }
 
 TEST(Topics, SimilarNames) {
-  for (const char* name : {"laneloom/detections", "laneloom/v1/detections", "laneloom/v2/Detections",
-                           "rt/laneloom/v2/detections", "/laneloom/v2/detections", "detections"}) {
+  for (const char* name : {"laneloom/detections", "laneloom/v1/detections", "laneloom/v3/Detections",
+                           "rt/laneloom/v3/detections", "/laneloom/v3/detections", "detections"}) {
     Observed seen = healthy();
     seen.endpoints[kDetections].topic = name;
     const Findings found = topic_findings(seen);
     ASSERT_THAT(ids(found), ElementsAre("similar_topic", "no_detections")) << name;
-    EXPECT_THAT(found[0].found, HasSubstr(std::string("the topic ") + name + ", not laneloom/v2/detections"));
+    EXPECT_THAT(found[0].found, HasSubstr(std::string("the topic ") + name + ", not laneloom/v3/detections"));
   }
   Observed seen = healthy();
   seen.endpoints[kPoses].topic = "rt/VehiclePose";
   EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("similar_topic", "no_poses"));
-  seen.endpoints[kPoses].topic = "laneloom/v2/gnss";
+  seen.endpoints[kPoses].topic = "laneloom/v3/gnss";
   EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("no_poses"));
 }
 

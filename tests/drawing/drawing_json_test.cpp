@@ -35,7 +35,9 @@ TEST(DrawingJson, HasStampPoseAndLineage) {
   const json drawing = drawn(map);
   EXPECT_EQ(drawing["stamp_ns"], "1700000000123456789");
   EXPECT_EQ(drawing["pose"], json({1.0, 2.01, 1.571}));
-  EXPECT_EQ(drawing["lineage"], json::parse(R"([{"kind": "merged_into", "id": 9, "other": 11}])"));
+  EXPECT_EQ(drawing["lineage"],
+            json::parse(R"([{"kind": "merged_into", "element": "boundary", "id": 9, "other": 11},
+                                                  {"kind": "split_from", "element": "lane", "id": 22, "other": 21}])"));
 }
 
 TEST(DrawingJson, ElementsTellWhatIsKnownOfThem) {
@@ -44,17 +46,24 @@ TEST(DrawingJson, ElementsTellWhatIsKnownOfThem) {
     "layer": "boundaries", "key": "boundaries/11", "id": 11, "type": "laneline", "status": "confirmed",
     "properties": {"age_s": 2.0, "unseen_s": 0.5, "existence_probability": 0.5, "observations": 7,
                    "length_m": 10.0, "lateral_stddev_mean_m": 0.2, "lateral_stddev_max_m": 0.3,
-                   "styles": [[0.0, 4.0, "solid"], [4.0, 10.0, "dashed"]], "left_boundary_of": [21],
-                   "lineage": [{"kind": "merged_into", "id": 9, "other": 11}]},
+                   "styles": [[0.0, 4.0, "solid"], [4.0, 10.0, "dashed"]], "left_border_of": [21],
+                   "lineage": [{"kind": "merged_into", "element": "boundary", "id": 9, "other": 11}]},
     "shapes": [{"line": [0.0, 1.75, 4.0, 1.75], "style": "laneline_solid", "opacity": 0.65},
                {"line": [4.0, 1.75, 5.0, 1.75, 10.0, 1.75], "style": "laneline_dashed", "opacity": 0.65}]})"));
   EXPECT_EQ(element(drawing, "lanes/21")["properties"], json::parse(R"({
-    "left_boundary": 11, "right_boundary": 12, "width_m": 3.5, "length_m": 10.0, "direction": "against",
+    "left_borders": [{"boundary": 11, "range_m": [0.0, 10.0], "on_boundary_m": [0.0, 10.0]}],
+    "right_borders": [{"boundary": 12, "range_m": [0.0, 6.0], "on_boundary_m": [0.0, 6.0]},
+                      {"boundary": 0, "range_m": [6.0, 10.0]}],
+    "use": "lane", "evidence": ["markings", "edges"], "width_m": 3.5, "length_m": 10.0,
+    "direction": "against", "direction_probability": 0.9, "direction_evidence": ["ego_path"],
     "section": 0, "left_neighbours": [{"lane": 22, "range_m": [0.0, 10.0], "crossable_m": [[4.0, 10.0]]}],
-    "right_neighbours": [], "successors": [22], "stoplines": [13]})"));
+    "right_neighbours": [], "successors": [22], "stoplines": [13],
+    "lineage": [{"kind": "split_from", "element": "lane", "id": 22, "other": 21}]})"));
   EXPECT_EQ(element(drawing, "lanes/22")["properties"]["predecessors"], json({21}));
   EXPECT_EQ(element(drawing, "linkages/21-22")["properties"], json::parse(R"({
-    "from": 21, "to": 22, "kind": "ego_track", "turn": "left", "confidence": 1.0})"));
+    "from": 21, "to": 22, "kind": "ego_track", "turn": "left", "probability": 1.0, "evidence": []})"));
+  EXPECT_EQ(element(drawing, "way")["properties"], json::parse(R"({
+    "length_m": 1.5, "confirmed_m": 1.0, "width_m": 3.5, "lanes": [21]})"));
   EXPECT_EQ(element(drawing, "stoplines/13")["properties"]["lanes"], json({21}));
   EXPECT_EQ(element(drawing, "stoplines/13")["properties"]["heading"], json({1.0, 0.0}));
 }

@@ -26,8 +26,12 @@ inline LocalMap small_map() {
   map.lanes.resize(2);
   Lane& lane = map.lanes[0];
   lane.id = 21;
-  lane.left_boundary = 11;
-  lane.right_boundary = 12;
+  lane.left_borders = {{11, {0, 10}, {0, 10}}};
+  lane.right_borders = {{12, {0, 6}, {0, 6}}, {kNoElement, {6, 10}, {}}};
+  lane.use = Lane::Use::lane;
+  lane.evidence = Evidence::markings | Evidence::edges;
+  lane.direction_probability = 0.9;
+  lane.direction_evidence = Evidence::ego_path;
   lane.left = left.points;
   lane.right = right.points;
   lane.centerline = {{0, 0, 0}, {10, 0, 0}};
@@ -49,7 +53,13 @@ inline LocalMap small_map() {
   stopline.lanes = {21};
   stopline.heading = Point::UnitX();
   map.markings = map.boundaries;
-  map.lineage = {{LineageEvent::Kind::merged_into, 9, 11}};
+  map.way =
+      Way{.stations = {{.point = {1, 0, 0}, .lane = 21, .width_m = 3.5}, {.point = {2, 0, 0}, .lane = 21}},
+          .lanes = {{.id = 21}},
+          .known_m = 1.5,
+          .confirmed_m = 1.0};
+  map.lineage = {{LineageEvent::Kind::merged_into, LineageEvent::Element::boundary, 9, 11},
+                 {LineageEvent::Kind::split_from, LineageEvent::Element::lane, 22, 21}};
   return map;
 }
 

@@ -51,8 +51,8 @@ TEST(Ways, TurnsThatTheMapDoesNotNameAreSeenFromTheLanes) {
 TEST(Ways, AmongEqualsTheLikelierIsTaken) {
   LocalMap map = crossing_lanes();
   map.linkages = {link(1, 3, Linkage::Turn::straight), link(1, 2, Linkage::Turn::straight)};
-  map.linkages[0].confidence = 0.4;
-  map.linkages[1].confidence = 0.9;
+  map.linkages[0].probability = 0.4;
+  map.linkages[1].probability = 0.9;
   EXPECT_EQ(chosen(map, Linkage::Turn::straight), 2U);
 }
 

@@ -132,7 +132,7 @@ TEST(Identities, AreReadAgainAtAReload) {
   goes_on_without("participant");
   fs::remove_all(folder);
   fs::copy(identities.folder() / "perception", folder);
-  goes_on_without("writer of laneloom/v2/lane_map");
+  goes_on_without("writer of laneloom/v3/lane_map");
 
   fs::remove_all(folder);
   fs::copy(intact, folder);

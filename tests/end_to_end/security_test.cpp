@@ -133,7 +133,7 @@ TEST(Security, PerceptionCannotPublishAMap) {
   Service service(identities.as("perception", private_config()));
   EXPECT_EQ(service.wait(), 77);
   const auto errors = service.errors();
-  EXPECT_NE(errors.find("laneloomd: DDS refused to make a writer of laneloom/v2/lane_map; "
+  EXPECT_NE(errors.find("laneloomd: DDS refused to make a writer of laneloom/v3/lane_map; "
                         "dds.security_directory: "),
             std::string::npos)
       << errors;
@@ -177,7 +177,7 @@ void expect_heard(std::size_t services, const Identities& identities, const fs::
 Identities::Edit trust_perception_in(const std::string& first, const std::string& last) {
   return [=](const fs::path& project) {
     const std::string all =
-        "<topics><topic>laneloom/v2/*</topic></topics><partitions><partition>*</partition></partitions>";
+        "<topics><topic>laneloom/v3/*</topic></topics><partitions><partition>*</partition></partitions>";
     replace_in(project / "config/security/permissions/perception.xml", "</allow_rule>",
                "</allow_rule><allow_rule><domains><id_range><min>" + first + "</min><max>" + last +
                    "</max></id_range></domains><publish>" + all + "</publish><subscribe>" + all +

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "drives.hpp"
+#include "export/single_borders.hpp"
 #include "export/strays.hpp"
 #include "export/weave.hpp"
 #include "laneloom/polyline.hpp"
@@ -126,10 +127,8 @@ LocalMap three_lanes() {
     const double y = 3.5 * (2.0 - static_cast<double>(left));
     const auto line = [&](double at) { return Polyline{{range.from_m, at, 0}, {range.to_m, at, 0}}; };
     map.lanes.push_back({.id = id,
-                         .left_boundary = left,
-                         .right_boundary = left + 1,
-                         .left_range = range,
-                         .right_range = range,
+                         .left_borders = {{left, {0.0, range.length()}, range}},
+                         .right_borders = {{left + 1, {0.0, range.length()}, range}},
                          .left = line(y),
                          .right = line(y - 3.5),
                          .centerline = line(y - 1.75),
@@ -154,6 +153,49 @@ TEST(Weld, WhatEndsBesideALaneCutsItSoThatTheyShareWays) {
   expect_sound(network);
   EXPECT_EQ(network.lanelets.size(), 4u);
   EXPECT_THAT(sharing_ways(network), testing::ElementsAre(Lanes(11, 13), Lanes(12, 13)));
+}
+
+TEST(Weld, ALaneWithSeveralBordersIsCutWhereTheyChange) {
+  LocalMap map = three_lanes();
+  Lane& lane = map.lanes[2];  // below boundary 2, to which boundary 4 is the successor
+  map.boundaries[1].points.back().x() = 15.0;
+  map.boundaries[1].styles = {{{0, 15}, MarkingStyle::dashed}};
+  map.boundaries.push_back(
+      {.id = 4, .points = {{40, 0, 0}, {15, 0, 0}}, .styles = {{{0, 25}, MarkingStyle::solid}}});
+  lane.left_borders = {{2, {0, 15}, {0, 15}}, {4, {15, 40}, {0, 25}, true}};
+  lane.right_borders = {{3, {0, 30}, {0, 30}}, {kNoElement, {30, 40}, {}}};
+  map.lanes = {lane};
+  const LocalMap single = with_single_borders(map);
+  ASSERT_EQ(single.lanes.size(), 3u);
+  const auto ends = [&](std::size_t i) {
+    return std::pair(single.lanes[i].centerline.front().x(), single.lanes[i].centerline.back().x());
+  };
+  EXPECT_EQ(ends(0), std::pair(0.0, 15.0));
+  EXPECT_EQ(ends(1), std::pair(15.0, 30.0));
+  EXPECT_EQ(ends(2), std::pair(30.0, 40.0));
+  EXPECT_EQ(single.lanes[0].id, lane.id);
+  EXPECT_EQ(single.lanes[1].left_borders.at(0).on_boundary.from_m, 10.0) << "boundary 4 runs against it";
+  EXPECT_EQ(single.lanes[1].left_borders.at(0).on_boundary.to_m, 25.0);
+  EXPECT_EQ(single.boundaries.back().status, ElementStatus::inferred) << "the unseen border";
+  EXPECT_EQ(single.lanes[2].right_borders.at(0).boundary, single.boundaries.back().id);
+  ASSERT_EQ(single.linkages.size(), 2u);
+  const RoadNetwork network = weld(map);
+  expect_sound(network);
+  EXPECT_EQ(network.lanelets.size(), 3u);
+  EXPECT_EQ(driveable(network).size(), 2u);
+}
+
+TEST(Weld, WhatLedOutOfACutLaneLeadsOutOfItsLastPart) {
+  LocalMap map = three_lanes();
+  map.lanes[0].left_borders = {{1, {0, 10}, {0, 10}}, {1, {10, 20}, {10, 20}}};
+  map.linkages = {{.from = 11, .to = 12}};
+  map.stoplines = {{.marking = {.id = 5}, .lanes = {11}}};
+  const LocalMap single = with_single_borders(map);
+  ASSERT_EQ(single.lanes.size(), 4u);
+  const ElementId last = single.lanes[1].id;
+  EXPECT_EQ(single.linkages[0].from, last);
+  EXPECT_EQ(single.linkages[0].to, 12u);
+  EXPECT_EQ(single.stoplines[0].lanes, std::vector{last});
 }
 
 TEST(Weld, AnEmptyMapIsAnEmptyNetwork) {

@@ -27,6 +27,7 @@ static void real(double value) { printf("%.17g", value); }
 static void number(uint32_t value) { printf("%" PRIu32, value); }  // enumerators, too
 static void large(uint64_t value) { printf("\"%" PRIu64 "\"", value); }
 static void stamp(int64_t value) { printf("\"%" PRId64 "\"", value); }
+static void truth(bool value) { fputs(value ? "true" : "false", stdout); }
 static void text(const char* value) { printf("\"%s\"", value); }  // has nothing to be escaped
 
 LIST(reals, laneloom_msg_PointValues, real)
@@ -78,13 +79,18 @@ static void neighbour(const laneloom_msg_Neighbour* m) {
 }
 LIST_OF_STRUCTS(neighbours, dds_sequence_laneloom_msg_Neighbour, neighbour)
 
+static void border(const laneloom_msg_Border* m) {
+  FIRST(boundary, large), NEXT_STRUCT(range, range), NEXT_STRUCT(on_boundary, range), END;
+}
+LIST_OF_STRUCTS(borders, dds_sequence_laneloom_msg_Border, border)
+
 static void lane(const laneloom_msg_Lane* m) {
-  FIRST(id, large), NEXT(left_boundary, large), NEXT(right_boundary, large);
-  NEXT_STRUCT(left_range, range), NEXT_STRUCT(right_range, range);
+  FIRST(id, large), NEXT_STRUCT(left_borders, borders), NEXT_STRUCT(right_borders, borders);
   NEXT_STRUCT(left, polyline), NEXT_STRUCT(right, polyline), NEXT_STRUCT(centerline, polyline);
   NEXT(width_m, real), NEXT_STRUCT(left_neighbours, neighbours), NEXT_STRUCT(right_neighbours, neighbours);
-  NEXT(direction, number), NEXT(section, number), NEXT(status, number), NEXT(existence_probability, real);
-  NEXT_STRUCT(inferred_ranges, ranges), END;
+  NEXT(direction, number), NEXT(direction_probability, real), NEXT(direction_evidence, number);
+  NEXT(use, number), NEXT(use_probability, real), NEXT(section, number), NEXT(status, number);
+  NEXT(existence_probability, real), NEXT(evidence, number), NEXT_STRUCT(inferred_ranges, ranges), END;
 }
 LIST_OF_STRUCTS(lanes, dds_sequence_laneloom_msg_Lane, lane)
 LIST(ids, dds_sequence_unsigned_long_long, large)
@@ -96,12 +102,34 @@ LIST_OF_STRUCTS(stoplines, dds_sequence_laneloom_msg_Stopline, stopline)
 
 static void linkage(const laneloom_msg_Linkage* m) {
   FIRST(from_lane, large), NEXT(to_lane, large), NEXT(kind, number), NEXT(turn, number);
-  NEXT(confidence, real), NEXT_STRUCT(path, polyline), END;
+  NEXT(probability, real), NEXT(evidence, number), NEXT_STRUCT(path, polyline), END;
 }
 LIST_OF_STRUCTS(linkages, dds_sequence_laneloom_msg_Linkage, linkage)
 
+static void way_station(const laneloom_msg_WayStation* m) {
+  FIRST_STRUCT(point, point), NEXT(heading_rad, real), NEXT(curvature_per_m, real), NEXT(lane, large);
+  NEXT(left_m, real), NEXT(right_m, real), NEXT(width_m, real), NEXT(lateral_stddev_m, real);
+  NEXT(status, number), NEXT(may_change_left, truth), NEXT(may_change_right, truth), END;
+}
+LIST_OF_STRUCTS(way_stations, dds_sequence_laneloom_msg_WayStation, way_station)
+
+static void way_lane(const laneloom_msg_WayLane* m) {
+  FIRST(lane, large), NEXT(against, truth), NEXT(entry, number), NEXT_STRUCT(range, range), END;
+}
+LIST_OF_STRUCTS(way_lanes, dds_sequence_laneloom_msg_WayLane, way_lane)
+
+static void way(const laneloom_msg_Way* m) {
+  FIRST(step_m, real), NEXT_STRUCT(stations, way_stations), NEXT_STRUCT(lanes, way_lanes);
+  NEXT(known_m, real), NEXT(confirmed_m, real), END;
+}
+
+static void driven_path(const laneloom_msg_DrivenPath* m) {
+  FIRST(id, large), NEXT_STRUCT(points, polyline), NEXT(lateral_stddev_m, real), NEXT(probability, real), END;
+}
+LIST_OF_STRUCTS(driven_paths, dds_sequence_laneloom_msg_DrivenPath, driven_path)
+
 static void lineage_event(const laneloom_msg_LineageEvent* m) {
-  FIRST(kind, number), NEXT(id, large), NEXT(other, large), END;
+  FIRST(kind, number), NEXT(element, number), NEXT(id, large), NEXT(other, large), END;
 }
 LIST_OF_STRUCTS(lineage, dds_sequence_laneloom_msg_LineageEvent, lineage_event)
 
@@ -154,7 +182,8 @@ void print_lane_map(const laneloom_msg_LaneMap* m) {
   NEXT(lag_s, real), NEXT(state, number);
   NEXT_STRUCT(reasons, reasons), NEXT_STRUCT(pose, pose), NEXT_STRUCT(fused_frames, fused_frames);
   NEXT_STRUCT(boundaries, markings), NEXT_STRUCT(lanes, lanes), NEXT_STRUCT(stoplines, stoplines);
-  NEXT_STRUCT(linkages, linkages), NEXT_STRUCT(lineage, lineage), end();
+  NEXT_STRUCT(linkages, linkages), NEXT_STRUCT(way, way), NEXT_STRUCT(driven_paths, driven_paths);
+  NEXT_STRUCT(lineage, lineage), end();
 }
 
 void print_road_markings(const laneloom_msg_RoadMarkings* m) {

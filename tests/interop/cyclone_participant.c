@@ -187,14 +187,14 @@ int main(int argc, char** argv) {
   const dds_entity_t subscriber = made(dds_create_subscriber(participant, partition, NULL), "subscriber");
   dds_delete_qos(partition);
   const dds_entity_t detections_topic =
-      topic(participant, &laneloom_msg_Detections_desc, "laneloom/v2/detections");
+      topic(participant, &laneloom_msg_Detections_desc, "laneloom/v3/detections");
   const dds_entity_t pose_topic =
-      topic(participant, &laneloom_msg_VehiclePose_desc, "laneloom/v2/vehicle_pose");
-  const dds_entity_t map_topic = topic(participant, &laneloom_msg_LaneMap_desc, "laneloom/v2/lane_map");
+      topic(participant, &laneloom_msg_VehiclePose_desc, "laneloom/v3/vehicle_pose");
+  const dds_entity_t map_topic = topic(participant, &laneloom_msg_LaneMap_desc, "laneloom/v3/lane_map");
   const dds_entity_t markings_topic =
-      topic(participant, &laneloom_msg_RoadMarkings_desc, "laneloom/v2/road_markings");
+      topic(participant, &laneloom_msg_RoadMarkings_desc, "laneloom/v3/road_markings");
   const dds_entity_t status_topic =
-      topic(participant, &laneloom_msg_ServiceStatus_desc, "laneloom/v2/status");
+      topic(participant, &laneloom_msg_ServiceStatus_desc, "laneloom/v3/status");
 
   const dds_entity_t detections =
       made(dds_create_writer(publisher, detections_topic, input_qos(), NULL), "detections");

@@ -92,10 +92,10 @@ int main(int argc, char** argv) {
   const dds_entity_t publisher = made(dds_create_publisher(participant, partition, NULL), "publisher");
   const dds_entity_t subscriber = made(dds_create_subscriber(participant, partition, NULL), "subscriber");
   const dds_entity_t detections =
-      made(dds_create_topic(participant, &laneloom_msg_Detections_desc, "laneloom/v2/detections", NULL, NULL),
+      made(dds_create_topic(participant, &laneloom_msg_Detections_desc, "laneloom/v3/detections", NULL, NULL),
            "detections");
   const dds_entity_t poses = made(
-      dds_create_topic(participant, &laneloom_msg_VehiclePose_desc, "laneloom/v2/vehicle_pose", NULL, NULL),
+      dds_create_topic(participant, &laneloom_msg_VehiclePose_desc, "laneloom/v3/vehicle_pose", NULL, NULL),
       "poses");
   perceive(made(dds_create_reader(subscriber, poses, NULL, NULL), "reader"),
            made(dds_create_writer(publisher, detections, NULL, NULL), "writer"), log);

@@ -56,8 +56,8 @@ class StockFastDds {
     auto qos = fast::PUBLISHER_QOS_DEFAULT;
     qos.partition().push_back(config.vehicle_id.c_str());
     publisher_ = participant_->create_publisher(qos);
-    detections_ = writer("laneloom/v2/detections", "laneloom::msg::Detections");
-    poses_ = writer("laneloom/v2/vehicle_pose", "laneloom::msg::VehiclePose");
+    detections_ = writer("laneloom/v3/detections", "laneloom::msg::Detections");
+    poses_ = writer("laneloom/v3/vehicle_pose", "laneloom::msg::VehiclePose");
     thread_ = std::jthread([this](const std::stop_token& stopped) { run(stopped); });
   }
   ~StockFastDds() {

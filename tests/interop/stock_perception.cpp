@@ -87,9 +87,9 @@ int main(int argc, char** argv) {
   subscriber_qos.partition().push_back(argv[2]);
   fast::TypeSupport(new msg::DetectionsPubSubType).register_type(participant);
   fast::TypeSupport(new msg::VehiclePosePubSubType).register_type(participant);
-  auto* detections = participant->create_topic("laneloom/v2/detections", "laneloom::msg::Detections",
+  auto* detections = participant->create_topic("laneloom/v3/detections", "laneloom::msg::Detections",
                                                fast::TOPIC_QOS_DEFAULT);
-  auto* poses = participant->create_topic("laneloom/v2/vehicle_pose", "laneloom::msg::VehiclePose",
+  auto* poses = participant->create_topic("laneloom/v3/vehicle_pose", "laneloom::msg::VehiclePose",
                                           fast::TOPIC_QOS_DEFAULT);
   auto writer_qos = fast::DATAWRITER_QOS_DEFAULT;
   writer_qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;

@@ -130,15 +130,18 @@ LocalMap full_map() {
   map.stoplines = {stopline};
   Lane lane;
   lane.id = 6;
-  lane.left_boundary = 4;
-  lane.right_boundary = 4;
-  lane.left_range = {1.0, 2.0};
-  lane.right_range = {4.0, 3.0};
+  lane.left_borders = {{4, {0.0, 0.5}, {1.0, 2.0}}, {kNoElement, {0.5, 1.5}, {}}};
+  lane.right_borders = {{4, {0.0, 1.5}, {4.0, 3.0}}};
   lane.left = lane.right = lane.centerline = boundary.points;
   lane.width_m = 3.25;
   lane.left_neighbours = {{.lane = 7, .range = {0.0, 2.0}, .crossable = {{0.5, 1.0}}}};
   lane.right_neighbours = {{.lane = 8, .range = {0.25, 1.0}, .crossable = {}}};
   lane.direction = Lane::Direction::against_centerline;
+  lane.direction_probability = 0.875;
+  lane.direction_evidence = Evidence::ego_path | Evidence::sd_map;
+  lane.use = Lane::Use::shoulder;
+  lane.use_probability = 0.625;
+  lane.evidence = Evidence::markings | Evidence::edges;
   lane.section = 3;
   lane.status = ElementStatus::inferred;
   lane.existence_probability = 0.5;
@@ -148,8 +151,23 @@ LocalMap full_map() {
                    .to = 7,
                    .kind = Linkage::Kind::intersection,
                    .turn = Linkage::Turn::left,
-                   .confidence = 0.25,
+                   .probability = 0.25,
+                   .evidence = Evidence::traffic,
                    .path = boundary.points}};
+  const WayStation station{.point = {0.0, 1.0, 2.0},
+                           .heading_rad = 0.5,
+                           .curvature_per_m = 0.01,
+                           .lane = 6,
+                           .left_m = 1.5,
+                           .status = ElementStatus::inferred,
+                           .may_change_left = true};
+  map.way = Way{.step_m = 2.0,
+                .stations = {station, station},
+                .lanes = {{.id = 6, .against = true, .entry = Linkage::Turn::u_turn, .range = {0.0, 2.0}}},
+                .known_m = 2.5,
+                .confirmed_m = 1.0};
+  map.driven_paths = {
+      {.id = 9, .points = {{0.0, 0.0, 0.0}, {9.0, 0.0, 0.0}}, .lateral_stddev_m = 0.6, .probability = 0.5}};
   return map;
 }
 
@@ -163,7 +181,13 @@ TEST(MapJson, IsReadAsItWasWritten) {
   ASSERT_EQ(read.stoplines.size(), 1u);
   EXPECT_EQ(read.stoplines[0].marking.points, full_map().stoplines[0].marking.points);
   ASSERT_EQ(read.lanes.size(), 1u);
-  EXPECT_EQ(read.lanes[0].right_range.from_m, 4.0);
+  ASSERT_EQ(read.lanes[0].left_borders.size(), 2u);
+  EXPECT_EQ(read.lanes[0].left_borders[1].boundary, kNoElement);
+  EXPECT_EQ(read.lanes[0].right_borders.front().on_boundary.from_m, 4.0);
+  EXPECT_EQ(read.lanes[0].direction_evidence, Evidence::ego_path | Evidence::sd_map);
+  ASSERT_TRUE(read.way);
+  EXPECT_EQ(read.way->lanes.at(0).entry, Linkage::Turn::u_turn);
+  ASSERT_EQ(read.driven_paths.size(), 1u);
   ASSERT_EQ(read.linkages.size(), 1u);
   EXPECT_EQ(read.linkages[0].turn, Linkage::Turn::left);
   EXPECT_NE(line.find("\"successors\":[7]"), std::string::npos);
@@ -197,8 +221,12 @@ std::string map_complaint(const std::string& from, const std::string& to) {
 
 TEST(MapJson, WhatIsWrongIsNamed) {
   EXPECT_EQ(map_complaint(R"("turn":"left")", R"("turn":"back")"), "linkages[0].turn: 'back' is not known");
-  EXPECT_EQ(map_complaint(R"("confidence":0.25)", R"("confidence":1.5)"),
-            "linkages[0].confidence: must be from 0 to 1");
+  EXPECT_EQ(map_complaint(R"("probability":0.25)", R"("probability":1.5)"),
+            "linkages[0].probability: must be from 0 to 1");
+  EXPECT_EQ(map_complaint(R"("evidence":["traffic"])", R"("evidence":["hearsay"])"),
+            "linkages[0].evidence: 'hearsay' is not known");
+  EXPECT_EQ(map_complaint(R"("step":2.0)", R"("step":0.0)"),
+            "way: must have two stations at least, and a step above 0");
   EXPECT_EQ(map_complaint(R"("existence":0.75)", R"("existence":1e300)"),
             "instances[0].existence: must be from 0 to 1, or -1");
   EXPECT_EQ(map_complaint(R"("existence":0.5)", R"("existence":-0.5)"),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "laneloom/lane_graph.hpp"
 #include "mapping/mapped_road.hpp"
 #include "mapping/state.hpp"
 
@@ -58,6 +59,30 @@ TEST_P(EitherMapper, IdsLastAsLongAsTheLines) {
   EXPECT_TRUE(later.lineage.empty());
 }
 
+TEST_P(EitherMapper, TheWayLeadsAheadFromBesideTheVehicle) {
+  Drive drive(GetParam());
+  const LocalMap& map = drive.steps(40);
+  ASSERT_TRUE(map.way);
+  EXPECT_EQ(map.way->wish, WayWish::straight);
+  EXPECT_EQ(map.way->stations.front().lane, LaneGraph(map).own_lane(map.T_map_body)->lane.lane->id);
+  EXPECT_NEAR(map.way->stations.front().point.x(), map.T_map_body.translation().x(), 0.5);
+  EXPECT_GT(map.way->confirmed_m, 20.0);
+  drive.x += 1000.0;
+  EXPECT_FALSE(drive.step({}).way) << "in no lane";
+}
+
+TEST_P(EitherMapper, LanesTellWhatTheirEvidenceIs) {
+  Drive drive(GetParam());
+  const LocalMap& map = drive.steps(40);
+  const ElementId own = LaneGraph(map).own_lane(map.T_map_body)->lane.lane->id;
+  for (const Lane& lane : map.lanes) {
+    EXPECT_TRUE(overlap(lane.evidence, Evidence::markings)) << "a dashed line divides the road";
+    EXPECT_TRUE(overlap(lane.evidence, Evidence::edges));
+    EXPECT_EQ(overlap(lane.evidence, Evidence::ego_path), lane.id == own);
+    EXPECT_EQ(lane.use, Lane::Use::lane);
+  }
+}
+
 TEST_P(EitherMapper, AStoplineEndsItsLaneWhenItComesIntoRange) {
   // The lanes end at the stopline: an intersection begins there.
   auto detections = road();
@@ -73,7 +98,7 @@ TEST_P(EitherMapper, AStoplineEndsItsLaneWhenItComesIntoRange) {
 TEST_P(EitherMapper, WhatLeavesTheRangeGoes) {
   Drive drive(GetParam());
   const LocalMap before = drive.steps(30);
-  const std::size_t published = before.boundaries.size() + before.stoplines.size();
+  const std::size_t published = before.boundaries.size() + before.stoplines.size() + before.lanes.size();
   drive.x += 1000.0;
   const LocalMap& map = drive.step({});
   EXPECT_TRUE(map.boundaries.empty());
@@ -154,9 +179,9 @@ TEST_P(EitherMapper, TellsTheObserverItsStagesInOrder) {
   drive.step(road(), &recorder);
   EXPECT_EQ(recorder.updates, 1);
   EXPECT_TRUE(std::ranges::is_sorted(recorder.stages));
-  EXPECT_EQ(recorder.stages.size(), GetParam() == "lines" ? 9U : 10U);
+  EXPECT_EQ(recorder.stages.size(), GetParam() == "lines" ? 10U : 11U);
   EXPECT_EQ(recorder.stages.front(), Stage::preprocess);
-  EXPECT_EQ(recorder.stages.back(), Stage::linkages);
+  EXPECT_EQ(recorder.stages.back(), Stage::way);
   EXPECT_STREQ(name(Stage::linkages), "linkages");
 }
 

@@ -58,7 +58,8 @@ def test_maps(tmp_path, maps):
     assert [m.stamp_ns for m in read] == [m.stamp_ns for m in maps[-3:]]
     for ours, theirs in zip(maps[-1].lanes, read[-1].lanes):
         assert np.allclose(ours.centerline, theirs.centerline)
-        assert ours.left_boundary == theirs.left_boundary
+        assert ours.left_borders[0].boundary == theirs.left_borders[0].boundary
+    assert read[-1].way.known == maps[-1].way.known
 
 
 def test_truth(tmp_path, truth):

@@ -27,11 +27,25 @@ def test_a_map_is_made_of_arrays(maps):
     assert lane.centerline.dtype == np.float64
     assert last.pose.shape == (4, 4)
     boundaries = {boundary.id: boundary for boundary in last.boundaries}
-    left = boundaries[lane.left_boundary]
+    border = lane.left_borders[0]
+    left = boundaries[border.boundary]
     assert left.lateral_stddev.shape == (len(left.points),)
-    assert 0 <= lane.left_range[0] < lane.left_range[1]
+    assert 0 <= border.on_boundary[0] < border.on_boundary[1]
+    assert border.range[0] == pytest.approx(0, abs=1e-6)
+    assert (lane.use, lane.use_probability) == ("lane", -1)
+    assert set(lane.evidence) & {"markings", "edges"}
     assert {linkage.from_lane for linkage in last.linkages} <= {lane.id for lane in last.lanes}
-    assert any(event.kind == "born" for m in maps for event in m.lineage)
+    assert any(event.kind == "born" and event.element == "lane" for m in maps for event in m.lineage)
+
+
+def test_a_map_has_the_own_way(maps):
+    assert maps[0].way is None
+    way = maps[-1].way
+    assert 0 < way.confirmed <= way.known <= 60
+    assert way.stations[0].lane == way.lanes[0]
+    steps = np.diff([station.point[:2] for station in way.stations], axis=0)
+    assert np.allclose(np.hypot(*steps.T), way.step, atol=0.02)
+    assert np.allclose(np.arctan2(*steps[0][::-1]), way.stations[0].heading, atol=0.05)
 
 
 def test_a_map_stays_as_it_was(frames):

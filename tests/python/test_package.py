@@ -37,8 +37,10 @@ def test_the_example_rates_a_network(drive):
     picture = drive.folder / "picture.png"
     rated = subprocess.run([sys.executable, EXAMPLE, drive.truth, drive.frames, picture], check=True,
                            capture_output=True, text=True).stdout.splitlines()
-    raw, fused = (float(line.split("F1 ")[1].split(",")[0]) for line in rated)
+    raw, fused = (float(line.split("F1 ")[1].split(",")[0]) for line in rated if "F1 " in line)
     assert fused > raw > 0.3
+    way = next(i for i, line in enumerate(rated) if line.startswith("way: "))
+    assert all("heading" in line for line in rated[way + 1:way + 4])
     assert picture.exists()
 
 

@@ -15,6 +15,7 @@ namespace msg {
 static json of(std::uint64_t value) { return std::to_string(value); }
 static json of(std::int64_t value) { return std::to_string(value); }
 static json of(std::uint32_t value) { return value; }
+static json of(bool value) { return value; }
 static json of(double value) { return value; }
 template <class Enum>
 requires std::is_enum_v<Enum> json of(Enum value) { return static_cast<std::uint32_t>(value); }
@@ -45,9 +46,14 @@ static json of(const StyleRange& m) { return of_fields<laneloom::StyleRange>(m);
 static json of(const Marking& m) { return of_fields<laneloom::Marking>(m); }
 static json of(const LineageEvent& m) { return of_fields<laneloom::LineageEvent>(m); }
 static json of(const Neighbour& m) { return of_fields<laneloom::Neighbour>(m); }
+static json of(const Border& m) { return of_fields<laneloom::Border>(m); }
 static json of(const Lane& m) { return of_fields<laneloom::Lane>(m); }
 static json of(const Stopline& m) { return of_fields<laneloom::Stopline>(m); }
 static json of(const Linkage& m) { return of_fields<laneloom::Linkage>(m); }
+static json of(const WayStation& m) { return of_fields<laneloom::WayStation>(m); }
+static json of(const WayLane& m) { return of_fields<laneloom::WayLane>(m); }
+static json of(const Way& m) { return of_fields<laneloom::Way>(m); }
+static json of(const DrivenPath& m) { return of_fields<laneloom::DrivenPath>(m); }
 static json of(const FusedFrame& m) { return of_fields<laneloom::FusedFrame>(m); }
 
 static json of(const Header& m) {
@@ -119,6 +125,8 @@ json json_of(const msg::LaneMap& m) {
           {"lanes", of(m.lanes())},
           {"stoplines", of(m.stoplines())},
           {"linkages", of(m.linkages())},
+          {"way", of(m.way())},
+          {"driven_paths", of(m.driven_paths())},
           {"lineage", of(m.lineage())}};
 }
 

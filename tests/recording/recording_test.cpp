@@ -263,7 +263,7 @@ TEST(Recording, PosesOfAnotherMapFrameAreRefused) {
   writer.close();
   RecordingReader wrong(writer.path());
   EXPECT_FALSE(wrong.next());
-  EXPECT_EQ(wrong.refused()["laneloom/v2/vehicle_pose: wrong_frame"], 1U);
+  EXPECT_EQ(wrong.refused()["laneloom/v3/vehicle_pose: wrong_frame"], 1U);
   RecordingReader right(writer.path(), "odom");
   EXPECT_TRUE(right.next());
 }
@@ -290,8 +290,8 @@ TEST(Recording, OthersTopicsAndTypesArePassedOver) {
   EXPECT_TRUE(reader.next());
   EXPECT_FALSE(reader.next());
   EXPECT_EQ(reader.refused()["camera: not a topic of laneloom"], 1U);
-  EXPECT_EQ(reader.refused()["laneloom/v2/vehicle_pose: another type"], 1U);
-  EXPECT_EQ(reader.refused()["laneloom/v2/vehicle_pose: unknown encoding"], 1U);
+  EXPECT_EQ(reader.refused()["laneloom/v3/vehicle_pose: another type"], 1U);
+  EXPECT_EQ(reader.refused()["laneloom/v3/vehicle_pose: unknown encoding"], 1U);
 }
 
 TEST(Recording, LogTimesWhoseDifferencesOverflowAreRefused) {
@@ -313,7 +313,7 @@ TEST(Recording, LogTimesWhoseDifferencesOverflowAreRefused) {
   ASSERT_TRUE(message);
   EXPECT_EQ(message->log_time_ns, std::int64_t{1} << 62U);
   EXPECT_FALSE(reader.next());
-  EXPECT_EQ(reader.refused()["laneloom/v2/vehicle_pose: log time"], 2U);
+  EXPECT_EQ(reader.refused()["laneloom/v3/vehicle_pose: log time"], 2U);
   RecordingReader raw(folder.file("r.mcap"));
   EXPECT_TRUE(raw.next_raw());
   EXPECT_FALSE(raw.next_raw());

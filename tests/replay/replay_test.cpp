@@ -181,7 +181,7 @@ TEST(LiveComparison, TellsEqualDifferentAndMissing) {
   live.sequence = 55;
   live.session_id = 9;
   live.age_s = 0.1;
-  live.map.lineage.push_back({LineageEvent::Kind::born, 7, kNoElement});
+  live.map.lineage.push_back({.kind = LineageEvent::Kind::born, .id = 7});
 
   LiveComparison same;
   same.add_replayed(replayed);

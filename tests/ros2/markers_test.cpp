@@ -44,8 +44,8 @@ PublishedMap road() {
   stopline.marking.points = {Point(10.0, -2.0, 0.0), Point(10.0, 2.0, 0.0)};
   map.map.stoplines = {stopline};
   map.map.linkages = {{7, 8}, {7, 8}};
-  map.map.linkages.back() = {
-      8, 7, Linkage::Kind::intersection, Linkage::Turn::left, 1.0, straight(10.0, 0.0, 10)};
+  map.map.linkages.back() = {.from = 8, .to = 7, .path = straight(10.0, 0.0, 10)};
+  map.map.way = Way{.stations = {{.point = {1.0, 0.5, 0.0}}, {.point = {2.0, 0.5, 0.0}}}, .lanes = {}};
   return map;
 }
 
@@ -53,8 +53,8 @@ TEST(Markers, AreTheSameForAsLongAsTheElementIsThere) {
   Markers markers;
   const auto map = road();
   const Array before = markers.update(map), after = markers.update(map);
-  // Two lanes, a boundary, a stopline, the linkage that has a path, the state.
-  EXPECT_EQ(keys(before, kAdd).size(), 6U);
+  // Two lanes, a boundary, a stopline, the linkage that has a path, the way, the state.
+  EXPECT_EQ(keys(before, kAdd).size(), 7U);
   EXPECT_EQ(keys(after, kAdd), keys(before, kAdd));
   EXPECT_TRUE(keys(after, kDelete).empty());
   for (const auto& marker : after.markers()) {
@@ -71,16 +71,17 @@ TEST(Markers, OfWhatLeavesTheMapAreDeletedOnce) {
   const Array before = markers.update(map);
   map.map.lanes.erase(map.map.lanes.begin());
   map.map.boundaries.clear();
+  map.map.way.reset();
   const Array after = markers.update(map);
   Keys expected;
   std::ranges::set_difference(keys(before, kAdd), keys(after, kAdd),
                               std::inserter(expected, expected.begin()));
-  EXPECT_EQ(expected.size(), 2U);
+  EXPECT_EQ(expected.size(), 3U);
   EXPECT_EQ(keys(after, kDelete), expected);
   EXPECT_TRUE(keys(markers.update(map), kDelete).empty());
   // One that comes back does not take the id of another one.
   const Keys again = keys(markers.update(road()), kAdd);
-  EXPECT_EQ(again.size(), 6U);
+  EXPECT_EQ(again.size(), 7U);
 }
 
 TEST(Markers, LinesHaveAColourForEachPoint) {

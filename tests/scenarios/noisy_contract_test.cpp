@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <utility>
+
 #include "contract/contract.hpp"
 #include "laneloom/mapper.hpp"
 #include "published.hpp"
@@ -9,6 +12,8 @@
 /// Whatever the noise, no map breaks what a planner relies on.
 namespace laneloom {
 namespace {
+
+constexpr double kMaxOverlapping = 0.1;  // share of the maps in which lanes overlap
 
 struct Noisy {
   const char* scenario;
@@ -32,16 +37,23 @@ TEST_P(NoisyContract, IsKept) {
   config.method = method;
   Mapper mapper(config);
   std::size_t lanes = 0;
+  int frames = 0, overlapping = 0;
+  std::optional<PublishedMap> previous;
   for (int i = 1; i < static_cast<int>(road.drive.duration_s() * 10.0); ++i) {
     const VehiclePose pose = road.drive.pose_at(0.1 * i);
-    const PublishedMap published = test::published(mapper.update(perception.observe(pose), transform(pose)),
-                                                   static_cast<std::uint64_t>(i));
+    PublishedMap published = test::published(mapper.update(perception.observe(pose), transform(pose)),
+                                             static_cast<std::uint64_t>(i));
     lanes += published.map.lanes.size();
-    for (const contract::Violation& violation : contract::check_contract(published, nullptr)) {
+    for (const contract::Violation& violation :
+         contract::check_contract(published, previous ? &*previous : nullptr)) {
       ADD_FAILURE() << "frame " << i << ": " << name(violation.rule) << ": " << violation.detail;
     }
+    ++frames;
+    if (!contract::check_lanes_apart(published.map).empty()) ++overlapping;
+    previous = std::move(published);
   }
   EXPECT_GT(lanes, 50U);
+  EXPECT_LE(overlapping, kMaxOverlapping * frames);
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, NoisyContract,

@@ -28,8 +28,8 @@ class SnapshotFileTest : public ::testing::Test {
         {"1.0 abc", 100 * kSecond, 500 * kSecond}, 77, {1, 2, 3, 4, {5, 6, 7}}, MapperState(MapperConfig{})};
     result.state.ids = markings::IdSource(42);
     result.state.map.boundaries.push_back(Marking{.id = 7, .points = {{1, 2, 3}, {4, 5, 6}}});
-    result.state.map.lanes.push_back(Lane{.id = 8, .left_reversed = true});
-    result.state.map.lanes.push_back(Lane{.id = 9, .right_reversed = true});
+    result.state.map.lanes.push_back(Lane{.id = 8, .left_borders = {{.reversed = true}}});
+    result.state.map.lanes.push_back(Lane{.id = 9, .right_borders = {{.reversed = true}}});
     return result;
   }
   Snapshot read(const SnapshotStamp& now) const { return read_snapshot(file_, now, 5.0, MapperConfig{}); }
@@ -58,8 +58,8 @@ TEST_F(SnapshotFileTest, ComesBackAsItWas) {
   const auto back = read(soon_);
   EXPECT_EQ(to_bytes(back.state), to_bytes(snapshot().state));
   ASSERT_EQ(back.state.map.lanes.size(), 2U);
-  EXPECT_TRUE(back.state.map.lanes[0].left_reversed);
-  EXPECT_TRUE(back.state.map.lanes[1].right_reversed);
+  EXPECT_TRUE(back.state.map.lanes[0].left_borders.at(0).reversed);
+  EXPECT_TRUE(back.state.map.lanes[1].right_borders.at(0).reversed);
   EXPECT_EQ(back.checkpoint.frame_stamp_ns, 1);
   EXPECT_EQ(back.checkpoint.frame_arrival_ns, 2);
   EXPECT_EQ(back.checkpoint.pose_stamp_ns, 3);

@@ -29,17 +29,30 @@ Marking marking(ElementId id, MarkingType type, const Polyline& points) {
 Lane lane(ElementId id, double right_y, ElementId left_boundary, ElementId right_boundary) {
   Lane l;
   l.id = id;
-  l.left_boundary = left_boundary;
-  l.right_boundary = right_boundary;
-  l.left_range = l.right_range = {0.0, 20.0};
+  l.left_borders = {{left_boundary, {0.0, 20.0}, {0.0, 20.0}}};
+  l.right_borders = {{right_boundary, {0.0, 20.0}, {0.0, 20.0}}};
   l.left = line_at(right_y + 3.0);
   l.right = line_at(right_y);
   l.centerline = line_at(right_y + 1.5);
   l.width_m = 3.0;
+  l.use = Lane::Use::lane;
+  l.evidence = Evidence::markings | Evidence::edges;
+  l.direction = Lane::Direction::along_centerline;
+  l.direction_probability = 0.9;
+  l.direction_evidence = Evidence::edges;
   return l;
 }
 
-/// Two lanes side by side (10 right of 11) between the boundaries 1, 2, 3, and stopline 4.
+/// Straight on in lane 10.
+Way way() {
+  Way way{.stations = {}, .lanes = {{.id = 10}}, .known_m = 10.5, .confirmed_m = 4.0};
+  for (int x = 5; x <= 15; ++x)
+    way.stations.push_back({.point = {static_cast<double>(x), 1.5, 0.0}, .lane = 10});
+  return way;
+}
+
+/// Two lanes side by side (10 right of 11) between the boundaries 1, 2, 3, and stopline 4. The vehicle is in
+/// lane 10.
 PublishedMap good_map() {
   PublishedMap map;
   map.sequence = 7;
@@ -64,7 +77,11 @@ PublishedMap good_map() {
   linkage.from = 10;
   linkage.to = 11;
   linkage.path = {{20, 1.5, 0}, {0, 4.5, 0}};
+  linkage.evidence = Evidence::ego_path;
   map.map.linkages = {linkage};
+  map.map.T_map_body.translation() = Point(5.0, 1.0, 0.0);
+  map.map.way = way();
+  map.map.driven_paths = {{.id = 5, .points = line_at(20.0), .lateral_stddev_m = 0.6, .probability = 0.5}};
   return map;
 }
 
@@ -87,6 +104,55 @@ TEST(Contract, HoldsForAGoodMap) {
     ADD_FAILURE() << name(v.rule) << ": " << v.detail;
 }
 
+TEST(Contract, HoldsForABorderThatChangesOrIsUnseen) {
+  PublishedMap map = good_map();
+  map.map.boundaries.push_back(marking(7, MarkingType::roadedge, line_at(0.0)));
+  Lane& lane = map.map.lanes[0];
+  lane.right_borders = {
+      {1, {0.0, 8.0}, {0.0, 8.0}}, {kNoElement, {8.0, 12.0}, {}}, {7, {12.0, 20.0}, {1.0, 9.0}}};
+  EXPECT_TRUE(contract::check_contract(map, nullptr).empty());
+}
+
+TEST(Contract, HoldsForLanesWhoseOverlapIsWithinTheirDeviations) {
+  PublishedMap map = good_map();
+  Lane& upper = map.map.lanes[1];
+  for (Point& point : upper.right) point.y() -= 0.4;  // of 3 deviations of two lines of 0.1 m each
+  for (const contract::Violation& v : contract::check_lanes_apart(map.map)) ADD_FAILURE() << v.detail;
+}
+
+TEST(Contract, LanesThatOverlapByMoreAreFoundWhateverTheirOrder) {
+  PublishedMap map = good_map();
+  for (Point& point : map.map.lanes[1].right) point.y() -= 0.7;
+  const auto rule = testing::Field(&contract::Violation::rule, contract::ContractRule::lanes_apart);
+  EXPECT_THAT(contract::check_lanes_apart(map.map), testing::Contains(rule));
+  std::swap(map.map.lanes[0], map.map.lanes[1]);
+  EXPECT_THAT(contract::check_lanes_apart(map.map), testing::Contains(rule));
+  map.map.lanes[0].use = Lane::Use::shoulder;
+  EXPECT_THAT(contract::check_lanes_apart(map.map), testing::IsEmpty());
+}
+
+TEST(Contract, LineageOfAMapThatWasMissedIsNotAskedFor) {
+  PublishedMap map = good_map();
+  PublishedMap previous = map;
+  previous.sequence = map.sequence - 2;
+  previous.map.lanes[0].id = 12;
+  EXPECT_TRUE(contract::check_contract(map, &previous).empty());
+}
+
+TEST(Contract, LineageTellsOfLanesThatComeAndGo) {
+  PublishedMap map = good_map();
+  PublishedMap previous = map;
+  previous.sequence = map.sequence - 1;
+  previous.map.lanes[0].id = 12;
+  EXPECT_EQ(contract::check_contract(map, &previous).size(), 2U);
+  using Kind = LineageEvent::Kind;
+  map.map.lineage = {{Kind::split_from, LineageEvent::Element::lane, 10, 12},
+                     {Kind::merged_into, LineageEvent::Element::lane, 12, 10}};
+  EXPECT_TRUE(contract::check_contract(map, &previous).empty());
+  map.map.lineage[0].element = LineageEvent::Element::boundary;
+  EXPECT_EQ(contract::check_contract(map, &previous).size(), 1U);
+}
+
 TEST(Contract, HoldsForAMapBeforeAnythingWasFused) {
   PublishedMap map;
   map.reasons = {StateReason::starting};
@@ -97,10 +163,10 @@ TEST(Contract, HoldsForNeighboursOfOppositeDirections) {
   PublishedMap map = good_map();
   Lane& upper = map.map.lanes[1];
   std::swap(upper.left, upper.right);
-  std::swap(upper.left_boundary, upper.right_boundary);
+  std::swap(upper.left_borders, upper.right_borders);
   for (Polyline* line : {&upper.left, &upper.right, &upper.centerline})
     std::reverse(line->begin(), line->end());
-  upper.left_range = upper.right_range = {20.0, 0.0};
+  upper.left_borders.front().on_boundary = upper.right_borders.front().on_boundary = {20.0, 0.0};
   std::swap(upper.left_neighbours, upper.right_neighbours);
   map.map.linkages[0].path.back() = upper.centerline.front();
   EXPECT_TRUE(contract::check_contract(map, nullptr).empty());
@@ -151,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"no_id", contract::ContractRule::unique_ids,
               [](auto& m) { m.map.boundaries[0].id = kNoElement; }},
         Fault{"unknown_boundary", contract::ContractRule::known_ids,
-              [](auto& m) { lower(m).left_boundary = 99; }},
+              [](auto& m) { lower(m).left_borders.front().boundary = 99; }},
         Fault{"unknown_neighbour", contract::ContractRule::known_ids,
               [](auto& m) {
                 lower(m).left_neighbours = {{.lane = 99, .range = {0.0, 20.0}}};
@@ -184,19 +250,78 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"wrong_side", contract::ContractRule::neighbours_across_boundary,
               [](auto& m) { std::swap(upper(m).left_neighbours, upper(m).right_neighbours); }},
         Fault{"range_beyond", contract::ContractRule::range_in_boundary,
-              [](auto& m) { lower(m).left_range.to_m = 20.2; }},
+              [](auto& m) { lower(m).left_borders.front().on_boundary.to_m = 20.2; }},
         Fault{"range_before", contract::ContractRule::range_in_boundary,
-              [](auto& m) { lower(m).right_range.from_m = -0.2; }},
+              [](auto& m) { lower(m).right_borders.front().on_boundary.from_m = -0.2; }},
         Fault{"range_empty", contract::ContractRule::range_in_boundary,
               [](auto& m) {
-                lower(m).right_range = {5.0, 5.0};
+                lower(m).right_borders.front().on_boundary = {5.0, 5.0};
               }},
         Fault{"range_nan", contract::ContractRule::range_in_boundary,
-              [](auto& m) { lower(m).right_range.to_m = kNan; }},
+              [](auto& m) { lower(m).right_borders.front().on_boundary.to_m = kNan; }},
         Fault{"inferred_beyond", contract::ContractRule::range_in_boundary,
               [](auto& m) {
                 lower(m).inferred_ranges = {{10.0, 21.0}};
               }},
+        Fault{"border_missing", contract::ContractRule::covering_borders,
+              [](auto& m) { lower(m).right_borders.clear(); }},
+        Fault{"border_short", contract::ContractRule::covering_borders,
+              [](auto& m) { lower(m).right_borders.front().range.to_m = 19.0; }},
+        Fault{"border_gap", contract::ContractRule::covering_borders,
+              [](auto& m) {
+                lower(m).right_borders = {{1, {0.0, 8.0}, {0.0, 8.0}}, {1, {9.0, 20.0}, {9.0, 20.0}}};
+              }},
+        Fault{"border_overlap", contract::ContractRule::covering_borders,
+              [](auto& m) {
+                lower(m).right_borders = {{1, {0.0, 12.0}, {0.0, 12.0}}, {1, {9.0, 20.0}, {9.0, 20.0}}};
+              }},
+        Fault{"border_nan", contract::ContractRule::covering_borders,
+              [](auto& m) { lower(m).right_borders.front().range.to_m = kNan; }},
+        Fault{"lane_evidence", contract::ContractRule::stated_evidence,
+              [](auto& m) { lower(m).evidence = Evidence::none; }},
+        Fault{"linkage_evidence", contract::ContractRule::stated_evidence,
+              [](auto& m) { m.map.linkages[0].evidence = Evidence::none; }},
+        Fault{"direction_evidence", contract::ContractRule::stated_evidence,
+              [](auto& m) { lower(m).direction_evidence = Evidence::none; }},
+        Fault{"direction_without_probability", contract::ContractRule::stated_evidence,
+              [](auto& m) { lower(m).direction_probability = -1.0; }},
+        Fault{"evidence_of_no_direction", contract::ContractRule::stated_evidence,
+              [](auto& m) { lower(m).direction = Lane::Direction::unknown; }},
+        Fault{"direction_probability", contract::ContractRule::valid_values,
+              [](auto& m) { lower(m).direction_probability = 1.5; }},
+        Fault{"use_probability", contract::ContractRule::valid_values,
+              [](auto& m) { lower(m).use_probability = kNan; }},
+        Fault{"driven_path_probability", contract::ContractRule::valid_values,
+              [](auto& m) { m.map.driven_paths[0].probability = -1.0; }},
+        Fault{"driven_path", contract::ContractRule::valid_geometry,
+              [](auto& m) { m.map.driven_paths[0].points.resize(1); }},
+        Fault{"lane_came", contract::ContractRule::told_lineage, [](auto& m) { lower(m).id = 12; }},
+        Fault{"way_of_one_station", contract::ContractRule::sound_way,
+              [](auto& m) { m.map.way->stations.resize(1); }},
+        Fault{"way_without_step", contract::ContractRule::sound_way, [](auto& m) { m.map.way->step_m = 0.0; }},
+        Fault{"way_station_off", contract::ContractRule::sound_way,
+              [](auto& m) { m.map.way->stations[3].point.y() += 0.3; }},
+        Fault{"way_station_late", contract::ContractRule::sound_way,
+              [](auto& m) { m.map.way->stations[3].point.x() += 0.1; }},
+        Fault{"way_heading", contract::ContractRule::sound_way,
+              [](auto& m) {
+                for (WayStation& station : m.map.way->stations) station.heading_rad = 0.2;
+              }},
+        Fault{"way_curvature", contract::ContractRule::sound_way,
+              [](auto& m) {
+                for (WayStation& station : m.map.way->stations) station.curvature_per_m = 0.1;
+              }},
+        Fault{"way_nan", contract::ContractRule::finite_numbers,
+              [](auto& m) { m.map.way->stations[3].width_m = kNan; }},
+        Fault{"way_elsewhere", contract::ContractRule::sound_way,
+              [](auto& m) { m.map.T_map_body.translation().x() = 2.0; }},
+        Fault{"way_unknown_lane", contract::ContractRule::known_ids,
+              [](auto& m) { m.map.way->lanes[0].id = 99; }},
+        Fault{"way_lane_not_listed", contract::ContractRule::sound_way,
+              [](auto& m) { m.map.way->stations[3].lane = 11; }},
+        Fault{"way_known", contract::ContractRule::sound_way, [](auto& m) { m.map.way->known_m = 9.0; }},
+        Fault{"way_confirmed", contract::ContractRule::sound_way,
+              [](auto& m) { m.map.way->confirmed_m = 11.0; }},
         Fault{"style_gap", contract::ContractRule::range_in_boundary,
               [](auto& m) { m.map.boundaries[0].styles[0].range.to_m = 9.0; }},
         Fault{"style_short", contract::ContractRule::range_in_boundary,
@@ -209,8 +334,8 @@ INSTANTIATE_TEST_SUITE_P(
               [](auto& m) { m.map.boundaries[0].lateral_stddev_m.pop_back(); }},
         Fault{"deviation_sign", contract::ContractRule::valid_values,
               [](auto& m) { m.map.boundaries[0].lateral_stddev_m[0] = -0.1; }},
-        Fault{"confidence", contract::ContractRule::valid_values,
-              [](auto& m) { m.map.linkages[0].confidence = kNan; }},
+        Fault{"linkage_probability", contract::ContractRule::valid_values,
+              [](auto& m) { m.map.linkages[0].probability = kNan; }},
         Fault{"width", contract::ContractRule::valid_values, [](auto& m) { lower(m).width_m = 0.0; }},
         Fault{"stopline_boundary", contract::ContractRule::valid_values,
               [](auto& m) { m.map.boundaries[0].type = MarkingType::stopline; }},

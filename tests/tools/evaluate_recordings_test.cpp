@@ -149,7 +149,7 @@ TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
   ASSERT_EQ(evaluate({"--frames", file("drive.mcap")}), 0) << output();
   EXPECT_THAT(output(), HasSubstr("5 of 10 frames compared"));
   EXPECT_THAT(output(),
-              HasSubstr("drive.mcap: 1 messages passed over: laneloom/v2/vehicle_pose: not_finite"));
+              HasSubstr("drive.mcap: 1 messages passed over: laneloom/v3/vehicle_pose: not_finite"));
 
   auto bytes = bytes_of(file("drive.mcap"));
   bytes.resize(bytes.size() / 2);

@@ -201,14 +201,14 @@ TEST(TopLl, AMissingEdgeCostsBothItsLanes) {
   EXPECT_DOUBLE_EQ(top_ll(map), 6.5 / 8.0);
 }
 
-TEST(TopLl, AWrongEdgeCountsByItsConfidence) {
+TEST(TopLl, AWrongEdgeCountsByItsProbability) {
   LocalMap map = perfect();
   map.linkages.push_back(linked(11, 14));
-  for (std::size_t i = 0; i < 3; ++i) map.linkages[i].confidence = 0.8;
+  for (std::size_t i = 0; i < 3; ++i) map.linkages[i].probability = 0.8;
   // Out of 1: the wrong one comes first, (1/2 + 2/3) / 2. Into 4: the wrong one comes first, 1/2. The six
   // others are 1.
   EXPECT_NEAR(top_ll(map), (6.0 + (1.0 / 2 + 2.0 / 3) / 2 + 1.0 / 2) / 8.0, 1e-12);
-  map.linkages.back().confidence = 0.5;
+  map.linkages.back().probability = 0.5;
   EXPECT_DOUBLE_EQ(top_ll(map), 1.0);
 }
 

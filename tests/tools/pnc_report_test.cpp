@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "laneloom/way.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -30,12 +32,13 @@ PublishedMap map_with_lane() {
   lane.left = left.points;
   lane.right = right.points;
   lane.centerline = {{0, 1.5, 0}, {15, 1.5, 0}};
-  lane.left_boundary = 2;
-  lane.right_boundary = 1;
-  lane.left_range = lane.right_range = {0.0, 15.0};
+  lane.left_borders = {{2, {0.0, 15.0}, {0.0, 15.0}}};
+  lane.right_borders = {{1, {0.0, 15.0}, {0.0, 15.0}}};
+  lane.evidence = Evidence::markings;
   lane.width_m = 3.0;
   map.map.boundaries = {right, left};
   map.map.lanes = {lane};
+  map.map.way = way_ahead(LaneGraph(map.map), map.map.T_map_body, WayWish::straight);
   return map;
 }
 
@@ -54,11 +57,14 @@ TEST(PncReport, TellsWhatAPlannerNeeds) {
   EXPECT_EQ(json.at("ego").at("width_ahead").at(0).at("width_m"), 3.0);
   EXPECT_TRUE(json.at("ego").at("width_ahead").at(1).at("width_m").is_null());
   EXPECT_THAT(describe(update), HasSubstr("10 m: 3.00 m   20 m: -"));
+  EXPECT_NEAR(json.at("way").at("known_m").get<double>(), 14.0, 1e-9);
+  EXPECT_NEAR(json.at("way").at("width_m").get<double>(), 3.0, 1e-9);
+  EXPECT_THAT(describe(update), HasSubstr("way             14 m, 14 m of it confirmed, curvature here"));
 }
 
 TEST(PncReport, DoesNotDriveOnAMapThatBreaksItsContract) {
   PublishedMap map = map_with_lane();
-  map.map.lanes[0].left_boundary = 99;
+  map.map.lanes[0].left_borders = {{.boundary = 99}};
   const pnc::PncUpdate update = pnc::judge(map, nullptr);
   EXPECT_EQ(update.ego.lane, kNoElement);
   EXPECT_THAT(describe(update), HasSubstr("VIOLATION       known_ids"));

@@ -12,8 +12,6 @@ namespace {
 constexpr double kMinLength_m = 0.01;
 constexpr double kRangeTolerance_m = 0.05;
 
-std::string label(const char* kind, ElementId id) { return std::string(kind) + " " + std::to_string(id); }
-
 bool is_finite(const Polyline& line) {
   return std::all_of(line.begin(), line.end(), [](const Point& p) { return p.allFinite(); });
 }
@@ -84,8 +82,10 @@ void check_markings(const LocalMap& map, Findings& findings) {
 void check_linkages(const LocalMap& map, Findings& findings) {
   for (const Linkage& linkage : map.linkages) {
     const std::string what = "linkage " + std::to_string(linkage.from) + " -> " + std::to_string(linkage.to);
-    findings.require(linkage.confidence >= 0.0 && linkage.confidence <= 1.0, ContractRule::valid_values,
-                     what + " has confidence " + std::to_string(linkage.confidence));
+    findings.require(linkage.probability >= 0.0 && linkage.probability <= 1.0, ContractRule::valid_values,
+                     what + " has probability " + std::to_string(linkage.probability));
+    findings.require(linkage.evidence != Evidence::none, ContractRule::stated_evidence,
+                     what + " has no evidence");
     if (!linkage.path.empty()) check_line(linkage.path, what + " path", findings);
   }
 }
@@ -113,7 +113,9 @@ void check_succession(const PublishedMap& map, const PublishedMap& previous, Fin
   findings.require(!nothing_new || map.age_s >= previous.age_s, ContractRule::possible_age,
                    "age fell from " + std::to_string(previous.age_s) + " s to " + std::to_string(map.age_s) +
                        " s though nothing was fused");
-  if (map.map_id == previous.map_id) check_orientations(map.map, previous.map, findings);
+  if (map.map_id != previous.map_id) return;
+  check_orientations(map.map, previous.map, findings);
+  if (map.sequence == previous.sequence + 1) check_lineage(map.map, previous.map, findings);
 }
 
 }  // namespace
@@ -138,6 +140,16 @@ const char* name(ContractRule rule) {
       return "joined_lanes_meet";
     case ContractRule::kept_orientation:
       return "kept_orientation";
+    case ContractRule::told_lineage:
+      return "told_lineage";
+    case ContractRule::covering_borders:
+      return "covering_borders";
+    case ContractRule::lanes_apart:
+      return "lanes_apart";
+    case ContractRule::stated_evidence:
+      return "stated_evidence";
+    case ContractRule::sound_way:
+      return "sound_way";
     case ContractRule::range_in_boundary:
       return "range_in_boundary";
     case ContractRule::valid_values:
@@ -185,7 +197,15 @@ std::vector<Violation> check_contract(const PublishedMap& map, const PublishedMa
   check_lanes(map.map, findings);
   check_linkages(map.map, findings);
   check_joints(map.map, findings);
+  check_way(map.map, findings);
+  check_driven_paths(map.map, findings);
   if (previous != nullptr) check_succession(map, *previous, findings);
+  return findings.take();
+}
+
+std::vector<Violation> check_lanes_apart(const LocalMap& map) {
+  Findings findings;
+  check_space(map, findings);
   return findings.take();
 }
 

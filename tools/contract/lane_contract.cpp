@@ -12,10 +12,9 @@ namespace {
 /// much.
 constexpr double kSideTolerance_m = 0.05;
 constexpr double kJointTolerance_m = 0.01;
+constexpr double kBorderTolerance_m = 0.05;
 
 using BoundariesById = std::map<ElementId, const Marking*>;
-
-std::string label(const Lane& lane) { return "lane " + std::to_string(lane.id); }
 
 /// Whether all points of `line` that have a foot within `reference` lie on one side of it. `side` is +1 for
 /// the left, -1 for the right.
@@ -46,14 +45,30 @@ void check_shape(const Lane& lane, Findings& findings) {
     check_range(range, length(lane.centerline), label(lane) + " inferred", findings);
 }
 
-void check_boundary(const Lane& lane, ElementId id, const Stretch& range, const BoundariesById& boundaries,
-                    Findings& findings) {
-  const auto found = boundaries.find(id);
-  const bool known = findings.require(found != boundaries.end(), ContractRule::known_ids,
-                                      label(lane) + " lies at unknown boundary " + std::to_string(id));
-  if (known)
-    check_range(range, length(found->second->points), label(lane) + " on boundary " + std::to_string(id),
+void check_border(const Lane& lane, const Border& border, const BoundariesById& boundaries,
+                  Findings& findings) {
+  if (border.boundary == kNoElement) return;
+  const auto found = boundaries.find(border.boundary);
+  const std::string id = std::to_string(border.boundary);
+  if (findings.require(found != boundaries.end(), ContractRule::known_ids,
+                       label(lane) + " lies at unknown boundary " + id))
+    check_range(border.on_boundary, length(found->second->points), label(lane) + " on boundary " + id,
                 findings);
+}
+
+void check_borders(const Lane& lane, Side side, const BoundariesById& boundaries, Findings& findings) {
+  double covered_m = 0.0;
+  bool in_order = true;
+  for (const Border& border : lane.borders(side)) {
+    in_order = in_order && std::abs(border.range.from_m - covered_m) <= kBorderTolerance_m &&
+               border.range.to_m > border.range.from_m;
+    covered_m = border.range.to_m;
+    check_border(lane, border, boundaries, findings);
+  }
+  const bool covered = std::abs(covered_m - length(lane.centerline)) <= kBorderTolerance_m;
+  findings.require(
+      in_order && covered, ContractRule::covering_borders,
+      label(lane) + " is not covered by its " + (side == Side::left ? "left" : "right") + " borders");
 }
 
 /// Whether two lanes run the same way along the stretch `beside` of `a`. Elsewhere both may bend.
@@ -64,8 +79,14 @@ bool same_way(const Lane& a, const Stretch& beside, const Lane& b) {
   return line_a.direction(middle_m).dot(line_b.direction(foot.arc_m)) > 0.0;
 }
 
-ElementId boundary_of(const Lane& lane, Side side) {
-  return side == Side::left ? lane.left_boundary : lane.right_boundary;
+/// Whether a boundary lies between a lane and the one beside it.
+bool share_boundary(const std::vector<Border>& borders, const Stretch& beside,
+                    const std::vector<Border>& facing) {
+  return std::ranges::any_of(borders, [&](const Border& border) {
+    return border.boundary != kNoElement && border.range.from_m < beside.to_m &&
+           beside.from_m < border.range.to_m &&
+           std::ranges::find(facing, border.boundary, &Border::boundary) != facing.end();
+  });
 }
 
 void check_stretches(const Neighbour& neighbour, const Lane& lane, const std::string& what,
@@ -93,8 +114,24 @@ void check_neighbour(const Lane& lane, const Neighbour& neighbour, Side side, co
   const auto& facing = neighbours(other, facing_side);
   findings.require(std::ranges::find(facing, lane.id, &Neighbour::lane) != facing.end(),
                    ContractRule::neighbours_across_boundary, what + " does not name it in return");
-  findings.require(boundary_of(other, facing_side) == boundary_of(lane, side),
+  findings.require(share_boundary(lane.borders(side), neighbour.range, other.borders(facing_side)),
                    ContractRule::neighbours_across_boundary, what + " is not across the boundary");
+}
+
+void check_trust(const Lane& lane, Findings& findings) {
+  check_probability(lane.existence_probability, label(lane), findings);
+  check_probability(lane.use_probability, label(lane) + " use", findings);
+  check_probability(lane.direction_probability, label(lane) + " direction", findings);
+  findings.require(std::isfinite(lane.width_m) && lane.width_m > 0.0, ContractRule::valid_values,
+                   label(lane) + " has width " + std::to_string(lane.width_m));
+  findings.require(lane.evidence != Evidence::none, ContractRule::stated_evidence,
+                   label(lane) + " has no evidence");
+  const bool told = lane.direction != Lane::Direction::unknown;
+  findings.require(
+      (lane.direction_evidence != Evidence::none) == told && (lane.direction_probability >= 0.0) == told,
+      ContractRule::stated_evidence,
+      label(lane) + (told ? " tells a direction without evidence or probability"
+                          : " has evidence of a direction that it does not tell"));
 }
 
 /// Whether the middle of a lane runs as another one does beside it. Lanes that are not side by side do.
@@ -132,20 +169,36 @@ void check_orientations(const LocalMap& map, const LocalMap& previous, Findings&
   }
 }
 
+void check_lineage(const LocalMap& map, const LocalMap& previous, Findings& findings) {
+  using Kind = LineageEvent::Kind;
+  const LaneGraph now(map), before(previous);
+  const auto require_event = [&](const Lane& lane, Kind alone, Kind related, const char* what) {
+    const bool told = std::ranges::any_of(map.lineage, [&](const LineageEvent& event) {
+      return event.element == LineageEvent::Element::lane && event.id == lane.id &&
+             (event.kind == alone || event.kind == related);
+    });
+    findings.require(told, ContractRule::told_lineage, label(lane) + what);
+  };
+  for (const Lane& lane : map.lanes)
+    if (before.find(lane.id) == nullptr)
+      require_event(lane, Kind::born, Kind::split_from, " came without an event");
+  for (const Lane& lane : previous.lanes)
+    if (now.find(lane.id) == nullptr)
+      require_event(lane, Kind::retired, Kind::merged_into, " went without an event");
+}
+
 void check_lanes(const LocalMap& map, Findings& findings) {
   const LaneGraph lanes(map);
   BoundariesById boundaries;
   for (const Marking& boundary : map.boundaries) boundaries.emplace(boundary.id, &boundary);
   for (const Lane& lane : map.lanes) {
     check_shape(lane, findings);
-    check_boundary(lane, lane.left_boundary, lane.left_range, boundaries, findings);
-    check_boundary(lane, lane.right_boundary, lane.right_range, boundaries, findings);
-    for (const Side side : kSides)
+    for (const Side side : kSides) {
+      check_borders(lane, side, boundaries, findings);
       for (const Neighbour& neighbour : neighbours(lane, side))
         check_neighbour(lane, neighbour, side, lanes, findings);
-    check_probability(lane.existence_probability, label(lane), findings);
-    findings.require(std::isfinite(lane.width_m) && lane.width_m > 0.0, ContractRule::valid_values,
-                     label(lane) + " has width " + std::to_string(lane.width_m));
+    }
+    check_trust(lane, findings);
   }
 }
 

@@ -82,6 +82,15 @@ Explanation explain(StateReason reason) {
     case StateReason::source_not_fused:
       return {"A source of detections that was heard a moment ago does not go into the map.",
               "See what else is found of it, and the sources in `laneloom status`."};
+    case StateReason::sources_disagree:
+      return {"Two sources of detections contradict each other by more than their deviations.",
+              "See how their sensors are calibrated, and whether both stamp by one clock."};
+    case StateReason::poses_jumped:
+      return {"The poses jumped by less than the gate refuses, and the map was moved or cleared.",
+              "Send continuous poses: odometry, not a localisation that corrects itself."};
+    case StateReason::driving_side_contradicted:
+      return {"Traffic keeps to the other side than mapper.direction.driving_side says.",
+              "Set mapper.direction.driving_side to the side of the country."};
   }
   return {"This version of the doctor does not know it.", "See the log of the service."};
 }

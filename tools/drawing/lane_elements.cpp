@@ -30,7 +30,9 @@ void add_course(const Lane& lane, std::vector<Shape>& shapes) {
   const auto arrows = std::max(1.0, std::floor(line.length() / kArrowSpacing_m));
   for (double i = 0.5; i < arrows; i += 1.0) {
     const double tip_m = line.length() * i / arrows;
-    shapes.push_back({DrawnArrow{line.at(tip_m), as_point(line.direction(tip_m))}, style, opacity});
+    const Point tip = line.at(tip_m), along = as_point(line.direction(tip_m));
+    shapes.push_back({DrawnArrow{tip, along}, style, opacity});
+    if (lane.direction == Lane::Direction::both) shapes.push_back({DrawnArrow{tip, -along}, style, opacity});
   }
 }
 

@@ -65,6 +65,17 @@ void add_stoplines(const LocalMap& map, Drawing& drawing) {
     drawing.add(element_of(Layer::stoplines, stopline.marking, properties_of(stopline, map)));
 }
 
+void add_way(const Way& way, Drawing& drawing) {
+  DrawnLine line;
+  for (const WayStation& station : way.stations) line.points.push_back(station.point);
+  drawing.add({.layer = Layer::way,
+               .key = "way",
+               .type = "way",
+               .status = {},
+               .properties = properties_of(way),
+               .shapes = {{std::move(line), Style::way}}});
+}
+
 void add_map(const LocalMap& map, Drawing& drawing) {
   drawing.stamp_ns = map.stamp_ns;
   drawing.T_map_body = map.T_map_body;
@@ -73,6 +84,7 @@ void add_map(const LocalMap& map, Drawing& drawing) {
   add_boundaries(map, drawing);
   add_stoplines(map, drawing);
   add_linkages(map, drawing);
+  if (map.way) add_way(*map.way, drawing);
 }
 
 void add_markings(const LocalMap& map, Drawing& drawing) {

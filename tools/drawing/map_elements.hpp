@@ -7,7 +7,7 @@
 /// drawing.
 namespace laneloom::drawing {
 
-/// Adds lanes, boundaries, stoplines and linkages. Takes over the map's stamp, pose and lineage.
+/// Adds lanes, boundaries, stoplines, linkages and the own way. Takes over the map's stamp, pose and lineage.
 void add_map(const LocalMap& map, Drawing& drawing);
 
 /// Adds the fused markings, before they are joined to boundaries.
@@ -22,6 +22,7 @@ void add_lanes(const LocalMap& map, Drawing& drawing);
 void add_linkages(const LocalMap& map, Drawing& drawing);
 void add_boundaries(const LocalMap& map, Drawing& drawing);
 void add_stoplines(const LocalMap& map, Drawing& drawing);
+void add_way(const Way& way, Drawing& drawing);
 
 /// The line to draw for a linkage: out of the end of one lane's centerline and into the beginning of the
 /// other's. Linkages follow the order of the points, also if traffic runs against it.

@@ -7,6 +7,7 @@ constexpr Colour kLaneline{0.83, 0.07, 0.09}, kDarkLaneline{1.00, 0.40, 0.38};
 constexpr Colour kRoadedge{0.07, 0.50, 0.16}, kDarkRoadedge{0.36, 0.80, 0.42};
 constexpr Colour kStopline{0.08, 0.20, 0.86}, kDarkStopline{0.47, 0.62, 1.00};
 constexpr Colour kLinkage{0.80, 0.00, 0.75}, kDarkLinkage{1.00, 0.45, 0.95};
+constexpr Colour kWay{0.95, 0.45, 0.00, 0.75}, kDarkWay{1.00, 0.70, 0.20, 0.80};
 constexpr Colour kTruth{0.60, 0.60, 0.60}, kDarkTruth{0.58, 0.58, 0.60};
 constexpr Colour kVehicle{0.22, 0.24, 0.30, 0.90}, kDarkVehicle{0.78, 0.80, 0.85, 0.95};
 constexpr Colour kWindow{0.80, 0.86, 0.93}, kDarkWindow{0.20, 0.26, 0.33};
@@ -62,6 +63,7 @@ constexpr std::array<StyleSpec, kStyleCount> kStyles{
     course("course_c", 2),
     course("course_d", 3),
     linkage(),
+    line("way", kWay, kDarkWay, 3.0),
     line("truth", kTruth, kDarkTruth, 1.0),
     area("field_of_view", {0.35, 0.55, 0.75, 0.07}, {0.55, 0.75, 0.95, 0.07}),
     area("occlusion", {0.20, 0.20, 0.25, 0.16}, {0.00, 0.00, 0.00, 0.45}),
@@ -83,6 +85,7 @@ constexpr std::array<LayerSpec, kLayerCount> kLayers{
     LayerSpec{.name = "boundaries", .title = "lane boundaries"},
     LayerSpec{.name = "stoplines", .title = "stop lines"},
     LayerSpec{.name = "linkages", .title = "linkages"},
+    LayerSpec{.name = "way", .title = "own way"},
     LayerSpec{.name = "detections", .title = "detections", .overlay = 0.55},
     LayerSpec{.name = "ids", .title = "ids", .shown = false},
     LayerSpec{.name = "vehicle", .title = "vehicle"}};

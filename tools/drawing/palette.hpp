@@ -27,6 +27,7 @@ enum class Style : std::uint8_t {
   course_c,
   course_d,
   linkage,
+  way,  ///< the own way
   truth,
   field_of_view,
   occlusion,
@@ -36,7 +37,7 @@ enum class Style : std::uint8_t {
   window,  ///< of the vehicle
   id
 };
-inline constexpr std::size_t kStyleCount = 22;
+inline constexpr std::size_t kStyleCount = 23;
 inline constexpr std::size_t kLaneStyles = 4;
 
 /// A group of elements that can be shown or hidden together. Layers are painted in this order; the first lies
@@ -52,11 +53,12 @@ enum class Layer : std::uint8_t {
   boundaries,
   stoplines,
   linkages,
+  way,
   detections,
   ids,
   vehicle
 };
-inline constexpr std::size_t kLayerCount = 13;
+inline constexpr std::size_t kLayerCount = 14;
 
 namespace palette {
 

@@ -54,12 +54,21 @@ json to_json(const std::vector<Neighbour>& neighbours) {
   return list;
 }
 
+json to_json(const std::vector<Border>& borders) {
+  json list = json::array();
+  for (const Border& border : borders) {
+    json& one = list.emplace_back(json{{"boundary", border.boundary}, {"range_m", to_json(border.range)}});
+    if (border.boundary != kNoElement) one["on_boundary_m"] = to_json(border.on_boundary);
+  }
+  return list;
+}
+
 }  // namespace
 
 double rounded(double value) { return std::round(value * 1e3) / 1e3; }
 
 json properties_of(const LineageEvent& event) {
-  json out{{"kind", name(event.kind)}, {"id", event.id}};
+  json out{{"kind", name(event.kind)}, {"element", name(event.element)}, {"id", event.id}};
   if (event.other != kNoElement) out["other"] = event.other;
   return out;
 }
@@ -72,9 +81,11 @@ json properties_of(const Marking& marking, const LocalMap& map) {
   put_lateral_stddev(marking.lateral_stddev_m, out);
   if (marking.first_seen_ns > 0) out["age_s"] = rounded(seconds(map.stamp_ns - marking.first_seen_ns));
   if (marking.last_seen_ns > 0) out["unseen_s"] = rounded(seconds(map.stamp_ns - marking.last_seen_ns));
-  put_lanes("left_boundary_of", map, out, [&](const Lane& lane) { return lane.left_boundary == marking.id; });
-  put_lanes("right_boundary_of", map, out,
-            [&](const Lane& lane) { return lane.right_boundary == marking.id; });
+  const auto is_in = [&](const std::vector<Border>& borders) {
+    return std::ranges::find(borders, marking.id, &Border::boundary) != borders.end();
+  };
+  put_lanes("left_border_of", map, out, [&](const Lane& lane) { return is_in(lane.left_borders); });
+  put_lanes("right_border_of", map, out, [&](const Lane& lane) { return is_in(lane.right_borders); });
   put_lineage(marking.id, map, out);
   return out;
 }
@@ -88,8 +99,10 @@ json properties_of(const Stopline& stopline, const LocalMap& map) {
 }
 
 json properties_of(const Lane& lane, const LocalMap& map) {
-  json out{{"left_boundary", lane.left_boundary},
-           {"right_boundary", lane.right_boundary},
+  json out{{"left_borders", to_json(lane.left_borders)},
+           {"right_borders", to_json(lane.right_borders)},
+           {"use", name(lane.use)},
+           {"evidence", names(lane.evidence)},
            {"width_m", rounded(lane.width_m)},
            {"length_m", rounded(length(lane.centerline))},
            {"direction", name(lane.direction)},
@@ -97,6 +110,10 @@ json properties_of(const Lane& lane, const LocalMap& map) {
            {"left_neighbours", to_json(lane.left_neighbours)},
            {"right_neighbours", to_json(lane.right_neighbours)}};
   put_existence(lane.existence_probability, out);
+  if (lane.direction != Lane::Direction::unknown) {
+    out["direction_probability"] = rounded(lane.direction_probability);
+    out["direction_evidence"] = names(lane.direction_evidence);
+  }
   if (!lane.inferred_ranges.empty()) out["inferred_m"] = to_json(lane.inferred_ranges);
   for (const Linkage& linkage : map.linkages) {
     if (linkage.from == lane.id) out["successors"].push_back(linkage.to);
@@ -105,6 +122,7 @@ json properties_of(const Lane& lane, const LocalMap& map) {
   for (const Stopline& stopline : map.stoplines)
     if (std::find(stopline.lanes.begin(), stopline.lanes.end(), lane.id) != stopline.lanes.end())
       out["stoplines"].push_back(stopline.marking.id);
+  put_lineage(lane.id, map, out);
   return out;
 }
 
@@ -113,7 +131,18 @@ json properties_of(const Linkage& linkage) {
           {"to", linkage.to},
           {"kind", name(linkage.kind)},
           {"turn", name(linkage.turn)},
-          {"confidence", rounded(linkage.confidence)}};
+          {"probability", rounded(linkage.probability)},
+          {"evidence", names(linkage.evidence)}};
+}
+
+json properties_of(const Way& way) {
+  const WayStation& here = way.stations.front();
+  json lanes = json::array();
+  for (const WayLane& lane : way.lanes) lanes.push_back(lane.id);
+  return {{"length_m", rounded(way.known_m)},
+          {"confirmed_m", rounded(way.confirmed_m)},
+          {"width_m", rounded(here.width_m)},
+          {"lanes", lanes}};
 }
 
 }  // namespace laneloom::drawing

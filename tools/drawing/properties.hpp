@@ -16,6 +16,7 @@ nlohmann::json properties_of(const Marking& marking, const LocalMap& map);
 nlohmann::json properties_of(const Stopline& stopline, const LocalMap& map);
 nlohmann::json properties_of(const Lane& lane, const LocalMap& map);
 nlohmann::json properties_of(const Linkage& linkage);
+nlohmann::json properties_of(const Way& way);
 nlohmann::json properties_of(const LineageEvent& event);
 
 }  // namespace laneloom::drawing

@@ -204,7 +204,7 @@ void add_stoplines(const TruthTopology& truth, const FrameComparison& frame, con
 }  // namespace
 
 bool may_run(Lane::Direction direction, bool reversed) {
-  return direction == Lane::Direction::unknown ||
+  return direction == Lane::Direction::unknown || direction == Lane::Direction::both ||
          (direction == Lane::Direction::against_centerline) == reversed;
 }
 

@@ -27,7 +27,7 @@
 ///   and the share of such lanes, with a published lane on them, that are named.
 namespace laneloom::evaluation {
 
-inline constexpr std::size_t kLinkageKindCount = 5;
+inline constexpr std::size_t kLinkageKindCount = 6;
 
 /// The successors of the truth lanes, and the lanes that each stopline ends.
 struct TruthTopology {

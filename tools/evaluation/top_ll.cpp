@@ -59,7 +59,7 @@ class PublishedGraph {
       const auto from = vertex_of.find(linkage.from), to = vertex_of.find(linkage.to);
       if (from == vertex_of.end() || to == vertex_of.end() || from->second == to->second) continue;
       double& confidence = edges_[{from->second, to->second}];
-      confidence = std::max(confidence, linkage.confidence);
+      confidence = std::max(confidence, linkage.probability);
     }
   }
 

@@ -34,14 +34,14 @@ Gates::Gates(const LocalMap& map)
   for (const Marking& boundary : map.boundaries) courses_.emplace_back(boundary.points);
   for (std::size_t i = 0; i < map.lanes.size(); ++i) {
     const Lane& lane = map.lanes[i];
-    const auto side = [&](ElementId boundary, const Stretch& range, bool reversed) {
-      return SideOfLane{.boundary = index.at(boundary),
-                        .reversed = reversed,
-                        .begin_m = reversed ? range.to_m : range.from_m,
-                        .end_m = reversed ? range.from_m : range.to_m};
+    const auto side = [&](const Border& border) {
+      const Stretch& range = border.on_boundary;
+      return SideOfLane{.boundary = index.at(border.boundary),
+                        .reversed = border.reversed,
+                        .begin_m = border.reversed ? range.to_m : range.from_m,
+                        .end_m = border.reversed ? range.from_m : range.to_m};
     };
-    sides_.push_back({side(lane.left_boundary, lane.left_range, lane.left_reversed),
-                      side(lane.right_boundary, lane.right_range, lane.right_reversed)});
+    sides_.push_back({side(lane.left_borders.front()), side(lane.right_borders.front())});
     for (const bool left : {true, false}) beside_[boundary_of(i, left)].emplace_back(i, left);
   }
   for (std::size_t i = 0; i < map.lanes.size(); ++i) {

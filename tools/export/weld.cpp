@@ -9,6 +9,7 @@
 #include "export/gates.hpp"
 #include "export/network_builder.hpp"
 #include "export/node_groups.hpp"
+#include "export/single_borders.hpp"
 #include "export/strays.hpp"
 
 namespace laneloom::exports {
@@ -77,6 +78,10 @@ Linkage::Turn turn_of(const Linkage& linkage) {
   return along_markings && linkage.turn == Linkage::Turn::straight ? Linkage::Turn::unknown : linkage.turn;
 }
 
+bool is_one_way(const Lane& lane) {
+  return lane.direction != Lane::Direction::unknown && lane.direction != Lane::Direction::both;
+}
+
 void add_lanes(const LocalMap& map, const Gates& gates, NetworkBuilder& builder) {
   for (std::size_t i = 0; i < map.lanes.size(); ++i) {
     const Lane& lane = map.lanes[i];
@@ -84,7 +89,7 @@ void add_lanes(const LocalMap& map, const Gates& gates, NetworkBuilder& builder)
     for (std::size_t k = 0; k + 1 < row.size(); ++k)
       builder.add({.left = builder.stretch(row[k].left, row[k + 1].left),
                    .right = builder.stretch(row[k].right, row[k + 1].right),
-                   .one_way = lane.direction != Lane::Direction::unknown,
+                   .one_way = is_one_way(lane),
                    .lane = lane.id,
                    .linkage = {},
                    .status = lane.status,
@@ -97,17 +102,14 @@ void add_connectors(const LocalMap& map, const std::vector<Joint>& joints, Netwo
     const Joint& joint = joints[i];
     if (joint.welded) continue;
     const Linkage& linkage = map.linkages[i];
-    const auto is_one_way = [&](std::size_t lane) {
-      return map.lanes[lane].direction != Lane::Direction::unknown;
-    };
     const auto [left, right] = builder.sides_between(joint.exit, joint.entry, linkage.path);
     builder.add({.left = left,
                  .right = right,
-                 .one_way = is_one_way(joint.from) || is_one_way(joint.to),
+                 .one_way = is_one_way(map.lanes[joint.from]) || is_one_way(map.lanes[joint.to]),
                  .linkage = i,
                  .turn = turn_of(linkage),
                  .status = map.lanes[joint.to].status,
-                 .existence_probability = linkage.confidence});
+                 .existence_probability = linkage.probability});
   }
 }
 
@@ -121,7 +123,8 @@ void add_stops(const LocalMap& map, NetworkBuilder& builder) {
 
 }  // namespace
 
-RoadNetwork weld(const LocalMap& map) {
+RoadNetwork weld(const LocalMap& published) {
+  const LocalMap map = with_single_borders(published);
   Gates gates(map);
   NodeGroups groups(gates.cuts());
   const std::vector<Joint> joints = Joiner(map, gates, groups).join();

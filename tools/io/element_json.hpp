@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,7 @@ struct ToJson {
   template <class Enum>
   requires std::is_enum_v<Enum>
   static nlohmann::json of(Enum value) { return name(value); }
+  static nlohmann::json of(Evidence evidence) { return names(evidence); }
   static nlohmann::json of(const Stretch& range) { return {range.from_m, range.to_m}; }
   static nlohmann::json of(const Point& point) { return {point.x(), point.y(), point.z()}; }
   template <class Value>
@@ -74,6 +76,16 @@ struct FromJson {
       if (name(to) == word) return;
     }
     throw JsonError("'" + word + "' is not known");
+  }
+  static void read(const nlohmann::json& value, bool& to) { to = boolean(value); }
+  static void read(const nlohmann::json& value, Evidence& to) {
+    to = Evidence::none;
+    for (const std::string& word : list(value, text)) {
+      const auto is_named = [&](Evidence kind) { return word == names(kind).front(); };
+      const auto kind = std::ranges::find_if(kEvidenceKinds, is_named);
+      if (kind == kEvidenceKinds.end()) throw JsonError("'" + word + "' is not known");
+      to |= *kind;
+    }
   }
   static void read(const nlohmann::json& value, Stretch& to) {
     if (!value.is_array() || value.size() != 2) throw JsonError("must be [from, to]");

@@ -34,13 +34,22 @@
 ///                     "observations": 1, "first_seen_ns": 1, "last_seen_ns": 1, "lateral_stddev": [σ, …]},
 ///                     …],
 ///      "lanes": [{"id": 1, "left": [[x, y, z], …], "right": […], "centerline": […], "successors": [2, …],
-///                 "left_boundary": 1, "right_boundary": 2, "left_range": [from, to], "right_range": [from,
-///                 to], "left_neighbours": [{"lane": 2, "range": [from, to], "crossable": [[from, to], …]},
-///                 …], "right_neighbours": […], "width": 3.5, "section": 1, "direction": "unknown" | "along"
-///                 | "against", "status": "…", "existence": -1, "inferred_ranges":
-///                 [[from, to], …]}, …],
-///      "linkages": [{"from": 1, "to": 2, "kind": "…", "turn": "…", "confidence": 0..1, "path": […]}, …],
-///      "stoplines": [{"id": 1, "lanes": [1, …], "heading": [x, y, z]}, …]}
+///                 "left_borders": [{"boundary": 1 or 0, "range": [from, to], "on_boundary": [from, to]}, …],
+///                 "right_borders": […], "left_neighbours": [{"lane": 2, "range": [from, to], "crossable":
+///                 [[from, to], …]}, …], "right_neighbours": […], "width": 3.5, "section": 1,
+///                 "direction": "unknown" | "along" | "against" | "both", "direction_probability": 0..1 or
+///                 -1, "direction_evidence": ["markings", …], "use": "lane" | "shoulder" | "parking" |
+///                 "unknown", "use_probability": -1, "status": "…", "existence": -1, "evidence": ["markings"
+///                 | "edges" | "ego_path" | "traffic" | "sd_map", …], "inferred_ranges": [[from, to], …]},
+///                 …],
+///      "linkages": [{"from": 1, "to": 2, "kind": "…", "turn": "…", "probability": 0..1, "evidence": […],
+///                    "path": […]}, …],
+///      "stoplines": [{"id": 1, "lanes": [1, …], "heading": [x, y, z]}, …],
+///      "way": {"step": 1, "known": 40, "confirmed": 30, "lanes": [{"lane": 1, "against": false, "entry":
+///              "straight", "range": [from, to]}, …], "stations": [{"point": [x, y, z], "heading": 0,
+///              "curvature": 0, "lane": 1, "left": 1.7, "right": 1.8, "width": 3.5, "lateral_stddev": 0.1,
+///              "status": "…", "may_change_left": true, "may_change_right": false}, …]},
+///      "driven_paths": [{"id": 1, "points": […], "lateral_stddev": 0.6, "probability": 0..1}, …]}
 ///
 /// Points are in the map frame. Instances are the boundaries and the stoplines' markings. Only t, pose,
 /// instances, lanes, an instance's id, type and points, and a lane's id, left, right and centerline must be

@@ -38,6 +38,12 @@ std::vector<Linkage> linkages(const json& object) {
   return out;
 }
 
+Way way(const json& value) {
+  Way out = FromJson::element<Way>(value);
+  if (!out.is_line()) throw JsonError("must have two stations at least, and a step above 0");
+  return out;
+}
+
 // Reads a stopline. Of its marking, only the id is read.
 Stopline stopline(const json& value) {
   Stopline out;
@@ -79,6 +85,8 @@ std::string to_json_line(const LocalMap& map) {
   }
   for (const Lane& lane : map.lanes) out["lanes"].push_back(to_json(lane, map));
   for (const Linkage& linkage : map.linkages) out["linkages"].push_back(ToJson::of(linkage));
+  if (map.way) out["way"] = ToJson::of(*map.way);
+  if (!map.driven_paths.empty()) out["driven_paths"] = ToJson::of(map.driven_paths);
   return out.dump();
 }
 
@@ -90,6 +98,9 @@ LocalMap map_from_json(std::string_view text) {
   read_markings(object, map);
   map.lanes = required(object, "lanes", FromJson::element<std::vector<Lane>>);
   map.linkages = linkages(object);
+  map.way = optional(object, "way", way);
+  map.driven_paths = optional(object, "driven_paths", FromJson::element<std::vector<DrivenPath>>)
+                         .value_or(std::vector<DrivenPath>{});
   return map;
 }
 

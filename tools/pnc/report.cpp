@@ -30,6 +30,21 @@ std::string widths_text(const EgoView& ego) {
   return text;
 }
 
+std::string way_text(const std::optional<Way>& way) {
+  if (!way) return "-";
+  return fmt::format("{:.0f} m, {:.0f} m of it confirmed, curvature here {:+.4f}/m", way->known_m,
+                     way->confirmed_m, way->stations.front().curvature_per_m);
+}
+
+json way_json(const std::optional<Way>& way) {
+  if (!way) return {};
+  const WayStation& here = way->stations.front();
+  return {{"known_m", way->known_m},
+          {"confirmed_m", way->confirmed_m},
+          {"curvature_per_m", here.curvature_per_m},
+          {"width_m", here.width_m < 0.0 ? json() : json(here.width_m)}};
+}
+
 }  // namespace
 
 PncUpdate judge(PublishedMap map, const PublishedMap* previous) {
@@ -51,11 +66,12 @@ std::string describe(const PncUpdate& update) {
       "neighbours      left {}   right {}\n"
       "successors      {}\n"
       "width ahead     {}\n"
+      "way             {}\n"
       "in the map      {} lanes, {} boundaries, {} stoplines, {} linkages\n",
       update.map.sequence, state_text(update.map.state, update.map.reasons), age_text(update.map),
       id_text(ego.lane), ego.lane == kNoElement ? "" : fmt::format("{:+.2f} m from its middle", ego.offset_m),
       id_text(ego.left_neighbour), id_text(ego.right_neighbour), ids_text(ego.successors), widths_text(ego),
-      map.lanes.size(), map.boundaries.size(), map.stoplines.size(), map.linkages.size());
+      way_text(map.way), map.lanes.size(), map.boundaries.size(), map.stoplines.size(), map.linkages.size());
   for (const contract::Violation& violation : update.violations)
     text += fmt::format("VIOLATION       {}: {}\n", name(violation.rule), violation.detail);
   return text;
@@ -98,6 +114,7 @@ json to_json(const PncUpdate& update) {
             {"successors", ego.successors},
             {"offset_m", ego.lane == kNoElement ? json() : json(ego.offset_m)},
             {"width_ahead", widths}}},
+          {"way", way_json(published.map.way)},
           {"lanes", published.map.lanes.size()},
           {"boundaries", published.map.boundaries.size()},
           {"stoplines", published.map.stoplines.size()},

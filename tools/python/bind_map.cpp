@@ -10,6 +10,10 @@ namespace {
 py::tuple pair(const Stretch& range) { return py::make_tuple(range.from_m, range.to_m); }
 py::tuple pairs(const std::vector<Stretch>& ranges) { return to_tuple(ranges, pair); }
 
+py::tuple words(Evidence evidence) {
+  return to_tuple(names(evidence), [](const char* word) { return py::str(word); });
+}
+
 void bind_marking(py::module_& module) {
   py::class_<Marking> marking(
       module, "Marking",
@@ -67,6 +71,19 @@ void bind_neighbour(py::module_& module) {
           "(from, to) of each stretch where the line between the two is dashed.");
 }
 
+void bind_border(py::module_& module) {
+  py::class_<Border> border(module, "Border", "What bounds a lane on one side, along a stretch of it.");
+  border
+      .def_property_readonly(
+          "boundary", [](const Border& b) { return b.boundary; }, "Id of the map's boundary; 0: unseen.")
+      .def_property_readonly(
+          "range", [](const Border& b) { return pair(b.range); },
+          "(from, to), by metres along the lane's centerline.")
+      .def_property_readonly(
+          "on_boundary", [](const Border& b) { return pair(b.on_boundary); },
+          "(from, to), by metres along the boundary.");
+}
+
 void bind_lane(py::module_& module) {
   py::class_<Lane> lane(
       module, "Lane",
@@ -79,22 +96,31 @@ void bind_lane(py::module_& module) {
       .def_property_readonly(
           "centerline", [](const Lane& l) { return to_array(l.centerline); }, "Array (N, 3).")
       .def_property_readonly(
-          "left_boundary", [](const Lane& l) { return l.left_boundary; }, "Id of the map's boundary.")
+          "left_borders", [](const Lane& l) { return to_tuple(l.left_borders); },
+          "In order along the centerline, which they cover.")
       .def_property_readonly(
-          "right_boundary", [](const Lane& l) { return l.right_boundary; }, "Id of the map's boundary.")
-      .def_property_readonly(
-          "left_range", [](const Lane& l) { return pair(l.left_range); },
-          "(from, to) on the left boundary, metres.")
-      .def_property_readonly(
-          "right_range", [](const Lane& l) { return pair(l.right_range); },
-          "(from, to) on the right boundary, metres.")
+          "right_borders", [](const Lane& l) { return to_tuple(l.right_borders); },
+          "In order along the centerline, which they cover.")
       .def_property_readonly(
           "width", [](const Lane& l) { return l.width_m; }, "Mean, in metres.")
       .def_property_readonly("left_neighbours", [](const Lane& l) { return to_tuple(l.left_neighbours); })
       .def_property_readonly("right_neighbours", [](const Lane& l) { return to_tuple(l.right_neighbours); })
       .def_property_readonly(
           "direction", [](const Lane& l) { return name(l.direction); },
-          "Of the traffic: \"unknown\", \"along\" or \"against\" the centerline.")
+          "Of the traffic: \"unknown\", \"along\" or \"against\" the centerline, or \"both\".")
+      .def_property_readonly(
+          "direction_probability", [](const Lane& l) { return l.direction_probability; },
+          "0..1; -1: the direction is unknown.")
+      .def_property_readonly(
+          "direction_evidence", [](const Lane& l) { return words(l.direction_evidence); },
+          "What tells the direction: \"markings\", \"edges\", \"ego_path\", \"traffic\", \"sd_map\".")
+      .def_property_readonly(
+          "use", [](const Lane& l) { return name(l.use); },
+          "\"unknown\", \"lane\", \"shoulder\" or \"parking\".")
+      .def_property_readonly(
+          "use_probability", [](const Lane& l) { return l.use_probability; }, "0..1; -1: not estimated.")
+      .def_property_readonly(
+          "evidence", [](const Lane& l) { return words(l.evidence); }, "What tells that the lane is there.")
       .def_property_readonly(
           "section", [](const Lane& l) { return l.section; },
           "Lanes of one road section share it, within one map.")
@@ -118,7 +144,10 @@ void bind_linkage(py::module_& module) {
           "turn", [](const Linkage& l) { return name(l.turn); },
           "\"unknown\", \"straight\", \"left\", \"right\" or \"u_turn\".")
       .def_property_readonly(
-          "confidence", [](const Linkage& l) { return l.confidence; }, "0..1.")
+          "probability", [](const Linkage& l) { return l.probability; }, "0..1.")
+      .def_property_readonly(
+          "evidence", [](const Linkage& l) { return words(l.evidence); },
+          "What tells that the one lane continues the other.")
       .def_property_readonly(
           "path", [](const Linkage& l) { return to_array(l.path); },
           "Array (N, 3) across a gap; (0, 3): the lanes meet.");
@@ -130,6 +159,9 @@ void bind_lineage(py::module_& module) {
       .def_property_readonly(
           "kind", [](const LineageEvent& e) { return name(e.kind); },
           "\"born\", \"merged_into\", \"split_from\" or \"retired\".")
+      .def_property_readonly(
+          "element", [](const LineageEvent& e) { return name(e.element); },
+          "What the ids name: \"boundary\", \"stopline\" or \"lane\".")
       .def_property_readonly("id", [](const LineageEvent& e) { return e.id; })
       .def_property_readonly("other", [](const LineageEvent& e) { return e.other; });
 }
@@ -140,8 +172,10 @@ void bind_map(py::module_& module) {
   bind_marking(module);
   bind_stopline(module);
   bind_neighbour(module);
+  bind_border(module);
   bind_lane(module);
   bind_linkage(module);
+  bind_way(module);
   bind_lineage(module);
   py::class_<LocalMap> map(
       module, "LocalMap",
@@ -157,6 +191,10 @@ void bind_map(py::module_& module) {
       .def_property_readonly("stoplines", [](const LocalMap& m) { return to_tuple(m.stoplines); })
       .def_property_readonly("lanes", [](const LocalMap& m) { return to_tuple(m.lanes); })
       .def_property_readonly("linkages", [](const LocalMap& m) { return to_tuple(m.linkages); })
+      .def_property_readonly(
+          "way", [](const LocalMap& m) { return m.way ? py::cast(*m.way) : py::none(); },
+          "None: the vehicle is in no lane.")
+      .def_property_readonly("driven_paths", [](const LocalMap& m) { return to_tuple(m.driven_paths); })
       .def_property_readonly(
           "markings", [](const LocalMap& m) { return to_tuple(m.markings); },
           "The fused markings of all types; empty in a map that was read from a file.")

@@ -3,11 +3,11 @@
 /// The topics of laneloom. Types cannot evolve in place: a change of any type is a new version here.
 namespace laneloom::dds {
 
-inline constexpr const char* kDetectionsTopic = "laneloom/v2/detections";
-inline constexpr const char* kVehiclePoseTopic = "laneloom/v2/vehicle_pose";
-inline constexpr const char* kLaneMapTopic = "laneloom/v2/lane_map";
-inline constexpr const char* kRoadMarkingsTopic = "laneloom/v2/road_markings";
-inline constexpr const char* kStatusTopic = "laneloom/v2/status";
+inline constexpr const char* kDetectionsTopic = "laneloom/v3/detections";
+inline constexpr const char* kVehiclePoseTopic = "laneloom/v3/vehicle_pose";
+inline constexpr const char* kLaneMapTopic = "laneloom/v3/lane_map";
+inline constexpr const char* kRoadMarkingsTopic = "laneloom/v3/road_markings";
+inline constexpr const char* kStatusTopic = "laneloom/v3/status";
 
 /// The types of the topics, by the names that go over the wire.
 inline constexpr const char* kDetectionsType = "laneloom::msg::Detections";

@@ -39,13 +39,25 @@ void append(std::vector<Stretch>& ranges, const Stretch& stretch) {
   }
 }
 
-/// Gives a lane the status and existence probability of the less sure of its two markings.
+/// What a border tells. An inferred line tells nothing; an edge that is continued was seen before.
+Evidence evidence_of(const Marking& border) {
+  if (border.type == MarkingType::roadedge) return Evidence::edges;
+  return border.status == ElementStatus::inferred ? Evidence::none : Evidence::markings;
+}
+
+/// Gives a lane the evidence of its two markings, and the status and existence probability of the less sure
+/// of them.
 void set_trust(const Marking& left, const Marking& right, Lane& lane) {
   const auto either = [&](ElementStatus status) { return left.status == status || right.status == status; };
   lane.status = either(ElementStatus::inferred)    ? ElementStatus::inferred
                 : either(ElementStatus::tentative) ? ElementStatus::tentative
                                                    : ElementStatus::confirmed;
   lane.existence_probability = std::min(left.existence_probability, right.existence_probability);
+  lane.evidence = evidence_of(left) | evidence_of(right);
+}
+
+Border border_of(const LaneBorder& border, const Stretch& along_lane, double lane_m) {
+  return {border.marking().id, {0.0, lane_m}, border.own(along_lane), border.reversed()};
 }
 
 }  // namespace
@@ -122,12 +134,7 @@ std::span<const CrossSection> next_run(const std::vector<CrossSection>& sections
 }
 
 Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const LaneBorder& right) {
-  Lane lane{.left_boundary = left.marking().id,
-            .right_boundary = right.marking().id,
-            .left_range = left.own({run.front().left_arc_m, run.back().left_arc_m}),
-            .right_range = right.own({run.front().right_arc_m, run.back().right_arc_m}),
-            .left_reversed = left.reversed(),
-            .right_reversed = right.reversed()};
+  Lane lane{.use = Lane::Use::lane};
   set_trust(left.marking(), right.marking(), lane);
   // Sides and centerline have their points at the cross-sections, so that they never cross, wherever the
   // boundaries' own vertices are.
@@ -146,6 +153,10 @@ Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const 
   }
   lane.left = MeasuredPolyline(lane.left).points();
   lane.width_m = width_sum_m / static_cast<double>(run.size());
+  lane.left_borders = {
+      border_of(left, {run.front().left_arc_m, run.back().left_arc_m}, length(lane.centerline))};
+  lane.right_borders = {
+      border_of(right, {run.front().right_arc_m, run.back().right_arc_m}, length(lane.centerline))};
   std::erase_if(lane.inferred_ranges, [](const Stretch& range) { return range.length() <= 0.0; });
   return lane;
 }

@@ -34,9 +34,12 @@ class Opening {
  public:
   Opening(const Lane& lane, End end, const boundaries::Boundaries& boundaries, const LaneConfig& config)
       : front_(end == End::front),
-        left_(boundaries.of(lane.left_boundary), lane.left_reversed, nothing_),
-        right_(boundaries.of(lane.right_boundary), lane.right_reversed, nothing_),
-        begin_{begin_of(left_, lane.left_range), begin_of(right_, lane.right_range)},
+        left_(boundaries.of(lane.left_borders.front().boundary), lane.left_borders.front().reversed,
+              nothing_),
+        right_(boundaries.of(lane.right_borders.front().boundary), lane.right_borders.front().reversed,
+               nothing_),
+        begin_{begin_of(left_, lane.left_borders.front().on_boundary),
+               begin_of(right_, lane.right_borders.front().on_boundary)},
         tip_(find_tip(config)) {}
 
   /// The tip on the boundary of one side, as the boundary itself runs.
@@ -148,7 +151,7 @@ std::pair<Lane, Lane> cut(const Lane& lane, double at_m, const boundaries::Bound
   const MeasuredPolyline centerline(lane.centerline);
   std::pair parts(lane, lane);
   Lane &before = parts.first, &behind = parts.second;
-  const auto cut_side = [&](Side side, Polyline Lane::*line, Stretch Lane::*range) {
+  const auto cut_side = [&](Side side, Polyline Lane::*line) {
     const MeasuredPolyline border(lane.*line);
     const double border_m = border.project(centerline.at(at_m)).arc_m;
     before.*line = border.slice({0.0, border_m});
@@ -157,11 +160,14 @@ std::pair<Lane, Lane> cut(const Lane& lane, double at_m, const boundaries::Bound
     const double arc_m =
         std::clamp(boundaries.of(whole.of.boundary).course.project(border.at(border_m)).arc_m,
                    whole.range.from_m, whole.range.to_m);
-    (whole.reversed ? behind : before).*range = {whole.range.from_m, arc_m};
-    (whole.reversed ? before : behind).*range = {arc_m, whole.range.to_m};
+    Border &border_before = before.borders(side).front(), &border_behind = behind.borders(side).front();
+    (whole.reversed ? border_behind : border_before).on_boundary = {whole.range.from_m, arc_m};
+    (whole.reversed ? border_before : border_behind).on_boundary = {arc_m, whole.range.to_m};
+    border_before.range = {0.0, at_m};
+    border_behind.range = {0.0, centerline.length() - at_m};
   };
-  cut_side(Side::left, &Lane::left, &Lane::left_range);
-  cut_side(Side::right, &Lane::right, &Lane::right_range);
+  cut_side(Side::left, &Lane::left);
+  cut_side(Side::right, &Lane::right);
   before.centerline = centerline.slice({0.0, at_m});
   behind.centerline = centerline.slice({at_m, centerline.length()});
   const auto inferred_within = [&](const Stretch& part) {
@@ -179,8 +185,9 @@ std::pair<Lane, Lane> cut(const Lane& lane, double at_m, const boundaries::Bound
 
 /// Whether both sides of a lane have an extent. In a tight corner, the foot of a cut may be at a side's end.
 bool is_whole(const Lane& lane) {
-  return lane.left_range.length() > 0.0 && lane.right_range.length() > 0.0 && length(lane.left) > 0.0 &&
-         length(lane.right) > 0.0;
+  return std::ranges::all_of(
+             kSides, [&](Side side) { return lane.borders(side).front().on_boundary.length() > 0.0; }) &&
+         length(lane.left) > 0.0 && length(lane.right) > 0.0;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ DirectedLane LaneChanges::at(Side side, double arc_m) const {
       return stretch.from_m <= at_m && at_m <= stretch.to_m;
     });
     const Lane* other = is_crossable ? graph_.find(neighbour.lane) : nullptr;
-    if (other == nullptr) continue;
+    if (other == nullptr || !other->is_drivable()) continue;
     DirectedLane& known = last_[index(side)];
     if (known.lane != other) known = {other, lane_.against == runs_along(*other, at_m)};
     if (!known.oncoming()) return known;

@@ -13,7 +13,8 @@ class LaneChanges {
   LaneChanges(const LaneGraph& graph, const DirectedLane& lane);
 
   /// The lane on a side to change to at an arc length of the lane, both as it is walked. Its lane is null
-  /// where there is none, where the line between may not be crossed, and where it is known to be oncoming.
+  /// where there is none, where the line between may not be crossed, where it is known to be oncoming, and
+  /// where it is no lane to drive in.
   DirectedLane at(Side side, double arc_m) const;
 
  private:

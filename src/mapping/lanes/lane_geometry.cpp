@@ -72,14 +72,12 @@ std::size_t points_beside(const Polyline& line, const MeasuredPolyline& other, d
   }));
 }
 
-LaneSide lane_side(const Lane& lane, Side side) {
+LaneSide lane_side(const Border& border, Side side) {
   // A lane lies on the right of its left boundary, and the other way round.
-  const auto along = [&](ElementId boundary, const Stretch& range, bool reversed) {
-    return LaneSide{{boundary, as_seen(opposite(side), reversed)}, range, reversed};
-  };
-  return side == Side::left ? along(lane.left_boundary, lane.left_range, lane.left_reversed)
-                            : along(lane.right_boundary, lane.right_range, lane.right_reversed);
+  return {{border.boundary, as_seen(opposite(side), border.reversed)}, border.on_boundary, border.reversed};
 }
+
+LaneSide lane_side(const Lane& lane, Side side) { return lane_side(lane.borders(side).front(), side); }
 
 const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {
   const Lane* across = nullptr;

@@ -39,6 +39,8 @@ struct LaneSide {
   double begin_m() const { return reversed ? range.to_m : range.from_m; }
   double end_m() const { return reversed ? range.from_m : range.to_m; }
 };
+LaneSide lane_side(const Border& border, Side side);
+/// The side of a lane that has one border there, as the mapper makes them.
 LaneSide lane_side(const Lane& lane, Side side);
 
 /// The lane on the other side of the boundary that shares the longest stretch of it. Null: there is none.

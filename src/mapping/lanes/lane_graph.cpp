@@ -34,8 +34,9 @@ Turn turn_onto(const DirectedLane& from, const DirectedLane& to) {
 Polyline DirectedLane::centerline() const { return walked(lane->centerline, against); }
 
 bool DirectedLane::oncoming() const {
-  return lane->direction ==
-         (against ? Lane::Direction::along_centerline : Lane::Direction::against_centerline);
+  return lane->direction == Lane::Direction::both ||
+         lane->direction ==
+             (against ? Lane::Direction::along_centerline : Lane::Direction::against_centerline);
 }
 
 Linkage::Turn turn_between(const Eigen::Vector2d& leaving, const Eigen::Vector2d& entering) {
@@ -94,7 +95,11 @@ std::optional<LanePosition> LaneGraph::own_lane(const Eigen::Isometry3d& T_map_b
   double best = 0.0;
   for (const Lane& lane : map_.lanes) {
     const double along = ego_alignment(lane, T_map_body);
-    if (std::abs(along) <= std::abs(best)) continue;
+    if (along == 0.0) continue;
+    const auto worth = [](const Lane& one, double its_along) {
+      return std::pair(one.is_drivable(), std::abs(its_along));
+    };
+    if (own != nullptr && worth(lane, along) <= worth(*own, best)) continue;
     own = &lane;
     best = along;
   }
@@ -111,7 +116,7 @@ std::vector<Passage> LaneGraph::successors(const DirectedLane& lane) const {
     const DirectedLane to{find(lane.against ? linkage.from : linkage.to), lane.against};
     if (to.lane == nullptr) continue;
     Passage passage{to, walked(linkage.path, lane.against), walked(linkage.turn, lane.against),
-                    linkage.confidence};
+                    linkage.probability};
     if (passage.turn == Turn::unknown) passage.turn = turn_onto(lane, to);
     passages.push_back(std::move(passage));
   }
@@ -124,7 +129,9 @@ std::vector<Passage> LaneGraph::ahead(const DirectedLane& lane, Linkage::Turn wi
   DirectedLane last = lane;
   for (double length_m = length(lane.lane->centerline); length_m < reach_m;) {
     std::vector<Passage> next = successors(last);
-    std::erase_if(next, [&](const Passage& passage) { return walked_lanes.contains(passage.to.lane->id); });
+    std::erase_if(next, [&](const Passage& passage) {
+      return walked_lanes.contains(passage.to.lane->id) || !passage.to.lane->is_drivable();
+    });
     const Passage* best = best_passage(next, wished);
     if (best == nullptr) break;
     if (best->turn == wished) wished = Turn::straight;
@@ -146,7 +153,7 @@ const Lane* LaneGraph::beside(const DirectedLane& lane, Side side, double arc_m)
 const Passage* best_passage(const std::vector<Passage>& passages, Linkage::Turn wished) {
   const auto worth = [wished](const Passage& passage) {
     const double fit = passage.turn == wished ? 2.0 : (passage.turn == Turn::straight ? 1.0 : 0.0);
-    return fit + 0.9 * passage.confidence - (passage.to.oncoming() ? 1.0 : 0.0);
+    return fit + 0.9 * passage.probability - (passage.to.oncoming() ? 1.0 : 0.0);
   };
   const auto best = std::ranges::max_element(passages, {}, worth);
   return best == passages.end() ? nullptr : &*best;

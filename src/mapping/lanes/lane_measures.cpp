@@ -58,39 +58,49 @@ LaneMeasures::LaneMeasures(const LaneGraph& graph, const DirectedLane& lane)
     : lane_(lane),
       length_m_(laneloom::length(lane.lane->centerline)),
       changes_(graph, lane),
-      left_(border(graph.map(), Side::left)),
-      right_(border(graph.map(), Side::right)) {}
+      boundaries_(graph.map().boundaries),
+      left_(followed(Side::left)),
+      right_(followed(Side::right)) {}
 
-LaneMeasures::Border LaneMeasures::border(const LocalMap& map, Side side) const {
-  const bool left = as_seen(side, lane_.against) == Side::left;
-  const Marking* boundary =
-      find(map.boundaries, left ? lane_.lane->left_boundary : lane_.lane->right_boundary);
-  if (boundary != nullptr &&
-      (boundary->points.empty() || boundary->lateral_stddev_m.size() != boundary->points.size()))
-    boundary = nullptr;
-  const Polyline& line = left ? lane_.lane->left : lane_.lane->right;
-  return {NearestVertex(line), boundary, NearestVertex(boundary == nullptr ? line : boundary->points)};
+LaneMeasures::Followed LaneMeasures::followed(Side side) const {
+  const Side own = as_seen(side, lane_.against);
+  return {.side = own, .line = NearestVertex(own == Side::left ? lane_.lane->left : lane_.lane->right)};
 }
 
-std::optional<double> LaneMeasures::variance_m2(Border& border, const Point& place) {
-  if (border.boundary == nullptr) return std::nullopt;
-  const double stddev_m = border.boundary->lateral_stddev_m[border.vertices.at(place)];
+void LaneMeasures::follow(double at_m, Followed& side) const {
+  const Border* border = lane_.lane->border_at(side.side, at_m);
+  if (border == side.border) return;
+  side.border = border;
+  side.vertices.reset();
+  side.boundary = border == nullptr ? nullptr : find(boundaries_, border->boundary);
+  if (side.boundary == nullptr || side.boundary->points.empty() ||
+      side.boundary->lateral_stddev_m.size() != side.boundary->points.size())
+    side.boundary = nullptr;
+  else
+    side.vertices.emplace(side.boundary->points);
+}
+
+std::optional<double> LaneMeasures::variance_m2(double at_m, const Point& place, Followed& side) const {
+  follow(at_m, side);
+  if (!side.vertices) return std::nullopt;
+  const double stddev_m = side.boundary->lateral_stddev_m[side.vertices->at(place)];
   return stddev_m * stddev_m;
 }
 
-void LaneMeasures::fill(double arc_m, WayStation& station) {
+void LaneMeasures::fill(double arc_m, const Eigen::Vector2d& direction, WayStation& station) {
   const Lane& lane = *lane_.lane;
   station.lane = lane.id;
   const double at_m = lane_.against ? length_m_ - arc_m : arc_m;
   station.status = geometry::contains(lane.inferred_ranges, at_m) ? ElementStatus::inferred : lane.status;
   station.may_change_left = changes_.at(Side::left, arc_m).lane != nullptr;
   station.may_change_right = changes_.at(Side::right, arc_m).lane != nullptr;
-  const auto left_m = left_.line.left_of(station.point, station.direction);
-  const auto right_m = right_.line.left_of(station.point, station.direction);
+  const auto left_m = left_.line.left_of(station.point, direction);
+  const auto right_m = right_.line.left_of(station.point, direction);
   if (left_m) station.left_m = std::max(0.0, *left_m);
   if (right_m) station.right_m = std::max(0.0, -*right_m);
   if (left_m && right_m) station.width_m = *left_m - *right_m;
-  const auto left_m2 = variance_m2(left_, station.point), right_m2 = variance_m2(right_, station.point);
+  const auto left_m2 = variance_m2(at_m, station.point, left_),
+             right_m2 = variance_m2(at_m, station.point, right_);
   if (left_m2 && right_m2) station.lateral_stddev_m = 0.5 * std::sqrt(*left_m2 + *right_m2);
 }
 

@@ -30,23 +30,28 @@ class LaneMeasures {
   /// `graph` must outlive this.
   LaneMeasures(const LaneGraph& graph, const DirectedLane& lane);
 
-  /// Fills in what the lane is at a station with a point and a direction, `arc_m` along the lane as it is
-  /// walked.
-  void fill(double arc_m, WayStation& station);
+  /// Fills in what the lane is at a station that has a point and this direction, `arc_m` along the lane as it
+  /// is walked.
+  void fill(double arc_m, const Eigen::Vector2d& direction, WayStation& station);
 
  private:
-  struct Border {
+  /// A side of the lane, and the boundary there, which is followed until another one takes its place.
+  struct Followed {
+    Side side;  // as the lane's points run
     NearestVertex line;
-    const Marking* boundary;  // null: it has no deviations
-    NearestVertex vertices;   // of the boundary
+    const Border* border = nullptr;
+    const Marking* boundary = nullptr;      // null: it is unseen, or has no deviations
+    std::optional<NearestVertex> vertices;  // of the boundary
   };
-  Border border(const LocalMap& map, Side side) const;
-  static std::optional<double> variance_m2(Border& border, const Point& place);
+  Followed followed(Side side) const;
+  void follow(double at_m, Followed& side) const;
+  std::optional<double> variance_m2(double at_m, const Point& place, Followed& side) const;
 
   DirectedLane lane_;
   double length_m_;
   LaneChanges changes_;
-  Border left_, right_;  // as the lane is walked
+  const std::vector<Marking>& boundaries_;
+  Followed left_, right_;  // as the lane is walked
 };
 
 }  // namespace laneloom::lanes

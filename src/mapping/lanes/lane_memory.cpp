@@ -70,7 +70,7 @@ Recognition recognised(const std::vector<Marking*>& inferred, const std::vector<
 }
 
 std::pair<ElementId, ElementId> boundary_pair(const Lane& lane) {
-  return std::minmax(lane.left_boundary, lane.right_boundary);
+  return std::minmax(lane.left_borders.front().boundary, lane.right_borders.front().boundary);
 }
 
 bool has_same_boundaries(const Lane& lane, const KnownLane& known) {
@@ -164,6 +164,7 @@ void LaneMemory::identify(std::vector<Lane>& lanes, const geometry::Scene& scene
       known.belief = sense * before.belief;
       known.told_direction = sense * before.told_direction;
       known.published = sense * before.published;
+      known.driven = before.driven;
     } else {
       known.id = ids.next();
     }

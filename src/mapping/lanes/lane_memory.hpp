@@ -26,10 +26,11 @@ struct KnownLane {
   double belief = 0.0;              ///< log odds of its direction, smoothed over frames
   int told_direction = 0;           ///< 1, -1: the last map told that it runs so; 0: it told no direction
   int published = 0;                ///< 1: the last map's lane ran along it; -1: against it; 0: a new lane
+  bool driven = false;              ///< by the vehicle
   template <class Archive>
   void serialize(Archive& archive) {
     archive(id, boundary_a, boundary_b, centerline, last_frame, direction_log_odds, kept_direction, belief,
-            told_direction, published);
+            told_direction, published, driven);
   }
 };
 

@@ -84,8 +84,8 @@ class LaneFinder {
       if (length_of(run) < (run.front().wide ? kMinKerbLaneLength_m : config_.min_length_m)) continue;
       Lane lane = make_lane(run, left, right);
       lane.section = pair.section;
-      used_.within(pair, Side::left).push_back(lane.left_range);
-      used_.within(pair, Side::right).push_back(lane.right_range);
+      used_.within(pair, Side::left).push_back(lane.left_borders.front().on_boundary);
+      used_.within(pair, Side::right).push_back(lane.right_borders.front().on_boundary);
       lanes_.push_back(std::move(lane));
     }
   }

@@ -11,14 +11,13 @@ namespace {
 
 constexpr double kMinBeside_m = 1.0;  // a shorter stretch is where one lane ends and the next begins
 
-/// Takes stretches of one side of a lane to its centerline, by scaling: both run from the lane's start to its
-/// end.
+/// Takes stretches of a boundary to the centerline of a lane beside it, by scaling.
 class SideToCenterline {
  public:
-  SideToCenterline(const LaneSide& side, double centerline_m)
+  SideToCenterline(const LaneSide& side, const Stretch& on_centerline)
       : begin_m_(side.begin_m()),
-        scale_(centerline_m / (side.end_m() - side.begin_m())),
-        end_m_(centerline_m) {}
+        scale_(on_centerline.length() / (side.end_m() - side.begin_m())),
+        on_centerline_(on_centerline) {}
 
   Stretch operator()(const Stretch& on_boundary) const {
     const double a = at(on_boundary.from_m), b = at(on_boundary.to_m);
@@ -26,9 +25,13 @@ class SideToCenterline {
   }
 
  private:
-  double at(double boundary_m) const { return std::clamp((boundary_m - begin_m_) * scale_, 0.0, end_m_); }
+  double at(double boundary_m) const {
+    return std::clamp(on_centerline_.from_m + (boundary_m - begin_m_) * scale_, on_centerline_.from_m,
+                      on_centerline_.to_m);
+  }
 
-  double begin_m_, scale_, end_m_;
+  double begin_m_, scale_;
+  Stretch on_centerline_;
 };
 
 std::vector<Stretch> dashed_within(const Marking& boundary, const Stretch& stretch,
@@ -42,21 +45,30 @@ std::vector<Stretch> dashed_within(const Marking& boundary, const Stretch& stret
   return dashed;
 }
 
-std::vector<Neighbour> neighbours_beyond(const Lane& lane, Side its_side, const LaneLayout& layout) {
-  const LaneSide side = lane_side(lane, its_side);
-  const SideToCenterline to_centerline(side, length(lane.centerline));
-  std::vector<Neighbour> neighbours;
+/// The lanes beyond one border of a lane.
+void add_beyond(const Border& border, Side its_side, const LaneLayout& layout,
+                std::vector<Neighbour>& neighbours) {
+  const LaneSide side = lane_side(border, its_side);
+  const SideToCenterline to_centerline(side, border.range);
+  const Marking& boundary = layout.boundaries.of(border.boundary).marking;
   for (const Lane& other : layout.lanes) {
     for (const Side other_side : kSides) {
-      const LaneSide beyond = lane_side(other, other_side);
-      const Stretch stretch = geometry::common(beyond.range, side.range);
-      if (beyond.of != side.of.other() || stretch.length() < kMinBeside_m) continue;
-      const Marking& boundary = layout.boundaries.of(side.of.boundary).marking;
-      neighbours.push_back(
-          {other.id, to_centerline(stretch), dashed_within(boundary, stretch, to_centerline)});
+      for (const Border& facing : other.borders(other_side)) {
+        const LaneSide beyond = lane_side(facing, other_side);
+        const Stretch stretch = geometry::common(beyond.range, side.range);
+        if (beyond.of != side.of.other() || stretch.length() < kMinBeside_m) continue;
+        neighbours.push_back(
+            {other.id, to_centerline(stretch), dashed_within(boundary, stretch, to_centerline)});
+      }
     }
   }
-  std::ranges::sort(neighbours, {}, [](const Neighbour& neighbour) { return neighbour.range.from_m; });
+}
+
+std::vector<Neighbour> neighbours_beyond(const Lane& lane, Side side, const LaneLayout& layout) {
+  std::vector<Neighbour> neighbours;
+  for (const Border& border : lane.borders(side))
+    if (border.boundary != kNoElement) add_beyond(border, side, layout, neighbours);
+  std::ranges::stable_sort(neighbours, {}, [](const Neighbour& neighbour) { return neighbour.range.from_m; });
   return neighbours;
 }
 

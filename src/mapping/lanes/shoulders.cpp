@@ -33,7 +33,7 @@ class Shoulders {
     if (markings::dashed_excess_m(boundary_of(line).marking, line.range) >= 0.0) return false;
     const Lane* beside = lane_across(line, lanes_);
     if (beside == nullptr || lane.width_m >= kMaxWidth * beside->width_m) return false;
-    const Side shared = beside->left_boundary == line.of.boundary ? Side::left : Side::right;
+    const Side shared = beside->left_borders.front().boundary == line.of.boundary ? Side::left : Side::right;
     return !road_ends_at(*beside, opposite(shared));
   }
 
@@ -50,8 +50,8 @@ class Shoulders {
   bool is_edge(const LaneSide& side) const { return boundary_of(side).is_edge(); }
 
   bool road_ends_at(const Lane& lane, Side side) const {
-    const std::size_t left = boundaries_.index_of(lane.left_boundary);
-    const std::size_t right = boundaries_.index_of(lane.right_boundary);
+    const std::size_t left = boundaries_.index_of(lane.left_borders.front().boundary);
+    const std::size_t right = boundaries_.index_of(lane.right_borders.front().boundary);
     return std::ranges::any_of(pairs_, [&](const boundaries::BoundaryPair& pair) {
       return pair.left == left && pair.right == right &&
              (side == Side::left ? pair.left_kerb : pair.right_kerb);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "mapping/geometry/left_of.hpp"
+#include "mapping/geometry/reproducible.hpp"
 #include "mapping/lanes/lane_measures.hpp"
 #include "mapping/lanes/way_course.hpp"
 
@@ -28,18 +29,18 @@ Between between(const Way& way, double s_m) {
 /// The direction between two stations turns evenly; beyond the ends it stays.
 Eigen::Vector2d direction_at(const Way& way, const Between& place) {
   const double share = std::clamp(place.share, 0.0, 1.0);
-  return ((1.0 - share) * way.stations[place.i].direction + share * way.stations[place.i + 1].direction)
+  return ((1.0 - share) * way.stations[place.i].direction() + share * way.stations[place.i + 1].direction())
       .normalized();
 }
 
 Point point_at(const Way& way, const Between& place) {
   const Point &a = way.stations[place.i].point, &b = way.stations[place.i + 1].point;
   if (place.share < 0.0) {
-    const Eigen::Vector2d along = place.share * way.step_m * way.stations[place.i].direction;
+    const Eigen::Vector2d along = place.share * way.step_m * way.stations[place.i].direction();
     return a + Point(along.x(), along.y(), 0.0);
   }
   if (place.share > 1.0) {
-    const Eigen::Vector2d along = (place.share - 1.0) * way.step_m * way.stations[place.i + 1].direction;
+    const Eigen::Vector2d along = (place.share - 1.0) * way.step_m * way.stations[place.i + 1].direction();
     return b + Point(along.x(), along.y(), 0.0);
   }
   return a + place.share * (b - a);
@@ -47,7 +48,7 @@ Point point_at(const Way& way, const Between& place) {
 
 /// How far a point is ahead of a station.
 double ahead_m(const WayStation& station, const Point& point) {
-  return station.direction.dot((point - station.point).head<2>());
+  return station.direction().dot((point - station.point).head<2>());
 }
 
 /// The place from a station to the next one where a point is neither ahead nor behind.
@@ -93,21 +94,28 @@ void add_stations(const LaneGraph& graph, const lanes::Course& course, const lan
   way.stations.reserve(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i) {
     const double s_m = static_cast<double>(i) * way.step_m;
-    auto [station, place] = line.at(from_m + s_m);
+    const auto [point, direction, curvature_per_m, place] = line.at(from_m + s_m);
     const lanes::RoutePiece& here = course.pieces[place.piece];
     if (place.piece != piece) {
       measures.reset();
       if (here.lane.lane != nullptr) measures = std::make_unique<lanes::LaneMeasures>(graph, here.lane);
       piece = place.piece;
     }
-    station.status = ElementStatus::inferred;
-    if (measures) measures->fill(place.arc_m, station);
-    way.stations.push_back(station);
+    WayStation& station = way.stations.emplace_back(
+        WayStation{.point = point,
+                   .heading_rad = geometry::reproducible::atan2(direction.y(), direction.x()),
+                   .curvature_per_m = curvature_per_m,
+                   .status = ElementStatus::inferred});
+    if (measures) measures->fill(place.arc_m, direction, station);
     lanes.add(here, s_m);
   }
 }
 
 }  // namespace
+
+Eigen::Vector2d WayStation::direction() const {
+  return {geometry::reproducible::cos(heading_rad), geometry::reproducible::sin(heading_rad)};
+}
 
 WayPlace Way::to_way(const Point& point) const {
   const auto nearest = std::ranges::min_element(stations, {}, [&](const WayStation& station) {
@@ -116,8 +124,8 @@ WayPlace Way::to_way(const Point& point) const {
   auto i = static_cast<std::size_t>(nearest - stations.begin());
   const double here_m = ahead_m(*nearest, point);
   const bool before_begin = i == 0 && here_m <= 0.0, beyond_end = i + 1 == stations.size() && here_m >= 0.0;
-  if (before_begin) return {here_m, cross(nearest->direction, (point - nearest->point).head<2>())};
-  if (beyond_end) return {length() + here_m, cross(nearest->direction, (point - nearest->point).head<2>())};
+  if (before_begin) return {here_m, cross(nearest->direction(), (point - nearest->point).head<2>())};
+  if (beyond_end) return {length() + here_m, cross(nearest->direction(), (point - nearest->point).head<2>())};
   if (here_m < 0.0) --i;
   const Between place = beside(*this, i, point);
   return {step_m * (static_cast<double>(i) + place.share),

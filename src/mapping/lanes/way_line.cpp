@@ -123,14 +123,12 @@ WayLine::Sample WayLine::at(double arc_m) const {
   sample.place = nearest;
   if (places_[i].piece == places_[i + 1].piece)
     sample.place.arc_m = places_[i].arc_m + t * (places_[i + 1].arc_m - places_[i].arc_m);
-  WayStation& station = sample.station;
-  station.point = points_[i] + t * (points_[i + 1] - points_[i]);
+  sample.point = points_[i] + t * (points_[i + 1] - points_[i]);
   // A cubic in Hermite's basis, seen from above.
-  station.point.head<2>() =
-      (points_[i] + geometry::smooth_step(t) * (points_[i + 1] - points_[i])).head<2>() +
-      t * (1.0 - t) * step_m * ((1.0 - t) * directions_[i] - t * directions_[i + 1]);
-  station.direction = ((1.0 - t) * directions_[i] + t * directions_[i + 1]).normalized();
-  station.curvature_per_m = (1.0 - t) * curvatures_per_m_[i] + t * curvatures_per_m_[i + 1];
+  sample.point.head<2>() = (points_[i] + geometry::smooth_step(t) * (points_[i + 1] - points_[i])).head<2>() +
+                           t * (1.0 - t) * step_m * ((1.0 - t) * directions_[i] - t * directions_[i + 1]);
+  sample.direction = ((1.0 - t) * directions_[i] + t * directions_[i + 1]).normalized();
+  sample.curvature_per_m = (1.0 - t) * curvatures_per_m_[i] + t * curvatures_per_m_[i + 1];
   return sample;
 }
 

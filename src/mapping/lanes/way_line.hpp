@@ -34,8 +34,10 @@ class WayLine {
   double foot(const Point& point) const;
 
   struct Sample {
-    WayStation station;  ///< point, direction and curvature; nothing else
-    RoutePlace place;    ///< of the route, beside the station
+    Point point = Point::Zero();
+    Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< horizontal, of unit length
+    double curvature_per_m = 0.0;
+    RoutePlace place;  ///< of the route, beside the point
   };
   Sample at(double arc_m) const;
 

@@ -28,7 +28,7 @@ Turn turn_of(WayWish wish) {
   return wish == WayWish::right ? Turn::right : Turn::straight;
 }
 
-/// The passage to take. A passage that was chosen before stays, even where its turn or its confidence is
+/// The passage to take. A passage that was chosen before stays, even where its turn or its probability is
 /// judged anew, unless another one makes the wished turn at last. Null: there is none.
 const Passage* chosen(const std::vector<Passage>& passages, Turn wished, const Way* before) {
   const bool is_offered = std::ranges::find(passages, wished, &Passage::turn) != passages.end();
@@ -56,7 +56,7 @@ std::vector<Passage> passages_ahead(const LaneGraph& graph, const RouteStart& st
     std::vector<Passage> next = graph.successors(last);
     std::erase_if(next, [&](const Passage& passage) {
       const bool elsewhere = way.empty() && start.into != kNoElement && passage.to.lane->id != start.into;
-      return elsewhere || is_walked(way, start.lane, passage.to.lane);
+      return elsewhere || is_walked(way, start.lane, passage.to.lane) || !passage.to.lane->is_drivable();
     });
     const Passage* best = chosen(next, wished, wish.before);
     if (best == nullptr) break;
@@ -165,7 +165,8 @@ std::optional<RouteStart> start_in_lane(const LaneGraph& graph, const Eigen::Iso
   for (const Lane& lane : graph.map().lanes) {
     const double along = ego_alignment(lane, T_map_body);
     if (along == 0.0) continue;
-    const double worth = std::abs(along) + (find(before, {&lane, along < 0.0}) != nullptr ? 1.0 : 0.0);
+    const double worth = std::abs(along) + (find(before, {&lane, along < 0.0}) != nullptr ? 1.0 : 0.0) +
+                         (lane.is_drivable() ? 2.0 : 0.0);
     if (worth <= best_worth) continue;
     own = &lane;
     best = along;
@@ -200,7 +201,7 @@ std::optional<RouteStart> start_on_passage(const LaneGraph& graph, const Eigen::
     const bool against = along < 0.0;
     const Lane *from = graph.find(against ? linkage.to : linkage.from),
                *to = graph.find(against ? linkage.from : linkage.to);
-    if (from == nullptr || to == nullptr || std::abs(along) < kMinAlongPath) continue;
+    if (from == nullptr || to == nullptr || !to->is_drivable() || std::abs(along) < kMinAlongPath) continue;
     const double worth =
         std::abs(along) - 0.1 * foot.distance_m + 1.0 + (find(before, {to, against}) != nullptr ? 1.0 : 0.0);
     if (worth <= best_worth) continue;

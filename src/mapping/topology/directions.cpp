@@ -8,6 +8,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/oriented_groups.hpp"
+#include "mapping/geometry/reproducible.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
 #include "mapping/topology/side_by_side.hpp"
@@ -118,14 +119,15 @@ std::vector<double> outermost_evidence(const lanes::LaneLayout& layout,
   const std::vector<Lane>& lanes = layout.lanes;
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
   for (const SideBySideLanes& pair : pairs) open_right[pair.left] = open_left[pair.right] = false;
-  const auto marking = [&](ElementId id) -> const Marking& { return layout.boundaries.of(id).marking; };
+  const auto evidence_of = [&](const Border& border) {
+    return border_evidence(layout.boundaries.of(border.boundary).marking, border.on_boundary);
+  };
   std::vector<double> evidence(lanes.size(), 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane& lane = lanes[i];
     if (open_right[i] && lane.right_neighbours.empty())
-      evidence[i] += border_evidence(marking(lane.right_boundary), lane.right_range);
-    if (open_left[i] && lane.left_neighbours.empty())
-      evidence[i] -= border_evidence(marking(lane.left_boundary), lane.left_range);
+      evidence[i] += evidence_of(lane.right_borders.front());
+    if (open_left[i] && lane.left_neighbours.empty()) evidence[i] -= evidence_of(lane.left_borders.front());
   }
   return evidence;
 }
@@ -252,6 +254,19 @@ double sense_of(double log_odds, double told_direction, double told_orientation)
   return std::abs(log_odds) >= kDoubted ? as_traffic : 1.0;
 }
 
+/// Per group, what tells its direction: its borders, and that the vehicle drove in one of its lanes. The
+/// lanes are told that they were driven.
+std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups, const lanes::LaneMemory& memory,
+                                  std::vector<Lane>& lanes) {
+  std::vector<Evidence> evidence(lanes.size(), Evidence::none);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const lanes::KnownLane* known = memory.find(lanes[i].id);
+    if (known != nullptr && known->driven) lanes[i].evidence |= Evidence::ego_path;
+    evidence[groups.group(i)] |= lanes[i].evidence;
+  }
+  return evidence;
+}
+
 /// Remembers the belief in the direction of a lane. Keeps the direction, once it is sure, until it is no
 /// longer known.
 void keep_direction(double log_odds, ElementId lane, lanes::LaneMemory& memory) {
@@ -275,8 +290,9 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
     if (driven != lanes.end() && lanes::are_neighbours(*driven, lane)) log_odds *= kMemory;
-    log_odds += kEgoEvidence * lanes::ego_sense(lane, T_map_body) +
-                kStoplineEvidence * stopline_sense(lane, markings, config);
+    const double sense = lanes::ego_sense(lane, T_map_body);
+    remembered->driven = remembered->driven || sense != 0.0;
+    log_odds += kEgoEvidence * sense + kStoplineEvidence * stopline_sense(lane, markings, config);
     log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);
   }
 }
@@ -288,13 +304,18 @@ void find_directions(const DirectionConfig& config, lanes::LaneMemory& memory, R
   const Told before = told(road.lanes, groups, memory);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
+  const std::vector<Evidence> evidence = evidence_of(groups, memory, road.lanes);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];
     const std::size_t of = groups.group(i);
     const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
     keep_direction(sense * belief[of], lane.id, memory);
-    if (is_known(belief[of], before.direction[of])) lane.direction = Lane::Direction::along_centerline;
+    if (is_known(belief[of], before.direction[of])) {
+      lane.direction = Lane::Direction::along_centerline;
+      lane.direction_probability = geometry::reproducible::probability(std::abs(belief[of]));
+      lane.direction_evidence = evidence[of];
+    }
     if (sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0)
       against.push_back(lane.id);
   }

@@ -11,7 +11,7 @@ namespace laneloom::topology {
 
 /// Adds evidence of the traffic's direction to the remembered lanes: the vehicle drives in a lane, or a
 /// stopline lies across one of its ends. Evidence adds up over frames, to a limit. It fades while the vehicle
-/// drives beside the lane.
+/// drives beside the lane. Remembers which lanes the vehicle drove in.
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
                         lanes::LaneMemory& memory);

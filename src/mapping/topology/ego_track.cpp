@@ -7,7 +7,7 @@
 namespace laneloom::topology {
 namespace {
 
-constexpr double kConfidence = 0.95;
+constexpr double kProbability = 0.95;
 
 /// Whether `to` begins where `from` ends or further on. The vehicle did not drive from `from` into a lane
 /// that begins behind its end.
@@ -46,12 +46,15 @@ void link_ego_track(const Eigen::Isometry3d& T_map_body, EgoTrack& track, RoadGr
                           .to = to.id,
                           .kind = Linkage::Kind::ego_track,
                           .turn = turn,
-                          .confidence = kConfidence,
+                          .probability = kProbability,
+                          .evidence = Evidence::ego_path,
                           .path = straight ? lanes::path_ahead(from, to) : lanes::path_between(from, to)});
-    } else if (known->kind == Linkage::Kind::intersection) {
-      known->kind = Linkage::Kind::ego_track;
-      known->confidence = kConfidence;
+      continue;
     }
+    known->evidence |= Evidence::ego_path;
+    if (known->kind != Linkage::Kind::intersection) continue;
+    known->kind = Linkage::Kind::ego_track;
+    known->probability = kProbability;
   }
   road.sort_linkages();
 }

@@ -73,8 +73,9 @@ class Taken {
     const auto beside_unseen_edge = [&](ElementId id) {
       const Lane& lane = road.lane(id);
       return std::ranges::any_of(road.boundaries, [&](const boundaries::LaneBoundary& boundary) {
-        const ElementId of = boundary.marking.id;
-        return is_unseen_edge(boundary) && (of == lane.left_boundary || of == lane.right_boundary);
+        return is_unseen_edge(boundary) && std::ranges::any_of(kSides, [&](Side side) {
+                 return std::ranges::count(lane.borders(side), boundary.marking.id, &Border::boundary) > 0;
+               });
       });
     };
     for (const Linkage& linkage : road.linkages) {
@@ -173,16 +174,19 @@ bool is_enclosed(const Lane& lane, const RoadGraph& road) {
 }
 
 /// Gives the direction of one lane to the other, if it is unknown: lanes that are linked straight on run the
-/// same way.
-void agree_on_direction(Lane& from, Lane& to, const RoadGraph& road) {
+/// same way. `confirmed`: the SD map links them.
+void agree_on_direction(Lane& from, Lane& to, bool confirmed, const RoadGraph& road) {
   using Direction = Lane::Direction;
   if (from.direction == Direction::unknown && to.direction == Direction::unknown) return;
-  for (Lane* lane : {&from, &to})
-    if (lane->direction == Direction::unknown && !is_enclosed(*lane, road))
-      lane->direction = Direction::along_centerline;
+  const Lane& known = from.direction == Direction::unknown ? to : from;
+  Lane& lane = from.direction == Direction::unknown ? from : to;
+  if (lane.direction != Direction::unknown || is_enclosed(lane, road)) return;
+  lane.direction = Direction::along_centerline;
+  lane.direction_probability = known.direction_probability;
+  lane.direction_evidence = known.direction_evidence | (confirmed ? Evidence::sd_map : Evidence::none);
 }
 
-double confidence(const Crossing& crossing) {
+double probability(const Crossing& crossing) {
   if (crossing.confirmed) return 0.95;
   return crossing.turn == Turn::straight ? 0.9 - 0.5 * crossing.misfit : 0.8 - 0.4 * crossing.misfit;
 }
@@ -235,13 +239,15 @@ void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config,
     Polyline path = lanes::path_between(from, to);
     if (crosses_edge(path, road.boundaries)) return;
     taken.take(from.id, to.id, crossing.turn);
-    if (crossing.turn == Turn::straight) agree_on_direction(from, to, road);
-    road.linkages.push_back({.from = from.id,
-                             .to = to.id,
-                             .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,
-                             .turn = crossing.turn,
-                             .confidence = confidence(crossing),
-                             .path = std::move(path)});
+    if (crossing.turn == Turn::straight) agree_on_direction(from, to, crossing.confirmed, road);
+    road.linkages.push_back(
+        {.from = from.id,
+         .to = to.id,
+         .kind = crossing.confirmed ? Linkage::Kind::sd_map : Linkage::Kind::intersection,
+         .turn = crossing.turn,
+         .probability = probability(crossing),
+         .evidence = evidence_between(from, to) | (crossing.confirmed ? Evidence::sd_map : Evidence::none),
+         .path = std::move(path)});
   };
   // Straight on comes first: it tells directions, on which turns depend.
   for (const Crossing& crossing : possible_crossings(road, sd_map, config))

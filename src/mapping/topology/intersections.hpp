@@ -11,7 +11,7 @@ namespace laneloom::topology {
 /// its left or right, from the outermost lane of its direction into the outermost one, on an arc that is wide
 /// enough, if the driving directions of both are known. No path leads over an edge. For each kind of turn, no
 /// lane is left or entered twice. A lane of unknown direction takes the direction of a lane that it is linked
-/// to straight on. Each linkage has a path, and a confidence that falls with the misfit.
+/// to straight on. Each linkage has a path, and a probability that falls with the misfit.
 ///
 /// If both lanes lie on streets of `sd_map` (paper, Sec. III-D-4), the SD map decides: it confirms or forbids
 /// the linkage, or supplies one between lanes that lie less regularly.

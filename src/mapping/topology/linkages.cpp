@@ -16,7 +16,7 @@ namespace {
 constexpr double kOnTip_m = 0.5;          // before a tip, where a branch may begin
 constexpr double kMaxBranchGap_m = 45.0;  // from a tip to its branch
 constexpr double kMaxStemGap_m = 5.0;     // from a tip to the end of its stem
-constexpr double kForkConfidence = 0.75;
+constexpr double kForkProbability = 0.75;
 
 /// The gap from the end of one lane to the start of another, along the boundary that both lie beside. Empty:
 /// they share no boundary, or `to` does not follow.
@@ -67,7 +67,8 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
   Linkage linkage{.from = from.id,
                   .to = next->id,
                   .kind = Linkage::Kind::shared_boundary,
-                  .confidence = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
+                  .probability = 1.0 - 0.5 * next_gap_m / config.max_shared_gap_m,
+                  .evidence = evidence_between(from, *next),
                   .path = {}};
   if (next_gap_m >= lanes::kMinGap_m)
     linkage.path = path_along(layout.boundaries.of(begun.of.boundary).course, begun.end_m(),
@@ -112,11 +113,12 @@ std::optional<Linkage> link_at(const lanes::Fork& fork, const lanes::LaneLayout&
   return Linkage{.from = from.id,
                  .to = to.id,
                  .kind = Linkage::Kind::shared_boundary,
-                 .confidence = kForkConfidence,
+                 .probability = kForkProbability,
+                 .evidence = evidence_between(from, to),
                  .path = lanes::path_ahead(from, to)};
 }
 
-/// The confidence that `to` continues `from`, by the alignment of their centerlines. Empty: it does not.
+/// The probability that `to` continues `from`, by the alignment of their centerlines. Empty: it does not.
 std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageConfig& config) {
   const Eigen::Vector2d a = lanes::leaving(from), b = lanes::entering(to), gap = lanes::gap_between(from, to);
   if (a.dot(b) < cos_degrees(config.max_angle_deg)) return std::nullopt;
@@ -138,12 +140,13 @@ RoadGraph link_lanes(lanes::LaneLayout layout, const LinkageConfig& config) {
       if (auto linkage = link_along(from, side, road, config)) linkages.push_back(std::move(*linkage));
     for (const Lane& to : road.lanes) {
       if (to.id == from.id) continue;
-      const auto confidence = alignment(from, to, config);
-      if (!confidence) continue;
+      const auto probability = alignment(from, to, config);
+      if (!probability) continue;
       linkages.push_back({.from = from.id,
                           .to = to.id,
                           .kind = Linkage::Kind::geometric_alignment,
-                          .confidence = *confidence,
+                          .probability = *probability,
+                          .evidence = evidence_between(from, to),
                           .path = lanes::path_ahead(from, to)});
     }
   }

@@ -120,6 +120,8 @@ void bend(Lane& lane, const Point& front_shift, const Point& back_shift) {
   bend(lane.centerline, front_shift, back_shift);
   const ArcsAfter arcs(std::move(before_m), arc_lengths(lane.centerline));
   arcs.take(lane.inferred_ranges);
+  for (const Side side : kSides)
+    for (Border& border : lane.borders(side)) arcs.take(border.range);
   for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {
     for (Neighbour& neighbour : *neighbours) {
       arcs.take(neighbour.range);

@@ -14,12 +14,15 @@ namespace {
 void turn(Lane& lane) {
   for (Polyline* line : {&lane.left, &lane.right, &lane.centerline}) std::ranges::reverse(*line);
   std::swap(lane.left, lane.right);
-  std::swap(lane.left_boundary, lane.right_boundary);
-  std::swap(lane.left_range, lane.right_range);
-  std::swap(lane.left_reversed, lane.right_reversed);
-  lane.left_reversed = !lane.left_reversed;
-  lane.right_reversed = !lane.right_reversed;
   const double total_m = length(lane.centerline);
+  std::swap(lane.left_borders, lane.right_borders);
+  for (const Side side : kSides) {
+    std::ranges::reverse(lane.borders(side));
+    for (Border& border : lane.borders(side)) {
+      border.range = geometry::reversed(border.range, total_m);
+      border.reversed = !border.reversed;
+    }
+  }
   geometry::reverse(lane.inferred_ranges, total_m);
   std::swap(lane.left_neighbours, lane.right_neighbours);
   for (auto* neighbours : {&lane.left_neighbours, &lane.right_neighbours}) {

@@ -7,6 +7,11 @@
 
 namespace laneloom::topology {
 
+/// What two lanes tell of a linkage between them: their borders do.
+inline Evidence evidence_between(const Lane& from, const Lane& to) {
+  return (from.evidence | to.evidence) & (Evidence::markings | Evidence::edges);
+}
+
 /// Lanes and the linkages between them.
 struct RoadGraph : lanes::LaneLayout {
   std::vector<Linkage> linkages;  ///< only between lanes of this graph

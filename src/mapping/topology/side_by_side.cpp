@@ -72,8 +72,9 @@ class SideBySide {
       if (const auto right = across(i, Side::right)) {
         const Lane& lane = lanes_[i];
         const bool in_middle = is_middle(lanes_on(i, Side::left) + 1, lanes_on(*right, Side::right) + 1);
-        pairs.push_back(
-            {i, *right, boundary_evidence(boundaries_.of(lane.right_boundary), lane.right_range, in_middle)});
+        pairs.push_back({i, *right,
+                         boundary_evidence(boundary_of(lane.right_borders),
+                                           lane.right_borders.front().on_boundary, in_middle)});
       } else if (lanes_[i].right_neighbours.empty()) {
         if (const auto median = median_right_of(i)) pairs.push_back(across_median(i, *median));
       }
@@ -82,13 +83,16 @@ class SideBySide {
   }
 
  private:
+  const boundaries::LaneBoundary& boundary_of(const std::vector<Border>& borders) const {
+    return boundaries_.of(borders.front().boundary);
+  }
+
   /// The lane across the boundary on a side, if its centerline runs alike.
   std::optional<std::size_t> across(std::size_t i, Side side) const {
     const Lane& lane = lanes_[i];
     const auto other = std::ranges::find(lanes_, lanes::main_neighbour(lane, side), &Lane::id);
     if (other == lanes_.end()) return std::nullopt;
-    const bool alike = side == Side::left ? other->right_boundary == lane.left_boundary
-                                          : other->left_boundary == lane.right_boundary;
+    const bool alike = other->borders(opposite(side)).front().boundary == lane.borders(side).front().boundary;
     return alike ? std::optional(static_cast<std::size_t>(other - lanes_.begin())) : std::nullopt;
   }
 
@@ -132,10 +136,12 @@ class SideBySide {
 
   SideBySideLanes across_median(std::size_t i, const Median& median) const {
     const Lane &left = lanes_[i], &right = lanes_[median.right];
-    const boundaries::LaneBoundary& border = boundaries_.of(left.right_boundary);
-    const bool closed = !may_be_crossed(border.marking, left.right_range) &&
-                        !may_be_crossed(boundaries_.of(right.left_boundary).marking, right.left_range);
-    return {i, median.right, closed ? kMedianEvidence : boundary_evidence(border, left.right_range, false),
+    const boundaries::LaneBoundary& border = boundary_of(left.right_borders);
+    const Stretch& range = left.right_borders.front().on_boundary;
+    const bool closed =
+        !may_be_crossed(border.marking, range) &&
+        !may_be_crossed(boundary_of(right.left_borders).marking, right.left_borders.front().on_boundary);
+    return {i, median.right, closed ? kMedianEvidence : boundary_evidence(border, range, false),
             median.width_m > kNarrow_m};
   }
 

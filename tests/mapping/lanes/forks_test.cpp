@@ -75,8 +75,10 @@ class Forks : public ::testing::Test {
     boundaries.reverse(boundaries.index_of(id));
     for (Lane& lane : lanes) {
       for (const auto& [boundary, range, reversed] :
-           {std::tuple(lane.left_boundary, &lane.left_range, &lane.left_reversed),
-            std::tuple(lane.right_boundary, &lane.right_range, &lane.right_reversed)}) {
+           {std::tuple(lane.left_borders.front().boundary, &lane.left_borders.front().on_boundary,
+                       &lane.left_borders.front().reversed),
+            std::tuple(lane.right_borders.front().boundary, &lane.right_borders.front().on_boundary,
+                       &lane.right_borders.front().reversed)}) {
         if (boundary != id) continue;
         *range = geometry::reversed(*range, length_m);
         *reversed = !*reversed;
@@ -88,7 +90,8 @@ class Forks : public ::testing::Test {
     std::vector<Joined> result;
     for (const Linkage& linkage : road_.linkages) {
       const Lane &a = road_.lane(linkage.from), &b = road_.lane(linkage.to);
-      result.push_back({a.left_boundary, a.right_boundary, b.left_boundary, b.right_boundary});
+      result.push_back({a.left_borders.front().boundary, a.right_borders.front().boundary,
+                        b.left_borders.front().boundary, b.right_borders.front().boundary});
     }
     return result;
   }
@@ -96,7 +99,8 @@ class Forks : public ::testing::Test {
   std::vector<const Lane*> between(ElementId left, ElementId right) const {
     std::vector<const Lane*> found;
     for (const Lane& lane : road_.lanes)
-      if (lane.left_boundary == left && lane.right_boundary == right) found.push_back(&lane);
+      if (lane.left_borders.front().boundary == left && lane.right_borders.front().boundary == right)
+        found.push_back(&lane);
     std::ranges::sort(found, {}, [](const Lane* lane) { return lane->centerline.front().x(); });
     return found;
   }
@@ -118,9 +122,10 @@ TEST_F(Forks, ALaneThatGivesWayIsCutWhereTheOtherOpens) {
   EXPECT_TRUE(stem[0]->centerline.back().isApprox(stem[1]->centerline.front()));
   EXPECT_TRUE(stem[0]->left.back().isApprox(stem[1]->left.front()));
   EXPECT_TRUE(stem[0]->right.back().isApprox(stem[1]->right.front()));
-  EXPECT_EQ(stem[0]->left_range.to_m, stem[1]->left_range.from_m);
-  EXPECT_EQ(stem[0]->right_range.to_m, stem[1]->right_range.from_m);
-  EXPECT_NEAR(stem[0]->left_range.from_m, 0.0, 1.0);
+  EXPECT_EQ(stem[0]->left_borders.front().on_boundary.to_m, stem[1]->left_borders.front().on_boundary.from_m);
+  EXPECT_EQ(stem[0]->right_borders.front().on_boundary.to_m,
+            stem[1]->right_borders.front().on_boundary.from_m);
+  EXPECT_NEAR(stem[0]->left_borders.front().on_boundary.from_m, 0.0, 1.0);
   EXPECT_THAT(joined(), UnorderedElementsAre(Joined{2, 3, 2, 3}, Joined{2, 3, 1, 2}));
 }
 
@@ -174,7 +179,7 @@ TEST_F(Forks, AreTheSameBesideABoundaryThatRunsAgainstTheLanes) {
       EXPECT_THAT(joined(), UnorderedElementsAreArray(expected));
       ASSERT_EQ(between(2, 3).size(), 2U);
       EXPECT_NEAR(between(2, 3)[0]->centerline.back().x(), end_m, 0.5);
-      for (const Lane* lane : between(2, 3)) EXPECT_GT(lane->left_range.length(), 20.0);
+      for (const Lane* lane : between(2, 3)) EXPECT_GT(lane->left_borders.front().on_boundary.length(), 20.0);
     }
   }
 }

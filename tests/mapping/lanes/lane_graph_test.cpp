@@ -15,8 +15,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Turn = Linkage::Turn;
 
-Linkage link(ElementId from, ElementId to, Turn turn, double confidence = 1.0) {
-  return {.from = from, .to = to, .turn = turn, .confidence = confidence, .path = {}};
+Linkage link(ElementId from, ElementId to, Turn turn, double probability = 1.0) {
+  return {.from = from, .to = to, .turn = turn, .probability = probability, .path = {}};
 }
 
 /// Lane 1 leads east to a crossing; lane 2 goes on, lane 3 turns off to the left, lane 5 goes on behind
@@ -145,6 +145,41 @@ TEST(TurnBetween, TellsTurnsByTheAngle) {
 
 TEST(TurnBetween, LanesWithoutADirectionGoStraightOn) {
   EXPECT_EQ(turn_between(Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 0)), Turn::straight);
+}
+
+TEST(LaneGraph, AShoulderIsTheOwnLaneOnlyWhereTheVehicleIsInNothingElse) {
+  LocalMap map;
+  map.lanes = {lane(1, straight({0, 0, 0}, {20, 0, 0})), lane(2, straight({0, 0.5, 0}, {20, 1, 0}))};
+  map.lanes[0].use = Lane::Use::shoulder;
+  EXPECT_EQ(LaneGraph(map).own_lane(test::at(8))->lane.lane->id, 2U);
+  map.lanes.pop_back();
+  EXPECT_EQ(LaneGraph(map).own_lane(test::at(8))->lane.lane->id, 1U);
+}
+
+TEST(LaneGraph, TheWayAheadLeadsOntoNoShoulder) {
+  LocalMap map = crossing();
+  const LaneGraph graph(map);
+  EXPECT_THAT(ids(graph.ahead({&map.lanes[0], false}, Turn::straight, 100.0)), ElementsAre(2, 5));
+  map.lanes[4].use = Lane::Use::shoulder;
+  EXPECT_THAT(ids(graph.ahead({&map.lanes[0], false}, Turn::straight, 100.0)), ElementsAre(2));
+}
+
+TEST(LaneGraph, TrafficMayRunAgainstALaneThatIsDrivenBothWays) {
+  Lane both = lane(1, straight({0, 0, 0}, {20, 0, 0}));
+  both.direction = Lane::Direction::both;
+  EXPECT_TRUE((DirectedLane{&both, false}.oncoming()));
+  EXPECT_TRUE((DirectedLane{&both, true}.oncoming()));
+}
+
+TEST(Lane, TheBorderBesideAnArcLengthIsTheOneThatCoversIt) {
+  Lane lane;
+  lane.left_borders = {{7, {0, 10}, {}}, {kNoElement, {10, 15}, {}}, {8, {15, 20}, {}}};
+  EXPECT_EQ(lane.border_at(Side::left, 0.0)->boundary, 7U);
+  EXPECT_EQ(lane.border_at(Side::left, 9.0)->boundary, 7U);
+  EXPECT_EQ(lane.border_at(Side::left, 12.0), nullptr) << "unseen";
+  EXPECT_EQ(lane.border_at(Side::left, 20.0)->boundary, 8U);
+  EXPECT_EQ(lane.border_at(Side::left, 21.0), nullptr);
+  EXPECT_EQ(lane.border_at(Side::right, 5.0), nullptr);
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ std::vector<Lane> lanes_of(std::vector<boundaries::LaneBoundary> boundaries) {
 }
 
 const Lane* between(const std::vector<Lane>& lanes, ElementId left, ElementId right) {
-  const auto found = std::ranges::find_if(
-      lanes, [&](const Lane& l) { return l.left_boundary == left && l.right_boundary == right; });
+  const auto found = std::ranges::find_if(lanes, [&](const Lane& l) {
+    return l.left_borders.front().boundary == left && l.right_borders.front().boundary == right;
+  });
   return found == lanes.end() ? nullptr : &*found;
 }
 
@@ -33,11 +34,11 @@ TEST(Lanes, BetweenTwoBoundaries) {
       {boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
   ASSERT_EQ(lanes.size(), 1U);
   const Lane& lane = lanes[0];
-  EXPECT_EQ(lane.left_boundary, 1U);
-  EXPECT_EQ(lane.right_boundary, 2U);
+  EXPECT_EQ(lane.left_borders.front().boundary, 1U);
+  EXPECT_EQ(lane.right_borders.front().boundary, 2U);
   EXPECT_NEAR(lane.width_m, 3.5, 1e-9);
-  EXPECT_NEAR(lane.left_range.length(), 30.0, 1e-9);
-  EXPECT_NEAR(lane.right_range.length(), 30.0, 1e-9);
+  EXPECT_NEAR(lane.left_borders.front().on_boundary.length(), 30.0, 1e-9);
+  EXPECT_NEAR(lane.right_borders.front().on_boundary.length(), 30.0, 1e-9);
   for (const Point& p : lane.centerline) EXPECT_NEAR(p.y(), 1.75, 1e-9);
   EXPECT_NEAR(length(lane.centerline), 30.0, 1e-9);
   EXPECT_TRUE(lane.left_neighbours.empty());
@@ -105,7 +106,8 @@ TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
     // Each has the other one of its road across the centre line.
     EXPECT_NE(lane.left_neighbours.empty(), lane.right_neighbours.empty());
     for (const auto& [id, range] :
-         {std::pair(lane.left_boundary, lane.left_range), std::pair(lane.right_boundary, lane.right_range)}) {
+         {std::pair(lane.left_borders.front().boundary, lane.left_borders.front().on_boundary),
+          std::pair(lane.right_borders.front().boundary, lane.right_borders.front().on_boundary)}) {
       EXPECT_LT(range.from_m, range.to_m);
       const auto boundaries = t_junction();
       const double end_m = length(std::ranges::find(boundaries, id, [](const boundaries::LaneBoundary& b) {
@@ -126,13 +128,13 @@ TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
       .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
   const auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
   ASSERT_EQ(lanes.size(), 1U);
-  EXPECT_EQ(lanes[0].right_boundary, 1U);
-  EXPECT_EQ(lanes[0].left_boundary, 2U);
-  EXPECT_TRUE(lanes[0].left_reversed);
-  EXPECT_FALSE(lanes[0].right_reversed);
-  EXPECT_NEAR(lanes[0].left_range.from_m, 10.0, 1e-9);
-  EXPECT_NEAR(lanes[0].left_range.to_m, 40.0, 1e-9);
-  EXPECT_NEAR(lanes[0].right_range.from_m, 0.0, 1e-9);
+  EXPECT_EQ(lanes[0].right_borders.front().boundary, 1U);
+  EXPECT_EQ(lanes[0].left_borders.front().boundary, 2U);
+  EXPECT_TRUE(lanes[0].left_borders.front().reversed);
+  EXPECT_FALSE(lanes[0].right_borders.front().reversed);
+  EXPECT_NEAR(lanes[0].left_borders.front().on_boundary.from_m, 10.0, 1e-9);
+  EXPECT_NEAR(lanes[0].left_borders.front().on_boundary.to_m, 40.0, 1e-9);
+  EXPECT_NEAR(lanes[0].right_borders.front().on_boundary.from_m, 0.0, 1e-9);
   EXPECT_TRUE(lanes[0].centerline.front().isApprox(Point(0, 1.75, 0)));
 }
 
@@ -151,7 +153,7 @@ TEST(Lanes, AWideOneEndsWhereALineLiesInIt) {
                            boundary(2, straight({0, 0, 0}, {60, 0, 0}), MarkingType::roadedge),
                            boundary(3, straight({-20, 3, 0}, {line_to_x, 3, 0}))});
     const Lane* lane = between(lanes, 1, 2);
-    return lane == nullptr ? Stretch{} : lane->right_range;
+    return lane == nullptr ? Stretch{} : lane->right_borders.front().on_boundary;
   };
   // A line that only touches the end of the lane does not take the lane away.
   EXPECT_NEAR(lane_beside(4.0).from_m, 4.5, 1.0);
@@ -198,11 +200,14 @@ TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
 TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
   LaneMemory memory;
   markings::IdSource ids(7);
-  std::vector<Lane> lanes{
-      {.left_boundary = 1, .right_boundary = 2, .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
+  std::vector<Lane> lanes{{.left_borders = {{.boundary = 1}},
+                           .right_borders = {{.boundary = 2}},
+                           .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
   memory.identify(lanes, test::scene(1), {}, ids);
   memory.find(7)->direction_log_odds = 2.0;
-  lanes = {{.left_boundary = 2, .right_boundary = 1, .centerline = straight({20, 0, 0}, {0, 0, 0}, 21)}};
+  lanes = {{.left_borders = {{.boundary = 2}},
+            .right_borders = {{.boundary = 1}},
+            .centerline = straight({20, 0, 0}, {0, 0, 0}, 21)}};
   memory.identify(lanes, test::scene(2), {}, ids);
   ASSERT_EQ(lanes[0].id, 7U);
   ASSERT_EQ(memory.lanes().size(), 1U);
@@ -250,9 +255,9 @@ TEST(Lanes, EndWhereTheRoadWidens) {
       {boundary(1, straight({0, 3.5, 0}, {40, 3.5, 0})), boundary(2, {{0, 0, 0}, {20, 0, 0}, {40, -10, 0}})});
   ASSERT_GE(lanes.size(), 1U);
   const Lane& lane = lanes[0];
-  EXPECT_NEAR(lane.right_range.from_m, 0.0, 1e-9);
-  EXPECT_GT(lane.left_range.to_m, 20.0);
-  EXPECT_LT(lane.left_range.to_m, 22.5);  // 0.8 m wider than at its narrowest
+  EXPECT_NEAR(lane.right_borders.front().on_boundary.from_m, 0.0, 1e-9);
+  EXPECT_GT(lane.left_borders.front().on_boundary.to_m, 20.0);
+  EXPECT_LT(lane.left_borders.front().on_boundary.to_m, 22.5);  // 0.8 m wider than at its narrowest
 }
 
 // Paper, Fig. 5 (d): one lane becomes two, by (b_i, b_i+1) and (b_i, b_i+2).
@@ -264,10 +269,10 @@ TEST(Lanes, ASplitGivesThreeLanes) {
   const Lane* left = between(lanes, 1, 2);
   const Lane* right = between(lanes, 2, 3);
   ASSERT_TRUE(before && left && right);
-  EXPECT_NEAR(before->left_range.to_m, 22.0, 1.5);
-  EXPECT_NEAR(left->left_range.from_m, 24.0, 0.6);
-  EXPECT_GT(right->left_range.from_m, 0.0);
-  EXPECT_NEAR(left->left_range.to_m, 60.0, 1e-9);
+  EXPECT_NEAR(before->left_borders.front().on_boundary.to_m, 22.0, 1.5);
+  EXPECT_NEAR(left->left_borders.front().on_boundary.from_m, 24.0, 0.6);
+  EXPECT_GT(right->left_borders.front().on_boundary.from_m, 0.0);
+  EXPECT_NEAR(left->left_borders.front().on_boundary.to_m, 60.0, 1e-9);
 }
 
 TEST(Lanes, AMergeGivesTheSameLanesMirrored) {
@@ -283,7 +288,7 @@ TEST(Lanes, DoNotOverlapWhereANarrowStripRunsBeside) {
       lanes_of({boundary(1, straight({0, 3, 0}, {30, 3, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
                 boundary(3, straight({0, -1.2, 0}, {30, -1.2, 0}))});
   ASSERT_EQ(lanes.size(), 1U);
-  EXPECT_EQ(lanes[0].right_boundary, 2U);
+  EXPECT_EQ(lanes[0].right_borders.front().boundary, 2U);
 }
 
 TEST(Lanes, GoOnWhereADoubleLineEndsAndOneLineBeginsBesideIt) {
@@ -293,7 +298,7 @@ TEST(Lanes, GoOnWhereADoubleLineEndsAndOneLineBeginsBesideIt) {
        boundary(3, straight({0, 0.1, 0}, {21, 0.1, 0})), boundary(4, straight({20, 0, 0}, {60, 0, 0}))});
   const Lane* after = between(lanes, 1, 4);
   ASSERT_TRUE(after);
-  EXPECT_GT(after->left_range.length(), 35.0);
+  EXPECT_GT(after->left_borders.front().on_boundary.length(), 35.0);
 }
 
 TEST(Lanes, InABendOfTwelveMetres) {
@@ -326,7 +331,9 @@ TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
 
 TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
   const auto lane_between = [](ElementId left, ElementId right, const Polyline& centerline) {
-    return Lane{.left_boundary = left, .right_boundary = right, .centerline = centerline};
+    return Lane{.left_borders = {{.boundary = left}},
+                .right_borders = {{.boundary = right}},
+                .centerline = centerline};
   };
   const Lane through = lane_between(1, 2, straight({0, 0, 0}, {20, 0, 0}, 21));
   LaneMemory memory;
@@ -346,8 +353,9 @@ TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
 
 TEST(LaneIds, StayWithTheLaneOfTheLastMapWhenABoundaryIsTakenForAnotherOne) {
   const auto lane_beside = [](ElementId right, double y) {
-    return Lane{
-        .left_boundary = 1, .right_boundary = right, .centerline = straight({0, y, 0}, {20, y, 0}, 21)};
+    return Lane{.left_borders = {{.boundary = 1}},
+                .right_borders = {{.boundary = right}},
+                .centerline = straight({0, y, 0}, {20, y, 0}, 21)};
   };
   LaneMemory memory;
   markings::IdSource ids(100);
@@ -364,8 +372,9 @@ TEST(LaneIds, StayWithTheLaneOfTheLastMapWhenABoundaryIsTakenForAnotherOne) {
 TEST(LaneIds, ALaneThatIsTurnedRoundIsAnotherLane) {
   LaneMemory memory;
   markings::IdSource ids(100);
-  std::vector<Lane> lanes{
-      {.left_boundary = 1, .right_boundary = 2, .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
+  std::vector<Lane> lanes{{.left_borders = {{.boundary = 1}},
+                           .right_borders = {{.boundary = 2}},
+                           .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
   const auto publish = [&](std::uint64_t frame, bool turned) {
     memory.identify(lanes, test::scene(frame), {}, ids);
     const std::vector<Lane> found = lanes;
@@ -385,8 +394,8 @@ TEST(LaneIds, ALaneThatIsTurnedRoundIsAnotherLane) {
 
 TEST(LaneIds, ComeBackAfterAShortGapOnly) {
   Lane lane;
-  lane.left_boundary = 1;
-  lane.right_boundary = 2;
+  lane.left_borders = {{.boundary = 1}};
+  lane.right_borders = {{.boundary = 2}};
   lane.centerline = straight({0, 0, 0}, {20, 0, 0}, 21);
   LaneMemory memory;
   markings::IdSource ids(100);

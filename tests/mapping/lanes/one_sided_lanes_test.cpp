@@ -63,16 +63,16 @@ TEST_F(OneSidedLanes, LieOnBothSidesOfADashedLine) {
   map({dashed(1, 0)});
   ASSERT_EQ(lanes_.size(), 2U);
   const Lane &right = lanes_[0], &left = lanes_[1];
-  EXPECT_EQ(right.left_boundary, 1U);
-  EXPECT_EQ(left.right_boundary, 1U);
-  EXPECT_NE(left.left_boundary, right.right_boundary);
+  EXPECT_EQ(right.left_borders.front().boundary, 1U);
+  EXPECT_EQ(left.right_borders.front().boundary, 1U);
+  EXPECT_NE(left.left_borders.front().boundary, right.right_borders.front().boundary);
   for (const Point& point : right.centerline) EXPECT_NEAR(point.y(), -1.65, 1e-9);
   for (const Point& point : left.centerline) EXPECT_NEAR(point.y(), 1.65, 1e-9);
   for (const Lane& lane : lanes_) {
     EXPECT_NEAR(lane.width_m, 3.3, 1e-9);
     EXPECT_NEAR(length(lane.centerline), 40.0, 1e-6);
-    EXPECT_NEAR(lane.left_range.length(), 40.0, 1e-6);
-    EXPECT_NEAR(lane.right_range.length(), 40.0, 1e-6);
+    EXPECT_NEAR(lane.left_borders.front().on_boundary.length(), 40.0, 1e-6);
+    EXPECT_NEAR(lane.right_borders.front().on_boundary.length(), 40.0, 1e-6);
     EXPECT_EQ(lane.status, ElementStatus::inferred);
     EXPECT_EQ(lane.existence_probability, -1.0);
     ASSERT_EQ(lane.inferred_ranges.size(), 1U);
@@ -88,9 +88,9 @@ TEST_F(OneSidedLanes, LieBesideASolidLineWhereTheVehicleDrives) {
   };
   EXPECT_EQ(lanes_from(test::at(10, 9)), 0U);
   ASSERT_EQ(lanes_from(test::at(10, 1.5)), 1U);
-  EXPECT_EQ(lanes_[0].right_boundary, 1U);
+  EXPECT_EQ(lanes_[0].right_borders.front().boundary, 1U);
   ASSERT_EQ(lanes_from(test::at(10, -1.5)), 1U);
-  EXPECT_EQ(lanes_[0].left_boundary, 1U);
+  EXPECT_EQ(lanes_[0].left_borders.front().boundary, 1U);
   EXPECT_EQ(lanes_from(test::at(10, 0.7)), 0U) << "changing lanes";
   EXPECT_EQ(lanes_from(test::at(10, 2.6)), 0U) << "in another lane";
   EXPECT_EQ(lanes_from(test::at(-9, 1.5)), 1U) << "the line begins ahead";
@@ -102,7 +102,7 @@ TEST_F(OneSidedLanes, LieBesideASolidLineWhereTheVehicleDrives) {
 TEST_F(OneSidedLanes, LieBesideAnEdgeWhereTheVehicleDrives) {
   map({edge(1, 0)}, test::at(10, 1.6));
   ASSERT_EQ(lanes_.size(), 1U);
-  EXPECT_EQ(lanes_[0].right_boundary, 1U);
+  EXPECT_EQ(lanes_[0].right_borders.front().boundary, 1U);
   for (const Point& point : lanes_[0].centerline) EXPECT_NEAR(point.y(), 1.65, 1e-9);
   EXPECT_EQ(lanes_with({edge(1, 0)}), 0U) << "the vehicle is far from it";
 }
@@ -149,7 +149,7 @@ TEST_F(OneSidedLanes, AreNotWhereTheirLineComesBack) {
   hairpin.insert(hairpin.end(), turn.begin() + 1, turn.end());
   hairpin.insert(hairpin.end(), back.begin() + 1, back.end());
   map({styled(1, hairpin, MarkingStyle::dashed)});
-  for (const Lane& lane : lanes_) EXPECT_EQ(lane.left_boundary, 1U) << "outside";
+  for (const Lane& lane : lanes_) EXPECT_EQ(lane.left_borders.front().boundary, 1U) << "outside";
   EXPECT_FALSE(lanes_.empty());
 }
 
@@ -162,7 +162,8 @@ TEST_F(OneSidedLanes, AreAsWideOnASlope) {
 TEST_F(OneSidedLanes, NeedRoomThatNothingElseTakes) {
   const auto on_left_with = [this](boundaries::LaneBoundary other) {
     map({dashed(1, 0), std::move(other)});
-    return std::ranges::count(lanes_, 1U, &Lane::right_boundary);
+    return std::ranges::count(lanes_, 1U,
+                              [](const Lane& lane) { return lane.right_borders.front().boundary; });
   };
   EXPECT_EQ(on_left_with(edge(2, 6.6)), 1);
   EXPECT_EQ(on_left_with(edge(2, 6.4)), 0);
@@ -182,14 +183,14 @@ TEST_F(OneSidedLanes, NeedRoomThatNothingElseTakes) {
 TEST_F(OneSidedLanes, AreNotWhereALaneIs) {
   known_lanes_.resize(1);
   Lane& lane = known_lanes_[0];
-  lane.right_boundary = 1;
-  lane.left_boundary = 2;
-  lane.left_range = lane.right_range = {0, 40};
+  lane.right_borders = {{.boundary = 1}};
+  lane.left_borders = {{.boundary = 2}};
+  lane.left_borders.front().on_boundary = lane.right_borders.front().on_boundary = {0, 40};
   lane.centerline = straight({0, 1.75, 0}, {40, 1.75, 0});
   lane.width_m = 3.5;
   map({dashed(1, 0)});
   ASSERT_EQ(lanes_.size(), 1U);
-  EXPECT_EQ(lanes_[0].left_boundary, 1U);
+  EXPECT_EQ(lanes_[0].left_borders.front().boundary, 1U);
 }
 
 TEST_F(OneSidedLanes, OfTwoLinesDoNotOverlap) {
@@ -212,7 +213,7 @@ TEST_F(OneSidedLanes, NeedAConfirmedLine) {
 TEST_F(OneSidedLanes, AreInTheRangeOnly) {
   EXPECT_EQ(lanes_with({dashed(1, -7.5)}), 2U);
   ASSERT_EQ(lanes_with({dashed(1, -8)}), 1U) << "20 m to the side of the vehicle";
-  EXPECT_EQ(lanes_[0].right_boundary, 1U);
+  EXPECT_EQ(lanes_[0].right_borders.front().boundary, 1U);
 }
 
 TEST_F(OneSidedLanes, AreNoneBesideAShortLine) {
@@ -227,15 +228,16 @@ TEST_F(OneSidedLanes, FollowABendButDoNotFoldInIt) {
   for (const Point& point : lanes_[1].centerline) EXPECT_NEAR((point - Point(0, 15, 0)).norm(), 13.35, 0.1);
   map({styled(1, test::arc({0, 4, 0}, 4, -90, 90), MarkingStyle::dashed)});
   ASSERT_EQ(lanes_.size(), 1U);
-  EXPECT_EQ(lanes_[0].left_boundary, 1U) << "outside";
+  EXPECT_EQ(lanes_[0].left_borders.front().boundary, 1U) << "outside";
 }
 
 TEST_F(OneSidedLanes, KeepTheirBoundariesIdsAsTheWindowMoves) {
   map({dashed(1, 0)});
-  const ElementId right = lanes_[0].right_boundary, left = lanes_[1].left_boundary;
+  const ElementId right = lanes_[0].right_borders.front().boundary,
+                  left = lanes_[1].left_borders.front().boundary;
   map({dashed(1, 0.2, 10, 50)});
-  EXPECT_EQ(lanes_[0].right_boundary, right);
-  EXPECT_EQ(lanes_[1].left_boundary, left);
+  EXPECT_EQ(lanes_[0].right_borders.front().boundary, right);
+  EXPECT_EQ(lanes_[1].left_borders.front().boundary, left);
   EXPECT_EQ(boundaries_[boundaries_.size() - 1].marking.first_seen_ns, 1);
 }
 

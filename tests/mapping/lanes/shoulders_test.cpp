@@ -91,7 +91,8 @@ TEST(Shoulders, AreNotAheadOfWhereTheVehicleDrives) {
   const auto pieces = [&](const Eigen::Isometry3d& T_map_body) {
     const auto lanes = without_shoulders(generate_lanes(pairs, graph.boundaries, Point::Zero(), {}), pairs,
                                          graph.boundaries, T_map_body, {});
-    return std::ranges::count(lanes, 3U, &Lane::right_boundary);
+    return std::ranges::count(lanes, 3U,
+                              [](const Lane& lane) { return lane.right_borders.front().boundary; });
   };
   EXPECT_EQ(pieces(test::at(5, 1.3)), 2);
   EXPECT_EQ(pieces(test::at(5, 4.3)), 0);

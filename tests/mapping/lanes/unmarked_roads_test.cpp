@@ -69,9 +69,9 @@ TEST_F(Dividers, TwoLanesFillARoadWithoutALine) {
   ASSERT_EQ(lanes_.size(), 2U);
   ASSERT_EQ(inferred().size(), 2U);
   const Lane &left = lanes_[0], &right = lanes_[1];
-  EXPECT_EQ(left.left_boundary, 1U);
-  EXPECT_EQ(left.right_boundary, right.left_boundary);
-  EXPECT_EQ(right.right_boundary, 2U);
+  EXPECT_EQ(left.left_borders.front().boundary, 1U);
+  EXPECT_EQ(left.right_borders.front().boundary, right.left_borders.front().boundary);
+  EXPECT_EQ(right.right_borders.front().boundary, 2U);
   EXPECT_NEAR(left.width_m, 4.5, 1e-9);
   EXPECT_NEAR(right.width_m, 4.5, 1e-9);
   for (const Point& point : left.centerline) EXPECT_NEAR(point.y(), 6.75, 1e-9);
@@ -177,8 +177,8 @@ TEST_F(Dividers, LieBetweenBoundariesThatRunAgainstEachOther) {
   for (const Lane& lane : lanes_) {
     EXPECT_NEAR(lane.width_m, 4.5, 1e-9);
     EXPECT_LT(MeasuredPolyline(lane.left).project(lane.right[20]).lateral_m, 0.0);
-    EXPECT_NEAR(lane.left_range.length(), 60.0, 1e-6);
-    EXPECT_NEAR(lane.right_range.length(), 60.0, 1e-6);
+    EXPECT_NEAR(lane.left_borders.front().on_boundary.length(), 60.0, 1e-6);
+    EXPECT_NEAR(lane.right_borders.front().on_boundary.length(), 60.0, 1e-6);
   }
 }
 

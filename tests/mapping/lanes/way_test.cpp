@@ -39,7 +39,7 @@ Lane road_lane(ElementId id, const Point& from, const Point& to) {
 }
 
 Linkage link(ElementId from, ElementId to, Turn turn = Turn::straight, Polyline path = {}) {
-  return {.from = from, .to = to, .turn = turn, .confidence = 0.5, .path = std::move(path)};
+  return {.from = from, .to = to, .turn = turn, .probability = 0.5, .path = std::move(path)};
 }
 
 Way way_on(const LocalMap& map, const Eigen::Isometry3d& T_map_body, WayWish wish = WayWish::straight,
@@ -65,7 +65,7 @@ double largest_kink_deg(const Way& way, double within_m) {
   const auto apart = static_cast<std::size_t>(within_m / way.step_m);
   for (std::size_t i = 0; i + apart < way.stations.size(); ++i)
     largest =
-        std::max(largest, std::abs(cross(way.stations[i].direction, way.stations[i + apart].direction)));
+        std::max(largest, std::abs(cross(way.stations[i].direction(), way.stations[i + apart].direction())));
   return std::asin(largest) * 180.0 / std::numbers::pi;
 }
 
@@ -99,8 +99,8 @@ LocalMap two_lanes() {
 TEST(Way, OnAStraightRoadRunsInTheMiddleOfTheLaneFromBesideTheVehicle) {
   LocalMap map;
   map.lanes = {road_lane(1, {0, 0, 0}, {100, 0, 0})};
-  map.lanes[0].left_boundary = 7;
-  map.lanes[0].right_boundary = 8;
+  map.lanes[0].left_borders = {{7, {0, 100}, {0, 100}}};
+  map.lanes[0].right_borders = {{8, {0, 100}, {0, 100}}};
   map.boundaries = {test::marking(7, map.lanes[0].left), test::marking(8, map.lanes[0].right)};
   map.boundaries[0].lateral_stddev_m.assign(map.boundaries[0].points.size(), 0.06);
   map.boundaries[1].lateral_stddev_m.assign(map.boundaries[1].points.size(), 0.08);
@@ -113,7 +113,7 @@ TEST(Way, OnAStraightRoadRunsInTheMiddleOfTheLaneFromBesideTheVehicle) {
   for (std::size_t i = 0; i < way.stations.size(); ++i) {
     const WayStation& station = way.stations[i];
     EXPECT_NEAR((station.point - Point(20.0 + static_cast<double>(i), 0, 0)).norm(), 0.0, 1e-6);
-    EXPECT_NEAR(station.direction.x(), 1.0, 1e-9);
+    EXPECT_NEAR(station.direction().x(), 1.0, 1e-9);
     EXPECT_NEAR(station.curvature_per_m, 0.0, 1e-9);
     EXPECT_NEAR(station.left_m, 1.75, 1e-6);
     EXPECT_NEAR(station.right_m, 1.75, 1e-6);
@@ -121,6 +121,55 @@ TEST(Way, OnAStraightRoadRunsInTheMiddleOfTheLaneFromBesideTheVehicle) {
     EXPECT_NEAR(station.lateral_stddev_m, 0.05, 1e-9);
     EXPECT_EQ(station.lane, 1U);
   }
+}
+
+TEST(Way, WhereABorderChangesOrIsUnseenTheDeviationsAreThoseOfWhatIsThere) {
+  for (const bool against : {false, true}) {
+    LocalMap map;
+    map.lanes = {road_lane(1, {0, 0, 0}, {100, 0, 0})};
+    map.lanes[0].left_borders = {{7, {0, 40}, {0, 40}}, {9, {40, 100}, {40, 100}}};
+    map.lanes[0].right_borders = {{8, {0, 60}, {0, 60}}, {kNoElement, {60, 100}, {}}};
+    const auto add = [&](ElementId id, const Polyline& points, double stddev_m) {
+      map.boundaries.push_back(test::marking(id, points));
+      map.boundaries.back().lateral_stddev_m.assign(points.size(), stddev_m);
+    };
+    add(7, map.lanes[0].left, 0.06);
+    add(8, map.lanes[0].right, 0.08);
+    add(9, map.lanes[0].left, 0.15);
+    const Way way = against ? way_on(map, test::at(85, 0, std::numbers::pi)) : way_on(map, test::at(25));
+    ASSERT_EQ(way.stations.size(), 61U);
+    for (const WayStation& station : way.stations) {
+      const double x = station.point.x();
+      if (std::abs(x - 40.0) < 1.0 || std::abs(x - 60.0) < 1.0) continue;
+      const double expected_m = x < 40.0 ? 0.05 : x < 60.0 ? 0.085 : kNotKnown_m;
+      EXPECT_NEAR(station.lateral_stddev_m, expected_m, 1e-9) << x;
+      EXPECT_NEAR(station.width_m, 3.5, 1e-6) << x;
+    }
+  }
+}
+
+TEST(Way, DoesNotLeadOntoAShoulderOrParkingStrip) {
+  for (const Lane::Use use : {Lane::Use::shoulder, Lane::Use::parking}) {
+    LocalMap map;
+    map.lanes = {road_lane(1, {0, 0, 0}, {40, 0, 0}), road_lane(2, {40, 0, 0}, {80, 0, 0})};
+    map.linkages = {link(1, 2)};
+    EXPECT_THAT(ids(way_on(map, test::at(10))), ElementsAre(1, 2));
+    map.lanes[1].use = use;
+    EXPECT_THAT(ids(way_on(map, test::at(10))), ElementsAre(1));
+    LocalMap beside = two_lanes();
+    EXPECT_TRUE(way_on(beside, test::at(10)).stations[5].may_change_left);
+    beside.lanes[1].use = use;
+    EXPECT_FALSE(way_on(beside, test::at(10)).stations[5].may_change_left);
+    EXPECT_EQ(way_on(beside, test::at(10), WayWish::change_left).change.to, kNoElement);
+    EXPECT_THAT(ids(way_on(beside, test::at(10, 3.5))), ElementsAre(2)) << "the vehicle is there already";
+  }
+}
+
+TEST(Way, ALaneThatIsDrivenBothWaysIsNoneToChangeTo) {
+  LocalMap map = two_lanes();
+  map.lanes[1].direction = Lane::Direction::both;
+  EXPECT_FALSE(way_on(map, test::at(10)).stations[5].may_change_left);
+  EXPECT_THAT(ids(way_on(map, test::at(10, 3.5))), ElementsAre(2));
 }
 
 TEST(Way, AgainstTheOrderOfALanesPointsItsSidesAreThoseOfTheVehicle) {
@@ -172,8 +221,8 @@ TEST(Way, LeadsWhereItIsWishedAtAFork) {
   EXPECT_THAT(ids(straight_on), ElementsAre(1, 2));
   EXPECT_THAT(ids(left), ElementsAre(1, 3));
   EXPECT_THAT(ids(right), ElementsAre(1, 4));
-  EXPECT_NEAR(left.stations.back().direction.y(), 1.0, 0.01);
-  EXPECT_NEAR(right.stations.back().direction.y(), -1.0, 0.01);
+  EXPECT_NEAR(left.stations.back().direction().y(), 1.0, 0.01);
+  EXPECT_NEAR(right.stations.back().direction().y(), -1.0, 0.01);
   EXPECT_LT(largest_curvature_per_m(left), 1.25 / 12.0);
   EXPECT_NEAR(left.confirmed_m, 15.0, 1.0) << "nobody saw a lane on the passage";
   EXPECT_EQ(left.stations[20].lane, kNoElement);
@@ -183,10 +232,10 @@ TEST(Way, LeadsWhereItIsWishedAtAFork) {
 TEST(Way, KeepsABranchWhileItLasts) {
   LocalMap map = fork();
   for (Linkage& linkage : map.linkages) linkage.turn = Turn::straight;
-  map.linkages[0].confidence = 0.9;
+  map.linkages[0].probability = 0.9;
   const Way first = way_on(map, test::at(5));
   ASSERT_THAT(ids(first), ElementsAre(1, 2));
-  map.linkages[0].confidence = 0.3;
+  map.linkages[0].probability = 0.3;
   EXPECT_THAT(ids(way_on(map, test::at(6))), ElementsAre(1, 3)) << "no way before";
   const Way second = way_on(map, test::at(6), WayWish::straight, &first);
   EXPECT_THAT(ids(second), ElementsAre(1, 2));

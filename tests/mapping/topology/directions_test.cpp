@@ -30,10 +30,8 @@ class Directions : public ::testing::Test {
   static Lane lane(ElementId id, ElementId left, double from_x, double to_x) {
     const double y = 7.0 - 3.5 * static_cast<double>(left - 1);
     Lane lane{.id = id,
-              .left_boundary = left,
-              .right_boundary = left + 1,
-              .left_range = {from_x, to_x},
-              .right_range = {from_x, to_x},
+              .left_borders = {{left, {0.0, to_x - from_x}, {from_x, to_x}}},
+              .right_borders = {{left + 1, {0.0, to_x - from_x}, {from_x, to_x}}},
               .left = straight({from_x, y, 0}, {to_x, y, 0}),
               .right = straight({from_x, y - 3.5, 0}, {to_x, y - 3.5, 0}),
               .centerline = straight({from_x, y - 1.75, 0}, {to_x, y - 1.75, 0}),
@@ -48,7 +46,7 @@ class Directions : public ::testing::Test {
     boundaries_.push_back(test::boundary(4, straight({0, 3.1, 0}, {40, 3.1, 0})));
     lanes_[0].right_neighbours.clear();
     lanes_[1].left_neighbours.clear();
-    lanes_[1].left_boundary = 4;
+    lanes_[1].left_borders.front().boundary = 4;
     lanes_[1].left = straight({0, 3.1, 0}, {40, 3.1, 0});
   }
 
@@ -62,7 +60,7 @@ class Directions : public ::testing::Test {
     for (Polyline* line : {&lanes_[0].left, &lanes_[0].right, &lanes_[0].centerline})
       for (Point& point : *line) point.y() += width_m;
     lanes_[1] = lane(12, 2, 0, 40);
-    lanes_[1].left_boundary = 4;
+    lanes_[1].left_borders.front().boundary = 4;
     memory_ = {};
   }
 
@@ -100,7 +98,7 @@ TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
   EXPECT_FALSE(runs_forward(11));
   EXPECT_TRUE(runs_forward(12));
   // The turned lane's sides are its own; both see the other across their left side.
-  EXPECT_EQ(get(11).left_boundary, 2U);
+  EXPECT_EQ(get(11).left_borders.front().boundary, 2U);
   EXPECT_EQ(lanes::main_neighbour(get(11), Side::left), 12U);
   EXPECT_TRUE(get(11).right_neighbours.empty());
   EXPECT_LT(MeasuredPolyline(get(11).left).project(get(11).right.front()).lateral_m, 0.0);
@@ -368,14 +366,14 @@ TEST_F(Directions, ALaneThatRunsAgainstOthersBesideItsBoundaryIsTurned) {
   Lane& turned = lanes_[1];
   for (Polyline* line : {&turned.left, &turned.right, &turned.centerline}) std::ranges::reverse(*line);
   std::swap(turned.left, turned.right);
-  std::swap(turned.left_boundary, turned.right_boundary);
-  turned.left_reversed = turned.right_reversed = true;
+  std::swap(turned.left_borders.front().boundary, turned.right_borders.front().boundary);
+  turned.left_borders.front().reversed = turned.right_borders.front().reversed = true;
   for (int i = 0; i < 5; ++i) observe(test::at(10, 5.25));
   find(DrivingSide::unknown);
   EXPECT_TRUE(known(11) && known(13));
   EXPECT_TRUE(runs_forward(11) && runs_forward(13));
-  EXPECT_EQ(get(13).left_boundary, 1U);
-  EXPECT_FALSE(get(13).left_reversed || get(13).right_reversed);
+  EXPECT_EQ(get(13).left_borders.front().boundary, 1U);
+  EXPECT_FALSE(get(13).left_borders.front().reversed || get(13).right_borders.front().reversed);
 }
 
 TEST_F(Directions, AWayIsTurnedWithItsLanes) {

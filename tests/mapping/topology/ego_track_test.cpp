@@ -47,13 +47,13 @@ TEST_F(EgoTrackTest, ItConfirmsAHypothesis) {
   const std::vector<Linkage> guess{{.from = 1,
                                     .to = 2,
                                     .kind = Linkage::Kind::intersection,
-                                    .confidence = 0.6,
+                                    .probability = 0.6,
                                     .path = {{20, 0, 0}, {40, 0, 0}}}};
   EXPECT_EQ(drive(10, 0, 0.0, guess)[0].kind, Linkage::Kind::intersection);
   const auto linkages = drive(45, 0, 0.0, guess);
   ASSERT_EQ(linkages.size(), 1U);
   EXPECT_EQ(linkages[0].kind, Linkage::Kind::ego_track);
-  EXPECT_GT(linkages[0].confidence, 0.9);
+  EXPECT_GT(linkages[0].probability, 0.9);
 }
 
 TEST_F(EgoTrackTest, ChangingLanesIsNone) {

@@ -75,8 +75,8 @@ TEST(Crossings, EachLaneGoesOnInTheOneAheadOfIt) {
   for (const Linkage& linkage : linkages) {
     EXPECT_EQ(linkage.kind, Linkage::Kind::intersection);
     EXPECT_EQ(linkage.turn, Linkage::Turn::straight);
-    EXPECT_GT(linkage.confidence, 0.5);
-    EXPECT_LT(linkage.confidence, 0.9);
+    EXPECT_GT(linkage.probability, 0.5);
+    EXPECT_LT(linkage.probability, 0.9);
   }
 }
 
@@ -168,7 +168,7 @@ TEST(Crossings, AnSdMapConfirmsThem) {
   EXPECT_EQ(linkages.size(), 12U);
   for (const Linkage& l : linkages) {
     EXPECT_EQ(l.kind, Linkage::Kind::sd_map);
-    EXPECT_GT(l.confidence, 0.9);
+    EXPECT_GT(l.probability, 0.9);
   }
 }
 
@@ -214,8 +214,8 @@ TEST(Crossings, ALaneBetweenSolidLinesTakesNoDirectionFromStraightOn) {
     boundaries.push_back(test::boundary(id, straight({30, y, 0}, {40, y, 0})));
     boundaries.back().marking.styles = {{{0.0, 10.0}, MarkingStyle::solid}};
   }
-  lanes[1].left_boundary = 21, lanes[1].right_boundary = 22;
-  lanes[1].left_range = lanes[1].right_range = {0.0, 10.0};
+  lanes[1].left_borders = {{.boundary = 21}}, lanes[1].right_borders = {{.boundary = 22}};
+  lanes[1].left_borders.front().on_boundary = lanes[1].right_borders.front().on_boundary = {0.0, 10.0};
   lanes[1].left_neighbours = lanes[1].right_neighbours = {{.lane = 9, .range = {0.0, 10.0}}};
   RoadGraph road{{boundaries, lanes}, {}};
   link_across_intersections({}, {}, road);
@@ -254,12 +254,12 @@ bool turns_past(Direction direction, MarkingStyle divider) {
   const auto get = [&](ElementId id) -> Lane& { return *std::ranges::find(lanes, id, &Lane::id); };
   get(4).centerline = straight({-5.25, 25, 0}, {-5.25, 10, 0});
   get(4).left_neighbours = {{.lane = 24, .range = {0.0, 20.0}}};
-  get(4).left_boundary = 51;
-  get(4).left_range = {0, 15};
+  get(4).left_borders = {{.boundary = 51}};
+  get(4).left_borders.front().on_boundary = {0, 15};
   get(14).centerline = straight({1.75, 10, 0}, {1.75, 25, 0});
   get(14).left_neighbours = {{.lane = 24, .range = {0.0, 20.0}}};
-  get(14).left_boundary = 50;
-  get(14).left_range = {0, 15};
+  get(14).left_borders = {{.boundary = 50}};
+  get(14).left_borders.front().on_boundary = {0, 15};
   lanes.push_back(lane(24, straight({-1.75, 10, 0}, {-1.75, 25, 0})));
   lanes.back().direction = direction;
   lanes.back().left_neighbours = {{.lane = 4, .range = {0.0, 20.0}}};
@@ -281,7 +281,7 @@ TEST(Crossings, ALaneOfUnknownDirectionStandsBetweenOnlyAcrossDashes) {
 
 TEST(Crossings, TurnsArePossibleWhereAnEdgeIsOnlyContinued) {
   std::vector<Lane> lanes = crossroads();
-  lanes.front().right_boundary = 50;
+  lanes.front().right_borders = {{.boundary = 50}};
   const std::vector<Linkage> straight_on{{.from = 1, .to = 13}};
   std::vector<boundaries::LaneBoundary> edge{
       test::boundary(50, straight({-25, -4, 0}, {-10, -4, 0}), MarkingType::roadedge)};

@@ -16,10 +16,10 @@ Lane lane(ElementId id, std::pair<ElementId, Stretch> left, std::pair<ElementId,
           Polyline centerline) {
   Lane l;
   l.id = id;
-  l.left_boundary = left.first;
-  l.left_range = left.second;
-  l.right_boundary = right.first;
-  l.right_range = right.second;
+  l.left_borders = {{.boundary = left.first}};
+  l.left_borders.front().on_boundary = left.second;
+  l.right_borders = {{.boundary = right.first}};
+  l.right_borders.front().on_boundary = right.second;
   l.centerline = std::move(centerline);
   return l;
 }
@@ -55,7 +55,7 @@ TEST(Linkages, BySharedBoundaryAndByAlignment) {
 TEST(Linkages, AlongABoundaryThatRunsAgainstTheLanes) {
   std::vector<Lane> lanes{lane(1, {10, {40, 60}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0})),
                           lane(2, {10, {10, 36}}, {21, {0, 26}}, test::straight({24, 2, 0}, {50, 2, 0}))};
-  for (Lane& l : lanes) l.left_reversed = true;
+  for (Lane& l : lanes) l.left_borders.front().reversed = true;
   EXPECT_THAT(links(lanes), ElementsAre(std::tuple(1, 2, Kind::shared_boundary)));
   const Polyline path = linkages_of(lanes)[0].path;
   EXPECT_TRUE(path.front().isApprox(lanes[0].centerline.back()));
@@ -65,7 +65,7 @@ TEST(Linkages, AlongABoundaryThatRunsAgainstTheLanes) {
 TEST(Linkages, LanesThatRunAgainstEachOtherAlongABoundaryAreNotLinked) {
   std::vector<Lane> lanes{lane(1, {10, {0, 20}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0})),
                           lane(2, {21, {0, 26}}, {10, {24, 50}}, test::straight({50, 2, 0}, {24, 2, 0}))};
-  lanes[1].right_reversed = true;
+  lanes[1].right_borders.front().reversed = true;
   EXPECT_THAT(links(lanes), IsEmpty());
 }
 
@@ -103,8 +103,8 @@ TEST(Linkages, ConfidenceFallsWithTheGap) {
     const Lane to = lane(2, {20, {0, 20}}, {21, {0, 20}}, test::straight({20 + gap_m, 0, 0}, {40, 0, 0}));
     const auto linkages = linkages_of({from, to});
     ASSERT_EQ(linkages.size(), 1U);
-    EXPECT_LT(linkages[0].confidence, before);
-    before = linkages[0].confidence;
+    EXPECT_LT(linkages[0].probability, before);
+    before = linkages[0].probability;
   }
   EXPECT_GE(before, 0.5);
 }

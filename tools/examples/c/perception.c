@@ -57,8 +57,8 @@ int main(int argc, char** argv) {
   dds_qset_partition1(partition, argv[2]);
   const dds_entity_t publisher = made(dds_create_publisher(participant, partition, NULL));
   dds_delete_qos(partition);
-  const dds_entity_t poses = writer(publisher, &laneloom_msg_VehiclePose_desc, "laneloom/v2/vehicle_pose");
-  const dds_entity_t frames = writer(publisher, &laneloom_msg_Detections_desc, "laneloom/v2/detections");
+  const dds_entity_t poses = writer(publisher, &laneloom_msg_VehiclePose_desc, "laneloom/v3/vehicle_pose");
+  const dds_entity_t frames = writer(publisher, &laneloom_msg_Detections_desc, "laneloom/v3/detections");
 
   const int64_t start_ns = dds_time();
   for (uint64_t number = 1;; ++number) {

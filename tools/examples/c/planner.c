@@ -1,4 +1,4 @@
-// planner DOMAIN VEHICLE_ID: follows the lane map, and says how wide its lanes are.
+// planner DOMAIN VEHICLE_ID: follows the lane map, and says where its own way leads.
 #include <dds/dds.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -30,10 +30,11 @@ static void plan(const laneloom_msg_LaneMap* map) {
     printf("no map to drive on\n");
     return;
   }
-  for (uint32_t i = 0; i < map->lanes._length; ++i) {
-    const laneloom_msg_Lane* lane = &map->lanes._buffer[i];
-    printf("lane %" PRIu64 " is %.2f m wide, and has %u points\n", lane->id, lane->width_m,
-           (unsigned)lane->centerline._length);
+  printf("%u lanes; the way ahead is known for %.0f m\n", (unsigned)map->lanes._length, map->way.known_m);
+  for (uint32_t i = 0; i < map->way.stations._length && i < 3; ++i) {
+    const laneloom_msg_WayStation* at = &map->way.stations._buffer[i];
+    printf("  lane %" PRIu64 ": x %.2f m, y %.2f m, heading %.3f rad, curvature %.4f/m, width %.2f m\n", at->lane,
+           at->point.x, at->point.y, at->heading_rad, at->curvature_per_m, at->width_m);
   }
   fflush(stdout);
 }
@@ -49,7 +50,7 @@ int main(int argc, char** argv) {
   const dds_entity_t subscriber = made(dds_create_subscriber(participant, partition, NULL));
   dds_delete_qos(partition);
   const dds_entity_t topic =
-      made(dds_create_topic(participant, &laneloom_msg_LaneMap_desc, "laneloom/v2/lane_map", NULL, NULL));
+      made(dds_create_topic(participant, &laneloom_msg_LaneMap_desc, "laneloom/v3/lane_map", NULL, NULL));
   dds_qos_t* qos = map_qos();
   const dds_entity_t maps = made(dds_create_reader(subscriber, topic, qos, NULL));
   dds_delete_qos(qos);

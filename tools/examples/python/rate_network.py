@@ -19,6 +19,13 @@ frames = laneloom.read_frames(sys.argv[2])
 mapper = laneloom.Mapper()
 maps = [mapper.update(frame, pose) for frame, pose in frames]
 
+# %% What a planner drives on: the own way of the last map
+if maps[-1].way:
+    print(f"way: {maps[-1].way.known:.0f} m known, {maps[-1].way.confirmed:.0f} m confirmed, begins with")
+    for station in maps[-1].way.stations[:3]:
+        x, y, _ = station.point
+        print(f"  x {x:.2f} m, y {y:.2f} m, heading {station.heading:.3f} rad, curvature {station.curvature:.4f}/m")
+
 # %% The figures
 raw, fused = laneloom.evaluate(truth, frames=frames), laneloom.evaluate(truth, maps)
 print(f"single frames: F1 {raw.markings.f1:.3f}, mAP {raw.mean_ap:.3f}")

@@ -15,9 +15,11 @@ What is wrong with an argument is a TypeError or a ValueError whose text begins 
 """
 
 from ._core import (
+    Border,
     Config,
     ConfigError,
     Detection,
+    DrivenPath,
     Evaluation,
     Frame,
     Lane,
@@ -37,6 +39,8 @@ from ._core import (
     Truth,
     TruthLane,
     TruthMarking,
+    Way,
+    WayStation,
     __version__,
     evaluate,
     evaluate_later,
@@ -48,9 +52,11 @@ from ._core import (
 )
 
 __all__ = [
+    "Border",
     "Config",
     "ConfigError",
     "Detection",
+    "DrivenPath",
     "Evaluation",
     "Frame",
     "Lane",
@@ -70,6 +76,8 @@ __all__ = [
     "Truth",
     "TruthLane",
     "TruthMarking",
+    "Way",
+    "WayStation",
     "__version__",
     "evaluate",
     "evaluate_later",

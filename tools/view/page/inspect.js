@@ -3,7 +3,7 @@
 const NAMES = {existence_probability: 'existence', lateral_stddev_mean_m: 'σ lateral (mean)', lateral_stddev_max_m: 'σ lateral (max)',
   age_s: 'age', unseen_s: 'last seen before', inferred_m: 'inferred at', observations: 'observations'};
 const UNITS = {m: ' m', s: ' s', deg: '°'};
-const REFERENCES = new Set(['left_boundary', 'right_boundary', 'left_boundary_of', 'right_boundary_of', 'from', 'to', 'lane', 'lanes',
+const REFERENCES = new Set(['left_borders', 'right_borders', 'left_border_of', 'right_border_of', 'from', 'to', 'lane', 'lanes',
   'left_neighbours', 'right_neighbours', 'predecessors', 'successors']);
 
 export const titleOf = (element) => [element.type, element.id].filter((part) => part !== undefined).join(' ');
@@ -25,7 +25,7 @@ function number(value) {
 function plain(value, unit) {
   if (typeof value === 'number') return number(value) + unit;
   if (!Array.isArray(value)) return typeof value === 'object' && value ? Object.entries(value).map(([k, v]) => `${words(k)} ${plain(v, '')}`).join(', ') : String(value);
-  if (value.length === 3 && typeof value[2] === 'string') return `${number(value[0])} to ${number(value[1])} m ${value[2]}`;  // a style's stretch
+  if (value.length === 3 && typeof value[0] === 'number' && typeof value[2] === 'string') return `${number(value[0])} to ${number(value[1])} m ${value[2]}`;  // a style's stretch
   if (value.length === 2 && value.every((v) => typeof v === 'number')) return `${number(value[0])} to ${number(value[1])}${unit}`;
   return value.length ? value.map((item) => plain(item, unit)).join('; ') : 'none';
 }
@@ -67,10 +67,11 @@ export class Inspector {
   #chips(key, value) {
     const items = Array.isArray(value) ? value : [value];
     if (!items.length) return ['none'];
-    const type = key.endsWith('boundary') ? 'boundary' : 'lane';
+    const type = key.endsWith('borders') ? 'boundary' : 'lane';
     return items.map((item) => {
-      const id = typeof item === 'object' ? item.lane : item;
-      const detail = typeof item === 'object' ? plain(Object.fromEntries(Object.entries(item).filter(([k]) => k !== 'lane')), ' m') : '';
+      const id = typeof item === 'object' ? item[type] : item;
+      const detail = typeof item === 'object' ? plain(Object.fromEntries(Object.entries(item).filter(([k]) => k !== type)), ' m') : '';
+      if (!id) return make('span', {textContent: 'unseen ', title: detail});
       return make('button', {className: 'chip', textContent: id, title: detail, onclick: () => this.select(id, type)});
     });
   }
@@ -110,11 +111,10 @@ export class Memory {
   /** The events in the life of an element, in the order of time. */
   history(element, summaries, first) {
     const found = [], statuses = (this.#tracks.get(element.key) ?? []).map(({status, summary}) => ({summary, text: `is ${status}`}));
-    if (element.type !== 'lane')
-      for (const summary of summaries)
-        for (const {kind, id, other} of summary.lineage ?? [])
-          if (id === element.id || other === element.id)
-            found.push({summary, text: `${id === element.id ? '' : `${id} `}${kind.replaceAll('_', ' ')}${other ? ` ${other}` : ''}`});
+    for (const summary of summaries)
+      for (const {kind, id, other} of summary.lineage ?? [])
+        if (id === element.id || other === element.id)
+          found.push({summary, text: `${id === element.id ? '' : `${id} `}${kind.replaceAll('_', ' ')}${other ? ` ${other}` : ''}`});
     return [...found, ...statuses].filter(({summary}) => summary.index >= first.index).sort((a, b) => a.summary.index - b.summary.index);
   }
 }

@@ -60,7 +60,7 @@ export class Events {
   #add(summary) {
     for (const [kind, text] of summary.events ?? []) this.#put(summary, kind, text);
     const changes = (summary.lineage ?? []).filter(({kind}) => kind !== 'born');
-    if (changes.length) this.#put(summary, 'lineage', changes.map(({kind, id, other}) => `${id} ${kind.replaceAll('_', ' ')} ${other ?? ''}`.trim()).join(', '));
+    if (changes.length) this.#put(summary, 'lineage', changes.map(({kind, element, id, other}) => `${element} ${id} ${kind.replaceAll('_', ' ')} ${other ?? ''}`.trim()).join(', '));
   }
 
   #put(summary, kind, text) {
