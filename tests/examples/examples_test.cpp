@@ -46,9 +46,7 @@ TEST(Examples, OurPlannerKnowsTheWayAlongAWishedTurn) {
 #ifdef C_PLANNER
 TEST(Examples, CycloneReadsLanesOfWhatCycloneSees) { expect_lane(C_PERCEPTION, C_PLANNER, "width 3.50 m"); }
 
-TEST(Examples, CycloneReadsLanesOfWhatFastDdsSees) {
-  expect_lane(CPP_PERCEPTION, C_PLANNER, "width 3.50 m");
-}
+TEST(Examples, CycloneReadsLanesOfWhatFastDdsSees) { expect_lane(CPP_PERCEPTION, C_PLANNER, "width 3.50 m"); }
 #endif
 
 TEST(Examples, WrongUseIsSaid) {

@@ -105,13 +105,15 @@ TEST(Linkages, RecallAsksOnlyForLanesThatWereFound) {
   EXPECT_EQ(score(map).linkages.recall(), 1.0);
 }
 
-TEST(Linkages, MayRunAgainstTheTruthWhereTheDirectionIsUnknown) {
+TEST(Linkages, MayRunAgainstTheTruthWhereTheDirectionIsUnknownOrBoth) {
   LocalMap map = perfect();
   for (Lane& l : map.lanes) std::reverse(l.centerline.begin(), l.centerline.end());
   for (Linkage& linkage : map.linkages) std::swap(linkage.from, linkage.to);
   EXPECT_EQ(score(map).linkages.f1(), 1.0);
-  for (Lane& l : map.lanes) l.direction = Lane::Direction::against_centerline;
-  EXPECT_EQ(score(map).linkages.f1(), 1.0);
+  for (const auto direction : {Lane::Direction::against_centerline, Lane::Direction::both}) {
+    for (Lane& l : map.lanes) l.direction = direction;
+    EXPECT_EQ(score(map).linkages.f1(), 1.0);
+  }
   for (Lane& l : map.lanes) l.direction = Lane::Direction::along_centerline;
   EXPECT_EQ(score(map).linkages.precision(), 0.0);
 }

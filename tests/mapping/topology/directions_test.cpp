@@ -105,6 +105,25 @@ TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
   EXPECT_EQ(lanes::main_neighbour(get(12), Side::left), 11U);
 }
 
+TEST_F(Directions, ADirectionHasAProbabilityAndEvidence) {
+  lanes_[0].evidence = Evidence::edges;
+  lanes_[1].evidence = Evidence::markings;
+  find(DrivingSide::unknown);
+  EXPECT_EQ(get(12).direction_probability, -1.0) << "it is unknown";
+  EXPECT_EQ(get(12).direction_evidence, Evidence::none);
+  double before = 0.5;
+  for (const int frames : {4, 6}) {
+    for (int i = 0; i < frames; ++i) observe(test::at(10, 1.75));
+    find(DrivingSide::unknown);
+    EXPECT_GT(get(12).direction_probability, before) << "the more frames, the surer";
+    EXPECT_LT(get(12).direction_probability, 1.0);
+    before = get(12).direction_probability;
+  }
+  EXPECT_EQ(get(12).direction_evidence, Evidence::markings | Evidence::ego_path);
+  EXPECT_EQ(get(12).evidence, Evidence::markings | Evidence::ego_path);
+  EXPECT_EQ(get(11).evidence, Evidence::edges) << "it was not driven";
+}
+
 TEST_F(Directions, ADirectionIsToldUntilItIsInDoubt) {
   memory_ = lanes::LaneMemory({{.id = 11, .centerline = lanes_[0].centerline, .published = 1},
                                {.id = 12, .centerline = lanes_[1].centerline, .published = 1}});
@@ -373,6 +392,7 @@ TEST_F(Directions, ALaneThatRunsAgainstOthersBesideItsBoundaryIsTurned) {
   EXPECT_TRUE(known(11) && known(13));
   EXPECT_TRUE(runs_forward(11) && runs_forward(13));
   EXPECT_EQ(get(13).left_borders.front().boundary, 1U);
+  EXPECT_EQ(get(13).left_borders.front().on_boundary.from_m, 20.0);
   EXPECT_FALSE(get(13).left_borders.front().reversed || get(13).right_borders.front().reversed);
 }
 

@@ -54,6 +54,7 @@ TEST_F(EgoTrackTest, ItConfirmsAHypothesis) {
   ASSERT_EQ(linkages.size(), 1U);
   EXPECT_EQ(linkages[0].kind, Linkage::Kind::ego_track);
   EXPECT_GT(linkages[0].probability, 0.9);
+  EXPECT_TRUE(overlap(linkages[0].evidence, Evidence::ego_path));
 }
 
 TEST_F(EgoTrackTest, ChangingLanesIsNone) {

@@ -169,6 +169,7 @@ TEST(Crossings, AnSdMapConfirmsThem) {
   for (const Linkage& l : linkages) {
     EXPECT_EQ(l.kind, Linkage::Kind::sd_map);
     EXPECT_GT(l.probability, 0.9);
+    EXPECT_TRUE(overlap(l.evidence, Evidence::sd_map));
   }
 }
 

@@ -40,6 +40,17 @@ std::vector<std::tuple<ElementId, ElementId, Kind>> links(const std::vector<Lane
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
+TEST(Linkages, TheBordersOfBothLanesAreTheirEvidence) {
+  Lane from = lane(1, {10, {0, 20}}, {40, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0}));
+  Lane to = lane(2, {10, {24, 50}}, {20, {0, 26}}, test::straight({24, 0, 0}, {50, 0, 0}));
+  from.evidence = Evidence::markings | Evidence::ego_path;
+  to.evidence = Evidence::edges;
+  const auto linkages = linkages_of({from, to});
+  ASSERT_EQ(linkages.size(), 1U);
+  EXPECT_EQ(linkages[0].evidence, Evidence::markings | Evidence::edges)
+      << "nobody drove from one to the other";
+}
+
 // Paper, Fig. 5 (e): lane 1 goes on in 2 and 4 by the boundaries that it shares with them, in 3 by geometry.
 TEST(Linkages, BySharedBoundaryAndByAlignment) {
   const std::vector<Lane> lanes{

@@ -50,12 +50,15 @@ TEST(MeetAtJoints, LanesThatOverlapMeet) {
 TEST(MeetAtJoints, StretchesOfALaneFollowItsCenterline) {
   Lane from = lane(1, {0, 0, 0}, {20, 0, 0});
   from.inferred_ranges = {{0.0, 20.0}};
+  from.left_borders = {{7, {0.0, 2.0}, {0.0, 2.0}}, {8, {2.0, 20.0}, {0.0, 18.0}}};
   from.left_neighbours = {{.lane = 3, .range = {0.0, 20.0}, .crossable = {{0.0, 2.0}}}};
   const RoadGraph road = met({from, lane(2, {18.5, 0, 0}, {40, 0, 0})}, {{.from = 1, .to = 2}});
   const Lane& shorter = road.lanes[0];
   EXPECT_NEAR(length(shorter.centerline), 19.25, 1e-9);
   EXPECT_NEAR(shorter.inferred_ranges[0].to_m, 19.25, 1e-9);
   EXPECT_NEAR(shorter.left_neighbours[0].range.to_m, 19.25, 1e-9);
+  EXPECT_EQ(shorter.left_borders[0].range.to_m, shorter.left_borders[1].range.from_m);
+  EXPECT_NEAR(shorter.left_borders[1].range.to_m, 19.25, 1e-9);
   EXPECT_LE(shorter.left_neighbours[0].crossable[0].to_m, 2.0);
   EXPECT_GT(shorter.left_neighbours[0].crossable[0].to_m, 1.8);
 }
