@@ -12,7 +12,7 @@ const {FoxgloveClient} = foxglove;
 const [laneloomd, laneloom, domain] = process.argv.slice(2);
 const dds = ['--domain', domain, '--vehicle-id', 'foxglove'];
 const COMPARED = 20, TOPICS = ['/laneloom/scene', '/laneloom/scene/ids', '/tf'], FOREIGN = 'https://app.foxglove.dev';
-const MAP_LAYERS = new Set(['lanes', 'uncertainty', 'boundaries', 'stoplines', 'linkages']);
+const MAP_LAYERS = new Set(['lanes', 'uncertainty', 'boundaries', 'stoplines', 'linkages', 'way']);
 const LIST = 2, NEAR_M = 0.0051, NEAR_COLOUR = 0.0025, WITHIN_MS = 120000;
 
 /** Of a channel's messages. */
