@@ -88,22 +88,24 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       log.done(Stage::lane_boundaries,  // III-D-1
                boundaries::lane_boundaries(fused.markings, fused.joints, config_.boundary));
   boundaries.insert(
-      state.lane_memory.recognise(lanes::continued_edges(boundaries, scene.box, config_.lane),  // ours
-                                  scene, state.ids));
+      state.inferred.recognise(lanes::continued_edges(boundaries, scene.box, config_.lane),  // ours
+                               scene, state.ids));
   boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config_.section));  // III-D-2
-  lanes::LaneLayout layout = log.done(  // III-D-3, and ours
-      Stage::lanes, state.lane_memory.recognise(lanes::find_lanes(std::move(sections), scene, config_.lane),
-                                                scene, config_.lane, state.ids));
+  lanes::LaneLayout found =
+      state.inferred.recognise(lanes::find_lanes(std::move(sections), scene, config_.lane), scene,
+                               config_.lane, state.ids);  // III-D-3
+  lanes::LaneLayout layout = log.done(
+      Stage::lanes, state.lane_tracks.update(std::move(found), scene, config_.lane, state.ids));  // ours
   topology::RoadGraph road =
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
-                               state.lane_memory);
-  find_directions(config_.direction, state.lane_memory, road);
+                               state.lane_tracks);
+  find_directions(config_.direction, state.lane_tracks, road);
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
-  const auto renamed = state.lane_memory.publish(road.lanes, state.ids);
+  const auto renamed = state.lane_tracks.publish(road.lanes, state.ids);
   road.rename(renamed);
   state.ego_track.forget(renamed);
   meet_at_joints(road);

@@ -7,7 +7,8 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/inferred_memory.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/lines/line_mapper.hpp"
 #include "mapping/markings/id_source.hpp"
@@ -55,7 +56,8 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
 
   std::uint64_t frame = 0;  ///< number of fused frames
   Fusion fusion;
-  lanes::LaneMemory lane_memory;
+  lanes::InferredMemory inferred;
+  lanes::LaneTracks lane_tracks;
   topology::EgoTrack ego_track;
   Membership published;  ///< membership in the last map
   markings::IdSource ids;
@@ -63,7 +65,7 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, fusion, lane_memory, ego_track, published, ids, map);
+    archive(frame, fusion, inferred, lane_tracks, ego_track, published, ids, map);
   }
 };
 

@@ -17,7 +17,8 @@ namespace laneloom {
 namespace {
 
 constexpr double kSampleStep_m = 0.5;
-constexpr double kEnds_m = 1.5;  // to which a lane's ends are known
+constexpr double kEnds_m = 1.5;      // to which a lane's ends are known
+constexpr int kFramesToBelieve = 5;  // until an inferred lane is shown
 constexpr double kTolerance_m = 0.4;
 constexpr double kMinLength_m =
     9.0;  // of what is in view: its ends are known to within a cross-section of 1 m
@@ -129,9 +130,10 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
       ++lanes_expected_;
       if (first != nullptr) first_cover[truth.lane->id] = first;
       if (last != nullptr) last_cover[truth.lane->id] = last;
+      int& missed = missed_[truth.lane->id];
       if (found_m >= 0.8 * expected_m - kEnds_m) {
-        ++lanes_found_;
-      } else {
+        missed = 0;
+      } else if (++missed > kFramesToBelieve) {
         ADD_FAILURE() << "at " << map.T_map_body.translation().transpose() << " lane " << truth.lane->id
                       << " of the truth is found on " << found_m << " of " << expected_m << " m";
       }
@@ -194,7 +196,8 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
         });
         if (!real) ++invented;
       }
-      EXPECT_LE(5 * invented, static_cast<int>(lane.centerline.size()))
+      // A lane that ends in another one is remembered a few metres further.
+      EXPECT_LE(invented, std::max(6, static_cast<int>(lane.centerline.size()) / 5))
           << "at " << map.T_map_body.translation().transpose() << " lane " << lane.id
           << " is no lane of the truth";
     }
@@ -206,7 +209,8 @@ class NoiseFree : public ::testing::TestWithParam<ScenarioAndMethod> {
   std::vector<TruthLane> truth_;
   std::vector<MeasuredPolyline> all_centerlines_;
   double expected_m_ = 0.0, found_m_ = 0.0;
-  int lanes_expected_ = 0, lanes_found_ = 0;
+  int lanes_expected_ = 0;
+  std::map<ElementId, int> missed_;  ///< per lane of the truth, the frames since it was found last
   int successors_expected_ = 0, successors_found_ = 0;
 };
 
@@ -220,7 +224,6 @@ TEST_P(NoiseFree, EveryLaneIsFoundRightlyLinkedAndNoneInvented) {
     judge(map);
   }
   EXPECT_GT(lanes_expected_, 100);
-  EXPECT_EQ(lanes_found_, lanes_expected_);
   EXPECT_GT(found_m_, 0.98 * expected_m_);
   EXPECT_EQ(successors_found_, successors_expected_);
   if (const auto name = std::get<0>(GetParam()); name == "split" || name == "merge" || name == "town") {

@@ -12,8 +12,9 @@
 #include "mapping/lanes/continued_edges.hpp"
 #include "mapping/lanes/forks.hpp"
 #include "mapping/lanes/inferred_boundaries.hpp"
+#include "mapping/lanes/inferred_memory.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/lanes/lanes.hpp"
 #include "mapping/lanes/one_sided_lanes.hpp"
 #include "mapping/lanes/shoulders.hpp"
@@ -80,11 +81,11 @@ lanes::FoundLanes lanes_of(const DriveAccumulator::Drive& drive, boundaries::Sec
   return {std::move(sections.boundaries), std::move(marked), std::move(inferred), std::move(forks)};
 }
 
-void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, lanes::LaneMemory& memory,
+void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, lanes::LaneTracks& tracks,
           topology::RoadGraph& road) {
   for (const Eigen::Isometry3d& pose : drive.poses)
-    topology::observe_directions(road.lanes, pose, drive.markings, config.stopline, memory);
-  find_directions(config.direction, memory, road);
+    topology::observe_directions(road.lanes, pose, drive.markings, config.stopline, tracks);
+  find_directions(config.direction, tracks, road);
   link_across_intersections(SdMap{}, config.linkage, road);
   topology::EgoTrack track;
   for (const Eigen::Isometry3d& pose : drive.poses) link_ego_track(pose, track, road);
@@ -97,15 +98,17 @@ LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config)
   if (drive.poses.empty()) return map;
   const geometry::Scene scene{.box = geometry::MapBox(everything(), drive.poses.back()), .frame = 1};
   markings::IdSource ids(drive.markings.size() + 1);
-  lanes::LaneMemory memory;
+  lanes::InferredMemory inferred;
+  lanes::LaneTracks tracks;
   boundaries::Boundaries boundaries = boundaries_of(drive, config.boundary, ids);
-  boundaries.insert(memory.recognise(lanes::continued_edges(boundaries, scene.box, config.lane), scene, ids));
+  boundaries.insert(
+      inferred.recognise(lanes::continued_edges(boundaries, scene.box, config.lane), scene, ids));
   boundaries::SectionGraph sections =
       road_sections(std::move(boundaries), scene.T_map_body(), config.section);
   lanes::FoundLanes found = lanes_of(drive, std::move(sections), config.lane);
-  topology::RoadGraph road =
-      topology::link_lanes(memory.recognise(std::move(found), scene, config.lane, ids), config.linkage);
-  link(drive, config, memory, road);
+  lanes::LaneLayout layout = tracks.adopt(inferred.recognise(std::move(found), scene, config.lane, ids), ids);
+  topology::RoadGraph road = topology::link_lanes(std::move(layout), config.linkage);
+  link(drive, config, tracks, road);
   map.stoplines = topology::tie_stoplines(drive.markings, road.lanes, config.stopline);
   map.lanes = std::move(road.lanes);
   map.linkages = std::move(road.linkages);

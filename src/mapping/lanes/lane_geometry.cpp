@@ -77,6 +77,18 @@ LaneSide lane_side(const Border& border, Side side) {
   return {{border.boundary, as_seen(opposite(side), border.reversed)}, border.on_boundary, border.reversed};
 }
 
+LaneSide side_at_end(const Lane& lane, Side side, End end) {
+  const std::vector<Border>& borders = lane.borders(side);
+  return lane_side(end == End::back ? borders.back() : borders.front(), side);
+}
+
+bool share_boundary(const Lane& lane, Side side, const Lane& across) {
+  return std::ranges::any_of(lane.borders(side), [&](const Border& border) {
+    return border.boundary != kNoElement &&
+           std::ranges::count(across.borders(opposite(side)), border.boundary, &Border::boundary) > 0;
+  });
+}
+
 LaneSide lane_side(const Lane& lane, Side side) { return lane_side(lane.borders(side).front(), side); }
 
 const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {

@@ -40,6 +40,21 @@ struct LaneSide {
   double end_m() const { return reversed ? range.from_m : range.to_m; }
 };
 LaneSide lane_side(const Border& border, Side side);
+/// The side of a lane at one of its ends. Its boundary is kNoElement where none was seen there.
+LaneSide side_at_end(const Lane& lane, Side side, End end);
+/// Whether two lanes lie on the two sides of one boundary: the one has it on `side`, the other across.
+bool share_boundary(const Lane& lane, Side side, const Lane& across);
+/// The mean of a value along the borders that were seen. 0: none was.
+template <class Value>
+double mean_over(const std::vector<Border>& borders, Value value) {
+  double sum = 0.0, length_m = 0.0;
+  for (const Border& border : borders) {
+    if (border.boundary == kNoElement) continue;
+    length_m += border.range.length();
+    sum += border.range.length() * value(border);
+  }
+  return length_m > 0.0 ? sum / length_m : 0.0;
+}
 /// The side of a lane that has one border there, as the mapper makes them.
 LaneSide lane_side(const Lane& lane, Side side);
 

@@ -1,6 +1,7 @@
 #include "mapping/lanes/neighbours.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/stretches.hpp"
@@ -64,12 +65,29 @@ void add_beyond(const Border& border, Side its_side, const LaneLayout& layout,
   }
 }
 
+/// Joins the stretches of one neighbour that follow one another.
+std::vector<Neighbour> joined(std::vector<Neighbour> neighbours) {
+  std::vector<Neighbour> result;
+  for (Neighbour& next : neighbours) {
+    const bool continues = !result.empty() && result.back().lane == next.lane &&
+                           next.range.from_m - result.back().range.to_m < kMinBeside_m;
+    if (!continues) {
+      result.push_back(std::move(next));
+      continue;
+    }
+    Neighbour& last = result.back();
+    last.range.to_m = std::max(last.range.to_m, next.range.to_m);
+    last.crossable.insert(last.crossable.end(), next.crossable.begin(), next.crossable.end());
+  }
+  return result;
+}
+
 std::vector<Neighbour> neighbours_beyond(const Lane& lane, Side side, const LaneLayout& layout) {
   std::vector<Neighbour> neighbours;
   for (const Border& border : lane.borders(side))
     if (border.boundary != kNoElement) add_beyond(border, side, layout, neighbours);
   std::ranges::stable_sort(neighbours, {}, [](const Neighbour& neighbour) { return neighbour.range.from_m; });
-  return neighbours;
+  return joined(std::move(neighbours));
 }
 
 }  // namespace

@@ -26,11 +26,9 @@ constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost la
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
 constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
 constexpr double kKnown = 1.5;             // from here on, a direction is published
-constexpr double kNews = 0.1;              // share of a frame in the belief in a direction
+constexpr double kNews = 0.05;             // share of a frame in the belief in a direction
 constexpr double kGrowth = 0.3;            // likewise, where the frame says more than the belief
 constexpr double kDoubted = 0.5;           // below, a direction is published no longer
-constexpr double kSure = 3.0;              // from here on, it is kept
-constexpr double kKeptEvidence = 3.0;      // of a direction that is kept
 
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
 
@@ -59,11 +57,14 @@ geometry::OrientedGroups group(const RoadGraph& road) {
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     index.emplace(lanes[i].id, i);
     for (const Side one : kSides) {
-      const lanes::LaneSide side = lanes::lane_side(lanes[i], one);
-      const First& first =
-          beside.emplace(std::pair(side.of, lanes::forks_before(side, road.forks)), First{i, side.reversed})
-              .first->second;
-      groups.join(first.lane, i, side.reversed != first.reversed);
+      for (const Border& border : lanes[i].borders(one)) {
+        if (border.boundary == kNoElement) continue;
+        const lanes::LaneSide side = lanes::lane_side(border, one);
+        const First& first =
+            beside.emplace(std::pair(side.of, lanes::forks_before(side, road.forks)), First{i, side.reversed})
+                .first->second;
+        groups.join(first.lane, i, side.reversed != first.reversed);
+      }
     }
   }
   for (const Linkage& linkage : road.linkages)
@@ -119,36 +120,32 @@ std::vector<double> outermost_evidence(const lanes::LaneLayout& layout,
   const std::vector<Lane>& lanes = layout.lanes;
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
   for (const SideBySideLanes& pair : pairs) open_right[pair.left] = open_left[pair.right] = false;
-  const auto evidence_of = [&](const Border& border) {
-    return border_evidence(layout.boundaries.of(border.boundary).marking, border.on_boundary);
+  const auto evidence_of = [&](const Lane& lane, Side side) {
+    return lanes::mean_over(lane.borders(side), [&](const Border& border) {
+      return border_evidence(layout.boundaries.of(border.boundary).marking, border.on_boundary);
+    });
   };
   std::vector<double> evidence(lanes.size(), 0.0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane& lane = lanes[i];
-    if (open_right[i] && lane.right_neighbours.empty())
-      evidence[i] += evidence_of(lane.right_borders.front());
-    if (open_left[i] && lane.left_neighbours.empty()) evidence[i] -= evidence_of(lane.left_borders.front());
+    if (open_right[i] && lane.right_neighbours.empty()) evidence[i] += evidence_of(lane, Side::right);
+    if (open_left[i] && lane.left_neighbours.empty()) evidence[i] -= evidence_of(lane, Side::left);
   }
   return evidence;
 }
 
-/// Per group, the log odds of its direction by remembered observations and by directions that are kept.
+/// Per group, the log odds of its direction by what was observed of it so far.
 std::vector<double> remembered_evidence(const std::vector<Lane>& lanes,
                                         const geometry::OrientedGroups& groups,
-                                        const lanes::LaneMemory& memory) {
+                                        const lanes::LaneTracks& tracks) {
   std::vector<double> observed(lanes.size(), 0.0);
-  std::vector<int> kept(lanes.size(), 0);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const lanes::KnownLane* remembered = memory.find(lanes[i].id);
+    const lanes::LaneTrack* remembered = tracks.find(lanes[i].id);
     if (remembered == nullptr) continue;
     const int sense = is_opposed(groups, i) ? -1 : 1;
     observed[groups.group(i)] += sense * remembered->direction_log_odds;
-    kept[groups.group(i)] += sense * remembered->kept_direction;
   }
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    observed[i] = std::clamp(observed[i], -kMaxEvidence, kMaxEvidence);
-    observed[i] += std::clamp(kept[i], -1, 1) * kKeptEvidence;
-  }
+  for (double& one : observed) one = std::clamp(one, -kMaxEvidence, kMaxEvidence);
   return observed;
 }
 
@@ -175,11 +172,11 @@ std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLa
 }
 
 Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroups& groups,
-                  const lanes::LaneMemory& memory, double side) {
+                  const lanes::LaneTracks& tracks, double side) {
   const std::vector<Lane>& lanes = layout.lanes;
   const std::vector<SideBySideLanes> beside = side_by_side(layout);
   const std::vector<double> outermost = outermost_evidence(layout, beside);
-  Model model{.evidence = remembered_evidence(lanes, groups, memory),
+  Model model{.evidence = remembered_evidence(lanes, groups, tracks),
               .pairs = side_by_side_groups(beside, groups)};
   std::vector<Mean> borders(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
@@ -219,16 +216,16 @@ struct Told {
 };
 
 Told told(const std::vector<Lane>& lanes, const geometry::OrientedGroups& groups,
-          const lanes::LaneMemory& memory) {
+          const lanes::LaneTracks& tracks) {
   Told told{std::vector<Mean>(lanes.size()), std::vector<double>(lanes.size(), 0.0),
             std::vector<double>(lanes.size(), 0.0)};
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const lanes::KnownLane* known = memory.find(lanes[i].id);
+    const lanes::LaneTrack* known = tracks.find(lanes[i].id);
     if (known == nullptr || known->published == 0) continue;
     const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
     told.belief[groups.group(i)].add(sense * known->belief);
     told.direction[groups.group(i)] += sense * known->told_direction;
-    told.orientation[groups.group(i)] += sense * known->published * length(known->centerline);
+    told.orientation[groups.group(i)] += sense * known->published * length(lanes[i].centerline);
   }
   return told;
 }
@@ -256,37 +253,26 @@ double sense_of(double log_odds, double told_direction, double told_orientation)
 
 /// Per group, what tells its direction: its borders, and that the vehicle drove in one of its lanes. The
 /// lanes are told that they were driven.
-std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups, const lanes::LaneMemory& memory,
+std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups, const lanes::LaneTracks& tracks,
                                   std::vector<Lane>& lanes) {
   std::vector<Evidence> evidence(lanes.size(), Evidence::none);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const lanes::KnownLane* known = memory.find(lanes[i].id);
+    const lanes::LaneTrack* known = tracks.find(lanes[i].id);
     if (known != nullptr && known->driven) lanes[i].evidence |= Evidence::ego_path;
     evidence[groups.group(i)] |= lanes[i].evidence;
   }
   return evidence;
 }
 
-/// Remembers the belief in the direction of a lane. Keeps the direction, once it is sure, until it is no
-/// longer known.
-void keep_direction(double log_odds, ElementId lane, lanes::LaneMemory& memory) {
-  lanes::KnownLane* remembered = memory.find(lane);
-  if (remembered == nullptr) return;
-  remembered->belief = log_odds;
-  const int sense = log_odds < 0.0 ? -1 : 1;
-  const bool kept = std::abs(log_odds) >= (remembered->kept_direction == sense ? kKnown : kSure);
-  remembered->kept_direction = kept ? sense : 0;
-}
-
 }  // namespace
 
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
-                        lanes::LaneMemory& memory) {
+                        lanes::LaneTracks& tracks) {
   const auto driven = std::ranges::find_if(
       lanes, [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body) != 0.0; });
   for (const Lane& lane : lanes) {
-    lanes::KnownLane* remembered = memory.find(lane.id);
+    lanes::LaneTrack* remembered = tracks.find(lane.id);
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
     if (driven != lanes.end() && lanes::are_neighbours(*driven, lane)) log_odds *= kMemory;
@@ -297,20 +283,20 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
   }
 }
 
-void find_directions(const DirectionConfig& config, lanes::LaneMemory& memory, RoadGraph& road) {
+void find_directions(const DirectionConfig& config, lanes::LaneTracks& tracks, RoadGraph& road) {
   const geometry::OrientedGroups groups = group(road);
   const double side = driving_side(config);
-  std::vector<double> belief = beliefs(build_model(road, groups, memory, side), side);
-  const Told before = told(road.lanes, groups, memory);
+  std::vector<double> belief = beliefs(build_model(road, groups, tracks, side), side);
+  const Told before = told(road.lanes, groups, tracks);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
-  const std::vector<Evidence> evidence = evidence_of(groups, memory, road.lanes);
+  const std::vector<Evidence> evidence = evidence_of(groups, tracks, road.lanes);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];
     const std::size_t of = groups.group(i);
     const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
-    keep_direction(sense * belief[of], lane.id, memory);
+    if (lanes::LaneTrack* track = tracks.find(lane.id)) track->belief = sense * belief[of];
     if (is_known(belief[of], before.direction[of])) {
       lane.direction = Lane::Direction::along_centerline;
       lane.direction_probability = geometry::reproducible::probability(std::abs(belief[of]));

@@ -4,7 +4,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/topology/road_graph.hpp"
 
 namespace laneloom::topology {
@@ -14,7 +14,7 @@ namespace laneloom::topology {
 /// drives beside the lane. Remembers which lanes the vehicle drove in.
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
-                        lanes::LaneMemory& memory);
+                        lanes::LaneTracks& tracks);
 
 /// Sets the driving direction of every lane for which it can be told, and turns the lane to run with the
 /// traffic. Ours, beyond the paper.
@@ -23,9 +23,9 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 /// each has the other on the side that is not driven on. The boundary between two lanes speaks for opposite
 /// directions or against them (side_by_side.hpp). The outermost lane at an edge, or at a solid line, runs as
 /// the driving side says. These and the remembered evidence are weighed against one another by max-product
-/// belief propagation. A direction that was sure stays known until it is contradicted; `memory` remembers it.
+/// belief propagation. A direction that was sure stays known until it is contradicted; `tracks` remember it.
 ///
 /// Linkages between lanes that are turned are turned too. At last the turn of every linkage is set.
-void find_directions(const DirectionConfig& config, lanes::LaneMemory& memory, RoadGraph& road);
+void find_directions(const DirectionConfig& config, lanes::LaneTracks& tracks, RoadGraph& road);
 
 }  // namespace laneloom::topology

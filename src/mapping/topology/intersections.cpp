@@ -98,9 +98,13 @@ class Taken {
   std::set<std::pair<ElementId, Turn>> left_, entered_;
 };
 
-/// Length of dashed minus solid stretches of the line along a lane's side.
-double dashed_excess_m(const lanes::LaneSide& side, const RoadGraph& road) {
-  return markings::dashed_excess_m(road.boundaries.of(side.of.boundary).marking, side.range);
+/// Length of dashed minus solid stretches of the lines along a lane's side.
+double dashed_excess_m(const Lane& lane, Side side, const RoadGraph& road) {
+  double excess_m = 0.0;
+  for (const Border& border : lane.borders(side))
+    if (border.boundary != kNoElement)
+      excess_m += markings::dashed_excess_m(road.boundaries.of(border.boundary).marking, border.on_boundary);
+  return excess_m;
 }
 
 /// Whether the lane is the outermost of its direction on the side that is turned to. A lane beside it counts
@@ -109,8 +113,7 @@ bool is_outermost(const Lane& lane, Turn turn, const RoadGraph& road) {
   const Side side = turn == Turn::left ? Side::left : Side::right;
   const Lane* beside = road.find(lanes::main_neighbour(lane, side));
   if (beside == nullptr) return true;
-  if (beside->direction == Lane::Direction::unknown)
-    return dashed_excess_m(lanes::lane_side(lane, side), road) <= 0.0;
+  if (beside->direction == Lane::Direction::unknown) return dashed_excess_m(lane, side, road) <= 0.0;
   // Two lanes that run against each other have one another on the same side.
   return lanes::main_neighbour(*beside, side) == lane.id;
 }
@@ -169,8 +172,7 @@ bool crosses_edge(const Polyline& path, const boundaries::Boundaries& boundaries
 /// road. The lane ahead of such a lane may be the turning lane of the other direction.
 bool is_enclosed(const Lane& lane, const RoadGraph& road) {
   if (lane.left_neighbours.empty() || lane.right_neighbours.empty()) return false;
-  return std::ranges::all_of(
-      kSides, [&](Side side) { return dashed_excess_m(lanes::lane_side(lane, side), road) < 0.0; });
+  return std::ranges::all_of(kSides, [&](Side side) { return dashed_excess_m(lane, side, road) < 0.0; });
 }
 
 /// Gives the direction of one lane to the other, if it is unknown: lanes that are linked straight on run the

@@ -21,7 +21,7 @@ constexpr double kForkProbability = 0.75;
 /// The gap from the end of one lane to the start of another, along the boundary that both lie beside. Empty:
 /// they share no boundary, or `to` does not follow.
 std::optional<double> shared_gap(const lanes::LaneSide& from, const lanes::LaneSide& to, double max_gap_m) {
-  if (from.of != to.of || from.reversed != to.reversed) return std::nullopt;
+  if (from.of.boundary == kNoElement || from.of != to.of || from.reversed != to.reversed) return std::nullopt;
   const double sense = from.reversed ? -1.0 : 1.0;
   const double gap_m = sense * (to.begin_m() - from.end_m());
   const bool follows =
@@ -51,12 +51,12 @@ Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m
 /// The linkage to the next lane along one side of `from`.
 std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::LaneLayout& layout,
                                   const LinkageConfig& config) {
-  const lanes::LaneSide begun = lanes::lane_side(from, side);
+  const lanes::LaneSide begun = lanes::side_at_end(from, side, End::back);
   const Lane* next = nullptr;
   double next_gap_m = std::numeric_limits<double>::infinity();
   for (const Lane& to : layout.lanes) {
     if (to.id == from.id) continue;
-    const lanes::LaneSide continued = lanes::lane_side(to, side);
+    const lanes::LaneSide continued = lanes::side_at_end(to, side, End::front);
     const auto gap_m = shared_gap(begun, continued, config.max_shared_gap_m);
     if (!gap_m || *gap_m >= next_gap_m) continue;
     if (lanes::forks_before(begun, layout.forks) != lanes::forks_before(continued, layout.forks)) continue;
@@ -72,19 +72,19 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
                   .path = {}};
   if (next_gap_m >= lanes::kMinGap_m)
     linkage.path = path_along(layout.boundaries.of(begun.of.boundary).course, begun.end_m(),
-                              lanes::lane_side(*next, side).begin_m(), from, *next);
+                              lanes::side_at_end(*next, side, End::front).begin_m(), from, *next);
   return linkage;
 }
 
-/// The lane on one side of a fork's boundary whose `gap_m` from the tip is least. The lane runs as the branch
-/// does. Null: there is none within `max_m`.
+/// The lane that has an end on one side of a fork's boundary, whose `gap_m` from the tip is least. The lane
+/// runs as the branch does. Null: there is none within `max_m`.
 template <class Gap>
-const Lane* nearest_to_tip(const lanes::Fork& fork, const lanes::BoundarySide& of, double max_m,
+const Lane* nearest_to_tip(const lanes::Fork& fork, const lanes::BoundarySide& of, End end, double max_m,
                            const lanes::LaneLayout& layout, Gap gap_m) {
   const Lane* nearest = nullptr;
   for (const Lane& lane : layout.lanes) {
     for (const Side side : kSides) {
-      const lanes::LaneSide along = lanes::lane_side(lane, side);
+      const lanes::LaneSide along = lanes::side_at_end(lane, side, end);
       if (along.of != of || along.reversed != fork.reversed) continue;
       const double distance_m = gap_m(along);
       if (distance_m < -kOnTip_m || distance_m > max_m) continue;
@@ -101,13 +101,14 @@ std::optional<Linkage> link_at(const lanes::Fork& fork, const lanes::LaneLayout&
   const bool opens = fork.end == End::front;
   const double sense = opens != fork.reversed ? 1.0 : -1.0;  // from the tip into the branch
   const Lane* branch =
-      nearest_to_tip(fork, fork.branch, kMaxBranchGap_m, layout, [&](const lanes::LaneSide& along) {
-        return sense * ((opens ? along.begin_m() : along.end_m()) - fork.arc_m);
-      });
-  const Lane* stem =
-      nearest_to_tip(fork, fork.branch.other(), kMaxStemGap_m, layout, [&](const lanes::LaneSide& along) {
-        return std::abs((opens ? along.end_m() : along.begin_m()) - fork.arc_m);
-      });
+      nearest_to_tip(fork, fork.branch, opens ? End::front : End::back, kMaxBranchGap_m, layout,
+                     [&](const lanes::LaneSide& along) {
+                       return sense * ((opens ? along.begin_m() : along.end_m()) - fork.arc_m);
+                     });
+  const Lane* stem = nearest_to_tip(fork, fork.branch.other(), opens ? End::back : End::front, kMaxStemGap_m,
+                                    layout, [&](const lanes::LaneSide& along) {
+                                      return std::abs((opens ? along.end_m() : along.begin_m()) - fork.arc_m);
+                                    });
   if (stem == nullptr || branch == nullptr) return std::nullopt;
   const Lane &from = opens ? *stem : *branch, &to = opens ? *branch : *stem;
   return Linkage{.from = from.id,

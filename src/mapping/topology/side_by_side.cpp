@@ -72,9 +72,7 @@ class SideBySide {
       if (const auto right = across(i, Side::right)) {
         const Lane& lane = lanes_[i];
         const bool in_middle = is_middle(lanes_on(i, Side::left) + 1, lanes_on(*right, Side::right) + 1);
-        pairs.push_back({i, *right,
-                         boundary_evidence(boundary_of(lane.right_borders),
-                                           lane.right_borders.front().on_boundary, in_middle)});
+        pairs.push_back({i, *right, evidence_beside(lane, in_middle)});
       } else if (lanes_[i].right_neighbours.empty()) {
         if (const auto median = median_right_of(i)) pairs.push_back(across_median(i, *median));
       }
@@ -83,8 +81,19 @@ class SideBySide {
   }
 
  private:
-  const boundaries::LaneBoundary& boundary_of(const std::vector<Border>& borders) const {
-    return boundaries_.of(borders.front().boundary);
+  /// Log odds of opposite directions by the borders on the right of a lane.
+  double evidence_beside(const Lane& lane, bool in_middle) const {
+    return lanes::mean_over(lane.right_borders, [&](const Border& border) {
+      return boundary_evidence(boundaries_.of(border.boundary), border.on_boundary, in_middle);
+    });
+  }
+
+  /// Whether a line that may be crossed, or none, bounds a part of a lane's side.
+  bool may_be_crossed(const std::vector<Border>& borders) const {
+    return std::ranges::any_of(borders, [&](const Border& border) {
+      return border.boundary == kNoElement ||
+             topology::may_be_crossed(boundaries_.of(border.boundary).marking, border.on_boundary);
+    });
   }
 
   /// The lane across the boundary on a side, if its centerline runs alike.
@@ -92,8 +101,9 @@ class SideBySide {
     const Lane& lane = lanes_[i];
     const auto other = std::ranges::find(lanes_, lanes::main_neighbour(lane, side), &Lane::id);
     if (other == lanes_.end()) return std::nullopt;
-    const bool alike = other->borders(opposite(side)).front().boundary == lane.borders(side).front().boundary;
-    return alike ? std::optional(static_cast<std::size_t>(other - lanes_.begin())) : std::nullopt;
+    return lanes::share_boundary(lane, side, *other)
+               ? std::optional(static_cast<std::size_t>(other - lanes_.begin()))
+               : std::nullopt;
   }
 
   /// Number of lanes on a side of a lane, to the end of the road.
@@ -136,12 +146,8 @@ class SideBySide {
 
   SideBySideLanes across_median(std::size_t i, const Median& median) const {
     const Lane &left = lanes_[i], &right = lanes_[median.right];
-    const boundaries::LaneBoundary& border = boundary_of(left.right_borders);
-    const Stretch& range = left.right_borders.front().on_boundary;
-    const bool closed =
-        !may_be_crossed(border.marking, range) &&
-        !may_be_crossed(boundary_of(right.left_borders).marking, right.left_borders.front().on_boundary);
-    return {i, median.right, closed ? kMedianEvidence : boundary_evidence(border, range, false),
+    const bool closed = !may_be_crossed(left.right_borders) && !may_be_crossed(right.left_borders);
+    return {i, median.right, closed ? kMedianEvidence : evidence_beside(left, false),
             median.width_m > kNarrow_m};
   }
 

@@ -7,7 +7,8 @@
 
 #include "mapping/boundaries/road_sections.hpp"
 #include "mapping/lanes/find_lanes.hpp"
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/inferred_memory.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom::lanes {
@@ -140,13 +141,14 @@ class RoadWithAnUnseenEdge : public ::testing::Test {
     const geometry::Scene scene = wide_scene(++frame_);
     boundaries::Boundaries boundaries = std::vector{edge(1, 3.5, -20, end_x), edge(2, -3.5, -20, 20)};
     boundaries.insert(memory_.recognise(continued_edges(boundaries, scene.box, {}), scene, ids_));
-    return memory_.recognise(find_lanes(road_sections(std::move(boundaries), test::at(0), {}), scene, {}),
-                             scene, {}, ids_);
+    FoundLanes found = find_lanes(road_sections(std::move(boundaries), test::at(0), {}), scene, {});
+    return tracks_.adopt(memory_.recognise(std::move(found), scene, {}, ids_), ids_);
   }
 
   std::uint64_t frame_ = 0;
   markings::IdSource ids_{100};
-  LaneMemory memory_;
+  InferredMemory memory_;
+  LaneTracks tracks_;
 };
 
 TEST_F(RoadWithAnUnseenEdge, HasItsTwoLanesThere) {

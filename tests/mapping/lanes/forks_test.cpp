@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "mapping/geometry/stretches.hpp"
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/lanes/lanes.hpp"
 #include "mapping/shapes.hpp"
 #include "mapping/topology/directions.hpp"
@@ -157,11 +157,11 @@ TEST_F(Forks, TheBranchRunsAsItsStemDoesAndNotAsTheLaneBeyondIt) {
   auto lines = pocket();
   lines.push_back(line(4, 3.5));
   map(lines);
-  std::vector<KnownLane> known;
-  for (const Lane& lane : road_.lanes) known.push_back({.id = lane.id, .centerline = lane.centerline});
-  LaneMemory memory(std::move(known));
-  memory.find(between(2, 3)[0]->id)->direction_log_odds = 6.0;
-  topology::find_directions({}, memory, road_);
+  std::vector<LaneTrack> tracks;
+  for (const Lane& lane : road_.lanes) tracks.push_back({.id = lane.id});
+  LaneTracks known(std::move(tracks));
+  known.find(between(2, 3)[0]->id)->direction_log_odds = 6.0;
+  topology::find_directions({}, known, road_);
   EXPECT_EQ(between(1, 2)[0]->direction, Lane::Direction::along_centerline);
   const std::vector<const Lane*> beyond = between(4, 2);
   ASSERT_EQ(beyond.size(), 1U);

@@ -2,8 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "mapping/lanes/inferred_boundaries.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom::lanes {
@@ -17,9 +18,7 @@ std::vector<Lane> lanes_of(std::vector<boundaries::LaneBoundary> boundaries) {
   boundaries::SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
   auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
   markings::IdSource ids(100);
-  return LaneMemory()
-      .recognise({std::move(graph.boundaries), std::move(lanes), {}}, test::scene(1), {}, ids)
-      .lanes;
+  return LaneTracks().adopt(laid_out({std::move(graph.boundaries), std::move(lanes), {}}), ids).lanes;
 }
 
 const Lane* between(const std::vector<Lane>& lanes, ElementId left, ElementId right) {
@@ -197,23 +196,6 @@ TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
   EXPECT_EQ(lanes[0].status, ElementStatus::tentative);
 }
 
-TEST(Lanes, RememberWhichWayTheyRunHoweverTheyAreGiven) {
-  LaneMemory memory;
-  markings::IdSource ids(7);
-  std::vector<Lane> lanes{{.left_borders = {{.boundary = 1}},
-                           .right_borders = {{.boundary = 2}},
-                           .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
-  memory.identify(lanes, test::scene(1), {}, ids);
-  memory.find(7)->direction_log_odds = 2.0;
-  lanes = {{.left_borders = {{.boundary = 2}},
-            .right_borders = {{.boundary = 1}},
-            .centerline = straight({20, 0, 0}, {0, 0, 0}, 21)}};
-  memory.identify(lanes, test::scene(2), {}, ids);
-  ASSERT_EQ(lanes[0].id, 7U);
-  ASSERT_EQ(memory.lanes().size(), 1U);
-  EXPECT_EQ(memory.find(7)->direction_log_odds, -2.0);
-}
-
 TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
   const auto pair = [](double width_m, MarkingType right_type,
                        MarkingType left_type = MarkingType::laneline) {
@@ -307,110 +289,6 @@ TEST(Lanes, InABendOfTwelveMetres) {
   ASSERT_EQ(lanes.size(), 1U);
   EXPECT_NEAR(lanes[0].width_m, 3.5, 0.02);
   EXPECT_LT(test::max_distance(lanes[0].centerline, test::arc({0, 0, 0}, 12, -90, 0)), 0.05);
-}
-
-TEST(LaneIds, StayWithTheLaneWhenTheWindowMoves) {
-  LaneMemory memory;
-  markings::IdSource ids(100);
-  const auto window = [&](double from_m, std::uint64_t frame) {
-    std::vector<boundaries::LaneBoundary> boundaries{
-        boundary(1, straight({from_m, 3.5, 0}, {from_m + 35, 3.5, 0})),
-        boundary(2, straight({from_m, 0, 0}, {from_m + 35, 0, 0}))};
-    const auto graph = road_sections(boundaries, test::at(from_m), {});
-    auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
-    memory.identify(lanes, test::scene(frame), {}, ids);
-    return lanes;
-  };
-  for (std::uint64_t frame = 0; frame < 50; ++frame) {
-    const auto lanes = window(1.2 * static_cast<double>(frame), frame);
-    ASSERT_EQ(lanes.size(), 1U);
-    EXPECT_EQ(lanes[0].id, 100U);
-  }
-  EXPECT_EQ(memory.lanes().size(), 1U);
-}
-
-TEST(LaneIds, AreNotTakenOverByALaneThatOnlyTouchesTheOther) {
-  const auto lane_between = [](ElementId left, ElementId right, const Polyline& centerline) {
-    return Lane{.left_borders = {{.boundary = left}},
-                .right_borders = {{.boundary = right}},
-                .centerline = centerline};
-  };
-  const Lane through = lane_between(1, 2, straight({0, 0, 0}, {20, 0, 0}, 21));
-  LaneMemory memory;
-  markings::IdSource ids(100);
-  std::vector<Lane> first{through};
-  memory.identify(first, test::scene(1), {}, ids);
-  // The one is missed in a frame in which another that merges into it is new.
-  std::vector<Lane> merging{lane_between(3, 2, straight({0, -8, 0}, {20, -0.5, 0}, 21))};
-  memory.identify(merging, test::scene(2), {}, ids);
-  EXPECT_EQ(merging[0].id, 101U);
-  std::vector<Lane> both{through, merging[0]};
-  both[1].id = kNoElement;
-  memory.identify(both, test::scene(3), {}, ids);
-  EXPECT_EQ(both[0].id, 100U);
-  EXPECT_EQ(both[1].id, 101U);
-}
-
-TEST(LaneIds, StayWithTheLaneOfTheLastMapWhenABoundaryIsTakenForAnotherOne) {
-  const auto lane_beside = [](ElementId right, double y) {
-    return Lane{.left_borders = {{.boundary = 1}},
-                .right_borders = {{.boundary = right}},
-                .centerline = straight({0, y, 0}, {20, y, 0}, 21)};
-  };
-  LaneMemory memory;
-  markings::IdSource ids(100);
-  std::vector<Lane> both{lane_beside(2, 0.0), lane_beside(3, 0.5)};
-  memory.identify(both, test::scene(1), {}, ids);
-  std::vector<Lane> second{lane_beside(3, 0.5)};
-  memory.identify(second, test::scene(2), {}, ids);
-  EXPECT_EQ(second[0].id, 101U);
-  std::vector<Lane> first{lane_beside(2, 0.0)};
-  memory.identify(first, test::scene(3), {}, ids);
-  EXPECT_EQ(first[0].id, 101U);
-}
-
-TEST(LaneIds, ALaneThatIsTurnedRoundIsAnotherLane) {
-  LaneMemory memory;
-  markings::IdSource ids(100);
-  std::vector<Lane> lanes{{.left_borders = {{.boundary = 1}},
-                           .right_borders = {{.boundary = 2}},
-                           .centerline = straight({0, 0, 0}, {20, 0, 0}, 21)}};
-  const auto publish = [&](std::uint64_t frame, bool turned) {
-    memory.identify(lanes, test::scene(frame), {}, ids);
-    const std::vector<Lane> found = lanes;
-    if (turned) std::ranges::reverse(lanes[0].centerline);
-    const auto renamed = memory.publish(lanes, ids);
-    lanes = found;
-    return renamed;
-  };
-  EXPECT_TRUE(publish(1, true).empty()) << "a new lane runs as it likes";
-  EXPECT_TRUE(publish(2, true).empty());
-  EXPECT_THAT(publish(3, false), testing::ElementsAre(testing::Pair(100, 101)));
-  EXPECT_EQ(memory.find(100), nullptr);
-  EXPECT_TRUE(publish(4, false).empty());
-  EXPECT_EQ(memory.lanes().size(), 1U);
-  EXPECT_NE(memory.find(101), nullptr);
-}
-
-TEST(LaneIds, ComeBackAfterAShortGapOnly) {
-  Lane lane;
-  lane.left_borders = {{.boundary = 1}};
-  lane.right_borders = {{.boundary = 2}};
-  lane.centerline = straight({0, 0, 0}, {20, 0, 0}, 21);
-  LaneMemory memory;
-  markings::IdSource ids(100);
-  const auto id_at = [&](std::uint64_t frame) {
-    std::vector<Lane> lanes{lane};
-    memory.identify(lanes, test::scene(frame), {}, ids);
-    return lanes[0].id;
-  };
-  EXPECT_EQ(id_at(1), 100U);
-  std::vector<Lane> none;
-  for (std::uint64_t frame = 2; frame < 40; ++frame) memory.identify(none, test::scene(frame), {}, ids);
-  EXPECT_EQ(id_at(40), 100U);
-  for (std::uint64_t frame = 41; frame < 95; ++frame) memory.identify(none, test::scene(frame), {}, ids);
-  EXPECT_TRUE(memory.lanes().empty());
-  EXPECT_EQ(id_at(95), 101U);
 }
 
 }  // namespace

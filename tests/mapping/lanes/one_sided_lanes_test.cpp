@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/inferred_memory.hpp"
 #include "mapping/shapes.hpp"
 
 namespace laneloom::lanes {
@@ -54,7 +54,7 @@ class OneSidedLanes : public ::testing::Test {
   std::vector<Lane> known_lanes_;
   std::vector<Lane> lanes_;  ///< those beside one line
   boundaries::Boundaries boundaries_;
-  LaneMemory memory_;
+  InferredMemory memory_;
   std::uint64_t frame_ = 0;
   markings::IdSource ids_{100};
 };

@@ -2,7 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "mapping/lanes/lane_memory.hpp"
+#include "mapping/lanes/inferred_memory.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/lanes/lanes.hpp"
 #include "mapping/shapes.hpp"
 
@@ -36,7 +37,8 @@ class Dividers : public ::testing::Test {
   }
 
   void lay_out(FoundLanes found) {
-    LaneLayout layout = memory_.recognise(std::move(found), test::scene(frame_), config_, ids_);
+    LaneLayout layout =
+        tracks_.adopt(memory_.recognise(std::move(found), test::scene(frame_), config_, ids_), ids_);
     boundaries_ = std::move(layout.boundaries);
     lanes_ = std::move(layout.lanes);
   }
@@ -59,7 +61,8 @@ class Dividers : public ::testing::Test {
   LaneConfig config_;
   std::uint64_t frame_ = 0;
   markings::IdSource ids_{100};
-  LaneMemory memory_;
+  InferredMemory memory_;
+  LaneTracks tracks_;
   boundaries::Boundaries boundaries_;
   std::vector<Lane> lanes_;
 };

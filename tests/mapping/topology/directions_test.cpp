@@ -61,20 +61,20 @@ class Directions : public ::testing::Test {
       for (Point& point : *line) point.y() += width_m;
     lanes_[1] = lane(12, 2, 0, 40);
     lanes_[1].left_borders.front().boundary = 4;
-    memory_ = {};
+    tracks_ = {};
   }
 
   void observe(const Eigen::Isometry3d& T_map_body, const std::vector<Marking>& markings = {}) {
-    std::vector<lanes::KnownLane> known = memory_.lanes();
+    std::vector<lanes::LaneTrack> known = tracks_.all();
     for (const Lane& lane : lanes_)
-      if (memory_.find(lane.id) == nullptr) known.push_back({.id = lane.id, .centerline = lane.centerline});
-    memory_ = lanes::LaneMemory(std::move(known));
-    observe_directions(lanes_, T_map_body, markings, {}, memory_);
+      if (tracks_.find(lane.id) == nullptr) known.push_back({.id = lane.id});
+    tracks_ = lanes::LaneTracks(std::move(known));
+    observe_directions(lanes_, T_map_body, markings, {}, tracks_);
   }
 
   void find(DrivingSide driving_side = DrivingSide::right) {
     RoadGraph road{{boundaries_, lanes_}, linkages_};
-    find_directions({.driving_side = driving_side}, memory_, road);
+    find_directions({.driving_side = driving_side}, tracks_, road);
     lanes_ = std::move(road.lanes);
     linkages_ = std::move(road.linkages);
   }
@@ -88,7 +88,7 @@ class Directions : public ::testing::Test {
   std::vector<boundaries::LaneBoundary> boundaries_;
   std::vector<Lane> lanes_;
   std::vector<Linkage> linkages_;
-  lanes::LaneMemory memory_;
+  lanes::LaneTracks tracks_;
 };
 
 TEST_F(Directions, OnASolidLineTrafficMeetsOnTheDrivingSide) {
@@ -125,25 +125,24 @@ TEST_F(Directions, ADirectionHasAProbabilityAndEvidence) {
 }
 
 TEST_F(Directions, ADirectionIsToldUntilItIsInDoubt) {
-  memory_ = lanes::LaneMemory({{.id = 11, .centerline = lanes_[0].centerline, .published = 1},
-                               {.id = 12, .centerline = lanes_[1].centerline, .published = 1}});
-  for (lanes::KnownLane* lane : {memory_.find(11), memory_.find(12)}) lane->belief = 1.0;
+  tracks_ = lanes::LaneTracks({{.id = 11, .published = 1}, {.id = 12, .published = 1}});
+  for (lanes::LaneTrack* lane : {tracks_.find(11), tracks_.find(12)}) lane->belief = 1.0;
   find(DrivingSide::unknown);
   EXPECT_FALSE(known(11) || known(12)) << "1 is less than it takes to begin";
-  for (lanes::KnownLane* lane : {memory_.find(11), memory_.find(12)}) {
+  for (lanes::LaneTrack* lane : {tracks_.find(11), tracks_.find(12)}) {
     lane->belief = 1.0;
     lane->told_direction = 1;
   }
   find(DrivingSide::unknown);
   EXPECT_TRUE(known(11) && known(12));
-  for (lanes::KnownLane* lane : {memory_.find(11), memory_.find(12)}) lane->belief = 0.5;
+  for (lanes::LaneTrack* lane : {tracks_.find(11), tracks_.find(12)}) lane->belief = 0.5;
   for (Lane& lane : lanes_) lane.direction = Direction::unknown;
   find(DrivingSide::unknown);
   EXPECT_FALSE(known(11) || known(12));
 }
 
 TEST_F(Directions, WhileTheirDirectionIsUnknownLanesRunAsTheyDidBefore) {
-  memory_ = lanes::LaneMemory({{.id = 11, .centerline = lanes_[0].centerline, .published = -1}});
+  tracks_ = lanes::LaneTracks({{.id = 11, .published = -1}});
   find(DrivingSide::unknown);
   EXPECT_FALSE(known(11) || known(12));
   EXPECT_FALSE(runs_forward(11));
@@ -201,13 +200,16 @@ TEST_F(Directions, WhatWasSureStaysKnownUntilItIsContradicted) {
   for (int frame = 0; frame < 12; ++frame) observe(test::at(20, 5.25));
   find();
   ASSERT_TRUE(known(12) && runs_forward(12));
+  for (const ElementId id : {11U, 12U}) tracks_.find(id)->published = tracks_.find(id)->told_direction = 1;
   // Now alone, between a line and nothing that tells.
   lanes_ = {lane(12, 2, 0, 40)};
   boundaries_[2].marking.type = MarkingType::laneline;
   find();
   EXPECT_TRUE(known(12) && runs_forward(12));
-  for (int frame = 0; frame < 12; ++frame) observe(test::at(20, 1.75, std::numbers::pi));
-  find();
+  for (int frame = 0; frame < 200 && runs_forward(12); ++frame) {
+    observe(test::at(20, 1.75, std::numbers::pi));
+    find();
+  }
   EXPECT_TRUE(known(12));
   EXPECT_FALSE(runs_forward(12));
 }
@@ -274,7 +276,7 @@ TEST_F(Directions, ASolidLineAtTheSideSpeaksAsAnEdgeDoesButLess) {
   EXPECT_FALSE(known(12));
   divider(MarkingStyle::solid);
   lanes_ = lanes;
-  memory_ = {};
+  tracks_ = {};
   find();
   EXPECT_TRUE(known(11) && known(12));
   EXPECT_FALSE(runs_forward(11));

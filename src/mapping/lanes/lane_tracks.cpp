@@ -1,0 +1,203 @@
+#include "mapping/lanes/lane_tracks.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "mapping/lanes/lane_evidence.hpp"
+#include "mapping/lanes/lane_growth.hpp"
+#include "mapping/lanes/lane_strips.hpp"
+#include "mapping/lanes/neighbours.hpp"
+#include "mapping/lanes/shown_lane.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+constexpr double kMinSpacing = 0.4;  // of stations, as a share of LaneConfig::step_m
+constexpr double kBridged_m = 8.0;   // a longer stretch that is not believed parts a lane
+
+/// Leaves out stations that do not lie ahead of the one before.
+void put_in_row(const LaneConfig& config, std::vector<LaneStation>& stations) {
+  for (std::size_t i = 2; i < stations.size();) {
+    const auto center = [&](std::size_t k) -> Eigen::Vector2d { return stations[k].center().head<2>(); };
+    const Eigen::Vector2d along = (center(i - 1) - center(i - 2)).normalized();
+    if ((center(i) - center(i - 1)).dot(along) < kMinSpacing * config.step_m) {
+      stations[i - 1].stepped = true;
+      stations.erase(stations.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+}
+
+/// Shows and hides the stations of a track. Short stretches between shown ones are shown.
+void show(const LaneConfig& config, std::vector<LaneStation>& stations) {
+  for (LaneStation& station : stations)
+    station.shown = station.log_odds >= (station.shown ? kHidden : kShown);
+  const auto most = static_cast<std::size_t>(kBridged_m / config.step_m);
+  std::size_t hidden = most + 1;  // since the last one that is shown
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    if (!stations[i].shown) {
+      ++hidden;
+      continue;
+    }
+    if (hidden <= most)
+      for (std::size_t k = i - hidden; k < i; ++k) stations[k].shown = true;
+    hidden = 0;
+  }
+}
+
+/// Cuts a track into pieces: where it is forgotten, where another lane begins, and between what is shown.
+class Pieces {
+ public:
+  explicit Pieces(LaneTrack track) : whole_(std::move(track)) {
+    open(whole_.parted[0]);
+    bool was_shown = false, was_hidden = false;
+    for (LaneStation& station : whole_.stations) {
+      if (!station.shown && station.log_odds < kForgotten) {
+        close(0.0);
+        was_shown = was_hidden = false;
+        continue;
+      }
+      if (station.shown && was_shown && was_hidden) {
+        close(0.0);
+        was_hidden = false;
+      }
+      was_hidden = !station.shown;
+      was_shown = was_shown || station.shown;
+      const double parted = station.parted;
+      if (parted >= kParted) station.parted = 0.0;
+      piece_.stations.push_back(std::move(station));
+      if (parted < kParted) continue;
+      close(parted);
+      was_shown = was_hidden = false;
+    }
+    close(whole_.parted[1]);
+  }
+
+  /// The pieces. The one that shows most has the id of the whole.
+  std::vector<LaneTrack> take(markings::IdSource& ids) {
+    if (pieces_.empty()) return {};
+    const auto kept = std::ranges::max_element(pieces_, {}, [](const LaneTrack& piece) {
+      return std::ranges::count_if(piece.stations, &LaneStation::shown);
+    });
+    for (LaneTrack& piece : pieces_) {
+      if (&piece == &*kept) continue;
+      piece.id = ids.next();
+      piece.published = 0;
+    }
+    return std::move(pieces_);
+  }
+
+ private:
+  void open(double parted) {
+    piece_ = whole_copy();
+    piece_.parted = {parted, 0.0};
+  }
+  /// The whole without its stations.
+  LaneTrack whole_copy() const {
+    return {.id = whole_.id,
+            .section = whole_.section,
+            .begin = whole_.begin,
+            .published = whole_.published,
+            .direction_log_odds = whole_.direction_log_odds,
+            .belief = whole_.belief,
+            .told_direction = whole_.told_direction,
+            .driven = whole_.driven};
+  }
+  void close(double parted) {
+    piece_.parted[1] = parted;
+    if (piece_.stations.size() > 1) pieces_.push_back(std::move(piece_));
+    open(parted);
+  }
+
+  LaneTrack whole_, piece_;
+  std::vector<LaneTrack> pieces_;
+};
+
+/// Whether a lane runs against most of its boundaries, which run as the sections of the road do.
+bool runs_against_road(const Lane& lane) {
+  double along_m = 0.0;
+  for (const Side side : kSides)
+    for (const Border& border : lane.borders(side))
+      along_m += (border.reversed ? -1.0 : 1.0) * border.on_boundary.length();
+  return along_m < 0.0;
+}
+
+}  // namespace
+
+LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, const LaneConfig& config,
+                              markings::IdSource& ids) {
+  std::vector<Strip> strips;
+  strips.reserve(found.lanes.size());
+  for (const Lane& lane : found.lanes) strips.emplace_back(lane, found.forks);
+  std::vector<std::vector<Match>> matches;
+  matches.reserve(tracks_.size());
+  for (LaneTrack& track : tracks_) {
+    matches.push_back(match(track, strips));
+    observe(strips, matches.back(), config, track);
+  }
+  grow(strips, matches, config, ids, tracks_);
+  std::vector<LaneTrack> whole = std::exchange(tracks_, {});
+  for (LaneTrack& track : whole) {
+    std::erase_if(track.stations, [&](const LaneStation& s) { return !scene.box.keeps(s.center()); });
+    put_in_row(config, track.stations);
+    show(config, track.stations);
+    std::ranges::move(Pieces(std::move(track)).take(ids), std::back_inserter(tracks_));
+  }
+  std::ranges::sort(tracks_, {}, &LaneTrack::id);
+  found.lanes.clear();
+  for (LaneTrack& track : tracks_) {
+    auto lane = shown_lane(track, found.boundaries);
+    if (lane && runs_against_road(*lane)) {
+      reverse(track);
+      lane = shown_lane(track, found.boundaries);
+    }
+    if (!lane) {
+      track.published = 0;
+      continue;
+    }
+    track.begin = lane->centerline.front();
+    found.lanes.push_back(std::move(*lane));
+  }
+  find_neighbours(found);
+  return found;
+}
+
+LaneLayout LaneTracks::adopt(LaneLayout found, markings::IdSource& ids) {
+  for (Lane& lane : found.lanes) {
+    lane.id = ids.next();
+    tracks_.push_back({.id = lane.id});
+  }
+  find_neighbours(found);
+  return found;
+}
+
+const LaneTrack* LaneTracks::find(ElementId id) const {
+  const auto found = std::ranges::find(tracks_, id, &LaneTrack::id);
+  return found == tracks_.end() ? nullptr : &*found;
+}
+
+LaneTrack* LaneTracks::find(ElementId id) {
+  return const_cast<LaneTrack*>(std::as_const(*this).find(id));  // NOLINT: of these tracks
+}
+
+std::map<ElementId, ElementId> LaneTracks::publish(const std::vector<Lane>& lanes, markings::IdSource& ids) {
+  std::map<ElementId, ElementId> renamed;
+  for (const Lane& lane : lanes) {
+    LaneTrack* track = find(lane.id);
+    if (track == nullptr) continue;
+    if (lane.centerline.front() != track->begin) reverse(*track);
+    if (track->published < 0) {
+      track->id = ids.next();
+      renamed.emplace(lane.id, track->id);
+    }
+    track->told_direction = lane.direction == Lane::Direction::unknown ? 0 : 1;
+    track->published = 1;
+  }
+  std::ranges::sort(tracks_, {}, &LaneTrack::id);
+  return renamed;
+}
+
+}  // namespace laneloom::lanes
