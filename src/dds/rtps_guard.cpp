@@ -1,12 +1,16 @@
 #include "dds/rtps_guard.hpp"
 
+#include <algorithm>
+
 #include "dds/rtps_submessage.hpp"
 
 namespace laneloom::dds {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 20, kSubmessageHeaderBytes = 4, kPrefixAt = 8;
+constexpr std::size_t kVendorAt = 6;
 constexpr std::uint8_t kFirstOfVendors = 0x80;
+constexpr std::array<std::uint8_t, 2> kVendorOfFastDds{0x01, 0x0f};
 
 bool is_rtps(std::span<const std::uint8_t> datagram) {
   return datagram.size() >= kHeaderBytes && datagram[0] == 'R' && datagram[1] == 'T' && datagram[2] == 'P' &&
@@ -35,12 +39,14 @@ std::optional<RtpsSubmessage> next(std::span<const std::uint8_t>& rest) {
 
 std::optional<DatagramRefusal> RtpsGuard::check(std::span<const std::uint8_t> datagram, std::int64_t now_ns) {
   if (!is_rtps(datagram)) return DatagramRefusal::header;
+  const bool of_fast_dds = std::ranges::equal(datagram.subspan(kVendorAt, 2), kVendorOfFastDds);
   SubmessageCheck submessages(heard_, datagram.subspan(kPrefixAt).first<kPrefixBytes>(), now_ns);
   for (auto rest = datagram.subspan(kHeaderBytes); !rest.empty();) {
     const auto submessage = next(rest);
     if (!submessage) return DatagramRefusal::length;
     if (submessage->kind >= kFirstOfVendors) {
-      if (!submessage->ends_datagram) return DatagramRefusal::vendor;
+      // It asserts that its own one is the last, and skips those of others.
+      if (of_fast_dds && !submessage->ends_datagram) return DatagramRefusal::vendor;
     } else if (const auto refusal = submessages.check(*submessage)) {
       return refusal;
     }

@@ -15,7 +15,7 @@ enum class DatagramRefusal {
   header,      ///< no RTPS of version 2
   length,      ///< a submessage is longer than its datagram, or shorter than what it holds
   kind,        ///< an unknown submessage
-  vendor,      ///< a submessage of a vendor that does not end its datagram
+  vendor,      ///< a submessage of Fast DDS' own that does not end its datagram
   fragments,   ///< fragments that do not fit to their sample
   sequence,    ///< sequence numbers that no writer has
   leap,        ///< sequence numbers far beyond those that the writer has sent

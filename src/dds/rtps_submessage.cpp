@@ -13,6 +13,10 @@ constexpr std::uint8_t kAckNack = 0x06, kHeartbeat = 0x07, kGap = 0x08, kInfoSou
                        kInfoReplyIp4 = 0x0d, kInfoDestination = 0x0e, kInfoReply = 0x0f,
                        kNackFragments = 0x12, kHeartbeatFragments = 0x13, kData = 0x15, kDataFragments = 0x16,
                        kFirstSecured = 0x30, kLastSecured = 0x34;
+// What Fast DDS skips: the extension of RTPS 2.5, and what Connext sends where it is told to (sessions,
+// batches, acknowledgements by applications, virtual heartbeats).
+constexpr std::uint8_t kHeaderExtension = 0x00, kDataSession = 0x14, kAckNackBatch = 0x17,
+                       kVirtualHeartbeat = 0x1e;
 constexpr std::int64_t kLastSequence = std::int64_t{1} << 40;
 // Fast DDS keeps an entry for each number of a gap that lies ahead.
 constexpr std::int64_t kLongestGap = 1 << 16;
@@ -109,8 +113,11 @@ SubmessageCheck::SubmessageCheck(const HeardWriters& heard,
 
 Verdict SubmessageCheck::check(const RtpsSubmessage& submessage) {
   if (submessage.kind >= kFirstSecured && submessage.kind <= kLastSecured) return {};
+  if (submessage.kind >= kAckNackBatch && submessage.kind <= kVirtualHeartbeat) return {};
   switch (submessage.kind) {
+    case kHeaderExtension:
     case kPad:
+    case kDataSession:
     case kInfoReply:
     case kInfoReplyIp4:
       return {};

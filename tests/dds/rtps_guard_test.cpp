@@ -124,6 +124,29 @@ TEST_F(RtpsGuardTest, OnlyKnownSubmessagesPassAndThoseOfVendorsAtTheEnd) {
   EXPECT_EQ(check_all({submessage(0x80, 0, Packet(56)), Packet(1)}), DatagramRefusal::vendor);
 }
 
+// Connext is not there to be recorded: by what is published of it (vendor 01.01; Wireshark's packet-rtps.c).
+TEST_F(RtpsGuardTest, WhatConnextSendsPasses) {
+  const auto from_connext = [](Packet bytes) {
+    bytes[7] = 1;
+    return bytes;
+  };
+  const auto product_version = parameter(0x8000, Packet{7, 3, 0, 0}),
+             transports = parameter(0x8010, Packet(44)), lease = parameter(0x8016, Packet(8)),
+             endpoints = parameter(0x8017, Packet(4)), type_object = parameter(0x8021, Packet(60)),
+             filters = parameter(0x8003, Packet(8));
+  auto parameters = RtpsWriter();
+  for (const auto& one :
+       {product_version, transports, lease, endpoints, type_object, filters, kEndOfParameters})
+    parameters.bytes(one);
+  EXPECT_EQ(check(from_connext(datagram(kPeer, {announcement(parameters.take())}))), Refusal());
+  for (const int kind : {0x00, 0x14, 0x17, 0x18, 0x19, 0x1a, 0x1b, 0x1c, 0x1d, 0x1e})
+    EXPECT_EQ(check(from_connext(
+                  datagram(kPeer, {submessage(static_cast<std::uint8_t>(kind), 0, Packet(28)), data(1)}))),
+              Refusal());
+  const auto checksum = submessage(0x80, 0, Packet(8));
+  EXPECT_EQ(check(from_connext(datagram(kPeer, {checksum, data(1)}))), Refusal());
+}
+
 TEST_F(RtpsGuardTest, SecuredSubmessagesAreNotLookedInto) {
   for (std::uint8_t kind = 0x30; kind <= 0x34; ++kind)
     EXPECT_EQ(check_all({submessage(kind, 0, Packet(20, 0xab))}), Refusal());

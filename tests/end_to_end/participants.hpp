@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -49,6 +50,12 @@ class StraightRoad {
   std::jthread thread_;
 };
 
+/// Whether the guard in front of DDS has refused anything.
+inline bool refused_datagrams(const ServiceStatus& status) {
+  return std::ranges::any_of(
+      status.counters, [](const auto& counter) { return counter.first.starts_with("datagrams_refused_"); });
+}
+
 /// Reads one topic, and keeps what came.
 template <class T>
 class Listener {
@@ -73,6 +80,7 @@ class Listener {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::seconds(30), [&] { return alive_ == writers; });
   }
+  bool refused_datagrams() const { return !participant_.refused_datagrams().values().empty(); }
   std::vector<T> samples() {
     const std::lock_guard lock(mutex_);
     return samples_;

@@ -105,6 +105,16 @@ TEST_F(CycloneRosNode, MarkersKeepTheirIds) {
   EXPECT_EQ(std::ranges::count(ids, ids.front()), static_cast<std::ptrdiff_t>(ids.size()));
 }
 
+TEST_F(CycloneRosNode, NothingOfItIsRefusedAtTheDoor) {
+  Listener<ServiceStatus> statuses(config_);
+  start_service("  announce: true\n");
+  ASSERT_TRUE(wait_for("lane_map", [](const json& map) { return map["lanes"] == 1; }));
+  statuses.forget();
+  ASSERT_TRUE(statuses.wait_for([](const ServiceStatus&) { return true; }));
+  EXPECT_FALSE(refused_datagrams(statuses.samples().back()));
+  EXPECT_FALSE(statuses.refused_datagrams());
+}
+
 bool counts(const ServiceStatus& status, const std::string& counter) {
   return std::ranges::any_of(status.counters,
                              [&](const auto& entry) { return entry.first == counter && entry.second > 0; });

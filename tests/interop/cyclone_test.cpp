@@ -62,6 +62,7 @@ class OurReader {
     const std::lock_guard lock(mutex_);
     return messages_;
   }
+  bool refused_datagrams() const { return !participant_.refused_datagrams().values().empty(); }
 
  private:
   std::mutex mutex_;
@@ -144,6 +145,7 @@ TEST_F(Cyclone, DrivesTheServiceAndReadsItsMap) {
   }));
 
   EXPECT_EQ(service.errors().find("datagrams_refused"), std::string::npos) << service.errors();
+  EXPECT_FALSE(detections.refused_datagrams() || maps.refused_datagrams());
 
   // Its planner learns that the service is gone.
   service.signal(SIGKILL);

@@ -160,6 +160,8 @@ TEST_P(StockPeer, ItsFramesAreFused) {
     return fused >= 10;
   })) << fused
       << " frames were fused; " << service.errors();
+  EXPECT_FALSE(refused_datagrams(status.samples().back()));
+  EXPECT_FALSE(status.refused_datagrams());
 }
 
 std::vector<Peer> peers() {
