@@ -1,17 +1,17 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "mutation.hpp"
 
 /// Runs a fuzz target on its seeds, and on what chance makes of them: the same at every run. Any compiler
 /// will do. tools/fuzz searches on, led by the code that inputs reach.
@@ -19,34 +19,32 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Bytes = laneloom::Mutation::Bytes;
 
 constexpr std::size_t kTruncations = 50, kMutations = 400;  // of each seed
-constexpr std::size_t kMaxChanges = 8;                      // at once
-constexpr std::size_t kMaxSpan = 32;                        // bytes that one change concerns
 
 /// All inputs of one target.
 class Run {
  public:
-  Run(std::string target, std::vector<Bytes> seeds) : input_(target + ".input"), seeds_(std::move(seeds)) {}
+  Run(std::string target, std::vector<Bytes> seeds)
+      : input_(target + ".input"), mutation_(std::move(seeds)) {}
   ~Run() { std::filesystem::remove(input_); }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
   void seeds_as_they_are() {
-    for (const Bytes& seed : seeds_) try_one(seed);
+    for (const Bytes& seed : mutation_.originals()) try_one(seed);
   }
   void truncated() {
-    for (const Bytes& seed : seeds_)
+    for (const Bytes& seed : mutation_.originals())
       for (std::size_t i = 0; i < kTruncations; ++i)
         try_one({seed.begin(), seed.begin() + static_cast<std::ptrdiff_t>(seed.size() * i / kTruncations)});
   }
   void mutated() {
-    for (const Bytes& seed : seeds_) {
+    for (const Bytes& seed : mutation_.originals()) {
       for (std::size_t i = 0; i < kMutations; ++i) {
         Bytes bytes = seed;
-        for (std::size_t changes = 1 + below(kMaxChanges); changes > 0 && !bytes.empty(); --changes)
-          change(bytes);
+        mutation_.damage(bytes);
         try_one(bytes);
       }
     }
@@ -64,40 +62,8 @@ class Run {
     ++count_;
   }
 
-  void change(Bytes& bytes) {
-    const std::size_t at = below(bytes.size());
-    const std::size_t span = std::min(1 + below(kMaxSpan), bytes.size() - at);
-    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at);
-    const auto end = begin + static_cast<std::ptrdiff_t>(span);
-    switch (below(5)) {
-      case 0:
-        *begin = static_cast<std::uint8_t>(*begin ^ (1U << below(8)));
-        break;
-      case 1:
-        *begin = static_cast<std::uint8_t>(below(256));
-        break;
-      case 2:  // as lengths and numbers, the least and the greatest
-        std::fill(begin, begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(span, 8)),
-                  std::array<std::uint8_t, 4>{0x00, 0x7f, 0x80, 0xff}.at(below(4)));
-        break;
-      case 3:
-        bytes.erase(begin, end);
-        break;
-      default: {
-        const Bytes& other = seeds_[below(seeds_.size())];
-        const std::size_t from = below(other.size());
-        const auto piece = other.begin() + static_cast<std::ptrdiff_t>(from);
-        bytes.insert(begin, piece,
-                     piece + static_cast<std::ptrdiff_t>(std::min(1 + below(kMaxSpan), other.size() - from)));
-      }
-    }
-  }
-
-  std::size_t below(std::size_t limit) { return limit == 0 ? 0 : random_() % limit; }
-
   std::filesystem::path input_;
-  std::vector<Bytes> seeds_;
-  std::mt19937_64 random_;  // NOLINT(bugprone-random-generator-seed): the same at every run
+  laneloom::Mutation mutation_;
   std::size_t count_ = 0;
 };
 
