@@ -22,6 +22,8 @@ bool announces_endpoints(const WriterId& writer) {
 }  // namespace
 
 const HeardWriters::Heard* HeardWriters::find(const WriterId& writer) const {
+  // Fragments come in a row.
+  if (!newest_first_.empty() && newest_first_.front().writer == writer) return &newest_first_.front();
   const auto found = by_writer_.find(writer);
   return found == by_writer_.end() ? nullptr : &*found->second;
 }
@@ -53,19 +55,21 @@ void HeardWriters::note(const WriterId& writer, const Fragmentation& cut, std::i
 }
 
 HeardWriters::Heard& HeardWriters::heard(const WriterId& writer, std::int64_t now_ns) {
-  const auto found = by_writer_.find(writer);
-  if (found != by_writer_.end()) {
-    newest_first_.splice(newest_first_.begin(), newest_first_, found->second);
-  } else {
-    if (newest_first_.size() >= kMostWriters) {
-      by_writer_.erase(newest_first_.back().writer);
-      newest_first_.pop_back();
-    }
-    newest_first_.push_front(Heard{.writer = writer});
-    by_writer_[writer] = newest_first_.begin();
-  }
+  if (newest_first_.empty() || newest_first_.front().writer != writer) bring_to_front(writer);
   newest_first_.front().heard_ns = now_ns;
   return newest_first_.front();
+}
+
+void HeardWriters::bring_to_front(const WriterId& writer) {
+  const auto found = by_writer_.find(writer);
+  if (found != by_writer_.end())
+    return newest_first_.splice(newest_first_.begin(), newest_first_, found->second);
+  if (newest_first_.size() >= kMostWriters) {
+    by_writer_.erase(newest_first_.back().writer);
+    newest_first_.pop_back();
+  }
+  newest_first_.push_front(Heard{.writer = writer});
+  by_writer_[writer] = newest_first_.begin();
 }
 
 }  // namespace laneloom::dds

@@ -40,6 +40,7 @@ class HeardWriters {
   };
 
   Heard& heard(const WriterId& writer, std::int64_t now_ns);
+  void bring_to_front(const WriterId& writer);
   const Heard* find(const WriterId& writer) const;
 
   std::list<Heard> newest_first_;

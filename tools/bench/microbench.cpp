@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "bench/guard_load.hpp"
+#include "dds/rtps_guard.hpp"
 #include "experiment/drive_simulation.hpp"
 #include "io/json_lines.hpp"
 #include "laneloom/dds/cdr.hpp"
@@ -129,6 +131,18 @@ void way_of_60_m(benchmark::State& state) {
   state.counters["metres"] = way ? way->known_m : 0.0;
 }
 
+/// Each iteration is a second of traffic before the guard in front of DDS.
+void guard(benchmark::State& state, std::size_t frame_bytes, std::size_t datagram_bytes) {
+  const std::vector<Datagram> traffic = second_of_traffic(frame_bytes, datagram_bytes);
+  dds::RtpsGuard guard;
+  for ([[maybe_unused]] auto iteration : state)
+    for (const Datagram& datagram : traffic)
+      if (guard.check(datagram, 0)) return state.SkipWithError("the traffic is refused");
+  state.counters["datagrams"] = static_cast<double>(traffic.size());
+  state.counters["share_of_a_core"] =
+      benchmark::Counter(1.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 /// Registers the stages that updates of a method reach.
 void register_stages(FusionMethod method, const std::string& method_name) {
   MapperConfig config;
@@ -151,6 +165,13 @@ void register_stages(FusionMethod method, const std::string& method_name) {
 int main(int argc, char** argv) {
   laneloom::bench::register_stages(laneloom::FusionMethod::lines, "lines");
   laneloom::bench::register_stages(laneloom::FusionMethod::voxels, "voxels");
+  constexpr std::size_t kLargeFrameBytes = 12'600'000, kSmallDatagramBytes = 1400,
+                        kLargeDatagramBytes = 63'000;
+  benchmark::RegisterBenchmark("guard/town", laneloom::bench::guard, 10'000, kSmallDatagramBytes);
+  benchmark::RegisterBenchmark("guard/12_6_MB", laneloom::bench::guard, kLargeFrameBytes,
+                               kLargeDatagramBytes);
+  benchmark::RegisterBenchmark("guard/12_6_MB_in_small_datagrams", laneloom::bench::guard, kLargeFrameBytes,
+                               kSmallDatagramBytes);
   benchmark::RegisterBenchmark("map_to_cdr", laneloom::bench::map_to_cdr);
   benchmark::RegisterBenchmark("map_from_cdr", laneloom::bench::map_from_cdr);
   benchmark::RegisterBenchmark("detections_from_cdr", laneloom::bench::detections_from_cdr);
