@@ -7,7 +7,11 @@ namespace {
 
 constexpr std::uint16_t kSentinel = 0x0001;
 constexpr std::uint8_t kParametersBigEndian = 0x02, kParametersLittleEndian = 0x03;  // PL_CDR
+constexpr std::uint8_t kLittleEndian = 0x01;                                         // CDR
 constexpr std::size_t kLocatorBytes = 24;
+// The identities of a message and of the one that it answers, a participant and two endpoints.
+constexpr std::size_t kHandshakeIdsBytes = 96;
+constexpr std::uint32_t kMostTokens = 8;
 
 bool take_string(RtpsBytes& bytes) {
   const std::size_t length = bytes.u32();
@@ -26,15 +30,23 @@ bool take_strings(RtpsBytes& bytes, std::size_t strings) {
   return bytes.ok();
 }
 
+/// A token of DDS-Security: its class, properties, and properties of bytes.
+bool take_token(RtpsBytes& bytes) {
+  return take_string(bytes) && take_strings(bytes, 2) &&
+         take_strings(bytes, 2);  // bytes are laid out as strings
+}
+
 bool is_sound(std::uint16_t id, RtpsBytes value) {
   switch (id) {
     case 0x0005:  // name of a topic
     case 0x0007:  // name of a type
     case 0x0062:  // name of an entity
     case 0x4014:  // tag of a domain
-    case 0x1001:  // token of an identity: its class
-    case 0x1002:  // token of permissions: its class
       return take_string(value);
+    case 0x1001:  // token of an identity
+    case 0x1002:  // token of permissions
+    case 0x1006:  // token of a status of an identity
+      return take_token(value);
     case 0x0029:  // partitions
       return take_strings(value, 1);
     case 0x0059:  // properties
@@ -76,6 +88,18 @@ bool is_sound_announcement(std::span<const std::uint8_t> payload) {
   const bool little_endian = payload[1] == kParametersLittleEndian;
   RtpsBytes bytes(payload.subspan(4), little_endian);
   return take_parameters(bytes, little_endian);
+}
+
+bool is_sound_handshake(std::span<const std::uint8_t> payload) {
+  if (payload.size() < 4 || payload[0] != 0 || payload[1] > kLittleEndian) return false;
+  RtpsBytes bytes(payload.subspan(4), payload[1] == kLittleEndian);
+  bytes.take(kHandshakeIdsBytes);
+  if (!take_string(bytes)) return false;
+  const std::uint32_t tokens = bytes.u32();
+  if (tokens > kMostTokens) return false;
+  for (std::uint32_t i = 0; i < tokens; ++i)
+    if (!take_token(bytes)) return false;
+  return bytes.ok();
 }
 
 }  // namespace laneloom::dds

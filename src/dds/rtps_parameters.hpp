@@ -14,4 +14,7 @@ bool take_parameters(RtpsBytes& bytes, bool little_endian);
 /// refuses it by itself.
 bool is_sound_announcement(std::span<const std::uint8_t> payload);
 
+/// Whether the payload of a handshake of DDS-Security is sound.
+bool is_sound_handshake(std::span<const std::uint8_t> payload);
+
 }  // namespace laneloom::dds

@@ -1,6 +1,7 @@
 #include "dds/rtps_submessage.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "dds/rtps_parameters.hpp"
 
@@ -36,6 +37,12 @@ bool is_discovery(const WriterId& writer) {
   const bool participants = writer[13] <= 1 && writer[14] <= 1;
   const bool endpoints = writer[13] == 0 && writer[14] >= 2 && writer[14] <= 4;
   return (open || secured) && (participants || endpoints) && (writer[15] == 0xc2 || writer[15] == 0xc3);
+}
+
+/// Whether a writer shakes hands, before there are keys: all that a stranger can say to a secured
+/// participant.
+bool is_handshake(const WriterId& writer) {
+  return std::ranges::equal(std::span(writer).last<4>(), std::array<std::uint8_t, 4>{0x00, 0x02, 0x01, 0xc3});
 }
 
 /// Takes the size and the words of a set.
@@ -180,6 +187,7 @@ Verdict SubmessageCheck::data(const RtpsSubmessage& submessage) {
   if (has_payload && payload.size() < kEncapsulationBytes) return DatagramRefusal::length;
   if (has_payload && is_discovery(from) && !is_sound_announcement(payload))
     return DatagramRefusal::parameters;
+  if (has_payload && is_handshake(from) && !is_sound_handshake(payload)) return DatagramRefusal::parameters;
   return sent(from, sequence);
 }
 
@@ -200,6 +208,8 @@ Verdict SubmessageCheck::data_fragments(const RtpsSubmessage& submessage) {
   if (!fragments.are_sound() || !heard_.is_cut_like(from, fragments.cut)) return DatagramRefusal::fragments;
   if (const auto refusal = take_qos(bytes, submessage, to_qos, 28)) return refusal;
   if (bytes.left() < fragments.bytes()) return DatagramRefusal::fragments;
+  // Nobody can tell what they will be together. Fast DDS sends a handshake as a whole.
+  if (is_handshake(from)) return DatagramRefusal::fragments;
   if (const auto refusal = sent(from, fragments.cut.sequence)) return refusal;
   sent_.back().cut = fragments.cut;
   return {};

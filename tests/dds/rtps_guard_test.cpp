@@ -239,6 +239,48 @@ TEST_F(RtpsGuardTest, ListsOfParametersEnd) {
     EXPECT_EQ(passes(RtpsWriter().bytes(wrong).bytes(kEndOfParameters).take()), DatagramRefusal::parameters);
 }
 
+/// A token of DDS-Security with these numbers of properties, and of properties of bytes.
+Packet token(std::uint32_t properties, std::uint32_t binary) {
+  const auto text = RtpsWriter().u32(4).text("abc").u8(0).take();
+  return RtpsWriter()
+      .bytes(text)
+      .u32(properties)
+      .bytes(text)
+      .bytes(text)
+      .u32(binary)
+      .bytes(text)
+      .bytes(text)
+      .take();
+}
+
+TEST_F(RtpsGuardTest, TokensHaveAsManyPropertiesAsTheySay) {
+  const auto passes = [&](const Packet& value) {
+    return check_all(
+        {announcement(RtpsWriter().bytes(parameter(0x1001, value)).bytes(kEndOfParameters).take())});
+  };
+  EXPECT_EQ(passes(token(1, 1)), Refusal());
+  EXPECT_EQ(passes(token(1, 2)), DatagramRefusal::parameters);
+  EXPECT_EQ(passes(token(0x7fffffff, 1)), DatagramRefusal::parameters);
+  EXPECT_EQ(passes(token(1, 0xffffffff)), DatagramRefusal::parameters);
+}
+
+// Fast DDS 2.9 ends over a handshake that tells of more tokens than it has memory for.
+TEST_F(RtpsGuardTest, HandshakesAreSoundAndWhole) {
+  constexpr std::uint32_t kHandshakes = 0x000201c3;
+  const auto handshake = [&](std::uint32_t tokens, const Packet& one) {
+    const auto fixed = data_of(kHandshakes, 1).u32(0x0100).zeros(96).u32(4).text("abc").u8(0);
+    return check_all({submessage(0x15, 4, RtpsWriter(fixed).u32(tokens).bytes(one).take())});
+  };
+  EXPECT_EQ(handshake(1, token(1, 1)), Refusal());
+  EXPECT_EQ(handshake(0, {}), Refusal());
+  EXPECT_EQ(handshake(2, token(1, 1)), DatagramRefusal::parameters);
+  EXPECT_EQ(handshake(0x40000000, token(1, 1)), DatagramRefusal::parameters);
+  EXPECT_EQ(handshake(1, token(0x40000000, 1)), DatagramRefusal::parameters);
+  auto in_pieces = fragments({});
+  in_pieces[12] = 0x00, in_pieces[13] = 0x02, in_pieces[14] = 0x01, in_pieces[15] = 0xc3;
+  EXPECT_EQ(check_all({in_pieces}), DatagramRefusal::fragments);
+}
+
 TEST_F(RtpsGuardTest, ParametersOfAnySampleEnd) {
   const auto inline_qos = RtpsWriter(data_of(kWriter, 1)).bytes(parameter(0x71, Packet(4))).take();
   EXPECT_EQ(check_all({submessage(0x15, 2, inline_qos)}), DatagramRefusal::parameters);
