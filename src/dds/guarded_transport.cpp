@@ -1,10 +1,12 @@
 #include "dds/guarded_transport.hpp"
 
+#include <arpa/inet.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 #include <fastdds/rtps/transport/UDPTransportDescriptor.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,6 +18,7 @@ namespace {
 
 using namespace eprosima::fastdds::rtps;
 using eprosima::fastdds::dds::DomainParticipantQos;
+using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 using eprosima::fastrtps::rtps::LocatorsIterator;
 using eprosima::fastrtps::rtps::octet;
@@ -25,6 +28,12 @@ std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
+}
+
+/// Where this host reaches a port of its own.
+in_addr address_of(const Locator_t& local) {
+  return {IPLocator::isAny(local) ? htonl(INADDR_LOOPBACK)
+                                  : inet_addr(IPLocator::toIPv4string(local).c_str())};
 }
 
 /// Hands on what is sent, and of what is received what the door lets in.
@@ -44,6 +53,14 @@ class GuardedTransport : public ChainingTransport {
   void receive(TransportReceiverInterface* receiver, const octet* bytes, std::uint32_t size,
                const Locator_t& local, const Locator_t& remote) override {
     if (door_->lets_in({bytes, size})) receiver->OnDataReceived(bytes, size, local, remote);
+    door_->probe().note_taken(IPLocator::getPhysicalPort(local));
+  }
+  bool OpenInputChannel(const Locator_t& local, TransportReceiverInterface* receiver,
+                        std::uint32_t max_bytes) override {
+    // Others of this host may have the same port for multicast.
+    if (local.kind == LOCATOR_KIND_UDPv4 && !IPLocator::isMulticast(local))
+      door_->probe().add_port(address_of(local), IPLocator::getPhysicalPort(local));
+    return ChainingTransport::OpenInputChannel(local, receiver, max_bytes);
   }
 
  private:
@@ -89,7 +106,7 @@ Counters Door::refused() const {
   return result;
 }
 
-std::shared_ptr<const Door> guard_transports(DomainParticipantQos& qos) {
+std::shared_ptr<Door> guard_transports(DomainParticipantQos& qos) {
   auto door = std::make_shared<Door>();
   name_builtin_transports(qos);
   for (auto& transport : qos.transport().user_transports)

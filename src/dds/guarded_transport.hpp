@@ -9,6 +9,7 @@
 #include <span>
 
 #include "dds/rtps_guard.hpp"
+#include "dds/self_probe.hpp"
 #include "laneloom/counters.hpp"
 
 namespace laneloom::dds {
@@ -19,8 +20,10 @@ class Door {
   bool lets_in(std::span<const std::uint8_t> datagram);
   /// datagrams_refused_<reason>, for the reasons that occurred.
   Counters refused() const;
+  SelfProbe& probe() { return probe_; }
 
  private:
+  SelfProbe probe_;
   mutable std::mutex mutex_;
   RtpsGuard guard_;
   std::array<std::uint64_t, kDatagramRefusals.size()> refused_{};
@@ -28,6 +31,6 @@ class Door {
 
 /// Puts a guard in front of each UDP transport, also in front of that which Fast DDS would make by itself.
 /// TCP and shared memory have none.
-std::shared_ptr<const Door> guard_transports(eprosima::fastdds::dds::DomainParticipantQos& qos);
+std::shared_ptr<Door> guard_transports(eprosima::fastdds::dds::DomainParticipantQos& qos);
 
 }  // namespace laneloom::dds

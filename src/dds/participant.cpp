@@ -20,6 +20,8 @@ Participant::Participant(const DdsConfig& config, const std::string& name, Prese
 
 Counters Participant::refused_datagrams() const { return impl_->refused_datagrams(); }
 
+int Participant::ask_itself() { return impl_->ask_itself(); }
+
 Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presence presence,
                         const std::string& user_data)
     : map_frame_id_(config.map_frame_id), security_directory_(config.security_directory) {

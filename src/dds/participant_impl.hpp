@@ -30,6 +30,7 @@ class Participant::Impl {
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }
   Counters refused_datagrams() const { return door_->refused(); }
+  int ask_itself() { return door_->probe().ask(); }
   /// Throws, as Participant() does, because DDS made no `entity`. DDS itself does not tell why.
   [[noreturn]] void refuse(const std::string& entity) const;
 
@@ -38,7 +39,7 @@ class Participant::Impl {
 
   std::string map_frame_id_;
   std::string security_directory_;
-  std::shared_ptr<const Door> door_;
+  std::shared_ptr<Door> door_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;

@@ -16,14 +16,15 @@ enum class DatagramRefusal {
   length,      ///< a submessage is longer than its datagram, or shorter than what it holds
   kind,        ///< an unknown submessage
   vendor,      ///< a submessage of Fast DDS' own that does not end its datagram
+  writer,      ///< a sample of nobody
   fragments,   ///< fragments that do not fit to their sample
   sequence,    ///< sequence numbers that no writer has
   leap,        ///< sequence numbers far beyond those that the writer has sent
   bitmap,      ///< a set of more numbers than RTPS allows
   parameters,  ///< a list of parameters that does not end, or of other lengths than it says
 };
-inline constexpr std::array<std::string_view, 9> kDatagramRefusals{
-    "header", "length", "kind", "vendor", "fragments", "sequence", "leap", "bitmap", "parameters"};
+inline constexpr std::array<std::string_view, 10> kDatagramRefusals{
+    "header", "length", "kind", "vendor", "writer", "fragments", "sequence", "leap", "bitmap", "parameters"};
 
 /// A guard at the door of Fast DDS 2.9, which ends, loops or corrupts its memory over some malformed
 /// datagrams. It knows nothing of sockets and clocks. Not thread-safe.

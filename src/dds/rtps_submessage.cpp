@@ -39,6 +39,11 @@ bool is_discovery(const WriterId& writer) {
   return (open || secured) && (participants || endpoints) && (writer[15] == 0xc2 || writer[15] == 0xc3);
 }
 
+/// Whether there is no such writer. In Fast DDS, the reader of handshakes trusts nobody's samples.
+bool is_nobody(const WriterId& writer) {
+  return std::ranges::all_of(std::span(writer).last<4>(), [](std::uint8_t byte) { return byte == 0; });
+}
+
 /// Whether a writer shakes hands, before there are keys: all that a stranger can say to a secured
 /// participant.
 bool is_handshake(const WriterId& writer) {
@@ -180,6 +185,7 @@ Verdict SubmessageCheck::data(const RtpsSubmessage& submessage) {
   const WriterId from = writer(bytes);
   const std::int64_t sequence = bytes.sequence();
   if (!bytes.ok()) return DatagramRefusal::length;
+  if (is_nobody(from)) return DatagramRefusal::writer;
   if (!is_sequence(sequence)) return DatagramRefusal::sequence;
   if (const auto refusal = take_qos(bytes, submessage, to_qos, 16)) return refusal;
   const auto payload = bytes.take(bytes.left());
@@ -204,6 +210,7 @@ Verdict SubmessageCheck::data_fragments(const RtpsSubmessage& submessage) {
   fragments.cut.fragment_bytes = bytes.u16();
   fragments.cut.sample_bytes = bytes.u32();
   if (!bytes.ok()) return DatagramRefusal::length;
+  if (is_nobody(from)) return DatagramRefusal::writer;
   if (!is_sequence(fragments.cut.sequence)) return DatagramRefusal::sequence;
   if (!fragments.are_sound() || !heard_.is_cut_like(from, fragments.cut)) return DatagramRefusal::fragments;
   if (const auto refusal = take_qos(bytes, submessage, to_qos, 28)) return refusal;

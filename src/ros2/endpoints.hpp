@@ -32,6 +32,8 @@ class Endpoints {
   std::size_t write(const ServiceStatus& status);
   /// As dds::Participant::refused_datagrams().
   Counters refused_datagrams() const;
+  /// As dds::Participant::ask_itself().
+  int ask_itself();
 
  private:
   class Impl;

@@ -1,5 +1,6 @@
 #include "service/endpoints.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace laneloom::service {
@@ -56,6 +57,11 @@ Counters Endpoints::refused_datagrams() const {
   Counters result = participant_.refused_datagrams();
   if (ros2) result.add(ros2->refused_datagrams());
   return result;
+}
+
+int Endpoints::ask_itself() {
+  const int own = participant_.ask_itself();
+  return ros2 ? std::max(own, ros2->ask_itself()) : own;
 }
 
 }  // namespace laneloom::service

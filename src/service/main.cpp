@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -96,8 +97,15 @@ void reload(Service& service, Running& running, const Options& options) {
   sd_notify(0, "READY=1");
 }
 
+/// Ends the process so that it is started again. Nothing is destroyed, which could wait for a thread that
+/// hangs.
+[[noreturn]] void end_deaf() {
+  spdlog::critical("event=deaf why=\"DDS does not take what it receives\"");
+  std::_Exit(EXIT_FAILURE);
+}
+
 void run(const Config& config, const Options& options) {
-  const Signals signals;
+  Signals signals;
   Running running{config, profile_of(config)};
   Service service(config, steady_now_ns);
   spdlog::info("event=started version={} config={} domain={} vehicle={}", core::version(),
@@ -106,6 +114,7 @@ void run(const Config& config, const Options& options) {
   bool ready = false;
   const auto tick = [&](const core::Tick& now) {
     service.tick(now);
+    if (service.is_deaf()) end_deaf();
     if (!ready) sd_notify(0, "READY=1");
     ready = true;
     sd_notifyf(0, "WATCHDOG=1\nSTATUS=%s", service.summary().c_str());

@@ -18,6 +18,7 @@ namespace laneloom::service {
 namespace {
 
 constexpr double kStatisticsWindow_s = 10.0;
+constexpr double kDeafAfter_s = 3.0;
 
 std::size_t ticks_within(double window_s, double rate_hz) {
   return static_cast<std::size_t>(std::ceil(window_s * rate_hz));
@@ -80,6 +81,7 @@ void Service::reopen() {
 void Service::tick(const core::Tick& tick) {
   core::Messages messages = core_.tick(tick, take_arrivals());
   publish(messages.map, messages.road_markings);
+  unanswered_ = endpoints_->ask_itself();
   if (messages.snapshot) snapshots_->write(std::move(*messages.snapshot));
   work_.add(milliseconds(now_ns_() - tick.start_ns));
   delay_.add(milliseconds(tick.start_ns - tick.deadline_ns));
@@ -90,6 +92,8 @@ void Service::tick(const core::Tick& tick) {
   publish(*messages.status);
   incidents_.note(*messages.status, tick.start_ns);
 }
+
+bool Service::is_deaf() const { return unanswered_ > kDeafAfter_s * config_.service.tick_rate_hz; }
 
 core::Arrivals Service::take_arrivals() {
   core::Arrivals arrivals = queue_.take();

@@ -30,6 +30,10 @@ class Service {
   /// trust it. If it throws std::runtime_error because DDS refuses, nothing else may be called.
   void reopen();
 
+  /// Whether DDS has taken nothing of what it received for some seconds of ticks: nobody can be matched any
+  /// more.
+  bool is_deaf() const;
+
   /// State and numbers in one line, for people.
   std::string summary() const { return core_.summary(); }
 
@@ -53,6 +57,7 @@ class Service {
   TimeWindow delay_;
   Counters counters_;  ///< of events in this class
   IncidentLog incidents_;
+  int unanswered_ = 0;                                   ///< questions to the own endpoints
   std::unique_ptr<snapshot::SnapshotWriter> snapshots_;  ///< null: no snapshots are kept
   std::unique_ptr<Endpoints> endpoints_;  ///< last, so that no callback meets a destroyed member
 };

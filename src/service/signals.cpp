@@ -1,42 +1,66 @@
 #include "service/signals.hpp"
 
-#include <poll.h>
-#include <sys/signalfd.h>
-#include <unistd.h>
+#include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <system_error>
+#include <utility>
 
 namespace laneloom::service {
+namespace {
 
-Signals::Signals() {
+// Less than the unit's TimeoutStopSec. An end in good order takes some tenths of a second.
+constexpr std::chrono::milliseconds kPatience{2500};
+
+sigset_t our_signals() {
   sigset_t signals;
   sigemptyset(&signals);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
-  const int error = pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  if (error != 0) throw std::system_error(error, std::generic_category(), "pthread_sigmask");
-  file_ = signalfd(-1, &signals, SFD_CLOEXEC);
-  if (file_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+  return signals;
 }
 
-Signals::~Signals() { close(file_); }
+}  // namespace
 
-Wake Signals::sleep_until(std::int64_t deadline_ns) const {
-  while (true) {
-    const auto left_ns = std::max<std::int64_t>(0, deadline_ns - steady_now_ns());
-    const timespec timeout{left_ns / 1'000'000'000, left_ns % 1'000'000'000};
-    pollfd event{file_, POLLIN, 0};
-    const int ready = ppoll(&event, 1, &timeout, nullptr);
-    if (ready > 0) {
-      signalfd_siginfo info{};
-      if (read(file_, &info, sizeof info) != static_cast<ssize_t>(sizeof info)) continue;
-      return info.ssi_signo == static_cast<std::uint32_t>(SIGHUP) ? Wake::reload : Wake::stop;
-    }
-    if (ready == 0 && steady_now_ns() >= deadline_ns) return Wake::deadline;
+Signals::Signals() {
+  const sigset_t signals = our_signals();
+  const int error = pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  if (error != 0) throw std::system_error(error, std::generic_category(), "pthread_sigmask");
+  thread_ = std::jthread([this](const std::stop_token& ended) { run(ended); });
+}
+
+Signals::~Signals() {
+  thread_.request_stop();
+  pthread_kill(thread_.native_handle(), SIGTERM);  // in case that it waits for a signal
+}
+
+void Signals::run(const std::stop_token& ended) {
+  const sigset_t signals = our_signals();
+  while (!ended.stop_requested()) {
+    const int signal = sigwaitinfo(&signals, nullptr);
+    if (signal < 0 || ended.stop_requested()) continue;
+    tell(signal == SIGHUP ? Wake::reload : Wake::stop);
+    if (signal == SIGHUP) continue;
+    std::unique_lock lock(mutex_);
+    if (changed_.wait_for(lock, ended, kPatience, [] { return false; }) || ended.stop_requested()) return;
+    spdlog::critical("event=end_forced why=\"it hangs\"");
+    std::_Exit(EXIT_FAILURE);
   }
+}
+
+void Signals::tell(Wake wake) {
+  const std::lock_guard lock(mutex_);
+  if (told_ != Wake::stop) told_ = wake;
+  changed_.notify_all();
+}
+
+Wake Signals::sleep_until(std::int64_t deadline_ns) {
+  const std::chrono::steady_clock::time_point deadline{std::chrono::nanoseconds(deadline_ns)};
+  std::unique_lock lock(mutex_);
+  changed_.wait_until(lock, deadline, [this] { return told_ != Wake::deadline; });
+  return std::exchange(told_, Wake::deadline);
 }
 
 std::int64_t steady_now_ns() {

@@ -281,6 +281,15 @@ TEST_F(RtpsGuardTest, HandshakesAreSoundAndWhole) {
   EXPECT_EQ(check_all({in_pieces}), DatagramRefusal::fragments);
 }
 
+// Fast DDS 2.9 takes a sample without a writer for a handshake.
+TEST_F(RtpsGuardTest, SamplesHaveAWriter) {
+  EXPECT_EQ(check_all({submessage(0x15, 4, data_of(0, 1).u32(0x0100).zeros(8).take())}),
+            DatagramRefusal::writer);
+  auto of_nobody = fragments({});
+  of_nobody[12] = of_nobody[13] = of_nobody[14] = of_nobody[15] = 0;
+  EXPECT_EQ(check_all({of_nobody}), DatagramRefusal::writer);
+}
+
 TEST_F(RtpsGuardTest, ParametersOfAnySampleEnd) {
   const auto inline_qos = RtpsWriter(data_of(kWriter, 1)).bytes(parameter(0x71, Packet(4))).take();
   EXPECT_EQ(check_all({submessage(0x15, 2, inline_qos)}), DatagramRefusal::parameters);

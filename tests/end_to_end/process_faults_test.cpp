@@ -9,6 +9,7 @@
 #include <string>
 
 #include "faults.hpp"
+#include "frozen_threads.hpp"
 
 // The planner gets a map, or is told why not, when processes are killed, hang or are there twice;
 // deploy/README.md, "When things go wrong".
@@ -87,6 +88,16 @@ TEST_F(Faults, AServiceThatHangsIsNoticed) {
   EXPECT_TRUE(maps_.wait_for_alive(1));
   EXPECT_TRUE(rises("ticks_missed", before));
   EXPECT_TRUE(recovers());
+}
+
+// Ticks go on, and feed the watchdog; but nobody would be heard any more.
+TEST_F(Faults, AServiceThatIsDeafEndsToBeStartedAgain) {
+  start();
+  FrozenThreads deaf(service_->id());
+  if (deaf.count() == 0) GTEST_SKIP() << "this user may not stop threads of others";
+  deaf.wait_for_end();
+  EXPECT_EQ(service_->wait(), EXIT_FAILURE);
+  EXPECT_NE(service_->errors().find("event=deaf"), std::string::npos) << service_->errors();
 }
 
 TEST_F(Faults, TheSystemClockMayJump) {

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <utility>
 
 #include "milliseconds.hpp"
 
@@ -13,7 +15,7 @@ namespace {
 constexpr std::int64_t kLong_ns = 60'000 * kMs;
 
 TEST(Signals, SleepsUntilTheDeadline) {
-  const Signals signals;
+  Signals signals;
   const auto deadline_ns = steady_now_ns() + 20 * kMs;
   EXPECT_EQ(signals.sleep_until(deadline_ns), Wake::deadline);
   EXPECT_GE(steady_now_ns(), deadline_ns);
@@ -21,13 +23,23 @@ TEST(Signals, SleepsUntilTheDeadline) {
 }
 
 TEST(Signals, WakeUpASleeper) {
-  const Signals signals;
-  kill(getpid(), SIGTERM);
-  EXPECT_EQ(signals.sleep_until(steady_now_ns() + kLong_ns), Wake::stop);
-  kill(getpid(), SIGHUP);
-  EXPECT_EQ(signals.sleep_until(steady_now_ns() + kLong_ns), Wake::reload);
-  kill(getpid(), SIGINT);
-  EXPECT_EQ(signals.sleep_until(steady_now_ns() + kLong_ns), Wake::stop);
+  for (const auto& [signal, wake] :
+       {std::pair(SIGHUP, Wake::reload), {SIGTERM, Wake::stop}, {SIGINT, Wake::stop}}) {
+    Signals signals;
+    kill(getpid(), signal);
+    EXPECT_EQ(signals.sleep_until(steady_now_ns() + kLong_ns), wake);
+  }
+}
+
+TEST(SignalsDeathTest, EndAProcessThatIsToldToEndAndHangs) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(
+      {
+        Signals signals;
+        kill(getpid(), SIGTERM);
+        while (true) pause();
+      },
+      testing::ExitedWithCode(EXIT_FAILURE), "");
 }
 
 }  // namespace

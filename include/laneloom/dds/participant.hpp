@@ -46,6 +46,10 @@ class Participant {
 
   /// The received datagrams that were not handed to DDS: datagrams_refused_<reason>. Thread-safe.
   Counters refused_datagrams() const;
+  /// Sends a datagram to each of the participant's own UDP ports, and returns how many of these in a row one
+  /// of the ports has not taken, in the worst case. If the number keeps rising, discovery or the reception of
+  /// messages hangs. Does not wait; thread-safe.
+  int ask_itself();
 
   class Impl;
   const std::shared_ptr<Impl>& impl() const { return impl_; }  ///< for readers and writers

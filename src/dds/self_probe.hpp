@@ -1,0 +1,41 @@
+#pragma once
+
+#include <netinet/in.h>
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+namespace laneloom::dds {
+
+/// Finds out whether a participant still takes what its ports receive. It sends datagrams to them that lead
+/// through the locks of discovery, and notes whether the thread of each port comes back from Fast DDS.
+/// Thread-safe; no call waits.
+class SelfProbe {
+ public:
+  SelfProbe();
+  ~SelfProbe();
+  SelfProbe(const SelfProbe&) = delete;
+  SelfProbe& operator=(const SelfProbe&) = delete;
+
+  /// A port of the participant's own, in the host's order of bytes.
+  void add_port(in_addr address, std::uint16_t port);
+  /// Fast DDS has taken a datagram that came to this port.
+  void note_taken(std::uint16_t port);
+  /// Sends a datagram to each port. Returns how many of these in a row one of the ports has not taken, in the
+  /// worst case. A port that has never taken one does not count: there may be no way to it.
+  int ask();
+
+ private:
+  struct Port {
+    sockaddr_in address{};
+    bool has_taken = false;
+    int unanswered = 0;
+  };
+
+  std::mutex mutex_;
+  std::map<std::uint16_t, Port> ports_;
+  int socket_;
+};
+
+}  // namespace laneloom::dds

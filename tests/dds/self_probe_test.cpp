@@ -1,0 +1,75 @@
+#include "dds/self_probe.hpp"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "dds/rtps_guard.hpp"
+
+// What a service does that hears nothing any more is tried in tests/end_to_end/process_faults_test.cpp.
+namespace laneloom::dds {
+namespace {
+
+/// A port of this host, and what comes to it.
+class OpenPort {
+ public:
+  OpenPort() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+    sockaddr_in here{};
+    here.sin_family = AF_INET;
+    here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof here;
+    if (bind(socket_, reinterpret_cast<const sockaddr*>(&here), size) != 0 ||
+        getsockname(socket_, reinterpret_cast<sockaddr*>(&here), &size) != 0)
+      throw std::runtime_error("no port is free");
+    number_ = ntohs(here.sin_port);
+  }
+  ~OpenPort() { close(socket_); }
+  OpenPort(const OpenPort&) = delete;
+  OpenPort& operator=(const OpenPort&) = delete;
+
+  std::uint16_t number() const { return number_; }
+  /// The next datagram; an empty one if none comes within a minute.
+  std::vector<std::uint8_t> next() const {
+    constexpr int kPatience_ms = 60'000;
+    pollfd event{socket_, POLLIN, 0};
+    std::vector<std::uint8_t> bytes(65536);
+    const ssize_t size = poll(&event, 1, kPatience_ms) > 0 ? recv(socket_, bytes.data(), bytes.size(), 0) : 0;
+    bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    return bytes;
+  }
+
+ private:
+  int socket_;
+  std::uint16_t number_ = 0;
+};
+
+TEST(SelfProbe, CountsWhatAPortDoesNotTake) {
+  const OpenPort one, other;
+  SelfProbe probe;
+  for (const OpenPort* port : {&one, &other}) probe.add_port({htonl(INADDR_LOOPBACK)}, port->number());
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(probe.ask(), 0) << "there may be no way to the ports";
+  probe.note_taken(one.number());
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(probe.ask(), i);
+  probe.note_taken(other.number());
+  EXPECT_EQ(probe.ask(), 5);
+  probe.note_taken(one.number());
+  EXPECT_EQ(probe.ask(), 1) << "the other one has not taken the last question";
+}
+
+TEST(SelfProbe, ItsQuestionsComeThroughTheGuard) {
+  const OpenPort port;
+  SelfProbe probe;
+  probe.add_port({htonl(INADDR_LOOPBACK)}, port.number());
+  probe.ask();
+  const auto question = port.next();
+  ASSERT_FALSE(question.empty());
+  EXPECT_FALSE(RtpsGuard().check(question, 1));
+}
+
+}  // namespace
+}  // namespace laneloom::dds
