@@ -108,7 +108,10 @@ class Parser {
 Config parse(const std::string& text, Config config = {}) {
   Parser::Lines lines;
   try {
-    const auto root = YAML::Load(text);
+    const auto documents = YAML::LoadAll(text);
+    if (documents.size() > 1)
+      throw LocatedProblem{line_of(documents[1]), {"", "begins a second document, and there may be one"}};
+    const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
     if (!root.IsNull()) {
       Parser parser(root, "", lines);
       visit(parser, config);

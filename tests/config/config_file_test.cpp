@@ -54,6 +54,12 @@ TEST_F(ConfigFile, MissingKeysKeepTheirDefaults) {
   EXPECT_EQ(dump(config), dump(expected));
 }
 
+TEST_F(ConfigFile, ASecondDocumentIsNotPassedOver) {
+  EXPECT_THAT(error_of("dds:\n  domain: 3\n---\ndds:\n  vehicle_id: car-7\n"),
+              HasSubstr("begins a second document"));
+  EXPECT_EQ(load_config(write("---\ndds:\n  domain: 3\n")).dds.domain, 3);
+}
+
 TEST_F(ConfigFile, AnEmptyFileIsTheDefaults) {
   EXPECT_EQ(dump(load_config(write("# nothing\n"))), dump(Config{}));
 }
