@@ -125,6 +125,14 @@ TEST_F(Doctor, FindsTwoServicesAndWhatTheySay) {
   EXPECT_TRUE(run_until_found(doctor(), "state_another_service")) << output();
 }
 
+TEST_F(Doctor, FindsAServiceThatIsStopped) {
+  const support::ChildProcess running(service(), file("service.log"));
+  ASSERT_TRUE(run_until_found(doctor(), "state_no_detections")) << output();
+  running.signal(SIGSTOP);
+  EXPECT_TRUE(run_until_found(doctor(), "service_stopped")) << output();
+  EXPECT_THAT(found("service_stopped"), HasSubstr(std::to_string(running.id())));
+}
+
 TEST_F(Doctor, FindsPosesInAnotherFrame) {
   std::ofstream(file("config.yaml")) << "dds:\n  map_frame_id: utm\n";
   auto words = service();

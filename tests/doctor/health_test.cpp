@@ -1,3 +1,5 @@
+#include "dds/rtps_guard.hpp"
+#include "doctor/refusals.hpp"
 #include "scenes.hpp"
 
 #include "doctor/refusals.hpp"
@@ -53,6 +55,18 @@ TEST(HealthFindings, CountersThatRise) {
             "The service refused 7 poses (wrong_frame): their frame_id is not the map frame, or, of "
             "detections, it is.");
   EXPECT_THAT(found[1].remedy, HasSubstr("dds.map_frame_id"));
+}
+
+TEST(HealthFindings, DatagramsThatAreRefusedAtTheDoor) {
+  Observed seen = healthy();
+  seen.services[0].last.counters = {{"datagrams_refused_leap", 5}};
+  const Findings found = incident_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("datagrams_refused_leap"));
+  EXPECT_EQ(found[0].found,
+            "The service refused 5 datagrams (leap): sequence numbers are far beyond those that the writer "
+            "has sent.");
+  for (const auto reason : dds::kDatagramRefusals)
+    EXPECT_NE(explain_refused_datagrams(reason).cause, explain_refused_datagrams("unknown").cause) << reason;
 }
 
 // Counters come in the order of the alphabet.

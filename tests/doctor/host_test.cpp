@@ -40,6 +40,33 @@ TEST(Host, OtherLinesAreNone) {
   EXPECT_THAT(domains("nonsense\n 1: x:y\n 2: 00000000:\n 3: 0:1CE8Z\n\n"), IsEmpty());
 }
 
+TEST(Host, ProcessesOfTheServiceInADomain) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path proc = temporary.path();
+  const auto process = [&](const std::string& id, const char* stat, const char* multicast) {
+    std::filesystem::create_directories(proc / id / "fd");
+    std::filesystem::create_directories(proc / id / "net");
+    std::ofstream(proc / id / "stat") << stat;
+    std::filesystem::create_symlink(std::string("socket:[") + multicast + "]", proc / id / "fd" / "4");
+    std::filesystem::create_symlink("socket:[52]", proc / id / "fd" / "5");
+    std::ofstream(proc / id / "net" / "udp") << "  sl\n 1: 0:1CE8 0:0 07 0:0 00:0 0 0 0 51 2\n"
+                                                " 2: 0:1CF2 0:0 07 0:0 00:0 0 0 0 52 2\n"
+                                                " 3: 0:1DE2 0:0 07 0:0 00:0 0 0 0 53 2\n";
+  };
+  process("12", "12 (laneloomd) S 1 12 12", "51");
+  process("13", "13 (laneloomd) T 1 13 13", "51");
+  process("14", "14 (laneloom) T 1 14 14", "51");
+  process("15", "15 (laneloomd) S 1 15 15", "53");
+  process("16", "", "51");
+  const auto found = service_processes(proc, 0);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].id, 12);
+  EXPECT_FALSE(found[0].stopped);
+  EXPECT_EQ(found[1].id, 13);
+  EXPECT_TRUE(found[1].stopped);
+  EXPECT_THAT(service_processes(proc, 1), IsEmpty());
+}
+
 TEST(Host, SharedMemoryThatNobodyHasMapped) {
   const TemporaryFolder temporary;
   const std::filesystem::path shm = temporary.file("shm"), proc = temporary.file("proc");

@@ -33,6 +33,30 @@ TEST(Presence, NoServiceAtAll) {
   EXPECT_THAT(presence_findings(seen)[0].found, HasSubstr("Processes of this host are in domain 0."));
 }
 
+TEST(Presence, AServiceThatIsStoppedOrDeafIsNotAbsent) {
+  Observed seen = healthy();
+  std::erase_if(seen.endpoints, [](const auto& each) { return each.participant.name == "laneloomd"; });
+  seen.service_processes = {{.id = 7, .stopped = false}};
+  Findings found = presence_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("service_unheard"));
+  EXPECT_THAT(found[0].found, HasSubstr("process 7"));
+  EXPECT_THAT(found[0].remedy, HasSubstr("restart"));
+  seen.service_processes.push_back({.id = 8, .stopped = true});
+  found = presence_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("service_stopped"));
+  EXPECT_THAT(found[0].remedy, HasSubstr("kill -CONT 8"));
+  seen.participants.clear();
+  EXPECT_THAT(ids(presence_findings(seen)), ElementsAre("service_stopped", "empty_domain"));
+}
+
+TEST(Presence, AServiceThatWasHeardAndIsStopped) {
+  Observed seen = healthy();
+  seen.services.clear();
+  EXPECT_THAT(ids(state_findings(seen)), ElementsAre("service_silent"));
+  seen.service_processes = {{.id = 8, .stopped = true}};
+  EXPECT_THAT(ids(state_findings(seen)), ElementsAre("service_stopped"));
+}
+
 TEST(Presence, ServicesOfOtherVehicles) {
   Observed seen = healthy();
   seen.endpoints[0].partitions = {"car-1"};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Finding {
 };
 using Findings = std::vector<Finding>;
 
+/// Finds a process of the service on this host that is stopped. None: there is no such process.
+std::optional<Finding> stopped_service(const Observed& seen);
 /// Finds that nobody is in the domain, or not exactly one service of the vehicle.
 Findings presence_findings(const Observed& seen);
 /// Finds writers and readers whose name, type or partition differs from the service's, and inputs that nobody

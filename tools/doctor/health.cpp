@@ -104,14 +104,17 @@ void judge_state(const ServiceStatus& status, Findings& found) {
   }
 }
 
-/// `subject` is detections or poses.
+/// `subject` is detections, poses or datagrams.
 Finding refusal(std::string_view by_whom, std::string_view subject, std::string_view reason,
                 std::uint64_t count) {
-  const Refusal why = explain_refusal(reason);
+  const bool at_the_door = subject == "datagrams";
+  const Refusal why = at_the_door ? explain_refused_datagrams(reason) : explain_refusal(reason);
   return {
       io::printable(fmt::format("{}_refused_{}", subject, reason)),
       io::printable(fmt::format("{} refused {} {} ({}): {}.", by_whom, count, subject, reason, why.cause)),
-      "What is refused is not mapped.", std::string(why.remedy)};
+      at_the_door ? "What is refused does not reach DDS: nothing was done by it."
+                  : "What is refused is not mapped.",
+      std::string(why.remedy)};
 }
 
 void judge_counter(const std::string& counter, std::uint64_t rise, Findings& found) {
@@ -173,7 +176,10 @@ Findings state_findings(const Observed& seen) {
     const auto all = services(seen);
     const auto silent = std::ranges::find_if(
         all, [&](const auto& service) { return is_of_vehicle(service, seen.dds.vehicle_id); });
-    if (silent != all.end())
+    const auto stopped = stopped_service(seen);
+    if (silent != all.end() && stopped)
+      found.push_back(*stopped);
+    else if (silent != all.end())
       found.push_back({"service_silent",
                        fmt::format("{} publishes maps, but no status of it came within {:.1f} s.",
                                    who(silent->participant), seen.duration_s),

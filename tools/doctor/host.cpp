@@ -68,6 +68,24 @@ bool is_process(const fs::path& path) {
   return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// The domains in which a process listens.
+std::vector<int> domains_of(const fs::path& process) {
+  std::set<std::string> files;  // "socket:[4711]"
+  std::error_code ignored;
+  for (const auto& file : fs::directory_iterator(process / "fd", ignored))
+    files.insert(fs::read_symlink(file.path(), ignored).string());
+  std::ifstream all(process / "net" / "udp");
+  std::stringstream own;
+  for (std::string line; std::getline(all, line);) {
+    constexpr int kInodeAt = 9;
+    std::istringstream words(line);
+    std::string word;
+    for (int i = 0; i <= kInodeAt; ++i) words >> word;
+    if (files.contains("socket:[" + word + "]")) own << line << '\n';
+  }
+  return listening_domains(own);
+}
+
 Mappings mappings_of(const fs::path& processes) {
   Mappings mappings;
   std::error_code ignored;
@@ -99,6 +117,25 @@ std::vector<int> listening_domains(std::istream& sockets) {
       domains.push_back(domain);
   }
   return domains;
+}
+
+std::vector<ServiceProcess> service_processes(const fs::path& processes, int domain) {
+  std::vector<ServiceProcess> result;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(processes, ignored)) {
+    if (!is_process(entry.path())) continue;
+    std::ifstream stat(entry.path() / "stat");  // "12 (laneloomd) S …"
+    ServiceProcess process;
+    std::string name;
+    char state = 0;
+    if (!(stat >> process.id >> name >> state) || name != "(laneloomd)") continue;
+    const auto domains = domains_of(entry.path());
+    if (std::ranges::find(domains, domain) == domains.end()) continue;
+    process.stopped = state == 'T' || state == 't';
+    result.push_back(process);
+  }
+  std::ranges::sort(result, {}, &ServiceProcess::id);
+  return result;
 }
 
 std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const fs::path& processes) {

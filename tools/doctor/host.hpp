@@ -18,4 +18,8 @@ std::vector<int> listening_domains(std::istream& sockets);
 std::vector<SharedMemoryFile> shared_memory_files(const std::filesystem::path& folder,
                                                   const std::filesystem::path& processes);
 
+/// The processes of laneloomd in a domain. `processes` is /proc. A process of another user is left out,
+/// unless root asks.
+std::vector<ServiceProcess> service_processes(const std::filesystem::path& processes, int domain);
+
 }  // namespace laneloom::doctor

@@ -48,6 +48,12 @@ struct SharedMemoryFile {
   bool stale = false;  ///< no process has it mapped
 };
 
+/// A process of this host that runs the service in the doctor's domain, as its sockets tell.
+struct ServiceProcess {
+  int id = 0;
+  bool stopped = false;  ///< by a signal (SIGSTOP) or a debugger
+};
+
 /// All that a doctor saw in a domain and on its host.
 struct Observed {
   DdsConfig dds;  ///< as the user gave it; the map frame is the service's, if it is known
@@ -61,6 +67,7 @@ struct Observed {
   std::vector<ServiceObserved> services;         ///< of this vehicle, by session
   std::vector<int> listening_domains;            ///< domains that processes of this host are in
   std::vector<SharedMemoryFile> shared_memory;
+  std::vector<ServiceProcess> service_processes;  ///< of any vehicle
 };
 
 }  // namespace laneloom::doctor

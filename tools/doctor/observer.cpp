@@ -136,6 +136,7 @@ Observed Observer::observed() const {
   std::ifstream sockets("/proc/net/udp");
   result.listening_domains = listening_domains(sockets);
   result.shared_memory = shared_memory_files("/dev/shm", "/proc");
+  result.service_processes = service_processes("/proc", config_.domain);
 
   const auto now = SteadyClock::now();
   const std::lock_guard lock(mutex_);

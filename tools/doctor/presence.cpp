@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "doctor/endpoints.hpp"
@@ -40,6 +41,18 @@ Finding no_service(const Observed& seen, const std::vector<dds::Endpoint>& all) 
                          : "Use one vehicle id in all participants (dds.vehicle_id, --vehicle-id)."};
 }
 
+/// A service that nobody hears, though a process of it is on this host. None: there is no such process.
+std::optional<Finding> unheard_process(const Observed& seen) {
+  const auto& processes = seen.service_processes;
+  if (processes.empty()) return std::nullopt;
+  if (auto stopped = stopped_service(seen)) return stopped;
+  return Finding{"service_unheard",
+                 fmt::format("laneloomd runs in domain {} on this host (process {}), but does not answer.",
+                             seen.dds.domain, processes.front().id),
+                 "A service that hangs, or hears nothing, is matched by nobody.",
+                 "Restart it (systemctl restart laneloom), and see its log."};
+}
+
 Finding two_services(const Observed& seen, const std::vector<dds::Endpoint>& all) {
   std::vector<std::string> names;
   std::ranges::transform(all, std::back_inserter(names),
@@ -53,13 +66,27 @@ Finding two_services(const Observed& seen, const std::vector<dds::Endpoint>& all
 
 }  // namespace
 
+std::optional<Finding> stopped_service(const Observed& seen) {
+  const auto stopped = std::ranges::find_if(seen.service_processes, &ServiceProcess::stopped);
+  if (stopped == seen.service_processes.end()) return std::nullopt;
+  return Finding{
+      "service_stopped", fmt::format("laneloomd is stopped (process {}).", stopped->id),
+      "A process that is stopped (SIGSTOP, a debugger) does nothing, and does not end either.",
+      fmt::format("Let it go on (kill -CONT {}), or restart it (systemctl restart laneloom).", stopped->id)};
+}
+
 Findings presence_findings(const Observed& seen) {
-  if (seen.participants.empty())
-    return {seen.discovery_servers.empty() ? empty_domain(seen) : no_discovery_server(seen)};
+  if (seen.participants.empty()) {
+    Findings found{seen.discovery_servers.empty() ? empty_domain(seen) : no_discovery_server(seen)};
+    if (const auto process = unheard_process(seen)) found.insert(found.begin(), *process);
+    return found;
+  }
   const auto all = services(seen);
   std::vector<dds::Endpoint> ours;
   std::ranges::copy_if(all, std::back_inserter(ours),
                        [&](const auto& service) { return is_of_vehicle(service, seen.dds.vehicle_id); });
+  if (ours.empty() && all.empty())
+    if (const auto process = unheard_process(seen)) return {*process};
   if (ours.empty()) return {no_service(seen, all)};
   if (ours.size() > 1) return {two_services(seen, ours)};
   return {};

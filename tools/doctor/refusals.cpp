@@ -51,12 +51,37 @@ constexpr std::array kRefusals{
     Refusal{"too_many_sources", "eight other sources of detections are heard",
             "Give each perception stack one name of its own for the field `source`, and run at most eight."}};
 
-}  // namespace
+constexpr std::string_view kStranger =
+    "Someone on the network damages datagrams, attacks, or has a DDS that the guard does not know. Capture "
+    "the ports from "
+    "7400 + 250 · domain on; config/security/README.md tells what the guard lets through.";
 
-Refusal explain_refusal(std::string_view reason) {
-  const auto* const known = std::ranges::find(kRefusals, reason, &Refusal::reason);
-  if (known != kRefusals.end()) return *known;
+constexpr std::array kRefusedDatagrams{
+    Refusal{"header", "they are no RTPS of version 2",
+            "Another program sends to the ports of DDS: give it others, or the vehicle another domain."},
+    Refusal{"length", "a part is longer than the datagram, or shorter than what it holds", kStranger},
+    Refusal{"kind", "they have a submessage that RTPS does not know", kStranger},
+    Refusal{"vendor", "a submessage of Fast DDS is where it would end the process", kStranger},
+    Refusal{"clear", "they are neither encrypted nor signed, though the governance wants all protected",
+            "Give the sender an identity (dds.security_directory), or keep it off the domain."},
+    Refusal{"writer", "they have a sample of no writer", kStranger},
+    Refusal{"fragments", "fragments do not fit to their sample, or are of more than 16 MiB", kStranger},
+    Refusal{"sequence", "they have sequence numbers that no writer has", kStranger},
+    Refusal{"leap", "sequence numbers are far beyond those that the writer has sent", kStranger},
+    Refusal{"bitmap", "a set has more numbers than RTPS allows", kStranger},
+    Refusal{"parameters", "a list of parameters or a handshake is not as long as it says", kStranger}};
+
+template <std::size_t count>
+Refusal find_refusal(const std::array<Refusal, count>& all, std::string_view reason) {
+  const auto* const known = std::ranges::find(all, reason, &Refusal::reason);
+  if (known != all.end()) return *known;
   return {reason, "they are not what the service takes", "See the log of the service."};
 }
+
+}  // namespace
+
+Refusal explain_refused_datagrams(std::string_view reason) { return find_refusal(kRefusedDatagrams, reason); }
+
+Refusal explain_refusal(std::string_view reason) { return find_refusal(kRefusals, reason); }
 
 }  // namespace laneloom::doctor

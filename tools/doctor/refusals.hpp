@@ -11,6 +11,9 @@ struct Refusal {
   std::string_view remedy;
 };
 
+/// Explains why the guard in front of DDS refused datagrams: datagrams_refused_<reason>.
+Refusal explain_refused_datagrams(std::string_view reason);
+
 /// Explains a reason. For an unknown reason, the explanation says that it is unknown.
 Refusal explain_refusal(std::string_view reason);
 
