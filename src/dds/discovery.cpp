@@ -15,6 +15,7 @@
 
 #include "base/seconds.hpp"
 #include "dds/guarded_transport.hpp"
+#include "dds/identity_check.hpp"
 #include "dds/qos.hpp"
 #include "dds/writer_id.hpp"
 
@@ -94,7 +95,7 @@ DomainParticipantQos observer_qos(const DdsConfig& config, const std::string& na
   auto qos = participant_qos(config, name);
   auto& protocol = qos.wire_protocol().builtin.discovery_config.discoveryProtocol;
   if (protocol == DiscoveryProtocol_t::CLIENT) protocol = DiscoveryProtocol_t::SUPER_CLIENT;
-  guard_transports(qos);
+  guard_transports(qos, governance_protects_messages(config.security_directory));
   return qos;
 }
 

@@ -106,8 +106,8 @@ Counters Door::refused() const {
   return result;
 }
 
-std::shared_ptr<Door> guard_transports(DomainParticipantQos& qos) {
-  auto door = std::make_shared<Door>();
+std::shared_ptr<Door> guard_transports(DomainParticipantQos& qos, bool wants_protection) {
+  auto door = std::make_shared<Door>(wants_protection);
   name_builtin_transports(qos);
   for (auto& transport : qos.transport().user_transports)
     if (std::dynamic_pointer_cast<UDPTransportDescriptor>(transport))

@@ -17,6 +17,7 @@ namespace laneloom::dds {
 /// The guard of one participant, for all its sockets, with what it has refused. Thread-safe.
 class Door {
  public:
+  explicit Door(bool wants_protection) : guard_(wants_protection) {}
   bool lets_in(std::span<const std::uint8_t> datagram);
   /// datagrams_refused_<reason>, for the reasons that occurred.
   Counters refused() const;
@@ -31,6 +32,8 @@ class Door {
 
 /// Puts a guard in front of each UDP transport, also in front of that which Fast DDS would make by itself.
 /// TCP and shared memory have none.
-std::shared_ptr<Door> guard_transports(eprosima::fastdds::dds::DomainParticipantQos& qos);
+/// `wants_protection`: as RtpsGuard has it.
+std::shared_ptr<Door> guard_transports(eprosima::fastdds::dds::DomainParticipantQos& qos,
+                                       bool wants_protection);
 
 }  // namespace laneloom::dds

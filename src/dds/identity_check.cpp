@@ -5,7 +5,9 @@
 #include <openssl/pkcs7.h>
 #include <openssl/x509_vfy.h>
 
+#include <fstream>
 #include <memory>
+#include <sstream>
 
 namespace laneloom::dds {
 namespace {
@@ -74,6 +76,15 @@ std::string identity_problem(const std::filesystem::path& folder) {
     if (problem.empty()) problem = signature_problem(folder, name);
   ERR_clear_error();
   return problem;
+}
+
+bool governance_protects_messages(const std::filesystem::path& folder) {
+  std::ostringstream signed_text;  // Fast DDS checks the signature
+  signed_text << std::ifstream(folder / "governance.p7s").rdbuf();
+  const std::string text = signed_text.str();
+  const auto has = [&](const char* part) { return text.find(part) != std::string::npos; };
+  return has("<rtps_protection_kind>") && !has("<rtps_protection_kind>NONE") &&
+         !has("<allow_unauthenticated_participants>true") && !has("<allow_unauthenticated_participants>TRUE");
 }
 
 }  // namespace laneloom::dds

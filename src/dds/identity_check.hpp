@@ -9,4 +9,8 @@ namespace laneloom::dds {
 /// does not tell its reasons. Empty: no problem was found, so that the permissions forbid what is wanted.
 std::string identity_problem(const std::filesystem::path& folder);
 
+/// Whether the governance in a folder of DDS-Security wants every message protected, and knows nobody without
+/// an identity. False: there is no folder.
+bool governance_protects_messages(const std::filesystem::path& folder);
+
 }  // namespace laneloom::dds

@@ -29,7 +29,7 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presen
   set_user_data(user_data, qos);
   if (presence == Presence::hidden)
     qos.wire_protocol().builtin.discovery_config.discoveryProtocol = DiscoveryProtocol_t::NONE;
-  door_ = guard_transports(qos);
+  door_ = guard_transports(qos, governance_protects_messages(config.security_directory));
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
       static_cast<DomainId_t>(config.domain), qos);
   if (!participant_) refuse("participant in domain " + std::to_string(config.domain));

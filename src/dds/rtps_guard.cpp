@@ -41,15 +41,19 @@ std::optional<DatagramRefusal> RtpsGuard::check(std::span<const std::uint8_t> da
   if (!is_rtps(datagram)) return DatagramRefusal::header;
   const bool of_fast_dds = std::ranges::equal(datagram.subspan(kVendorAt, 2), kVendorOfFastDds);
   SubmessageCheck submessages(heard_, datagram.subspan(kPrefixAt).first<kPrefixBytes>(), now_ns);
+  bool is_protected = false;  // as a whole: what follows is encrypted, or signed
   for (auto rest = datagram.subspan(kHeaderBytes); !rest.empty();) {
     const auto submessage = next(rest);
     if (!submessage) return DatagramRefusal::length;
     if (submessage->kind >= kFirstOfVendors) {
       // It asserts that its own one is the last, and skips those of others.
       if (of_fast_dds && !submessage->ends_datagram) return DatagramRefusal::vendor;
+    } else if (wants_protection_ && !is_protected && !submessages.may_be_clear(*submessage)) {
+      return DatagramRefusal::clear;
     } else if (const auto refusal = submessages.check(*submessage)) {
       return refusal;
     }
+    is_protected |= submessage->kind == kProtectedMessage;
   }
   submessages.note_all(heard_);
   return std::nullopt;

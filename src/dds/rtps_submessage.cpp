@@ -13,11 +13,10 @@ using Verdict = SubmessageCheck::Verdict;
 constexpr std::uint8_t kAckNack = 0x06, kHeartbeat = 0x07, kGap = 0x08, kInfoSource = 0x0c,
                        kInfoReplyIp4 = 0x0d, kInfoDestination = 0x0e, kInfoReply = 0x0f,
                        kNackFragments = 0x12, kHeartbeatFragments = 0x13, kData = 0x15, kDataFragments = 0x16,
-                       kFirstSecured = 0x30, kLastSecured = 0x34;
-// What Fast DDS skips: the extension of RTPS 2.5, and what Connext sends where it is told to (sessions,
+                       kFirstSecured = 0x30, kEncrypted = kFirstSecured, kLastSecured = 0x34;
+// What Fast DDS skips: what Connext sends where it is told to (sessions,
 // batches, acknowledgements by applications, virtual heartbeats).
-constexpr std::uint8_t kHeaderExtension = 0x00, kDataSession = 0x14, kAckNackBatch = 0x17,
-                       kVirtualHeartbeat = 0x1e;
+constexpr std::uint8_t kDataSession = 0x14, kAckNackBatch = 0x17, kVirtualHeartbeat = 0x1e;
 constexpr std::int64_t kLastSequence = std::int64_t{1} << 40;
 // Fast DDS keeps an entry for each number of a gap that lies ahead.
 constexpr std::int64_t kLongestGap = 1 << 16;
@@ -42,6 +41,11 @@ bool is_discovery(const WriterId& writer) {
 /// Whether there is no such writer. In Fast DDS, the reader of handshakes trusts nobody's samples.
 bool is_nobody(const WriterId& writer) {
   return std::ranges::all_of(std::span(writer).last<4>(), [](std::uint8_t byte) { return byte == 0; });
+}
+
+/// Whether a writer announces participants, so that they can shake hands.
+bool is_participant(const WriterId& writer) {
+  return std::ranges::equal(std::span(writer).last<4>(), std::array<std::uint8_t, 4>{0x00, 0x01, 0x00, 0xc2});
 }
 
 /// Whether a writer shakes hands, before there are keys: all that a stranger can say to a secured
@@ -78,6 +82,13 @@ Verdict nack_fragments(const RtpsSubmessage& submessage) {
   if (const auto refusal = take_bits(bytes)) return refusal;
   bytes.take(4);
   return bytes.ok() ? Verdict() : DatagramRefusal::length;
+}
+
+/// Fast DDS decrypts as many bytes as the submessage says that it has.
+Verdict encrypted(const RtpsSubmessage& submessage) {
+  RtpsBytes bytes(submessage.body, false);
+  const std::uint32_t length = bytes.u32();
+  return bytes.ok() && length <= bytes.left() ? Verdict() : DatagramRefusal::length;
 }
 
 Verdict at_least(const RtpsSubmessage& submessage, std::size_t bytes) {
@@ -124,10 +135,10 @@ SubmessageCheck::SubmessageCheck(const HeardWriters& heard,
 }
 
 Verdict SubmessageCheck::check(const RtpsSubmessage& submessage) {
-  if (submessage.kind >= kFirstSecured && submessage.kind <= kLastSecured) return {};
+  if (submessage.kind == kEncrypted) return encrypted(submessage);
+  if (submessage.kind > kFirstSecured && submessage.kind <= kLastSecured) return {};
   if (submessage.kind >= kAckNackBatch && submessage.kind <= kVirtualHeartbeat) return {};
   switch (submessage.kind) {
-    case kHeaderExtension:
     case kPad:
     case kDataSession:
     case kInfoReply:
@@ -156,6 +167,19 @@ Verdict SubmessageCheck::check(const RtpsSubmessage& submessage) {
     default:
       return DatagramRefusal::kind;
   }
+}
+
+bool SubmessageCheck::may_be_clear(const RtpsSubmessage& submessage) const {
+  if (submessage.kind != kData) {
+    constexpr std::array kSayNothing{kPad, kInfoTimestamp, kInfoDestination, kInfoSource};
+    return submessage.kind >= kFirstSecured ||
+           std::ranges::find(kSayNothing, submessage.kind) != kSayNothing.end();
+  }
+  constexpr std::size_t kWriterAt = 8;
+  RtpsBytes bytes(submessage.body, submessage.little_endian());
+  bytes.take(kWriterAt);
+  const WriterId from = writer(bytes);
+  return is_handshake(from) || is_participant(from);
 }
 
 void SubmessageCheck::note_all(HeardWriters& heard) const {

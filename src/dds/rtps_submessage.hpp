@@ -16,6 +16,8 @@ namespace laneloom::dds {
 inline constexpr std::size_t kPrefixBytes = 12;
 /// The kinds of submessages that may be empty.
 inline constexpr std::uint8_t kPad = 0x01, kInfoTimestamp = 0x09;
+/// The kind that begins a message which DDS-Security protects as a whole.
+inline constexpr std::uint8_t kProtectedMessage = 0x33;
 
 struct RtpsSubmessage {
   std::uint8_t kind = 0;
@@ -35,6 +37,8 @@ class SubmessageCheck {
   SubmessageCheck(const HeardWriters& heard, std::span<const std::uint8_t, kPrefixBytes> prefix,
                   std::int64_t now_ns);
   Verdict check(const RtpsSubmessage& submessage);
+  /// Whether keys are agreed on by such submessages, or they are protected, or say nothing by themselves.
+  bool may_be_clear(const RtpsSubmessage& submessage) const;
   /// Notes what the writers of the datagram have sent. A refused datagram is not believed in anything.
   void note_all(HeardWriters& heard) const;
 

@@ -41,6 +41,11 @@ INSTANTIATE_TEST_SUITE_P(Files, Captures,
                          ::testing::Values("laneloom", "fast_dds", "cyclone", "ros", "secured"),
                          [](const auto& file) { return file.param; });
 
+TEST(Captures, SecuredParticipantsProtectWhatTheyMust) {
+  RtpsGuard guard(true);
+  for (const Packet& datagram : captured("secured")) EXPECT_FALSE(guard.check(datagram, 1));
+}
+
 TEST(Captures, HaveTheSubmessagesThatVendorsSend) {
   const std::set<int> common{0x06, 0x07, 0x09, 0x0e, 0x12, 0x15, 0x16}, secured{0x30, 0x31, 0x32, 0x33, 0x34};
   const auto has = [](const std::set<int>& all, const std::set<int>& some) {

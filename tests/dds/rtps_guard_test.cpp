@@ -139,7 +139,7 @@ TEST_F(RtpsGuardTest, WhatConnextSendsPasses) {
        {product_version, transports, lease, endpoints, type_object, filters, kEndOfParameters})
     parameters.bytes(one);
   EXPECT_EQ(check(from_connext(datagram(kPeer, {announcement(parameters.take())}))), Refusal());
-  for (const int kind : {0x00, 0x14, 0x17, 0x18, 0x19, 0x1a, 0x1b, 0x1c, 0x1d, 0x1e})
+  for (const int kind : {0x14, 0x17, 0x18, 0x19, 0x1a, 0x1b, 0x1c, 0x1d, 0x1e})
     EXPECT_EQ(check(from_connext(
                   datagram(kPeer, {submessage(static_cast<std::uint8_t>(kind), 0, Packet(28)), data(1)}))),
               Refusal());
@@ -149,7 +149,33 @@ TEST_F(RtpsGuardTest, WhatConnextSendsPasses) {
 
 TEST_F(RtpsGuardTest, SecuredSubmessagesAreNotLookedInto) {
   for (std::uint8_t kind = 0x30; kind <= 0x34; ++kind)
-    EXPECT_EQ(check_all({submessage(kind, 0, Packet(20, 0xab))}), Refusal());
+    EXPECT_EQ(check_all({submessage(kind, 0, RtpsWriter().zeros(4).bytes(Packet(20, 0xab)).take())}),
+              Refusal());
+}
+
+// Fast DDS 2.9 decrypts what lies beyond its datagram.
+TEST_F(RtpsGuardTest, EncryptedSubmessagesHaveAsManyBytesAsTheySay) {
+  const auto encrypted = [&](std::uint8_t length) {
+    return check_all({submessage(0x30, 0, RtpsWriter().zeros(3).u8(length).zeros(20).take())});
+  };
+  EXPECT_EQ(encrypted(20), Refusal());
+  EXPECT_EQ(encrypted(21), DatagramRefusal::length);
+}
+
+TEST_F(RtpsGuardTest, WhereAllIsProtectedOnlyTheWayToKeysIsClear) {
+  guard_ = RtpsGuard(true);
+  const auto clear = [&](std::uint32_t writer) {
+    return check_all({submessage(0x09, 0, Packet(8)), submessage(0x15, 0, data_of(writer, 1).take())});
+  };
+  EXPECT_EQ(clear(0x000100c2), Refusal());
+  EXPECT_EQ(clear(0x000201c3), Refusal());
+  EXPECT_EQ(clear(kPublications), DatagramRefusal::clear);
+  EXPECT_EQ(clear(kWriter), DatagramRefusal::clear);
+  EXPECT_EQ(check_all({heartbeat(kReader, kWriter, 1, 1)}), DatagramRefusal::clear);
+  EXPECT_EQ(check_all({ack_nack(1, 0)}), DatagramRefusal::clear);
+  EXPECT_EQ(check_all({gap(1, 2)}), DatagramRefusal::clear);
+  EXPECT_EQ(check_all({submessage(0x33, 0, Packet(20)), heartbeat(kReader, kWriter, 1, 1)}), Refusal())
+      << "signed as a whole";
 }
 
 TEST_F(RtpsGuardTest, FragmentsFitToTheirSample) {
