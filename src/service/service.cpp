@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <exception>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "base/random_id.hpp"
@@ -36,7 +34,7 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
       work_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       delay_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       incidents_(config.service.status_period_s) {
-  reopen();  // first: if it throws, the snapshot is kept, which resume() removes
+  reopen();  // first: if it throws, the snapshot is kept, which resume() takes
   if (!config.service.snapshot_file.empty()) {
     resume();
     snapshots_ = std::make_unique<snapshot::SnapshotWriter>(config.service.snapshot_file);
@@ -44,9 +42,8 @@ Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
 }
 
 void Service::resume() {
-  const std::string& file = config_.service.snapshot_file;
-  std::error_code unknown;
-  if (!std::filesystem::exists(file, unknown) && !unknown) return;
+  const std::string file = snapshot::take_snapshot(config_.service.snapshot_file);
+  if (file.empty()) return;
   try {
     core_.resume(
         read_snapshot(file, core_.snapshot_stamp(), config_.service.snapshot_max_age_s, config_.mapper));
@@ -56,8 +53,6 @@ void Service::resume() {
     counters_.add("snapshots_refused");
     spdlog::warn("event=snapshot_refused file={} why=\"{}\"", file, error.what());
   }
-  // A map that crashes the service shall do so only once.
-  std::filesystem::remove(file, unknown);
 }
 
 /// Throws ConfigError if reopen() would be refused, while there still are endpoints to go on with.

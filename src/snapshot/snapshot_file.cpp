@@ -4,6 +4,7 @@
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/string.hpp>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -21,6 +22,7 @@ void serialize(Archive& archive, SnapshotStamp& stamp) {
 
 namespace {
 
+constexpr int kMostAttempts = 3;
 constexpr std::size_t kDigestBytes = sizeof(XXH64_canonical_t);
 
 std::string digest(std::string_view bytes) {
@@ -45,6 +47,19 @@ void write_snapshot(const std::string& file, const Snapshot& snapshot) {
   archive(snapshot.stamp, snapshot.map_id, snapshot.checkpoint, to_bytes(snapshot.state));
   const std::string bytes = std::move(body).str();
   replace_private_file(file, digest(bytes) + bytes);
+}
+
+std::string take_snapshot(const std::string& file) {
+  const auto taken = [&](int times) { return times == 0 ? file : file + "." + std::to_string(times); };
+  std::string result;
+  for (int times = 0; times < kMostAttempts; ++times) {
+    const std::string next = taken(times + 1);
+    if (result.empty() && std::rename(taken(times).c_str(), next.c_str()) == 0)
+      result = next;
+    else if (!result.empty())
+      std::remove(next.c_str());  // of an older one
+  }
+  return result;
 }
 
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,

@@ -28,6 +28,11 @@ struct Snapshot {  // NOLINT(bugprone-exception-escape): as the state
 /// std::runtime_error.
 void write_snapshot(const std::string& file, const Snapshot& snapshot);
 
+/// Takes a snapshot out of the way to go on with it, and returns the file that it is in now. The same one can
+/// be taken again where a service ends before it has made a newer one, three times in all: a map that ends
+/// the service shall not do so for ever. Empty: there is none.
+std::string take_snapshot(const std::string& file);
+
 /// Reads a snapshot. Throws std::runtime_error with the reason unless its file belongs to this user or to
 /// root and is undamaged, its maker is that of `now`, and it is by both clocks at most `max_age_s` older.
 Snapshot read_snapshot(const std::string& file, const SnapshotStamp& now, double max_age_s,

@@ -54,6 +54,26 @@ TEST_F(WarmRestart, GoesOnWithTheMapThatItHad) {
   EXPECT_EQ(since_restart["map_resets"], 0U);
 }
 
+TEST_F(WarmRestart, GoesOnAfterThreeEndsInARowAndThenBeginsAnew) {
+  start(100, {"--config", file_.path});
+  ASSERT_TRUE(stays_good(10));               // a snapshot at each
+  road_->send_frames(lose<DetectionFrame>);  // so that no service in between makes a snapshot of its own
+  for (const std::size_t lanes : {1U, 1U, 1U, 0U}) {
+    const auto session = maps_.samples().back().session_id;
+    service_->signal(SIGKILL);
+    ASSERT_EQ(service_->wait(), -SIGKILL);
+    service_ = std::make_unique<Process>(command(config_, {"--config", file_.path}));
+    std::size_t found = 0;
+    ASSERT_TRUE(maps_.wait_for([&](const PublishedMap& map) {
+      found = map.map.lanes.size();
+      return map.session_id != session;
+    })) << service_->errors();
+    EXPECT_EQ(found, lanes) << service_->errors();
+    maps_.forget();
+    ASSERT_TRUE(maps_.wait_for([](const PublishedMap&) { return true; }));
+  }
+}
+
 TEST_F(WarmRestart, RefusesWhatAnotherConfigurationMade) {
   start(100, {"--config", file_.path});
   ASSERT_TRUE(stays_good(10));  // a snapshot at each

@@ -53,6 +53,28 @@ class SnapshotFileTest : public ::testing::Test {
   const std::string file_ = folder_.file("map");
 };
 
+TEST_F(SnapshotFileTest, IsTakenThreeTimesAtMost) {
+  EXPECT_EQ(take_snapshot(file_), "");
+  write_snapshot(file_, snapshot());
+  for (int times = 0; times < 3; ++times) {
+    const std::string taken = take_snapshot(file_);
+    EXPECT_FALSE(std::filesystem::exists(file_));
+    EXPECT_EQ(read_snapshot(taken, soon_, 5.0, MapperConfig{}).map_id, 77U);
+  }
+  EXPECT_EQ(take_snapshot(file_), "");
+}
+
+TEST_F(SnapshotFileTest, ANewOneIsTakenBeforeThoseThatWereTaken) {
+  write_snapshot(file_, snapshot());
+  take_snapshot(file_);
+  Snapshot newer = snapshot();
+  newer.map_id = 78;
+  write_snapshot(file_, newer);
+  for (int times = 0; times < 3; ++times)
+    EXPECT_EQ(read_snapshot(take_snapshot(file_), soon_, 5.0, MapperConfig{}).map_id, 78U);
+  EXPECT_EQ(take_snapshot(file_), "");
+}
+
 TEST_F(SnapshotFileTest, ComesBackAsItWas) {
   write_snapshot(file_, snapshot());
   const auto back = read(soon_);
