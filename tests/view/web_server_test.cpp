@@ -194,6 +194,18 @@ TEST_F(Server, LimitsViewersAndConnections) {
   EXPECT_EQ(client().receive_all(), "");
 }
 
+TEST_F(Server, ConnectionsThatSayNothingGiveWay) {
+  start({.token = "secret", .max_connections = 3});
+  Client silent = client(), half = client(), wrong = client();
+  half.send("GET /a HTTP/1.1\r\n");
+  for (const char* target : {"/a?token=secret", "/b?token=secret", "/c?token=secret"}) {
+    Client known = client();
+    known.send(get(target));
+    EXPECT_THAT(known.receive_until("you asked"), StartsWith("HTTP/1.1 200"));
+  }
+  EXPECT_EQ(silent.receive_all(), "");
+}
+
 TEST_F(Server, SaysWhereItCannotListen) {
   start();
   try {

@@ -4,6 +4,7 @@
 #include <boost/asio/post.hpp>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "view/web_viewer.hpp"
 
@@ -38,8 +39,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
                      [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
   }
 
+  /// Whether no request came yet that the door let in.
+  bool is_unknown() const { return !known_; }
+  void close() { stream_.close(); }
+
  private:
   void on_read(error_code error) {
+    if (error == asio::error::operation_aborted) return;  // it was closed
     if (error == beast::error::timeout || error == http::error::end_of_stream) return end();
     // The rest of a malformed request, or of one with a body, is not read.
     if (error)
@@ -50,6 +56,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     knock.is_for_programs = !protocol.empty();
     const unsigned status = hub_.door.judge(knock);
     if (status != 200) return refuse(status);
+    known_ = true;
     if (!protocol.empty()) return upgrade(std::make_unique<FoxgloveStream>(*hub_.foxglove), protocol);
     if (Target(knock.target).path == "/live") return upgrade(std::make_unique<PageStream>(kPageChannel), {});
     answer(hub_.handler(view_of(request.target())), request.keep_alive());
@@ -113,6 +120,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   beast::tcp_stream stream_;
   Hub& hub_;
   Place place_;
+  bool known_ = false;
   beast::flat_buffer buffer_{2UL * kMaxHeaderBytes};
   std::optional<http::request_parser<http::empty_body>> parser_;
   http::response<http::string_body> response_;
@@ -160,10 +168,29 @@ class WebServer::Impl {
       if (error) return retry();
       error_code ignored;
       socket.set_option(Tcp::no_delay(true), ignored);  // else a frame waits 40 ms for an acknowledgement
-      if (hub_.connections < hub_.config.max_connections)
-        std::make_shared<Connection>(std::move(socket), hub_)->read();
+      if (make_room()) {
+        const auto connection = std::make_shared<Connection>(std::move(socket), hub_);
+        connection->read();
+        newcomers_.push_back(connection);
+      }
       accept();
     });
+  }
+
+  /// Whether there is room for one more connection. Where all places are taken, the oldest connection goes
+  /// that has not said anything that the door lets in: whoever opens many and says nothing does not shut out
+  /// the others.
+  bool make_room() {
+    std::erase_if(newcomers_, [](const auto& newcomer) { return newcomer.expired(); });
+    if (hub_.connections < hub_.config.max_connections) return true;
+    for (auto newcomer = newcomers_.begin(); newcomer != newcomers_.end(); ++newcomer) {
+      const auto connection = newcomer->lock();
+      if (!connection || !connection->is_unknown()) continue;
+      connection->close();
+      newcomers_.erase(newcomer);
+      return true;
+    }
+    return false;
   }
 
   /// Accepts again after a pause: the process may be out of file descriptors for a moment.
@@ -176,6 +203,7 @@ class WebServer::Impl {
   asio::io_context context_{1};
   Tcp::acceptor acceptor_{context_};
   asio::steady_timer pause_{context_};
+  std::vector<std::weak_ptr<Connection>> newcomers_;  ///< that are no viewers yet, the oldest first
   std::thread thread_;
 };
 

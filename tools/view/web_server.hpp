@@ -18,7 +18,7 @@ struct WebServerConfig {
   std::uint16_t port = 0;             ///< 0: a free one
   std::string token;                  ///< must be brought by every request; empty: there is none
   std::size_t max_viewers = 64;       ///< WebSockets; a further one is answered with 503
-  std::size_t max_connections = 256;  ///< HTTP and WebSockets; a further one is closed
+  std::size_t max_connections = 256;  ///< HTTP and WebSockets; a further one replaces one that is silent
   double patience_s = 15.0;           ///< for a whole request, and for a client to take its answer
   std::vector<recording::ExtraTopic>
       foxglove_topics;  ///< for clients of Foxglove's protocol; empty: it is not offered
