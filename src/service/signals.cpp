@@ -33,7 +33,7 @@ Signals::Signals() {
 
 Signals::~Signals() {
   thread_.request_stop();
-  pthread_kill(thread_.native_handle(), SIGTERM);  // in case that it waits for a signal
+  pthread_kill(thread_.native_handle(), SIGHUP);  // in case that it waits for a signal
 }
 
 void Signals::run(const std::stop_token& ended) {
