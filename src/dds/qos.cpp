@@ -170,6 +170,9 @@ DomainParticipantQos participant_qos(const DdsConfig& config, const std::string&
     auto& discovery = qos.wire_protocol().builtin.discovery_config;
     discovery.leaseDuration = milliseconds(20'000);
     discovery.leaseDuration_announcementperiod = milliseconds(500);
+    // A service that was killed is heard again some hundredths of a second after its start.
+    discovery.initial_announcements.count = 20;
+    discovery.initial_announcements.period = milliseconds(25);
   } else {
     load_profile(config, qos);
   }
