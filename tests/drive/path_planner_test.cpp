@@ -12,13 +12,19 @@
 namespace laneloom::drive {
 namespace {
 
-constexpr Linkage::Turn kNoWish = Linkage::Turn::unknown;
+Plan plan_on(const LocalMap& map, const Bicycle& vehicle, const Plan& previous = {},
+             WayWish wish = WayWish::straight) {
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+  T_map_body.translation() = on_ground(vehicle.rear_axle);
+  T_map_body.rotate(Eigen::AngleAxisd(vehicle.heading_rad, Eigen::Vector3d::UnitZ()));
+  return next_plan(map, T_map_body, vehicle.speed_mps, previous, wish);
+}
 
 /// Plans again and again while the vehicle goes along the plan, so that it has bent to the way.
-Plan settled_plan(const LocalMap& map, Bicycle vehicle, Linkage::Turn wanted = kNoWish, int metres = 40) {
+Plan settled_plan(const LocalMap& map, Bicycle vehicle, int metres = 40) {
   Plan plan;
   for (int i = 0; i <= metres; ++i) {
-    plan = next_plan(map, vehicle, plan, wanted);
+    plan = plan_on(map, vehicle, plan);
     const MeasuredPolyline path(plan.path);
     const Projection foot = path.project({vehicle.rear_axle.x(), vehicle.rear_axle.y(), 0});
     const double ahead_m = i < metres ? 1.0 : 0.0;
@@ -37,7 +43,7 @@ TEST(Planner, FollowsAStraightLane) {
   LocalMap map;
   map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {100, 0, 0}))};
   const Bicycle vehicle{.rear_axle = {0.0, 0.5}, .speed_mps = 5.0};
-  const Plan first = next_plan(map, vehicle, {}, kNoWish);
+  const Plan first = plan_on(map, vehicle);
   EXPECT_LT(distance(first, {0, 0.5, 0}), 0.01);   // from where it is
   EXPECT_LT(distance(first, {20, 0.0, 0}), 0.01);  // into the middle
   EXPECT_EQ(first.support_at({1, 0.5, 0}), Support::mapped);
@@ -50,7 +56,7 @@ TEST(Planner, FollowsABendThroughASuccessor) {
   LocalMap map;
   map.lanes = {lane_of(1, {arc.begin(), arc.begin() + 15}), lane_of(2, {arc.begin() + 14, arc.end()})};
   map.linkages = {link(1, 2)};
-  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  const Plan plan = plan_on(map, {.speed_mps = 5.0});
   for (std::size_t i = 0; i < 25; ++i) EXPECT_LT(distance(plan, arc[i]), 0.1) << i;
   EXPECT_EQ(plan.support_at(arc[25]), Support::mapped);
 }
@@ -60,7 +66,7 @@ TEST(Planner, CrossesAGapOnTheLinkagesPath) {
   map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {10, 0, 0})),
                lane_of(2, straight_line({25, 1, 0}, {60, 1, 0}))};
   map.linkages = {link(1, 2, Linkage::Turn::straight, {{10, 0, 0}, {15, 0.5, 0}, {20, 0.5, 0}, {25, 1, 0}})};
-  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  const Plan plan = plan_on(map, {.speed_mps = 5.0});
   EXPECT_LT(distance(plan, {17, 0.5, 0}), 0.1);
   EXPECT_LT(distance(plan, {35, 1, 0}), 0.05);
   EXPECT_EQ(plan.support_at({17, 0.5, 0}), Support::mapped);
@@ -78,41 +84,29 @@ LocalMap crossing() {
 
 TEST(Planner, TakesTheWantedTurn) {
   const Bicycle vehicle{.rear_axle = {-20.0, 0.0}, .speed_mps = 5.0};
-  EXPECT_LT(distance(next_plan(crossing(), vehicle, {}, Linkage::Turn::straight), {15, 0, 0}), 0.1);
-  EXPECT_LT(distance(next_plan(crossing(), vehicle, {}, Linkage::Turn::left), {0, 14, 0}), 0.1);
-  EXPECT_LT(distance(next_plan(crossing(), vehicle, {}, Linkage::Turn::right), {0, -14, 0}), 0.1);
+  EXPECT_LT(distance(plan_on(crossing(), vehicle, {}, WayWish::straight), {15, 0, 0}), 0.1);
+  EXPECT_LT(distance(plan_on(crossing(), vehicle, {}, WayWish::left), {0, 14, 0}), 0.1);
+  EXPECT_LT(distance(plan_on(crossing(), vehicle, {}, WayWish::right), {0, -14, 0}), 0.1);
 }
 
 TEST(Planner, TakesATurnThatComesIntoTheMapLateUnlessItIsPastIt) {
   LocalMap without = crossing();
   std::erase_if(without.linkages, [](const Linkage& linkage) { return linkage.to == 3; });
   const Bicycle before{.rear_axle = {-12.0, 0.0}, .speed_mps = 5.0};
-  const Plan straight_on = next_plan(without, before, {}, Linkage::Turn::left);
+  const Plan straight_on = plan_on(without, before, {}, WayWish::left);
   EXPECT_LT(distance(straight_on, {15, 0, 0}), 0.1);
-  EXPECT_LT(distance(next_plan(crossing(), before, straight_on, Linkage::Turn::left), {0, 14, 0}), 0.1);
+  EXPECT_LT(distance(plan_on(crossing(), before, straight_on, WayWish::left), {0, 14, 0}), 0.1);
   const Bicycle past{.rear_axle = {-5.0, 0.0}, .speed_mps = 5.0};
-  EXPECT_LT(distance(next_plan(crossing(), past, straight_on, Linkage::Turn::left), {15, 0, 0}), 0.1);
+  EXPECT_LT(distance(plan_on(crossing(), past, straight_on, WayWish::left), {15, 0, 0}), 0.1);
 }
 
 TEST(Planner, KeepsToThePassageThatItHasBegunWhateverLaneComesUp) {
   const Bicycle before{.rear_axle = {-11.0, 0.0}, .speed_mps = 5.0};
-  const Plan turning = next_plan(crossing(), before, {}, Linkage::Turn::left);
+  const Plan turning = plan_on(crossing(), before, {}, WayWish::left);
   LocalMap map = crossing();
   map.lanes.push_back(lane_of(5, straight_line({-10, 0, 0}, {10, 0, 0})));  // a ghost across
   const Bicycle within{.rear_axle = {-8.0, 0.1}, .speed_mps = 5.0};
-  Plan plan = next_plan(map, within, turning, Linkage::Turn::left);
-  EXPECT_LT(distance(plan, {0, 14, 0}), 0.2);
-  map.linkages.clear();
-  map.lanes.erase(map.lanes.begin());  // nor the lane that it came from
-  for (int tick = 0; tick < 3; ++tick) plan = next_plan(map, within, plan, Linkage::Turn::left);
-  EXPECT_LT(distance(plan, {0, 14, 0}), 0.2);
-}
-
-TEST(Planner, HasNotBegunAPassageThatLiesAhead) {
-  const Bicycle far{.rear_axle = {-70.0, 0.0}, .speed_mps = 5.0};
-  EXPECT_EQ(next_plan(crossing(), far, {}, Linkage::Turn::left).passing.from, kNoElement);
-  const Bicycle in_lane{.rear_axle = {-50.0, 0.0}, .speed_mps = 5.0};
-  EXPECT_EQ(next_plan(crossing(), in_lane, {}, Linkage::Turn::left).passing.into, 3U);
+  EXPECT_LT(distance(plan_on(map, within, turning, WayWish::left), {0, 14, 0}), 0.2);
 }
 
 TEST(Planner, IsNotBetweenLanesWhereTheOneThatItIsInHasBeenDivided) {
@@ -121,36 +115,36 @@ TEST(Planner, IsNotBetweenLanesWhereTheOneThatItIsInHasBeenDivided) {
                lane_of(2, straight_line({30, 0, 0}, {60, 0, 0}))};
   map.linkages = {link(1, 2)};
   const Bicycle vehicle{.speed_mps = 5.0};
-  const Plan before = next_plan(map, vehicle, {}, kNoWish);
+  const Plan before = plan_on(map, vehicle);
   map.lanes[0] = lane_of(1, straight_line({6, 0, 0}, {30, 0, 0}));  // keeps its id
   map.lanes.push_back(lane_of(3, straight_line({-20, 0, 0}, {6, 0, 0})));
   map.linkages.push_back(link(3, 1));
-  const Plan plan = next_plan(map, vehicle, before, kNoWish);
+  const Plan plan = plan_on(map, vehicle, before);
   for (const double x : {1.0, 10.0, 25.0, 40.0}) EXPECT_LT(distance(plan, {x, 0, 0}), 0.1) << x;
 }
 
 TEST(Planner, SaysThatItLooksForATurnThatIsNotInTheMap) {
   const Bicycle near{.rear_axle = {-20.0, 0.0}, .speed_mps = 5.0}, far{.rear_axle = {-40.0, 0.0}};
   LocalMap map = crossing();
-  EXPECT_FALSE(next_plan(map, near, {}, Linkage::Turn::left).looks_for_turn);
+  EXPECT_FALSE(plan_on(map, near, {}, WayWish::left).looks_for_turn);
   std::erase_if(map.linkages, [](const Linkage& linkage) { return linkage.to == 3; });
-  EXPECT_TRUE(next_plan(map, near, {}, Linkage::Turn::left).looks_for_turn);
-  EXPECT_FALSE(next_plan(map, far, {}, Linkage::Turn::left).looks_for_turn);
-  EXPECT_FALSE(next_plan(map, near, {}, Linkage::Turn::straight).looks_for_turn);
+  EXPECT_TRUE(plan_on(map, near, {}, WayWish::left).looks_for_turn);
+  EXPECT_FALSE(plan_on(map, far, {}, WayWish::left).looks_for_turn);
+  EXPECT_FALSE(plan_on(map, near, {}, WayWish::straight).looks_for_turn);
 }
 
 TEST(Planner, KeepsTheTurnThatItIsInWhenTheLaneBehindIsForgotten) {
   LocalMap map = crossing();
   const Bicycle before{.rear_axle = {-12.0, 0.0}, .speed_mps = 5.0};
-  const Plan turning = next_plan(map, before, {}, Linkage::Turn::left);
+  const Plan turning = plan_on(map, before, {}, WayWish::left);
   map.lanes.erase(map.lanes.begin());
   map.linkages.clear();
   const Bicycle within{.rear_axle = {-8.0, 0.1}, .speed_mps = 5.0};
-  const Plan plan = next_plan(map, within, turning, Linkage::Turn::straight);
+  const Plan plan = plan_on(map, within, turning, WayWish::straight);
   EXPECT_LT(distance(plan, {0, 14, 0}), 0.2);
   EXPECT_EQ(plan.support_at({-5, 0.6, 0}), Support::remembered);
   EXPECT_EQ(plan.support_at({0, 14, 0}), Support::mapped);
-  const Plan blind = next_plan({}, within, turning, Linkage::Turn::straight);
+  const Plan blind = plan_on({}, within, turning, WayWish::straight);
   EXPECT_LT(distance(blind, {0, 14, 0}), 0.2);
   EXPECT_EQ(blind.support_at({0, 14, 0}), Support::remembered);
 }
@@ -158,7 +152,7 @@ TEST(Planner, KeepsTheTurnThatItIsInWhenTheLaneBehindIsForgotten) {
 TEST(Planner, GuessesOnWhereTheLaneEnds) {
   LocalMap map;
   map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {15, 0, 0}))};
-  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  const Plan plan = plan_on(map, {.speed_mps = 5.0});
   EXPECT_EQ(plan.support_at({10, 0, 0}), Support::mapped);
   EXPECT_EQ(plan.support_at({20, 0, 0}), Support::guessed);
   EXPECT_LT(distance(plan, {35, 0, 0}), 0.1);
@@ -171,7 +165,7 @@ TEST(Planner, GoesAlongALaneAgainstItsPoints) {
                lane_of(2, straight_line({60, 0, 0}, {20, 0, 0}))};
   for (Lane& lane : map.lanes) lane.direction = Lane::Direction::against_centerline;
   map.linkages = {link(2, 1)};
-  const Plan plan = next_plan(map, {.rear_axle = {0.0, 0.3}, .speed_mps = 5.0}, {}, kNoWish);
+  const Plan plan = plan_on(map, {.rear_axle = {0.0, 0.3}, .speed_mps = 5.0});
   EXPECT_LT(distance(plan, {30, 0, 0}), 0.05);
   EXPECT_EQ(plan.support_at({30, 0, 0}), Support::mapped);
 }
@@ -181,14 +175,43 @@ TEST(Planner, ChangesLanesWhereItsLaneEnds) {
   map.lanes = {lane_of(1, straight_line({0, 0, 0}, {40, 0, 0})),
                lane_of(2, straight_line({0, 3.5, 0}, {90, 3.5, 0}))};
   for (Point& point : map.lanes[0].right) point.y() += point.x() / 40.0;
+  map.lanes[0].left_borders = {{7, {0, 40}, {0, 40}}};
+  map.lanes[0].right_borders = {{8, {0, 40}, {0, 40}}};
   map.lanes[0].left_neighbours = {{.lane = 2, .range = {0.0, 40.0}, .crossable = {{0.0, 40.0}}}};
-  const Plan plan = settled_plan(map, {.rear_axle = {2.0, 0.0}, .speed_mps = 5.0}, kNoWish, 30);
+  const Plan plan = settled_plan(map, {.rear_axle = {2.0, 0.0}, .speed_mps = 5.0}, 30);
   EXPECT_LT(distance(plan, {60, 3.5, 0}), 0.1);
   EXPECT_EQ(plan.support_at({60, 3.5, 0}), Support::mapped);
 }
 
+/// A lane ahead, along the vehicle's path.
+LocalMap lane_ahead(Lane::Direction direction) {
+  LocalMap map;
+  map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {60, 0, 0}))};
+  map.lanes[0].direction = direction;
+  return map;
+}
+
+TEST(Planner, GoesAgainstTheTrafficOnlyWhereNothingElseIsKnown) {
+  const Bicycle vehicle{.speed_mps = 5.0};
+  const LocalMap oncoming = lane_ahead(Lane::Direction::against_centerline);
+  EXPECT_EQ(plan_on(oncoming, vehicle).support_at({20, 0, 0}), Support::mapped);
+  const Plan before = plan_on(lane_ahead(Lane::Direction::along_centerline), vehicle);
+  EXPECT_EQ(plan_on(oncoming, vehicle, before).support_at({20, 0, 0}), Support::remembered);
+  EXPECT_EQ(plan_on(lane_ahead(Lane::Direction::both), vehicle, before).support_at({20, 0, 0}),
+            Support::mapped);
+}
+
+TEST(Planner, JoinsALaneAheadOfItButNoPassage) {
+  LocalMap map = crossing();
+  const Bicycle vehicle{.rear_axle = {-8.0, 0.0}, .speed_mps = 5.0};
+  map.linkages = {link(4, 3, Linkage::Turn::straight)};
+  const Plan plan = plan_on(map, vehicle);
+  EXPECT_EQ(plan.support_at({0, 0, 0}), Support::guessed);
+  EXPECT_EQ(plan.support_at({20, 0, 0}), Support::mapped);
+}
+
 TEST(Planner, NoMapGivesAPlanStraightOn) {
-  const Plan plan = next_plan({}, {.heading_rad = 0.5 * std::numbers::pi}, {}, kNoWish);
+  const Plan plan = plan_on({}, {.heading_rad = 0.5 * std::numbers::pi});
   EXPECT_LT(distance(plan, {0, 30, 0}), 1e-6);
   EXPECT_TRUE(std::ranges::all_of(plan.support, [](Support s) { return s == Support::guessed; }));
 }
@@ -197,7 +220,7 @@ TEST(Planner, DoesNotFollowALaneThatCrossesOrLiesBeside) {
   LocalMap map;
   map.lanes = {lane_of(1, straight_line({5, -30, 0}, {5, 30, 0})),
                lane_of(2, straight_line({-20, 3.5, 0}, {50, 3.5, 0}))};
-  const Plan plan = next_plan(map, {.speed_mps = 5.0}, {}, kNoWish);
+  const Plan plan = plan_on(map, {.speed_mps = 5.0});
   EXPECT_LT(distance(plan, {30, 0, 0}), 1e-6);
 }
 
@@ -205,9 +228,9 @@ TEST(Planner, BendsWithoutAJumpToALaneThatHasMoved) {
   LocalMap map;
   map.lanes = {lane_of(1, straight_line({-20, 0, 0}, {200, 0, 0}))};
   const Bicycle vehicle{.rear_axle = {10.0, 0.0}, .speed_mps = 10.0};
-  const Plan before = next_plan(map, vehicle, {}, kNoWish);
+  const Plan before = plan_on(map, vehicle);
   map.lanes = {lane_of(9, straight_line({-20, 0.4, 0}, {200, 0.4, 0}))};
-  const Plan after = next_plan(map, vehicle, before, kNoWish);
+  const Plan after = plan_on(map, vehicle, before);
   EXPECT_LT(distance(after, {10, 0, 0}), 0.01);
   EXPECT_LT(distance(after, {12, 0, 0}), 0.05);
   EXPECT_LT(distance(after, {40, 0.4, 0}), 0.01);

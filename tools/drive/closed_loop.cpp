@@ -22,6 +22,11 @@ constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
 constexpr int kMaxVainRestarts = 100;  // some are expected: a drive goes on behind a lane that leads nowhere
 
+WayWish wish_for(Linkage::Turn turn) {
+  if (turn == Linkage::Turn::left) return WayWish::left;
+  return turn == Linkage::Turn::right ? WayWish::right : WayWish::straight;
+}
+
 /// Whether the lane at a place on the road, if there is one, is inferred.
 bool is_inferred(const LocalMap& map, Point place) {
   place.z() = map.T_map_body.translation().z();
@@ -78,17 +83,17 @@ void ClosedLoop::step() {
 
 void ClosedLoop::sense() {
   const Eigen::Isometry3d T_map_body = lanes_.on_surface(vehicle_);
-  const Eigen::Isometry3d& T_told = odometry_->move_to(T_map_body);
-  const Eigen::Vector3d ahead = T_told.linear().col(0);
+  T_told_ = odometry_->move_to(T_map_body);
+  const Eigen::Vector3d ahead = T_told_.linear().col(0);
   told_ = vehicle_;
-  told_.rear_axle = T_told.translation().head<2>();
+  told_.rear_axle = T_told_.translation().head<2>();
   told_.heading_rad = std::atan2(ahead.y(), ahead.x());
 
   VehiclePose pose{.stamp_ns = now_ns(),
                    .sequence = static_cast<std::uint64_t>(steps_),
                    .session_id = spec_.session_id,
-                   .position = T_told.translation(),
-                   .orientation = Eigen::Quaterniond(T_told.linear()).normalized()};
+                   .position = T_told_.translation(),
+                   .orientation = Eigen::Quaterniond(T_told_.linear()).normalized()};
   service_.send(pose);
   if (steps_ % kStepsPerTick == 0) {
     pose.position = T_map_body.translation();
@@ -104,7 +109,7 @@ void ClosedLoop::plan() {
   const LocalMap& newest = service_.newest(now_ns());
   const LocalMap none;
   const LocalMap& map = newest.stamp_ns >= begun_ns_ ? newest : none;
-  Plan next = next_plan(map, told_, plan_, navigator_.wanted_turn());
+  Plan next = next_plan(map, T_told_, told_.speed_mps, plan_, wish_for(navigator_.wanted_turn()));
   cause_ = cause_of_guess(map);
   in_inferred_lane_ = is_inferred(map, on_ground(told_.rear_axle));
   if (!started_) {

@@ -73,8 +73,9 @@ class ClosedLoop {
   simulation::NetworkDelay<DetectionFrame> network_;
   std::int64_t steps_ = 0;
   // Since the last restart.
-  Bicycle vehicle_;  ///< the true state
-  Bicycle told_;     ///< the state by the odometry
+  Bicycle vehicle_;                                           ///< the true state
+  Bicycle told_;                                              ///< the state by the odometry
+  Eigen::Isometry3d T_told_ = Eigen::Isometry3d::Identity();  ///< likewise
   std::optional<simulation::Odometry> odometry_;
   std::int64_t begun_ns_ = 0;
   bool started_ = false;

@@ -211,12 +211,21 @@ std::optional<RouteStart> start_on_passage(const LaneGraph& graph, const Eigen::
   return start;
 }
 
+/// Whether the passage at a start leads into a lane of the way before.
+bool is_kept(const LaneGraph& graph, const RouteStart& start, const Way* before) {
+  return find(before, {graph.find(start.into), start.lane.against}) != nullptr;
+}
+
 }  // namespace
 
 std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
                                    const RouteWish& wish) {
-  if (const auto start = start_in_lane(graph, T_map_body, wish.before)) return start;
-  return start_on_passage(graph, T_map_body, wish.before);
+  const auto in_lane = start_in_lane(graph, T_map_body, wish.before);
+  if (in_lane && find(wish.before, in_lane->lane) != nullptr) return in_lane;
+  // A lane that comes up across a passage that was begun does not end it.
+  const auto on_passage = start_on_passage(graph, T_map_body, wish.before);
+  if (!in_lane) return on_passage;
+  return on_passage && is_kept(graph, *on_passage, wish.before) ? on_passage : in_lane;
 }
 
 Route route_through(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish, double behind_m,

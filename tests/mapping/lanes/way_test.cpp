@@ -185,6 +185,16 @@ TEST(Way, AgainstTheOrderOfALanesPointsItsSidesAreThoseOfTheVehicle) {
   EXPECT_FALSE(way.stations[10].may_change_left);
 }
 
+TEST(Way, ALaneThatComesUpAcrossAPassageThatWasBegunDoesNotEndIt) {
+  LocalMap map = fork();
+  const Way before = way_on(map, test::at(15), WayWish::left);
+  ASSERT_THAT(ids(before), ElementsAre(1, 3));
+  map.lanes.push_back(road_lane(5, {21, 0, 0}, {60, 0, 0}));
+  const Eigen::Isometry3d on_passage = test::at(24, 0.7, 0.33);
+  EXPECT_THAT(ids(way_on(map, on_passage, WayWish::left)), ElementsAre(5)) << "begins in the lane";
+  EXPECT_THAT(ids(way_on(map, on_passage, WayWish::left, &before)), ElementsAre(3));
+}
+
 TEST(Way, CutsNoBend) {
   LocalMap map;
   Polyline road = straight({-30, -12, 0}, {0, -12, 0}, 31);
