@@ -50,6 +50,19 @@ TEST(PairedTable, DifferencesAreOfOneDrive) {
   EXPECT_NE(paired.find("| blinks /s | 10.00 | +1.00 ± 0.00 (3) |"), std::string::npos) << paired;
 }
 
+TEST(PairedTable, RatesLinkagesAndMetresOfLanes) {
+  const auto rated = [](const char* name, std::size_t right) {
+    SubjectResult result{.name = name, .measures = {}, .update_ms = {}};
+    result.measures.topology.linkages = {.published = 10, .right = right, .truths = 20, .found = right};
+    result.measures.lane_metres.by_class_m = {static_cast<double>(right), 10.0 - static_cast<double>(right)};
+    return result;
+  };
+  const std::string paired = paired_table({{rated("raw", 0), rated("A", 8), rated("B", 6)}}, 2);
+  EXPECT_NE(paired.find("| linkages P % | 80.00 | -20.00 (1) |"), std::string::npos) << paired;
+  EXPECT_NE(paired.find("| linkages R % | 40.00 | -10.00 (1) |"), std::string::npos) << paired;
+  EXPECT_NE(paired.find("| right metres of lanes % | 80.00 | -20.00 (1) |"), std::string::npos) << paired;
+}
+
 TEST(PairedTable, WhatADriveCannotTellDoesNotCount) {
   EXPECT_NE(table_of({{1, 2}, {1, 2}}).find("| gap p95 m | - | - |"), std::string::npos);
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "commands/lane_metres_table.hpp"
 #include "commands/steadiness_table.hpp"
 #include "laneloom/element_names.hpp"
 
@@ -202,7 +203,8 @@ nlohmann::json style_json(const evaluation::StyleScore& styles) {
 std::string evaluation_tables(const std::vector<NamedEvaluation>& evaluations) {
   std::string tables = stability_table(evaluations) + topology_table(evaluations) + style_lines(evaluations) +
                        trust_table(evaluations) + ap_table(evaluations);
-  for (const auto& [who, evaluation] : evaluations) tables += steadiness_table(evaluation.steadiness());
+  for (const auto& [who, evaluation] : evaluations)
+    tables += lane_metres_table(evaluation.lane_metres()) + steadiness_table(evaluation.steadiness());
   return tables;
 }
 
@@ -220,6 +222,8 @@ nlohmann::json evaluation_json(const std::vector<NamedEvaluation>& evaluations) 
     json[who]["average_precision"] = ap_json(evaluation.average_precision());
     const evaluation::Steadiness steadiness = evaluation.steadiness();
     if (steadiness.maps > 0) json[who]["planner"] = steadiness_json(steadiness);
+    if (evaluation.lane_metres().published_m() > 0.0)
+      json[who]["lane_metres"] = lane_metres_json(evaluation.lane_metres());
   }
   return json;
 }

@@ -19,7 +19,8 @@ MapEvaluation::MapEvaluation(const simulation::Road& truth, const RangeConfig& r
       stability_(truth_, range),
       trust_(truth_, range),
       profile_(range),
-      steadiness_(truth) {}
+      steadiness_(truth),
+      lane_metres_(truth, range) {}
 
 FrameComparison MapEvaluation::add_lines(std::int64_t stamp_ns, const Eigen::Isometry3d& T_map_body,
                                          const std::vector<KindLine>& lines) {
@@ -39,6 +40,7 @@ void MapEvaluation::add(const LocalMap& map) {
   add_topology(truth_topology_, frame, map, range_, topology_);
   add_top_ll(truth_topology_, frame, map, range_, top_ll_);
   steadiness_.add(map);
+  lane_metres_.add(map);
 }
 
 void MapEvaluation::add(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,

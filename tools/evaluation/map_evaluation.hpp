@@ -5,6 +5,7 @@
 #include "evaluation/average_precision.hpp"
 #include "evaluation/evaluation.hpp"
 #include "evaluation/kind_lines.hpp"
+#include "evaluation/lane_metres.hpp"
 #include "evaluation/linkages.hpp"
 #include "evaluation/profile.hpp"
 #include "evaluation/stability.hpp"
@@ -28,6 +29,7 @@ struct Measures {
   TopLl top_ll;
   AveragePrecisionMeter average_precision;
   Steadiness steadiness;
+  LaneMetres lane_metres;
 
   /// The stability of lanelines, roadedges and stoplines together.
   Stability markings_stability() const;
@@ -53,6 +55,7 @@ class MapEvaluation {
   const TopologyScore& topology() const { return topology_; }
   const TopLl& top_ll() const { return top_ll_; }
   Steadiness steadiness() const { return steadiness_.steadiness(); }  ///< no maps where detections are rated
+  const LaneMetres& lane_metres() const { return lane_metres_.metres(); }  ///< likewise
   Measures measures() const;
 
  private:
@@ -71,6 +74,7 @@ class MapEvaluation {
   TopologyScore topology_;
   TopLl top_ll_;
   SteadinessMeter steadiness_;
+  LaneMetresMeter lane_metres_;
 };
 
 }  // namespace laneloom::evaluation

@@ -61,6 +61,7 @@ Measures& Measures::operator+=(const Measures& other) {
   top_ll.vertices += other.top_ll.vertices;
   average_precision.add(other.average_precision);
   steadiness += other.steadiness;
+  lane_metres += other.lane_metres;
   return *this;
 }
 
@@ -72,7 +73,8 @@ Measures MapEvaluation::measures() const {
                .topology = topology_,
                .top_ll = top_ll_,
                .average_precision = average_precision_,
-               .steadiness = steadiness_.steadiness()};
+               .steadiness = steadiness_.steadiness(),
+               .lane_metres = lane_metres_.metres()};
   for (std::size_t i = 0; i < kLineKindCount; ++i) all.stability[i] = stability_.of(static_cast<LineKind>(i));
   return all;
 }

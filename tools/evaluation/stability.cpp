@@ -27,7 +27,7 @@ std::vector<double> jitters_m(const Polyline& before, const Polyline& now) {
   return jitters_m;
 }
 
-double ratio(std::size_t part, std::size_t whole) {
+double share_of(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
@@ -37,7 +37,7 @@ double Stability::id_switches_per_km() const {
   return driven_past_m > 0.0 ? 1000.0 * static_cast<double>(id_switches) / driven_past_m : 0.0;
 }
 
-double Stability::flicker() const { return ratio(lost, was_right); }
+double Stability::flicker() const { return share_of(lost, was_right); }
 
 StabilityMeter::StabilityMeter(const std::vector<KindLine>& truth, const RangeConfig& range)
     : range_(range), truths_(truth.size()) {

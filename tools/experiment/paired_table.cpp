@@ -17,8 +17,10 @@ struct Figure {
   Value (*of)(const Measures&);
 };
 
+Value percent(double part, double whole) { return whole > 0.0 ? Value(100.0 * part / whole) : std::nullopt; }
+
 Value percent(std::size_t part, std::size_t whole) {
-  return whole > 0 ? Value(100.0 * static_cast<double>(part) / static_cast<double>(whole)) : std::nullopt;
+  return percent(static_cast<double>(part), static_cast<double>(whole));
 }
 
 Value f1_percent(const evaluation::Score& score) {
@@ -37,6 +39,20 @@ constexpr std::array kFigures{
     Figure{"F1 %", [](const Measures& m) { return f1_percent(m.score.markings()); }},
     Figure{"lanes F1 %",
            [](const Measures& m) { return f1_percent(m.score.of(evaluation::LineKind::lane)); }},
+    Figure{"right metres of lanes %",
+           [](const Measures& m) {
+             const evaluation::LaneMetres& metres = m.lane_metres;
+             return percent(metres.of(evaluation::LaneClass::right), metres.published_m());
+           }},
+    Figure{"lanes ECE",
+           [](const Measures& m) {
+             return m.lanes.has_confidences() ? Value(m.lanes.expected_calibration_error()) : std::nullopt;
+           }},
+    Figure{
+        "linkages P %",
+        [](const Measures& m) { return percent(m.topology.linkages.right, m.topology.linkages.published); }},
+    Figure{"linkages R %",
+           [](const Measures& m) { return percent(m.topology.linkages.found, m.topology.linkages.truths); }},
     Figure{"lanes in a map",
            [](const Measures& m) {
              const Value lanes_percent = percent(m.steadiness.lanes, m.steadiness.maps);

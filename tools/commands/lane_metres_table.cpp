@@ -1,0 +1,59 @@
+#include "commands/lane_metres_table.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace laneloom::commands {
+namespace {
+
+using evaluation::LaneClass, evaluation::LaneMetres;
+
+struct NamedClass {
+  LaneClass lane_class;
+  const char* name;  ///< of the value in JSON
+  const char* title;
+};
+constexpr std::array kLaneClasses{
+    NamedClass{LaneClass::right, "right", "right"},
+    NamedClass{LaneClass::offset, "offset", "in a lane, beside its middle"},
+    NamedClass{LaneClass::straddling, "straddling", "across a line"},
+    NamedClass{LaneClass::beside_edge, "beside_edge", "beyond an edge, or a strip beside it"},
+    NamedClass{LaneClass::elsewhere, "elsewhere", "elsewhere"}};
+static_assert(kLaneClasses.size() == evaluation::kLaneClassCount);
+
+std::string percent_row(const char* what, double part_m, double whole_m) {
+  return fmt::format("{:<46} {}\n", what,
+                     whole_m > 0.0 ? fmt::format("{:.1f}", 100.0 * part_m / whole_m) : "-");
+}
+
+nlohmann::json share_json(double part_m, double whole_m) {
+  return whole_m > 0.0 ? nlohmann::json(part_m / whole_m) : nlohmann::json();
+}
+
+}  // namespace
+
+std::string lane_metres_table(const LaneMetres& metres) {
+  const double published_m = metres.published_m();
+  if (published_m == 0.0) return {};
+  std::string table = fmt::format("\nMetres of lanes, % of {:.0f} m in all maps\n", published_m);
+  for (const NamedClass& one : kLaneClasses)
+    table += percent_row(one.title, metres.of(one.lane_class), published_m);
+  const double right_m = metres.of(LaneClass::right);
+  return table + percent_row("directions, of right metres: told", metres.told_m, right_m) +
+         percent_row("  told rightly, of those told", metres.told_right_m, metres.told_m);
+}
+
+nlohmann::json lane_metres_json(const LaneMetres& metres) {
+  const double published_m = metres.published_m(), right_m = metres.of(LaneClass::right);
+  nlohmann::json json{{"published_m", published_m},
+                      {"directions",
+                       {{"precision", share_json(metres.told_right_m, metres.told_m)},
+                        {"recall", share_json(metres.told_right_m, right_m)}}}};
+  for (const NamedClass& one : kLaneClasses)
+    json[one.name] = share_json(metres.of(one.lane_class), published_m);
+  return json;
+}
+
+}  // namespace laneloom::commands
