@@ -256,6 +256,27 @@ TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {
   EXPECT_FALSE(reader.next_frame());
 }
 
+TEST(JsonLines, ADetectionThatIsWrongDoesNotLoseItsFrame) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("frames.jsonl");
+  const std::string good = R"({"type":"laneline","score":0.5,"points":[[0,0,0],[1,0,0]]})";
+  const std::string bad = R"({"type":"laneline","score":80,"points":[[0,0,0],[1,0,0]]})";
+  std::ofstream(path) << frame_with("[" + bad + "," + good + "]") << "\n"
+                      << frame_with("[" + bad + "]") << "\n";
+  LeftOut left_out;
+  JsonLinesReader reader(path);
+  EXPECT_EQ(reader.next_frame(left_out)->frame.detections.size(), 1u);
+  EXPECT_FALSE(reader.next_frame(left_out)) << "an empty frame would say that nothing was seen";
+  EXPECT_EQ(left_out.summary(),
+            "2 x detections[].score: must be from 0 to 1 (first: line 1.detections[0]), "
+            "1 x detections: none of them can be read (first: line 2)");
+
+  LeftOut strict(/*strict=*/true);
+  EXPECT_THROW(JsonLinesReader(path).next_frame(strict), std::runtime_error);
+  JsonLinesReader any(path, /*any_confidence=*/true);
+  EXPECT_EQ(any.next_frame(strict)->frame.detections[0].confidence, 80.0);
+}
+
 TEST(JsonLines, FilesThatCannotBeOpenedAreErrors) {
   const TemporaryFolder folder;
   EXPECT_THROW(JsonLinesReader(folder.file("absent.jsonl")), std::runtime_error);

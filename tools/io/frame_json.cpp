@@ -17,11 +17,30 @@ json to_json(const Detection& detection) {
   return out;
 }
 
-Detection detection(const json& value) {
+/// A detection whose confidence is not checked, because it may be on another scale.
+Detection with_any_confidence(json value) {
+  const double confidence = required(value, "score", number);
+  value["score"] = 0.0;
   auto out = FromJson::element<Detection>(value);
+  out.confidence = confidence;
+  return out;
+}
+
+Detection detection(const json& value, bool any_confidence) {
+  Detection out = any_confidence ? with_any_confidence(value) : FromJson::element<Detection>(value);
   if (out.points.size() < 2) throw JsonError("points", "must have at least two points");
   if (!out.stddev_m.empty() && out.stddev_m.size() != out.points.size())
     throw JsonError("stddev", "must have one value per point");
+  return out;
+}
+
+/// The detections that can be read. Throws JsonError if there are some, and none can be.
+std::vector<Detection> detections(const json& items, const FrameReading& reading) {
+  std::vector<Detection> out;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    take_or_leave_out(reading.left_out, reading.place + ".", "detections[" + std::to_string(i) + "]",
+                      [&] { out.push_back(detection(items[i], reading.any_confidence)); });
+  if (out.empty() && !items.empty()) throw JsonError("detections", "none of them can be read");
   return out;
 }
 
@@ -64,13 +83,18 @@ std::string to_json_line(const FrameRecord& record) {
 }
 
 FrameRecord frame_from_json(std::string_view text) {
+  LeftOut nothing(/*strict=*/true);
+  return frame_from_json(text, {.left_out = nothing});
+}
+
+FrameRecord frame_from_json(std::string_view text, const FrameReading& reading) {
   const json object = parse_json(text);
   FrameRecord record;
   DetectionFrame& frame = record.frame;
   frame.stamp_ns = read_stamp_ns(object);
   if (frame.stamp_ns == 0) frame.stamp_ns = 1;  // a stamp of 0 would say that there is none
   record.pose = read_pose(object);
-  frame.detections = required(object, "detections", [](const json& items) { return list(items, detection); });
+  frame.detections = detections(*required(object, "detections", array), reading);
   frame.sequence = optional(object, "sequence", count).value_or(0);
   frame.session_id = optional(object, "session_id", count).value_or(0);
   frame.source = optional(object, "source", io::text).value_or("");

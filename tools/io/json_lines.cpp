@@ -12,7 +12,8 @@ constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
 
 }  // namespace
 
-JsonLinesReader::JsonLinesReader(const std::filesystem::path& path) : path_(path), in_(path) {
+JsonLinesReader::JsonLinesReader(const std::filesystem::path& path, bool any_confidence)
+    : path_(path), any_confidence_(any_confidence), in_(path) {
   if (!in_ || std::filesystem::is_directory(path))
     throw std::runtime_error(path.string() + ": cannot be read");
   std::error_code not_a_file;  // a pipe has no size
@@ -31,12 +32,13 @@ std::optional<FrameRecord> JsonLinesReader::next_frame() {
 
 std::optional<FrameRecord> JsonLinesReader::next_frame(LeftOut& left_out) {
   while (next_line()) {
+    const std::string place = "line " + std::to_string(number_);
     try {
-      return frame_from_json(line_);
+      return frame_from_json(line_, {left_out, place, any_confidence_});
     } catch (const JsonError& complaint) {
       if (left_out.strict()) throw error(complaint.what());
       const bool cut = !line_ended_ && line_.find_last_of('}') != line_.size() - 1;
-      left_out.add(cut ? "the last line is cut off" : complaint.reason(), "line " + std::to_string(number_));
+      left_out.add(cut ? "the last line is cut off" : complaint.reason(), place);
     }
   }
   return std::nullopt;

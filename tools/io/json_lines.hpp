@@ -66,22 +66,31 @@ struct FrameRecord {
 std::string to_json_line(const FrameRecord& record);
 std::string to_json_line(const LocalMap& map);
 
-/// Both throw std::runtime_error naming the key if `text` is not such a line. It is not checked whether ids
+/// How a frame is read.
+struct FrameReading {
+  LeftOut& left_out;            ///< detections that are wrong are left out, unless that is strict
+  std::string place{};          ///< of the frame, where something is left out
+  bool any_confidence = false;  ///< confidences may be on another scale than 0..1
+};
+
+/// All throw std::runtime_error naming the key if `text` is not such a line. It is not checked whether ids
 /// that a map refers to are in it. `lineage` and `markings` of a map stay empty.
 FrameRecord frame_from_json(std::string_view text);
+FrameRecord frame_from_json(std::string_view text, const FrameReading& reading);
 LocalMap map_from_json(std::string_view text);
 
 /// Reads a file line by line, skipping empty ones. Not thread-safe.
 class JsonLinesReader {
  public:
   /// Throws std::runtime_error where the file cannot be read.
-  explicit JsonLinesReader(const std::filesystem::path& path);
+  explicit JsonLinesReader(const std::filesystem::path& path, bool any_confidence = false);
 
   /// The content of the next line. None: the end. Both throw std::runtime_error naming file, line number and
   /// key; reading may go on with the line after.
   std::optional<FrameRecord> next_frame();
   std::optional<LocalMap> next_map();
-  /// The next line that is a frame. Others are left out, unless that is strict.
+  /// The next line that is a frame. Others are left out, and detections that are wrong, unless that is
+  /// strict.
   std::optional<FrameRecord> next_frame(LeftOut& left_out);
 
   /// The share of the file that was read, 0..1.
@@ -92,6 +101,7 @@ class JsonLinesReader {
   std::runtime_error error(const std::string& complaint) const;
 
   std::filesystem::path path_;
+  bool any_confidence_;
   std::ifstream in_;
   std::uintmax_t size_ = 0;
   std::uintmax_t bytes_read_ = 0;
