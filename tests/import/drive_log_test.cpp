@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "io/axes.hpp"
 #include "temporary_folder.hpp"
 
 namespace laneloom::imports {
@@ -59,13 +60,13 @@ TEST_F(DriveLogs, PlainTablesGiveStampsAndAxes) {
   write("poses.csv", kPoses);
   write("samples.csv", "token,timestamp_ns\na,17\nb,18\r\n");
   const DriveLog drive =
-      plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::right_forward, strict_);
+      plain_drive(file("poses.csv"), file("samples.csv"), io::axes_named("right-forward"), strict_);
   EXPECT_EQ(drive.stamp_ns_of("b"), 18);
   EXPECT_EQ(drive.stamp_ns_of("c"), std::nullopt);
   EXPECT_TRUE((drive.T_body_points * Point(2, 10, 1)).isApprox(Point(10, -2, 1)));
 
   const auto load = [&] {
-    plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left, strict_);
+    plain_drive(file("poses.csv"), file("samples.csv"), Eigen::Matrix3d::Identity(), strict_);
   };
   write("samples.csv", "token,timestamp_ns\na,17\na,18\n");
   EXPECT_THAT(error(load), HasSubstr("samples.csv:3: a sample that is given twice"));
@@ -78,7 +79,7 @@ TEST_F(DriveLogs, RowsThatAreWrongAreLeftOut) {
   write("samples.csv", "token,timestamp_ns\na,17\na,17\nb,18\nc,1");
   LeftOut left_out;
   const DriveLog drive =
-      plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left, left_out);
+      plain_drive(file("poses.csv"), file("samples.csv"), Eigen::Matrix3d::Identity(), left_out);
   EXPECT_EQ(drive.poses.size(), 2u);
   EXPECT_EQ(drive.stamp_ns_of("b"), 18);
   EXPECT_EQ(left_out.summary(),
@@ -89,7 +90,7 @@ TEST_F(DriveLogs, RowsThatAreWrongAreLeftOut) {
 
 TEST_F(DriveLogs, TablesOfOtherColumnsAreRefused) {
   const auto load = [&] {
-    plain_drive(file("poses.csv"), file("samples.csv"), PointAxes::forward_left, strict_);
+    plain_drive(file("poses.csv"), file("samples.csv"), Eigen::Matrix3d::Identity(), strict_);
   };
   const std::string rows = "2000,1,0,0,0,5,6,7\n1000002000,1,0,0,0,15,6,7\n";
   write("samples.csv", "token,timestamp_ns\na,17\n");

@@ -113,7 +113,7 @@ TEST(Replay, LinesThatAreNoFramesAreLeftOutUnlessThatIsStrict) {
   EXPECT_EQ(source->left_out().summary(),
             "2 x t: is missing (first: line 1), 1 x t: must be finite (first: line 3), "
             "1 x the last line is cut off (first: line 5)");
-  EXPECT_THROW(open_messages(path, "map", /*strict=*/true)->next(), std::runtime_error);
+  EXPECT_THROW(open_messages(path, "map", {.strict = true})->next(), std::runtime_error);
   std::ofstream(path) << "{}\n";
   EXPECT_THROW(open_messages(path, "map")->next(), std::runtime_error) << "nothing is left";
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
 #include "commands/evaluate_later.hpp"
 #include "commands/evaluation_plots.hpp"
@@ -18,6 +19,7 @@
 #include "commands/score_table.hpp"
 #include "commands/steadiness_table.hpp"
 #include "commands/warn_of.hpp"
+#include "config/config_file.hpp"
 #include "evaluation/inputs.hpp"
 #include "evaluation/map_evaluation.hpp"
 
@@ -116,12 +118,20 @@ void write_json(const nlohmann::json& json, const std::string& path) {
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
+LaterRating later_rating(const EvaluateOptions& options) {
+  LaterRating rating = evaluate_later({.in = options.in,
+                                       .config = options.config,
+                                       .frames = options.frames,
+                                       .map = options.map,
+                                       .min_confidence = options.min_confidence});
+  const std::string& drive = options.in.empty() ? options.frames : options.in;
+  fmt::print(stderr, "{}", why_poor(drive, config::resolve_config(options.config, {})));
+  require_rated(rating.later, drive);
+  return rating;
+}
+
 void rate_by_later(const EvaluateOptions& options) {
-  const auto [later, steadiness] = evaluate_later({.in = options.in,
-                                                   .config = options.config,
-                                                   .frames = options.frames,
-                                                   .map = options.map,
-                                                   .min_confidence = options.min_confidence});
+  const auto [later, steadiness] = later_rating(options);
   const evaluation::Steadiness steady = steadiness.steadiness();
   fmt::print("{}{}", later_table(later), steadiness_table(steady));
   if (options.json.empty()) return;

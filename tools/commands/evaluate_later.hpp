@@ -21,8 +21,8 @@ struct LaterRating {
   evaluation::SteadinessMeter steadiness;
 };
 
-/// Rates a drive by detections that were seen later. Throws std::runtime_error if there were none, and as
-/// evaluation/inputs.hpp if a file cannot be read.
+/// Rates a drive by detections that were seen later. Throws as evaluation/inputs.hpp if a file cannot be
+/// read.
 LaterRating evaluate_later(const LaterInputs& inputs);
 
 }  // namespace laneloom::commands

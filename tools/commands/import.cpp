@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "commands/import_frames.hpp"
 #include "commands/import_scene.hpp"
 #include "commands/log_files.hpp"
 #include "commands/options.hpp"
@@ -23,22 +24,17 @@
 namespace laneloom::commands {
 namespace {
 
-constexpr const char* kForwardLeft = "forward-left";
-constexpr const char* kRightForward = "right-forward";
-
 struct ResultsOptions {
   std::string results, out;
   std::string argoverse2, nuscenes, scene, poses, samples;
-  std::string axes = kForwardLeft;
+  std::string axes = "forward-left";
   bool strict = false;
 };
 
 imports::DriveLog load_drive(const ResultsOptions& options, LeftOut& left_out) {
   if (!options.argoverse2.empty()) return imports::argoverse2_drive(options.argoverse2, left_out);
   if (!options.nuscenes.empty()) return imports::nuscenes_drive(options.nuscenes, options.scene);
-  const imports::PointAxes axes =
-      options.axes == kForwardLeft ? imports::PointAxes::forward_left : imports::PointAxes::right_forward;
-  return plain_drive(options.poses, options.samples, axes, left_out);
+  return imports::plain_drive(options.poses, options.samples, io::axes_named(options.axes), left_out);
 }
 
 /// Reads the part of a file of results that belongs to the drive.
@@ -79,10 +75,7 @@ void add_drive(CLI::App& command, ResultsOptions& options) {
   scene->needs(nuscenes);
   poses->needs(samples);
   samples->needs(poses);
-  command.add_option("--axes", options.axes, "With --poses: x and y of the points")
-      ->check(CLI::IsMember({kForwardLeft, kRightForward}))
-      ->capture_default_str()
-      ->needs(poses);
+  add_axes(command, options.axes)->needs(poses);
 }
 
 void add_results(CLI::App& app, const std::string& name, const std::string& whose, const std::string& file,
@@ -186,6 +179,7 @@ void add_import(CLI::App& app) {
   add_results(*command, "streammapnet", "StreamMapNet", "submission_vector.json", streammapnet);
   add_results(*command, "maptracker", "MapTracker", "submission_vector.json", maptracker);
   add_openpilot(*command);
+  add_import_frames(*command);
   add_import_scene(*command);
 }
 

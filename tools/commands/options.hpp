@@ -5,9 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "io/axes.hpp"
 #include "laneloom/config.hpp"
 #include "recording/recording.hpp"
 
@@ -45,6 +47,22 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
 /// Adds --strict.
 inline void add_strict(CLI::App& command, bool& strict) {
   command.add_flag("--strict", strict, "Fail at the first thing that is wrong, instead of leaving it out");
+}
+
+/// Adds --axes, of points: see io/axes.hpp.
+inline CLI::Option* add_axes(CLI::App& command, std::string& axes) {
+  const auto complaint = [](const std::string& name) -> std::string {
+    try {
+      io::axes_named(name);
+      return {};
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  return command
+      .add_option("--axes", axes, "Where x and y of the points lead, such as right-forward; z is up")
+      ->check(CLI::Validator(complaint, "AXES"))
+      ->capture_default_str();
 }
 
 /// A reader that a writer knows already may need this much longer to know the writer. Messages sent before

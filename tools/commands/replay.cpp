@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
@@ -78,7 +79,7 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
                  const simulation::Road* truth) {
   const Config config = read_config(options, config_file);
   const std::unique_ptr<replay::MessageSource> source =
-      replay::open_messages(options.in, config.dds.map_frame_id, options.strict);
+      replay::open_messages(options.in, config.dds.map_frame_id, {.strict = options.strict});
   const std::unique_ptr<replay::MapOutput> output =
       out.empty() ? nullptr : replay::create_map_output(out, kCompressions.at(options.compression));
   std::unique_ptr<evaluation::MapEvaluation> evaluation;
@@ -164,6 +165,10 @@ void replay(ReplayOptions& options) {
     print_result(result);
     if (!result.advice.empty()) fmt::print(stderr, "laneloom: {}: {}\n", options.in, result.advice);
   }
+  // A road has lanes: without, the input is likely at fault.
+  if (std::ranges::any_of(results, [](const ReplayResult& result) { return result.lanes < result.maps; }) ||
+      results.front().maps == 0)
+    fmt::print(stderr, "{}", why_poor(options.in, read_config(options, options.config_files.front())));
   if (results.size() > 1) print_comparison(results);
   if (truth) {
     std::vector<NamedScore> scores;
@@ -180,7 +185,7 @@ void replay(ReplayOptions& options) {
 void play(const ReplayOptions& options) {
   catch_stop_signals();
   const std::unique_ptr<replay::MessageSource> source =
-      replay::open_messages(options.in, options.dds.map_frame_id, options.strict);
+      replay::open_messages(options.in, options.dds.map_frame_id, {.strict = options.strict});
   replay::Player player(options.dds, options.speed_up);
   while (player.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;

@@ -37,13 +37,6 @@ struct Argoverse2Samples {
   }
 };
 
-/// The rotation that takes x right, y forward to x forward, y left.
-Eigen::Isometry3d from_right_forward() {
-  Eigen::Isometry3d rotation = Eigen::Isometry3d::Identity();
-  rotation.linear() << 0, 1, 0, -1, 0, 0, 0, 0, 1;
-  return rotation;
-}
-
 }  // namespace
 
 DriveLog argoverse2_drive(const std::filesystem::path& log_directory, LeftOut& left_out) {
@@ -56,8 +49,8 @@ DriveLog argoverse2_drive(const std::filesystem::path& log_directory, LeftOut& l
   return drive;
 }
 
-DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples, PointAxes axes,
-                     LeftOut& left_out) {
+DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
+                     const Eigen::Matrix3d& axes, LeftOut& left_out) {
   std::map<std::string, std::int64_t> stamps;
   io::for_each_csv_row(samples, "token,timestamp_ns", left_out, [&](std::string_view row) {
     const std::string token(io::take_field(row));
@@ -69,7 +62,7 @@ DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::
     const auto found = stamps.find(token);
     return found == stamps.end() ? std::nullopt : std::optional(found->second);
   };
-  if (axes == PointAxes::right_forward) drive.T_body_points = from_right_forward();
+  drive.T_body_points.linear() = axes;
   return drive;
 }
 

@@ -35,12 +35,10 @@ DriveLog argoverse2_drive(const std::filesystem::path& log_directory, LeftOut& l
 /// std::runtime_error naming file and key, or the scene if there is none of this name.
 DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& scene);
 
-enum class PointAxes : std::uint8_t { forward_left, right_forward };
-
 /// A drive of any other data set, from poses as read_pose_table() reads them, and a table of samples with the
-/// columns token and timestamp_ns. Points are in the vehicle's frame, with axes as `axes` says. Rows that are
-/// wrong, and samples that come twice, are left out.
-DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples, PointAxes axes,
-                     LeftOut& left_out);
+/// columns token and timestamp_ns. Points are in the vehicle's frame, with other axes: see io/axes.hpp. Rows
+/// that are wrong, and samples that come twice, are left out.
+DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::path& samples,
+                     const Eigen::Matrix3d& axes, LeftOut& left_out);
 
 }  // namespace laneloom::imports

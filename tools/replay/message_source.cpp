@@ -54,8 +54,11 @@ class McapMessages : public MessageSource {
 
 class JsonLinesMessages : public MessageSource {
  public:
-  JsonLinesMessages(const std::string& path, std::string map_frame_id, bool strict)
-      : path_(path), reader_(path), map_frame_id_(std::move(map_frame_id)), left_out_(strict) {}
+  JsonLinesMessages(const std::string& path, std::string map_frame_id, const MessageReading& reading)
+      : path_(path),
+        reader_(path, reading.any_confidence),
+        map_frame_id_(std::move(map_frame_id)),
+        left_out_(reading.strict) {}
 
   std::optional<recording::RecordedMessage> next() override {
     if (frame_) {
@@ -99,11 +102,12 @@ class JsonLinesMessages : public MessageSource {
 }  // namespace
 
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id,
-                                             bool strict) {
-  if (recording::is_recording(path)) return std::make_unique<McapMessages>(path, map_frame_id, strict);
+                                             const MessageReading& reading) {
+  if (recording::is_recording(path))
+    return std::make_unique<McapMessages>(path, map_frame_id, reading.strict);
   if (const std::string kind = io::file_kind(path); !kind.empty())
     throw std::runtime_error(path + ": " + kind + "; a recording (MCAP) or frames as JSON lines are needed");
-  return std::make_unique<JsonLinesMessages>(path, map_frame_id, strict);
+  return std::make_unique<JsonLinesMessages>(path, map_frame_id, reading);
 }
 
 }  // namespace laneloom::replay

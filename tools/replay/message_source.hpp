@@ -31,10 +31,16 @@ class MessageSource {
   virtual bool cut_off() const = 0;
 };
 
+/// How messages are read.
+struct MessageReading {
+  bool strict = false;          ///< the first thing that is wrong is an error
+  bool any_confidence = false;  ///< confidences may be on another scale than 0..1
+};
+
 /// Opens a recording (MCAP), or frames with their poses as JSON lines (io/json_lines.hpp); the first bytes
 /// tell which. A line gives the pose and then the frame, both at the frame's stamp. `map_frame_id` is the
 /// frame of the poses. Throws std::runtime_error if the file cannot be read, or is of another kind.
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id,
-                                             bool strict = false);
+                                             const MessageReading& reading = {});
 
 }  // namespace laneloom::replay

@@ -1,0 +1,243 @@
+#include "check/findings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <ostream>
+
+#include "base/degree.hpp"
+#include "check/drives.hpp"
+
+namespace laneloom::check {
+namespace {
+
+constexpr const char* kMeasured = "the value is measured";
+
+std::vector<DetectionFrame>& frames_of(Drive& drive) { return drive.frames.begin()->second; }
+
+using ChangePoint = std::function<Point(const Point& point, const Eigen::Isometry3d& T_map_body)>;
+
+/// Changes all points, in the way of a writer who has other conventions.
+std::function<void(Drive&)> points(const ChangePoint& change) {
+  return [change](Drive& drive) {
+    auto pose = drive.poses.begin();
+    for (DetectionFrame& frame : frames_of(drive)) {
+      const Eigen::Isometry3d T_map_body = transform(*pose++);
+      for (Detection& detection : frame.detections)
+        for (Point& point : detection.points) point = change(point, T_map_body);
+    }
+  };
+}
+
+std::function<void(Drive&)> poses(const std::function<void(VehiclePose&)>& change) {
+  return [change](Drive& drive) { std::ranges::for_each(drive.poses, change); };
+}
+
+std::function<void(Drive&)> confidences(const std::function<double(double)>& change) {
+  return [change](Drive& drive) {
+    for (DetectionFrame& frame : frames_of(drive))
+      for (Detection& detection : frame.detections) detection.confidence = change(detection.confidence);
+  };
+}
+
+/// A drive whose poses have the stamps of others, so many frames away.
+void shift_poses(Drive& drive, int frames) {
+  const std::vector<VehiclePose> right = drive.poses;
+  std::vector<VehiclePose>& poses = drive.poses;
+  const auto size = static_cast<int>(right.size());
+  for (int i = 0; i < size; ++i) {
+    const int from = std::clamp(i + frames, 0, size - 1);
+    poses[static_cast<std::size_t>(i)].position = right[static_cast<std::size_t>(from)].position;
+    poses[static_cast<std::size_t>(i)].orientation = right[static_cast<std::size_t>(from)].orientation;
+  }
+}
+
+void jump(Drive& drive, const Point& shift_m, double turn_deg) {
+  const auto half = static_cast<std::ptrdiff_t>(drive.poses.size() / 2);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(turn_deg * kDegree, Point::UnitZ()));
+  for (auto pose = drive.poses.begin() + half; pose != drive.poses.end(); ++pose) {
+    pose->position += shift_m;
+    pose->orientation = turn * pose->orientation;
+  }
+}
+
+struct Mistake {
+  std::string name;
+  std::function<void(Drive&)> make;
+  std::string id;      ///< of the first finding
+  std::string remedy;  ///< what it says, or a part of it
+};
+
+std::ostream& operator<<(std::ostream& out, const Mistake& mistake) { return out << mistake.name; }
+
+Point turned(const Point& point, double angle_deg) {
+  return Eigen::AngleAxisd(angle_deg * kDegree, Point::UnitZ()) * point;
+}
+
+std::vector<Mistake> mistakes() {
+  return {
+      {"ScalarFirst", poses([](VehiclePose& pose) {
+         const Eigen::Quaterniond q = pose.orientation;
+         pose.orientation = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
+       }),
+       "quaternion_order", "--quaternion wxyz"},
+      {"Mirrored", points([](const Point& p, const auto&) { return Point(p.x(), -p.y(), p.z()); }), "axes",
+       "--axes forward-right"},
+      {"RightForward", points([](const Point& p, const auto&) { return Point(-p.y(), p.x(), p.z()); }),
+       "axes", "--axes right-forward"},
+      {"Swapped", points([](const Point& p, const auto&) { return Point(p.y(), p.x(), p.z()); }), "axes",
+       "--axes left-forward"},
+      {"CameraAxes", points([](const Point& p, const auto&) { return Point(-p.y(), 1.5 - p.z(), p.x()); }),
+       "axes", "--axes right-down-forward"},
+      {"Backward", points([](const Point& p, const auto&) { return Point(-p.x(), -p.y(), p.z()); }), "axes",
+       "--axes backward-right"},
+      {"InTheMapFrame",
+       points([](const Point& p, const Eigen::Isometry3d& T_map_body) -> Point { return T_map_body * p; }),
+       "points_in_map_frame", "--points-in-map"},
+      {"Millimetres", points([](const Point& p, const auto&) -> Point { return 1000.0 * p; }), "point_unit",
+       "--point-scale 0.001"},
+      {"Centimetres", points([](const Point& p, const auto&) -> Point { return 100.0 * p; }), "point_unit",
+       "--point-scale 0.01"},
+      {"PosesInMillimetres", poses([](VehiclePose& pose) { pose.position *= 1000.0; }), "pose_unit",
+       "--pose-scale 0.001"},
+      {"PosesInCentimetres", poses([](VehiclePose& pose) { pose.position *= 100.0; }), "pose_unit",
+       "--pose-scale 0.01"},
+      {"PosesLate", [](Drive& drive) { shift_poses(drive, -3); }, "pose_time", kMeasured},
+      {"PosesEarly", [](Drive& drive) { shift_poses(drive, 3); }, "pose_time", kMeasured},
+      {"SensorTurned", points([](const Point& p, const auto&) { return turned(p, 2.0); }), "sensor_yaw",
+       kMeasured},
+      {"SensorBeside", points([](const Point& p, const auto&) { return Point(p.x(), p.y() - 0.6, p.z()); }),
+       "sensor_left", kMeasured},
+      {"Percent", confidences([](double share) { return 100.0 * share; }), "confidence_scale",
+       "--confidence percent"},
+      {"LogOdds", confidences([](double share) {
+         const double inside = std::clamp(share, 0.01, 0.99);
+         return std::log(inside / (1.0 - inside));
+       }),
+       "confidence_scale", "--confidence logit"},
+      {"LowConfidences", confidences([](double share) { return 0.05 * share; }), "confidence_low",
+       "mapper.preprocess.min_confidence"},
+      {"NarrowLane", points([](const Point& p, const auto&) { return Point(p.x(), 0.45 * p.y(), p.z()); }),
+       "lane_narrow", "mapper.lane.min_width_m"},
+      {"SmallJump",
+       [](Drive& drive) {
+         jump(drive, {0.2, 0.6, 0.0}, 0.0);
+       },
+       "pose_jump", "session_id"},
+      {"TurnedJump", [](Drive& drive) { jump(drive, Point::Zero(), 4.0); }, "pose_jump", "session_id"},
+      {"FramesOutOfOrder",
+       [](Drive& drive) {
+         for (std::size_t i = 10; i + 1 < drive.poses.size(); i += 7)
+           std::swap(frames_of(drive)[i], frames_of(drive)[i + 1]);
+       },
+       "frames_out_of_order", "laneloom import frames"},
+      {"PosesOutOfOrder",
+       [](Drive& drive) {
+         for (std::size_t i = 10; i + 1 < drive.poses.size(); i += 7)
+           std::swap(drive.poses[i], drive.poses[i + 1]);
+       },
+       "poses_out_of_order", "laneloom import frames"},
+      {"FramesMissing",
+       [](Drive& drive) {
+         frames_of(drive).erase(frames_of(drive).begin() + 50, frames_of(drive).begin() + 80);
+       },
+       "frames_gap", "service.stale_after_s"},
+      {"PosesMissing",
+       [](Drive& drive) { drive.poses.erase(drive.poses.begin() + 50, drive.poses.begin() + 80); },
+       "poses_gap", "service.stale_after_s"},
+      {"PosesRare",
+       [](Drive& drive) {
+         std::size_t i = 0;
+         std::erase_if(drive.poses, [&](const VehiclePose&) { return i++ % 4 != 0; });
+       },
+       "poses_rare", "sync.max_pose_gap_s"},
+      {"FramesRare",
+       [](Drive& drive) {
+         std::size_t i = 0;
+         std::erase_if(frames_of(drive), [&](const DetectionFrame&) { return i++ % 8 != 0; });
+       },
+       "frames_rare", "service.stale_after_s"},
+      {"NoPoses", [](Drive& drive) { drive.poses.clear(); }, "no_poses", "laneloom doctor"},
+      {"NoDetections", [](Drive& drive) { drive.frames.clear(); }, "no_detections", "laneloom doctor"},
+  };
+}
+
+/// The findings that are no advice.
+Findings wrong(const Drive& drive) {
+  Findings found = findings(drive, Config{});
+  std::erase_if(found, &Finding::advice);
+  return found;
+}
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(Mistakes, IsNamedFirst) {
+  const std::pair<const char*, const char*> kDrives[] = {
+      {"town", "inhouse"}, {"country_road", "random:3"}, {"curve", "none"}};
+  for (const auto& [scenario, noise] : kDrives) {
+    SCOPED_TRACE(scenario);
+    Drive drive = simulated_drive(scenario, noise);
+    GetParam().make(drive);
+    const Findings found = wrong(drive);
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found.front().id, GetParam().id) << found.front().found;
+    if (GetParam().remedy == kMeasured) continue;
+    EXPECT_THAT(found.front().remedy, testing::HasSubstr(GetParam().remedy));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Mistakes, testing::ValuesIn(mistakes()),
+                         [](const auto& test) { return test.param.name; });
+
+class SoundDrives : public testing::TestWithParam<std::string> {};
+
+TEST_P(SoundDrives, HaveNoFindings) {
+  for (const char* noise : {"none", "inhouse", "random:2", "random:5"})
+    EXPECT_THAT(wrong(simulated_drive(GetParam(), noise)), testing::IsEmpty()) << noise;
+}
+
+INSTANTIATE_TEST_SUITE_P(Roads, SoundDrives,
+                         testing::Values("straight", "curve", "street", "country_road", "motorway", "exit",
+                                         "hill", "t_intersection", "overpass", "town"),
+                         [](const auto& test) { return test.param; });
+
+TEST(Findings, AStraightRoadCannotTellItsMirrorImage) {
+  const Findings found = findings(simulated_drive("straight", "none"), Config{});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].id, "few_turns");
+  EXPECT_TRUE(found[0].advice);
+}
+
+TEST(Findings, OfSeveralSourcesTheOneAtFaultIsNamed) {
+  Drive drive = simulated_drive("town", "none");
+  drive.frames["camera"] = drive.frames.at("");
+  drive.frames.erase("");
+  points([](const Point& p, const auto&) { return Point(p.x(), -p.y(), p.z()); })(drive);
+  drive.frames["lidar"] = simulated_drive("town", "none").frames.at("");
+  const Findings found = wrong(drive);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].id, "axes");
+  EXPECT_THAT(found[0].found, testing::StartsWith("\"camera\": "));
+}
+
+TEST(Findings, ValuesAreMeasured) {
+  for (const int frames : {-4, 2}) {
+    Drive drive = simulated_drive("town", "inhouse");
+    shift_poses(drive, frames);
+    Correction correction;
+    convention_findings(frames_of(drive), PoseTrack(drive.poses), correction);
+    EXPECT_NEAR(correction.pose_time_s, 0.1 * frames, 0.04);
+  }
+  for (const double yaw_deg : {-3.0, 1.5}) {
+    Drive drive = simulated_drive("country_road", "inhouse");
+    points([&](const Point& p, const auto&) { return turned(p, yaw_deg); })(drive);
+    Correction correction;
+    convention_findings(frames_of(drive), PoseTrack(drive.poses), correction);
+    EXPECT_NEAR(correction.sensor_yaw_deg, -yaw_deg, 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace laneloom::check

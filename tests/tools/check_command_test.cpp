@@ -1,0 +1,115 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "io/json_lines.hpp"
+#include "tools/commands.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// The programs as processes, on a drive of half a minute with a bend.
+class CheckCommand : public Commands {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(run({"simulate", "--scenario", "curve", "--noise", "inhouse", "--frames",
+                   file("drive.frames.jsonl")}),
+              0)
+        << output();
+  }
+
+  /// Writes the drive anew.
+  void spoil(const std::function<void(io::FrameRecord&)>& change) const {
+    io::JsonLinesReader in(file("drive.frames.jsonl"));
+    io::JsonLinesWriter out(file("spoilt.frames.jsonl"));
+    while (auto record = in.next_frame()) {
+      change(*record);
+      out.write(*record);
+    }
+    out.close();
+  }
+  void mirror() const {
+    spoil([](io::FrameRecord& record) {
+      for (Detection& detection : record.frame.detections)
+        for (Point& point : detection.points) point.y() = -point.y();
+      for (Point& point : record.frame.field_of_view) point.y() = -point.y();
+    });
+  }
+};
+
+TEST_F(CheckCommand, ASoundDriveIsSound) {
+  EXPECT_EQ(run({"check", file("drive.frames.jsonl")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("nothing wrong was found"));
+  EXPECT_EQ(run({"check", "--json", file("drive.frames.jsonl")}), 0);
+  EXPECT_TRUE(json::parse(output()).at("findings").empty()) << output();
+}
+
+TEST_F(CheckCommand, TheRemedyMendsTheDrive) {
+  mirror();
+  EXPECT_EQ(run({"check", "--json", file("spoilt.frames.jsonl")}), 2) << output();
+  const json finding = json::parse(output()).at("findings").at(0);
+  EXPECT_EQ(finding.at("id"), "axes");
+  EXPECT_THAT(finding.at("remedy"), HasSubstr("laneloom import frames --axes forward-right"));
+
+  ASSERT_EQ(run({"import", "frames", file("spoilt.frames.jsonl"), "--axes", "forward-right", "--out",
+                 file("mended.mcap")}),
+            0)
+      << output();
+  EXPECT_EQ(run({"check", file("mended.mcap")}), 0) << output();
+}
+
+TEST_F(CheckCommand, ConfidencesOfAnotherScaleAreMended) {
+  spoil([](io::FrameRecord& record) {
+    for (Detection& detection : record.frame.detections) detection.confidence *= 100.0;
+  });
+  EXPECT_EQ(run({"check", file("spoilt.frames.jsonl")}), 2) << output();
+  EXPECT_THAT(output(), HasSubstr("--confidence percent"));
+  ASSERT_EQ(run({"import", "frames", file("spoilt.frames.jsonl"), "--confidence", "percent", "--out",
+                 file("mended.mcap")}),
+            0)
+      << output();
+  EXPECT_EQ(run({"check", file("mended.mcap")}), 0) << output();
+}
+
+TEST_F(CheckCommand, PointsInTheMapFrameGetBackIntoTheBodyFrame) {
+  spoil([](io::FrameRecord& record) {
+    const Eigen::Isometry3d T_map_body = transform(record.pose);
+    for (Detection& detection : record.frame.detections)
+      for (Point& point : detection.points) point = T_map_body * point;
+  });
+  ASSERT_EQ(
+      run({"import", "frames", file("spoilt.frames.jsonl"), "--points-in-map", "--out", file("mended.mcap")}),
+      0)
+      << output();
+  EXPECT_EQ(run({"check", file("mended.mcap")}), 0) << output();
+}
+
+TEST_F(CheckCommand, ReplayAndRatingTellWhyLittleCameOfIt) {
+  spoil([](io::FrameRecord& record) {
+    for (Detection& detection : record.frame.detections)
+      for (Point& point : detection.points) point *= 1000.0;
+  });
+  EXPECT_EQ(run({"replay", "--in", file("spoilt.frames.jsonl")}), 0);
+  EXPECT_THAT(output(), HasSubstr("--point-scale 0.001"));
+  EXPECT_EQ(run({"evaluate", "--later", "--in", file("spoilt.frames.jsonl")}), 1);
+  EXPECT_THAT(output(), HasSubstr("--point-scale 0.001"));
+
+  EXPECT_EQ(run({"replay", "--in", file("drive.frames.jsonl")}), 0);
+  EXPECT_THAT(output(), testing::Not(HasSubstr("laneloom check")));
+}
+
+TEST_F(CheckCommand, WrongUseIsTold) {
+  EXPECT_EQ(run({"check", file("none.mcap")}), 1);
+  EXPECT_THAT(output(), HasSubstr("none.mcap"));
+  EXPECT_EQ(
+      run({"import", "frames", file("drive.frames.jsonl"), "--axes", "north-west", "--out", file("x.mcap")}),
+      64);
+  EXPECT_THAT(output(), HasSubstr("north"));
+}
+
+}  // namespace
+}  // namespace laneloom

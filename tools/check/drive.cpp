@@ -1,0 +1,48 @@
+#include "check/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "session/pose_buffer.hpp"
+
+namespace laneloom::check {
+namespace {
+
+constexpr std::int64_t kLongestGap_ns = 2'000'000'000;
+
+}  // namespace
+
+Drive read_drive(replay::MessageSource& source) {
+  Drive drive;
+  while (std::optional<recording::RecordedMessage> message = source.next_input()) {
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) drive.poses.push_back(*pose);
+    if (auto* frame = std::get_if<DetectionFrame>(&message->message))
+      drive.frames[frame->source].push_back(std::move(*frame));
+  }
+  return drive;
+}
+
+PoseTrack::PoseTrack(std::vector<VehiclePose> poses) : poses_(std::move(poses)) {
+  std::ranges::stable_sort(poses_, {}, &VehiclePose::stamp_ns);
+  const auto same = [](const VehiclePose& a, const VehiclePose& b) { return a.stamp_ns == b.stamp_ns; };
+  poses_.erase(std::unique(poses_.begin(), poses_.end(), same), poses_.end());
+}
+
+std::optional<Eigen::Isometry3d> PoseTrack::at(std::int64_t stamp_ns, const Correction& correction) const {
+  stamp_ns -= std::llround(correction.pose_time_s * 1e9);
+  const auto next = std::ranges::lower_bound(poses_, stamp_ns, {}, &VehiclePose::stamp_ns);
+  if (next == poses_.end()) return std::nullopt;
+  const VehiclePose after = corrected(*next, correction);
+  if (next->stamp_ns == stamp_ns) return transform(after);
+  if (next == poses_.begin() || next->stamp_ns - std::prev(next)->stamp_ns > kLongestGap_ns)
+    return std::nullopt;
+  const VehiclePose before = corrected(*std::prev(next), correction);
+  const double share = static_cast<double>(stamp_ns - std::prev(next)->stamp_ns) /
+                       static_cast<double>(next->stamp_ns - std::prev(next)->stamp_ns);
+  return Eigen::Translation3d(before.position + share * (after.position - before.position)) *
+         session::slerp(before.orientation, after.orientation, share);
+}
+
+}  // namespace laneloom::check

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/correction.hpp"
+#include "laneloom/types.hpp"
+#include "replay/message_source.hpp"
+
+namespace laneloom::check {
+
+/// The inputs of a drive as they came.
+struct Drive {
+  std::vector<VehiclePose> poses;                             ///< in the order of the file
+  std::map<std::string, std::vector<DetectionFrame>> frames;  ///< by source, in the order of the file
+};
+
+/// Reads all detections and poses.
+Drive read_drive(replay::MessageSource& source);
+
+/// Poses by their stamps. Not changed after it is made, so that several threads may read it.
+class PoseTrack {
+ public:
+  explicit PoseTrack(std::vector<VehiclePose> poses);
+
+  /// T_map_body at a stamp, of the corrected poses: between the two poses around it, which are at most 2 s
+  /// apart.
+  std::optional<Eigen::Isometry3d> at(std::int64_t stamp_ns, const Correction& correction) const;
+  const std::vector<VehiclePose>& poses() const { return poses_; }  ///< stamps ascend, each once
+
+ private:
+  std::vector<VehiclePose> poses_;
+};
+
+}  // namespace laneloom::check

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/drive.hpp"
+#include "laneloom/config.hpp"
+
+namespace laneloom::check {
+
+/// Something about a drive that is wrong, and what to do about it.
+struct Finding {
+  std::string id;       ///< stable, for machines
+  std::string found;    ///< sentences
+  std::string remedy;   ///< likewise; it names an option or a key
+  bool advice = false;  ///< nothing is wrong
+};
+using Findings = std::vector<Finding>;
+
+/// All that is found about each source of a drive, the likeliest cause first.
+Findings findings(const Drive& drive, const Config& config);
+
+/// What is wrong with stamps: their order, gaps and rates.
+///@{
+Findings frame_stamp_findings(const std::vector<DetectionFrame>& frames,
+                              const std::vector<VehiclePose>& poses, const SyncConfig& sync);
+Findings pose_stamp_findings(const std::vector<VehiclePose>& poses);
+///@}
+
+/// Poses that jump.
+Findings jump_findings(const PoseTrack& poses, const Correction& correction);
+
+/// The conventions by which the frames of a source agree better with one another, each with its finding. They
+/// are put into `correction`.
+Findings convention_findings(const std::vector<DetectionFrame>& frames, const PoseTrack& poses,
+                             Correction& correction);
+
+/// Confidences that are no shares, or too low to be used. The scale is put into `correction`.
+Findings confidence_findings(const std::vector<DetectionFrame>& frames, const PreprocessConfig& preprocess,
+                             Correction& correction);
+
+/// A lane of the vehicle that is narrower or wider than a lane may be, and a vehicle beside the middle of its
+/// lane. The offset is put into `correction`.
+Findings lane_findings(const std::vector<DetectionFrame>& frames, const PoseTrack& poses,
+                       const LaneConfig& lane, Correction& correction);
+
+}  // namespace laneloom::check

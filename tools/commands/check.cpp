@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "check/findings.hpp"
+#include "commands/check_drive.hpp"
+#include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
+#include "commands/warn_of.hpp"
+#include "config/config_file.hpp"
+#include "io/printable.hpp"
+#include "replay/message_source.hpp"
+
+namespace laneloom::commands {
+namespace {
+
+struct CheckOptions {
+  std::string drive, config;
+  bool json = false;
+};
+
+nlohmann::json report_json(const check::Findings& found) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const check::Finding& finding : found)
+    list.push_back({{"id", finding.id},
+                    {"found", finding.found},
+                    {"remedy", finding.remedy},
+                    {"advice", finding.advice}});
+  return {{"findings", list}};
+}
+
+/// The findings, numbered.
+std::string list_of(const check::Findings& found) {
+  std::string text;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    text += fmt::format("{}. {}{}\n   What to do: {}\n", i + 1, found[i].advice ? "Advice: " : "",
+                        io::printable(found[i].found), io::printable(found[i].remedy));
+  return text;
+}
+
+bool is_sound(const check::Findings& found) { return std::ranges::all_of(found, &check::Finding::advice); }
+
+void check(const CheckOptions& options) {
+  const Config config = config::resolve_config(options.config, {});
+  const auto source = replay::open_messages(options.drive, config.dds.map_frame_id, {.any_confidence = true});
+  const check::Findings found = findings(check::read_drive(*source), config);
+  warn_of(options.drive, source->refused(), source->cut_off());
+  warn_of(options.drive, source->left_out());
+  if (options.json)
+    fmt::print("{}\n", report_json(found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  else
+    fmt::print("{}{}", is_sound(found) ? options.drive + ": nothing wrong was found.\n" : "", list_of(found));
+  if (!is_sound(found)) end_with(kFoundWrong);
+}
+
+}  // namespace
+
+std::string why_poor(const std::string& path, const Config& config) {
+  const auto source = replay::open_messages(path, config.dds.map_frame_id, {.any_confidence = true});
+  check::Findings found = findings(check::read_drive(*source), config);
+  std::erase_if(found, &check::Finding::advice);
+  return found.empty() ? "" : "laneloom: " + path + ": `laneloom check` finds:\n" + list_of(found);
+}
+
+void add_check(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "check", "Tells whether the detections and poses of a drive fit together, and what is wrong");
+  command->footer(fmt::format("Exit code: {} where something wrong was found.", +kFoundWrong));
+  const auto options = std::make_shared<CheckOptions>();
+  command->add_option("drive", options->drive, "Recording (MCAP), or detections and poses (.frames.jsonl)")
+      ->required();
+  command->add_option("--config", options->config, "Configuration (.yaml), whose limits are looked at, too");
+  command->add_flag("--json", options->json, "One JSON object");
+  command->callback([options] { check(*options); });
+}
+
+}  // namespace laneloom::commands
