@@ -12,6 +12,7 @@
 namespace laneloom {
 namespace {
 
+using test::detection;
 using test::Drive;
 using test::frame_at;
 using test::lanelines;
@@ -148,6 +149,19 @@ TEST_P(EitherMapper, BridgeAndRoadBelowStayApart) {
     const double height_m = lane.centerline.front().z();
     EXPECT_LT(std::min(std::abs(height_m - 0.1), std::abs(height_m - 6.1)), 0.5) << "half-way up";
   }
+}
+
+TEST(LineMapper, TheKerbOfATrafficIslandIsInTheMap) {
+  auto detections = road();
+  detections.push_back(
+      detection(MarkingType::roadedge, {{15, 5, 0}, {29, 5, 0}, {29, 7, 0}, {15, 7, 0}, {15, 5, 0}}));
+  Drive drive;
+  for (int i = 0; i < 5; ++i) drive.step(detections);
+  const auto on_island = [](const Marking& marking) {
+    return std::ranges::all_of(marking.points, [](const Point& point) { return point.y() > 4.5; });
+  };
+  EXPECT_TRUE(std::ranges::any_of(drive.mapper.map().boundaries, on_island));
+  EXPECT_EQ(drive.mapper.map().lanes.size(), 2U);
 }
 
 TEST_P(EitherMapper, ANetworkWithoutStoplinesIsANormalCase) {

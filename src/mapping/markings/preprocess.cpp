@@ -8,21 +8,38 @@
 
 namespace laneloom::markings {
 
-bool is_zigzag(const Polyline& points, const PreprocessConfig& config) {
+namespace {
+
+/// Whether a line comes back to where it began, at least by two thirds.
+bool is_outline(const Polyline& points) {
+  constexpr double kMostEndsApart = 1.0 / 3.0;  // of the length
+  return (points.back() - points.front()).head<2>().norm() < kMostEndsApart * length(points);
+}
+
+}  // namespace
+
+bool is_zigzag(const Polyline& points, MarkingType type, const PreprocessConfig& config) {
   const double min_cosine = cos_degrees(config.zigzag_angle_deg);
+  const bool outline = type == MarkingType::roadedge && is_outline(points);
   std::optional<Eigen::Vector2d> previous;
   std::size_t start = 0;
+  double last_turn = 0.0;  // its sign tells the side
   int turns = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Eigen::Vector2d segment = (points[i] - points[start]).head<2>();
     const double segment_m = segment.norm();
     if (segment_m < config.zigzag_min_segment_m) continue;
     const Eigen::Vector2d direction = segment / segment_m;
-    if (previous && previous->dot(direction) < min_cosine) ++turns;
+    if (previous && previous->dot(direction) < min_cosine) {
+      const double turn = cross(*previous, direction);
+      turns = outline && turn * last_turn > 0.0 ? 1 : turns + 1;
+      last_turn = turn;
+    }
+    if (turns >= config.zigzag_turns) return true;
     previous = direction;
     start = i;
   }
-  return turns >= config.zigzag_turns;
+  return false;
 }
 
 std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
@@ -31,7 +48,7 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
   markings.reserve(frame.detections.size());
   for (const Detection& detection : frame.detections) {
     if (detection.points.size() < 2) continue;
-    if (config.reject_zigzag && is_zigzag(detection.points, config)) continue;
+    if (config.reject_zigzag && is_zigzag(detection.points, detection.type, config)) continue;
     ObservedMarking marking{.type = detection.type,
                             .style = detection.style,
                             .confidence = detection.confidence,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "mapping/shapes.hpp"
@@ -45,19 +46,38 @@ TEST(Preprocess, TransformsToTheMapFrame) {
   EXPECT_TRUE(markings[0].points[1].isApprox(Point(9, 24, 0.5)));
 }
 
+constexpr MarkingType kLine = MarkingType::laneline, kEdge = MarkingType::roadedge;
+
 TEST(Zigzag, OneTurnIsACornerTwoAreAZigzag) {
   const Polyline corner{{0, 0, 0}, {5, 0, 0}, {5, 5, 0}};
   const Polyline zigzag{{0, 0, 0}, {5, 0, 0}, {4, 2, 0}, {9, 2, 0}};
-  EXPECT_FALSE(is_zigzag(corner, {}));
-  EXPECT_TRUE(is_zigzag(zigzag, {}));
+  for (const MarkingType type : {kLine, kEdge}) {
+    EXPECT_FALSE(is_zigzag(corner, type, {}));
+    EXPECT_TRUE(is_zigzag(zigzag, type, {}));
+  }
 }
 
-TEST(Zigzag, ABendIsNone) { EXPECT_FALSE(is_zigzag(arc({0, 0, 0}, 12, 0, 180), {})); }
+TEST(Zigzag, TheOutlineOfAnIslandIsNone) {
+  const Polyline whole{{0, 0, 0}, {14, 0, 0}, {14, 2, 0}, {0, 2, 0}, {0, 0, 0}};
+  const Polyline seen_in_part{{0, 0, 0}, {14, 0, 0}, {14, 2, 0}, {0, 2, 0}};
+  const Polyline triangle{{0, 0, 0}, {8, 1, 0}, {0, 2, 0}, {0, 0, 0}};
+  for (Polyline outline : {whole, seen_in_part, triangle}) {
+    EXPECT_FALSE(is_zigzag(outline, kEdge, {}));
+    EXPECT_TRUE(is_zigzag(outline, kLine, {})) << "no line is an outline";
+    std::reverse(outline.begin(), outline.end());
+    EXPECT_FALSE(is_zigzag(outline, kEdge, {}));
+  }
+  // A network's mistake that comes back to where it began.
+  const Polyline zigzag{{0, 0, 0}, {4, 0, 0}, {3, 2, 0}, {8, 2, 0}, {7, 4, 0}, {0, 4, 0}, {0, 1, 0}};
+  EXPECT_TRUE(is_zigzag(zigzag, kEdge, {}));
+}
+
+TEST(Zigzag, ABendIsNone) { EXPECT_FALSE(is_zigzag(arc({0, 0, 0}, 12, 0, 180), kLine, {})); }
 
 TEST(Zigzag, ShortSegmentsCarryNoAngle) {
   // A jag of 0.1 m on a straight line, as a network makes it.
   const Polyline jagged{{0, 0, 0}, {5, 0, 0}, {5.05, 0.1, 0}, {5.1, 0, 0}, {10, 0, 0}};
-  EXPECT_FALSE(is_zigzag(jagged, {}));
+  EXPECT_FALSE(is_zigzag(jagged, kLine, {}));
 }
 
 TEST(Zigzag, CanBeSwitchedOff) {
