@@ -160,8 +160,9 @@ TEST_F(RecordCommand, AFullDiskEndsTheRecordingWithAnError) {
   EXPECT_GT(counts_of("drive.mcap", true)[1], 0);
 }
 
-TEST_F(RecordCommand, EndsByItself) {
-  ASSERT_EQ(record({"--out", folder_.path(), "--duration", "0.3"}).wait(), 0) << output();
+TEST_F(RecordCommand, EndsByItselfAndTellsIfNobodyWasThere) {
+  EXPECT_EQ(record({"--out", folder_.path(), "--duration", "0.3"}).wait(), 3);
+  EXPECT_THAT(output(), HasSubstr("nobody was heard in domain"));
   int recordings = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
     if (entry.path().extension() != ".mcap") continue;

@@ -45,6 +45,42 @@ TEST_F(Commands, WrongUseHasOneExitCode) {
   EXPECT_THAT(output(), HasSubstr("Exit codes: 0 done; 1 it failed;"));
 }
 
+TEST_F(Commands, WrongUseIsToldWithTheUsageOfTheCommand) {
+  EXPECT_EQ(run({"replay"}), 64);
+  EXPECT_THAT(output(), HasSubstr("laneloom replay: --in is required\nUsage: laneloom replay"));
+  EXPECT_EQ(run({"import", "maptr", "--nonsense"}), 64);
+  EXPECT_THAT(output(), HasSubstr("Usage: laneloom import maptr"));
+  EXPECT_THAT(output(), HasSubstr("`laneloom import maptr --help` tells more."));
+  EXPECT_EQ(run_lab({"bench", "--nonsense"}), 64);
+  EXPECT_THAT(output(), HasSubstr("Usage: laneloom-lab bench"));
+}
+
+TEST_F(Commands, HelpIsACommand) {
+  EXPECT_EQ(run({"--help"}), 0);
+  const std::string help = output();
+  EXPECT_EQ(run({"help"}), 0);
+  EXPECT_EQ(output(), help);
+  EXPECT_EQ(run({"help", "import", "maptr"}), 0);
+  EXPECT_THAT(output(), HasSubstr("laneloom import maptr [OPTIONS]"));
+}
+
+TEST_F(Commands, AFileNeedsNoOption) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("a.jsonl")}), 0) << output();
+  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--out", file("b.jsonl")}), 0) << output();
+  EXPECT_EQ(content(file("a.jsonl")), content(file("b.jsonl")));
+  EXPECT_EQ(run({"check", file("in.frames.jsonl")}), 0) << output();
+}
+
+TEST_F(Commands, FramesMayComeFromStandardInput) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--out", file("a.jsonl")}), 0) << output();
+  const std::string command = std::string(LANELOOM_COMMAND) + " replay - --out " + file("b.jsonl") + " < " +
+                              file("in.frames.jsonl") + " >/dev/null";
+  ASSERT_EQ(support::ChildProcess({"/bin/sh", "-c", command}, file("output")).wait(), 0);
+  EXPECT_EQ(content(file("a.jsonl")), content(file("b.jsonl")));
+}
+
 TEST_F(Commands, AFileThatIsNotThereIsAFailureOfEveryCommand) {
   const std::string absent = file("absent");
   for (const std::vector<std::string>& words : {std::vector<std::string>{"replay", "--in", absent},

@@ -60,6 +60,7 @@ void check(const CheckOptions& options) {
 }  // namespace
 
 std::string why_poor(const std::string& path, const Config& config) {
+  if (path == "-") return {};  // standard input was read
   const auto source = replay::open_messages(path, config.dds.map_frame_id, {.any_confidence = true});
   check::Findings found = findings(check::read_drive(*source), config);
   std::erase_if(found, &check::Finding::advice);
@@ -71,7 +72,8 @@ void add_check(CLI::App& app) {
       "check", "Tells whether the detections and poses of a drive fit together, and what is wrong");
   command->footer(fmt::format("Exit code: {} where something wrong was found.", +kFoundWrong));
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("drive", options->drive, "Recording (MCAP), or detections and poses (.frames.jsonl)")
+  command
+      ->add_option("--in,drive", options->drive, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
   command->add_option("--config", options->config, "Configuration (.yaml), whose limits are looked at, too");
   command->add_flag("--json", options->json, "One JSON object");

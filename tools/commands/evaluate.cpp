@@ -184,7 +184,8 @@ void add_evaluate(CLI::App& app) {
   references->require_option(1);
   CLI::Option_group* inputs = command->add_option_group("Inputs", "compared at their common stamps");
   CLI::Option* in =
-      inputs->add_option("--in", options->in, "Drive (.mcap or .frames.jsonl), to be mapped")->needs(later);
+      inputs->add_option("--in,drive", options->in, "Drive (.mcap or .frames.jsonl), to be mapped")
+          ->needs(later);
   inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl or .mcap)")->excludes(in);
   inputs->add_option("--map", options->map, "Fused maps (.jsonl or .mcap)")->excludes(in);
   inputs->require_option(1, 2);

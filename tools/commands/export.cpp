@@ -147,7 +147,7 @@ void add_export(CLI::App& app) {
   CLI::App* command = app.add_subcommand("export", "Makes one map of a drive, for other programs");
   const auto options = std::make_shared<ExportOptions>();
   command
-      ->add_option("--in", options->in,
+      ->add_option("--in,drive", options->in,
                    "Maps (.mcap or .jsonl), or detections and poses to map (.mcap or .frames.jsonl)")
       ->required();
   command->add_option("--config", options->config, "Configuration that the maps are made with (.yaml)");

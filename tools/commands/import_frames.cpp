@@ -109,7 +109,8 @@ void add_import_frames(CLI::App& import) {
   CLI::App* command = import.add_subcommand(
       "frames", "Frames and poses in other conventions: axes, units, clocks (see laneloom check)");
   const auto options = std::make_shared<ImportFramesOptions>();
-  command->add_option("drive", options->drive, "Recording (MCAP), or detections and poses (.frames.jsonl)")
+  command
+      ->add_option("--in,drive", options->drive, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
   add_points(*command, options->correction);

@@ -28,7 +28,7 @@ void add_import_scene(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("scene", "Adds scenes for the 3D panels of Foxglove and Lichtblick to a recording");
   const auto options = std::make_shared<ImportSceneOptions>();
-  command->add_option("--in", options->in, "Recording (.mcap)")->required()->check(CLI::ExistingFile);
+  command->add_option("--in,drive", options->in, "Recording (.mcap)")->required()->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
   command->add_option("--map-frame-id", options->map_frame_id, "Frame of the poses; default: map");
   command->callback([options] { import_scene(*options); });

@@ -55,7 +55,7 @@ void add_learn(CLI::App& app) {
       *app.add_subcommand("learn",
                           "Learns from a recorded drive how its networks err, for a service to start with "
                           "(mapper.fusion.profile_file).");
-  command.add_option("--in", options->in, "Recording, or JSON lines of frames with poses.")
+  command.add_option("--in,drive", options->in, "Recording, or JSON lines of frames with poses.")
       ->required()
       ->check(CLI::ExistingFile);
   command.add_option("--out", options->out, "Profile to write (YAML).")->required();

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "commands/completion.hpp"
 #include "commands/exit_codes.hpp"
@@ -16,6 +19,31 @@ void tell(const Program& program, const std::string& complaint) {
   std::fprintf(stderr, "%s: %s\n", program.name.c_str(), complaint.c_str());
 }
 
+/// The words of the command line. `help COMMAND` becomes `COMMAND --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words{argv + std::min(1, argc), argv + argc};
+  if (!words.empty() && words.front() == "help") {
+    std::ranges::rotate(words, words.begin() + 1);
+    words.back() = "--help";
+  }
+  return words;
+}
+
+/// Tells what is wrong with the use of a command, and how it is used. Returns the exit code.
+int tell_use(const CLI::App& app, const CLI::Error& error) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
+  std::string path;  // of the commands around it
+  for (const CLI::App* part = command->get_parent(); part != nullptr; part = part->get_parent())
+    path = part->get_name() + " " + path;
+  const std::string help = command->help(path.substr(0, path.empty() ? 0 : path.size() - 1));
+  path += command->get_name();
+  const std::size_t usage = help.find("Usage: ");
+  std::fprintf(stderr, "%s: %s\n%s\n`%s --help` tells more.\n", path.c_str(), error.what(),
+               help.substr(usage, help.find('\n', usage) - usage).c_str(), path.c_str());
+  return kWrongUse;
+}
+
 int run(const Program& program, int argc, char** argv) {
   CLI::App app(program.description, program.name);
   app.set_version_flag("--version", LANELOOM_VERSION);
@@ -25,19 +53,20 @@ int run(const Program& program, int argc, char** argv) {
       "on; 64 no such command, option or value.");
   for (const auto add : program.commands) add(app);
   add_completion(app);
-  const std::vector<std::string> words{argv + std::min(1, argc), argv + argc};
+  std::vector<std::string> words = words_of(argc, argv);
   const std::string complaint = unknown_command(app, program, words);
   if (!complaint.empty()) {
     tell(program, complaint);
     return kWrongUse;
   }
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(std::move(words));
     return kDone;
   } catch (const CLI::RuntimeError& end) {  // thrown by end_with()
     return end.get_exit_code();
   } catch (const CLI::Error& error) {  // also thrown for --help
-    return app.exit(error) == 0 ? kDone : kWrongUse;
+    return error.get_exit_code() == 0 ? app.exit(error) : tell_use(app, error);
   }
 }
 

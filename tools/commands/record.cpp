@@ -18,6 +18,7 @@
 
 #include "base/system_clock.hpp"
 #include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/inbox.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
@@ -119,7 +120,8 @@ class Recorder {
     }
   }
 
-  void finish() {
+  /// Returns whether anything was recorded.
+  bool finish() {
     step(std::chrono::milliseconds(0));
     writer_.close();
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
@@ -128,6 +130,7 @@ class Recorder {
         fmt::print(stderr, "laneloom: the disk was too slow: {} of {} were dropped\n", dropped_.at(i),
                    kTopics.at(i));
     }
+    return std::ranges::any_of(written_, [](std::uint64_t count) { return count > 0; });
   }
 
  private:
@@ -170,7 +173,10 @@ void record(RecordOptions options) {
     return options.duration_s > 0.0 && elapsed.count() >= options.duration_s;
   };
   while (!stop_requested() && !is_over()) recorder.step(std::chrono::milliseconds(50));
-  recorder.finish();
+  if (recorder.finish()) return;
+  fmt::print(stderr, "laneloom: nobody was heard in domain {} as vehicle \"{}\": see laneloom doctor\n",
+             options.dds.domain, options.dds.vehicle_id);
+  end_with(kNobodyHeard);
 }
 
 }  // namespace

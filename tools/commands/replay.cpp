@@ -210,7 +210,7 @@ void add_replay(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("replay", "Fuses recorded detections into maps, or publishes them again");
   const auto options = std::make_shared<ReplayOptions>();
-  command->add_option("--in", options->in, "Recording (MCAP), or detections and poses (.frames.jsonl)")
+  command->add_option("--in,drive", options->in, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
   auto* out =
       command->add_option("--out", options->out, "Maps to write, one a frame: .mcap, else JSON lines");

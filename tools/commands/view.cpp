@@ -96,7 +96,8 @@ void add_view(CLI::App& app) {
       ->needs(foxglove);
   command->add_option("--map-frame-id", options->dds.map_frame_id, "Live: frame of the poses")
       ->capture_default_str();
-  CLI::Option* in = command->add_option("--in", options->recorded.recording, "Recording to show (.mcap)");
+  CLI::Option* in =
+      command->add_option("--in,drive", options->recorded.recording, "Recording to show (.mcap)");
   CLI::Option* frames =
       command->add_option("--frames", options->recorded.frames, "Detections to show (.frames.jsonl or .mcap)")
           ->excludes(in);
