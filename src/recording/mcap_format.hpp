@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -24,6 +25,8 @@ enum class McapOpcode : std::uint8_t {
   message_index = 0x07,
   chunk_index = 0x08,
   statistics = 0x0B,
+  metadata = 0x0C,
+  metadata_index = 0x0D,
   summary_offset = 0x0E,
   data_end = 0x0F
 };
@@ -33,6 +36,9 @@ inline constexpr std::size_t kMcapRecordHeaderBytes = 9;
 inline constexpr std::size_t kMcapFooterBytes = 20;
 /// Size of the part of a message record before the message itself.
 inline constexpr std::size_t kMcapMessageHeaderBytes = 22;
+
+/// What a file says of itself: texts by their keys.
+using McapMetadata = std::map<std::string, std::string>;
 
 /// The definition of a message type.
 struct McapSchema {

@@ -31,6 +31,8 @@ class McapReader {
 
   /// Whether the file is cut off. It is then read up to its last whole record.
   bool cut_off() const { return contents_.cut_off; }
+  /// What the file says of itself, by the name of the record.
+  const std::map<std::string, McapMetadata>& metadata() const { return contents_.metadata; }
   /// The share of the sections that was read, 0..1.
   double progress() const;
 

@@ -145,6 +145,8 @@ class Walk {
       case McapOpcode::statistics:
         contents_.message_count = ByteReader(start_of(record, 8)).number<std::uint64_t>();
         return;
+      case McapOpcode::metadata:
+        return add_metadata(ByteReader(content(record)));
       case McapOpcode::data_end:
         data_ended_ = true;
         return;
@@ -163,6 +165,15 @@ class Walk {
     if (!continues) sections.push_back({record.start(), 0, time_ns, false});
     sections.back().length = record.end() - sections.back().offset;
     sections.back().start_ns = std::min(sections.back().start_ns, time_ns);
+  }
+
+  void add_metadata(ByteReader reader) {
+    McapMetadata& metadata = contents_.metadata[reader.text()];
+    ByteReader texts(reader.bytes(reader.number<std::uint32_t>()));
+    while (texts.remaining() > 0) {
+      const std::string key = texts.text();
+      metadata[key] = texts.text();
+    }
   }
 
   /// The first bytes of a record's content.

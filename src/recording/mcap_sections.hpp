@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +24,10 @@ struct McapSection {
 struct McapContents {
   std::vector<McapSection> sections;  ///< in the order of the file
   bool has_summary = false;           ///< the summary described all channels, also those within chunks
-  std::optional<std::uint64_t> message_count;  ///< by the file's statistics
-  bool cut_off = false;                        ///< the file ends before its footer
-  std::vector<Damage> damages;                 ///< places that were passed over, in the order of the file
+  std::optional<std::uint64_t> message_count;    ///< by the file's statistics
+  bool cut_off = false;                          ///< the file ends before its footer
+  std::map<std::string, McapMetadata> metadata;  ///< by name
+  std::vector<Damage> damages;                   ///< places that were passed over, in the order of the file
 };
 
 /// Walks over the file from record to record, without reading chunks and messages. An index is neither needed

@@ -107,6 +107,26 @@ std::uint16_t McapWriter::add_channel(const McapChannel& channel) {
   return id;
 }
 
+void McapWriter::write_metadata(const std::string& name, const McapMetadata& metadata) {
+  Bytes texts, record;
+  for (const auto& [key, value] : metadata) {
+    ByteWriter(texts).text(key);
+    ByteWriter(texts).text(value);
+  }
+  append_record(McapOpcode::metadata, record, [&](ByteWriter& writer) {
+    writer.text(name);
+    writer.number(static_cast<std::uint32_t>(texts.size()));
+    writer.bytes(texts);
+  });
+  append_record(McapOpcode::metadata_index, metadata_indexes_, [&](ByteWriter& writer) {
+    writer.number(file_.size());
+    writer.number(std::uint64_t{record.size()});
+    writer.text(name);
+  });
+  append(record);
+  ++metadata_count_;
+}
+
 void McapWriter::write(std::uint16_t channel, std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
                        std::uint32_t sequence, ByteView message) {
   indexes_[channel].emplace_back(log_time_ns, chunk_.size());
@@ -180,7 +200,7 @@ void McapWriter::write_statistics(Bytes& to) const {
     writer.number(static_cast<std::uint16_t>(message_counts_.size()));  // schemas
     writer.number(static_cast<std::uint32_t>(message_counts_.size()));  // channels
     writer.number(std::uint32_t{0});                                    // attachments
-    writer.number(std::uint32_t{0});                                    // metadata
+    writer.number(metadata_count_);
     writer.number(static_cast<std::uint32_t>(chunks_.size()));
     writer.number(times_.start());
     writer.number(times_.end());
@@ -208,6 +228,7 @@ void McapWriter::write_summary(std::uint64_t start, Bytes& to) const {
   add_group(McapOpcode::chunk_index, [&] {
     for (const ChunkIndex& chunk : chunks_) write_chunk_index(chunk, to);
   });
+  add_group(McapOpcode::metadata_index, [&] { writer.bytes(metadata_indexes_); });
   const std::uint64_t offsets_start = start + (to.size() - before);
   writer.bytes(offsets);
   writer.number(static_cast<std::uint8_t>(McapOpcode::footer));

@@ -21,6 +21,8 @@ class McapWriter {
   /// Adds a channel, which must have a schema, and returns its number. Must be called before any message is
   /// written.
   std::uint16_t add_channel(const McapChannel& channel);
+  /// Writes metadata under a name. Must be called before any message is written.
+  void write_metadata(const std::string& name, const McapMetadata& metadata);
   void write(std::uint16_t channel, std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
              std::uint32_t sequence, ByteView message);
   /// Ends the chunk, so that all messages written so far are on disk.
@@ -67,7 +69,8 @@ class McapWriter {
   Times chunk_times_, times_;
   std::map<std::uint16_t, MessageIndex> indexes_;
   std::vector<ChunkIndex> chunks_;
-  Bytes schemas_, channels_;  // records, for the summary
+  Bytes schemas_, channels_, metadata_indexes_;  // records, for the summary
+  std::uint32_t metadata_count_ = 0;
   std::map<std::uint16_t, std::uint64_t> message_counts_;
   std::uint32_t data_crc_ = 0;
 };

@@ -75,6 +75,15 @@ class RecordingReader::Impl {
     return std::nullopt;
   }
 
+  Origin origin() const {
+    const auto found = file_.metadata().find(kOriginName);
+    if (found == file_.metadata().end()) return {};
+    const auto text = [&](const char* key) {
+      const auto entry = found->second.find(key);
+      return entry == found->second.end() ? std::string() : entry->second;
+    };
+    return {text(kVersionKey), text(kConfigurationKey)};
+  }
   const Counters& refused() const { return refused_; }
   bool cut_off() const { return file_.cut_off(); }
   double progress() const { return file_.progress(); }
@@ -118,6 +127,7 @@ RecordingReader::~RecordingReader() = default;
 std::optional<RecordedMessage> RecordingReader::next() { return impl_->next(false); }
 std::optional<RecordedMessage> RecordingReader::next_input() { return impl_->next(true); }
 std::optional<RawMessage> RecordingReader::next_raw() { return impl_->next_raw(); }
+Origin RecordingReader::origin() const { return impl_->origin(); }
 const Counters& RecordingReader::refused() const { return impl_->refused(); }
 bool RecordingReader::cut_off() const { return impl_->cut_off(); }
 double RecordingReader::progress() const { return impl_->progress(); }

@@ -41,6 +41,8 @@ struct RecordingOptions {
   std::uint64_t max_file_bytes = 0;     ///< about; a larger file is ended and a new one begun. 0: no limit
   double max_file_s = 0.0;              ///< span of log times of one file, likewise
   std::string map_frame_id = "map";     ///< the frame that poses are in
+  std::string
+      configuration;  ///< of the mapper that made the maps (YAML); empty: not known, or there are none
   std::vector<ExtraTopic> extra_topics;
 };
 
@@ -100,6 +102,12 @@ struct RecordedMessage {
   AnyMessage message;
 };
 
+/// What a recording says of how it was made. Empty texts: it does not tell.
+struct Origin {
+  std::string version;        ///< of laneloom, which wrote it
+  std::string configuration;  ///< of the mapper that made the maps (YAML)
+};
+
 /// Whether the file begins as MCAP does. False if it cannot be read; a later opening tells why.
 bool is_recording(const std::string& path);
 
@@ -123,6 +131,8 @@ class RecordingReader {
   /// The next message of a topic with the name and type of one of laneloom's, without a look into its bytes.
   std::optional<RawMessage> next_raw();
 
+  /// How the recording was made.
+  Origin origin() const;
   /// Counts of the messages that were refused so far, by "<topic>: <reason>".
   const Counters& refused() const;
   /// Whether the file is cut off, as when its writer was killed. It is then read up to its last whole chunk.

@@ -24,6 +24,13 @@ struct RecordedTopic {
   const char* idl;
 };
 
+/// The metadata of a recording, and its keys: see Origin.
+///@{
+inline constexpr const char* kOriginName = "laneloom";
+inline constexpr const char* kVersionKey = "version";
+inline constexpr const char* kConfigurationKey = "configuration";
+///@}
+
 template <class T>
 RecordedTopic topic_of();
 template <>

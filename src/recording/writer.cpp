@@ -113,6 +113,9 @@ class RecordingWriter::Impl {
     extra_channels_.clear();
     for (const ExtraTopic& topic : options_.extra_topics)
       extra_channels_.push_back(file->add_channel(channel_of(topic)));
+    McapMetadata origin{{kVersionKey, LANELOOM_VERSION}};
+    if (!options_.configuration.empty()) origin[kConfigurationKey] = options_.configuration;
+    file->write_metadata(kOriginName, origin);
     file_ = std::move(file);
     start_ns_.reset();
   }

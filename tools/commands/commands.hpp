@@ -18,6 +18,7 @@ void add_render(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_replay(CLI::App& app);
+void add_info(CLI::App& app);
 void add_learn(CLI::App& app);
 void add_record(CLI::App& app);
 void add_export(CLI::App& app);

@@ -81,7 +81,9 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
   const std::unique_ptr<replay::MessageSource> source =
       replay::open_messages(options.in, config.dds.map_frame_id, {.strict = options.strict});
   const std::unique_ptr<replay::MapOutput> output =
-      out.empty() ? nullptr : replay::create_map_output(out, kCompressions.at(options.compression));
+      out.empty() ? nullptr
+                  : replay::create_map_output(out, {.compression = kCompressions.at(options.compression),
+                                                    .configuration = config::dump(config)});
   std::unique_ptr<evaluation::MapEvaluation> evaluation;
   if (truth != nullptr)
     evaluation =

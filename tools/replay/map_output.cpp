@@ -10,8 +10,8 @@ namespace {
 
 class RecordedMaps : public MapOutput {
  public:
-  RecordedMaps(const std::string& path, recording::Compression compression)
-      : writer_(path, {.compression = compression}) {}
+  RecordedMaps(const std::string& path, const recording::RecordingOptions& options)
+      : writer_(path, options) {}
 
   void write(const PublishedMap& map, std::int64_t log_time_ns) override {
     writer_.write(map, log_time_ns);
@@ -57,8 +57,9 @@ std::string Digest::text() const {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-std::unique_ptr<MapOutput> create_map_output(const std::string& path, recording::Compression compression) {
-  if (path.ends_with(".mcap")) return std::make_unique<RecordedMaps>(path, compression);
+std::unique_ptr<MapOutput> create_map_output(const std::string& path,
+                                             const recording::RecordingOptions& options) {
+  if (path.ends_with(".mcap")) return std::make_unique<RecordedMaps>(path, options);
   return std::make_unique<MapLines>(path);
 }
 

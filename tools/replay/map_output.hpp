@@ -35,8 +35,9 @@ class MapOutput {
   virtual void close() = 0;
 };
 
-/// Creates a recording if `path` ends with ".mcap", or else JSON lines.
-std::unique_ptr<MapOutput> create_map_output(const std::string& path, recording::Compression compression);
+/// Creates a recording with these options if `path` ends with ".mcap", or else JSON lines.
+std::unique_ptr<MapOutput> create_map_output(const std::string& path,
+                                             const recording::RecordingOptions& options);
 
 /// The message on the topic road_markings that belongs to a map.
 RoadMarkings road_markings(const PublishedMap& map);

@@ -35,6 +35,7 @@ class McapMessages : public MessageSource {
   double progress() const override { return reader_.progress(); }
   Counters refused() const override { return reader_.refused(); }
   const LeftOut& left_out() const override { return left_out_; }
+  recording::Origin origin() const override { return reader_.origin(); }
   bool cut_off() const override { return reader_.cut_off(); }
 
  private:
@@ -88,6 +89,7 @@ class JsonLinesMessages : public MessageSource {
   double progress() const override { return reader_.progress(); }
   Counters refused() const override { return {}; }
   const LeftOut& left_out() const override { return left_out_; }
+  recording::Origin origin() const override { return {}; }
   bool cut_off() const override { return false; }
 
  private:

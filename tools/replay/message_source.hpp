@@ -27,6 +27,8 @@ class MessageSource {
   virtual Counters refused() const = 0;
   /// What was left out so far: damaged parts of a recording, or lines that are no frames.
   virtual const LeftOut& left_out() const = 0;
+  /// How a recording was made. JSON lines do not tell.
+  virtual recording::Origin origin() const = 0;
   /// Whether the file is cut off.
   virtual bool cut_off() const = 0;
 };
@@ -38,8 +40,9 @@ struct MessageReading {
 };
 
 /// Opens a recording (MCAP), or frames with their poses as JSON lines (io/json_lines.hpp); the first bytes
-/// tell which. "-" is standard input, with JSON lines. A line gives the pose and then the frame, both at the frame's stamp. `map_frame_id` is the
-/// frame of the poses. Throws std::runtime_error if the file cannot be read, or is of another kind.
+/// tell which. "-" is standard input, with JSON lines. A line gives the pose and then the frame, both at the
+/// frame's stamp. `map_frame_id` is the frame of the poses. Throws std::runtime_error if the file cannot be
+/// read, or is of another kind.
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id,
                                              const MessageReading& reading = {});
 

@@ -53,6 +53,8 @@ const byTime = [...expected].sort((a, b) => (BigInt(a.log_time) < BigInt(b.log_t
 const indexed = await McapIndexedReader.Initialize({ readable: readable(recording), decompressHandlers });
 assert.equal(indexed.statistics.messageCount, BigInt(expected.length));
 assert.equal(indexed.statistics.chunkCount, indexed.chunkIndexes.length);
+assert.equal(indexed.statistics.metadataCount, 1);
+assert.deepEqual(indexed.metadataIndexes.map((index) => index.name), ["laneloom"]);
 assert.ok(indexed.chunkIndexes.length > 1);
 let count = 0;
 for await (const message of indexed.readMessages({ validateCrcs: true })) {

@@ -1,0 +1,47 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tools/commands.hpp"
+
+namespace laneloom {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+TEST_F(Commands, InfoTellsWhatIsInADrive) {
+  simulate("none", "in.frames.jsonl");
+  EXPECT_EQ(run({"info", file("in.frames.jsonl")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("laneloom/v"));
+  ASSERT_EQ(run({"info", "--json", file("in.frames.jsonl")}), 0);
+  const json info = json::parse(output());
+  EXPECT_EQ(info.at("version"), "") << "JSON lines do not tell";
+  ASSERT_EQ(info.at("topics").size(), 2u);
+  for (const json& topic : info.at("topics")) {
+    EXPECT_EQ(topic.at("messages"), 80);
+    EXPECT_NEAR(topic.at("rate_hz"), 10.0, 0.01);
+    EXPECT_NEAR(topic.at("longest_gap_s"), 0.1, 1e-6);
+  }
+}
+
+TEST_F(Commands, ARecordingOfMapsCarriesTheConfigurationThatMadeThem) {
+  simulate("none", "in.frames.jsonl");
+  std::ofstream(file("mine.yaml")) << "mapper: {lane: {min_width_m: 1.7}}\n";
+  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--config", file("mine.yaml"), "--out", file("a.mcap")}),
+            0)
+      << output();
+  ASSERT_EQ(run({"info", "--json", file("a.mcap")}), 0);
+  EXPECT_NE(json::parse(output()).at("version"), "");
+
+  ASSERT_EQ(run({"info", "--configuration", file("a.mcap")}), 0);
+  std::ofstream(file("theirs.yaml")) << output();
+  ASSERT_EQ(
+      run({"replay", file("in.frames.jsonl"), "--config", file("theirs.yaml"), "--out", file("b.mcap")}), 0)
+      << output();
+  EXPECT_EQ(content(file("a.mcap")), content(file("b.mcap")));
+}
+
+}  // namespace
+}  // namespace laneloom
