@@ -134,25 +134,29 @@ class Growth {
     const auto b = behind == nullptr ? std::nullopt : behind->passed(End::front, tracks_[behind->track]);
     std::vector<LaneStation> stations = stations_between(strip, before, behind);
     if (a && b) {
-      if (parted(*a) <= 0.0 && parted(*b) <= 0.0) {
+      if (is_open(a) && is_open(b)) {
         extensions_.push_back({*a, std::move(stations), b});
       } else if (std::min(before->range.length(), behind->range.length()) > kAside_m) {
         for (const TrackEnd& end : {*a, *b}) parted(end) = std::max(0.0, parted(end) - kPassing);
       }
-    } else if (stations.empty()) {
-      return;
-    } else if (a && parted(*a) <= 0.0) {
-      extensions_.push_back({*a, std::move(stations), {}});
-    } else if (b && parted(*b) <= 0.0) {
-      std::ranges::reverse(stations);
-      extensions_.push_back({*b, std::move(stations), {}});
+    } else if (is_open(a) || is_open(b)) {
+      if (!is_open(a)) std::ranges::reverse(stations);
+      extensions_.push_back({is_open(a) ? *a : *b, std::move(stations), {}});
     } else if (stations.size() > 1 && (a || b || length_of(stations) >= config_.min_length_m)) {
-      LaneTrack track{.stations = std::move(stations), .section = strip.lane.section};
-      if (before == nullptr && strip.is_cut(End::front)) track.parted[0] = kParted;
-      if (behind == nullptr && strip.is_cut(End::back)) track.parted[1] = kParted;
-      born_.push_back(std::move(track));
+      bear(strip, before, behind, std::move(stations));
     }
   }
+
+  /// Makes a track of stations between two covers.
+  void bear(const Strip& strip, const Cover* before, const Cover* behind, std::vector<LaneStation> stations) {
+    LaneTrack track{.stations = std::move(stations), .section = strip.lane.section};
+    if (before == nullptr && strip.is_cut(End::front)) track.parted[0] = kParted;
+    if (behind == nullptr && strip.is_cut(End::back)) track.parted[1] = kParted;
+    born_.push_back(std::move(track));
+  }
+
+  /// Whether a strip passes an end where no other lane begins.
+  bool is_open(const std::optional<TrackEnd>& end) { return end && parted(*end) <= 0.0; }
 
   static double length_of(const std::vector<LaneStation>& stations) { return length(centerline(stations)); }
 
