@@ -24,6 +24,9 @@ constexpr int kMostCauses = 3;
 // deviations of the mean.
 constexpr double kLeastGain_m = 0.004, kLeastGainShare = 0.02, kLeastSigmas = 4.0;
 
+// Of causes that are as good, the one that is met more often is believed.
+constexpr double kTie_m = 0.05;
+
 /// A correction that may be the right one, and how well frames agree with it.
 struct Hypothesis {
   std::string id, found;
@@ -177,7 +180,7 @@ std::optional<Hypothesis> best_cause(const Agreement& agreement, const Correctio
   for (Hypothesis& hypothesis : hypotheses(agreement, base)) {
     hypothesis.disagreements = disagreements(agreement, hypothesis.correction);
     const double better = gain(before, hypothesis.disagreements);
-    if (better <= most) continue;
+    if (better <= most + (best ? kTie_m : 0.0)) continue;
     most = better;
     best = std::move(hypothesis);
   }

@@ -23,7 +23,7 @@ void tell(const Program& program, const std::string& complaint) {
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words{argv + std::min(1, argc), argv + argc};
   if (!words.empty() && words.front() == "help") {
-    std::ranges::rotate(words, words.begin() + 1);
+    std::rotate(words.begin(), words.begin() + 1, words.end());
     words.back() = "--help";
   }
   return words;
@@ -35,7 +35,7 @@ int tell_use(const CLI::App& app, const CLI::Error& error) {
   while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
   std::string path;  // of the commands around it
   for (const CLI::App* part = command->get_parent(); part != nullptr; part = part->get_parent())
-    path = part->get_name() + " " + path;
+    path.insert(0, part->get_name() + " ");
   const std::string help = command->help(path.substr(0, path.empty() ? 0 : path.size() - 1));
   path += command->get_name();
   const std::size_t usage = help.find("Usage: ");
@@ -60,7 +60,7 @@ int run(const Program& program, int argc, char** argv) {
     return kWrongUse;
   }
   try {
-    std::ranges::reverse(words);  // as CLI11 takes them
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
     app.parse(std::move(words));
     return kDone;
   } catch (const CLI::RuntimeError& end) {  // thrown by end_with()
