@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
 #include "commands/import_frames.hpp"
 #include "commands/import_scene.hpp"
@@ -58,6 +59,7 @@ void import_results(const ResultsOptions& options, ReadResults read) {
   if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
   if (imported.other_drives > 0)
     fmt::print("passed over: {} frames of other drives\n", imported.other_drives);
+  fmt::print(stderr, "{}", why_poor(options.out, {}));
 }
 
 void add_drive(CLI::App& command, ResultsOptions& options) {
