@@ -48,6 +48,23 @@ def test_a_map_has_the_own_way(maps):
     assert np.allclose(np.arctan2(*steps[0][::-1]), way.stations[0].heading, atol=0.05)
 
 
+def test_a_way_is_made_as_it_is_wished(maps):
+    last = maps[-1]
+    way = laneloom.way_ahead(last, reach=10)
+    assert way.known == pytest.approx(10)
+    assert way.lanes[0] == last.way.lanes[0]
+    assert np.allclose(way.to_map(5, 0), way.stations[5].point)
+    assert way.to_way(way.to_map(7.3, -1)) == pytest.approx((7.3, -1), abs=1e-3)
+    assert laneloom.way_ahead(last, "left", before=way, reach=10).known == pytest.approx(10)
+    assert laneloom.way_ahead(maps[0]) is None
+    with pytest.raises(ValueError, match="^wish: must be one of straight, left, "):
+        laneloom.way_ahead(last, "up")
+    with pytest.raises(ValueError, match="^reach"):
+        laneloom.way_ahead(last, reach=0.5)
+    with pytest.raises(ValueError, match="^point"):
+        way.to_way([1, 2])
+
+
 def test_a_map_stays_as_it_was(frames):
     mapper = laneloom.Mapper()
     first = mapper.update(*frames[0])

@@ -1,9 +1,45 @@
+#include <array>
+
+#include "arguments.hpp"
 #include "arrays.hpp"
 #include "binding.hpp"
 #include "laneloom/element_names.hpp"
+#include "laneloom/way.hpp"
 
 namespace laneloom::python {
 namespace {
+
+// In the order of WayWish.
+constexpr std::array kWishes{"straight", "left", "right", "change_left", "change_right"};
+
+constexpr const char* kWayAheadDoc =
+    R"(The way ahead of the vehicle, as a planner wishes it. None: there is nothing to drive on.
+
+map: LocalMap
+wish: "straight", "left", "right", "change_left" or "change_right"
+before: the Way before, so that the way keeps to a branch that it has chosen, or goes on with a change
+reach: greatest length in metres, more than 1)";
+
+py::object wished_way(const py::object& map, const py::object& wish, const py::object& before,
+                      const py::object& reach) {
+  const LocalMap& given = instance<LocalMap>(map, "map");
+  const WayWish wished = word<WayWish>(wish, "wish", kWishes);
+  const Way* const last = before.is_none() ? nullptr : &instance<Way>(before, "before");
+  const WayOptions options{.reach_m = number(reach, "reach")};
+  if (!(options.reach_m > options.step_m)) refuse_value("reach", "must be more than 1");
+  const auto way = way_ahead(LaneGraph(given), given.T_map_body, wished, last, options);
+  return way ? py::cast(*way) : py::none();
+}
+
+py::tuple to_way(const Way& way, const py::object& point) {
+  const std::vector<double> at = fixed_array(point, "point", {3});
+  const WayPlace place = way.to_way({at[0], at[1], at[2]});
+  return py::make_tuple(place.s_m, place.d_m);
+}
+
+py::array_t<double> to_map(const Way& way, const py::object& s, const py::object& d) {
+  return to_array(way.to_map({number(s, "s"), number(d, "d")}));
+}
 
 void bind_own_way(py::module_& module) {
   py::class_<WayStation> station(module, "WayStation",
@@ -29,7 +65,7 @@ void bind_own_way(py::module_& module) {
       .def_property_readonly("status", [](const WayStation& s) { return name(s.status); })
       .def_property_readonly("may_change_left", [](const WayStation& s) { return s.may_change_left; })
       .def_property_readonly("may_change_right", [](const WayStation& s) { return s.may_change_right; });
-  py::class_<Way> way(module, "Way", "One smooth line ahead, straight on from beside the vehicle.");
+  py::class_<Way> way(module, "Way", "One smooth line ahead, from beside the vehicle.");
   way.def_property_readonly(
          "step", [](const Way& w) { return w.step_m; }, "Metres between stations.")
       .def_property_readonly("stations", [](const Way& w) { return to_tuple(w.stations); })
@@ -41,7 +77,13 @@ void bind_own_way(py::module_& module) {
           "known", [](const Way& w) { return w.known_m; }, "Length that the map knows, metres.")
       .def_property_readonly(
           "confirmed", [](const Way& w) { return w.confirmed_m; },
-          "Length until the first station that is not confirmed, metres.");
+          "Length until the first station that is not confirmed, metres.")
+      .def("to_way", &to_way, py::arg("point"),
+           "(s, d): metres along the way, and to its left, of a point (3,) of the map frame.")
+      .def("to_map", &to_map, py::arg("s"), py::arg("d"),
+           "Array (3,): the point of a place. Undoes to_way().");
+  module.def("way_ahead", &wished_way, py::arg("map"), py::arg("wish") = "straight",
+             py::arg("before") = py::none(), py::arg("reach") = 60.0, kWayAheadDoc);
 }
 
 void bind_driven_path(py::module_& module) {

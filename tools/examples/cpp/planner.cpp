@@ -1,23 +1,22 @@
-// planner DOMAIN VEHICLE_ID [straight|left|right]: follows the lane map, and says which lane the car is in,
-// where it may change lanes, and along which lanes the wished turn is made.
+// planner DOMAIN VEHICLE_ID [straight|left|right]: says where the way of a wish leads on the lane map.
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "laneloom/dds/reader.hpp"
-#include "laneloom/lane_graph.hpp"
+#include "laneloom/element_names.hpp"
 #include "laneloom/messages.hpp"
 #include "laneloom/state_names.hpp"
+#include "laneloom/way.hpp"
 
 namespace {
 
-using laneloom::PublishedMap, laneloom::Side, laneloom::Linkage;
-
-constexpr double kReach_m = 60.0;
+using laneloom::PublishedMap, laneloom::Way, laneloom::WayWish;
 
 /// The newest map, which a thread of DDS puts there and the planner's thread takes.
 class Newest {
@@ -36,21 +35,26 @@ class Newest {
   std::unique_ptr<PublishedMap> map_;
 };
 
-void plan(const PublishedMap& published, Linkage::Turn wished) {
+void say(const Way& way, const laneloom::Point& car) {
+  const laneloom::WayPlace place = way.to_way(car);
+  const laneloom::WayStation& here = way.stations.front();
+  std::cout << "lane " << here.lane << ", " << here.width_m << " m wide; the car is " << place.d_m
+            << " m left of its way, known for " << way.known_m << " m\n";
+  if (here.may_change_left) std::cout << "  it may change to the left\n";
+  for (const laneloom::WayLane& lane : way.lanes)
+    std::cout << "  at " << lane.range.from_m << " m: lane " << lane.id << ", " << name(lane.entry) << '\n';
+}
+
+/// The way before is given each time, so that the way keeps to a branch that it has chosen.
+void plan(const PublishedMap& published, WayWish wish, std::optional<Way>& way) {
   std::cout << laneloom::state_text(published.state, published.reasons) << '\n';
   // A planner must not drive on by an old map, however good it was.
   if (published.state == laneloom::MapState::stale) return;
   const laneloom::LaneGraph graph(published.map);
-  const auto own = graph.own_lane(published.map.T_map_body);
-  if (!own) return;
-  std::cout << "in lane " << own->lane.lane->id << ", which is " << own->lane.lane->width_m << " m wide, "
-            << own->offset_m << " m left of its center\n";
-  for (const Side side : laneloom::kSides)
-    if (const laneloom::Lane* beside = graph.beside(own->lane, side, own->arc_m))
-      std::cout << (side == Side::left ? "  left" : "  right") << " of it is lane " << beside->id << '\n';
-  for (const laneloom::Passage& passage : graph.ahead(own->lane, wished, own->arc_m + kReach_m))
-    std::cout << "  the way leads " << (passage.turn == wished ? "as wished" : "on") << " into lane "
-              << passage.to.lane->id << (passage.to.oncoming() ? ", against its traffic\n" : "\n");
+  const auto next = way_ahead(graph, published.map.T_map_body, wish, way ? &*way : nullptr);
+  if (!next) return void(std::cout << "no lane here: on along the way before, ever slower\n");
+  way = next;
+  say(*way, published.map.T_map_body.translation());
   std::cout.flush();
 }
 
@@ -61,16 +65,15 @@ int main(int argc, char** argv) {
   laneloom::DdsConfig dds;
   dds.domain = std::atoi(argv[1]);
   dds.vehicle_id = argv[2];
-  const std::string turn = argc > 3 ? argv[3] : "straight";
-  const auto wished = turn == "left"    ? Linkage::Turn::left
-                      : turn == "right" ? Linkage::Turn::right
-                                        : Linkage::Turn::straight;
+  const std::string word = argc > 3 ? argv[3] : "straight";
+  const WayWish wish = word == "left" ? WayWish::left : word == "right" ? WayWish::right : WayWish::straight;
   Newest newest;
   const laneloom::dds::Participant participant(dds, "example of a planner");
   const laneloom::dds::Reader<PublishedMap> maps(
       participant, {.sample = [&newest](PublishedMap&& map) { newest.put(std::move(map)); },
                     .refused = [](std::string_view why) { std::cerr << "refused: " << why << '\n'; },
                     .alive = [](int services) { std::cerr << services << " services are alive\n"; }});
+  std::optional<Way> way;
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(100)))
-    if (const auto map = newest.take()) plan(*map, wished);
+    if (const auto map = newest.take()) plan(*map, wish, way);
 }

@@ -47,6 +47,7 @@ from ._core import (
     read_frames,
     read_maps,
     render,
+    way_ahead,
     write_frames,
     write_maps,
 )
@@ -84,6 +85,7 @@ __all__ = [
     "read_frames",
     "read_maps",
     "render",
+    "way_ahead",
     "write_frames",
     "write_maps",
 ]
