@@ -61,11 +61,11 @@ std::optional<Way> way_from(const LaneGraph& graph, const Eigen::Isometry3d& pla
                             const std::optional<Way>& before) {
   const WayOptions options{.reach_m = kHorizon_m, .step_m = kStep_m};
   const Way* const last = before ? &*before : nullptr;
-  const auto way = way_ahead(graph, place, wish, last, options);
+  std::optional<Way> way = way_ahead(graph, place, wish, last, options);
   const bool changes = before && before->change.to != kNoElement;
   if (!way || way->known_m >= kHorizon_m || !(changes || narrows(*way))) return way;
   for (const WayWish change : {WayWish::change_left, WayWish::change_right}) {
-    const auto other = way_ahead(graph, place, change, last, options);
+    std::optional<Way> other = way_ahead(graph, place, change, last, options);
     if (other && other->change.to != kNoElement && other->known_m > way->known_m + kGoesOn_m) return other;
   }
   return way;
