@@ -49,11 +49,15 @@ TEST(EgoView, FindsTheLaneAndWhatIsAroundIt) {
   EXPECT_NEAR(view.offset_m, -0.5, 1e-9);
 }
 
-TEST(EgoView, MeasuresTheWidthAheadThroughTheSuccessor) {
-  const pnc::EgoView view = pnc::ego_view(road());
-  EXPECT_NEAR(view.width_m[0].value(), 3.0, 1e-9);
-  EXPECT_NEAR(view.width_m[1].value(), 4.0, 1e-9);
-  EXPECT_FALSE(view.width_m[2].has_value());  // 31 m ahead the successor has ended
+TEST(EgoView, TellsTheWidthAlongTheWay) {
+  LocalMap map = road();
+  map.way = Way{.step_m = 2.0, .stations = std::vector<WayStation>(15)};  // 28 m
+  map.way->stations[5].width_m = 3.0;
+  const pnc::EgoView view = pnc::ego_view(map);
+  EXPECT_EQ(view.width_m[0], 3.0);
+  EXPECT_FALSE(view.width_m[1].has_value()) << "is not known";
+  EXPECT_FALSE(view.width_m[2].has_value()) << "the way has ended";
+  EXPECT_FALSE(pnc::ego_view(road()).width_m[0].has_value()) << "there is no way";
 }
 
 TEST(EgoView, SeesALaneThatIsGivenAgainstTheVehicle) {
@@ -93,13 +97,6 @@ TEST(EgoView, PrefersTheLaneThatItIsAlignedWith) {
           Eigen::AngleAxisd(std::numbers::pi / 6, Point::UnitZ()) * (point - Point(1, 1, 0)) + Point(1, 1, 0);
   map.lanes.insert(map.lanes.begin(), turning);
   EXPECT_EQ(pnc::ego_view(map).lane, 1u);
-}
-
-TEST(EgoView, EndsOnARingOfSuccessors) {
-  LocalMap map = road();
-  map.lanes[2].centerline = {{15, 1.5, 0}, {16, 1.5, 0}};
-  link(map, 3, 3);
-  EXPECT_FALSE(pnc::ego_view(map).width_m[2].has_value());
 }
 
 }  // namespace

@@ -54,6 +54,15 @@ TEST(LaneMetres, OfALaneOnABridgeAreNotThoseBelow) {
   EXPECT_GT(meter.metres().of(LaneClass::elsewhere), 19.0);
 }
 
+TEST(LaneMetres, OfATruthWithoutBordersAreRightOrElsewhere) {
+  simulation::Road road;
+  road.lanes = {{.id = 1, .centerline = along_x(0)}};
+  LaneMetresMeter meter(road, {.forward_min_m = 0, .forward_max_m = 20, .side_max_m = 30});
+  meter.add({.lanes = {{.id = 1, .centerline = along_x(0.2)}, {.id = 2, .centerline = along_x(1.0)}}});
+  EXPECT_EQ(meter.metres().of(LaneClass::right), meter.metres().of(LaneClass::elsewhere));
+  EXPECT_GT(meter.metres().of(LaneClass::right), 19.0);
+}
+
 TEST(LaneMetres, ShouldersDoNotCount) {
   EXPECT_EQ(metres_of(4.0, Lane::Direction::unknown, Lane::Use::shoulder).published_m(), 0.0);
 }

@@ -17,6 +17,14 @@ constexpr double kTruthStep_m = 0.2;  // so that distances are wrong by 1 cm at 
 constexpr double kStraddling_m = 1.0;
 constexpr double kBesideEdge_m = 3.0;
 
+/// In the middle of the lane; 0: the truth does not give its borders.
+double width_of(const simulation::RoadLane& lane) {
+  if (lane.left.empty() || lane.right.empty()) return 0.0;
+  const Point middle = lane.centerline[lane.centerline.size() / 2];
+  return MeasuredPolyline(lane.left).project(middle).distance_m +
+         MeasuredPolyline(lane.right).project(middle).distance_m;
+}
+
 }  // namespace
 
 double LaneMetres::published_m() const { return std::accumulate(by_class_m.begin(), by_class_m.end(), 0.0); }
@@ -36,12 +44,8 @@ void LaneMetresMeter::sample(const Polyline& line, Of of, double width_m, std::v
 
 LaneMetresMeter::LaneMetresMeter(const simulation::Road& truth, const RangeConfig& range) : range_(range) {
   std::vector<Sample> samples;
-  for (const simulation::RoadLane& lane : truth.lanes) {
-    const MeasuredPolyline left(lane.left), right(lane.right);
-    const Point middle = lane.centerline[lane.centerline.size() / 2];
-    const double width_m = left.project(middle).distance_m + right.project(middle).distance_m;
-    sample(lane.centerline, Of::lane, width_m, samples);
-  }
+  for (const simulation::RoadLane& lane : truth.lanes)
+    sample(lane.centerline, Of::lane, width_of(lane), samples);
   for (const simulation::RoadMarking& marking : truth.markings)
     if (marking.type != MarkingType::stopline)
       sample(marking.points, marking.type == MarkingType::roadedge ? Of::roadedge : Of::laneline, 0.0,

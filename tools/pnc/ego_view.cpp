@@ -1,33 +1,18 @@
 #include "pnc/ego_view.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "laneloom/lane_graph.hpp"
-#include "laneloom/polyline.hpp"
 
 namespace laneloom::pnc {
 namespace {
 
-double width_at(const Lane& lane, const Point& point) {
-  return MeasuredPolyline(lane.left).project(point).distance_m +
-         MeasuredPolyline(lane.right).project(point).distance_m;
-}
-
-/// Width at an arc length from the beginning of `first`, along it and the lanes ahead. Empty: they end
-/// before.
-std::optional<double> width_ahead(const DirectedLane& first, const std::vector<Passage>& ahead,
-                                  double arc_m) {
-  const auto width_within = [&arc_m](const DirectedLane& lane) -> std::optional<double> {
-    const MeasuredPolyline line(lane.centerline());
-    if (arc_m <= line.length()) return width_at(*lane.lane, line.at(arc_m));
-    arc_m -= line.length();
-    return std::nullopt;
-  };
-  if (const auto width_m = width_within(first)) return width_m;
-  for (const Passage& passage : ahead)
-    if (const auto width_m = width_within(passage.to)) return width_m;
-  return std::nullopt;
+/// The width at an arc length of a way. Empty: it is not known there, or the way ends before.
+std::optional<double> width_on(const Way& way, double arc_m) {
+  if (!way.is_line() || arc_m > way.length()) return std::nullopt;
+  const double width_m = way.stations[static_cast<std::size_t>(std::lround(arc_m / way.step_m))].width_m;
+  return width_m == kNotKnown_m ? std::nullopt : std::optional(width_m);
 }
 
 ElementId id_of(const Lane* lane) { return lane == nullptr ? kNoElement : lane->id; }
@@ -36,6 +21,8 @@ ElementId id_of(const Lane* lane) { return lane == nullptr ? kNoElement : lane->
 
 EgoView ego_view(const LocalMap& map) {
   EgoView view;
+  for (std::size_t i = 0; map.way && i < kLookahead_m.size(); ++i)
+    view.width_m[i] = width_on(*map.way, kLookahead_m[i]);
   const LaneGraph graph(map);
   const auto own = graph.own_lane(map.T_map_body);
   if (!own) return view;
@@ -46,9 +33,6 @@ EgoView ego_view(const LocalMap& map) {
   for (const Passage& passage : graph.successors(own->lane)) next.insert(passage.to.lane->id);
   view.successors.assign(next.begin(), next.end());
   view.offset_m = own->offset_m;
-  const auto ahead = graph.ahead(own->lane, Linkage::Turn::straight, own->arc_m + kLookahead_m.back());
-  for (std::size_t i = 0; i < kLookahead_m.size(); ++i)
-    view.width_m[i] = width_ahead(own->lane, ahead, own->arc_m + kLookahead_m[i]);
   return view;
 }
 

@@ -18,8 +18,8 @@ struct EgoView {
   ElementId right_neighbour = kNoElement;
   std::vector<ElementId> successors;  ///< ahead of the vehicle, ascending
   double offset_m = 0.0;              ///< of the vehicle from the centerline, left is positive
-  /// Width of the way ahead, kLookahead_m from the vehicle along the centerlines of its lane and of the
-  /// lanes straight ahead; none where they end before.
+  /// Width of the lane at kLookahead_m of the map's way. Empty: it is not known there, or the way ends
+  /// before.
   std::array<std::optional<double>, kLookahead_m.size()> width_m;
 };
 
