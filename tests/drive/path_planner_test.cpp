@@ -20,21 +20,6 @@ Plan plan_on(const LocalMap& map, const Bicycle& vehicle, const Plan& previous =
   return next_plan(map, T_map_body, vehicle.speed_mps, previous, wish);
 }
 
-/// Plans again and again while the vehicle goes along the plan, so that it has bent to the way.
-Plan settled_plan(const LocalMap& map, Bicycle vehicle, int metres = 40) {
-  Plan plan;
-  for (int i = 0; i <= metres; ++i) {
-    plan = plan_on(map, vehicle, plan);
-    const MeasuredPolyline path(plan.path);
-    const Projection foot = path.project({vehicle.rear_axle.x(), vehicle.rear_axle.y(), 0});
-    const double ahead_m = i < metres ? 1.0 : 0.0;
-    vehicle.rear_axle = path.at(foot.arc_m + ahead_m).head<2>();
-    const Eigen::Vector2d along = path.direction(foot.arc_m + ahead_m);
-    vehicle.heading_rad = std::atan2(along.y(), along.x());
-  }
-  return plan;
-}
-
 double distance(const Plan& plan, const Point& point) {
   return MeasuredPolyline(plan.path).project(point).distance_m;
 }
@@ -168,19 +153,6 @@ TEST(Planner, GoesAlongALaneAgainstItsPoints) {
   const Plan plan = plan_on(map, {.rear_axle = {0.0, 0.3}, .speed_mps = 5.0});
   EXPECT_LT(distance(plan, {30, 0, 0}), 0.05);
   EXPECT_EQ(plan.support_at({30, 0, 0}), Support::mapped);
-}
-
-TEST(Planner, ChangesLanesWhereItsLaneEnds) {
-  LocalMap map;
-  map.lanes = {lane_of(1, straight_line({0, 0, 0}, {40, 0, 0})),
-               lane_of(2, straight_line({0, 3.5, 0}, {90, 3.5, 0}))};
-  for (Point& point : map.lanes[0].right) point.y() += point.x() / 40.0;
-  map.lanes[0].left_borders = {{7, {0, 40}, {0, 40}}};
-  map.lanes[0].right_borders = {{8, {0, 40}, {0, 40}}};
-  map.lanes[0].left_neighbours = {{.lane = 2, .range = {0.0, 40.0}, .crossable = {{0.0, 40.0}}}};
-  const Plan plan = settled_plan(map, {.rear_axle = {2.0, 0.0}, .speed_mps = 5.0}, 30);
-  EXPECT_LT(distance(plan, {60, 3.5, 0}), 0.1);
-  EXPECT_EQ(plan.support_at({60, 3.5, 0}), Support::mapped);
 }
 
 /// A lane ahead, along the vehicle's path.

@@ -18,8 +18,6 @@ constexpr double kBehind_m = 12.0;  // enough to tell a bend from noise
 constexpr double kHorizon_m = 45.0;
 constexpr double kMaxOffTrack_m = 1.6;   // of an earlier plan that goes on where the way ends
 constexpr double kLookForTurn_m = 20.0;  // before the lane's end
-constexpr double kNarrowed = 0.77;
-constexpr double kGoesOn_m = 8.0;
 // These decide how a plan bends to the way.
 constexpr double kMinBlend_m = 12.0;
 constexpr double kBlend_s = 2.0;
@@ -47,30 +45,6 @@ Plan carried_on(const Eigen::Isometry3d& T_map_body, Plan plan) {
   return plan;
 }
 
-/// Whether the lane in which a way ends narrows there, as a lane does that really ends. A lane of which only
-/// the view ends does not narrow.
-bool narrows(const Way& way) {
-  double widest_m = 0.0;
-  for (const WayStation& station : way.stations) widest_m = std::max(widest_m, station.width_m);
-  const double last_m = way.stations.back().width_m;
-  return last_m != kNotKnown_m && last_m < kNarrowed * widest_m;
-}
-
-/// The way from a place. Where the lane ends, it is the way into the lane beside that goes on.
-std::optional<Way> way_from(const LaneGraph& graph, const Eigen::Isometry3d& place, WayWish wish,
-                            const std::optional<Way>& before) {
-  const WayOptions options{.reach_m = kHorizon_m, .step_m = kStep_m};
-  const Way* const last = before ? &*before : nullptr;
-  std::optional<Way> way = way_ahead(graph, place, wish, last, options);
-  const bool changes = before && before->change.to != kNoElement;
-  if (!way || way->known_m >= kHorizon_m || !(changes || narrows(*way))) return way;
-  for (const WayWish change : {WayWish::change_left, WayWish::change_right}) {
-    std::optional<Way> other = way_ahead(graph, place, change, last, options);
-    if (other && other->change.to != kNoElement && other->known_m > way->known_m + kGoesOn_m) return other;
-  }
-  return way;
-}
-
 /// The first way that begins on a track.
 struct Entry {
   Way way;
@@ -94,7 +68,8 @@ std::optional<Entry> find_entry(const LaneGraph& graph, const Plan& earlier, con
     Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
     place.translation() = track.at(vehicle_m + ahead_m);
     place.rotate(Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ()));
-    auto way = way_from(graph, place, wish, earlier.way);
+    auto way = way_ahead(graph, place, wish, earlier.way ? &*earlier.way : nullptr,
+                         {.reach_m = kHorizon_m, .step_m = kStep_m});
     const bool joins_passage = way && ahead_m > 0.0 && way->stations.front().lane == kNoElement;
     if (!way || joins_passage) continue;
     if (!is_oncoming(graph, *way)) return Entry{std::move(*way), ahead_m};

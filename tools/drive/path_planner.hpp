@@ -28,7 +28,6 @@ struct Plan {
 };
 
 /// Plans the path of the vehicle on a map: along the way that the map has from where the previous plan leads.
-/// Where the lane narrows and ends, it is the way into the lane beside.
 ///
 /// The plan begins beside the vehicle as the previous one, and bends to the way smoothly. If the map gives no
 /// way, the previous plan stays where it is in the map frame, and is prolonged with a curvature that fades.
