@@ -70,7 +70,7 @@ TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
     LocalMapService service{Config{}};
     ClosedLoop loop(road, {.noise = simulation::noise_profile("inhouse"), .seed = seed, .drift = 0.01},
                     service);
-    run(loop, 40.0);
+    run(loop, 20.0);
     return std::pair(loop.vehicle().rear_axle, loop.driven_m());
   };
   EXPECT_EQ(drive(1), drive(1));

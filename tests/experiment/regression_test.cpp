@@ -64,9 +64,9 @@ TEST_P(Regression, NoPointIsLost) {
 INSTANTIATE_TEST_SUITE_P(
     Networks, Regression,
     ::testing::Values(
-        Network{"inhouse", {86.6, 87.2, 85.0, 93.3, 100.0, 0.25, 0.67, 0.0, 94.2, 92.3, 0.0, 0.22}},
-        Network{"random:1", {89.1, 90.4, 89.6, 95.5, 100.0, 0.23, 0.50, 0.0, 93.4, 90.8, 0.0, 0.10}},
-        Network{"random:2", {78.3, 76.3, 79.5, 83.9, 100.0, 0.20, 1.58, 0.0, 91.3, 86.9, 0.0, 0.94}}));
+        Network{"inhouse", {86.6, 87.2, 86.4, 97.8, 100.0, 0.25, 0.36, 0.0, 96.9, 92.7, 0.0, 0.16}},
+        Network{"random:1", {89.1, 90.4, 89.6, 98.6, 100.0, 0.23, 0.23, 0.0, 97.0, 94.1, 0.0, 0.10}},
+        Network{"random:2", {78.3, 76.3, 80.3, 77.5, 100.0, 0.20, 0.44, 0.0, 94.6, 88.8, 0.0, 0.28}}));
 
 }  // namespace
 }  // namespace laneloom::experiment
