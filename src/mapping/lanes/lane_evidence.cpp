@@ -100,6 +100,7 @@ void observe(const std::vector<Strip>& strips, const std::vector<Match>& matches
   for (std::size_t i = 0; i < matches.size(); ++i) {
     LaneStation& station = track.stations[i];
     if (!matches[i].strip) {
+      station.found = false;
       station.log_odds -= matches[i].is_taken ? kTaken : kMissed;
       continue;
     }

@@ -124,7 +124,8 @@ Strip::Strip(const Lane& found, const std::vector<Fork>& forks)
                         .boundary = {boundary(Side::left), boundary(Side::right)},
                         .probability = found.existence_probability,
                         .status = is_inferred_at(found, arc_m[i]) ? ElementStatus::inferred : found.status,
-                        .evidence = found.evidence});
+                        .evidence = found.evidence,
+                        .found = true});
   }
   for (const End end : kEnds)
     cut[index(end)] =

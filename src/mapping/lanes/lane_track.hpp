@@ -21,6 +21,7 @@ struct LaneStation {
   double parted = 0.0;   ///< evidence that one lane ends here and another one begins at the next place
   bool stepped = false;  ///< the borders may step aside between here and the next place
   bool shown = false;    ///< the last map showed the lane here
+  bool found = false;    ///< the last frame found the lane here: the borders lie on their boundaries
 
   Point center() const { return 0.5 * (border[0] + border[1]); }
   double width_m() const { return (border[1] - border[0]).head<2>().norm(); }
@@ -28,7 +29,7 @@ struct LaneStation {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(border, boundary, log_odds, probability, status, evidence, parted, stepped, shown);
+    archive(border, boundary, log_odds, probability, status, evidence, parted, stepped, shown, found);
   }
 };
 

@@ -14,8 +14,9 @@
 namespace laneloom::lanes {
 namespace {
 
-constexpr double kMinSpacing = 0.4;  // of stations, as a share of LaneConfig::step_m
-constexpr double kBridged_m = 8.0;   // a longer stretch that is not believed parts a lane
+constexpr double kMinSpacing = 0.4;   // of stations, as a share of LaneConfig::step_m
+constexpr std::size_t kLookedAt = 8;  // every so many stations tell how the road runs
+constexpr double kBridged_m = 8.0;    // a longer stretch that is not believed parts a lane
 
 /// Leaves out stations that do not lie ahead of the one before.
 void put_in_row(const LaneConfig& config, std::vector<LaneStation>& stations) {
@@ -116,13 +117,18 @@ class Pieces {
   std::vector<LaneTrack> pieces_;
 };
 
-/// Whether a lane runs against most of its boundaries, which run as the sections of the road do.
-bool runs_against_road(const Lane& lane) {
-  double along_m = 0.0;
-  for (const Side side : kSides)
-    for (const Border& border : lane.borders(side))
-      along_m += (border.reversed ? -1.0 : 1.0) * border.on_boundary.length();
-  return along_m < 0.0;
+/// Whether stations run against most of the boundaries beside them, which run as the sections of the road do.
+bool runs_against_road(const std::vector<LaneStation>& stations, const boundaries::Boundaries& boundaries) {
+  double along = 0.0;
+  for (std::size_t i = 0; i + 1 < stations.size(); i += kLookedAt) {
+    const Eigen::Vector2d ahead = (stations[i + 1].center() - stations[i].center()).head<2>().normalized();
+    for (const Side side : kSides) {
+      if (!boundaries.contains(stations[i].boundary[index(side)])) continue;
+      const MeasuredPolyline& course = boundaries.of(stations[i].boundary[index(side)]).course;
+      along += course.direction(course.project(stations[i].border[index(side)])).dot(ahead);
+    }
+  }
+  return along < 0.0;
 }
 
 }  // namespace
@@ -149,11 +155,8 @@ LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, co
   std::ranges::sort(tracks_, {}, &LaneTrack::id);
   found.lanes.clear();
   for (LaneTrack& track : tracks_) {
+    if (runs_against_road(track.stations, found.boundaries)) reverse(track);
     auto lane = shown_lane(track, found.boundaries);
-    if (lane && runs_against_road(*lane)) {
-      reverse(track);
-      lane = shown_lane(track, found.boundaries);
-    }
     if (!lane) {
       track.published = 0;
       continue;

@@ -55,7 +55,8 @@ class ShownStations {
     for (const LaneStation& station : track.stations) {
       if (!station.shown) continue;
       LaneStation laid = station;
-      for (const Side side : kSides) lay(side, laid);
+      if (!laid.found)
+        for (const Side side : kSides) lay(side, laid);
       if (!stations_.empty() && !lies_ahead(stations_.back(), laid)) continue;
       stations_.push_back(laid);
     }
