@@ -36,6 +36,24 @@ geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d&
           .frame = ++state.frame};
 }
 
+/// The lanes of the map, with the boundaries that they lie between.
+lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry::Scene& scene,
+                           const MapperConfig& config, const markings::StageLog& log, MapperState& state) {
+  boundaries::Boundaries boundaries =
+      log.done(Stage::lane_boundaries,  // III-D-1
+               boundaries::lane_boundaries(fused.markings, fused.joints, config.boundary));
+  boundaries.insert(
+      state.inferred.recognise(lanes::continued_edges(boundaries, scene.box, config.lane),  // ours
+                               scene, state.ids));
+  boundaries::SectionGraph sections =
+      log.done(Stage::road_sections,
+               road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
+  lanes::LaneLayout found = state.inferred.recognise(
+      lanes::find_lanes(std::move(sections), scene, config.lane), scene, config.lane, state.ids);  // III-D-3
+  return log.done(Stage::lanes,
+                  state.lane_tracks.update(std::move(found), scene, config.lane, state.ids));  // ours
+}
+
 /// The map of a frame, but for the way. `state` is that of the map before; its membership is set to that of
 /// this map.
 LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, topology::RoadGraph road,
@@ -84,20 +102,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
                markings::preprocess(frame, T_map_body, config_.preprocess))};  // paper, III-A
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
-  boundaries::Boundaries boundaries =
-      log.done(Stage::lane_boundaries,  // III-D-1
-               boundaries::lane_boundaries(fused.markings, fused.joints, config_.boundary));
-  boundaries.insert(
-      state.inferred.recognise(lanes::continued_edges(boundaries, scene.box, config_.lane),  // ours
-                               scene, state.ids));
-  boundaries::SectionGraph sections =
-      log.done(Stage::road_sections,
-               road_sections(std::move(boundaries), scene.T_map_body(), config_.section));  // III-D-2
-  lanes::LaneLayout found =
-      state.inferred.recognise(lanes::find_lanes(std::move(sections), scene, config_.lane), scene,
-                               config_.lane, state.ids);  // III-D-3
-  lanes::LaneLayout layout = log.done(
-      Stage::lanes, state.lane_tracks.update(std::move(found), scene, config_.lane, state.ids));  // ours
+  lanes::LaneLayout layout = lanes_of(fused, scene, config_, log, state);
   topology::RoadGraph road =
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,

@@ -76,23 +76,29 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
   return linkage;
 }
 
-/// The lane that has an end on one side of a fork's boundary, whose `gap_m` from the tip is least. The lane
-/// runs as the branch does. Null: there is none within `max_m`.
-template <class Gap>
-const Lane* nearest_to_tip(const lanes::Fork& fork, const lanes::BoundarySide& of, End end, double max_m,
-                           const lanes::LaneLayout& layout, Gap gap_m) {
+/// The lane whose end on one side of a fork's boundary is nearest to the tip, by `distance_m` of the end's
+/// place on the boundary. The lane runs as the branch does. Null: every distance is infinite.
+template <class Distance>
+const Lane* nearest_to_tip(const lanes::Fork& fork, const lanes::BoundarySide& of, End end,
+                           const lanes::LaneLayout& layout, Distance distance_m) {
   const Lane* nearest = nullptr;
+  double least_m = std::numeric_limits<double>::infinity();
   for (const Lane& lane : layout.lanes) {
     for (const Side side : kSides) {
       const lanes::LaneSide along = lanes::side_at_end(lane, side, end);
       if (along.of != of || along.reversed != fork.reversed) continue;
-      const double distance_m = gap_m(along);
-      if (distance_m < -kOnTip_m || distance_m > max_m) continue;
+      const double its_m = distance_m(end == End::front ? along.begin_m() : along.end_m());
+      if (its_m >= least_m) continue;
       nearest = &lane;
-      max_m = distance_m;
+      least_m = its_m;
     }
   }
   return nearest;
+}
+
+/// A distance that is within limits; else infinity.
+double within(double distance_m, double least_m, double most_m) {
+  return distance_m >= least_m && distance_m <= most_m ? distance_m : std::numeric_limits<double>::infinity();
 }
 
 /// The linkage between the stem and the branch of a fork. Empty: no stem ends there, because it was too short
@@ -100,15 +106,12 @@ const Lane* nearest_to_tip(const lanes::Fork& fork, const lanes::BoundarySide& o
 std::optional<Linkage> link_at(const lanes::Fork& fork, const lanes::LaneLayout& layout) {
   const bool opens = fork.end == End::front;
   const double sense = opens != fork.reversed ? 1.0 : -1.0;  // from the tip into the branch
-  const Lane* branch =
-      nearest_to_tip(fork, fork.branch, opens ? End::front : End::back, kMaxBranchGap_m, layout,
-                     [&](const lanes::LaneSide& along) {
-                       return sense * ((opens ? along.begin_m() : along.end_m()) - fork.arc_m);
-                     });
-  const Lane* stem = nearest_to_tip(fork, fork.branch.other(), opens ? End::back : End::front, kMaxStemGap_m,
-                                    layout, [&](const lanes::LaneSide& along) {
-                                      return std::abs((opens ? along.end_m() : along.begin_m()) - fork.arc_m);
-                                    });
+  const Lane* branch = nearest_to_tip(fork, fork.branch, fork.end, layout, [&](double arc_m) {
+    return within(sense * (arc_m - fork.arc_m), -kOnTip_m, kMaxBranchGap_m);
+  });
+  const Lane* stem = nearest_to_tip(fork, fork.branch.other(), opposite(fork.end), layout, [&](double arc_m) {
+    return within(std::abs(arc_m - fork.arc_m), 0.0, kMaxStemGap_m);
+  });
   if (stem == nullptr || branch == nullptr) return std::nullopt;
   const Lane &from = opens ? *stem : *branch, &to = opens ? *branch : *stem;
   return Linkage{.from = from.id,
