@@ -47,8 +47,8 @@ std::optional<OwnLane> own_lane(const DetectionFrame& frame, bool between_edges)
   return std::nullopt;
 }
 
-/// `between_lines_m` are of the lanes without an edge. Three quarters of the frames have to agree: a line that
-/// is not seen makes a lane look wide.
+/// `between_lines_m` are of the lanes without an edge. Three quarters of the frames have to agree: a line
+/// that is not seen makes a lane look wide.
 Findings width_findings(const Distribution& widths_m, const Distribution& between_lines_m,
                         const LaneConfig& lane) {
   const double width_m = widths_m.quantile(0.75), wide_m = between_lines_m.quantile(0.25);
