@@ -4,9 +4,13 @@
 #include <sys/types.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 namespace laneloom {
@@ -14,16 +18,7 @@ namespace laneloom {
 /// Stops those threads of a process that wait for datagrams, as a debugger does. They stay so until it ends.
 class FrozenThreads {
  public:
-  explicit FrozenThreads(pid_t process) {
-    const std::filesystem::path tasks = "/proc/" + std::to_string(process) + "/task";
-    for (const auto& task : std::filesystem::directory_iterator(tasks)) {
-      const auto thread = static_cast<pid_t>(std::stol(task.path().filename()));
-      if (thread == process || !receives(task.path())) continue;
-      if (ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) != 0) continue;
-      ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr);
-      threads_.push_back(thread);
-    }
-  }
+  explicit FrozenThreads(pid_t process) : process_(process) { freeze(); }
   ~FrozenThreads() {
     for (const pid_t thread : threads_) ptrace(PTRACE_DETACH, thread, nullptr, nullptr);
   }
@@ -32,16 +27,32 @@ class FrozenThreads {
 
   /// None: this user may not.
   std::size_t count() const { return threads_.size(); }
-  /// Waits until the process has ended: a thread that is stopped does not end by itself.
+  /// Waits until the process has ended: a thread that is stopped does not end by itself. Threads that were
+  /// busy with a datagram are stopped when they wait for the next one.
   void wait_for_end() {
-    for (const pid_t thread : threads_) {
-      int status = 0;
-      while (waitpid(thread, &status, __WALL) == thread && WIFSTOPPED(status)) continue;
+    while (!threads_.empty()) {
+      freeze();
+      std::erase_if(threads_, [](pid_t thread) {
+        int status = 0;
+        const pid_t changed = waitpid(thread, &status, __WALL | WNOHANG);
+        return changed < 0 || (changed == thread && !WIFSTOPPED(status));
+      });
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    threads_.clear();
   }
 
  private:
+  void freeze() {
+    std::error_code gone;
+    const std::filesystem::path tasks = "/proc/" + std::to_string(process_) + "/task";
+    for (const auto& task : std::filesystem::directory_iterator(tasks, gone)) {
+      const auto thread = static_cast<pid_t>(std::stol(task.path().filename()));
+      if (thread == process_ || std::ranges::count(threads_, thread) > 0 || !receives(task.path())) continue;
+      if (ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) != 0) continue;
+      ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr);
+      threads_.push_back(thread);
+    }
+  }
   static bool receives(const std::filesystem::path& task) {
     constexpr int kReceiveFrom = 45, kReceiveMessage = 47;  // calls of the kernel, on x86-64
     int call = -1;
@@ -49,6 +60,7 @@ class FrozenThreads {
     return call == kReceiveFrom || call == kReceiveMessage;
   }
 
+  pid_t process_;
   std::vector<pid_t> threads_;
 };
 
