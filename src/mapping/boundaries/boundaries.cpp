@@ -20,10 +20,15 @@ Boundaries::Boundaries(std::vector<LaneBoundary> boundaries) : all_(std::move(bo
   std::ranges::sort(all_, {}, id_of);
 }
 
-std::size_t Boundaries::index_of(ElementId id) const {
+const LaneBoundary* Boundaries::find(ElementId id) const {
   const auto found = std::ranges::lower_bound(all_, id, {}, id_of);
-  assert(found != all_.end() && id_of(*found) == id);
-  return static_cast<std::size_t>(found - all_.begin());
+  return found != all_.end() && id_of(*found) == id ? &*found : nullptr;
+}
+
+std::size_t Boundaries::index_of(ElementId id) const {
+  const LaneBoundary* found = find(id);
+  assert(found != nullptr);
+  return static_cast<std::size_t>(found - all_.data());
 }
 
 void Boundaries::reverse(std::size_t index) {

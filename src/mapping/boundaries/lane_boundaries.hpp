@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -38,11 +37,8 @@ class Boundaries {
   const LaneBoundary& operator[](std::size_t index) const { return all_[index]; }
   /// The index of the boundary of an id, which must exist.
   std::size_t index_of(ElementId id) const;
-  bool contains(ElementId id) const {
-    const auto found =
-        std::ranges::lower_bound(all_, id, {}, [](const LaneBoundary& b) { return b.marking.id; });
-    return found != all_.end() && found->marking.id == id;
-  }
+  /// The boundary of an id. Null: there is none.
+  const LaneBoundary* find(ElementId id) const;
   const LaneBoundary& of(ElementId id) const { return all_[index_of(id)]; }
 
   /// Lets a boundary run in the other direction.

@@ -14,33 +14,25 @@ namespace {
 
 constexpr double kSameInferred_m = 1.5;  // a nearer inferred boundary is taken for a known one
 
-/// The number of a found element's points that cover a known element; `found` and `known` are indices.
+/// The number of points of a found boundary that cover a known one; `found` and `known` are indices.
 struct Likeness {
   std::size_t points = 0, found = 0, known = 0;
 };
 
-/// Takes each found element for at most one known element, and the other way round.
-class Recognition {
- public:
-  Recognition(std::size_t found, std::size_t known) : known_of_(found), taken_(known, false) {}
+/// Per found boundary, the known one that it is taken for. Each is taken once; what covers most comes first.
+using Recognition = std::vector<std::optional<std::size_t>>;
 
-  bool is_open(std::size_t found, std::size_t known) const { return !known_of_[found] && !taken_[known]; }
-  /// Takes found elements for known ones; those that cover most come first.
-  void settle(std::vector<Likeness> likenesses) {
-    std::ranges::stable_sort(likenesses, std::greater{}, &Likeness::points);
-    for (const Likeness& likeness : likenesses) {
-      if (!is_open(likeness.found, likeness.known)) continue;
-      known_of_[likeness.found] = likeness.known;
-      taken_[likeness.known] = true;
-    }
+Recognition settled(std::vector<Likeness> likenesses, std::size_t found, std::size_t known) {
+  Recognition known_of(found);
+  std::vector<bool> taken(known, false);
+  std::ranges::stable_sort(likenesses, std::greater{}, &Likeness::points);
+  for (const Likeness& likeness : likenesses) {
+    if (known_of[likeness.found] || taken[likeness.known]) continue;
+    known_of[likeness.found] = likeness.known;
+    taken[likeness.known] = true;
   }
-  std::optional<std::size_t> known_of(std::size_t found) const { return known_of_[found]; }
-  bool is_taken(std::size_t known) const { return taken_[known]; }
-
- private:
-  std::vector<std::optional<std::size_t>> known_of_;
-  std::vector<bool> taken_;
-};
+  return known_of;
+}
 
 bool covers_enough(std::size_t covered, const Polyline& one, const Polyline& other) {
   return 2 * covered >= std::min(one.size(), other.size());
@@ -63,9 +55,7 @@ Recognition recognised(const std::vector<Marking*>& inferred, const std::vector<
       if (covers_enough(covered, points, known[k].points)) likenesses.push_back({covered, i, k});
     }
   }
-  Recognition recognition(inferred.size(), known.size());
-  recognition.settle(std::move(likenesses));
-  return recognition;
+  return settled(std::move(likenesses), inferred.size(), known.size());
 }
 
 bool is_expired(std::uint64_t last_frame, const geometry::Scene& scene, const LaneConfig& config) {
@@ -78,7 +68,7 @@ void InferredMemory::identify(const std::vector<Marking*>& inferred, const geome
                               markings::IdSource& ids) {
   const Recognition recognition = recognised(inferred, inferred_, scene.frame);
   for (std::size_t i = 0; i < inferred.size(); ++i) {
-    const auto same = recognition.known_of(i);
+    const auto same = recognition[i];
     if (!same) inferred_.push_back({.id = ids.next(), .first_seen_ns = scene.stamp_ns, .points = {}});
     KnownInferred& known = same ? inferred_[*same] : inferred_.back();
     Marking& marking = *inferred[i];

@@ -52,10 +52,10 @@ void show(const LaneConfig& config, std::vector<LaneStation>& stations) {
 /// Cuts a track into pieces: where it is forgotten, where another lane begins, and between what is shown.
 class Pieces {
  public:
-  explicit Pieces(LaneTrack track) : whole_(std::move(track)) {
+  explicit Pieces(LaneTrack track) : stations_(std::exchange(track.stations, {})), whole_(std::move(track)) {
     open(whole_.parted[0]);
     bool was_shown = false, was_hidden = false;
-    for (LaneStation& station : whole_.stations) {
+    for (LaneStation& station : stations_) {
       if (!station.shown && station.log_odds < kForgotten) {
         close(0.0);
         was_shown = was_hidden = false;
@@ -93,19 +93,8 @@ class Pieces {
 
  private:
   void open(double parted) {
-    piece_ = whole_copy();
+    piece_ = whole_;
     piece_.parted = {parted, 0.0};
-  }
-  /// The whole without its stations.
-  LaneTrack whole_copy() const {
-    return {.id = whole_.id,
-            .section = whole_.section,
-            .begin = whole_.begin,
-            .published = whole_.published,
-            .direction_log_odds = whole_.direction_log_odds,
-            .belief = whole_.belief,
-            .told_direction = whole_.told_direction,
-            .driven = whole_.driven};
   }
   void close(double parted) {
     piece_.parted[1] = parted;
@@ -113,7 +102,8 @@ class Pieces {
     open(parted);
   }
 
-  LaneTrack whole_, piece_;
+  std::vector<LaneStation> stations_;
+  LaneTrack whole_, piece_;  ///< the whole has no stations any more
   std::vector<LaneTrack> pieces_;
 };
 
@@ -123,9 +113,10 @@ bool runs_against_road(const std::vector<LaneStation>& stations, const boundarie
   for (std::size_t i = 0; i + 1 < stations.size(); i += kLookedAt) {
     const Eigen::Vector2d ahead = (stations[i + 1].center() - stations[i].center()).head<2>().normalized();
     for (const Side side : kSides) {
-      if (!boundaries.contains(stations[i].boundary[index(side)])) continue;
-      const MeasuredPolyline& course = boundaries.of(stations[i].boundary[index(side)]).course;
-      along += course.direction(course.project(stations[i].border[index(side)])).dot(ahead);
+      const boundaries::LaneBoundary* boundary = boundaries.find(stations[i].boundary[index(side)]);
+      if (boundary == nullptr) continue;
+      const Projection foot = boundary->course.project(stations[i].border[index(side)]);
+      along += boundary->course.direction(foot).dot(ahead);
     }
   }
   return along < 0.0;

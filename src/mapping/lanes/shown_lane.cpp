@@ -11,9 +11,7 @@
 namespace laneloom::lanes {
 namespace {
 
-constexpr double kOnBoundary_m = 0.5;   // a boundary that is nearer to a border is the one that it lay on
-constexpr double kMinBlend_m = 5.0;     // over which a step of the borders fades from the centerline
-constexpr double kBlendPerStep = 60.0;  // and, for a larger step, as a multiple of half of it
+constexpr double kOnBoundary_m = 0.5;  // a boundary that is nearer to a border is the one that it lay on
 constexpr double kMinLength_m = 2.0;
 constexpr double kMinStep_m = 0.05;      // of a border, from one cross-section to the next
 constexpr double kMinBorder_m = 2.0;     // along the lane
@@ -97,9 +95,8 @@ class ShownStations {
   void lay(Side side, LaneStation& station) const {
     ElementId& boundary = station.boundary[index(side)];
     Point& border = station.border[index(side)];
-    const Projection foot = boundaries_.contains(boundary)
-                                ? boundaries_.of(boundary).course.project(border, kOnBoundary_m)
-                                : Projection{};
+    const boundaries::LaneBoundary* known = boundaries_.find(boundary);
+    const Projection foot = known != nullptr ? known->course.project(border, kOnBoundary_m) : Projection{};
     if (foot.inside && foot.distance_m < kOnBoundary_m) {
       border = foot.foot;
     } else {
@@ -146,16 +143,12 @@ class ShownStations {
     const Eigen::Vector2d along = (centers_[i + 2] - centers_[i - 1]).head<2>().normalized();
     Point half = 0.5 * (to - from);
     half.head<2>() -= half.head<2>().dot(along) * along;
-    const double over_m = std::max(kMinBlend_m, kBlendPerStep * half.head<2>().norm());
-    const double middle_m = 0.5 * (arcs_m_[i] + arcs_m_[i + 1]);
-    const double before_m = std::min(over_m, middle_m),
-                 behind_m = std::min(over_m, arcs_m_.back() - middle_m);
-    const auto weight = [](double distance_m, double fading_m) {
-      return distance_m >= fading_m ? 0.0 : 1.0 - geometry::smooth_step(distance_m / fading_m);
-    };
-    for (std::size_t k = 0; k <= i; ++k) line[k] += weight(middle_m - arcs_m_[k], before_m) * half;
+    const double shift_m = half.head<2>().norm();
+    const double before_m = 0.5 * (arcs_m_[i] + arcs_m_[i + 1]), behind_m = arcs_m_.back() - before_m;
+    for (std::size_t k = 0; k <= i; ++k)
+      line[k] += geometry::faded(before_m - arcs_m_[k], shift_m, before_m) * half;
     for (std::size_t k = i + 1; k < line.size(); ++k)
-      line[k] -= weight(arcs_m_[k] - middle_m, behind_m) * half;
+      line[k] -= geometry::faded(arcs_m_[k] - before_m, shift_m, behind_m) * half;
   }
 
   /// Gives the lane the trust that its stations have.

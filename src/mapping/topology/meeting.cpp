@@ -13,10 +13,8 @@
 namespace laneloom::topology {
 namespace {
 
-constexpr double kMaxShift_m = 1.2;    // of a lane's end, to the point where lanes meet
-constexpr double kMinBlend_m = 5.0;    // length over which the shift of an end fades
-constexpr double kBlendPerShift = 60;  // and, for a larger shift, as a multiple of it
-constexpr double kMinAhead = 0.5;      // cosine between a lane's end and the way to the next lane
+constexpr double kMaxShift_m = 1.2;  // of a lane's end, to the point where lanes meet
+constexpr double kMinAhead = 0.5;    // cosine between a lane's end and the way to the next lane
 
 /// The end of a lane, by the lane's id.
 using LaneEnd = std::pair<ElementId, End>;
@@ -81,8 +79,7 @@ void bend(Polyline& line, const Point& front_shift, const Point& back_shift) {
   const std::vector<double> arcs_m = arc_lengths(line);
   const double length_m = arcs_m.back();
   const auto weight = [&](double distance_m, const Point& shift) {
-    const double over_m = std::min(length_m, std::max(kMinBlend_m, kBlendPerShift * shift.norm()));
-    return 1.0 - geometry::smooth_step(std::min(1.0, distance_m / over_m));
+    return geometry::faded(distance_m, shift.norm(), length_m);
   };
   for (std::size_t i = 0; i < line.size(); ++i)
     line[i] +=
