@@ -82,21 +82,30 @@ struct SectionConfig {
   double max_distance_m = 13.0;  ///< boundaries further apart do not overlap
 };
 
+/// How lanes are found between boundaries.
+enum class LaneMethod : std::uint8_t {
+  scored,  ///< by a sum of log odds
+  paper    ///< as in the paper (Sec. III-D-3): by limits of the width alone, and nothing is inferred
+};
+/// The enumerators of LaneMethod, as a configuration file spells them.
+inline constexpr const char* kLaneMethods = "scored|paper";
+
 /// Boundaries to lanes (paper, Sec. III-D-3); the values are ours.
 struct LaneConfig {
-  double min_width_m = 2.1;       ///< narrowest lane; a quarter more between two roadedges
-  double max_width_m = 4.5;       ///< widest lane; 15 % more between two dashed lines
-  double max_kerb_width_m = 6.5;  ///< widest lane beside a roadedge (room to park), and room beside one line
-  bool find_shoulders = true;     ///< tells shoulders from lanes
-  double max_shoulder_width_m = 3.0;  ///< a shoulder, between a roadedge and a lane's solid line, is narrower
+  LaneMethod method = LaneMethod::scored;
+  double min_width_m = 2.3;           ///< narrower strips rather are no lanes
+  double max_width_m = 4.5;           ///< wider strips between lines rather are no lanes
+  double max_kerb_width_m = 6.5;      ///< wider strips beside a roadedge rather are no lanes
+  bool find_shoulders = true;         ///< tells shoulders from lanes
+  double max_shoulder_width_m = 3.2;  ///< a shoulder, between a roadedge and a lane's solid line, is narrower
   bool unmarked_roads = true;         ///< divides roads without lines into two lanes
-  double min_divided_width_m = 6.5;   ///< narrower roads without lines are not divided
+  double min_divided_width_m = 6.5;   ///< narrower roads without lines rather are one lane
   bool one_sided_lanes = true;        ///< infers lanes beside a line with nothing else on that side
   double assumed_width_m = 3.3;       ///< width of such an inferred lane
-  double max_width_variation_m = 1.6;  ///< between the widest and the narrowest place of a lane
+  double max_width_variation_m = 1.6;  ///< method paper: between the widest and the narrowest place of a lane
   double min_length_m = 4.0;           ///< shorter lanes are not built
   double step_m = 1.0;                 ///< between cross-sections, and so between the points of a centerline
-  int id_memory_frames = 50;           ///< a lane that comes back within this many frames keeps its id
+  int id_memory_frames = 50;  ///< an inferred boundary that comes back within this many frames keeps its id
 };
 
 /// Limits within which lanes are linked (paper, Sec. III-D-4). The values are ours.

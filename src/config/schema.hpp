@@ -201,37 +201,34 @@ void visit(auto& v, Is<SectionConfig> auto& c) {
 }
 
 void visit(auto& v, Is<LaneConfig> auto& c) {
-  auto& [min_width_m, max_width_m, max_kerb_width_m, find_shoulders, max_shoulder_width_m, unmarked_roads,
-         min_divided_width_m, one_sided_lanes, assumed_width_m, max_width_variation_m, min_length_m, step_m,
-         id_memory_frames] = c;
-  v.number("min_width_m", min_width_m, {"m", 0.5, 20},
-           "Narrowest lane. Between two roadedges a lane is at least a quarter wider.");
-  v.number("max_width_m", max_width_m, {"m", 0.5, 20},
-           "Widest lane. Between two dashed lines a lane may be 15 % wider, beside a roadedge up to "
-           "max_kerb_width_m.");
+  auto& [method, min_width_m, max_width_m, max_kerb_width_m, find_shoulders, max_shoulder_width_m,
+         unmarked_roads, min_divided_width_m, one_sided_lanes, assumed_width_m, max_width_variation_m,
+         min_length_m, step_m, id_memory_frames] = c;
+  choice(v, "method", method, kLaneMethods,
+         "How lanes are found. scored: by log odds of width, styles and surroundings. paper: by the width "
+         "alone, as in the paper.");
+  v.number("min_width_m", min_width_m, {"m", 0.5, 20}, "Narrower strips rather are no lanes.");
+  v.number("max_width_m", max_width_m, {"m", 0.5, 20}, "Wider strips between two lines rather are no lanes.");
   v.number("max_kerb_width_m", max_kerb_width_m, {"m", 0.5, 20},
-           "Widest lane beside a roadedge, where there is room to park. A lane beside a single line needs "
-           "this much free room.");
+           "Wider strips beside a roadedge, where there is room to park, rather are no lanes.");
   v.flag("find_shoulders", find_shoulders,
-         "Tell shoulders and cycle lanes from lanes. A narrow strip between a roadedge and the solid line of "
-         "a wider lane is no lane if the road goes on beyond the wider lane. The strip is a lane while the "
-         "vehicle drives in it.");
+         "Tell shoulders from lanes: narrow strips between a roadedge and the solid line of a lane.");
   v.number("max_shoulder_width_m", max_shoulder_width_m, {"m", 0.5, 20}, "A shoulder is narrower than this.");
   v.flag("unmarked_roads", unmarked_roads,
-         "Publish a road without a line as two lanes with an inferred boundary between them.");
+         "Publish a wide road without a line as two lanes with an inferred boundary between them.");
   v.number("min_divided_width_m", min_divided_width_m, {"m", 1, 40},
-           "A road without a line is divided only if it is at least this wide.");
+           "A narrower road without a line rather is one lane.");
   v.flag("one_sided_lanes", one_sided_lanes,
          "Infer a lane beside a line that has nothing on its other side.");
   v.number("assumed_width_m", assumed_width_m, {"m", 0.5, 20}, "Width of such an inferred lane.");
   v.number("max_width_variation_m", max_width_variation_m, {"m", 0, 10},
-           "Largest difference between the widest and the narrowest place of a lane.");
+           "Method paper: largest difference between the widest and the narrowest place of a lane.");
   v.number("min_length_m", min_length_m, {"m", 0.5, 100}, "Lanes shorter than this are not built.");
   v.number("step_m", step_m, {"m", 0.1, 10},
            "Distance between the cross-sections of a lane, and between the points of its centerline. A lane "
            "must get fewer than 1024 of them over the range.");
   v.number("id_memory_frames", id_memory_frames, {"frames", 0, 10000},
-           "A lane that comes back within this many frames keeps its id.");
+           "An inferred boundary that comes back within this many frames keeps its id.");
 }
 
 void visit(auto& v, Is<LinkageConfig> auto& c) {

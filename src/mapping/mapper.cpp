@@ -48,8 +48,11 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
   boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
-  lanes::LaneLayout found = state.inferred.recognise(
-      lanes::find_lanes(std::move(sections), scene, config.lane), scene, config.lane, state.ids);  // III-D-3
+  const Eigen::Isometry3d T_map_body = scene.T_map_body();
+  lanes::LaneLayout found =
+      state.inferred.recognise(lanes::find_lanes(std::move(sections), scene.box, {&T_map_body, 1},
+                                                 state.lane_tracks.known_borders(), config.lane),
+                               scene, config.lane, state.ids);  // III-D-3
   return log.done(Stage::lanes,
                   state.lane_tracks.update(std::move(found), scene, config.lane, state.ids));  // ours
 }

@@ -8,18 +8,11 @@
 
 namespace laneloom::boundaries {
 
-/// Greatest distance between an edge and a line that is painted along it.
-inline constexpr double kAlongEdge_m = 1.0;
-
 /// Two boundaries, by their indices, that may bound a lane. The lane runs as the boundary does that is not
 /// reversed.
 struct BoundaryPair {
   std::size_t left = 0, right = 0;
   bool left_reversed = false, right_reversed = false;
-  bool adjacent = false;  ///< no other boundary lies between them for more than a short piece
-  bool near = false;      ///< at most one other boundary lies between them, likewise
-  bool left_kerb = false, right_kerb = false;  ///< an edge, or a line that is painted along an edge outside
-  bool crosses_kerb = false;  ///< one of them is a line along an edge that lies between the two
   std::uint32_t section = 0;  ///< index of the road section
 
   std::size_t index(Side side) const { return side == Side::left ? left : right; }
@@ -28,9 +21,9 @@ struct BoundaryPair {
   Side inner(Side side) const { return as_seen(opposite(side), reversed(side)); }
 };
 
-/// Pairs of each boundary with the boundaries on its right (paper, Sec. III-D-3), except where seven or more
-/// others lie between. Pairs with nothing between come first. Between two boundaries that run against each
-/// other, the lane runs as the older one does.
+/// Pairs of each boundary with the next two on its right (paper, Sec. III-D-3). Boundaries that only touch
+/// the space between two others do not count. Pairs with nothing between come first. Between two boundaries
+/// that run against each other, the lane runs as the older one does.
 std::vector<BoundaryPair> boundary_pairs(const SectionGraph& graph);
 
 }  // namespace laneloom::boundaries

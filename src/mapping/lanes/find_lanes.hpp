@@ -2,13 +2,16 @@
 
 #include "laneloom/config.hpp"
 #include "mapping/boundaries/road_sections.hpp"
-#include "mapping/geometry/scene.hpp"
+#include "mapping/geometry/map_box.hpp"
+#include "mapping/lanes/hypotheses.hpp"
 #include "mapping/lanes/inferred_boundaries.hpp"
 
 namespace laneloom::lanes {
 
-/// Finds the lanes of a road: lanes between boundaries (paper, Sec. III-D-3) without the shoulders,
-/// cut at forks, and inferred lanes on roads without lines and beside single lines.
-FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::Scene& scene, const LaneConfig& config);
+/// Finds the lanes of a road, by the configured method: those of the paper (Sec. III-D-3), or the likeliest
+/// ones, cut at forks, with inferred lanes where borders are unseen. `driven` are poses of the vehicle on
+/// that road.
+FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::MapBox& box, Poses driven,
+                      const KnownBorders& known, const LaneConfig& config);
 
 }  // namespace laneloom::lanes

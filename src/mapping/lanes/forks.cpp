@@ -34,10 +34,8 @@ class Opening {
  public:
   Opening(const Lane& lane, End end, const boundaries::Boundaries& boundaries, const LaneConfig& config)
       : front_(end == End::front),
-        left_(boundaries.of(lane.left_borders.front().boundary), lane.left_borders.front().reversed,
-              nothing_),
-        right_(boundaries.of(lane.right_borders.front().boundary), lane.right_borders.front().reversed,
-               nothing_),
+        left_(boundaries.of(lane.left_borders.front().boundary), lane.left_borders.front().reversed),
+        right_(boundaries.of(lane.right_borders.front().boundary), lane.right_borders.front().reversed),
         begin_{begin_of(left_, lane.left_borders.front().on_boundary),
                begin_of(right_, lane.right_borders.front().on_boundary)},
         tip_(find_tip(config)) {}
@@ -111,7 +109,6 @@ class Opening {
     return curvature * along_m * along_m;
   }
 
-  Occupied nothing_;
   bool front_;
   LaneBorder left_, right_;
   std::array<double, 2> begin_;               ///< arc lengths of the lane's end on the borders, by side

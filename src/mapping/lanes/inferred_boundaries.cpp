@@ -20,16 +20,6 @@ Marking inferred_marking(const Polyline& points) {
           .styles = {{{0.0, length(points)}, MarkingStyle::unknown}}};
 }
 
-TakenSpace::TakenSpace(const std::vector<Lane>& lanes) {
-  for (const Lane& lane : lanes) {
-    add(lane.centerline, 0.5 * lane.width_m);
-    for (const Side one : kSides) {
-      const LaneSide side = lane_side(lane, one);
-      beside(side.of).push_back(side.range);
-    }
-  }
-}
-
 void TakenSpace::add(const Polyline& line, double half_width_m) {
   strips_.push_back({MeasuredPolyline(line), half_width_m, box_around(line, half_width_m)});
 }
@@ -43,14 +33,13 @@ bool TakenSpace::contains(const Point& point) const {
 }
 
 LaneLayout laid_out(FoundLanes found) {
-  const Occupied nothing;
   LaneLayout layout{.boundaries = {}, .lanes = std::move(found.lanes), .forks = std::move(found.forks)};
   std::vector<boundaries::LaneBoundary> added;
   for (InferredBoundary& one : found.inferred) {
     added.push_back({.marking = one.marking, .members = {one.marking.id}, .two_way = one.two_way});
-    const LaneBorder border(added.back(), false, nothing);
+    const LaneBorder border(added.back(), false);
     const auto other = [&](const InferredBoundary::Beside& lane) {
-      return LaneBorder(found.boundaries[lane.boundary], lane.reversed, nothing);
+      return LaneBorder(found.boundaries[lane.boundary], lane.reversed);
     };
     const auto add_lane = [&](Lane lane) {
       lane.section = one.section;

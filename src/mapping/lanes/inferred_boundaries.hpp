@@ -42,9 +42,8 @@ Marking inferred_marking(const Polyline& points);
 /// The space that is taken by lanes: stretches along the sides of boundaries, and strips of the road.
 class TakenSpace {
  public:
-  explicit TakenSpace(const std::vector<Lane>& lanes);
   /// Taken stretches along one side of a boundary, as it runs itself.
-  Occupied& beside(const BoundarySide& side) { return sides_[side]; }
+  std::vector<Stretch>& beside(const BoundarySide& side) { return sides_[side]; }
   void add(const Polyline& line, double half_width_m);
   bool contains(const Point& point) const;
 
@@ -55,7 +54,7 @@ class TakenSpace {
     double half_width_m = 0.0;
     Box box;  ///< around the strip
   };
-  std::map<BoundarySide, Occupied> sides_;
+  std::map<BoundarySide, std::vector<Stretch>> sides_;
   std::vector<Strip> strips_;
 };
 

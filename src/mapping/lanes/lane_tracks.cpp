@@ -168,6 +168,14 @@ LaneLayout LaneTracks::adopt(LaneLayout found, markings::IdSource& ids) {
   return found;
 }
 
+KnownBorders LaneTracks::known_borders() const {
+  KnownBorders known;
+  for (const LaneTrack& track : tracks_)
+    for (const LaneStation& station : track.stations)
+      if (station.shown) known.insert(station.boundary);
+  return known;
+}
+
 const LaneTrack* LaneTracks::find(ElementId id) const {
   const auto found = std::ranges::find(tracks_, id, &LaneTrack::id);
   return found == tracks_.end() ? nullptr : &*found;

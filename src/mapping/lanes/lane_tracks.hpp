@@ -6,6 +6,7 @@
 
 #include "laneloom/config.hpp"
 #include "mapping/geometry/scene.hpp"
+#include "mapping/lanes/hypotheses.hpp"
 #include "mapping/lanes/lane_layout.hpp"
 #include "mapping/lanes/lane_track.hpp"
 #include "mapping/markings/id_source.hpp"
@@ -29,6 +30,9 @@ class LaneTracks {
   LaneLayout adopt(LaneLayout found, markings::IdSource& ids);
 
   const std::vector<LaneTrack>& all() const { return tracks_; }
+  /// The boundaries on the left and on the right of lanes that the last map showed, as the boundaries' road
+  /// runs.
+  KnownBorders known_borders() const;
   /// The track of an id. Null: there is none.
   const LaneTrack* find(ElementId id) const;
   LaneTrack* find(ElementId id);

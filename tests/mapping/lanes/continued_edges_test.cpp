@@ -141,7 +141,8 @@ class RoadWithAnUnseenEdge : public ::testing::Test {
     const geometry::Scene scene = wide_scene(++frame_);
     boundaries::Boundaries boundaries = std::vector{edge(1, 3.5, -20, end_x), edge(2, -3.5, -20, 20)};
     boundaries.insert(memory_.recognise(continued_edges(boundaries, scene.box, {}), scene, ids_));
-    FoundLanes found = find_lanes(road_sections(std::move(boundaries), test::at(0), {}), scene, {});
+    FoundLanes found =
+        find_lanes(road_sections(std::move(boundaries), test::at(0), {}), scene.box, {}, {}, {});
     return tracks_.adopt(memory_.recognise(std::move(found), scene, {}, ids_), ids_);
   }
 

@@ -8,7 +8,7 @@
 
 #include "mapping/geometry/stretches.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
-#include "mapping/lanes/lanes.hpp"
+#include "mapping/lanes/paper_lanes.hpp"
 #include "mapping/shapes.hpp"
 #include "mapping/topology/directions.hpp"
 #include "mapping/topology/linkages.hpp"
@@ -60,7 +60,7 @@ class Forks : public ::testing::Test {
   void map(std::vector<boundaries::LaneBoundary> lines, ElementId against = kNoElement) {
     boundaries::SectionGraph graph = road_sections(std::move(lines), test::at(0), {});
     LaneLayout layout;
-    layout.lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, {0, 0, 0}, {});
+    layout.lanes = paper_lanes(graph, {}).lanes;
     if (against != kNoElement) reverse(against, graph.boundaries, layout.lanes);
     layout.forks = cut_at_forks(graph.boundaries, {}, layout.lanes);
     forks_ = layout.forks.size();

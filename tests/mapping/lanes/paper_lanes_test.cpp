@@ -1,8 +1,7 @@
-#include "mapping/lanes/lanes.hpp"
+#include "mapping/lanes/paper_lanes.hpp"
 
 #include <gmock/gmock.h>
 
-#include "mapping/lanes/inferred_boundaries.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/shapes.hpp"
@@ -16,9 +15,8 @@ using test::straight;
 /// Lanes of boundaries that run forward, with ids and neighbours.
 std::vector<Lane> lanes_of(std::vector<boundaries::LaneBoundary> boundaries) {
   boundaries::SectionGraph graph = road_sections(std::move(boundaries), test::at(0), {});
-  auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
   markings::IdSource ids(100);
-  return LaneTracks().adopt(laid_out({std::move(graph.boundaries), std::move(lanes), {}}), ids).lanes;
+  return LaneTracks().adopt(laid_out(paper_lanes(std::move(graph), {})), ids).lanes;
 }
 
 const Lane* between(const std::vector<Lane>& lanes, ElementId left, ElementId right) {
@@ -28,7 +26,7 @@ const Lane* between(const std::vector<Lane>& lanes, ElementId left, ElementId ri
   return found == lanes.end() ? nullptr : &*found;
 }
 
-TEST(Lanes, BetweenTwoBoundaries) {
+TEST(PaperLanes, BetweenTwoBoundaries) {
   const auto lanes = lanes_of(
       {boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
   ASSERT_EQ(lanes.size(), 1U);
@@ -43,7 +41,7 @@ TEST(Lanes, BetweenTwoBoundaries) {
   EXPECT_TRUE(lane.left_neighbours.empty());
 }
 
-TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
+TEST(PaperLanes, NeighboursAreAcrossASharedBoundary) {
   const auto lanes = lanes_of({boundary(1, straight({0, 7, 0}, {30, 7, 0})),
                                boundary(2, straight({0, 3.5, 0}, {30, 3.5, 0})),
                                boundary(3, straight({0, 0, 0}, {30, 0, 0}))});
@@ -55,23 +53,6 @@ TEST(Lanes, NeighboursAreAcrossASharedBoundary) {
   EXPECT_EQ(main_neighbour(*right, Side::left), left->id);
   EXPECT_TRUE(left->left_neighbours.empty());
   EXPECT_EQ(left->section, right->section);
-}
-
-TEST(Lanes, BetweenDashesAreWiderThanBetweenSolidLines) {
-  for (const MarkingStyle style : {MarkingStyle::solid, MarkingStyle::dashed}) {
-    auto lines = std::vector{boundary(1, straight({0, 5, 0}, {30, 5, 0})),
-                             boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
-    for (boundaries::LaneBoundary& line : lines) line.marking.styles = {{{0.0, 30.0}, style}};
-    EXPECT_EQ(lanes_of(lines).size(), style == MarkingStyle::dashed ? 1U : 0U);
-  }
-}
-
-TEST(Lanes, BetweenEdgesNeedMoreRoomThanBetweenLines) {
-  for (const MarkingType type : {MarkingType::laneline, MarkingType::roadedge}) {
-    const auto lanes = lanes_of({boundary(1, straight({0, 2.3, 0}, {30, 2.3, 0}), type),
-                                 boundary(2, straight({0, 0, 0}, {30, 0, 0}), type)});
-    EXPECT_EQ(lanes.size(), type == MarkingType::laneline ? 1U : 0U);
-  }
 }
 
 /// Edges of a road along x, with a lane on either side of its centre line, and of one that joins it from the
@@ -95,7 +76,7 @@ std::vector<boundaries::LaneBoundary> t_junction() {
           boundary(6, straight({20, -30, 0}, {20, -8, 0}))};
 }
 
-TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
+TEST(PaperLanes, RoundTheCornersOfAJunctionNoneIsLost) {
   const auto lanes = lanes_of(t_junction());
   ASSERT_EQ(lanes.size(), 6U);
   for (const Lane& lane : lanes) {
@@ -118,14 +99,14 @@ TEST(Lanes, RoundTheCornersOfAJunctionNoneIsLost) {
   }
 }
 
-TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
+TEST(PaperLanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
   // Both boundaries have the other on their left, whatever way they run.
   const boundaries::SectionGraph graph{
       .boundaries = std::vector{boundary(1, straight({0, 0, 0}, {30, 0, 0})),
                                 boundary(2, straight({40, 3.5, 0}, {0, 3.5, 0}))},
       .sections = {{{0, 1}}},
       .beside = {{{1, 3.5, 30.0, true}}, {{0, 3.5, 30.0, true}}}};
-  const auto lanes = generate_lanes(boundary_pairs(graph), graph.boundaries, Point::Zero(), {});
+  const auto lanes = paper_lanes(graph, {}).lanes;
   ASSERT_EQ(lanes.size(), 1U);
   EXPECT_EQ(lanes[0].right_borders.front().boundary, 1U);
   EXPECT_EQ(lanes[0].left_borders.front().boundary, 2U);
@@ -137,44 +118,7 @@ TEST(Lanes, ALaneBesideAReversedBoundaryLiesWhereItSays) {
   EXPECT_TRUE(lanes[0].centerline.front().isApprox(Point(0, 1.75, 0)));
 }
 
-TEST(Lanes, ALineThatIsPaintedAlongAnEdgeLeavesRoomToPark) {
-  for (const double from_edge_m : {0.5, 2.0}) {
-    const auto lanes = lanes_of(
-        {boundary(1, straight({0, 5.5, 0}, {30, 5.5, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
-         boundary(3, straight({0, -from_edge_m, 0}, {30, -from_edge_m, 0}), MarkingType::roadedge)});
-    EXPECT_EQ(between(lanes, 1, 2) != nullptr, from_edge_m < 1.0);
-  }
-}
-
-TEST(Lanes, AWideOneEndsWhereALineLiesInIt) {
-  const auto lane_beside = [](double line_to_x) {
-    auto lanes = lanes_of({boundary(1, straight({0, 6, 0}, {60, 6, 0})),
-                           boundary(2, straight({0, 0, 0}, {60, 0, 0}), MarkingType::roadedge),
-                           boundary(3, straight({-20, 3, 0}, {line_to_x, 3, 0}))});
-    const Lane* lane = between(lanes, 1, 2);
-    return lane == nullptr ? Stretch{} : lane->right_borders.front().on_boundary;
-  };
-  // A line that only touches the end of the lane does not take the lane away.
-  EXPECT_NEAR(lane_beside(4.0).from_m, 4.5, 1.0);
-  EXPECT_NEAR(lane_beside(4.0).to_m, 60.0, 1e-6);
-  EXPECT_EQ(lane_beside(30.0).length(), 0.0);
-}
-
-TEST(Lanes, BetweenTwoEdgesThereIsOneWithoutMarkings) {
-  const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
-                               boundary(2, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});
-  EXPECT_EQ(lanes.size(), 1U);
-}
-
-TEST(Lanes, BeyondTheEdgeOfARoadWithLanesIsNone) {
-  const auto lanes = lanes_of({boundary(1, straight({0, 7, 0}, {30, 7, 0})),
-                               boundary(2, straight({0, 3.5, 0}, {30, 3.5, 0}), MarkingType::roadedge),
-                               boundary(3, straight({0, 0, 0}, {30, 0, 0}), MarkingType::roadedge)});
-  ASSERT_EQ(lanes.size(), 1U);
-  EXPECT_TRUE(between(lanes, 1, 2));
-}
-
-TEST(Lanes, SayWhereTheyWereInferredAcrossAGap) {
+TEST(PaperLanes, SayWhereTheyWereInferredAcrossAGap) {
   auto left = boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}));
   left.bridged = {{10, 14}};
   const auto lanes = lanes_of({left, boundary(2, straight({0, 0, 0}, {30, 0, 0}))});
@@ -184,7 +128,7 @@ TEST(Lanes, SayWhereTheyWereInferredAcrossAGap) {
   EXPECT_NEAR(lanes[0].inferred_ranges[0].to_m, 14.0, 1.0);
 }
 
-TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
+TEST(PaperLanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
   auto left = boundary(1, straight({0, 3.5, 0}, {30, 3.5, 0}));
   auto right = boundary(2, straight({0, 0, 0}, {30, 0, 0}));
   left.marking.existence_probability = 0.9;
@@ -194,28 +138,6 @@ TEST(Lanes, AreAsSureAsTheLessSureOfTheirBoundaries) {
   ASSERT_EQ(lanes.size(), 1U);
   EXPECT_EQ(lanes[0].existence_probability, 0.6);
   EXPECT_EQ(lanes[0].status, ElementStatus::tentative);
-}
-
-TEST(Lanes, BesideAKerbTheyMayBeWiderButNotTwoLanesWide) {
-  const auto pair = [](double width_m, MarkingType right_type,
-                       MarkingType left_type = MarkingType::laneline) {
-    std::vector<boundaries::LaneBoundary> sides{boundary(1, straight({0, width_m, 0}, {30, width_m, 0})),
-                                                boundary(2, straight({0, 0, 0}, {30, 0, 0}))};
-    sides[0].marking.type = left_type;
-    sides[1].marking.type = right_type;
-    return lanes_of(sides).size();
-  };
-  EXPECT_EQ(pair(6.0, MarkingType::laneline), 0U);
-  EXPECT_EQ(pair(6.0, MarkingType::roadedge), 1U);
-  EXPECT_EQ(pair(7.0, MarkingType::roadedge), 0U);
-  EXPECT_EQ(pair(6.0, MarkingType::roadedge, MarkingType::roadedge), 0U);
-  EXPECT_EQ(pair(3.5, MarkingType::roadedge, MarkingType::roadedge), 1U);
-  // Over the line between two lanes there is none, however narrow they are.
-  std::vector<boundaries::LaneBoundary> narrow{boundary(1, straight({0, 6, 0}, {30, 6, 0})),
-                                               boundary(2, straight({0, 3, 0}, {30, 3, 0})),
-                                               boundary(3, straight({0, 0, 0}, {30, 0, 0}))};
-  narrow[2].marking.type = MarkingType::roadedge;
-  EXPECT_FALSE(between(lanes_of(narrow), 1, 3));
 }
 
 class Width : public ::testing::TestWithParam<std::pair<double, bool>> {};
@@ -232,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Interval, Width,
                                            std::pair(4.6, false)));
 
 // Paper, Fig. 5 (c): the valid range is where the distance is steady and in the interval.
-TEST(Lanes, EndWhereTheRoadWidens) {
+TEST(PaperLanes, EndWhereTheRoadWidens) {
   const auto lanes = lanes_of(
       {boundary(1, straight({0, 3.5, 0}, {40, 3.5, 0})), boundary(2, {{0, 0, 0}, {20, 0, 0}, {40, -10, 0}})});
   ASSERT_GE(lanes.size(), 1U);
@@ -243,7 +165,7 @@ TEST(Lanes, EndWhereTheRoadWidens) {
 }
 
 // Paper, Fig. 5 (d): one lane becomes two, by (b_i, b_i+1) and (b_i, b_i+2).
-TEST(Lanes, ASplitGivesThreeLanes) {
+TEST(PaperLanes, ASplitGivesThreeLanes) {
   const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})),
                                boundary(2, straight({24, 0, 0}, {60, 0, 0})),  // begins at the taper
                                boundary(3, {{0, 0, 0}, {20, 0, 0}, {30, -3.5, 0}, {60, -3.5, 0}})});
@@ -257,14 +179,14 @@ TEST(Lanes, ASplitGivesThreeLanes) {
   EXPECT_NEAR(left->left_borders.front().on_boundary.to_m, 60.0, 1e-9);
 }
 
-TEST(Lanes, AMergeGivesTheSameLanesMirrored) {
+TEST(PaperLanes, AMergeGivesTheSameLanesMirrored) {
   const auto lanes = lanes_of({boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})),
                                boundary(2, straight({0, 0, 0}, {36, 0, 0})),
                                boundary(3, {{0, -3.5, 0}, {30, -3.5, 0}, {40, 0, 0}, {60, 0, 0}})});
   EXPECT_TRUE(between(lanes, 1, 2) && between(lanes, 2, 3) && between(lanes, 1, 3));
 }
 
-TEST(Lanes, DoNotOverlapWhereANarrowStripRunsBeside) {
+TEST(PaperLanes, DoNotOverlapWhereANarrowStripRunsBeside) {
   // A cycle strip of 1.2 m: the lane is to its near side, not across it, though both widths are allowed.
   const auto lanes =
       lanes_of({boundary(1, straight({0, 3, 0}, {30, 3, 0})), boundary(2, straight({0, 0, 0}, {30, 0, 0})),
@@ -273,7 +195,7 @@ TEST(Lanes, DoNotOverlapWhereANarrowStripRunsBeside) {
   EXPECT_EQ(lanes[0].right_borders.front().boundary, 2U);
 }
 
-TEST(Lanes, GoOnWhereADoubleLineEndsAndOneLineBeginsBesideIt) {
+TEST(PaperLanes, GoOnWhereADoubleLineEndsAndOneLineBeginsBesideIt) {
   // Both halves of the double line lie between the left edge of the road and the line, but for a metre only.
   const auto lanes = lanes_of(
       {boundary(1, straight({0, 3.5, 0}, {60, 3.5, 0})), boundary(2, straight({0, 0.2, 0}, {21, 0.2, 0})),
@@ -283,7 +205,7 @@ TEST(Lanes, GoOnWhereADoubleLineEndsAndOneLineBeginsBesideIt) {
   EXPECT_GT(after->left_borders.front().on_boundary.length(), 35.0);
 }
 
-TEST(Lanes, InABendOfTwelveMetres) {
+TEST(PaperLanes, InABendOfTwelveMetres) {
   const auto lanes = lanes_of(
       {boundary(1, test::arc({0, 0, 0}, 10.25, -90, 0)), boundary(2, test::arc({0, 0, 0}, 13.75, -90, 0))});
   ASSERT_EQ(lanes.size(), 1U);

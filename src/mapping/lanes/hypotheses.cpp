@@ -1,0 +1,184 @@
+#include "mapping/lanes/hypotheses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "mapping/geometry/levels.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+constexpr double kStraddled_m = 1.0;  // a lane does not straddle a line that lies further within it
+
+constexpr double kMinWidth_m = 0.8, kMaxWidth_m = 8.5;  // of a lane
+constexpr double kMinDivided_m = 4.0;                   // width of two lanes
+constexpr double kMinRoom_m = 5.0;                      // beside one mark
+constexpr std::size_t kTaperReach = 3;                  // cross-sections either way
+constexpr double kBeyondEnd_m =
+    10.0;                          // up to here before or behind a boundary, the vehicle counts as beside it
+constexpr double kAsDriven = 0.9;  // cosine between its heading and the boundary
+constexpr double kDrivenFrom = 0.2,
+                 kDrivenTo = 0.8;             // places of the vehicle in a lane, as shares of its width
+constexpr double kBegin = 4.0;                // log odds that it takes for a lane to begin, or to end
+constexpr double kLeast = -4.0, kMost = 4.0;  // log odds that a single place can say
+
+/// The place of the vehicle beside boundaries.
+class VehicleBeside {
+ public:
+  VehicleBeside(const MeasuredPolyline& line, const Eigen::Isometry3d& T_map_body)
+      : vehicle_(T_map_body.translation()), foot_(line.project(vehicle_)), ahead_(line.direction(foot_)) {
+    const double beyond_m2 = foot_.distance_m * foot_.distance_m - foot_.lateral_m * foot_.lateral_m;
+    const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
+    is_beside_ = beyond_m2 < kBeyondEnd_m * kBeyondEnd_m && geometry::same_level(foot_.foot, vehicle_) &&
+                 std::abs(ahead_.dot(heading)) > kAsDriven * heading.norm();
+  }
+
+  /// Whether the vehicle drives between the boundary and another one on its left.
+  bool is_left_up_to(const MeasuredPolyline& other) const {
+    if (!is_beside_) return false;
+    const Projection foot = other.project(vehicle_, kCutReach_m);
+    if (foot.distance_m >= kCutReach_m) return false;
+    const double sense = other.direction(foot).dot(ahead_) > 0.0 ? 1.0 : -1.0;
+    return is_within(foot_.lateral_m, foot_.lateral_m - sense * foot.lateral_m);
+  }
+  bool is_in_open(Room room, double width_m) const {
+    return is_beside_ && is_within(room == Room::open_left ? foot_.lateral_m : -foot_.lateral_m, width_m);
+  }
+
+ private:
+  static bool is_within(double lateral_m, double width_m) {
+    return width_m > 0.0 && lateral_m > kDrivenFrom * width_m && lateral_m < kDrivenTo * width_m;
+  }
+
+  Point vehicle_;
+  Projection foot_;
+  Eigen::Vector2d ahead_;
+  bool is_beside_ = false;
+};
+
+/// Whether a boundary that rather is there than not lies between a mark and the cut boundary, that far from
+/// either.
+bool is_parted(const RoadCut& cut, std::size_t left, double least_aside_m) {
+  for (std::size_t i = cut.own + 1; i < left; ++i) {
+    const Mark& mark = cut.marks[i];
+    const double aside_m = std::min(mark.lateral_m, cut.marks[left].lateral_m - mark.lateral_m);
+    if (mark.log_odds > 0.0 && aside_m >= least_aside_m) return true;
+  }
+  return false;
+}
+
+/// Collects the candidates of cross-sections to hypotheses.
+class Collection {
+ public:
+  explicit Collection(std::size_t base) : base_(base) {}
+
+  void add(std::size_t cut, Room room, std::size_t other, std::size_t mark) {
+    std::vector<Hypothesis>& all = by_place_[{room, other}];
+    if (all.empty() || all.back().first + all.back().marks.size() != cut)
+      all.push_back({.room = room, .base = base_, .other = other, .first = cut});
+    all.back().marks.push_back(mark);
+  }
+
+  std::vector<Hypothesis> take() {
+    std::vector<Hypothesis> found;
+    for (auto& [place, all] : by_place_) std::ranges::move(all, std::back_inserter(found));
+    return found;
+  }
+
+ private:
+  std::size_t base_;
+  std::map<std::pair<Room, std::size_t>, std::vector<Hypothesis>> by_place_;
+};
+
+Candidate candidate_at(const Hypothesis& hypothesis, std::size_t i, const std::vector<RoadCut>& cuts) {
+  const std::size_t own = cuts[hypothesis.first + i].own;
+  return {
+      .room = hypothesis.room, .left = is_open(hypothesis.room) ? own : hypothesis.marks[i], .right = own};
+}
+
+double taper_at(const Hypothesis& hypothesis, std::size_t i, const std::vector<RoadCut>& cuts,
+                double step_m) {
+  if (is_open(hypothesis.room)) return 0.0;
+  const std::size_t from = i < kTaperReach ? 0 : i - kTaperReach;
+  const std::size_t to = std::min(i + kTaperReach, hypothesis.marks.size() - 1);
+  if (from == to) return 0.0;
+  const auto width = [&](std::size_t k) {
+    return width_m(cuts[hypothesis.first + k], candidate_at(hypothesis, k, cuts));
+  };
+  return std::abs(width(to) - width(from)) / (step_m * static_cast<double>(to - from));
+}
+
+}  // namespace
+
+std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
+                                   const boundaries::SectionGraph& road, Poses driven,
+                                   const LaneConfig& config) {
+  Collection collection(boundary);
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const RoadCut& cut = cuts[c];
+    for (std::size_t left = cut.own + 1; left < cut.marks.size(); ++left) {
+      const Mark& mark = cut.marks[left];
+      if (mark.lateral_m < kMinWidth_m) continue;
+      if (is_parted(cut, left, kStraddled_m)) break;
+      if (mark.opposed && mark.boundary < boundary) continue;  // the older boundary is the one that is cut
+      if (mark.lateral_m < kMaxWidth_m) collection.add(c, Room::between, mark.boundary, left);
+      if (config.unmarked_roads && mark.lateral_m > kMinDivided_m && !is_parted(cut, left, kBesideBorder_m))
+        collection.add(c, Room::divided, mark.boundary, left);
+    }
+    for (const Room room : {Room::open_left, Room::open_right})
+      if (config.one_sided_lanes &&
+          width_m(cut, {.room = room, .left = cut.own, .right = cut.own}) > kMinRoom_m)
+        collection.add(c, room, boundary, cut.own);
+  }
+  const double step_m = road.boundaries[boundary].course.length() /
+                        static_cast<double>(std::max<std::size_t>(cuts.size() - 1, 1));
+  std::vector<VehicleBeside> vehicles;
+  for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(road.boundaries[boundary].course, pose);
+  std::vector<Hypothesis> found = collection.take();
+  for (Hypothesis& one : found) {
+    const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
+      return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
+                               : vehicle.is_left_up_to(road.boundaries[one.other].course);
+    });
+    for (std::size_t i = 0; i < one.marks.size(); ++i) {
+      Candidate candidate = candidate_at(one, i, cuts);
+      candidate.driven = is_driven;
+      candidate.taper = taper_at(one, i, cuts, step_m);
+      one.log_odds.push_back(std::clamp(log_odds(cuts[one.first + i], candidate, config), kLeast, kMost));
+    }
+  }
+  return found;
+}
+
+std::vector<Run> best_runs(const std::vector<double>& log_odds) {
+  // The best sums up to a place, outside of a run and within one (Viterbi).
+  double outside = 0.0, within = -kBegin;
+  std::vector<bool> ends(log_odds.size()), begins(log_odds.size());  // the best way there
+  for (std::size_t i = 0; i < log_odds.size(); ++i) {
+    begins[i] = i == 0 || outside - kBegin > within;
+    ends[i] = i > 0 && within > outside;
+    const double up_to_here = begins[i] ? outside - kBegin : within;
+    outside = ends[i] ? within : outside;
+    within = up_to_here + log_odds[i];
+  }
+  std::vector<Run> runs;
+  bool inside = within > outside;
+  for (std::size_t i = log_odds.size(), end = i; i-- > 0;) {
+    if (!inside) {
+      inside = ends[i];
+      end = i;
+    } else if (begins[i]) {
+      runs.push_back({.begin = i, .end = end, .log_odds = -kBegin});
+      inside = false;
+    }
+  }
+  std::ranges::reverse(runs);
+  for (Run& run : runs)
+    for (std::size_t i = run.begin; i < run.end; ++i) run.log_odds += log_odds[i];
+  return runs;
+}
+
+}  // namespace laneloom::lanes

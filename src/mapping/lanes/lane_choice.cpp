@@ -1,0 +1,220 @@
+#include "mapping/lanes/lane_choice.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "mapping/geometry/left_of.hpp"
+#include "mapping/geometry/stretches.hpp"
+#include "mapping/lanes/hypotheses.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+constexpr double kKnown =
+    1.0;  // log odds of a place where the last map had a lane between the same boundaries
+constexpr double kNever = -1e6;      // log odds of a place that another lane has
+constexpr double kMinAdvance = 0.3;  // share of the step; less is the inside of a bend that is too tight
+constexpr double kSpared = 0.75;     // share of an open lane's width up to where there must be no other lane
+
+/// Takes hypotheses, the surest first, as far as nothing that was taken lies there.
+class Choice {
+ public:
+  Choice(const boundaries::SectionGraph& road, const geometry::MapBox& box, Poses driven,
+         const KnownBorders& known, const LaneConfig& config)
+      : road_(road), box_(box), known_(known), config_(config), section_of_(road.boundaries.size()) {
+    for (std::uint32_t s = 0; s < road.sections.size(); ++s)
+      for (const std::size_t i : road.sections[s].boundaries) section_of_[i] = s;
+    for (std::size_t i = 0; i < road.boundaries.size(); ++i) {
+      cuts_.push_back(cut_along(i, road, config));
+      for (Hypothesis& one : hypotheses(i, cuts_.back(), road, driven, config)) consider(std::move(one));
+    }
+  }
+
+  void choose() {
+    std::ranges::stable_sort(waiting_, std::greater{}, &Waiting::log_odds);
+    for (std::size_t i = 0; i < waiting_.size(); ++i) take(waiting_[i].hypothesis);
+  }
+
+  FoundLanes result() && { return {road_.boundaries, std::move(lanes_), std::move(inferred_)}; }
+
+ private:
+  struct Waiting {
+    Hypothesis hypothesis;
+    double log_odds = 0.0;
+  };
+
+  void consider(Hypothesis hypothesis) {
+    if (known_.contains({left(hypothesis).marking.id, right(hypothesis).marking.id}))
+      for (double& log_odds : hypothesis.log_odds) log_odds += kKnown;
+    double best = 0.0;
+    for (const Run& run : best_runs(hypothesis.log_odds)) best = std::max(best, run.log_odds);
+    if (best > 0.0) waiting_.push_back({std::move(hypothesis), best});
+  }
+
+  void take(const Hypothesis& one) {
+    std::vector<double> free = one.log_odds;
+    const std::vector<CrossSection> sections = sections_of(one);
+    for (std::size_t i = 0; i < free.size(); ++i)
+      if (!sections[i].valid || is_taken(one, sections[i])) free[i] = kNever;
+    for (const Run& run : best_runs(free)) {
+      if (run.log_odds <= 0.0) continue;
+      const std::span part(sections.begin() + static_cast<std::ptrdiff_t>(run.begin), run.size());
+      if (length_of(part) < config_.min_length_m) continue;
+      if (one.room == Room::between) add_lane(one, part);
+      if (one.room == Room::divided) add_divided(one, part);
+      if (is_open(one.room)) add_open(one, part);
+    }
+  }
+
+  const boundaries::LaneBoundary& left(const Hypothesis& one) const { return road_.boundaries[one.other]; }
+  const boundaries::LaneBoundary& right(const Hypothesis& one) const { return road_.boundaries[one.base]; }
+  bool is_opposed(const Hypothesis& one) const {
+    return !is_open(one.room) && cuts_[one.base][one.first].marks[one.marks.front()].opposed;
+  }
+
+  /// Whether the border is an edge, or a line that is painted along one, where the hypothesis begins.
+  bool is_kerb(const Hypothesis& one, Side border) const {
+    const RoadCut& cut = cuts_[one.base][one.first];
+    return lanes::is_kerb(cut, border == Side::left ? one.marks.front() : cut.own, border);
+  }
+
+  std::vector<CrossSection> sections_of(const Hypothesis& one) const {
+    std::vector<CrossSection> sections;
+    const double left_m = left(one).course.length();
+    const bool opposed = is_opposed(one);
+    for (std::size_t i = 0; i < one.marks.size(); ++i) {
+      const RoadCut& cut = cuts_[one.base][one.first + i];
+      const Mark &self = cut.self(), &other = cut.marks[one.marks[i]];
+      CrossSection section{.left_arc_m = opposed ? left_m - other.arc_m : other.arc_m,
+                           .right_arc_m = self.arc_m,
+                           .width_m = other.lateral_m,
+                           .left = other.point,
+                           .right = self.point,
+                           .valid = true};
+      if (is_open(one.room)) {
+        const bool is_left = one.room == Room::open_left;
+        section.width_m = config_.assumed_width_m;
+        const Point border =
+            geometry::beside(self.point, cut.ahead, (is_left ? 1.0 : -1.0) * section.width_m);
+        (is_left ? section.left : section.right) = border;
+        section.valid = box_.shows(border);
+      }
+      if (!sections.empty()) {
+        const CrossSection& before = sections.back();
+        const auto advance = [&](const Point& from, const Point& to) {
+          return (to - from).head<2>().dot(cut.ahead);
+        };
+        section.valid = section.valid &&
+                        advance(before.left, section.left) >
+                            kMinAdvance * config_.step_m * (is_open(one.room) ? 1.0 : 0.0) &&
+                        advance(before.right, section.right) >
+                            kMinAdvance * config_.step_m * (is_open(one.room) ? 1.0 : 0.0);
+      }
+      sections.push_back(section);
+    }
+    return sections;
+  }
+
+  /// The side of the boundary `of` a hypothesis on which its lane lies, as the boundary runs.
+  BoundarySide inner(const Hypothesis& one, Side border) const {
+    if (border == Side::right)
+      return {right(one).marking.id, one.room == Room::open_right ? Side::right : Side::left};
+    return {left(one).marking.id, as_seen(Side::right, is_opposed(one))};
+  }
+
+  bool is_taken(const Hypothesis& one, const CrossSection& section) {
+    const auto on_side = [&](Side side, double arc_m) {
+      return geometry::contains(taken_.beside(inner(one, side)), arc_m);
+    };
+    const double left_arc_m =
+        is_opposed(one) ? left(one).course.length() - section.left_arc_m : section.left_arc_m;
+    if (on_side(Side::right, section.right_arc_m)) return true;
+    if (!is_open(one.room) && on_side(Side::left, left_arc_m)) return true;
+    const auto at = [&](double share) -> Point {
+      return section.right + share * (section.left - section.right);
+    };
+    if (one.room == Room::divided)
+      return taken_.contains(at(0.25)) || taken_.contains(at(0.75)) || taken_.contains(at(0.5));
+    if (one.room == Room::open_left && taken_.contains(at(kSpared))) return true;
+    if (one.room == Room::open_right && taken_.contains(at(1.0 - kSpared))) return true;
+    return taken_.contains(at(0.5));
+  }
+
+  void occupy(const Hypothesis& one, std::span<const CrossSection> part) {
+    const LaneBorder left_border(left(one), is_opposed(one));
+    taken_.beside(inner(one, Side::right)).push_back({part.front().right_arc_m, part.back().right_arc_m});
+    if (!is_open(one.room))
+      taken_.beside(inner(one, Side::left))
+          .push_back(left_border.own({part.front().left_arc_m, part.back().left_arc_m}));
+    Polyline middle;
+    double width_m = 0.0;
+    for (const CrossSection& section : part) {
+      middle.push_back(section.middle());
+      width_m += section.width_m / static_cast<double>(part.size());
+    }
+    taken_.add(middle, 0.5 * width_m);
+  }
+
+  void add_lane(const Hypothesis& one, std::span<const CrossSection> part) {
+    Lane lane = make_lane(part, LaneBorder(left(one), is_opposed(one)), LaneBorder(right(one), false));
+    lane.section = section_of_[one.base];
+    occupy(one, part);
+    lanes_.push_back(std::move(lane));
+  }
+
+  void add_divided(const Hypothesis& one, std::span<const CrossSection> part) {
+    InferredBoundary found{.section = section_of_[one.base]};
+    found.on_left.emplace(
+        InferredBoundary::Beside{.boundary = one.other, .reversed = is_opposed(one), .sections = {}});
+    found.on_right.emplace(InferredBoundary::Beside{.boundary = one.base, .sections = {}});
+    Polyline divider;
+    for (const CrossSection& section : part) {
+      CrossSection in_left = section, in_right = section;
+      in_left.right = in_right.left = section.middle();
+      in_left.width_m = in_right.width_m = 0.5 * section.width_m;
+      divider.push_back(section.middle());
+      found.on_left->sections.push_back(in_left);
+      found.on_right->sections.push_back(in_right);
+    }
+    found.marking = inferred_marking(divider);
+    found.two_way = is_kerb(one, Side::left) && is_kerb(one, Side::right);
+    occupy(one, part);
+    inferred_.push_back(std::move(found));
+  }
+
+  void add_open(const Hypothesis& one, std::span<const CrossSection> part) {
+    const bool is_left = one.room == Room::open_left;
+    Polyline border;
+    for (const CrossSection& section : part) border.push_back(is_left ? section.left : section.right);
+    InferredBoundary found{.marking = inferred_marking(border), .section = section_of_[one.base]};
+    (is_left ? found.on_right : found.on_left)
+        .emplace(InferredBoundary::Beside{.boundary = one.base, .sections = {part.begin(), part.end()}});
+    occupy(one, part);
+    inferred_.push_back(std::move(found));
+  }
+
+  const boundaries::SectionGraph& road_;
+  const geometry::MapBox& box_;
+  const KnownBorders& known_;
+  const LaneConfig& config_;
+  std::vector<std::uint32_t> section_of_;   ///< by boundary
+  std::vector<std::vector<RoadCut>> cuts_;  ///< by boundary
+  std::vector<Waiting> waiting_;
+  TakenSpace taken_;
+  std::vector<Lane> lanes_;
+  std::vector<InferredBoundary> inferred_;
+};
+
+}  // namespace
+
+FoundLanes choose_lanes(boundaries::SectionGraph road, const geometry::MapBox& box, Poses driven,
+                        const KnownBorders& known, const LaneConfig& config) {
+  Choice choice(road, box, driven, known, config);
+  choice.choose();
+  return std::move(choice).result();
+}
+
+}  // namespace laneloom::lanes

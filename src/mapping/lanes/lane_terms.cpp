@@ -1,0 +1,242 @@
+#include "mapping/lanes/lane_terms.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace laneloom::lanes {
+namespace {
+
+/// A vertex of a curve of log odds over a distance.
+struct Knot {
+  double at_m, log_odds;
+};
+
+// Width of a lane.
+constexpr std::array kBetweenLines{Knot{1.2, -3.0}, Knot{2.1, -0.8}, Knot{2.8, 2.2},
+                                   Knot{3.5, 4.9},  Knot{4.5, 2.2},  Knot{6.0, -2.8}};
+constexpr std::array kBesideEdge{Knot{1.2, -1.6}, Knot{2.1, -0.9}, Knot{2.8, 1.9}, Knot{3.5, 4.0},
+                                 Knot{5.0, 1.6},  Knot{6.0, 1.0},  Knot{7.0, -2.5}};
+constexpr std::array kBetweenEdges{Knot{2.0, -2.2}, Knot{2.7, -0.9}, Knot{3.5, 1.8},
+                                   Knot{4.5, -0.4}, Knot{5.5, 0.5},  Knot{6.5, -3.8}};
+// Width of each of two lanes.
+constexpr std::array kDivided{Knot{2.0, -5.7}, Knot{2.7, -4.8}, Knot{3.2, 0.1},
+                              Knot{3.7, 1.0},  Knot{4.5, -0.3}, Knot{6.0, -1.2}};
+// Room beside a mark, up to the next one.
+constexpr std::array kOpen{Knot{5.0, -2.9}, Knot{6.0, 0.0}, Knot{7.5, 3.5}, Knot{10.0, -2.3},
+                           Knot{14.0, -0.4}};
+// The kinds of marks.
+constexpr double kDividedLines = -0.36;
+constexpr double kDividedMixed = -0.07;
+constexpr double kOpenEdge = -1.90;
+// Each of these counts per unit of a quantity.
+constexpr double kSurer = 0.10;        // log odds of the less sure mark
+constexpr double kLineInside = -0.37;  // log odds of a line within the lane, plus 2
+constexpr double kEdgeInside = -0.54;  // likewise of an edge
+constexpr double kDashed = 0.23;       // dashed share of both lines
+constexpr double kBothSolid = -2.82;   // product of their solid shares: a median
+constexpr double kShoulder = -4.45;    // metres below max_shoulder_width_m, across a solid line from a lane
+constexpr double kNothingBeyond = -1.14;  // beside an edge: nothing lies across the line
+constexpr double kEdgeAlong = 1.00;       // lines that are painted along an edge
+constexpr double kVerge = -1.60;          // lines across one of two edges: a road lies there
+constexpr double kDriven = 0.91;          // the vehicle drives in the lane
+constexpr double kDrivenEdges = 1.65;     // likewise, between two edges
+constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within the lane
+constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
+constexpr double kBend = -7.82;           // curvature, 1/m
+constexpr double kBendOpen = -18.67;      // likewise, where the other border is unseen
+constexpr double kDrivenOpen = 2.40;      // the vehicle drives in the lane, whose other border is unseen
+constexpr double kDashedOpen = 1.31;      // dashed share of the line
+constexpr double kAlongEdgeOpen = -1.58;  // an edge lies along the line, on its other side
+constexpr double kEdgeOfLanes = -1.51;    // lines near an edge, which rather has its lane on their side
+
+// The default limits of widths, with which the curves were fitted, and the widths of usual lanes.
+constexpr double kLeastWidth_m = 2.3, kMaxWidth_m = 4.5, kMaxKerbWidth_m = 6.5, kDividedFrom_m = 6.5;
+constexpr double kUsualFrom_m = 2.8, kUsualTo_m = 3.5;
+constexpr double kLeastSpan_m = 0.1;
+
+constexpr double kAlongEdge_m = 1.2;                // distance of a line that is painted along an edge
+constexpr double kLane_m = 2.2, kWideLane_m = 5.0;  // widths that rather are a lane's
+constexpr double kNothing_m = 8.0;                  // room in which nothing lies
+constexpr double kNear_m = 8.0;                     // distance of lines that belong to the same road
+constexpr double kMostNarrow_m = 1.5;
+constexpr double kMostTaper = 0.3;
+constexpr double kMostBend = 0.2;
+constexpr double kLeastLogOdds = -3.0, kMostLogOdds = 5.0;
+constexpr double kMostInside = 5.0, kInsidePrior = 2.0;
+constexpr double kMostLines = 2.0;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+double on_curve(std::span<const Knot> curve, double at_m) {
+  if (at_m <= curve.front().at_m) return curve.front().log_odds;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const Knot &from = curve[i - 1], &to = curve[i];
+    if (at_m > to.at_m) continue;
+    return from.log_odds + (at_m - from.at_m) / (to.at_m - from.at_m) * (to.log_odds - from.log_odds);
+  }
+  return curve.back().log_odds;
+}
+
+double bounded(double log_odds) { return std::clamp(log_odds, kLeastLogOdds, kMostLogOdds); }
+double solid(const Mark& line) { return std::max(-line.dashed, 0.0); }
+double dashed(const Mark& line) { return std::max(line.dashed, 0.0); }
+
+/// A cross-section, seen from a candidate.
+class Surroundings {
+ public:
+  Surroundings(const RoadCut& cut, const Candidate& candidate)
+      : marks_(cut.marks), left_(candidate.left), right_(candidate.right) {}
+
+  const Mark& left() const { return marks_[left_]; }
+  const Mark& right() const { return marks_[right_]; }
+  /// The next mark beyond a border. Null: there is none.
+  const Mark* beyond(Side side) const {
+    if (side == Side::left) return left_ + 1 < marks_.size() ? &marks_[left_ + 1] : nullptr;
+    return right_ > 0 ? &marks_[right_ - 1] : nullptr;
+  }
+  double gap_beyond_m(Side side) const {
+    const Mark* next = beyond(side);
+    if (next == nullptr) return kCutReach_m;
+    return std::abs(next->lateral_m - (side == Side::left ? left() : right()).lateral_m);
+  }
+  bool edge_along(Side side) const {
+    const Mark* next = beyond(side);
+    return next != nullptr && next->is_edge && gap_beyond_m(side) < kAlongEdge_m;
+  }
+  /// What the marks within the lane say that they exist, of one kind.
+  double inside(bool edges) const {
+    double sum = 0.0;
+    for (std::size_t i = right_ + 1; i < left_; ++i) {
+      const Mark& mark = marks_[i];
+      const double aside_m = std::min(left().lateral_m - mark.lateral_m, mark.lateral_m - right().lateral_m);
+      if (mark.is_edge == edges && aside_m >= kBesideBorder_m)
+        sum += std::max(mark.log_odds + kInsidePrior, 0.0);
+    }
+    return std::min(sum, kMostInside);
+  }
+  /// The number of lines of the road outside of the lane.
+  double lines_outside() const {
+    double count = 0.0;
+    for (std::size_t i = 0; i < marks_.size(); ++i) {
+      if (i >= right_ && i <= left_) continue;
+      const double out_m =
+          i > left_ ? marks_[i].lateral_m - left().lateral_m : right().lateral_m - marks_[i].lateral_m;
+      if (!marks_[i].is_edge && marks_[i].log_odds > 0.0 && out_m < kNear_m) count += 1.0;
+    }
+    return std::min(count, kMostLines);
+  }
+
+ private:
+  const std::vector<Mark>& marks_;
+  std::size_t left_, right_;
+};
+
+double of_open_lane(const RoadCut& cut, double room_m, const Candidate& candidate) {
+  const Surroundings around(cut, candidate);
+  const Mark& mark = around.left();
+  const Side other = candidate.room == Room::open_left ? Side::right : Side::left;
+  double sum =
+      on_curve(kOpen, room_m) + kSurer * bounded(mark.log_odds) + kBendOpen * std::min(cut.bend, kMostBend);
+  if (candidate.driven) sum += kDrivenOpen;
+  if (around.edge_along(other)) sum += kAlongEdgeOpen;
+  if (!mark.is_edge) return sum + kDashedOpen * dashed(mark);
+  return sum + kOpenEdge + kEdgeOfLanes * around.lines_outside();
+}
+
+/// A width as it counts on a curve, which was fitted with the default limits: what lies between a usual width
+/// and a configured limit is stretched to what lies between it and the default limit.
+double stretched(double width_m, double least_m, double most_m, double default_most_m) {
+  if (width_m < kUsualFrom_m)
+    return kUsualFrom_m - (kUsualFrom_m - width_m) * (kUsualFrom_m - kLeastWidth_m) /
+                              std::max(kUsualFrom_m - least_m, kLeastSpan_m);
+  if (width_m > kUsualTo_m)
+    return kUsualTo_m + (width_m - kUsualTo_m) * (default_most_m - kUsualTo_m) /
+                            std::max(most_m - kUsualTo_m, kLeastSpan_m);
+  return width_m;
+}
+
+/// What the width says, and the kinds of the marks.
+double of_width(const Surroundings& around, double width_m, Room room, const LaneConfig& config) {
+  const int edges = (around.left().is_edge ? 1 : 0) + (around.right().is_edge ? 1 : 0);
+  if (room == Room::divided)
+    return on_curve(kDivided, 0.5 * (width_m - config.min_divided_width_m + kDividedFrom_m)) +
+           (edges == 0   ? kDividedLines
+            : edges == 1 ? kDividedMixed
+                         : 0.0);
+  const double least_m = config.min_width_m;
+  if (edges == 0)
+    return on_curve(kBetweenLines, stretched(width_m, least_m, config.max_width_m, kMaxWidth_m));
+  if (edges == 1)
+    return on_curve(kBesideEdge, stretched(width_m, least_m, config.max_kerb_width_m, kMaxKerbWidth_m));
+  return on_curve(kBetweenEdges, stretched(width_m, least_m, config.min_divided_width_m, kDividedFrom_m));
+}
+
+/// What it says that the vehicle drives there.
+double of_driving(const Surroundings& around) {
+  if (around.inside(true) > kInsidePrior || around.inside(false) > kInsidePrior) return kDrivenAcross;
+  return around.left().is_edge && around.right().is_edge ? kDrivenEdges : kDriven;
+}
+
+/// What the lines say that lie beside an edge.
+double of_shoulder(const Surroundings& around, double width_m, Room room, const LaneConfig& config) {
+  const Side side = around.left().is_edge ? Side::right : Side::left;
+  const Mark& line = side == Side::left ? around.left() : around.right();
+  const double gap_m = around.gap_beyond_m(side);
+  double sum = gap_m > kNothing_m ? kNothingBeyond : 0.0;
+  if (config.find_shoulders && room == Room::between && gap_m > kLane_m && gap_m < kWideLane_m)
+    sum += kShoulder * solid(line) * std::clamp(config.max_shoulder_width_m - width_m, 0.0, kMostNarrow_m);
+  return sum;
+}
+
+/// The log odds that lanes lie between the mark of an open lane and the next one on that side.
+double of_lanes_instead(const RoadCut& cut, const Candidate& open, const LaneConfig& config) {
+  Candidate instead = open;
+  if (open.room == Room::open_left) {
+    if (++instead.left == cut.marks.size()) return -kNoLimit;
+  } else {
+    if (instead.right-- == 0) return -kNoLimit;
+  }
+  double most = -kNoLimit;
+  for (const Room room : {Room::between, Room::divided}) {
+    instead.room = room;
+    most = std::max(most, log_odds(cut, instead, config));
+  }
+  return most;
+}
+
+}  // namespace
+
+double width_m(const RoadCut& cut, const Candidate& candidate) {
+  if (!is_open(candidate.room))
+    return cut.marks[candidate.left].lateral_m - cut.marks[candidate.right].lateral_m;
+  return Surroundings(cut, candidate)
+      .gap_beyond_m(candidate.room == Room::open_left ? Side::left : Side::right);
+}
+
+bool is_kerb(const RoadCut& cut, std::size_t mark, Side side) {
+  return cut.marks[mark].is_edge || Surroundings(cut, {.left = mark, .right = mark}).edge_along(side);
+}
+
+double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
+  const Surroundings around(cut, candidate);
+  const double wide_m = width_m(cut, candidate);
+  if (is_open(candidate.room))
+    return std::min(of_open_lane(cut, wide_m, candidate), -of_lanes_instead(cut, candidate, config));
+  const Mark &left = around.left(), &right = around.right();
+  double sum = of_width(around, wide_m, candidate.room, config);
+  sum += kSurer * bounded(std::min(left.log_odds, right.log_odds)) + kEdgeInside * around.inside(true);
+  sum += kTaper * std::min(candidate.taper, kMostTaper) + kBend * std::min(cut.bend, kMostBend);
+  if (candidate.driven) sum += of_driving(around);
+  for (const Side side : kSides)
+    if (!(side == Side::left ? left : right).is_edge && around.edge_along(side)) sum += kEdgeAlong;
+  if (candidate.room == Room::between) {
+    sum += kLineInside * around.inside(false) + kDashed * (dashed(left) + dashed(right)) +
+           kBothSolid * solid(left) * solid(right);
+  }
+  if (left.is_edge && right.is_edge) return sum + kVerge * around.lines_outside();
+  return left.is_edge || right.is_edge ? sum + of_shoulder(around, wide_m, candidate.room, config) : sum;
+}
+
+}  // namespace laneloom::lanes

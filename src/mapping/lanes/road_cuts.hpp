@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "mapping/boundaries/road_sections.hpp"
+
+/// Cross-sections of a road. Ours.
+namespace laneloom::lanes {
+
+/// A boundary, where a cross-section of the road meets it.
+struct Mark {
+  std::size_t boundary = 0;     ///< its index
+  double arc_m = 0.0;           ///< on the boundary, as it runs itself
+  double lateral_m = 0.0;       ///< positive on the left of the boundary that is cut
+  Point point = Point::Zero();  ///< map frame
+  bool opposed = false;         ///< the boundary runs against the one that is cut
+  bool is_edge = false;         ///< else it is a line
+  double log_odds = 0.0;        ///< that the boundary exists
+  double dashed = 0.0;          ///< -1: solid; 1: dashed; 0: unknown, or an edge
+};
+
+/// A cross-section through a place of one boundary.
+struct RoadCut {
+  std::vector<Mark> marks;                           ///< from right to left, as that boundary runs
+  std::size_t own = 0;                               ///< that boundary among them
+  Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();  ///< as it runs
+  double bend = 0.0;                                 ///< its curvature, 1/m, without sign
+
+  const Mark& self() const { return marks[own]; }
+};
+
+/// Greatest distance between two marks of a cross-section.
+inline constexpr double kCutReach_m = 14.0;
+
+/// Cross-sections of the road along a boundary, LaneConfig::step_m apart, from its begin to its end. They
+/// show the boundaries beside it.
+std::vector<RoadCut> cut_along(std::size_t boundary, const boundaries::SectionGraph& road,
+                               const LaneConfig& config);
+
+}  // namespace laneloom::lanes

@@ -1,0 +1,183 @@
+#include "mapping/lanes/find_lanes.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/boundaries/road_sections.hpp"
+#include "mapping/shapes.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+using test::boundary;
+using test::straight;
+using testing::DoubleNear;
+using testing::IsEmpty;
+
+/// A strip of a road of 30 m along x. The strips lie from left to right: a boundary, and the width on its
+/// right.
+struct Across {
+  MarkingType type;
+  MarkingStyle style;
+  double width_m;
+};
+
+constexpr Across edge(double width_m) { return {MarkingType::roadedge, MarkingStyle::unknown, width_m}; }
+constexpr Across solid(double width_m) { return {MarkingType::laneline, MarkingStyle::solid, width_m}; }
+constexpr Across dashed(double width_m) { return {MarkingType::laneline, MarkingStyle::dashed, width_m}; }
+
+constexpr double kLeft_m = 8.0;       // of the first boundary
+constexpr double kNowhere_m = 100.0;  // beside the road
+
+std::vector<boundaries::LaneBoundary> road(const std::vector<Across>& strips) {
+  std::vector<boundaries::LaneBoundary> boundaries;
+  double y = kLeft_m;
+  for (const Across& strip : strips) {
+    boundaries.push_back(boundary(boundaries.size() + 1, straight({0, y, 0}, {30, y, 0}), strip.type));
+    boundaries.back().marking.styles = {{{0, 30}, strip.style}};
+    y -= strip.width_m;
+  }
+  return boundaries;
+}
+
+FoundLanes find(std::vector<boundaries::LaneBoundary> boundaries, double vehicle_y = kNowhere_m,
+                const LaneConfig& config = {}) {
+  const Eigen::Isometry3d vehicle = test::at(10, vehicle_y);
+  return find_lanes(road_sections(std::move(boundaries), test::at(0), {}), test::scene(1).box, {&vehicle, 1},
+                    {}, config);
+}
+
+std::vector<double> widths(const FoundLanes& found) {
+  std::vector<double> widths;
+  for (const Lane& lane : found.lanes) widths.push_back(lane.width_m);
+  return widths;
+}
+std::vector<double> widths(const std::vector<Across>& strips, double vehicle_y = kNowhere_m,
+                           const LaneConfig& config = {}) {
+  return widths(find(road(strips), vehicle_y, config));
+}
+
+auto are(std::vector<double> widths) {
+  std::vector<testing::Matcher<double>> near;
+  near.reserve(widths.size());
+  for (const double width : widths) near.push_back(DoubleNear(width, 1e-6));
+  return testing::UnorderedElementsAreArray(near);
+}
+
+TEST(FindLanes, BetweenLines) {
+  const FoundLanes found = find(road({solid(3.5), dashed(3.4), solid(0)}));
+  EXPECT_THAT(widths(found), are({3.5, 3.4}));
+  EXPECT_THAT(found.inferred, IsEmpty());
+  EXPECT_NEAR(length(found.lanes.front().centerline), 30.0, 1e-9);
+}
+
+TEST(FindLanes, NeverAcrossALineThatIsBelieved) {
+  EXPECT_THAT(widths({solid(2.3), dashed(2.3), solid(0)}),
+              testing::Not(testing::Contains(DoubleNear(4.6, 0.1))));
+  EXPECT_THAT(widths({edge(3.0), dashed(3.0), edge(0)}), are({3.0, 3.0}));
+}
+
+TEST(FindLanes, ShouldersAreNone) {
+  EXPECT_THAT(widths({edge(2.5), solid(3.5), dashed(3.4), solid(2.6), edge(0)}), are({3.5, 3.4}));
+  LaneConfig config;
+  config.find_shoulders = false;
+  EXPECT_THAT(widths({edge(2.5), solid(3.5), dashed(3.4), solid(2.6), edge(0)}, kNowhere_m, config),
+              testing::Contains(DoubleNear(2.6, 1e-6)));
+}
+
+TEST(FindLanes, AMedianIsNone) {
+  EXPECT_THAT(widths({dashed(3.5), solid(1.5), solid(3.5), dashed(0)}), are({3.5, 3.5}));
+}
+
+TEST(FindLanes, AGoreIsNone) {
+  auto lines = road({solid(3.5), solid(3.5), solid(0)});
+  lines.push_back(boundary(4, {{0, 1.2, 0}, {30, -4.8, 0}}));  // meets the right line, and leaves it
+  lines.back().marking.styles = {{{0, 30}, MarkingStyle::solid}};
+  for (const Lane& lane : find(lines).lanes)
+    EXPECT_FALSE(lane.left_borders.front().boundary == 3U && lane.right_borders.front().boundary == 4U);
+}
+
+TEST(FindLanes, AVergeBesideARoadIsNoneUnlessTheVehicleDrivesThere) {
+  const std::vector<Across> strips{edge(3.0), edge(3.5), dashed(3.5), edge(0)};
+  EXPECT_THAT(widths(strips), are({3.5, 3.5}));
+  EXPECT_THAT(widths({edge(3.0), edge(0)}, kLeft_m - 1.5), are({3.0}));
+}
+
+TEST(FindLanes, NarrowOnesAreFoundWhereThatIsConfigured) {
+  EXPECT_THAT(widths({solid(1.4), dashed(1.4), solid(0)}), IsEmpty());
+  LaneConfig config;
+  config.min_width_m = 1.2;
+  EXPECT_THAT(widths({solid(1.4), dashed(1.4), solid(0)}, kNowhere_m, config), are({1.4, 1.4}));
+}
+
+TEST(FindLanes, ALaneAcrossBoundariesThatRunAgainstEachOtherIsFoundOnce) {
+  auto lines = road({solid(3.5), solid(0)});
+  std::ranges::reverse(lines.back().marking.points);
+  EXPECT_THAT(widths(find(lines)), are({3.5}));
+}
+
+TEST(FindLanes, EndWhereTheRoadWidensToASquare) {
+  auto lines = road({solid(3.5)});
+  lines.push_back(boundary(2, {{0, 4.5, 0}, {15, 4.5, 0}, {30, -10, 0}}));
+  const FoundLanes found = find(lines);
+  ASSERT_EQ(found.lanes.size(), 1U);
+  EXPECT_LT(found.lanes.front().centerline.back().x(), 18.0);
+}
+
+TEST(FindLanes, OpenLanesLieBesideDashes) {
+  const FoundLanes found = find(road({dashed(0)}), kLeft_m - 1.6);
+  ASSERT_EQ(found.inferred.size(), 2U);
+  for (const InferredBoundary& one : found.inferred)
+    EXPECT_NEAR(std::abs(one.marking.points.front().y() - kLeft_m), LaneConfig{}.assumed_width_m, 1e-6);
+}
+
+TEST(FindLanes, OpenLanesLieBesideAnEdgeOnlyWhereTheVehicleDrives) {
+  EXPECT_THAT(find(road({edge(0)})).inferred, IsEmpty());
+  EXPECT_EQ(find(road({edge(0)}), kLeft_m - 1.6).inferred.size(), 1U);
+  LaneConfig config;
+  config.one_sided_lanes = false;
+  EXPECT_THAT(find(road({edge(0)}), kLeft_m - 1.6, config).inferred, IsEmpty());
+}
+
+TEST(FindLanes, OpenLanesAreNotWhereLanesHaveBothBorders) {
+  EXPECT_THAT(find(road({solid(3.5), dashed(3.5), solid(0)}), kLeft_m - 1.7).inferred, IsEmpty());
+}
+
+TEST(FindLanes, DividedRoadsCanBeTurnedOff) {
+  EXPECT_EQ(find(road({edge(7.2), edge(0)})).inferred.size(), 1U);
+  LaneConfig config;
+  config.unmarked_roads = false;
+  for (const InferredBoundary& one : find(road({edge(7.2), edge(0)}), kNowhere_m, config).inferred)
+    EXPECT_FALSE(one.on_left && one.on_right);
+}
+
+TEST(FindLanes, ThePapersMethodInfersNothing) {
+  LaneConfig config;
+  config.method = LaneMethod::paper;
+  const FoundLanes found = find(road({edge(7.2), edge(0)}), kNowhere_m, config);
+  EXPECT_THAT(found.lanes, IsEmpty());
+  EXPECT_THAT(found.inferred, IsEmpty());
+}
+
+/// Streets between two edges in which the vehicle drives, by their widths.
+class Street : public testing::TestWithParam<double> {};
+
+TEST_P(Street, OfEachWidthHasOneLaneOrTwo) {
+  const double width_m = GetParam();
+  const FoundLanes found = find(road({edge(width_m), edge(0)}), kLeft_m - 0.7 * width_m);
+  if (width_m < 5.5) {
+    EXPECT_THAT(widths(found), are({width_m}));
+    EXPECT_THAT(found.inferred, IsEmpty());
+  } else {
+    EXPECT_EQ(found.lanes.size() + found.inferred.size(), 1U);
+  }
+  if (width_m < LaneConfig{}.min_divided_width_m) return;
+  ASSERT_EQ(found.inferred.size(), 1U);
+  EXPECT_TRUE(found.inferred.front().on_left && found.inferred.front().on_right);
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, Street,
+                         testing::Values(2.4, 2.8, 3.2, 3.6, 4.0, 4.4, 4.8, 5.2, 5.6, 6.0, 6.2, 6.4, 6.6, 7.0,
+                                         8.0, 9.0, 10.0, 11.0, 12.0, 12.8));
+
+}  // namespace
+}  // namespace laneloom::lanes
