@@ -47,6 +47,9 @@ class Mapper {
   /// Number of lines that the last update forgot because there was no room: a mapper keeps at most 256 lines
   /// with 20000 places together. The lines of the least evidence go. 0 with the voxel method.
   std::size_t lines_forgotten() const;
+  /// Whether the poses had jumped at the last update: by a step that no vehicle makes, and that the
+  /// detections contradict. The map has moved with them, with its ids. The voxel method cleared it.
+  bool poses_jumped() const { return poses_jumped_; }
   /// Forgets everything except which ids were given out and what was learned of the networks.
   void reset();
 
@@ -62,9 +65,12 @@ class Mapper {
   void set_state(MapperState state);  ///< goes on from a value of state()
 
  private:
+  Eigen::Isometry3d follow_poses(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body);
+
   MapperConfig config_;
   SdMap sd_map_;
   std::unique_ptr<MapperState> state_;
+  bool poses_jumped_ = false;
 };
 
 }  // namespace laneloom

@@ -38,6 +38,7 @@ class Health {
   void note_reset(std::int64_t now_ns) { reset_ns_ = now_ns; }
   void note_unsynchronised(std::int64_t now_ns) { unsynchronised_ns_ = now_ns; }
   void note_overload(std::int64_t now_ns) { overload_ns_ = now_ns; }
+  void note_pose_jump(std::int64_t now_ns) { pose_jump_ns_ = now_ns; }
 
   Verdict assess(std::int64_t now_ns, const HealthInputs& inputs) const;
 
@@ -46,6 +47,7 @@ class Health {
   std::optional<std::int64_t> reset_ns_;
   std::optional<std::int64_t> unsynchronised_ns_;
   std::optional<std::int64_t> overload_ns_;
+  std::optional<std::int64_t> pose_jump_ns_;
 };
 
 /// Seconds since an arrival; -1: never.

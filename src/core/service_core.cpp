@@ -54,7 +54,7 @@ Messages ServiceCore::tick(const Tick& tick, Arrivals&& arrivals) {
   const std::int64_t taken_ns = surroundings_.steady_now_ns();
   fuse(tick, std::move(arrivals.messages));
   auto progress = session_.take_progress();
-  note_incidents(tick, arrivals, progress.resets);
+  note_incidents(tick, arrivals, progress);
   const HealthInputs now = inputs(taken_ns, arrivals);
   const Verdict verdict = health_.assess(taken_ns, now);
 
@@ -110,8 +110,10 @@ bool ServiceCore::source_not_fused(std::int64_t now_ns) const {
          });
 }
 
-void ServiceCore::note_incidents(const Tick& tick, const Arrivals& arrivals, std::uint64_t resets) {
-  if (resets > 0) {
+void ServiceCore::note_incidents(const Tick& tick, const Arrivals& arrivals,
+                                 const session::MappingSession::Progress& progress) {
+  if (progress.pose_jumps > 0) health_.note_pose_jump(tick.start_ns);
+  if (progress.resets > 0) {
     health_.note_reset(tick.start_ns);
     map_id_ = surroundings_.new_id();
   }

@@ -66,7 +66,8 @@ class ServiceCore {
   HealthInputs inputs(std::int64_t now_ns, const Arrivals& arrivals) const;
   /// Whether one of several sources that was heard a moment ago does not go into the map.
   bool source_not_fused(std::int64_t now_ns) const;
-  void note_incidents(const Tick& tick, const Arrivals& arrivals, std::uint64_t resets);
+  void note_incidents(const Tick& tick, const Arrivals& arrivals,
+                      const session::MappingSession::Progress& progress);
   PublishedMap published_map(session::MappingSession::Progress&& progress);
   ServiceStatus status(const Arrivals& arrivals, const HealthInputs& inputs);
   void add_progress(SourceStatus& source) const;

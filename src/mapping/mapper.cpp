@@ -98,11 +98,12 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
                                StageObserver* observer) {
   const markings::StageLog log(observer);
   MapperState& state = *state_;
-  const geometry::Scene scene = next_scene(frame, T_map_body, config_.range, state);
+  const Eigen::Isometry3d seen_from = follow_poses(frame, T_map_body);
+  const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
   markings::ObservedFrame observed{
-      frame, T_map_body,
+      frame, seen_from,
       log.done(Stage::preprocess,
-               markings::preprocess(frame, T_map_body, config_.preprocess))};  // paper, III-A
+               markings::preprocess(frame, seen_from, config_.preprocess))};  // paper, III-A
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   lanes::LaneLayout layout = lanes_of(fused, scene, config_, log, state);
@@ -123,6 +124,19 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
                                            state.map.way ? &*state.map.way : nullptr));
   state.map = std::move(map);
   return state.map;
+}
+
+/// Moves the map with the poses where they have jumped. Returns the pose of the frame in the map frame of
+/// now.
+Eigen::Isometry3d Mapper::follow_poses(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+  MapperState& state = *state_;
+  poses_jumped_ = false;
+  if (frame.stamp_ns < state.map.stamp_ns) return state.pose_jumps.as_of_now(frame.stamp_ns, T_map_body);
+  const auto motion = state.pose_jumps.find(frame, T_map_body, state.map.markings);
+  if (!motion) return T_map_body;
+  state.follow(*motion, config_);
+  poses_jumped_ = true;
+  return T_map_body;
 }
 
 const LocalMap& Mapper::map() const { return state_->map; }

@@ -12,6 +12,7 @@
 #include "mapping/lineage.hpp"
 #include "mapping/lines/line_mapper.hpp"
 #include "mapping/markings/id_source.hpp"
+#include "mapping/pose_jumps.hpp"
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/voxels/voxel_mapper.hpp"
 
@@ -61,11 +62,16 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   topology::EgoTrack ego_track;
   Membership published;  ///< membership in the last map
   markings::IdSource ids;
+  PoseJumps pose_jumps;
   LocalMap map;  ///< the last map
+
+  /// Moves the map with poses that have jumped by `motion`, map frame. Voxels can not be moved: they are
+  /// forgotten, with the lanes between them.
+  void follow(const Eigen::Isometry3d& motion, const MapperConfig& config);
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, fusion, inferred, lane_tracks, ego_track, published, ids, map);
+    archive(frame, fusion, inferred, lane_tracks, ego_track, published, ids, pose_jumps, map);
   }
 };
 

@@ -10,9 +10,10 @@ namespace {
 bool is_incident(std::string_view counter) {
   return counter.find("_refused_") != std::string_view::npos ||
          counter.find("_dropped_") != std::string_view::npos || counter.ends_with("_lost") ||
-         counter == "map_resets" || counter == "sources_restarted" || counter == "frames_thinned" ||
-         counter == "lines_forgotten" || counter == "ticks_missed" || counter == "ticks_out_of_time" ||
-         counter == "elements_left_out" || counter == "writes_failed" || counter == "snapshots_failed";
+         counter == "map_resets" || counter == "pose_jumps" || counter == "sources_restarted" ||
+         counter == "frames_thinned" || counter == "lines_forgotten" || counter == "ticks_missed" ||
+         counter == "ticks_out_of_time" || counter == "elements_left_out" || counter == "writes_failed" ||
+         counter == "snapshots_failed";
 }
 
 }  // namespace

@@ -144,6 +144,10 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   newest_arrival_ns = synchronised.pending.arrival_ns;
   sources.note_fused(frame, synchronised.pending.arrival_ns);
   counters.add("frames_fused");
+  if (mapper.poses_jumped()) {
+    counters.add("pose_jumps");
+    ++progress.pose_jumps;
+  }
   if (const auto forgotten = mapper.lines_forgotten(); forgotten > 0)
     counters.add("lines_forgotten", forgotten);
   progress.fused.push_back({frame.source, frame.session_id, frame.sequence, frame.stamp_ns});

@@ -61,6 +61,7 @@ class MappingSession {
     std::vector<FusedFrame> fused;      ///< in the order of fusion
     std::vector<LineageEvent> lineage;  ///< of all these frames
     std::uint64_t resets = 0;           ///< number of times that the map was cleared
+    std::uint64_t pose_jumps = 0;       ///< see Mapper::poses_jumped()
   };
   Progress take_progress();
 
@@ -98,8 +99,8 @@ class MappingSession {
 
   /// The counters frames_fused, frames_thinned (frames of which admission left detections out),
   /// detections_left_out (these detections), sources_restarted, frames_dropped_queue_full,
-  /// detections_refused_<reason>, poses_accepted, poses_refused_<reason>, map_resets. Every frame that was
-  /// added is fused, refused, dropped or pending; every pose is accepted or refused.
+  /// detections_refused_<reason>, poses_accepted, poses_refused_<reason>, map_resets, pose_jumps. Every frame
+  /// that was added is fused, refused, dropped or pending; every pose is accepted or refused.
   const Counters& counters() const;
   /// The progress of all sources, by name.
   std::vector<SourceProgress> sources() const;

@@ -46,8 +46,10 @@ TEST_F(HealthTest, StaleWhenNothingWasFusedForLong) {
 TEST_F(HealthTest, IncidentsDegradeForASecond) {
   health_.note_unsynchronised(now_ns_);
   health_.note_overload(now_ns_);
+  health_.note_pose_jump(now_ns_);
   EXPECT_EQ(assess(0, 0, 0),
-            (Verdict{MapState::degraded, {StateReason::unsynchronised, StateReason::overloaded}}));
+            (Verdict{MapState::degraded,
+                     {StateReason::unsynchronised, StateReason::overloaded, StateReason::poses_jumped}}));
   now_ns_ += 1000 * kMs;
   EXPECT_EQ(assess(0, 0, 0).state, MapState::degraded);
   now_ns_ += 1 * kMs;

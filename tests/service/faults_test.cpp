@@ -218,6 +218,23 @@ TEST_F(Faults, APoseThatJumpsAndStaysResetsTheMap) {
   EXPECT_EQ(drive_.counter("map_resets"), 1U);
 }
 
+TEST_F(Faults, PosesThatJumpBelowTheGateMoveTheMap) {
+  const auto map_id = drive_.maps().back().map_id;
+  const auto lanes = drive_.maps().back().map.lanes;
+  drive_.send_poses = [](VehiclePose pose) {
+    pose.position.y() += 1.5;
+    return std::vector{pose};
+  };
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.states(), (States{"OK", "DEGRADED poses_jumped", "OK"}));
+  EXPECT_EQ(drive_.maps().back().map_id, map_id);
+  EXPECT_EQ(drive_.counter("pose_jumps"), 1U);
+  ASSERT_EQ(drive_.maps().back().map.lanes.size(), 1U);
+  const Lane& lane = drive_.maps().back().map.lanes.front();
+  EXPECT_EQ(lane.id, lanes.front().id);
+  for (const Point& point : lane.centerline) EXPECT_NEAR(point.y(), 1.5, 0.1);
+}
+
 TEST_F(Faults, SinglePosesThatJumpAreRefused) {
   drive_.send_poses = [](VehiclePose pose) {
     if (pose.sequence % 7 == 0) pose.position.x() += 100.0;

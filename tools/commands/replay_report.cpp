@@ -70,7 +70,7 @@ void print_result(const ReplayResult& result) {
   print_times(result.timer);
   for (const auto& [counter, count] : result.counters.values()) {
     if (counter.find("_refused_") != std::string::npos || counter.find("_dropped_") != std::string::npos ||
-        counter == "map_resets")
+        counter == "map_resets" || counter == "pose_jumps")
       fmt::print("{} {}\n", counter, count);
   }
   if (result.pending > 0) fmt::print("frames_without_pose {}\n", result.pending);

@@ -42,6 +42,12 @@ class InferredMemory {
   /// known boundary that was recognised in the same frame is left out.
   void identify(const std::vector<Marking*>& inferred, const geometry::Scene& scene, markings::IdSource& ids);
 
+  /// Moves all of them, map frame.
+  void move(const Eigen::Isometry3d& motion) {
+    for (KnownInferred& known : inferred_)
+      for (Point& point : known.points) point = motion * point;
+  }
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(inferred_);

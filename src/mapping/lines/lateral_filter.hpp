@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 
 namespace laneloom::lines {
@@ -24,6 +24,11 @@ class LateralFilter {
 
   /// Takes in another view. Returns how far to the left the place moves.
   double update(const LateralView& view);
+
+  /// Moves the place that the last view was seen from, map frame. A motion of the map about the vertical.
+  void move(const Eigen::Isometry3d& motion) {
+    seen_from_ = motion.linear().topLeftCorner<2, 2>() * seen_from_ + motion.translation().head<2>();
+  }
 
   /// Lets left be right, for a line that runs the other way.
   void mirror() { error_m_ = -error_m_; }

@@ -114,4 +114,13 @@ void LineMapper::reset() {
   networks_ = std::move(networks);
 }
 
+void LineMapper::move(const Eigen::Isometry3d& motion) {
+  for (Line& line : lines_)
+    for (Station& station : line.stations) {
+      station.position = motion * station.position;
+      station.lateral.move(motion);
+    }
+  networks_.move(motion);
+}
+
 }  // namespace laneloom::lines

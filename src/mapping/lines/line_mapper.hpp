@@ -27,6 +27,8 @@ class LineMapper {
 
   /// Forgets everything except what was learned of the networks.
   void reset();
+  /// Moves all lines, and the places that they were seen from, map frame.
+  void move(const Eigen::Isometry3d& motion);
 
   const std::vector<Line>& lines() const { return lines_; }
   const Networks& networks() const { return networks_; }

@@ -18,6 +18,8 @@ class Standpoint {
  public:
   /// The weight of a view from `origin`, 0..1. 1 is an independent view.
   double news(const Point& origin);
+  /// Moves the place with the map.
+  void move(const Eigen::Isometry3d& motion) { place_ = motion * place_; }
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -55,6 +57,10 @@ class Networks {
   /// Null: nothing is known of that source.
   const Network* find(const std::string& source) const;
   const std::vector<Network>& all() const { return networks_; }
+  /// Moves the places that the sources saw from, map frame.
+  void move(const Eigen::Isometry3d& motion) {
+    for (Network& network : networks_) network.standpoint.move(motion);
+  }
 
   template <class Archive>
   void serialize(Archive& archive) {

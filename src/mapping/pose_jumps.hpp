@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "laneloom/types.hpp"
+
+namespace laneloom {
+
+/// Tells jumps of the poses from motions of the vehicle. A jump is a step that no vehicle makes, and that the
+/// detections contradict: they fit the map better from where the vehicle would be without the step. Ours.
+class PoseJumps {
+ public:
+  /// Takes the newest frame, with its pose. `markings` are those of the map before. Returns the motion, map
+  /// frame, by which the poses have jumped: whatever was mapped before lies that much elsewhere now. None:
+  /// the poses have not jumped, or the detections do not tell.
+  std::optional<Eigen::Isometry3d> find(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
+                                        const std::vector<Marking>& markings);
+
+  /// The pose of a frame in the map frame of now: a frame of before a jump is seen from elsewhere.
+  Eigen::Isometry3d as_of_now(std::int64_t stamp_ns, Eigen::Isometry3d T_map_body) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(poses_, jumps_, suspected_, doubtful_frames_);
+  }
+
+ private:
+  /// A pose, or the motion of a jump.
+  struct Stamped {
+    std::int64_t stamp_ns = 0;
+    Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(stamp_ns, transform);
+    }
+  };
+
+  std::optional<Eigen::Isometry3d> suspect(const Stamped& pose) const;
+  void accept(const Stamped& jump);
+
+  std::deque<Stamped> poses_;                   ///< of the newest frames, in the order of their stamps
+  std::deque<Stamped> jumps_;                   ///< the last ones
+  std::optional<Eigen::Isometry3d> suspected_;  ///< motion of a jump that no detection has decided yet
+  int doubtful_frames_ = 0;                     ///< number of frames that have not decided it
+};
+
+}  // namespace laneloom

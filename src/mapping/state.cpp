@@ -1,0 +1,44 @@
+#include "mapping/state.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace laneloom {
+namespace {
+
+void move(const Eigen::Isometry3d& motion, Point& point) { point = motion * point; }
+
+void move(const Eigen::Isometry3d& motion, lanes::LaneTrack& track) {
+  for (lanes::LaneStation& station : track.stations)
+    for (Point& border : station.border) move(motion, border);
+  move(motion, track.begin);
+}
+
+/// Moves what the next map takes from the map before: the pose of a frame that comes late, and the
+/// centerlines by which lanes are recognised.
+void move(const Eigen::Isometry3d& motion, LocalMap& map) {
+  map.T_map_body = motion * map.T_map_body;
+  for (Lane& lane : map.lanes)
+    for (Point& point : lane.centerline) move(motion, point);
+}
+
+}  // namespace
+
+void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& config) {
+  lines::LineMapper* const lines = fusion.lines();
+  if (lines == nullptr) {
+    fusion = Fusion(config);
+    inferred = {};
+    lane_tracks = {};
+    ego_track = {};
+    return;
+  }
+  lines->move(motion);
+  inferred.move(motion);
+  std::vector<lanes::LaneTrack> tracks = lane_tracks.all();
+  for (lanes::LaneTrack& track : tracks) move(motion, track);
+  lane_tracks = lanes::LaneTracks(std::move(tracks));
+  move(motion, map);
+}
+
+}  // namespace laneloom
