@@ -28,6 +28,7 @@ Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {
   add_if(inputs.fused_age_s < 0.0 && !recent(reset_ns_), StateReason::starting);
   add_if(recent(reset_ns_), StateReason::reset);
   add_if(recent(overload_ns_), StateReason::overloaded);
+  add_if(inputs.sources_disagree, StateReason::sources_disagree);
   add_if(recent(pose_jump_ns_), StateReason::poses_jumped);
   // The other service may miss one of its status messages.
   add_if(!older(inputs.other_service_age_s, 2.5 * config_.status_period_s), StateReason::another_service);

@@ -19,6 +19,7 @@ struct HealthInputs {
   double other_service_age_s = -1.0;  ///< since a status of another service of this vehicle
   std::optional<double> lag_s;  ///< from the newest fused stamp to the newest pose's; none: nothing was fused
   bool source_not_fused = false;  ///< one of several sources was heard a moment ago, but is not fused
+  bool sources_disagree = false;  ///< a source is left out because it contradicts another one
 };
 
 /// How far the map can be relied on, and why.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/seconds.hpp"
+#include "base/source_values.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/state_names.hpp"
 
@@ -95,7 +96,8 @@ HealthInputs ServiceCore::inputs(std::int64_t now_ns, const Arrivals& arrivals) 
           .fused_age_s = age_s(surroundings_.steady_now_ns(), fused_ns),
           .other_service_age_s = age_s(now_ns, arrivals.other_service_ns),
           .lag_s = session_.lag_s(),
-          .source_not_fused = source_not_fused(now_ns)};
+          .source_not_fused = source_not_fused(now_ns),
+          .sources_disagree = !session_.disagreements().empty()};
 }
 
 bool ServiceCore::source_not_fused(std::int64_t now_ns) const {
@@ -179,6 +181,9 @@ void ServiceCore::add_progress(SourceStatus& source) const {
   if (found == all.end()) return;
   source.fused = found->fused;
   source.learned = session_.mapper().learned(source.source);
+  for (const session::Disagreement& disagreement : session_.disagreements())
+    if (disagreement.source == source.source)
+      source.learned.emplace_back(std::string(kBesideSource) + disagreement.other, disagreement.beside_m);
   const auto lag_s = session_.lag_s();
   if (!found->fused_stamp_ns || !lag_s) return;
   source.lag_s = *lag_s + seconds(session_.map().stamp_ns - *found->fused_stamp_ns);

@@ -13,6 +13,8 @@ class MapFit {
   /// `near` is about where the vehicle is.
   MapFit(const DetectionFrame& frame, const std::vector<Marking>& markings, const Eigen::Isometry3d& near);
 
+  /// The length of the detections, in metres, that is near enough to tell.
+  double length_m() const { return step_m_ * static_cast<double>(samples_.size()); }
   /// The length of the detections, in metres, that lie on markings if they are seen from `T_map_body`. What
   /// lies beside a marking counts less.
   double explained_m(const Eigen::Isometry3d& T_map_body) const;

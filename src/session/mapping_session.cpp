@@ -10,6 +10,7 @@
 #include "sd_map/osm.hpp"
 #include "session/admission.hpp"
 #include "session/gate.hpp"
+#include "session/source_agreement.hpp"
 #include "session/sources.hpp"
 #include "session/synchroniser.hpp"
 
@@ -54,6 +55,7 @@ struct MappingSession::State {
         max_pause_s(c.service.snapshot_max_age_s),
         pose_gate(c.gate, true),
         sources(c.gate),
+        agreement(c.mapper.fusion),
         synchroniser(c.sync),
         mapper(with_profiles(c.mapper), sd_map::load_sd_map(c.sd_map)) {}
 
@@ -75,6 +77,7 @@ struct MappingSession::State {
   double max_pause_s;
   Gate pose_gate;
   Sources sources;
+  SourceAgreement agreement;
   Synchroniser synchroniser;
   Mapper mapper;
   std::optional<std::int64_t> newest_stamp_ns;
@@ -139,12 +142,17 @@ void MappingSession::State::fuse_ready() {
 
 void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   const auto& frame = synchronised.pending.frame;
+  if (!agreement.may_fuse(frame, synchronised.T_map_body)) {
+    refuse_frames("contradictory");
+    return;
+  }
   const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
   newest_stamp_ns = map.stamp_ns;
   newest_arrival_ns = synchronised.pending.arrival_ns;
   sources.note_fused(frame, synchronised.pending.arrival_ns);
   counters.add("frames_fused");
   if (mapper.poses_jumped()) {
+    agreement.forget();
     counters.add("pose_jumps");
     ++progress.pose_jumps;
   }
@@ -159,6 +167,7 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
 void MappingSession::State::reset() {
   refuse_frames("reset", synchroniser.clear_frames());
   mapper.reset();
+  agreement.forget();
   progress.lineage.clear();  // it tells of ids of the old map
   newest_stamp_ns.reset();
   newest_arrival_ns.reset();
@@ -192,6 +201,8 @@ void MappingSession::fuse_while(std::function<bool()> may_go_on) {
 }
 
 std::vector<SourceProgress> MappingSession::sources() const { return state_->sources.progress(); }
+
+std::vector<Disagreement> MappingSession::disagreements() const { return state_->agreement.disagreements(); }
 
 std::optional<std::int64_t> MappingSession::crowded_out_ns() const {
   return state_->sources.crowded_out_ns();

@@ -12,6 +12,7 @@
 #include "laneloom/counters.hpp"
 #include "laneloom/mapper.hpp"
 #include "laneloom/messages.hpp"
+#include "session/source_agreement.hpp"
 
 namespace laneloom::session {
 
@@ -104,6 +105,8 @@ class MappingSession {
   const Counters& counters() const;
   /// The progress of all sources, by name.
   std::vector<SourceProgress> sources() const;
+  /// The sources that contradict others. Their frames are refused meanwhile.
+  std::vector<Disagreement> disagreements() const;
   /// Arrival of the newest frame that was refused because there were too many sources. None: never.
   std::optional<std::int64_t> crowded_out_ns() const;
   /// Seconds from the stamp of the newest fused frame to that of the newest pose. None: nothing was fused

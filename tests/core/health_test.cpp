@@ -56,6 +56,12 @@ TEST_F(HealthTest, IncidentsDegradeForASecond) {
   EXPECT_EQ(assess(0, 0, 0), (Verdict{MapState::ok, {}}));
 }
 
+TEST_F(HealthTest, SourcesThatDisagreeDegrade) {
+  const HealthInputs inputs{
+      .detections_age_s = 0.0, .poses_age_s = 0.0, .fused_age_s = 0.0, .sources_disagree = true};
+  EXPECT_EQ(health_.assess(now_ns_, inputs), (Verdict{MapState::degraded, {StateReason::sources_disagree}}));
+}
+
 TEST_F(HealthTest, AResetIsSaidForASecond) {
   health_.note_reset(now_ns_);
   EXPECT_EQ(assess(0, 0, -1), (Verdict{MapState::stale, {StateReason::reset}}));

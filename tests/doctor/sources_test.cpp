@@ -45,6 +45,16 @@ TEST(SourceFindings, MoreThanTheServiceKeepsApart) {
   EXPECT_THAT(ids(source_findings(seen)), ElementsAre("too_many_sources")) << "no service is there to tell";
 }
 
+TEST(SourceFindings, SourcesThatDisagreeAreNamedWithHowMuch) {
+  Observed seen = healthy();
+  seen.services[0].last.sources = {
+      {.source = "front"}, {.source = "side", .learned = {{"pitch_gain", 0.1}, {"beside_front", -1.75}}}};
+  const Findings found = source_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("sources_disagree"));
+  EXPECT_EQ(found[0].found,
+            "The lines of source \"side\" lie 1.8 m to the right of those of source \"front\".");
+}
+
 TEST(SourceFindings, AFieldOfViewThatIsNeverGivenIsAdvisedAndNotWrong) {
   Observed seen = healthy();
   InputObserved& camera = seen.sources.at("camera");

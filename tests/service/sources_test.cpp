@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -112,6 +113,59 @@ TEST_F(SourcesOfADrive, OneThatDiesIsToldUntilItReturns) {
   drive_.send_frames = both;
   drive_.run_for(1000);
   EXPECT_EQ(drive_.states(), (States{"DEGRADED source_not_fused", "OK"}));
+}
+
+/// A second source sees everything further to the left.
+Channel<DetectionFrame> with_one_beside(double left_m) {
+  return [left_m](const DetectionFrame& frame) {
+    DetectionFrame other = of_source(frame, "side", 70);
+    for (Detection& detection : other.detections)
+      for (Point& point : detection.points) point.y() += left_m;
+    return std::vector{frame, other};
+  };
+}
+
+TEST_F(SourcesOfADrive, OneThatContradictsIsToldAndLeftOut) {
+  for (const double left_m : {1.75, -1.0}) {
+    drive_.send_frames = with_one_beside(left_m);
+    drive_.run_for(3000);
+    EXPECT_EQ(drive_.state(), "DEGRADED sources_disagree source_not_fused");
+    for (const PublishedMap& map : drive_.maps()) {
+      ASSERT_EQ(map.map.lanes.size(), 1U);
+      EXPECT_EQ(map.map.markings.size(), 2U);
+    }
+    const auto& sources = drive_.statuses().back().sources;
+    const auto side = std::ranges::find(sources, "side", &SourceStatus::source);
+    ASSERT_NE(side, sources.end());
+    ASSERT_FALSE(side->learned.empty());
+    EXPECT_EQ(side->learned.back().first, "beside_");
+    EXPECT_NEAR(std::abs(side->learned.back().second), std::abs(left_m), 0.2);
+    EXPECT_GT(drive_.counter("detections_refused_contradictory"), 15U);
+    drive_.send_frames = with_one_beside(0.1);
+    drive_.run_for(2000);
+    EXPECT_EQ(drive_.state(), "OK") << "it agrees";
+  }
+}
+
+TEST_F(SourcesOfADrive, OneThatContradictedIsFusedWhenItIsAlone) {
+  drive_.send_frames = with_one_beside(1.75);
+  drive_.run_for(1000);
+  drive_.send_frames = [both = with_one_beside(1.75)](const DetectionFrame& frame) {
+    return std::vector{both(frame).back()};
+  };
+  drive_.run_for(12'000);
+  EXPECT_EQ(drive_.state(), "OK");
+  EXPECT_GT(fused_of("side"), 50U);
+}
+
+TEST_F(SourcesOfADrive, ThatSeeOtherLinesDoNotContradict) {
+  drive_.send_frames = [](const DetectionFrame& frame) {
+    std::vector sent{frame, of_source(frame, "right", 70)};
+    for (std::size_t i = 0; i < sent.size(); ++i) sent[i].detections = {frame.detections[1 - i]};
+    return sent;
+  };
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.states(), States{"OK"});
 }
 
 TEST_F(SourcesOfADrive, ThatLagBehindThePosesMakeTheMapDegradedAndThenStale) {

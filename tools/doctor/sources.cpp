@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "base/source_values.hpp"
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
 #include "laneloom/limits.hpp"
@@ -69,10 +71,29 @@ void judge_number(const Observed& seen, Findings& found) {
        "more stacks, join the detections of some of them in one writer."});
 }
 
+/// Finds the sources that a service leaves out because they contradict others.
+void judge_agreement(const ServiceObserved& service, Findings& found) {
+  for (const SourceStatus& source : service.last.sources) {
+    for (const auto& [name, beside_m] : source.learned) {
+      if (!name.starts_with(kBesideSource)) continue;
+      found.push_back(
+          {"sources_disagree",
+           fmt::format("The lines of source \"{}\" lie {:.1f} m to the {} of those of source \"{}\".",
+                       source.source, std::abs(beside_m), beside_m > 0.0 ? "left" : "right",
+                       name.substr(kBesideSource.size())),
+           "One of the two is wrong. The service maps only the one that was there first, because a map of "
+           "both has every line twice.",
+           "See how the sensors of both are calibrated, and whether both stamp by one clock; or end the one "
+           "that is wrong."});
+    }
+  }
+}
+
 }  // namespace
 
 Findings source_findings(const Observed& seen) {
   Findings found;
+  for (const ServiceObserved& service : seen.services) judge_agreement(service, found);
   judge_number(seen, found);
   for (const auto& [source, frames] : seen.sources) {
     judge_writers(seen, source, frames, found);

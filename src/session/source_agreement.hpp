@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
+
+namespace laneloom::session {
+
+/// A source whose lines lie beside those of another one.
+struct Disagreement {
+  std::string source;  ///< the one that came later; it is not fused meanwhile
+  std::string other;
+  double beside_m = 0.0;  ///< by how much its lines lie to the left of the other one's
+};
+
+/// Tells which sources see the same lines at other places than a source that was there before them. Each of
+/// them may be right, but a map of both has every line twice. Frames are compared with the newest one of the
+/// other source, by the poses of both.
+class SourceAgreement {
+ public:
+  explicit SourceAgreement(FusionConfig config) : config_(std::move(config)) {}
+
+  /// Whether a frame of that pose may be fused. It may not while its source disagrees.
+  bool may_fuse(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body);
+  /// The sources that disagree. One that is silent for a second, or whose other one is, is forgotten.
+  std::vector<Disagreement> disagreements() const;
+  /// Forgets all frames: the poses that they are compared by are no longer continuous.
+  void forget() { sources_.clear(); }
+
+ private:
+  struct Source {
+    std::string name;
+    std::int64_t stamp_ns = 0;   ///< of its newest frame
+    std::vector<Marking> lines;  ///< of that frame, map frame
+    double stddev_m = 0.0;       ///< lateral, of these
+    double contradiction = 0.0;  ///< share of its frames that contradict the other source, faded
+    std::string other;           ///< the source that it was compared with last
+    double beside_m = 0.0;       ///< of that one, see Disagreement
+    bool disagrees() const { return contradiction > 0.5; }
+  };
+  void forget_silent(std::int64_t stamp_ns);
+  void compare(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, Source& source) const;
+  double stddev_m(const DetectionFrame& frame) const;
+
+  FusionConfig config_;
+  std::vector<Source> sources_;  ///< in the order in which they came
+};
+
+}  // namespace laneloom::session
