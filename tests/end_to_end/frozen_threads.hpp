@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sys/ptrace.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 
@@ -54,10 +55,9 @@ class FrozenThreads {
     }
   }
   static bool receives(const std::filesystem::path& task) {
-    constexpr int kReceiveFrom = 45, kReceiveMessage = 47;  // calls of the kernel, on x86-64
-    int call = -1;
+    long call = -1;
     std::ifstream(task / "syscall") >> call;
-    return call == kReceiveFrom || call == kReceiveMessage;
+    return call == SYS_recvfrom || call == SYS_recvmsg;
   }
 
   pid_t process_;
