@@ -1,20 +1,18 @@
 #include "service/executor.hpp"
 
-#include <algorithm>
+#include "core/phase_lock.hpp"
 
 namespace laneloom::service {
 
 void run_periodically(std::int64_t period_ns, const Timing& timing,
                       const std::function<void(const core::Tick&)>& task) {
-  core::Tick tick;
-  tick.deadline_ns = timing.now_ns();
-  while (timing.sleep_until(tick.deadline_ns)) {
-    tick.start_ns = timing.now_ns();
-    task(tick);
-    const auto late_ns = timing.now_ns() - tick.deadline_ns;
-    const auto periods = std::max<std::int64_t>(1, (late_ns + period_ns - 1) / period_ns);
-    tick.missed = static_cast<std::uint64_t>(periods - 1);
-    tick.deadline_ns += periods * period_ns;
+  core::PhaseLock phase(period_ns, timing.now_ns());
+  while (timing.sleep_until(phase.deadline_ns())) {
+    for (const std::int64_t at_ns : timing.take_ready()) phase.note_ready(at_ns);
+    const std::int64_t now_ns = timing.now_ns();
+    if (now_ns < phase.deadline_ns()) continue;
+    task(phase.begin(now_ns));
+    phase.end(timing.now_ns());
   }
 }
 

@@ -18,7 +18,8 @@ constexpr std::size_t kMaxSources = 16;
 
 }  // namespace
 
-IngestionQueue::IngestionQueue(const Config& config) : config_(config.sync), gate_(config.gate) {
+IngestionQueue::IngestionQueue(const Config& config, std::function<void()> frame_is_ready)
+    : config_(config.sync), gate_(config.gate), frame_is_ready_(std::move(frame_is_ready)) {
   for (const auto* name :
        {"detections_received", "poses_received", "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
     state_.counters.add(name, 0);
@@ -26,6 +27,14 @@ IngestionQueue::IngestionQueue(const Config& config) : config_(config.sync), gat
 }
 
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
+  if (enqueue(std::move(frame), arrival_ns) && frame_is_ready_) frame_is_ready_();
+}
+
+void IngestionQueue::push(VehiclePose&& pose, std::int64_t arrival_ns) {
+  if (enqueue(std::move(pose), arrival_ns) && frame_is_ready_) frame_is_ready_();
+}
+
+bool IngestionQueue::enqueue(DetectionFrame&& frame, std::int64_t arrival_ns) {
   // Checked before the frame is thinned: the defect may be in a detection that would be left out.
   const std::string_view refusal = session::defect(frame, gate_);
   const std::size_t left_out = refusal.empty() ? session::admit(gate_, frame) : 0;
@@ -35,17 +44,19 @@ void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
   note_source(frame);
   if (!refusal.empty()) {
     state_.counters.add("detections_refused_" + std::string(refusal));
-    return;
+    return false;
   }
   if (left_out > 0) {
     state_.counters.add("frames_thinned");
     state_.counters.add("detections_left_out", left_out);
   }
   if (frames_.size() >= static_cast<std::size_t>(config_.queue_capacity)) drop_oldest_of_most();
+  const bool is_ready = readiness_.note_frame(frame.stamp_ns);
   push(frames_, {std::move(frame), arrival_ns});
+  return note_ready(is_ready ? 1 : 0, arrival_ns);
 }
 
-void IngestionQueue::push(VehiclePose&& pose, std::int64_t arrival_ns) {
+bool IngestionQueue::enqueue(VehiclePose&& pose, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
   count_pose();
   state_.newest_pose_ns = arrival_ns;
@@ -53,7 +64,20 @@ void IngestionQueue::push(VehiclePose&& pose, std::int64_t arrival_ns) {
     poses_.pop_front();
     state_.counters.add("poses_dropped_queue_full");
   }
+  const std::size_t ready = readiness_.note_pose(pose.stamp_ns);
   push(poses_, {std::move(pose), arrival_ns});
+  return note_ready(ready, arrival_ns);
+}
+
+bool IngestionQueue::note_ready(std::size_t frames, std::int64_t arrival_ns) {
+  if (frames == 0 || ready_ns_.size() >= static_cast<std::size_t>(config_.queue_capacity)) return false;
+  ready_ns_.insert(ready_ns_.end(), frames, arrival_ns);
+  return true;
+}
+
+std::vector<std::int64_t> IngestionQueue::take_ready() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(ready_ns_, {});
 }
 
 void IngestionQueue::drop_oldest_of_most() {

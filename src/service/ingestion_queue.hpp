@@ -3,11 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/arrivals.hpp"
+#include "core/readiness.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 #include "service/lost_messages.hpp"
@@ -19,7 +22,9 @@ namespace laneloom::service {
 /// are counted. All functions are thread-safe.
 class IngestionQueue {
  public:
-  explicit IngestionQueue(const Config& config);
+  /// `frame_is_ready` is called, in the thread of the message that made it so, when a frame can be fused: it
+  /// and a pose as new as its stamp have come. It may be empty.
+  explicit IngestionQueue(const Config& config, std::function<void()> frame_is_ready = {});
 
   /// Refuses a frame that has a defect() as a whole. Other frames are reduced by admit(), so that memory is
   /// bounded too.
@@ -38,6 +43,8 @@ class IngestionQueue {
 
   /// Takes the messages since the call before, with the counters since the start.
   core::Arrivals take();
+  /// Takes the times at which frames became ready since the call before.
+  std::vector<std::int64_t> take_ready();
 
  private:
   /// A queued message.
@@ -48,6 +55,10 @@ class IngestionQueue {
   using Queue = std::deque<Numbered>;
 
   void push(Queue& queue, core::Arrival&& arrival) { queue.push_back({next_order_++, std::move(arrival)}); }
+  /// Queues a message. Returns whether it made a frame ready.
+  bool enqueue(DetectionFrame&& frame, std::int64_t arrival_ns);
+  bool enqueue(VehiclePose&& pose, std::int64_t arrival_ns);
+  bool note_ready(std::size_t frames, std::int64_t arrival_ns);
   void drop_oldest_of_most();
   void note_source(const DetectionFrame& frame);
   void count_frame();
@@ -55,10 +66,13 @@ class IngestionQueue {
 
   SyncConfig config_;
   GateConfig gate_;
+  std::function<void()> frame_is_ready_;
   std::mutex mutex_;
   std::uint64_t next_order_ = 0;
   Queue frames_;
   Queue poses_;
+  core::Readiness readiness_;
+  std::vector<std::int64_t> ready_ns_;
   LostMessages lost_frames_;
   LostMessages lost_poses_;
   // Lost messages are counted together with the message that shows the loss, so that the sums are right at

@@ -107,7 +107,7 @@ void reload(Service& service, Running& running, const Options& options) {
 void run(const Config& config, const Options& options) {
   Signals signals;
   Running running{config, profile_of(config)};
-  Service service(config, steady_now_ns);
+  Service service(config, steady_now_ns, [&signals] { signals.call(); });
   spdlog::info("event=started version={} config={} domain={} vehicle={}", core::version(),
                config::config_hash(config), config.dds.domain, config.dds.vehicle_id);
 
@@ -122,10 +122,11 @@ void run(const Config& config, const Options& options) {
   const auto sleep_until = [&](std::int64_t deadline_ns) {
     auto wake = signals.sleep_until(deadline_ns);
     for (; wake == Wake::reload; wake = signals.sleep_until(deadline_ns)) reload(service, running, options);
-    return wake == Wake::deadline;
+    return wake != Wake::stop;
   };
   const auto period_ns = static_cast<std::int64_t>(1e9 / config.service.tick_rate_hz);
-  run_periodically(period_ns, {steady_now_ns, sleep_until}, tick);
+  run_periodically(period_ns, {steady_now_ns, sleep_until, [&service] { return service.take_ready(); }},
+                   tick);
 
   sd_notify(0, "STOPPING=1");
   spdlog::info("event=stopping");

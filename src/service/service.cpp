@@ -26,11 +26,12 @@ double milliseconds(std::int64_t duration_ns) { return static_cast<double>(durat
 
 }  // namespace
 
-Service::Service(const Config& config, std::function<std::int64_t()> now_ns)
+Service::Service(const Config& config, std::function<std::int64_t()> now_ns,
+                 std::function<void()> frame_is_ready)
     : config_(config),
       now_ns_(std::move(now_ns)),
       core_(config, {now_ns_, system_now_ns, random_id}),
-      queue_(config),
+      queue_(config, std::move(frame_is_ready)),
       work_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       delay_(ticks_within(kStatisticsWindow_s, config.service.tick_rate_hz)),
       incidents_(config.service.status_period_s) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/service_core.hpp"
 #include "laneloom/config.hpp"
@@ -20,11 +21,14 @@ namespace laneloom::service {
 /// its queue.
 class Service {
  public:
-  /// `now_ns` is a steady clock, callable from any thread. Throws ConfigError when a file that the
-  /// configuration names is missing or invalid, and std::runtime_error when DDS can't be set up.
-  Service(const Config& config, std::function<std::int64_t()> now_ns);
+  /// `now_ns` is a steady clock, callable from any thread. `frame_is_ready` is as of IngestionQueue. Throws
+  /// ConfigError when a file that the configuration names is missing or invalid, and std::runtime_error when
+  /// DDS can't be set up.
+  Service(const Config& config, std::function<std::int64_t()> now_ns, std::function<void()> frame_is_ready);
 
   void tick(const core::Tick& tick);
+  /// As IngestionQueue::take_ready().
+  std::vector<std::int64_t> take_ready() { return queue_.take_ready(); }
   /// Makes all DDS endpoints anew; the map and the queued messages stay. Throws ConfigError, and keeps the
   /// present endpoints, when a file of the profile or of security is missing or invalid, or DDS does not
   /// trust it. If it throws std::runtime_error because DDS refuses, nothing else may be called.

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -52,7 +53,7 @@ void Signals::run(const std::stop_token& ended) {
 
 void Signals::tell(Wake wake) {
   const std::lock_guard lock(mutex_);
-  if (told_ != Wake::stop) told_ = wake;
+  told_ = std::max(told_, wake);
   changed_.notify_all();
 }
 

@@ -7,8 +7,8 @@
 
 namespace laneloom::service {
 
-/// The event that ended a sleep.
-enum class Wake { deadline, stop, reload };
+/// The event that ended a sleep; the more urgent, the later.
+enum class Wake { deadline, call, reload, stop };
 
 /// Takes SIGTERM, SIGINT and SIGHUP in a thread of its own, so that no work is done in a signal handler. It
 /// must be made before any other thread is started: it blocks these signals, and threads inherit that.
@@ -23,8 +23,10 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// Sleeps until a deadline of the steady clock, or until a signal comes. One thread calls it.
+  /// Sleeps until a deadline of the steady clock, or until a signal or a call comes. One thread calls it.
   Wake sleep_until(std::int64_t deadline_ns);
+  /// Ends the present sleep, or else the next one. Any thread may call it.
+  void call() { tell(Wake::call); }
 
  private:
   void run(const std::stop_token& ended);
@@ -32,7 +34,7 @@ class Signals {
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  Wake told_ = Wake::deadline;  ///< the signal that came last; deadline: none
+  Wake told_ = Wake::deadline;  ///< the most urgent event since the last sleep; deadline: none
   std::jthread thread_;
 };
 

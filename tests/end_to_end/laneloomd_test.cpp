@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <limits>
@@ -40,6 +41,25 @@ TEST(Laneloomd, DetectionsBecomeLanesAtThePlanner) {
     }
   }
   EXPECT_GT(fused.size(), 2U);
+}
+
+/// Whether each of the newest `count` maps has a frame that came less than 40 ms before.
+bool follow_their_frames(const std::vector<PublishedMap>& maps, std::ptrdiff_t count) {
+  return std::ssize(maps) >= count &&
+         std::all_of(maps.end() - count, maps.end(),
+                     [](const PublishedMap& map) { return !map.fused_frames.empty() && map.age_s < 0.04; });
+}
+
+TEST(Laneloomd, MapsFollowFramesOfAnotherPeriod) {
+  const auto config = private_config();
+  const Process service(command(config));
+  Listener<PublishedMap> maps(config);
+  const StraightRoad road(config,
+                          110);  // ticks that did not follow them would meet each phase within 11 frames
+  EXPECT_TRUE(maps.wait_for([&, seen = std::vector<PublishedMap>()](const PublishedMap& map) mutable {
+    seen.push_back(map);
+    return follow_their_frames(seen, 25);
+  })) << service.errors();
 }
 
 TEST(Laneloomd, PublishesAlsoWhenNothingComes) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "milliseconds.hpp"
@@ -19,7 +21,8 @@ class SimulatedTime {
             [this](std::int64_t deadline_ns) {
               now_ns = std::max(now_ns, deadline_ns + oversleep_ns);
               return now_ns < stop_ns_;
-            }};
+            },
+            [] { return std::vector<std::int64_t>(); }};
   }
 
   std::int64_t now_ns = 7 * kMs;
@@ -67,6 +70,28 @@ TEST(RunPeriodically, ATickAsLongAsThePeriodMissesNone) {
   const auto ticks = run(time, [](std::size_t) { return 100 * kMs; });
   ASSERT_EQ(ticks.size(), 5U);
   for (const auto& tick : ticks) EXPECT_EQ(tick.missed, 0U);
+}
+
+TEST(RunPeriodically, TicksWhenAFrameIsReady) {
+  SimulatedTime time(7 * kMs + 1000 * kMs);
+  Timing timing = time.timing();
+  std::int64_t next_ns = 151 * kMs;
+  timing.sleep_until = [&](std::int64_t deadline_ns) {
+    time.now_ns = std::max(time.now_ns, std::min(deadline_ns, next_ns));
+    return time.now_ns < 1000 * kMs;
+  };
+  timing.take_ready = [&] {
+    std::vector<std::int64_t> ready_ns;
+    for (; next_ns <= time.now_ns; next_ns += 100 * kMs) ready_ns.push_back(next_ns);
+    return ready_ns;
+  };
+  std::vector<std::int64_t> starts_ms;
+  run_periodically(100 * kMs, timing, [&](const core::Tick& tick) {
+    starts_ms.push_back(tick.start_ns / kMs);
+    EXPECT_EQ(tick.deadline_ns, tick.start_ns);
+    time.now_ns += kMs;
+  });
+  EXPECT_EQ(starts_ms, (std::vector<std::int64_t>{7, 107, 251, 351, 451, 551, 651, 751, 851, 951}));
 }
 
 TEST(RunPeriodically, StopsWhenToldBeforeTheFirstTick) {

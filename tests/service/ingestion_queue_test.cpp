@@ -52,6 +52,26 @@ TEST(IngestionQueue, KeepsTheOrderOfArrivalAcrossKinds) {
   EXPECT_TRUE(queue.take().messages.empty());
 }
 
+TEST(IngestionQueue, TellsWhenFramesCanBeFused) {
+  int told = 0;
+  IngestionQueue queue(capacities(8, 8), [&] { ++told; });
+  queue.push(frame(1), 10);
+  EXPECT_EQ(told, 0) << "its pose is not there";
+  queue.push(pose(1), 11);
+  queue.push(frame(2), 12);
+  queue.push(pose(2), 13);
+  EXPECT_EQ(told, 2);
+  EXPECT_EQ(queue.take_ready(), (std::vector<std::int64_t>{11, 12}));
+  EXPECT_TRUE(queue.take_ready().empty());
+}
+
+TEST(IngestionQueue, AFloodThatNobodyTakesIsBounded) {
+  IngestionQueue queue(capacities(4, 4));
+  queue.push(pose(1), 0);
+  for (std::uint64_t i = 0; i < 100; ++i) queue.push(frame(i), 1);
+  EXPECT_EQ(queue.take_ready().size(), 4U);
+}
+
 TEST(IngestionQueue, DropsTheOldestOfAKindAndCountsIt) {
   IngestionQueue queue(capacities(2, 3));
   for (std::uint64_t i = 0; i < 5; ++i) {

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <thread>
 #include <utility>
 
 #include "milliseconds.hpp"
@@ -29,6 +30,16 @@ TEST(Signals, WakeUpASleeper) {
     kill(getpid(), signal);
     EXPECT_EQ(signals.sleep_until(steady_now_ns() + kLong_ns), wake);
   }
+}
+
+TEST(Signals, ACallWakesASleeperOnce) {
+  Signals signals;
+  signals.call();
+  signals.call();
+  EXPECT_EQ(signals.sleep_until(steady_now_ns() + kLong_ns), Wake::call);
+  EXPECT_EQ(signals.sleep_until(steady_now_ns()), Wake::deadline);
+  const std::jthread caller([&] { signals.call(); });
+  EXPECT_EQ(signals.sleep_until(steady_now_ns() + kLong_ns), Wake::call);
 }
 
 TEST(SignalsDeathTest, EndAProcessThatIsToldToEndAndHangs) {

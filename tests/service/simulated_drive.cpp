@@ -10,7 +10,7 @@
 namespace laneloom::service {
 
 SimulatedDrive::SimulatedDrive(const Config& config, std::int64_t frame_period_ms)
-    : frame_period_ms_(frame_period_ms), config_(config), queue_(config) {
+    : frame_period_ms_(frame_period_ms), config_(config), queue_(config, [this] { frame_is_ready_ = true; }) {
   start();
 }
 
@@ -32,11 +32,13 @@ void SimulatedDrive::run_for(std::int64_t duration_ms) {
   statuses_.clear();
   const std::int64_t end_ns = now_ns_ + duration_ms * kMs;
   const auto sleep_until = [&](std::int64_t deadline_ns) {
-    now_ns_ = std::max(now_ns_, std::min(deadline_ns, end_ns));
-    deliver();
-    return deadline_ns < end_ns;
+    frame_is_ready_ = false;
+    for (deliver(); !frame_is_ready_ && now_ns_ < std::min(deadline_ns, end_ns); deliver())
+      now_ns_ = std::min({deadline_ns, end_ns, now_ns_ + kMs});
+    return now_ns_ < end_ns;
   };
-  run_periodically(100 * kMs, {[this] { return now_ns_; }, sleep_until},
+  run_periodically(100 * kMs,
+                   {[this] { return now_ns_; }, sleep_until, [this] { return queue_.take_ready(); }},
                    [this](const core::Tick& now) { tick(now); });
 }
 

@@ -62,6 +62,7 @@ class SimulatedDrive : private StageObserver {
   std::int64_t delivered_ms_ = 0;  ///< since the start
   std::uint64_t next_id_ = 1;
   Config config_;
+  bool frame_is_ready_ = false;  ///< since the executor fell asleep
   service::IngestionQueue queue_;
   std::unique_ptr<core::ServiceCore> core_;
   std::vector<PublishedMap> maps_;
