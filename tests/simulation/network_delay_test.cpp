@@ -23,6 +23,15 @@ TEST(NetworkDelay, FramesComeInOrderAfter50To150Milliseconds) {
   EXPECT_GE(next, 98);
 }
 
+TEST(NetworkDelay, MayBeTheSameForAllFrames) {
+  simulation::NetworkDelay<int> network(1, 0.0);
+  for (int i = 0; i < 10; ++i) {
+    network.put(i, 1'000'000'000);
+    EXPECT_FALSE(network.take(1'099'999'999).has_value());
+    EXPECT_EQ(network.take(1'100'000'000), i);
+  }
+}
+
 TEST(NetworkDelay, ClearedItGivesNothing) {
   simulation::NetworkDelay<int> network(1);
   network.put(1, 0);

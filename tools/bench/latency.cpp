@@ -132,6 +132,8 @@ std::vector<std::string> publish_command(const LatencySpec& spec, const std::str
           spec.noise,
           "--speed",
           fmt::format("{}", spec.speed_mps),
+          "--delay-spread",
+          fmt::format("{}", spec.delay_spread_ms),
           "--loop",
           "--domain",
           std::to_string(spec.dds.domain),

@@ -19,6 +19,7 @@ struct BenchLatencyOptions {
   BenchDrive drive;
   DdsConfig dds;
   std::filesystem::path identities;
+  double delay_spread_ms = 100.0;
   std::size_t viewers = 0;
   bool load = false;
   bool json = false;
@@ -33,6 +34,7 @@ bench::LatencySpec latency_spec(const BenchLatencyOptions& options) {
                           .scenario = options.drive.scenario,
                           .noise = options.drive.noise,
                           .speed_mps = options.drive.speed_mps,
+                          .delay_spread_ms = options.delay_spread_ms,
                           .duration_s = options.drive.duration_s,
                           .busy_threads = options.load ? std::thread::hardware_concurrency() : 0,
                           .viewers = options.viewers};
@@ -49,6 +51,7 @@ nlohmann::json viewer_json(const bench::ViewerCost& viewer) {
 nlohmann::json latency_json(const bench::LatencySpec& spec, const bench::LatencyResult& result) {
   return {
       {"duration_s", spec.duration_s},
+      {"delay_spread_ms", spec.delay_spread_ms},
       {"transport", spec.dds.transport},
       {"secured", !spec.identities.empty()},
       {"busy_threads", spec.busy_threads},
@@ -104,6 +107,9 @@ void add_bench_latency(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--identities", options->identities,
                       "Use DDS-Security: folder of tools/make-certificates");
+  command->add_option("--delay-spread", options->delay_spread_ms, "As of `laneloom publish`")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_option("--viewers", options->viewers, "Clients that read from a `laneloom view` beside it")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();

@@ -38,6 +38,7 @@ struct PublishOptions {
   double duration_s = 0.0;
   bool loop = false;
   int readers = 0;
+  double delay_spread_ms = 100.0;
   std::string truth, frames, times;
 };
 
@@ -52,7 +53,7 @@ class Publisher {
         road_(road),
         from_s_(options.from_s),
         perception_(options.source.perception(road)),
-        network_(options.source.seed),
+        network_(options.source.seed, options.delay_spread_ms),
         session_id_(random_id()),
         start_ns_(system_now_ns()) {
     if (!options.frames.empty()) record_ = std::make_unique<io::JsonLinesWriter>(options.frames);
@@ -178,6 +179,11 @@ void add_publish(CLI::App& app) {
       ->add_option("--wait-for-readers", options->readers,
                    "Number of readers of detections and of poses to wait for")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--delay-spread", options->delay_spread_ms,
+                   "Milliseconds from the shortest to the longest delay of a frame; the mean is 100")
+      ->check(within(0.0, 100.0))
+      ->capture_default_str();
   command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   command->add_option("--frames", options->frames, "Detections and exact poses to write (.frames.jsonl)");
   command->add_option("--times", options->times, "Times of each frame's publication to write (.csv)");

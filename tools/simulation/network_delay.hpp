@@ -9,16 +9,20 @@
 
 namespace laneloom::simulation {
 
-/// The time that a network takes for a frame, 50 to 150 ms. Frames keep their order: at ten frames a second,
-/// the longest time is only a period more than the shortest.
+/// The time that a network takes for a frame: 100 ms in the mean, 50 to 150 ms unless another spread is
+/// given. Frames keep their order: at ten frames a second, the longest time is at most a period more than the
+/// shortest.
 template <class Frame>
 class NetworkDelay {
  public:
-  explicit NetworkDelay(std::uint64_t seed) : delays_(seed) {}
+  /// `spread_ms` (0 to 100): the longest time minus the shortest.
+  explicit NetworkDelay(std::uint64_t seed, double spread_ms = 100.0)
+      : delays_(seed), spread_ns_(1e6 * spread_ms) {}
 
   /// Gives the network a frame.
   void put(Frame frame, std::int64_t now_ns) {
-    const auto delay_ns = static_cast<std::int64_t>(delays_.uniform(50e6, 150e6));
+    const auto delay_ns =
+        static_cast<std::int64_t>(delays_.uniform(kMean_ns - 0.5 * spread_ns_, kMean_ns + 0.5 * spread_ns_));
     pending_.push_back({now_ns + delay_ns, std::move(frame)});
   }
 
@@ -39,7 +43,9 @@ class NetworkDelay {
     Frame frame;
   };
 
+  static constexpr double kMean_ns = 100e6;
   Random delays_;
+  double spread_ns_;
   std::deque<Pending> pending_;
 };
 
