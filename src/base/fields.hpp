@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "laneloom/messages.hpp"
+#include "laneloom/objects.hpp"
 
 /// The members of map elements and detections, each named once, in the order of the IDL. Conversion to and
 /// from messages, the check of a message's bytes and bounds, JSON and the bytes of a mapper's state follow
@@ -150,6 +151,15 @@ inline constexpr auto kFields<DrivenPath> =
                LANELOOM_FIELD(DrivenPath, probability).share());
 
 template <>
+inline constexpr auto kFields<TrackedObject> = std::tuple(
+    LANELOOM_FIELD(TrackedObject, id).needed(), LANELOOM_FIELD(TrackedObject, kind),
+    LANELOOM_FIELD(TrackedObject, existence_probability).as("existence").share().or_unknown(),
+    LANELOOM_FIELD(TrackedObject, position).needed(), LANELOOM_FIELD(TrackedObject, heading),
+    LANELOOM_FIELD(TrackedObject, speed_mps).as("speed"),
+    LANELOOM_FIELD(TrackedObject, position_stddev_m).as("stddev"),
+    LANELOOM_FIELD(TrackedObject, length_m).as("length"), LANELOOM_FIELD(TrackedObject, width_m).as("width"));
+
+template <>
 inline constexpr auto kFields<FusedFrame> = std::tuple(
     LANELOOM_FIELD(FusedFrame, source), LANELOOM_FIELD(FusedFrame, session_id),
     LANELOOM_FIELD_AS(FusedFrame, sequence, sequence_number), LANELOOM_FIELD(FusedFrame, stamp_ns));
@@ -173,6 +183,8 @@ template <>
 inline constexpr auto kLast<MarkingType> = MarkingType::stopline;
 template <>
 inline constexpr auto kLast<MarkingStyle> = MarkingStyle::dashed;
+template <>
+inline constexpr auto kLast<ObjectKind> = ObjectKind::pedestrian;
 template <>
 inline constexpr auto kLast<ElementStatus> = ElementStatus::inferred;
 template <>
@@ -229,6 +241,7 @@ static_assert(kUnpublishedMembers<WayLane> == 0);
 static_assert(kUnpublishedMembers<Way> == 2,
               "wish and change alone are not published: straight on, and none");
 static_assert(kUnpublishedMembers<DrivenPath> == 0);
+static_assert(kUnpublishedMembers<TrackedObject> == 0);
 static_assert(kUnpublishedMembers<FusedFrame> == 0);
 
 }  // namespace laneloom

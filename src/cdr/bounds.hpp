@@ -31,6 +31,7 @@ constexpr std::size_t max_length(const Linkage*) { return msg::MAX_LINKAGES; }
 constexpr std::size_t max_length(const WayStation*) { return msg::MAX_WAY_STATIONS; }
 constexpr std::size_t max_length(const WayLane*) { return msg::MAX_WAY_LANES; }
 constexpr std::size_t max_length(const DrivenPath*) { return msg::MAX_DRIVEN_PATHS; }
+constexpr std::size_t max_length(const TrackedObject*) { return msg::MAX_OBJECTS; }
 constexpr std::size_t max_length(const LineageEvent*) { return msg::MAX_LINKAGES; }
 ///@}
 template <class Element>

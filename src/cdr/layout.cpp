@@ -97,6 +97,11 @@ void scan(CdrScanner& cdr, const msg::VehiclePose* /*type*/) {
   cdr.number_sequence(kDouble, 36);
 }
 
+void scan(CdrScanner& cdr, const msg::Objects* /*type*/) {
+  header(cdr);
+  values<std::vector<TrackedObject>>(cdr);
+}
+
 void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
   header(cdr);
   cdr.numbers(kLongLong, 2);

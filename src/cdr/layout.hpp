@@ -2,6 +2,7 @@
 
 #include "Detections.h"
 #include "LaneMap.h"
+#include "Objects.h"
 #include "RoadMarkings.h"
 #include "ServiceStatus.h"
 #include "VehiclePose.h"
@@ -12,6 +13,7 @@ namespace laneloom::dds {
 
 void scan(CdrScanner& cdr, const msg::Detections*);
 void scan(CdrScanner& cdr, const msg::VehiclePose*);
+void scan(CdrScanner& cdr, const msg::Objects*);
 void scan(CdrScanner& cdr, const msg::LaneMap*);
 void scan(CdrScanner& cdr, const msg::RoadMarkings*);
 void scan(CdrScanner& cdr, const msg::ServiceStatus*);
@@ -19,6 +21,7 @@ void scan(CdrScanner& cdr, const msg::ServiceStatus*);
 /// The number that tells the messages of one topic from others (Header.data_id).
 constexpr std::uint32_t data_id(const msg::Detections* /*type*/) { return msg::DATA_ID_DETECTIONS; }
 constexpr std::uint32_t data_id(const msg::VehiclePose* /*type*/) { return msg::DATA_ID_VEHICLE_POSE; }
+constexpr std::uint32_t data_id(const msg::Objects* /*type*/) { return msg::DATA_ID_OBJECTS; }
 constexpr std::uint32_t data_id(const msg::LaneMap* /*type*/) { return msg::DATA_ID_LANE_MAP; }
 constexpr std::uint32_t data_id(const msg::RoadMarkings* /*type*/) { return msg::DATA_ID_ROAD_MARKINGS; }
 constexpr std::uint32_t data_id(const msg::ServiceStatus* /*type*/) { return msg::DATA_ID_STATUS; }

@@ -128,6 +128,7 @@ void set_security(const std::string& directory, DomainParticipantQos& qos) {
 int depth(TopicKind kind) {
   switch (kind) {
     case TopicKind::detections:
+    case TopicKind::objects:
       return 64;  // some seconds, so that a busy host loses none
     case TopicKind::poses:
       return 512;
@@ -227,6 +228,7 @@ std::vector<ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind) {
       // best-effort reader has a frame at once, and the reliable one has frames that had to be repaired: a
       // large frame seldom comes through whole.
       return {BEST_EFFORT_RELIABILITY_QOS, RELIABLE_RELIABILITY_QOS};
+    case TopicKind::objects:  // a message less costs little: the next one tells the same objects
     case TopicKind::poses:
       return {BEST_EFFORT_RELIABILITY_QOS};  // a pose that has to be sent again comes after the next one
     case TopicKind::map:

@@ -6,6 +6,7 @@
 
 #include "DetectionsPubSubTypes.h"
 #include "LaneMapPubSubTypes.h"
+#include "ObjectsPubSubTypes.h"
 #include "RoadMarkingsPubSubTypes.h"
 #include "ServiceStatusPubSubTypes.h"
 #include "VehiclePosePubSubTypes.h"
@@ -40,6 +41,13 @@ struct TopicTraits<VehiclePose> {
   using Type = CheckedType<msg::VehiclePosePubSubType>;
   static constexpr auto kName = kVehiclePoseTopic;
   static constexpr auto kKind = TopicKind::poses;
+};
+
+template <>
+struct TopicTraits<TrackedObjects> {
+  using Type = CheckedType<msg::ObjectsPubSubType>;
+  static constexpr auto kName = kObjectsTopic;
+  static constexpr auto kKind = TopicKind::objects;
 };
 
 template <>

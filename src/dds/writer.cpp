@@ -50,6 +50,7 @@ int Writer<T>::matched() const {
 
 template class Writer<DetectionFrame>;
 template class Writer<VehiclePose>;
+template class Writer<TrackedObjects>;
 template class Writer<PublishedMap>;
 template class Writer<RoadMarkings>;
 template class Writer<ServiceStatus>;

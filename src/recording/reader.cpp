@@ -20,7 +20,8 @@ constexpr std::string_view kViewersTypes = "foxglove::";
 constexpr std::uint64_t kMaxLogTime_ns = std::uint64_t{1} << 62U;  // differences do not overflow
 
 template <class T>
-constexpr bool kIsInput = std::is_same_v<T, DetectionFrame> || std::is_same_v<T, VehiclePose>;
+constexpr bool kIsInput =
+    std::is_same_v<T, DetectionFrame> || std::is_same_v<T, VehiclePose> || std::is_same_v<T, TrackedObjects>;
 
 /// Why a message of a channel with the topic's name is refused. Empty: it is not refused. The name alone does
 /// not tell that the channel is the topic's.
@@ -94,9 +95,8 @@ class RecordingReader::Impl {
   template <class Take>
   bool accept(const McapMessage& message, const Take& take) {
     if (message.channel->schema && message.channel->schema->name.starts_with(kViewersTypes)) return false;
-    const auto reason =
-        take_if_of<Take, DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus>(message,
-                                                                                                 take);
+    const auto reason = take_if_of<Take, DetectionFrame, VehiclePose, PublishedMap, RoadMarkings,
+                                   ServiceStatus, TrackedObjects>(message, take);
     if (reason.empty()) return true;
     refused_.add(message.channel->topic + ": " + std::string(reason));
     return false;

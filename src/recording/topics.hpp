@@ -2,6 +2,7 @@
 
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/objects.hpp"
 
 /// The topics of laneloom as a recording describes them.
 namespace laneloom::recording {
@@ -10,6 +11,7 @@ namespace laneloom::recording {
 /// which readers of recordings do not have. Made from idl/ by flatten_idl.cmake.
 extern const char* const kDetectionsIdl;
 extern const char* const kVehiclePoseIdl;
+extern const char* const kObjectsIdl;
 extern const char* const kLaneMapIdl;
 extern const char* const kRoadMarkingsIdl;
 extern const char* const kServiceStatusIdl;
@@ -40,6 +42,10 @@ inline RecordedTopic topic_of<DetectionFrame>() {
 template <>
 inline RecordedTopic topic_of<VehiclePose>() {
   return {dds::kVehiclePoseTopic, dds::kVehiclePoseType, kVehiclePoseIdl};
+}
+template <>
+inline RecordedTopic topic_of<TrackedObjects>() {
+  return {dds::kObjectsTopic, dds::kObjectsType, kObjectsIdl};
 }
 template <>
 inline RecordedTopic topic_of<PublishedMap>() {

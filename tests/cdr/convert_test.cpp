@@ -39,6 +39,41 @@ TEST(Convert, VehiclePosesSurvive) {
   }
 }
 
+TEST(Convert, ObjectsSurvive) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    auto message = RandomMessages(seed).objects();
+    message.header().frame_id("body");
+    EXPECT_TRUE(through_plain<TrackedObjects>(message, "map") == message) << seed;
+  }
+}
+
+TEST(Convert, OfTooManyObjectsTheFirstOnesAreSent) {
+  TrackedObjects objects;
+  objects.objects.resize(msg::MAX_OBJECTS + 3);
+  objects.objects.back().id = 7;
+  msg::Objects message;
+  EXPECT_EQ(to_msg(objects, "map", message), 3U);
+  EXPECT_EQ(message.objects().size(), msg::MAX_OBJECTS);
+  EXPECT_EQ(message.objects().back().id(), 0U);
+}
+
+TEST(Refuse, ObjectsInTheMapFrame) {
+  auto message = RandomMessages(1).objects();
+  message.header().frame_id("map");
+  TrackedObjects objects;
+  EXPECT_EQ(from_msg(message, "map", objects), "wrong_frame");
+}
+
+TEST(Refuse, ObjectsWithNumbersOrClassesThatAreNone) {
+  TrackedObjects objects;
+  auto message = RandomMessages(1).objects();
+  message.objects()[0].speed_mps(kNaN);
+  EXPECT_EQ(from_msg(message, "map", objects), "not_finite");
+  message = RandomMessages(1).objects();
+  message.objects()[0].kind(static_cast<msg::ObjectKind>(msg::OBJECT_PEDESTRIAN + 1));
+  EXPECT_EQ(from_msg(message, "map", objects), "unknown_enum");
+}
+
 TEST(Convert, RoadMarkingsSurvive) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     const auto message = RandomMessages(seed).road_markings();

@@ -188,6 +188,25 @@ msg::VehiclePose RandomMessages::vehicle_pose() {
   return m;
 }
 
+msg::Objects RandomMessages::objects() {
+  msg::Objects m;
+  m.header(header());
+  m.objects(several(5, [&] {
+    msg::TrackedObject object;
+    object.id(id());
+    object.kind(one_of(msg::OBJECT_PEDESTRIAN));
+    object.existence_probability(number());
+    object.position(point());
+    object.heading(point());
+    object.speed_mps(number());
+    object.position_stddev_m(number());
+    object.length_m(number());
+    object.width_m(number());
+    return object;
+  }));
+  return m;
+}
+
 msg::LaneMap RandomMessages::lane_map() {
   msg::LaneMap m;
   m.header(header());

@@ -52,7 +52,8 @@ class CheckedTypeTest : public ::testing::Test {
   typename TopicTraits<T>::Type type_;
 };
 
-using Types = ::testing::Types<DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus>;
+using Types =
+    ::testing::Types<DetectionFrame, VehiclePose, TrackedObjects, PublishedMap, RoadMarkings, ServiceStatus>;
 TYPED_TEST_SUITE(CheckedTypeTest, Types);
 
 TYPED_TEST(CheckedTypeTest, WhatIsWrittenIsRead) {

@@ -1,5 +1,6 @@
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/objects.hpp"
 #include "memory_file.hpp"
 
 namespace {
@@ -20,7 +21,7 @@ void decode(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span<const std::uint8_t> bytes(data + 1, size - 1);
-  switch (data[0] % 5) {
+  switch (data[0] % 6) {
     case 0:
       decode<laneloom::DetectionFrame>(bytes);
       break;
@@ -32,6 +33,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 3:
       decode<laneloom::RoadMarkings>(bytes);
+      break;
+    case 4:
+      decode<laneloom::TrackedObjects>(bytes);
       break;
     default:
       decode<laneloom::ServiceStatus>(bytes);

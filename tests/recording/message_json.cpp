@@ -42,6 +42,7 @@ static json of_fields(const auto& m) {
 }
 static json of(const Range& m) { return of_fields<laneloom::Stretch>(m); }
 static json of(const Detection& m) { return of_fields<laneloom::Detection>(m); }
+static json of(const TrackedObject& m) { return of_fields<laneloom::TrackedObject>(m); }
 static json of(const StyleRange& m) { return of_fields<laneloom::StyleRange>(m); }
 static json of(const Marking& m) { return of_fields<laneloom::Marking>(m); }
 static json of(const LineageEvent& m) { return of_fields<laneloom::LineageEvent>(m); }
@@ -110,6 +111,8 @@ json json_of(const msg::Detections& m) {
 json json_of(const msg::VehiclePose& m) {
   return {{"header", of(m.header())}, {"pose", of(m.pose())}, {"covariance", of(m.covariance())}};
 }
+
+json json_of(const msg::Objects& m) { return {{"header", of(m.header())}, {"objects", of(m.objects())}}; }
 
 json json_of(const msg::LaneMap& m) {
   return {{"header", of(m.header())},

@@ -67,7 +67,8 @@ class RecordingOf : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-using Types = ::testing::Types<DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus>;
+using Types =
+    ::testing::Types<DetectionFrame, VehiclePose, TrackedObjects, PublishedMap, RoadMarkings, ServiceStatus>;
 TYPED_TEST_SUITE(RecordingOf, Types);
 
 TYPED_TEST(RecordingOf, EveryFieldIsReadAgain) {

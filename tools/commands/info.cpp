@@ -22,8 +22,8 @@ namespace laneloom::commands {
 namespace {
 
 /// The topics in the order of AnyMessage.
-constexpr std::array kTopicNames{dds::kDetectionsTopic, dds::kVehiclePoseTopic, dds::kLaneMapTopic,
-                                 dds::kRoadMarkingsTopic, dds::kStatusTopic};
+constexpr std::array kTopicNames{dds::kDetectionsTopic,   dds::kVehiclePoseTopic, dds::kLaneMapTopic,
+                                 dds::kRoadMarkingsTopic, dds::kStatusTopic,      dds::kObjectsTopic};
 
 struct TopicInfo {
   std::uint64_t messages = 0;

@@ -48,8 +48,8 @@ struct RecordOptions {
 };
 
 /// The topics in the order of AnyMessage.
-constexpr std::array kTopics{dds::kDetectionsTopic, dds::kVehiclePoseTopic, dds::kLaneMapTopic,
-                             dds::kRoadMarkingsTopic, dds::kStatusTopic};
+constexpr std::array kTopics{dds::kDetectionsTopic,   dds::kVehiclePoseTopic, dds::kLaneMapTopic,
+                             dds::kRoadMarkingsTopic, dds::kStatusTopic,      dds::kObjectsTopic};
 
 using Counts = std::array<std::uint64_t, kTopics.size()>;
 
@@ -100,7 +100,8 @@ class Recorder {
         poses_(participant_, into_inbox(1)),
         maps_(participant_, into_inbox(2)),
         markings_(participant_, into_inbox(3)),
-        status_(participant_, into_inbox(4)) {
+        status_(participant_, into_inbox(4)),
+        objects_(participant_, into_inbox(5)) {
     fmt::print("Recording to {}\n", writer_.path());
     std::fflush(stdout);
   }
@@ -152,6 +153,7 @@ class Recorder {
   dds::RawReader<PublishedMap> maps_;
   dds::RawReader<RoadMarkings> markings_;
   dds::RawReader<ServiceStatus> status_;
+  dds::RawReader<TrackedObjects> objects_;
 };
 
 std::string default_name() {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "laneloom/basics.hpp"
+
+/// Vehicles and others that a tracker follows, as plain data; idl/Objects.idl says what each field means.
+namespace laneloom {
+
+/// The class of an object. Unknown: the tracker does not tell it.
+enum class ObjectKind : std::uint8_t { unknown, car, truck, bus, trailer, motorcycle, bicycle, pedestrian };
+
+/// Words for the classes, in the order of their values.
+inline constexpr std::array kObjectKindNames{"unknown", "car",        "truck",   "bus",
+                                             "trailer", "motorcycle", "bicycle", "pedestrian"};
+inline const char* name(ObjectKind kind) { return kObjectKindNames.at(static_cast<std::size_t>(kind)); }
+
+/// Something that a tracker follows. Lengths that are not known are -1.
+struct TrackedObject {
+  std::uint64_t id = 0;  ///< stays while the object is followed
+  ObjectKind kind = ObjectKind::unknown;
+  double existence_probability = -1.0;  ///< 0..1; -1: not estimated
+  Point position = Point::Zero();       ///< of the box's centre, on the ground; body frame
+  Point heading = Point::Zero();        ///< unit vector, body frame; zero: unknown, or known up to its sign
+  double speed_mps = 0.0;               ///< over ground, along the heading; negative: backwards
+  double position_stddev_m = -1.0;      ///< horizontal
+  double length_m = -1.0;               ///< along the heading
+  double width_m = -1.0;
+};
+
+/// Everything that a tracker follows at one instant.
+struct TrackedObjects {
+  std::int64_t stamp_ns = 0;           ///< sensor clock
+  std::uint64_t sequence = 0;          ///< counts up by one per message of the writer
+  std::uint64_t session_id = 0;        ///< of the writer's run; ids of objects are valid within it
+  std::vector<TrackedObject> objects;  ///< empty: none is followed
+};
+
+}  // namespace laneloom
