@@ -52,6 +52,53 @@ TEST(FrameJson, IsReadAsItWasWritten) {
   EXPECT_LT(read.pose.orientation.angularDistance(record.pose.orientation), 1e-9);
 }
 
+TEST(FrameJson, ObjectsAreReadAsTheyWereWritten) {
+  FrameRecord record = full_frame();
+  record.objects = TrackedObjects{.objects = {{.id = UINT64_MAX,
+                                               .kind = ObjectKind::trailer,
+                                               .existence_probability = 0.75,
+                                               .position = {10.0, -2.5, 0.1},
+                                               .heading = {0.6, 0.8, 0.0},
+                                               .speed_mps = -3.5,
+                                               .position_stddev_m = 0.3,
+                                               .length_m = 12.0,
+                                               .width_m = 2.5},
+                                              {.id = 2}}};
+  const FrameRecord read = frame_from_json(to_json_line(record));
+  ASSERT_TRUE(read.objects);
+  EXPECT_EQ(read.objects->stamp_ns, record.frame.stamp_ns);
+  EXPECT_EQ(read.objects->sequence, 7U);
+  EXPECT_EQ(read.objects->session_id, UINT64_MAX);
+  ASSERT_EQ(read.objects->objects.size(), 2U);
+  const TrackedObject &was = record.objects->objects[0], &is = read.objects->objects[0];
+  EXPECT_EQ(is.id, was.id);
+  EXPECT_EQ(is.kind, was.kind);
+  EXPECT_EQ(is.existence_probability, was.existence_probability);
+  EXPECT_EQ(is.position, was.position);
+  EXPECT_EQ(is.heading, was.heading);
+  EXPECT_EQ(is.speed_mps, was.speed_mps);
+  EXPECT_EQ(is.position_stddev_m, was.position_stddev_m);
+  EXPECT_EQ(is.length_m, was.length_m);
+  EXPECT_EQ(is.width_m, was.width_m);
+  EXPECT_EQ(read.objects->objects[1].existence_probability, -1.0);
+
+  record.objects->objects.clear();
+  EXPECT_TRUE(frame_from_json(to_json_line(record)).objects) << "a tracker that follows none";
+  record.objects.reset();
+  EXPECT_FALSE(frame_from_json(to_json_line(record)).objects) << "there is no tracker";
+}
+
+TEST(FrameJson, OfAnObjectOnlyIdAndPositionMustBeThere) {
+  const auto line = [](const std::string& object) {
+    return R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[],"objects":[)" + object + "]}";
+  };
+  EXPECT_EQ(frame_from_json(line(R"({"id":3,"position":[1,2,3]})")).objects->objects[0].id, 3U);
+  for (const char* object :
+       {R"({"id":3})", R"({"position":[1,2,3]})", R"({"id":3,"position":[1,2]})",
+        R"({"id":3,"position":[1,2,3],"kind":"tram"})", R"({"id":3,"position":[1,2,3],"existence":2})"})
+    EXPECT_THROW(frame_from_json(line(object)), std::runtime_error) << object;
+}
+
 TEST(FrameJson, TheOptionalKeysMayBeAbsent) {
   const FrameRecord read = frame_from_json(
       R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[{"type":"laneline","score":0.5,"points":[[0,0,0],[1,0,0]]}]})");

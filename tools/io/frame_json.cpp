@@ -79,6 +79,7 @@ std::string to_json_line(const FrameRecord& record) {
   for (const MarkingType type : frame.detected_types) out["detected_types"].push_back(name(type));
   if (!frame.field_of_view.empty()) out["field_of_view"] = polyline_json(frame.field_of_view);
   for (const Polyline& area : frame.occluded_areas) out["occluded_areas"].push_back(polyline_json(area));
+  if (record.objects) out["objects"] = ToJson::of(record.objects->objects);
   return out.dump();
 }
 
@@ -104,6 +105,8 @@ FrameRecord frame_from_json(std::string_view text, const FrameReading& reading) 
   const auto areas = [](const json& items) { return list(items, polyline); };
   frame.occluded_areas = optional(object, "occluded_areas", areas).value_or(std::vector<Polyline>{});
   record.pose.stamp_ns = frame.stamp_ns;
+  if (auto objects = optional(object, "objects", FromJson::element<std::vector<TrackedObject>>))
+    record.objects = TrackedObjects{frame.stamp_ns, frame.sequence, frame.session_id, *std::move(objects)};
   return record;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/left_out.hpp"
+#include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
 /// Frames and maps as JSON, one per line. It is the simple interface for other tools.
@@ -20,11 +21,14 @@
 ///                      "style": "solid" | "dashed" | "unknown", "points": [[x, y, z], …], "stddev": [σ, …]},
 ///                      …],
 ///      "stamp_ns": 1, "sequence": 1, "session_id": 1, "source": "…", "detected_types": ["laneline", …],
-///      "field_of_view": [[x, y, z], …], "occluded_areas": [[[x, y, z], …], …]}
+///      "field_of_view": [[x, y, z], …], "occluded_areas": [[[x, y, z], …], …],
+///      "objects": [{"id": 1, "kind": "car", "position": [x, y, z], "heading": [x, y, z], "speed": 8.0,
+///                   "existence": 0..1 or -1, "stddev": 0.3, "length": 4.5, "width": 1.8}, …]}
 ///
 /// The pose is T_map_body at t, points are in the body frame, metres. A detection's style and stddev, and
-/// everything from stamp_ns on, may be left out; stamp_ns is exact where t is rounded. Time 0 is read as 1
-/// ns, because a stamp of 0 means that there is none. Coordinates are within 10 000 km.
+/// everything from stamp_ns on, may be left out, and of an object all but id and position; stamp_ns is exact
+/// where t is rounded. Time 0 is read as 1 ns, because a stamp of 0 means that there is none. Coordinates are
+/// within 10 000 km.
 ///
 /// A map:
 ///
@@ -60,6 +64,7 @@ namespace laneloom::io {
 struct FrameRecord {
   DetectionFrame frame;
   VehiclePose pose;
+  std::optional<TrackedObjects> objects = {};  ///< at the frame's stamp; none: there is no tracker
 };
 
 /// One line, without its end. All numbers must be finite.
