@@ -132,6 +132,7 @@ inline constexpr const char* kDrivingSides = "right|left|unknown";
 /// How the direction of traffic in a lane is found. Ours.
 struct DirectionConfig {
   DrivingSide driving_side = DrivingSide::right;  ///< tells in which of two lanes oncoming traffic runs
+  bool use_traffic = true;                        ///< whether trails of other vehicles tell directions
 };
 
 /// Limits within which a stopline ends a lane. Ours.

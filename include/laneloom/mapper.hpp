@@ -7,6 +7,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/network_profile.hpp"
+#include "laneloom/objects.hpp"
 #include "laneloom/sd_map.hpp"
 #include "laneloom/stages.hpp"
 #include "laneloom/types.hpp"
@@ -34,6 +35,10 @@ class Mapper {
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 
+  /// Takes what a tracker follows, seen from T_map_body. The next update() uses it. Messages come in the
+  /// order of their stamps, and of their sessions where stamps are equal. All values must be finite.
+  void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body);
+
   /// The map after the last update.
   const LocalMap& map() const;
 
@@ -50,6 +55,9 @@ class Mapper {
   /// Whether the poses had jumped at the last update: by a step that no vehicle makes, and that the
   /// detections contradict. The map has moved with them, with its ids. The voxel method cleared it.
   bool poses_jumped() const { return poses_jumped_; }
+  /// Whether other vehicles keep to the other side of the road than MapperConfig::direction says. Directions
+  /// are then found without that setting.
+  bool driving_side_contradicted() const;
   /// Forgets everything except which ids were given out and what was learned of the networks.
   void reset();
 

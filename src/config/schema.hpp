@@ -259,8 +259,12 @@ void visit(auto& v, Is<LinkageConfig> auto& c) {
 }
 
 void visit(auto& v, Is<DirectionConfig> auto& c) {
-  auto& [driving_side] = c;
+  auto& [driving_side, use_traffic] = c;
   choice(v, "driving_side", driving_side, kDrivingSides, "The side of the road on which traffic keeps.");
+  v.flag(
+      "use_traffic", use_traffic,
+      "Take the trails of other vehicles (topic objects) as evidence of directions. Without it, a map with "
+      "objects is the same as one without.");
 }
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {

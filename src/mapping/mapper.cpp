@@ -22,6 +22,7 @@
 #include "mapping/topology/linkages.hpp"
 #include "mapping/topology/meeting.hpp"
 #include "mapping/topology/stoplines.hpp"
+#include "mapping/topology/traffic.hpp"
 
 namespace laneloom {
 namespace {
@@ -55,6 +56,15 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
                                scene, config.lane, state.ids);  // III-D-3
   return log.done(Stage::lanes,
                   state.lane_tracks.update(std::move(found), scene, config.lane, state.ids));  // ours
+}
+
+/// Sets the directions of lanes, by the trails of others too.
+void tell_directions(DirectionConfig config, MapperState& state, topology::RoadGraph& road) {
+  const std::vector<topology::DrivenStretch> driven =
+      topology::driven_stretches(state.trails.all(), road.lanes);
+  state.side.observe(road, driven, state.lane_tracks, state.trails.all());
+  if (state.side.contradicts(config.driving_side)) config.driving_side = DrivingSide::unknown;
+  topology::find_directions(config, driven, state.lane_tracks, road);
 }
 
 /// The map of a frame, but for the way. `state` is that of the map before; its membership is set to that of
@@ -100,6 +110,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   MapperState& state = *state_;
   const Eigen::Isometry3d seen_from = follow_poses(frame, T_map_body);
   const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
+  state.trails.keep_around(scene.T_map_body().translation());
   markings::ObservedFrame observed{
       frame, seen_from,
       log.done(Stage::preprocess,
@@ -111,7 +122,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
                                state.lane_tracks);
-  find_directions(config_.direction, state.lane_tracks, road);
+  tell_directions(config_.direction, state, road);
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
   const auto renamed = state.lane_tracks.publish(road.lanes, state.ids);
@@ -139,6 +150,10 @@ Eigen::Isometry3d Mapper::follow_poses(const DetectionFrame& frame, const Eigen:
   return T_map_body;
 }
 
+void Mapper::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
+  if (config_.direction.use_traffic) state_->trails.add(objects, T_map_body);
+}
+
 const LocalMap& Mapper::map() const { return state_->map; }
 
 std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& source) const {
@@ -153,6 +168,10 @@ std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& s
 std::size_t Mapper::lines_forgotten() const {
   const lines::LineMapper* lines = state_->fusion.lines();
   return lines != nullptr ? lines->forgotten() : 0;
+}
+
+bool Mapper::driving_side_contradicted() const {
+  return state_->side.contradicts(config_.direction.driving_side);
 }
 
 NetworkProfiles Mapper::profiles() const {

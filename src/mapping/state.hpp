@@ -14,6 +14,8 @@
 #include "mapping/markings/id_source.hpp"
 #include "mapping/pose_jumps.hpp"
 #include "mapping/topology/ego_track.hpp"
+#include "mapping/topology/traffic.hpp"
+#include "mapping/trails/trails.hpp"
 #include "mapping/voxels/voxel_mapper.hpp"
 
 namespace laneloom {
@@ -60,6 +62,8 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   lanes::InferredMemory inferred;
   lanes::LaneTracks lane_tracks;
   topology::EgoTrack ego_track;
+  trails::Trails trails;
+  topology::ObservedSide side;
   Membership published;  ///< membership in the last map
   markings::IdSource ids;
   PoseJumps pose_jumps;
@@ -71,7 +75,7 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, fusion, inferred, lane_tracks, ego_track, published, ids, pose_jumps, map);
+    archive(frame, fusion, inferred, lane_tracks, ego_track, trails, side, published, ids, pose_jumps, map);
   }
 };
 

@@ -40,7 +40,7 @@ void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, lane
           topology::RoadGraph& road) {
   for (const Eigen::Isometry3d& pose : drive.poses)
     topology::observe_directions(road.lanes, pose, drive.markings, config.stopline, tracks);
-  find_directions(config.direction, tracks, road);
+  find_directions(config.direction, {}, tracks, road);
   link_across_intersections(SdMap{}, config.linkage, road);
   topology::EgoTrack track;
   for (const Eigen::Isometry3d& pose : drive.poses) link_ego_track(pose, track, road);

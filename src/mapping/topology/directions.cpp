@@ -24,11 +24,13 @@ constexpr double kMemory = 0.98;  // factor per frame beside the lane, where the
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
-constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
-constexpr double kKnown = 1.5;             // from here on, a direction is published
-constexpr double kNews = 0.05;             // share of a frame in the belief in a direction
-constexpr double kGrowth = 0.3;            // likewise, where the frame says more than the belief
-constexpr double kDoubted = 0.5;           // below, a direction is published no longer
+constexpr double kTrailEvidence = 2.0;     // of the first trail; the n-th one counts 1/n² of it
+constexpr double kMaxTrailEvidence = 4.0;
+constexpr double kWrongSide = -6.0;  // for traffic that keeps to the wrong side
+constexpr double kKnown = 1.5;       // from here on, a direction is published
+constexpr double kNews = 0.05;       // share of a frame in the belief in a direction
+constexpr double kGrowth = 0.3;      // likewise, where the frame says more than the belief
+constexpr double kDoubted = 0.5;     // below, a direction is published no longer
 
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
 
@@ -149,6 +151,25 @@ std::vector<double> remembered_evidence(const std::vector<Lane>& lanes,
   return observed;
 }
 
+/// Per group, the log odds of its direction by the trails in its lanes. A trail counts once, as it was mostly
+/// driven.
+std::vector<double> traffic_evidence(const std::vector<DrivenStretch>& driven,
+                                     const geometry::OrientedGroups& groups, std::size_t lanes) {
+  std::map<std::pair<std::size_t, std::size_t>, double> along_m;  // by trail and group
+  for (const DrivenStretch& stretch : driven)
+    along_m[{stretch.trail, groups.group(stretch.lane)}] +=
+        is_opposed(groups, stretch.lane) ? -stretch.along_m : stretch.along_m;
+  std::vector<double> evidence(lanes, 0.0);
+  std::vector<std::array<int, 2>> trails(lanes);  // that were driven along and against
+  for (const auto& [of, length_m] : along_m) {
+    if (std::abs(length_m) < kMinDriven_m) continue;
+    const int number = ++trails[of.second][length_m > 0.0 ? 0 : 1];
+    evidence[of.second] += std::copysign(kTrailEvidence / (number * number), length_m);
+  }
+  for (double& one : evidence) one = std::clamp(one, -kMaxTrailEvidence, kMaxTrailEvidence);
+  return evidence;
+}
+
 std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLanes>& beside,
                                                   const geometry::OrientedGroups& groups) {
   struct Sum {
@@ -172,7 +193,7 @@ std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLa
 }
 
 Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroups& groups,
-                  const lanes::LaneTracks& tracks, double side) {
+                  const std::vector<DrivenStretch>& driven, const lanes::LaneTracks& tracks, double side) {
   const std::vector<Lane>& lanes = layout.lanes;
   const std::vector<SideBySideLanes> beside = side_by_side(layout);
   const std::vector<double> outermost = outermost_evidence(layout, beside);
@@ -181,7 +202,8 @@ Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroup
   std::vector<Mean> borders(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
     borders[groups.group(i)].add((is_opposed(groups, i) ? -1.0 : 1.0) * side * outermost[i]);
-  for (std::size_t i = 0; i < lanes.size(); ++i) model.evidence[i] += borders[i].value();
+  const std::vector<double> traffic = traffic_evidence(driven, groups, lanes.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i) model.evidence[i] += borders[i].value() + traffic[i];
   return model;
 }
 
@@ -251,11 +273,14 @@ double sense_of(double log_odds, double told_direction, double told_orientation)
   return std::abs(log_odds) >= kDoubted ? as_traffic : 1.0;
 }
 
-/// Per group, what tells its direction: its borders, and that the vehicle drove in one of its lanes. The
-/// lanes are told that they were driven.
-std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups, const lanes::LaneTracks& tracks,
+/// Per group, what tells its direction: its borders, and that the vehicle or others drove in one of its
+/// lanes. The lanes are told that they were driven.
+std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups,
+                                  const std::vector<DrivenStretch>& driven, const lanes::LaneTracks& tracks,
                                   std::vector<Lane>& lanes) {
   std::vector<Evidence> evidence(lanes.size(), Evidence::none);
+  for (const DrivenStretch& stretch : driven)
+    if (std::abs(stretch.along_m) >= kMinDriven_m) lanes[stretch.lane].evidence |= Evidence::traffic;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const lanes::LaneTrack* known = tracks.find(lanes[i].id);
     if (known != nullptr && known->driven) lanes[i].evidence |= Evidence::ego_path;
@@ -283,14 +308,15 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
   }
 }
 
-void find_directions(const DirectionConfig& config, lanes::LaneTracks& tracks, RoadGraph& road) {
+void find_directions(const DirectionConfig& config, const std::vector<DrivenStretch>& driven,
+                     lanes::LaneTracks& tracks, RoadGraph& road) {
   const geometry::OrientedGroups groups = group(road);
   const double side = driving_side(config);
-  std::vector<double> belief = beliefs(build_model(road, groups, tracks, side), side);
+  std::vector<double> belief = beliefs(build_model(road, groups, driven, tracks, side), side);
   const Told before = told(road.lanes, groups, tracks);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
-  const std::vector<Evidence> evidence = evidence_of(groups, tracks, road.lanes);
+  const std::vector<Evidence> evidence = evidence_of(groups, driven, tracks, road.lanes);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];

@@ -6,6 +6,7 @@
 #include "laneloom/types.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/topology/road_graph.hpp"
+#include "mapping/topology/traffic.hpp"
 
 namespace laneloom::topology {
 
@@ -22,10 +23,15 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 /// Lanes that continue one another run the same way. Where two lanes side by side run against each other,
 /// each has the other on the side that is not driven on. The boundary between two lanes speaks for opposite
 /// directions or against them (side_by_side.hpp). The outermost lane at an edge, or at a solid line, runs as
-/// the driving side says. These and the remembered evidence are weighed against one another by max-product
-/// belief propagation. A direction that was sure stays known until it is contradicted; `tracks` remember it.
+/// the driving side says. Each trail that was driven in a lane
+/// for 5 m speaks for its direction, the first one most. These and the remembered evidence are weighed
+/// against one another by max-product belief propagation. A direction that was sure stays known until it is
+/// contradicted; `tracks` remember it.
+///
+/// `driven` holds the stretches of trails in the lanes of `road`.
 ///
 /// Linkages between lanes that are turned are turned too. At last the turn of every linkage is set.
-void find_directions(const DirectionConfig& config, lanes::LaneTracks& tracks, RoadGraph& road);
+void find_directions(const DirectionConfig& config, const std::vector<DrivenStretch>& driven,
+                     lanes::LaneTracks& tracks, RoadGraph& road);
 
 }  // namespace laneloom::topology

@@ -74,7 +74,7 @@ class Directions : public ::testing::Test {
 
   void find(DrivingSide driving_side = DrivingSide::right) {
     RoadGraph road{{boundaries_, lanes_}, linkages_};
-    find_directions({.driving_side = driving_side}, tracks_, road);
+    find_directions({.driving_side = driving_side}, driven_, tracks_, road);
     lanes_ = std::move(road.lanes);
     linkages_ = std::move(road.linkages);
   }
@@ -88,6 +88,7 @@ class Directions : public ::testing::Test {
   std::vector<boundaries::LaneBoundary> boundaries_;
   std::vector<Lane> lanes_;
   std::vector<Linkage> linkages_;
+  std::vector<DrivenStretch> driven_;
   lanes::LaneTracks tracks_;
 };
 
@@ -122,6 +123,59 @@ TEST_F(Directions, ADirectionHasAProbabilityAndEvidence) {
   EXPECT_EQ(get(12).direction_evidence, Evidence::markings | Evidence::ego_path);
   EXPECT_EQ(get(12).evidence, Evidence::markings | Evidence::ego_path);
   EXPECT_EQ(get(11).evidence, Evidence::edges) << "it was not driven";
+}
+
+TEST_F(Directions, OneTrailTellsTheDirectionOfALane) {
+  driven_ = {{.trail = 0, .lane = 0, .along_m = -20.0}};
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(11));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_EQ(get(11).direction_evidence, Evidence::traffic);
+  EXPECT_EQ(get(11).evidence, Evidence::traffic);
+  EXPECT_FALSE(known(12)) << "nothing tells how the two belong together";
+  EXPECT_EQ(get(12).evidence, Evidence::none);
+}
+
+TEST_F(Directions, AShortTrailTellsNothing) {
+  driven_ = {{.trail = 0, .lane = 0, .along_m = 4.0}, {.trail = 1, .lane = 0, .along_m = 4.0}};
+  find(DrivingSide::unknown);
+  EXPECT_FALSE(known(11));
+  EXPECT_EQ(get(11).evidence, Evidence::none);
+}
+
+TEST_F(Directions, ATrailCountsOnceWhereItRunsThroughLanesThatContinueOneAnother) {
+  lanes_.push_back(lane(13, 2, 40, 60));
+  linkages_ = {{.from = 12, .to = 13}};
+  driven_ = {{.trail = 0, .lane = 1, .along_m = 4.0}, {.trail = 0, .lane = 2, .along_m = 4.0}};
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(12) && known(13)) << "8 m in both together";
+  const double once = get(12).direction_probability;
+  driven_ = {{.trail = 0, .lane = 1, .along_m = 20.0}, {.trail = 0, .lane = 2, .along_m = 20.0}};
+  find(DrivingSide::unknown);
+  EXPECT_EQ(get(12).direction_probability, once);
+}
+
+TEST_F(Directions, FurtherTrailsTellLess) {
+  double before = 0.5, rise_before = 1.0;
+  for (std::size_t trail = 0; trail < 3; ++trail) {
+    driven_.push_back({.trail = trail, .lane = 1, .along_m = 20.0});
+    find(DrivingSide::unknown);
+    const double rise = get(12).direction_probability - before;
+    EXPECT_GT(rise, 0.0) << trail;
+    EXPECT_LT(rise, rise_before) << trail;
+    before = get(12).direction_probability;
+    rise_before = rise;
+  }
+}
+
+TEST_F(Directions, ATrailOutweighsTheEdgeOfTheRoad) {
+  divider(MarkingStyle::dashed);  // both lanes run alike
+  find();
+  EXPECT_FALSE(known(11));
+  driven_ = {{.trail = 0, .lane = 0, .along_m = -20.0}, {.trail = 1, .lane = 1, .along_m = -20.0}};
+  find();
+  EXPECT_TRUE(known(11) && known(12));
+  EXPECT_FALSE(runs_forward(11) || runs_forward(12));
 }
 
 TEST_F(Directions, ADirectionIsToldUntilItIsInDoubt) {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "laneloom/config.hpp"
+#include "mapping/lanes/lane_tracks.hpp"
+#include "mapping/topology/road_graph.hpp"
+#include "mapping/trails/trails.hpp"
+
+namespace laneloom::topology {
+
+/// A stretch that one trail has in one lane. Both are told by their indices.
+struct DrivenStretch {
+  std::size_t trail = 0, lane = 0;
+  double along_m = 0.0;  ///< negative: against the points of the lane
+};
+
+/// The stretches of all trails within lanes: at most 1.2 m beside the middle, at most 30 degrees across it,
+/// on its level. They are in the order of the trails, and of one trail as it was driven.
+std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& trails,
+                                            const std::vector<Lane>& lanes);
+
+/// Stretches of one trail shorter than this, in metres, tell no direction: the vehicle may have crossed.
+inline constexpr double kMinDriven_m = 5.0;
+
+/// The side on which traffic keeps, as vehicles that meet tell it.
+class ObservedSide {
+ public:
+  /// Takes what trails tell that have not told it yet: a vehicle, or the own one, drives one way, and another
+  /// one the other way in the next lane of the same road.
+  void observe(const RoadGraph& road, const std::vector<DrivenStretch>& driven,
+               const lanes::LaneTracks& tracks, std::vector<trails::Trail>& trails);
+  /// Whether traffic keeps to the other side than `driving_side`. Two vehicles more have told so than have
+  /// told the contrary.
+  bool contradicts(DrivingSide driving_side) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(right_);
+  }
+
+ private:
+  int right_ = 0;  ///< number of trails that told "right", less those that told "left"; limited
+};
+
+}  // namespace laneloom::topology

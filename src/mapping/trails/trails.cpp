@@ -1,0 +1,119 @@
+#include "mapping/trails/trails.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/seconds.hpp"
+
+namespace laneloom::trails {
+namespace {
+
+constexpr double kReach_m = 60.0;  // a tracker's positions further away err by more than half a lane
+constexpr std::size_t kMaxPoints = 64;
+constexpr std::size_t kMaxTrails = 512;  // with 64 points each, 0.9 MB
+constexpr double kStep_m = 1.0;
+constexpr double kMoving_mps = 1.0;  // a parked vehicle may seem to creep
+
+// An object is another one than before beyond these.
+constexpr double kMaxJump_m = 3.0;  // from the place to which its speed would have taken it
+constexpr double kMaxPause_s = 1.0;
+constexpr double kCosMaxTurn = 0.5;  // 60 degrees
+
+// Objects beyond these are not believed.
+constexpr double kMaxStddev_m = 1.0;
+constexpr double kMinExistence = 0.5;
+constexpr double kMinWidth_m = 1.2;  // a narrower car, truck or bus is a cyclist; -1 is an unknown width
+
+bool is_vehicle(const TrackedObject& object) {
+  switch (object.kind) {
+    case ObjectKind::car:
+    case ObjectKind::truck:
+    case ObjectKind::bus:
+    case ObjectKind::trailer:
+      return object.width_m < 0.0 || object.width_m >= kMinWidth_m;
+    case ObjectKind::motorcycle:
+      return true;
+    case ObjectKind::unknown:
+    case ObjectKind::bicycle:
+    case ObjectKind::pedestrian:
+      break;
+  }
+  return false;
+}
+
+bool is_believed(const TrackedObject& object) {
+  const bool exists = object.existence_probability < 0.0 || object.existence_probability >= kMinExistence;
+  return is_vehicle(object) && exists && object.position_stddev_m <= kMaxStddev_m &&
+         object.heading.head<2>().norm() > 0.5 && object.position.head<2>().norm() <= kReach_m;
+}
+
+/// Whether an object that is observed now can be the one that left the trail.
+bool goes_on(const Trail& trail, const Trail& observed) {
+  const double step_s = seconds(observed.stamp_ns - trail.stamp_ns);
+  if (step_s > kMaxPause_s || trail.heading.dot(observed.heading) < kCosMaxTurn) return false;
+  const Eigen::Vector2d moved = (observed.position - trail.position).head<2>();
+  return (moved - trail.speed_mps * step_s * trail.heading).norm() <= kMaxJump_m;
+}
+
+}  // namespace
+
+void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
+  std::vector<Trail> observed;
+  for (const TrackedObject& object : objects.objects) {
+    if (!is_believed(object)) continue;
+    observed.push_back({.session = objects.session_id,
+                        .object = object.id,
+                        .points = {},
+                        .stamp_ns = objects.stamp_ns,
+                        .position = T_map_body * object.position,
+                        .heading = (T_map_body.linear() * object.heading).head<2>().normalized(),
+                        .speed_mps = object.speed_mps});
+  }
+  std::ranges::sort(observed, {}, &Trail::object);
+  for (const Trail& now : observed) {
+    Trail& trail = trail_of(now);
+    trail.stamp_ns = now.stamp_ns;
+    trail.position = now.position;
+    trail.heading = now.heading;
+    trail.speed_mps = now.speed_mps;
+    const bool far = trail.points.empty() || (now.position - trail.points.back()).head<2>().norm() >= kStep_m;
+    if (now.speed_mps <= kMoving_mps || !far) continue;
+    trail.points.push_back(now.position);
+    if (trail.points.size() > kMaxPoints) trail.points.erase(trail.points.begin());
+  }
+  if (trails_.size() > kMaxTrails)
+    trails_.erase(trails_.begin(), trails_.end() - static_cast<std::ptrdiff_t>(kMaxTrails));
+}
+
+/// The trail that an observed object goes on with, or a new one.
+Trail& Trails::trail_of(const Trail& observed) {
+  const auto newest = std::find_if(trails_.rbegin(), trails_.rend(), [&](const Trail& trail) {
+    return trail.object == observed.object && trail.session == observed.session;
+  });
+  if (newest != trails_.rend() && goes_on(*newest, observed)) {
+    // A vehicle that moves against its heading was seen the wrong way round.
+    const bool against = !newest->points.empty() && observed.speed_mps > kMoving_mps &&
+                         (observed.position - newest->points.back()).head<2>().norm() >= kStep_m &&
+                         (observed.position - newest->points.back()).head<2>().dot(observed.heading) <= 0.0;
+    if (!against) return *newest;
+  }
+  return trails_.emplace_back(observed);
+}
+
+void Trails::keep_around(const Point& vehicle) {
+  const auto is_near = [&](const Point& point) {
+    return (point - vehicle).head<2>().squaredNorm() <= kReach_m * kReach_m;
+  };
+  for (Trail& trail : trails_) {
+    // What lies between two near places stays, so that no trail has a hole.
+    trail.points.erase(trail.points.begin(), std::ranges::find_if(trail.points, is_near));
+  }
+  std::int64_t newest_ns = 0;
+  for (const Trail& trail : trails_) newest_ns = std::max(newest_ns, trail.stamp_ns);
+  std::erase_if(trails_, [&](const Trail& trail) {
+    return trail.points.empty() && seconds(newest_ns - trail.stamp_ns) > kMaxPause_s;
+  });
+}
+
+}  // namespace laneloom::trails

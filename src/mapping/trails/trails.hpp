@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "laneloom/objects.hpp"
+#include "laneloom/types.hpp"
+
+/// The ways that other vehicles drove. Ours.
+namespace laneloom::trails {
+
+/// The way that one vehicle drove while it was followed without a jump.
+struct Trail {
+  std::uint64_t session = 0, object = 0;  ///< name the vehicle; a later trail may have the same names
+  Polyline points;                        ///< map frame, as they were driven, 1 m apart at least, at most 64
+  bool told_side = false;                 ///< the trail has told on which side traffic keeps
+  // The newest observation.
+  std::int64_t stamp_ns = 0;
+  Point position = Point::Zero();                      ///< map frame
+  Eigen::Vector2d heading = Eigen::Vector2d::UnitX();  ///< map frame, unit length
+  double speed_mps = 0.0;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(session, object, points, told_side, stamp_ns, position, heading, speed_mps);
+  }
+};
+
+/// Follows the vehicles that a tracker tells of. A vehicle leaves a trail where it drives forwards. A vehicle
+/// that stands, reverses, or whose heading is not known leaves none, and neither do cyclists and pedestrians.
+///
+/// Messages must come in the order of their stamps, and those of one stamp in the order of their sessions.
+/// The order of objects within a message does not matter.
+class Trails {
+ public:
+  /// Takes the objects of one message, at the vehicle's pose at their stamp.
+  void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body);
+  /// Forgets what lies further from the vehicle than it will be of use.
+  void keep_around(const Point& vehicle);
+
+  const std::vector<Trail>& all() const { return trails_; }  ///< as they began
+  std::vector<Trail>& all() { return trails_; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(trails_);
+  }
+
+ private:
+  Trail& trail_of(const Trail& observed);
+
+  std::vector<Trail> trails_;
+};
+
+}  // namespace laneloom::trails

@@ -1,0 +1,131 @@
+#include "mapping/topology/traffic.hpp"
+
+#include <gmock/gmock.h>
+
+#include "mapping/shapes.hpp"
+
+namespace laneloom::topology {
+namespace {
+
+using test::lane;
+using test::straight;
+
+trails::Trail trail(const Polyline& points) { return {.session = 1, .object = 1, .points = points}; }
+
+/// Points a metre apart.
+Polyline driven(const Point& from, const Point& to) { return MeasuredPolyline({from, to}).resample(1.0); }
+
+/// "lane:metres" of each stretch, in whole metres.
+std::string text(const std::vector<DrivenStretch>& stretches) {
+  std::string result;
+  for (const DrivenStretch& stretch : stretches)
+    result += (result.empty() ? "" : " ") + std::to_string(stretch.lane) + ":" +
+              std::to_string(std::lround(stretch.along_m));
+  return result;
+}
+
+std::string along_x(const Polyline& points) {
+  return text(driven_stretches({trail(points)}, {lane(1, straight({0, 0, 0}, {40, 0, 0}))}));
+}
+
+TEST(DrivenStretches, AreWithinALaneAndAlongIt) {
+  EXPECT_EQ(along_x(driven({5, 1, 0}, {25, 1, 0})), "0:20");
+  EXPECT_EQ(along_x(driven({25, 1, 0}, {5, 1, 0})), "0:-20") << "against it";
+  EXPECT_EQ(along_x(driven({30, 1, 0}, {60, 1, 0})), "0:10") << "up to its end";
+  EXPECT_EQ(along_x(driven({5, 1.4, 0}, {25, 1.4, 0})), "") << "beside it";
+  EXPECT_EQ(along_x(driven({5, 1, 5}, {25, 1, 5})), "") << "on a bridge above it";
+  EXPECT_EQ(along_x(driven({5, -10, 0}, {5, 10, 0})), "") << "across it";
+  EXPECT_EQ(along_x({{5, 0, 0}}), "") << "a single place";
+  EXPECT_EQ(text(driven_stretches({}, {lane(1, straight({0, 0, 0}, {40, 0, 0}))})), "");
+}
+
+TEST(DrivenStretches, OfAChangeOfLanesAreInTheOrderInWhichTheyWereDriven) {
+  const std::vector<Lane> lanes{lane(1, straight({0, 0, 0}, {40, 0, 0})),
+                                lane(2, straight({40, 3.5, 0}, {0, 3.5, 0}))};
+  Polyline points = driven({0, 0, 0}, {15, 0, 0});
+  for (const Point& point : driven({25, 3.5, 0}, {40, 3.5, 0})) points.push_back(point);
+  EXPECT_EQ(text(driven_stretches({trail(points)}, lanes)), "0:15 1:-15");
+}
+
+/// Two lanes that run along x, with a boundary 2 between them; the vehicle drives in lane 12, on the right.
+class Side : public ::testing::Test {
+ protected:
+  Side() {
+    for (const ElementId id : {1U, 2U, 3U}) {
+      const double y = 7.0 - 3.5 * static_cast<double>(id - 1);
+      boundaries_.push_back(test::boundary(id, straight({0, y, 0}, {40, y, 0})));
+    }
+    for (const ElementId left : {1U, 2U}) {
+      const double y = 7.0 - 3.5 * static_cast<double>(left - 1);
+      lanes_.push_back({.id = 10 + left,
+                        .left_borders = {{left, {0.0, 40.0}, {0.0, 40.0}}},
+                        .right_borders = {{left + 1, {0.0, 40.0}, {0.0, 40.0}}},
+                        .left = straight({0, y, 0}, {40, y, 0}),
+                        .right = straight({0, y - 3.5, 0}, {40, y - 3.5, 0}),
+                        .centerline = straight({0, y - 1.75, 0}, {40, y - 1.75, 0})});
+    }
+    lanes_[0].right_neighbours = {{.lane = 12, .range = {0.0, 40.0}}};
+    lanes_[1].left_neighbours = {{.lane = 11, .range = {0.0, 40.0}}};
+  }
+
+  /// So many vehicles come towards the vehicle, and all trails are asked twice.
+  void meet(int vehicles) {
+    for (int i = 0; i < vehicles; ++i) trails_.push_back(trail(driven({35, 5.25, 0}, {10, 5.25, 0})));
+    const RoadGraph road{{boundaries_, lanes_}, {}};
+    for (int time = 0; time < 2; ++time)
+      side_.observe(road, driven_stretches(trails_, lanes_), tracks_, trails_);
+  }
+
+  std::vector<boundaries::LaneBoundary> boundaries_;
+  std::vector<Lane> lanes_;
+  lanes::LaneTracks tracks_{{{.id = 11}, {.id = 12, .direction_log_odds = 4.0}}};
+  std::vector<trails::Trail> trails_;
+  ObservedSide side_;
+};
+
+TEST_F(Side, TrafficThatMeetsOnTheLeftContradictsNoRightHandTraffic) {
+  meet(3);
+  EXPECT_FALSE(side_.contradicts(DrivingSide::right));
+  EXPECT_TRUE(side_.contradicts(DrivingSide::left));
+  EXPECT_FALSE(side_.contradicts(DrivingSide::unknown));
+}
+
+TEST_F(Side, ASingleVehicleContradictsNothing) {
+  meet(1);
+  EXPECT_FALSE(side_.contradicts(DrivingSide::left));
+  meet(1);
+  EXPECT_TRUE(side_.contradicts(DrivingSide::left));
+}
+
+TEST_F(Side, TheVehicleOnTheLeftLaneTellsTheOtherSide) {
+  tracks_ = lanes::LaneTracks({{.id = 11, .direction_log_odds = -4.0}, {.id = 12}});
+  for (int i = 0; i < 2; ++i) trails_.push_back(trail(driven({5, 1.75, 0}, {30, 1.75, 0})));
+  meet(0);
+  EXPECT_TRUE(side_.contradicts(DrivingSide::left));
+  side_ = {};
+  trails_.clear();
+  tracks_ = lanes::LaneTracks({{.id = 11, .direction_log_odds = 4.0}, {.id = 12}});
+  for (int i = 0; i < 2; ++i) trails_.push_back(trail(driven({30, 1.75, 0}, {5, 1.75, 0})));
+  meet(0);
+  EXPECT_TRUE(side_.contradicts(DrivingSide::right)) << "oncoming traffic is on the right";
+  EXPECT_FALSE(side_.contradicts(DrivingSide::left));
+}
+
+TEST_F(Side, TrafficInTheSameDirectionTellsNothing) {
+  for (int i = 0; i < 4; ++i) trails_.push_back(trail(driven({10, 5.25, 0}, {35, 5.25, 0})));
+  meet(0);
+  EXPECT_FALSE(side_.contradicts(DrivingSide::right));
+  EXPECT_FALSE(side_.contradicts(DrivingSide::left));
+}
+
+TEST_F(Side, ACountrysBorderIsNoticed) {
+  meet(20);
+  tracks_ = lanes::LaneTracks({{.id = 11, .direction_log_odds = 4.0}, {.id = 12}});
+  trails_.clear();
+  for (int i = 0; i < 6; ++i) trails_.push_back(trail(driven({30, 1.75, 0}, {5, 1.75, 0})));
+  meet(0);
+  EXPECT_TRUE(side_.contradicts(DrivingSide::right));
+}
+
+}  // namespace
+}  // namespace laneloom::topology
