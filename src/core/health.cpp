@@ -37,6 +37,7 @@ Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {
   add_if(lags(config_.degraded_lag_s), StateReason::outdated);
   const bool silent = older(inputs.fused_age_s, config_.stale_after_s);
   add_if(inputs.source_not_fused && !silent, StateReason::source_not_fused);
+  add_if(inputs.driving_side_contradicted && !silent, StateReason::driving_side_contradicted);
   const bool stale = silent || lags(config_.stale_lag_s);
   // Both inputs come, yet nothing is fused: no pose matches, or all frames are refused.
   add_if(silent && verdict.reasons.empty(), StateReason::unsynchronised);

@@ -20,6 +20,7 @@ struct HealthInputs {
   std::optional<double> lag_s;  ///< from the newest fused stamp to the newest pose's; none: nothing was fused
   bool source_not_fused = false;  ///< one of several sources was heard a moment ago, but is not fused
   bool sources_disagree = false;  ///< a source is left out because it contradicts another one
+  bool driving_side_contradicted = false;  ///< traffic keeps to the other side than is configured
 };
 
 /// How far the map can be relied on, and why.

@@ -79,6 +79,8 @@ void ServiceCore::fuse(const Tick& tick, std::vector<Arrival>&& messages) {
   for (auto& [message, arrival_ns] : messages) {
     if (auto* frame = std::get_if<DetectionFrame>(&message)) {
       session_.add(std::move(*frame), arrival_ns);
+    } else if (auto* objects = std::get_if<TrackedObjects>(&message)) {
+      session_.add(std::move(*objects));
     } else {
       session_.add(std::get<VehiclePose>(message));
     }
@@ -97,7 +99,8 @@ HealthInputs ServiceCore::inputs(std::int64_t now_ns, const Arrivals& arrivals) 
           .other_service_age_s = age_s(now_ns, arrivals.other_service_ns),
           .lag_s = session_.lag_s(),
           .source_not_fused = source_not_fused(now_ns),
-          .sources_disagree = !session_.disagreements().empty()};
+          .sources_disagree = !session_.disagreements().empty(),
+          .driving_side_contradicted = session_.mapper().driving_side_contradicted()};
 }
 
 bool ServiceCore::source_not_fused(std::int64_t now_ns) const {

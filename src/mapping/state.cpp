@@ -25,6 +25,7 @@ void move(const Eigen::Isometry3d& motion, LocalMap& map) {
 }  // namespace
 
 void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& config) {
+  trails = {};
   lines::LineMapper* const lines = fusion.lines();
   if (lines == nullptr) {
     fusion = Fusion(config);

@@ -70,7 +70,7 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   LocalMap map;  ///< the last map
 
   /// Moves the map with poses that have jumped by `motion`, map frame. Voxels can not be moved: they are
-  /// forgotten, with the lanes between them.
+  /// forgotten, with the lanes between them. Trails of other vehicles are forgotten, too.
   void follow(const Eigen::Isometry3d& motion, const MapperConfig& config);
 
   template <class Archive>

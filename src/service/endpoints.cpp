@@ -28,6 +28,17 @@ dds::ReaderCallbacks<VehiclePose> take_poses(IngestionQueue& queue,
   return callbacks;
 }
 
+dds::ReaderCallbacks<TrackedObjects> take_objects(IngestionQueue& queue,
+                                                  const std::function<std::int64_t()>& now_ns) {
+  dds::ReaderCallbacks<TrackedObjects> callbacks;
+  callbacks.sample = [&queue, now_ns](TrackedObjects&& objects) { queue.push(std::move(objects), now_ns()); };
+  callbacks.refused = [&queue](std::string_view reason) { queue.refuse_objects(reason); };
+  callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
+    queue.number_objects(writer, number);
+  };
+  return callbacks;
+}
+
 dds::ReaderCallbacks<ServiceStatus> look_for_others(std::uint64_t session_id, IngestionQueue& queue,
                                                     const std::function<std::int64_t()>& now_ns) {
   dds::ReaderCallbacks<ServiceStatus> callbacks;
@@ -47,6 +58,7 @@ Endpoints::Endpoints(const Config& config, std::uint64_t session_id, IngestionQu
       status(participant_),
       detections_(participant_, take_detections(queue, now_ns)),
       poses_(participant_, take_poses(queue, now_ns)),
+      objects_(participant_, take_objects(queue, now_ns)),
       services_(participant_, look_for_others(session_id, queue, now_ns)) {
   if (!config.ros2.enabled) return;
   ros2 = std::make_unique<ros2::Endpoints>(

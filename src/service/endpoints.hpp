@@ -41,6 +41,7 @@ class Endpoints {
  private:
   dds::Reader<DetectionFrame> detections_;
   dds::Reader<VehiclePose> poses_;
+  dds::Reader<TrackedObjects> objects_;
   dds::Reader<ServiceStatus> services_;
 };
 

@@ -1,6 +1,7 @@
 #include "service/ingestion_queue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 #include <string>
@@ -20,8 +21,8 @@ constexpr std::size_t kMaxSources = 16;
 
 IngestionQueue::IngestionQueue(const Config& config, std::function<void()> frame_is_ready)
     : config_(config.sync), gate_(config.gate), frame_is_ready_(std::move(frame_is_ready)) {
-  for (const auto* name :
-       {"detections_received", "poses_received", "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
+  for (const auto* name : {"detections_received", "poses_received", "objects_received",
+                           "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
     state_.counters.add(name, 0);
   }
 }
@@ -80,6 +81,21 @@ std::vector<std::int64_t> IngestionQueue::take_ready() {
   return std::exchange(ready_ns_, {});
 }
 
+void IngestionQueue::push(TrackedObjects&& objects, std::int64_t arrival_ns) {
+  const std::string_view refusal = session::defect(objects, gate_);
+  const std::lock_guard lock(mutex_);
+  count_objects();
+  if (!refusal.empty()) {
+    state_.counters.add("objects_refused_" + std::string(refusal));
+    return;
+  }
+  if (objects_.size() >= static_cast<std::size_t>(config_.queue_capacity)) {
+    objects_.pop_front();
+    state_.counters.add("objects_dropped_queue_full");
+  }
+  push(objects_, {std::move(objects), arrival_ns});
+}
+
 void IngestionQueue::drop_oldest_of_most() {
   const auto source_of = [](const Numbered& numbered) -> const std::string& {
     return std::get<DetectionFrame>(numbered.arrival.message).source;
@@ -117,6 +133,11 @@ void IngestionQueue::count_pose() {
   poses_lost_ = lost_poses_.total();
 }
 
+void IngestionQueue::count_objects() {
+  state_.counters.add("objects_received");
+  objects_lost_ = lost_objects_.total();
+}
+
 void IngestionQueue::refuse_detections(std::string_view reason) {
   const std::lock_guard lock(mutex_);
   count_frame();
@@ -127,6 +148,12 @@ void IngestionQueue::refuse_pose(std::string_view reason) {
   const std::lock_guard lock(mutex_);
   count_pose();
   state_.counters.add("poses_refused_" + std::string(reason));
+}
+
+void IngestionQueue::refuse_objects(std::string_view reason) {
+  const std::lock_guard lock(mutex_);
+  count_objects();
+  state_.counters.add("objects_refused_" + std::string(reason));
 }
 
 void IngestionQueue::note_other_service(std::int64_t arrival_ns) {
@@ -144,23 +171,25 @@ void IngestionQueue::number_pose(const dds::WriterId& writer, std::uint64_t numb
   lost_poses_.note(writer, number);
 }
 
+void IngestionQueue::number_objects(const dds::WriterId& writer, std::uint64_t number) {
+  const std::lock_guard lock(mutex_);
+  lost_objects_.note(writer, number);
+}
+
 core::Arrivals IngestionQueue::take() {
   core::Arrivals arrivals;
-  Queue frames, poses;
+  std::array<Queue, 3> queues;
   {
     const std::lock_guard lock(mutex_);
     arrivals = state_;
     arrivals.counters.add("detections_lost", frames_lost_);
     arrivals.counters.add("poses_lost", poses_lost_);
-    frames.swap(frames_);
-    poses.swap(poses_);
+    arrivals.counters.add("objects_lost", objects_lost_);
+    queues = {std::exchange(frames_, {}), std::exchange(poses_, {}), std::exchange(objects_, {})};
   }
   std::vector<Numbered> merged;
-  merged.reserve(frames.size() + poses.size());
-  std::merge(std::make_move_iterator(frames.begin()), std::make_move_iterator(frames.end()),
-             std::make_move_iterator(poses.begin()), std::make_move_iterator(poses.end()),
-             std::back_inserter(merged),
-             [](const Numbered& a, const Numbered& b) { return a.order < b.order; });
+  for (Queue& queue : queues) std::ranges::move(queue, std::back_inserter(merged));
+  std::ranges::sort(merged, {}, &Numbered::order);
   arrivals.messages.reserve(merged.size());
   for (auto& [order, arrival] : merged) arrivals.messages.push_back(std::move(arrival));
   return arrivals;

@@ -18,8 +18,8 @@
 namespace laneloom::service {
 
 /// The queue between the threads of DDS, which push, and the executor, which takes. It is bounded: for a new
-/// pose the oldest pose is dropped, for a new frame the oldest frame of the source that has the most. Both
-/// are counted. All functions are thread-safe.
+/// pose the oldest pose is dropped, for new objects the oldest objects, for a new frame the oldest frame of
+/// the source that has the most. All are counted. All functions are thread-safe.
 class IngestionQueue {
  public:
   /// `frame_is_ready` is called, in the thread of the message that made it so, when a frame can be fused: it
@@ -30,9 +30,11 @@ class IngestionQueue {
   /// bounded too.
   void push(DetectionFrame&& frame, std::int64_t arrival_ns);
   void push(VehiclePose&& pose, std::int64_t arrival_ns);
+  void push(TrackedObjects&& objects, std::int64_t arrival_ns);
   /// Counts a message that was refused as invalid.
   void refuse_detections(std::string_view reason);
   void refuse_pose(std::string_view reason);
+  void refuse_objects(std::string_view reason);
 
   /// Notes that another service of the same vehicle was heard.
   void note_other_service(std::int64_t arrival_ns);
@@ -40,6 +42,7 @@ class IngestionQueue {
   /// messages. The numbers tell which messages never came.
   void number_detections(const dds::WriterId& writer, std::uint64_t number);
   void number_pose(const dds::WriterId& writer, std::uint64_t number);
+  void number_objects(const dds::WriterId& writer, std::uint64_t number);
 
   /// Takes the messages since the call before, with the counters since the start.
   core::Arrivals take();
@@ -63,6 +66,7 @@ class IngestionQueue {
   void note_source(const DetectionFrame& frame);
   void count_frame();
   void count_pose();
+  void count_objects();
 
   SyncConfig config_;
   GateConfig gate_;
@@ -71,14 +75,17 @@ class IngestionQueue {
   std::uint64_t next_order_ = 0;
   Queue frames_;
   Queue poses_;
+  Queue objects_;
   core::Readiness readiness_;
   std::vector<std::int64_t> ready_ns_;
   LostMessages lost_frames_;
   LostMessages lost_poses_;
+  LostMessages lost_objects_;
   // Lost messages are counted together with the message that shows the loss, so that the sums are right at
   // every instant.
   std::uint64_t frames_lost_ = 0;
   std::uint64_t poses_lost_ = 0;
+  std::uint64_t objects_lost_ = 0;
   core::Arrivals state_;  ///< without messages, which are in the queues
 };
 

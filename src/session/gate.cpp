@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/degree.hpp"
 #include "base/seconds.hpp"
@@ -13,6 +14,7 @@ namespace {
 constexpr int kOutliersToBelieve = 3;
 constexpr double kLateToBelieve_s = 0.2;
 constexpr std::size_t kSessionsRemembered = 8;
+constexpr double kMaxHeadingError = 1e-3;                     // of its length
 constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;  // differences of smaller stamps do not overflow
 
 bool plausible_stamp(std::int64_t stamp_ns) { return stamp_ns > 0 && stamp_ns < kMaxStamp_ns; }
@@ -35,6 +37,32 @@ std::string_view defect(const Detection& detection, const GateConfig& config) {
   const auto plausible = [](double value) { return value >= 0.0 && std::isfinite(value); };
   if (!std::all_of(stddev_m.begin(), stddev_m.end(), plausible)) return "stddev";
   return {};
+}
+
+/// A length that is given, or is -1.
+bool plausible_length(double length_m) {
+  return length_m == -1.0 || (length_m >= 0.0 && std::isfinite(length_m));
+}
+
+std::string_view defect(const TrackedObject& object, const GateConfig& config) {
+  if (!within(object.position, config.max_coordinate_m)) return "coordinate";
+  const double norm = object.heading.norm();
+  if (!(norm == 0.0 || std::abs(norm - 1.0) <= kMaxHeadingError)) return "heading";
+  if (!(std::abs(object.speed_mps) <= config.max_speed_mps)) return "speed";
+  const double existence = object.existence_probability;
+  if (!(existence == -1.0 || (existence >= 0.0 && existence <= 1.0))) return "existence";
+  const bool lengths = plausible_length(object.position_stddev_m) && plausible_length(object.length_m) &&
+                       plausible_length(object.width_m);
+  return lengths ? std::string_view() : "length";
+}
+
+/// Whether two objects have one id.
+bool has_doubles(const std::vector<TrackedObject>& objects) {
+  std::vector<std::uint64_t> ids;
+  ids.reserve(objects.size());
+  for (const TrackedObject& object : objects) ids.push_back(object.id);
+  std::ranges::sort(ids);
+  return std::ranges::adjacent_find(ids) != ids.end();
 }
 
 }  // namespace
@@ -115,6 +143,14 @@ std::string_view defect(const VehiclePose& pose, const GateConfig& config) {
   if (!plausible_stamp(pose.stamp_ns)) return "stamp";
   if (!within(pose.position, config.max_coordinate_m)) return "coordinate";
   return is_unit(pose.orientation) ? std::string_view() : "not_a_rotation";
+}
+
+std::string_view defect(const TrackedObjects& objects, const GateConfig& config) {
+  if (!plausible_stamp(objects.stamp_ns)) return "stamp";
+  for (const TrackedObject& object : objects.objects) {
+    if (const auto found = defect(object, config); !found.empty()) return found;
+  }
+  return has_doubles(objects.objects) ? "repeated_id" : std::string_view();
 }
 
 }  // namespace laneloom::session

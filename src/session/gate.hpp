@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "laneloom/config.hpp"
+#include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::session {
@@ -65,5 +66,6 @@ class Gate {
 /// The reason, as a stable name, to refuse a message whatever came before it. Empty: there is none.
 std::string_view defect(const DetectionFrame& frame, const GateConfig& config);
 std::string_view defect(const VehiclePose& pose, const GateConfig& config);
+std::string_view defect(const TrackedObjects& objects, const GateConfig& config);
 
 }  // namespace laneloom::session

@@ -10,6 +10,7 @@
 #include "sd_map/osm.hpp"
 #include "session/admission.hpp"
 #include "session/gate.hpp"
+#include "session/pending_objects.hpp"
 #include "session/source_agreement.hpp"
 #include "session/sources.hpp"
 #include "session/synchroniser.hpp"
@@ -57,10 +58,12 @@ struct MappingSession::State {
         sources(c.gate),
         agreement(c.mapper.fusion),
         synchroniser(c.sync),
+        pending_objects(c),
         mapper(with_profiles(c.mapper), sd_map::load_sd_map(c.sd_map)) {}
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
+  std::string_view add(TrackedObjects&& objects);
   /// Whether a pose may follow `before`, after a pause of the poses or the service of at most `max_pause_s`.
   bool goes_on(const VehiclePose& pose, const StreamPoint& before) const {
     return follows(place(pose), before, gate_config, gate_config.max_stamp_step_s + max_pause_s);
@@ -68,9 +71,14 @@ struct MappingSession::State {
   void check_resumed(const VehiclePose& pose);
   void fuse_ready();
   void fuse(const SynchronisedFrame& synchronised);
+  void fuse_objects(std::int64_t stamp_ns);
   void reset();
   void refuse_frames(std::string_view why, std::size_t count = 1) {
     if (count > 0) counters.add("detections_refused_" + std::string(why), count);
+  }
+
+  void refuse_objects(std::string_view why, std::size_t count = 1) {
+    if (count > 0) counters.add("objects_refused_" + std::string(why), count);
   }
 
   GateConfig gate_config;
@@ -79,6 +87,7 @@ struct MappingSession::State {
   Sources sources;
   SourceAgreement agreement;
   Synchroniser synchroniser;
+  PendingObjects pending_objects;
   Mapper mapper;
   std::optional<std::int64_t> newest_stamp_ns;
   std::optional<std::int64_t> newest_arrival_ns;
@@ -129,6 +138,27 @@ std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t
   return {};
 }
 
+std::string_view MappingSession::State::add(TrackedObjects&& objects) {
+  if (const auto found = defect(objects, gate_config); !found.empty()) return found;
+  const auto newest_pose_ns = newest_pose ? std::optional(newest_pose->stamp_ns) : std::nullopt;
+  const std::string_view refusal = pending_objects.add(std::move(objects), newest_pose_ns);
+  if (const auto dropped = pending_objects.drop_excess()) counters.add("objects_dropped_queue_full", dropped);
+  return refusal;
+}
+
+/// Hands the objects until a stamp to the mapper. The poses until there have come.
+void MappingSession::State::fuse_objects(std::int64_t stamp_ns) {
+  Eigen::Isometry3d T_map_body;
+  while (const auto objects = pending_objects.take_until(stamp_ns)) {
+    if (synchroniser.pose_at(objects->stamp_ns, T_map_body) != PoseBuffer::Answer::found) {
+      refuse_objects("unsynchronised");
+      continue;
+    }
+    mapper.add(*objects, T_map_body);
+    counters.add("objects_fused");
+  }
+}
+
 void MappingSession::State::fuse_ready() {
   std::size_t unsynchronised = 0;
   while (!may_go_on || !has_begun || may_go_on()) {
@@ -146,6 +176,7 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
     refuse_frames("contradictory");
     return;
   }
+  fuse_objects(frame.stamp_ns);
   const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
   newest_stamp_ns = map.stamp_ns;
   newest_arrival_ns = synchronised.pending.arrival_ns;
@@ -166,6 +197,7 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
 /// Forgets the map, and the frames that belong to it.
 void MappingSession::State::reset() {
   refuse_frames("reset", synchroniser.clear_frames());
+  refuse_objects("reset", pending_objects.clear());
   mapper.reset();
   agreement.forget();
   progress.lineage.clear();  // it tells of ids of the old map
@@ -188,6 +220,11 @@ void MappingSession::add(const VehiclePose& pose) {
 void MappingSession::add(DetectionFrame frame, std::int64_t arrival_ns) {
   const auto why = state_->add(std::move(frame), arrival_ns);
   if (!why.empty()) state_->refuse_frames(why);
+}
+
+void MappingSession::add(TrackedObjects objects) {
+  const auto why = state_->add(std::move(objects));
+  if (!why.empty()) state_->refuse_objects(why);
 }
 
 void MappingSession::expire(std::int64_t now_ns) {

@@ -12,6 +12,7 @@
 #include "laneloom/counters.hpp"
 #include "laneloom/mapper.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/objects.hpp"
 #include "session/source_agreement.hpp"
 
 namespace laneloom::session {
@@ -51,6 +52,8 @@ class MappingSession {
   void add(const VehiclePose& pose);
   /// Takes a frame, and fuses it once its poses are there. `arrival_ns` is by the same clock as expire().
   void add(DetectionFrame frame, std::int64_t arrival_ns);
+  /// Takes objects. They go into the map with the next fused frame that is not older than they are.
+  void add(TrackedObjects objects);
   /// Refuses the frames that have waited for their poses for too long.
   void expire(std::int64_t now_ns);
   /// Limits the fusion from now until the next call: after the first frame, a further one is begun only while
@@ -100,8 +103,10 @@ class MappingSession {
 
   /// The counters frames_fused, frames_thinned (frames of which admission left detections out),
   /// detections_left_out (these detections), sources_restarted, frames_dropped_queue_full,
-  /// detections_refused_<reason>, poses_accepted, poses_refused_<reason>, map_resets, pose_jumps. Every frame
-  /// that was added is fused, refused, dropped or pending; every pose is accepted or refused.
+  /// detections_refused_<reason>, poses_accepted, poses_refused_<reason>, objects_fused,
+  /// objects_dropped_queue_full, objects_refused_<reason>, map_resets, pose_jumps. Every frame that was added
+  /// is fused, refused, dropped or pending, and so is every message of objects; every pose is accepted or
+  /// refused.
   const Counters& counters() const;
   /// The progress of all sources, by name.
   std::vector<SourceProgress> sources() const;

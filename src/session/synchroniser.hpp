@@ -43,6 +43,10 @@ class Synchroniser {
   /// Removes all frames; returns how many.
   std::size_t clear_frames();
   void clear_poses() { poses_.clear(); }
+  /// The pose at a stamp.
+  PoseBuffer::Answer pose_at(std::int64_t stamp_ns, Eigen::Isometry3d& T_map_body) const {
+    return poses_.at(stamp_ns, T_map_body);
+  }
 
   std::size_t pending() const { return pending_.size(); }
   /// Number of frames that can be fused now.

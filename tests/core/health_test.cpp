@@ -88,6 +88,14 @@ TEST_F(HealthTest, ASourceThatIsNotFusedDegradesTheMapOfTheOthers) {
   EXPECT_EQ(fused_ago(0.5), (Verdict{MapState::stale, {StateReason::unsynchronised}})) << "none is";
 }
 
+TEST_F(HealthTest, ADrivingSideThatTrafficContradictsIsSaid) {
+  const auto fused_ago = [&](double ago_s) {
+    return health_.assess(now_ns_, {0.0, 0.0, ago_s, -1.0, 0.1, false, true});
+  };
+  EXPECT_EQ(fused_ago(0.1), (Verdict{MapState::degraded, {StateReason::driving_side_contradicted}}));
+  EXPECT_EQ(fused_ago(0.5), (Verdict{MapState::stale, {StateReason::unsynchronised}})) << "nothing is fused";
+}
+
 TEST_F(HealthTest, AnotherServiceIsSaidForAsLongAsItIsHeard) {
   const auto heard_ago = [&](double ago_s) { return health_.assess(now_ns_, {0.0, 0.0, 0.0, ago_s}); };
   EXPECT_EQ(heard_ago(2.5), (Verdict{MapState::degraded, {StateReason::another_service}}));

@@ -45,6 +45,18 @@ TEST(Streams, Rates) {
   EXPECT_THAT(found_at(1, 1, 0.9), IsEmpty()) << "too early to tell";
 }
 
+TEST(Streams, ObjectsAreJudgedWhereSomebodyWritesThem) {
+  Observed seen = healthy();
+  seen.endpoints.push_back(endpoint(true, "tracker", dds::kObjectsTopic, dds::kObjectsType));
+  EXPECT_THAT(ids(stream_findings(seen)), ElementsAre("objects_silent"));
+  seen.objects = {.messages = 26, .window_s = 2.5, .newest = {{50'000'000'000, 2'000'000'000}}};
+  EXPECT_THAT(stream_findings(seen), IsEmpty());
+  seen.objects.messages = 3;
+  seen.objects.unnumbered = 2;
+  seen.objects.newest->stamp_ns -= 10'000'000'000;
+  EXPECT_THAT(ids(stream_findings(seen)), ElementsAre("objects_slow", "objects_unnumbered", "sensor_clocks"));
+}
+
 TEST(Streams, TwoWritersOfPosesAreNamed) {
   Observed seen = healthy();
   auto second = pose_writer();

@@ -18,6 +18,15 @@ TEST(Topics, NobodyWritesAnInput) {
   }
 }
 
+TEST(Topics, ObjectsNeedNotBeWritten) {
+  Observed seen = healthy();
+  EXPECT_THAT(topic_findings(seen), IsEmpty());
+  seen.endpoints.push_back(endpoint(true, "tracker", "laneloom/v3/Objects", dds::kObjectsType));
+  EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("similar_topic"));
+  seen.endpoints.back() = endpoint(true, "tracker", dds::kObjectsTopic, "my::Objects");
+  EXPECT_THAT(ids(topic_findings(seen)), ElementsAre("wrong_type"));
+}
+
 TEST(Topics, WhatNobodyWritesMayBeInAnotherDomain) {
   Observed seen = healthy();
   seen.endpoints.erase(seen.endpoints.begin() + static_cast<std::ptrdiff_t>(kDetections));

@@ -101,6 +101,40 @@ TEST(Replay, JsonLinesAndRecordingsOfOneDriveHaveOneHash) {
   EXPECT_EQ(hash_of(folder.file("drive.mcap")), hash);
 }
 
+/// A second's drive behind a car.
+std::vector<io::FrameRecord> drive_behind_a_car() {
+  std::vector<io::FrameRecord> records = drive();
+  for (std::size_t i = 0; i < records.size(); ++i)
+    records[i].objects =
+        TrackedObjects{.stamp_ns = records[i].frame.stamp_ns,
+                       .session_id = 1,
+                       .objects = {{.id = 1,
+                                    .kind = ObjectKind::car,
+                                    .position = {5.0 + 1.2 * static_cast<double>(i), 0.0, 0.0},
+                                    .heading = {1.0, 0.0, 0.0},
+                                    .speed_mps = 12.0}}};
+  return records;
+}
+
+TEST(Replay, ObjectsOfLinesTellDirections) {
+  const TemporaryFolder folder;
+  const auto evidence_of = [&](const std::vector<io::FrameRecord>& records) {
+    const std::string path = folder.file("drive.frames.jsonl");
+    io::JsonLinesWriter out(path);
+    for (const io::FrameRecord& record : records) out.write(record);
+    out.close();
+    Evidence evidence = Evidence::none;
+    Replay replay(Config{}, [&](const PublishedMap& map, std::int64_t /*log_time*/) {
+      for (const Lane& lane : map.map.lanes) evidence |= lane.evidence;
+    });
+    const auto source = open_messages(path, "map");
+    while (auto message = source->next_input()) replay.add(*std::move(message));
+    return evidence;
+  };
+  EXPECT_TRUE(overlap(evidence_of(drive_behind_a_car()), Evidence::traffic));
+  EXPECT_FALSE(overlap(evidence_of(drive()), Evidence::traffic));
+}
+
 TEST(Replay, LinesThatAreNoFramesAreLeftOutUnlessThatIsStrict) {
   const TemporaryFolder folder;
   const std::string path = folder.file("drive.jsonl");

@@ -17,6 +17,7 @@ Config capacities(int frames, int poses) {
 
 DetectionFrame frame(std::uint64_t sequence) { return {.stamp_ns = 1, .sequence = sequence}; }
 VehiclePose pose(std::uint64_t sequence) { return {.stamp_ns = 1, .sequence = sequence}; }
+TrackedObjects objects(std::uint64_t sequence) { return {.stamp_ns = 1, .sequence = sequence}; }
 
 /// A valid frame of so many equal detections.
 DetectionFrame frame_of(std::size_t detections) {
@@ -32,6 +33,8 @@ std::string text(const std::vector<core::Arrival>& arrivals) {
     if (!result.empty()) result += " ";
     if (const auto* f = std::get_if<DetectionFrame>(&message)) {
       result += "f" + std::to_string(f->sequence);
+    } else if (const auto* o = std::get_if<TrackedObjects>(&message)) {
+      result += "o" + std::to_string(o->sequence);
     } else {
       result += "p" + std::to_string(std::get<VehiclePose>(message).sequence);
     }
@@ -70,6 +73,25 @@ TEST(IngestionQueue, AFloodThatNobodyTakesIsBounded) {
   queue.push(pose(1), 0);
   for (std::uint64_t i = 0; i < 100; ++i) queue.push(frame(i), 1);
   EXPECT_EQ(queue.take_ready().size(), 4U);
+}
+
+TEST(IngestionQueue, KeepsObjectsInTheOrderOfArrivalWithinTheirBound) {
+  IngestionQueue queue(capacities(2, 8));
+  queue.push(pose(1), 0);
+  for (std::uint64_t i = 2; i < 5; ++i) queue.push(objects(i), 0);
+  queue.push(frame(5), 0);
+  queue.push(TrackedObjects{.stamp_ns = -1}, 0);
+  queue.refuse_objects("malformed");
+  queue.number_objects({3}, 1);
+  queue.number_objects({3}, 4);
+  const auto before = queue.take();
+  EXPECT_EQ(text(before.messages), "p1 o3 o4 f5");
+  EXPECT_EQ(before.counters["objects_received"], 5U);
+  EXPECT_EQ(before.counters["objects_dropped_queue_full"], 1U);
+  EXPECT_EQ(before.counters["objects_refused_stamp"], 1U);
+  EXPECT_EQ(before.counters["objects_refused_malformed"], 1U);
+  queue.push(objects(6), 0);
+  EXPECT_EQ(queue.take().counters["objects_lost"], 2U) << "with the message that shows the loss";
 }
 
 TEST(IngestionQueue, DropsTheOldestOfAKindAndCountsIt) {

@@ -163,5 +163,31 @@ TEST(Defect, OfPoses) {
   EXPECT_EQ(defect(VehiclePose{.stamp_ns = 5, .orientation = {nan, 0, 0, 0}}, config), "not_a_rotation");
 }
 
+std::string_view defect_of(const TrackedObject& object) {
+  return defect(TrackedObjects{.stamp_ns = 5, .objects = {object}}, GateConfig{});
+}
+
+TEST(Defect, OfObjects) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(defect_of({}), "") << "nothing but a place is known";
+  EXPECT_EQ(defect_of({.existence_probability = 1.0, .heading = {0, 1, 0}, .speed_mps = -3.0}), "");
+  EXPECT_EQ(defect(TrackedObjects{}, GateConfig{}), "stamp");
+  EXPECT_EQ(defect_of({.position = {0, nan, 0}}), "coordinate");
+  EXPECT_EQ(defect_of({.position = {2e7, 0, 0}}), "coordinate");
+  EXPECT_EQ(defect_of({.heading = {0.5, 0, 0}}), "heading");
+  EXPECT_EQ(defect_of({.heading = {nan, 0, 0}}), "heading");
+  EXPECT_EQ(defect_of({.speed_mps = nan}), "speed");
+  EXPECT_EQ(defect_of({.speed_mps = -90.0}), "speed");
+  EXPECT_EQ(defect_of({.existence_probability = -0.5}), "existence");
+  EXPECT_EQ(defect_of({.existence_probability = 1.1}), "existence");
+  EXPECT_EQ(defect_of({.position_stddev_m = -0.5}), "length");
+  EXPECT_EQ(defect_of({.length_m = nan}), "length");
+  EXPECT_EQ(defect_of({.width_m = -2.0}), "length");
+  TrackedObjects doubles{.stamp_ns = 5, .objects = {{.id = 3}, {.id = 4}, {.id = 3}}};
+  EXPECT_EQ(defect(doubles, GateConfig{}), "repeated_id");
+  doubles.objects.back().id = 5;
+  EXPECT_EQ(defect(doubles, GateConfig{}), "");
+}
+
 }  // namespace
 }  // namespace laneloom::session

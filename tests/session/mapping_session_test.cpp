@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "mapping/state.hpp"
@@ -24,6 +25,17 @@ DetectionFrame frame(std::int64_t stamp_ms, std::uint64_t session = 1) {
     result.detections.push_back(Detection{.confidence = 0.9, .points = {{0.0, y, 0.0}, {25.0, y, 0.0}}});
   }
   return result;
+}
+
+/// A car that drives ahead of the vehicle in its lane.
+TrackedObjects objects(std::int64_t stamp_ms, std::uint64_t session = 1) {
+  return {.stamp_ns = stamp_ms * kMs,
+          .session_id = session,
+          .objects = {{.id = 7,
+                       .kind = ObjectKind::car,
+                       .position = {15.0, 0.0, 0.0},
+                       .heading = {1.0, 0.0, 0.0},
+                       .speed_mps = 10.0}}};
 }
 
 class MappingSessionTest : public ::testing::Test {
@@ -350,6 +362,46 @@ TEST_F(MappingSessionTest, TheMapDependsOnTheOrderOfMessagesOnly) {
     EXPECT_EQ(other.map().boundaries[i].points, session_.map().boundaries[i].points);
     EXPECT_EQ(other.map().boundaries[i].id, session_.map().boundaries[i].id);
   }
+}
+
+// Objects wait for the next frame, so that the order in which they come changes nothing.
+TEST(Objects, GoIntoTheMapInAnyOrderOfArrival) {
+  const auto map_of = [](const std::vector<int>& order, std::uint64_t fused) {
+    MappingSession session{Config{}};
+    for (std::int64_t t = 10'000; t <= 12'600; t += 10) {
+      session.add(pose(t));
+      if (t % 500 == 0)
+        for (const int k : order) session.add(objects(t - 400 + 100 * k));
+      if (t % 500 == 10 && t > 10'500) session.add(frame(t - 10), 0);
+    }
+    EXPECT_EQ(session.counters()["objects_fused"], fused) << "all but those before the first pose";
+    return session.mapper().save();
+  };
+  const std::string map = map_of({0, 1, 2, 3, 4}, 26);
+  EXPECT_EQ(map_of({4, 1, 3, 0, 2}, 26), map);
+  EXPECT_NE(map_of({4, 1, 3, 0}, 21), map);
+}
+
+TEST_F(MappingSessionTest, EveryMessageOfObjectsIsAccountedFor) {
+  session_.add(objects(9'900));  // before the first pose
+  drive(10'000, 11'000);
+  session_.add(objects(5'000));  // there are no poses any more, or yet
+  for (const int stamp_ms : {10'850, 10'850, 10'950, 14'000}) session_.add(objects(stamp_ms));
+  auto broken = objects(10'960);
+  broken.objects[0].heading *= 2.0;
+  session_.add(broken);
+  for (int i = 0; i < 70; ++i) session_.add(objects(11'500 + i));
+  drive(11'000, 11'500);
+  session_.add(pose(11'500, 2));  // another map
+  std::map<std::string, std::uint64_t> counts;
+  for (const auto& [name, count] : session_.counters().values())
+    if (name.starts_with("objects_")) counts[name] = count;
+  EXPECT_EQ(counts, (std::map<std::string, std::uint64_t>{{"objects_dropped_queue_full", 9},
+                                                          {"objects_refused_heading", 1},
+                                                          {"objects_refused_outlier", 1},
+                                                          {"objects_refused_repeated", 1},
+                                                          {"objects_refused_reset", 64},
+                                                          {"objects_refused_unsynchronised", 1}}));
 }
 
 }  // namespace

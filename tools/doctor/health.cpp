@@ -28,10 +28,13 @@ constexpr std::string_view kLoad =
 constexpr std::array kIncidents{
     Incident{"detections_lost", "detections were lost on the way", kNetwork},
     Incident{"poses_lost", "poses were lost on the way", kNetwork},
+    Incident{"objects_lost", "messages of objects were lost on the way", kNetwork},
     Incident{"frames_dropped_queue_full", "frames were dropped from a full queue (sync.queue_capacity)",
              kLoad},
     Incident{"poses_dropped_queue_full", "poses were dropped from a full queue (sync.pose_queue_capacity)",
              kLoad},
+    Incident{"objects_dropped_queue_full",
+             "messages of objects were dropped from a full queue (sync.queue_capacity)", kLoad},
     Incident{"frames_thinned",
              "frames had more markings than gate.max_frame_detections and max_frame_length_m admit",
              "Send what the network trusts, within its range; the least trusted and farthest were left out."},
@@ -104,7 +107,7 @@ void judge_state(const ServiceStatus& status, Findings& found) {
   }
 }
 
-/// `subject` is detections, poses or datagrams.
+/// `subject` is detections, poses, objects or datagrams.
 Finding refusal(std::string_view by_whom, std::string_view subject, std::string_view reason,
                 std::uint64_t count) {
   const bool at_the_door = subject == "datagrams";
@@ -158,6 +161,7 @@ Findings incident_findings(const Observed& seen) {
   if (seen.services.empty()) {
     judge_own("detections", seen.detections, found);
     judge_own("poses", seen.poses, found);
+    judge_own("objects", seen.objects, found);
   }
   for (const ServiceObserved& service : seen.services) {
     for (const auto& [counter, rise] : status::rises(service.last, service.first))

@@ -74,6 +74,8 @@ Observer::Observer(const DdsConfig& config)
                                        Bytes&& message) { receive_detections(writer, message); }),
       poses_(participant_,
              [this](const dds::WriterId& writer, Bytes&& message) { receive_pose(writer, message); }),
+      objects_(participant_,
+               [this](const dds::WriterId& writer, Bytes&& message) { receive_objects(writer, message); }),
       statuses_(participant_, {.sample = [this](ServiceStatus&& status) { receive(std::move(status)); }}) {}
 
 void Observer::receive_detections(const dds::WriterId& writer, const Bytes& message) {
@@ -99,6 +101,14 @@ void Observer::receive_pose(const dds::WriterId& writer, const Bytes& message) {
   if (!refusal.empty()) ++poses_stream_.observed.refused[std::string(refusal)];
 }
 
+void Observer::receive_objects(const dds::WriterId& writer, const Bytes& message) {
+  TrackedObjects objects;
+  const std::lock_guard lock(mutex_);
+  objects_stream_.note(writer, dds::header_of(message));
+  const auto refusal = dds::from_cdr(message, config_.map_frame_id, objects);
+  if (!refusal.empty()) ++objects_stream_.observed.refused[std::string(refusal)];
+}
+
 /// Takes over the map frame of the service's configuration, which may differ from the doctor's.
 void Observer::take_configuration(const ServiceStatus& status) {
   const std::string frame_id = setting(status, "dds.map_frame_id");
@@ -106,6 +116,7 @@ void Observer::take_configuration(const ServiceStatus& status) {
   config_.map_frame_id = frame_id;
   detections_stream_.observed.refused.erase("wrong_frame");
   poses_stream_.observed.refused.erase("wrong_frame");
+  objects_stream_.observed.refused.erase("wrong_frame");
 }
 
 void Observer::receive(ServiceStatus&& status) {
@@ -144,6 +155,7 @@ Observed Observer::observed() const {
   result.duration_s = std::chrono::duration<double>(now - start_).count();
   result.detections = detections_stream_.until(now);
   result.poses = poses_stream_.until(now);
+  result.objects = objects_stream_.until(now);
   for (const auto& [name, stream] : sources_) result.sources.emplace(name, stream.until(now));
   result.services.reserve(services_.size());
   for (const auto& [session, service] : services_) result.services.push_back(service);

@@ -10,6 +10,7 @@
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/dds/raw_reader.hpp"
 #include "laneloom/dds/reader.hpp"
+#include "laneloom/objects.hpp"
 
 namespace laneloom::doctor {
 
@@ -41,19 +42,21 @@ class Observer {
 
   void receive_detections(const dds::WriterId& writer, const Bytes& message);
   void receive_pose(const dds::WriterId& writer, const Bytes& message);
+  void receive_objects(const dds::WriterId& writer, const Bytes& message);
   void receive(ServiceStatus&& status);
   void take_configuration(const ServiceStatus& status);
 
   DdsConfig config_;
   SteadyClock::time_point start_ = SteadyClock::now();
   mutable std::mutex mutex_;
-  Stream detections_stream_, poses_stream_;
+  Stream detections_stream_, poses_stream_, objects_stream_;
   std::map<std::string, Stream> sources_;
   std::map<std::uint64_t, ServiceObserved> services_;  ///< by session
   dds::Discovery discovery_;
   dds::Participant participant_;
   dds::RawReader<DetectionFrame> detections_;
   dds::RawReader<VehiclePose> poses_;
+  dds::RawReader<TrackedObjects> objects_;
   dds::Reader<ServiceStatus> statuses_;
 };
 

@@ -25,9 +25,9 @@ constexpr std::array kRefusals{
     Refusal{"not_a_rotation", "their quaternion is not of length one",
             "Normalise it where they are written."},
     Refusal{
-        "wrong_frame", "their frame_id is not the map frame, or, of detections, it is",
+        "wrong_frame", "their frame_id is not the map frame, or, of detections or objects, it is",
         "Set dds.map_frame_id to the frame that poses are given in, or the frame_id of the poses to that. "
-        "Detections are given in the body frame, which has another name."},
+        "Detections and objects are given in the body frame, which has another name."},
     Refusal{"wrong_size", "lists that belong together differ in length", kWriter},
     Refusal{"stamp", "their stamp is zero, negative or absurd", "Stamp them in nanoseconds, at measurement."},
     Refusal{"coordinate", "a coordinate is further out than gate.max_coordinate_m", kGate},
@@ -48,6 +48,13 @@ constexpr std::array kRefusals{
             "than sync.max_wait_s after the frame."},
     Refusal{"reset", "they waited for poses when the map began anew",
             "See why it did: pose or stamp jumped."},
+    Refusal{"heading", "the heading of an object is neither zero nor of length one",
+            "Normalise it; zero tells that it is not known, or known up to its sign."},
+    Refusal{"speed", "the speed of an object is beyond gate.max_speed_mps", kGate},
+    Refusal{"existence", "the existence probability of an object is neither within 0..1 nor -1", kWriter},
+    Refusal{"length", "a length of an object is negative, but not -1", kWriter},
+    Refusal{"repeated_id", "two objects of one message have one id",
+            "Give each object an id of its own for as long as it is followed."},
     Refusal{"too_many_sources", "eight other sources of detections are heard",
             "Give each perception stack one name of its own for the field `source`, and run at most eight."}};
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMinWindow_s = 1.0;  ///< a shorter window tells no rate
 constexpr double kMinDetections_hz = 4.0, kMaxDetections_hz = 50.0, kMinPoses_hz = 20.0;
+constexpr double kMinObjects_hz = 2.0;  ///< a trail ends where nothing comes for a second
 constexpr double kMaxClockOffset_s = 0.5;
 constexpr std::uint32_t kLargestDatagram = 65500;  ///< that participants send by default, in bytes
 
@@ -114,6 +115,34 @@ void judge_poses(const Observed& seen, Findings& found) {
   judge_numbers(stream, found);
 }
 
+/// The time from arrival to stamp, in seconds. The two clocks may differ.
+double offset_s(const InputObserved::Newest& newest) {
+  return seconds(newest.stamp_ns) - seconds(newest.arrival_ns);
+}
+
+void judge_sensor_clock(const Stream& stream, const InputObserved& poses, Findings& found) {
+  if (!stream.messages->newest || !poses.newest) return;
+  const double apart_s = offset_s(*stream.messages->newest) - offset_s(*poses.newest);
+  if (std::abs(apart_s) <= kMaxClockOffset_s) return;
+  found.push_back(
+      {"sensor_clocks",
+       fmt::format("Stamps of {} are {:.1f} s {} those of poses.", stream.what, std::abs(apart_s),
+                   apart_s < 0.0 ? "behind" : "ahead of"),
+       "A frame needs the poses around its stamp, from the same clock; it waits for them no longer "
+       "than sync.max_wait_s.",
+       "Stamp both by one clock, at the time of measurement: synchronise the hosts (PTP, chrony), "
+       "and see whether one of them uses the time of sending, or of its start."});
+}
+
+void judge_objects(const Observed& seen, Findings& found) {
+  judge_silence(writers(seen, dds::kObjectsTopic, dds::kObjectsType), "objects", seen.objects,
+                seen.duration_s, found);
+  const Stream stream{"objects", "objects", &seen.objects};
+  judge_slow(stream, kMinObjects_hz, found);
+  judge_numbers(stream, found);
+  judge_sensor_clock(stream, seen.poses, found);
+}
+
 Finding datagrams_cut(std::uint32_t bytes, const std::string& profile_file) {
   return {"datagrams_cut",
           fmt::format("Datagrams of more than {} bytes are cut when they are received, and lost without a "
@@ -139,25 +168,6 @@ void judge_datagrams(const Observed& seen, Findings& found) {
   }
 }
 
-/// The time from arrival to stamp, in seconds. The two clocks may differ.
-double offset_s(const InputObserved::Newest& newest) {
-  return seconds(newest.stamp_ns) - seconds(newest.arrival_ns);
-}
-
-void judge_sensor_clock(const Stream& stream, const InputObserved& poses, Findings& found) {
-  if (!stream.messages->newest || !poses.newest) return;
-  const double apart_s = offset_s(*stream.messages->newest) - offset_s(*poses.newest);
-  if (std::abs(apart_s) <= kMaxClockOffset_s) return;
-  found.push_back(
-      {"sensor_clocks",
-       fmt::format("Stamps of {} are {:.1f} s {} those of poses.", stream.what, std::abs(apart_s),
-                   apart_s < 0.0 ? "behind" : "ahead of"),
-       "A frame needs the poses around its stamp, from the same clock; it waits for them no longer "
-       "than sync.max_wait_s.",
-       "Stamp both by one clock, at the time of measurement: synchronise the hosts (PTP, chrony), "
-       "and see whether one of them uses the time of sending, or of its start."});
-}
-
 void judge_host_clocks(const Observed& seen, Findings& found) {
   for (const ServiceObserved& service : seen.services) {
     // The first status may be an old one that was kept for late readers.
@@ -177,6 +187,7 @@ Findings stream_findings(const Observed& seen) {
   Findings found;
   judge_detections(seen, found);
   judge_poses(seen, found);
+  judge_objects(seen, found);
   judge_datagrams(seen, found);
   for (const Stream& stream : detections(seen)) judge_sensor_clock(stream, seen.poses, found);
   judge_host_clocks(seen, found);

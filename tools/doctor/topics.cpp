@@ -22,15 +22,18 @@ struct Topic {
   const char* name;
   const char* type;
   bool input;                                     ///< whether it is an input of the service
+  bool needed;                                    ///< an input without which the service maps nothing
   bool (*ros_writes)(const Observed&) = nullptr;  ///< whether nodes of ROS 2 write it
 };
 
 constexpr std::array kTopics{
-    Topic{"detections", "detections", dds::kDetectionsTopic, dds::kDetectionsType, true,
+    Topic{"detections", "detections", dds::kDetectionsTopic, dds::kDetectionsType, true, true,
           ros_writes_detections},
-    Topic{"poses", "poses", dds::kVehiclePoseTopic, dds::kVehiclePoseType, true, ros_writes_poses},
-    Topic{"lane_map", "the lane map", dds::kLaneMapTopic, dds::kLaneMapType, false},
-    Topic{"road_markings", "the road markings", dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, false}};
+    Topic{"poses", "poses", dds::kVehiclePoseTopic, dds::kVehiclePoseType, true, true, ros_writes_poses},
+    Topic{"objects", "objects", dds::kObjectsTopic, dds::kObjectsType, true, false},
+    Topic{"lane_map", "the lane map", dds::kLaneMapTopic, dds::kLaneMapType, false, false},
+    Topic{"road_markings", "the road markings", dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, false,
+          false}};
 
 /// The essence of a topic's name: without case, separators, version, and prefixes that bridges add.
 std::string heart(const std::string& topic) {
@@ -123,7 +126,7 @@ void judge(const Observed& seen, const Topic& topic, Findings& found) {
     }
   }
   // This comes last, since findings on other endpoints are the cause.
-  if (topic.input && !connected) found.push_back(nobody_writes(seen, topic));
+  if (topic.needed && !connected) found.push_back(nobody_writes(seen, topic));
 }
 
 }  // namespace

@@ -62,6 +62,10 @@ class JsonLinesMessages : public MessageSource {
         left_out_(reading.strict) {}
 
   std::optional<recording::RecordedMessage> next() override {
+    if (objects_) {
+      const std::int64_t stamp_ns = objects_->stamp_ns;
+      return recording::RecordedMessage{stamp_ns, stamp_ns, *std::exchange(objects_, std::nullopt)};
+    }
     if (frame_) {
       const std::int64_t stamp_ns = frame_->stamp_ns;
       return recording::RecordedMessage{stamp_ns, stamp_ns, *std::exchange(frame_, std::nullopt)};
@@ -73,6 +77,7 @@ class JsonLinesMessages : public MessageSource {
     }
     ++count_;
     frame_ = std::move(record->frame);
+    objects_ = std::move(record->objects);
     return recording::RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
   }
 
@@ -97,8 +102,9 @@ class JsonLinesMessages : public MessageSource {
   io::JsonLinesReader reader_;
   std::string map_frame_id_;
   LeftOut left_out_;
-  std::uint64_t count_ = 0;              ///< of frames
-  std::optional<DetectionFrame> frame_;  ///< the next message; its pose was given out before it
+  std::uint64_t count_ = 0;                ///< of frames
+  std::optional<DetectionFrame> frame_;    ///< the next message; its pose was given out before it
+  std::optional<TrackedObjects> objects_;  ///< likewise, between the two
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ Player::Player(const DdsConfig& dds, double speed_up)
     : participant_(dds, "laneloom replay"),
       detections_(participant_),
       poses_(participant_),
+      objects_(participant_),
       speed_up_(speed_up) {}
 
 std::chrono::steady_clock::time_point Player::due(const recording::RawMessage& message) {
@@ -33,6 +34,8 @@ void Player::publish(const recording::RawMessage& message) {
     ++(detections_.write(message.bytes) ? detections_published_ : not_taken_);
   } else if (is<VehiclePose>(message)) {
     ++(poses_.write(message.bytes) ? poses_published_ : not_taken_);
+  } else if (is<TrackedObjects>(message) && !objects_.write(message.bytes)) {
+    ++not_taken_;
   }
 }
 

@@ -6,17 +6,19 @@
 #include <optional>
 
 #include "laneloom/dds/raw_writer.hpp"
+#include "laneloom/objects.hpp"
 #include "recording/recording.hpp"
 
 namespace laneloom::replay {
 
-/// Publishes recorded detections and poses again, byte for byte, as their participants did. Not thread-safe.
+/// Publishes recorded detections, poses and objects again, byte for byte, as their participants did. Not
+/// thread-safe.
 class Player {
  public:
   /// `speed_up`: recorded seconds per second. Throws std::runtime_error where DDS refuses.
   Player(const DdsConfig& dds, double speed_up);
 
-  /// Number of readers, of the topic that has fewer.
+  /// Number of readers, of detections or poses, whichever has fewer.
   int readers() const { return std::min(detections_.matched(), poses_.matched()); }
 
   /// The time at which a message is due. The first one is due now, the others as long after it as they were
@@ -33,6 +35,7 @@ class Player {
   dds::Participant participant_;
   dds::RawWriter<DetectionFrame> detections_;
   dds::RawWriter<VehiclePose> poses_;
+  dds::RawWriter<TrackedObjects> objects_;
   double speed_up_;
   std::optional<std::int64_t> first_ns_;
   std::chrono::steady_clock::time_point start_;

@@ -55,6 +55,7 @@ void Replay::add(recording::RecordedMessage message) {
   session_.expire(now_ns_);
   if (const auto* pose = std::get_if<VehiclePose>(&message.message)) session_.add(*pose);
   if (auto* frame = std::get_if<DetectionFrame>(&message.message)) session_.add(std::move(*frame), now_ns_);
+  if (auto* objects = std::get_if<TrackedObjects>(&message.message)) session_.add(std::move(*objects));
   session_.take_progress();
 }
 
