@@ -76,6 +76,7 @@ void add_experiment(CLI::App& app) {
       ->check(noise_name())
       ->capture_default_str();
   add_without_view(*command, options->without_view);
+  add_traffic(*command, options->roads.traffic);
   command->add_option("--preset", options->preset, "Range that is rated, and alpha_n of the voxel method")
       ->check(CLI::IsMember(config::preset_names()))
       ->capture_default_str();

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "simulation/traffic.hpp"
+
 namespace laneloom::commands {
 
 CLI::Validator noise_name() {
@@ -25,6 +27,12 @@ simulation::NoiseProfile NoiseOption::profile() const {
 void add_without_view(CLI::App& command, bool& without_view) {
   command.add_flag("--no-field-of-view", without_view,
                    "Frames do not tell the field of view and what is occluded, as real networks' do not");
+}
+
+void add_traffic(CLI::App& command, std::string& traffic) {
+  command
+      .add_option("--traffic", traffic, "Other vehicles, as a tracker of this profile tells; default: none")
+      ->check(CLI::IsMember(simulation::traffic_profile_names()));
 }
 
 void add_noise(CLI::App& command, NoiseOption& noise) {

@@ -20,6 +20,8 @@ struct NoiseOption {
 
 /// Adds --noise and --no-field-of-view.
 void add_noise(CLI::App& command, NoiseOption& noise);
+/// Adds --traffic.
+void add_traffic(CLI::App& command, std::string& traffic);
 /// Adds --no-field-of-view alone.
 void add_without_view(CLI::App& command, bool& without_view);
 

@@ -50,9 +50,11 @@ class Publisher {
       : participant_(options.dds, "laneloom publish"),
         detections_(participant_),
         poses_(participant_),
+        objects_(participant_),
         road_(road),
         from_s_(options.from_s),
         perception_(options.source.perception(road)),
+        traffic_(options.source.other_traffic(road)),
         network_(options.source.seed, options.delay_spread_ms),
         session_id_(random_id()),
         start_ns_(system_now_ns()) {
@@ -95,12 +97,17 @@ class Publisher {
     io::FrameRecord record{perception_.observe(pose), pose};
     record.frame.session_id = session_id_;
     record.frame.source = "laneloom publish";
+    if (traffic_) {
+      record.objects = traffic_->observe(pose);
+      record.objects->session_id = session_id_;
+    }
     return record;
   }
 
   void deliver(const io::FrameRecord& record) {
     if (times_) times_->add(record.frame.sequence, system_now_ns());
     if (!detections_.write(record.frame)) ++not_taken_;
+    if (record.objects && !objects_.write(*record.objects)) ++not_taken_;
     if (record_) record_->write(record);
     ++delivered_;
   }
@@ -108,9 +115,11 @@ class Publisher {
   dds::Participant participant_;
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
+  dds::Writer<TrackedObjects> objects_;
   const simulation::Road& road_;
   double from_s_;
   simulation::Perception perception_;
+  std::optional<simulation::Traffic> traffic_;
   simulation::NetworkDelay<io::FrameRecord> network_;
   std::uint64_t session_id_;
   std::int64_t start_ns_;

@@ -19,11 +19,18 @@ std::vector<experiment::DriveSpec> RoadList::drives(
     for (const auto& log : simulation::argoverse2_logs(directory, left_out))
       add(simulation::load_argoverse2(log));
   for (const std::string& file : lanelet2) add(simulation::load_lanelet2(file, speed_mps));
+  const auto profile = traffic.empty() ? std::nullopt : std::optional(simulation::traffic_profile(traffic));
   std::vector<experiment::DriveSpec> drives;
   drives.reserve(roads.size() * noises.size() * seeds.size());
   for (const auto& road : roads) {
     for (const simulation::NoiseProfile& noise : noises) {
-      for (const std::uint64_t seed : seeds) drives.push_back({road, noise, seed, duration_s, drift});
+      for (const std::uint64_t seed : seeds)
+        drives.push_back({.road = road,
+                          .noise = noise,
+                          .seed = seed,
+                          .duration_s = duration_s,
+                          .drift = drift,
+                          .traffic = profile});
     }
   }
   return drives;

@@ -16,6 +16,7 @@ struct RoadList {
   double speed_mps = 10.0;
   double duration_s = 60.0;
   double drift = 0.0;
+  std::string traffic;  ///< a profile; empty: none
 
   /// The drives, one per road, noise and seed. Throws as the loading of a road.
   std::vector<experiment::DriveSpec> drives(const std::vector<simulation::NoiseProfile>& noises) const;

@@ -55,6 +55,11 @@ simulation::Perception RoadSource::perception(const simulation::Road& road) cons
   return {road, noise.profile(), simulation::SensorView{}, seed};
 }
 
+std::optional<simulation::Traffic> RoadSource::other_traffic(const simulation::Road& road) const {
+  if (traffic.empty()) return std::nullopt;
+  return simulation::Traffic(road, simulation::traffic_profile(traffic), seed);
+}
+
 void add_road_source(CLI::App& command, RoadSource& source) {
   CLI::Option_group* road = command.add_option_group("Road", "one of");
   road->add_option("--scenario", source.scenario, "A built-in road")
@@ -67,7 +72,8 @@ void add_road_source(CLI::App& command, RoadSource& source) {
       ->check(within(0.1, 60.0))
       ->capture_default_str();
   add_noise(command, source.noise);
-  command.add_option("--seed", source.seed, "Seed of the noise")->capture_default_str();
+  add_traffic(command, source.traffic);
+  command.add_option("--seed", source.seed, "Seed of the noise and the traffic")->capture_default_str();
   add_strict(command, source.strict);
 }
 

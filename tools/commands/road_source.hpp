@@ -2,12 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands/noise_option.hpp"
 #include "simulation/perception.hpp"
 #include "simulation/road.hpp"
+#include "simulation/traffic.hpp"
 
 namespace laneloom::commands {
 
@@ -16,6 +18,7 @@ struct RoadSource {
   std::string scenario, argoverse2, lanelet2;
   double speed_mps = 10.0;
   NoiseOption noise{.name = "none"};
+  std::string traffic;  ///< a profile; empty: none
   std::uint64_t seed = 1;
   bool strict = false;
 
@@ -25,10 +28,12 @@ struct RoadSource {
   /// std::invalid_argument naming the problem with the road, or if there are several.
   simulation::Road load() const;
   simulation::Perception perception(const simulation::Road& road) const;
+  /// None: there is no other traffic.
+  std::optional<simulation::Traffic> other_traffic(const simulation::Road& road) const;
 };
 
 /// Adds --scenario, --argoverse2 and --lanelet2, of which one is needed, and --speed, --noise,
-/// --no-field-of-view, --seed and --strict.
+/// --no-field-of-view, --traffic, --seed and --strict.
 void add_road_source(CLI::App& command, RoadSource& source);
 
 }  // namespace laneloom::commands

@@ -17,7 +17,9 @@ constexpr std::int64_t kPeriod_ns = 100'000'000;
 DriveSimulation::DriveSimulation(const DriveSpec& spec)
     : spec_(spec),
       perception_(std::make_unique<simulation::Perception>(*spec.road, spec.noise, spec.view, spec.seed)),
-      odometry_(transform(spec.road->drive.pose_at(0.0)), spec.drift) {}
+      odometry_(transform(spec.road->drive.pose_at(0.0)), spec.drift) {
+  if (spec.traffic) traffic_.emplace(*spec.road, *spec.traffic, spec.seed);
+}
 
 DriveSimulation::~DriveSimulation() = default;
 DriveSimulation::DriveSimulation(DriveSimulation&&) noexcept = default;
@@ -31,6 +33,7 @@ SimulatedFrame DriveSimulation::next() {
   frame.T_map_body = transform(pose);
   frame.record.frame = perception_->observe(pose);
   frame.sources = perception_->sources();
+  if (traffic_) frame.record.objects = traffic_->observe(pose);
   if (spec_.drift > 0.0) {
     const Eigen::Isometry3d& told = odometry_.move_to(frame.T_map_body);
     pose.position = told.translation();

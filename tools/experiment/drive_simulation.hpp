@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "io/json_lines.hpp"
@@ -9,6 +10,7 @@
 #include "simulation/odometry.hpp"
 #include "simulation/road.hpp"
 #include "simulation/sensor_view.hpp"
+#include "simulation/traffic.hpp"
 
 namespace laneloom::simulation {
 class Perception;
@@ -24,6 +26,7 @@ struct DriveSpec {
   double duration_s = 0.0;  ///< 0: once along the road's drive; a drive that is not closed is never longer
   double drift = 0.0;       ///< of the odometry, as a share of the distance driven
   simulation::SensorView view;
+  std::optional<simulation::TrafficProfile> traffic;  ///< none: there is no tracker
 };
 
 /// The output of a network and an odometry at one instant, with the truth.
@@ -48,6 +51,7 @@ class DriveSimulation {
  private:
   DriveSpec spec_;
   std::unique_ptr<simulation::Perception> perception_;
+  std::optional<simulation::Traffic> traffic_;
   simulation::Odometry odometry_;
   std::int64_t stamp_ns_ = 0;
 };

@@ -59,7 +59,9 @@ class DriveRun {
     Distribution update_ms;
     for (const SimulatedFrame& frame : frames_) {
       const auto start = std::chrono::steady_clock::now();
-      const LocalMap& map = mapper.update(frame.record.frame, transform(frame.record.pose));
+      const Eigen::Isometry3d T_map_body = transform(frame.record.pose);
+      if (frame.record.objects) mapper.add(*frame.record.objects, T_map_body);
+      const LocalMap& map = mapper.update(frame.record.frame, T_map_body);
       update_ms.add(
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
       rated.add(in_true_frame(map, frame));

@@ -44,6 +44,12 @@ constexpr std::array kFigures{
              const evaluation::LaneMetres& metres = m.lane_metres;
              return percent(metres.of(evaluation::LaneClass::right), metres.published_m());
            }},
+    Figure{"directions of right metres, P %",
+           [](const Measures& m) { return percent(m.lane_metres.told_right_m, m.lane_metres.told_m); }},
+    Figure{"directions of right metres, R %",
+           [](const Measures& m) {
+             return percent(m.lane_metres.told_right_m, m.lane_metres.of(evaluation::LaneClass::right));
+           }},
     Figure{"lanes ECE",
            [](const Measures& m) {
              return m.lanes.has_confidences() ? Value(m.lanes.expected_calibration_error()) : std::nullopt;
