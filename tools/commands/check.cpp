@@ -13,6 +13,7 @@
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "io/printable.hpp"
+#include "io/text_file.hpp"
 #include "replay/message_source.hpp"
 
 namespace laneloom::commands {
@@ -60,7 +61,7 @@ void check(const CheckOptions& options) {
 }  // namespace
 
 std::string why_poor(const std::string& path, const Config& config) {
-  if (path == "-") return {};  // standard input was read
+  if (path == io::kStandard) return {};  // standard input was read
   const auto source = replay::open_messages(path, config.dds.map_frame_id, {.any_confidence = true});
   check::Findings found = findings(check::read_drive(*source), config);
   std::erase_if(found, &check::Finding::advice);

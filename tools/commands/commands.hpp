@@ -13,6 +13,7 @@ void add_publish(CLI::App& app);
 void add_pnc(CLI::App& app);
 void add_status(CLI::App& app);
 void add_check(CLI::App& app);
+void add_cut(CLI::App& app);
 void add_doctor(CLI::App& app);
 void add_render(CLI::App& app);
 void add_evaluate(CLI::App& app);

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,12 +15,14 @@
 #include "commands/later_table.hpp"
 #include "commands/options.hpp"
 #include "commands/profile_tables.hpp"
+#include "commands/read_input.hpp"
 #include "commands/score_table.hpp"
 #include "commands/steadiness_table.hpp"
-#include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "evaluation/inputs.hpp"
 #include "evaluation/map_evaluation.hpp"
+#include "io/text_file.hpp"
+#include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -31,6 +32,7 @@ struct EvaluateOptions {
   std::string in, config, truth, frames, map, json, plots;
   RangeConfig range;
   double min_confidence = PreprocessConfig{}.min_confidence;
+  bool strict = false;
 };
 
 using Stamps = std::set<std::int64_t>;
@@ -41,29 +43,26 @@ struct Moments {
   std::size_t count = 0;
 };
 
-Moments moments(const std::string& path, Stamps stamps, const evaluation::InputAccount& account) {
-  warn_of(path, account.refused, account.cut_off);
-  warn_of(path, account.left_out);
+Moments moments(const std::string& path, Stamps stamps, std::size_t count) {
   if (stamps.empty())
-    throw std::runtime_error(
-        fmt::format("{}: of {} frames or maps, none can be compared", path, account.count));
-  return {std::move(stamps), account.count};
+    throw std::runtime_error(fmt::format("{}: of {} frames or maps, none can be compared", path, count));
+  return {std::move(stamps), count};
 }
 
-Moments frame_moments(const std::string& path) {
+Moments frame_moments(const std::string& path, bool strict) {
   Stamps stamps;
   const auto add = [&](const DetectionFrame& frame, const Eigen::Isometry3d& /*T_map_body*/) {
     stamps.insert(frame.stamp_ns);
   };
-  const evaluation::InputAccount account = evaluation::for_each_frame(path, add);
-  return moments(path, std::move(stamps), account);
+  const std::size_t count = for_each_frame(path, strict, add);
+  return moments(path, std::move(stamps), count);
 }
 
-Moments map_moments(const std::string& path) {
+Moments map_moments(const std::string& path, bool strict) {
   Stamps stamps;
-  const evaluation::InputAccount account =
-      evaluation::for_each_map(path, [&](const LocalMap& map) { stamps.insert(map.stamp_ns); });
-  return moments(path, std::move(stamps), account);
+  const std::size_t count =
+      for_each_map(path, strict, [&](const LocalMap& map) { stamps.insert(map.stamp_ns); });
+  return moments(path, std::move(stamps), count);
 }
 
 /// The comparison of files, at the stamps that all of them have.
@@ -74,14 +73,15 @@ struct Comparison {
 
 Comparison comparison(const EvaluateOptions& options) {
   if (options.map.empty()) {
-    Moments frames = frame_moments(options.frames);
+    Moments frames = frame_moments(options.frames, options.strict);
     return {frames.stamps, fmt::format("{} of {} frames", frames.stamps.size(), frames.count)};
   }
   if (options.frames.empty()) {
-    Moments maps = map_moments(options.map);
+    Moments maps = map_moments(options.map, options.strict);
     return {maps.stamps, fmt::format("{} of {} maps", maps.stamps.size(), maps.count)};
   }
-  const Moments frames = frame_moments(options.frames), maps = map_moments(options.map);
+  const Moments frames = frame_moments(options.frames, options.strict),
+                maps = map_moments(options.map, options.strict);
   Stamps common;
   std::set_intersection(frames.stamps.begin(), frames.stamps.end(), maps.stamps.begin(), maps.stamps.end(),
                         std::inserter(common, common.end()));
@@ -94,28 +94,26 @@ Comparison comparison(const EvaluateOptions& options) {
 evaluation::MapEvaluation evaluate_detections(const EvaluateOptions& options, const simulation::Road& truth,
                                               const Stamps& stamps) {
   evaluation::MapEvaluation evaluation(truth, options.range, evaluation::Subject::detections);
+  support::ProgressBar bar;
   evaluation::for_each_frame(options.frames,
                              [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
                                if (stamps.contains(frame.stamp_ns))
                                  evaluation.add(frame, T_map_body, options.min_confidence);
-                             });
+                             },
+                             {.on_step = [&](double share) { bar.step(share); }});
   return evaluation;
 }
 
 evaluation::MapEvaluation evaluate_maps(const EvaluateOptions& options, const simulation::Road& truth,
                                         const Stamps& stamps) {
   evaluation::MapEvaluation evaluation(truth, options.range, evaluation::Subject::maps);
-  evaluation::for_each_map(options.map, [&](const LocalMap& map) {
-    if (stamps.contains(map.stamp_ns)) evaluation.add(map);
-  });
+  support::ProgressBar bar;
+  evaluation::for_each_map(options.map,
+                           [&](const LocalMap& map) {
+                             if (stamps.contains(map.stamp_ns)) evaluation.add(map);
+                           },
+                           {.on_step = [&](double share) { bar.step(share); }});
   return evaluation;
-}
-
-void write_json(const nlohmann::json& json, const std::string& path) {
-  std::ofstream out(path);
-  out << json.dump(2) << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
 LaterRating later_rating(const EvaluateOptions& options) {
@@ -123,7 +121,8 @@ LaterRating later_rating(const EvaluateOptions& options) {
                                        .config = options.config,
                                        .frames = options.frames,
                                        .map = options.map,
-                                       .min_confidence = options.min_confidence});
+                                       .min_confidence = options.min_confidence,
+                                       .strict = options.strict});
   const std::string& drive = options.in.empty() ? options.frames : options.in;
   fmt::print(stderr, "{}", why_poor(drive, config::resolve_config(options.config, {})));
   require_rated(rating.later, drive);
@@ -137,7 +136,7 @@ void rate_by_later(const EvaluateOptions& options) {
   if (options.json.empty()) return;
   nlohmann::json json = later_json(later);
   json["planner"] = steadiness_json(steady);
-  write_json(json, options.json);
+  io::write_text(options.json, json.dump(2) + "\n");
 }
 
 void rate_by_truth(const EvaluateOptions& options) {
@@ -157,7 +156,7 @@ void rate_by_truth(const EvaluateOptions& options) {
   nlohmann::json json = score_json(scores);
   json.update(evaluation_json(evaluations), true);
   json.update(profile_json(evaluations), true);
-  write_json(json, options.json);
+  io::write_text(options.json, json.dump(2) + "\n");
 }
 
 void evaluate(const EvaluateOptions& options) {
@@ -196,10 +195,11 @@ void add_evaluate(CLI::App& app) {
                    "Least confidence of the single detections that count")
       ->check(within(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--json", options->json, "Figures to write (.json)");
+  add_text_output(*command, "--json", options->json, "Figures to write (.json); - is standard output");
   command->add_option("--plots", options->plots, "Folder to draw curves over time and range into")
       ->type_name("DIR")
       ->needs(truth);
+  add_strict(*command, options->strict);
   command->callback([options] { evaluate(*options); });
 }
 

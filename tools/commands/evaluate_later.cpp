@@ -4,10 +4,8 @@
 #include <utility>
 #include <variant>
 
-#include "commands/warn_of.hpp"
+#include "commands/read_input.hpp"
 #include "config/config_file.hpp"
-#include "evaluation/inputs.hpp"
-#include "replay/message_source.hpp"
 #include "replay/replay.hpp"
 
 namespace laneloom::commands {
@@ -34,28 +32,20 @@ class Pairs {
 
 void rate_replay(const LaterInputs& inputs, Pairs& pairs) {
   const Config config = config::resolve_config(inputs.config, {});
-  const auto source = replay::open_messages(inputs.in, config.dds.map_frame_id);
   replay::Replay replay(config,
                         [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { pairs.add(map.map); });
-  while (std::optional<recording::RecordedMessage> message = source->next_input()) {
-    if (const auto* frame = std::get_if<DetectionFrame>(&message->message)) pairs.add(*frame);
-    replay.add(std::move(*message));
-  }
-  warn_of(inputs.in, source->refused(), source->cut_off());
-  warn_of(inputs.in, source->left_out());
+  for_each_input(inputs.in, config, inputs.strict, [&](recording::RecordedMessage&& message) {
+    if (const auto* frame = std::get_if<DetectionFrame>(&message.message)) pairs.add(*frame);
+    replay.add(std::move(message));
+  });
 }
 
 void rate_files(const LaterInputs& inputs, Pairs& pairs) {
   const auto add_frame = [&](const DetectionFrame& frame, const Eigen::Isometry3d& /*T_map_body*/) {
     pairs.add(frame);
   };
-  const evaluation::InputAccount frames = evaluation::for_each_frame(inputs.frames, add_frame);
-  warn_of(inputs.frames, frames.refused, frames.cut_off);
-  warn_of(inputs.frames, frames.left_out);
-  const evaluation::InputAccount maps =
-      evaluation::for_each_map(inputs.map, [&](const LocalMap& map) { pairs.add(map); });
-  warn_of(inputs.map, maps.refused, maps.cut_off);
-  warn_of(inputs.map, maps.left_out);
+  for_each_frame(inputs.frames, inputs.strict, add_frame);
+  for_each_map(inputs.map, inputs.strict, [&](const LocalMap& map) { pairs.add(map); });
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct LaterInputs {
   std::string in, config;
   std::string frames, map;
   double min_confidence = 0.0;
+  bool strict = false;  ///< the first thing that is wrong is an error
 };
 
 /// How accurate the maps of a drive are, and how steady for a planner.

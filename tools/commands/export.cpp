@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,10 +12,9 @@
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "commands/replay_input.hpp"
+#include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
-#include "evaluation/inputs.hpp"
 #include "export/accumulate.hpp"
 #include "export/geojson_file.hpp"
 #include "export/lanelet2_file.hpp"
@@ -25,6 +23,7 @@
 #include "recording/damage.hpp"
 #include "recording/recording.hpp"
 #include "replay/replay.hpp"
+#include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -32,7 +31,7 @@ namespace {
 struct ExportOptions {
   std::string in, config, preset, lanelet2, geojson;
   std::optional<exports::Origin> origin;
-  bool plain = false;
+  bool plain = false, strict = false;
 };
 
 /// Joins published maps to one drive.
@@ -68,39 +67,41 @@ bool holds_json_maps(const std::string& path) {
   return json.is_object() && json.contains("instances");
 }
 
-void take_json_maps(const std::string& path, DriveReader& taker) {
-  const evaluation::InputAccount account = evaluation::for_each_map(path, [&](const LocalMap& map) {
+void take_json_maps(const std::string& path, bool strict, DriveReader& taker) {
+  for_each_map(path, strict, [&](const LocalMap& map) {
     PublishedMap published;
     published.map = map;
     taker.take(published);
   });
-  warn_of(path, account.refused, account.cut_off);
-  warn_of(path, account.left_out);
 }
 
-void take_recorded_maps(const std::string& path, DriveReader& taker) {
+void take_recorded_maps(const std::string& path, bool strict, DriveReader& taker) {
   recording::RecordingReader reader(path);
-  LeftOut left_out;
-  while (const auto recorded = recording::next_or_leave_out(left_out, [&] { return reader.next(); }))
+  LeftOut left_out(strict);
+  support::ProgressBar bar;
+  while (const auto recorded = recording::next_or_leave_out(left_out, [&] { return reader.next(); })) {
+    bar.step(reader.progress());
     if (const auto* published = std::get_if<PublishedMap>(&recorded->message)) taker.take(*published);
+  }
+  bar.clear();
   if (taker.maps() == 0) return;
   warn_of(path, reader.refused(), reader.cut_off());
   warn_of(path, left_out);
 }
 
-void map_frames(const std::string& path, const Config& config, DriveReader& taker) {
+void map_frames(const std::string& path, const Config& config, bool strict, DriveReader& taker) {
   replay::Replay replay(config,
                         [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { taker.take(map); });
-  replay_input(path, config, replay);
+  replay_input(path, config, strict, replay);
 }
 
 exports::DriveAccumulator::Drive read_drive(const ExportOptions& options, const Config& config) {
   DriveReader taker(config.mapper.range);
   const bool recorded = recording::is_recording(options.in);
-  if (recorded) take_recorded_maps(options.in, taker);
-  if (!recorded && holds_json_maps(options.in)) take_json_maps(options.in, taker);
+  if (recorded) take_recorded_maps(options.in, options.strict, taker);
+  if (!recorded && holds_json_maps(options.in)) take_json_maps(options.in, options.strict, taker);
   const bool has_maps = taker.maps() > 0;
-  if (!has_maps) map_frames(options.in, config, taker);
+  if (!has_maps) map_frames(options.in, config, options.strict, taker);
   if (taker.maps() == 0)
     throw std::runtime_error(options.in + ": has no maps, and no detections with poses to make them of");
   fmt::print("{} maps {}\n", taker.maps(), has_maps ? "read" : "made of the detections");
@@ -120,10 +121,7 @@ exports::Origin origin(const std::string& text) {
 }
 
 void check_files(const ExportOptions& options) {
-  std::error_code error;
-  for (const std::string& out : {options.lanelet2, options.geojson})
-    if (!out.empty() && std::filesystem::equivalent(out, options.in, error))
-      throw std::runtime_error(out + ": is the input, and would be written over");
+  for (const std::string& out : {options.lanelet2, options.geojson}) refuse_same_file(out, options.in);
   if (options.lanelet2 == options.geojson) throw std::runtime_error(options.geojson + ": is given twice");
 }
 
@@ -155,15 +153,16 @@ void add_export(CLI::App& app) {
       ->check(CLI::IsMember(config::preset_names()));
   CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
   CLI::Option* lanelet2 =
-      outputs->add_option("--lanelet2", options->lanelet2, "Lanelet2 map to write (.osm)");
+      add_text_output(*outputs, "--lanelet2", options->lanelet2, "Lanelet2 map to write (.osm)");
   CLI::Option* geojson =
-      outputs->add_option("--geojson", options->geojson, "GeoJSON (RFC 7946) to write; needs --origin");
+      add_text_output(*outputs, "--geojson", options->geojson, "GeoJSON (RFC 7946) to write; needs --origin");
   outputs->require_option(1, 2);
   command
       ->add_flag(
           "--plain", options->plain,
           "Leave out the stop lines' regulatory elements, which Autoware's extension of Lanelet2 knows")
       ->needs(lanelet2);
+  add_strict(*command, options->strict);
   CLI::Option* place = command->add_option_function<std::string>(
       "--origin", [options](const std::string& text) { options->origin = origin(text); },
       "Place of the map frame's origin in degrees (WGS84); x points east, y north");

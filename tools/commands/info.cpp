@@ -17,6 +17,7 @@
 #include "io/printable.hpp"
 #include "laneloom/dds/topics.hpp"
 #include "replay/message_source.hpp"
+#include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -57,7 +58,12 @@ struct FileInfo {
 FileInfo read_info(const std::string& path) {
   const auto source = replay::open_messages(path, "map");
   FileInfo info;
-  while (const auto message = source->next()) info.add(*message);
+  support::ProgressBar bar;
+  while (const auto message = source->next()) {
+    info.add(*message);
+    bar.step(source->progress());
+  }
+  bar.clear();
   info.origin = source->origin();
   warn_of(path, source->refused(), source->cut_off());
   warn_of(path, source->left_out());

@@ -4,12 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "io/axes.hpp"
+#include "io/text_file.hpp"
 #include "laneloom/config.hpp"
 #include "recording/recording.hpp"
 
@@ -47,6 +49,21 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
 /// Adds --strict.
 inline void add_strict(CLI::App& command, bool& strict) {
   command.add_flag("--strict", strict, "Fail at the first thing that is wrong, instead of leaving it out");
+}
+
+/// Lets all that the command reports go to standard error, since standard output is a file that it writes.
+inline void write_to_standard_output(const std::string& option) {
+  if (stdout == stderr) throw CLI::ValidationError(option, "standard output is another file already");
+  stdout = stderr;  // std::cout, which the file goes to, stays as it is
+}
+
+/// Adds an option with text files to write, of which one may be "-", standard output.
+template <typename Paths>
+CLI::Option* add_text_output(CLI::App& command, const std::string& name, Paths& paths,
+                             const std::string& description) {
+  return command.add_option(name, paths, description)->each([name](const std::string& path) {
+    if (path == io::kStandard) write_to_standard_output(name);
+  });
 }
 
 /// Adds --axes, of points: see io/axes.hpp.

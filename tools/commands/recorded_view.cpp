@@ -8,16 +8,16 @@
 #include <utility>
 #include <variant>
 
+#include "commands/read_input.hpp"
 #include "commands/stop_signal.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "drawing/drawing_json.hpp"
 #include "drawing/truth.hpp"
-#include "evaluation/inputs.hpp"
 #include "recording/damage.hpp"
 #include "recording/recording.hpp"
-#include "replay/message_source.hpp"
 #include "replay/replay.hpp"
+#include "support/progress_bar.hpp"
 #include "view/frame_text.hpp"
 
 namespace laneloom::commands {
@@ -43,17 +43,20 @@ class Storer {
   view::EventFinder events_;
 };
 
-void load_recording(const std::string& path, Storer& storer) {
+void load_recording(const std::string& path, bool strict, Storer& storer) {
   recording::RecordingReader reader(path);
   view::MomentBuilder builder;
-  LeftOut left_out;
+  LeftOut left_out(strict);
+  support::ProgressBar bar;
   while (auto recorded = recording::next_or_leave_out(left_out, [&] { return reader.next(); })) {
+    bar.step(reader.progress());
     const auto add = [&](auto&& message) {
       return builder.add(std::forward<decltype(message)>(message), recorded->log_time_ns);
     };
     if (std::visit(add, std::move(recorded->message))) storer.add(builder.take());
   }
   if (const auto last = builder.finish()) storer.add(*last);
+  bar.clear();
   warn_of(path, reader.refused(), reader.cut_off());
   warn_of(path, left_out);
 }
@@ -104,17 +107,14 @@ class Comparison {
 
 void load_comparison(const RecordedInputs& inputs, Storer& storer) {
   Comparison comparison(inputs.configs);
-  const auto source =
-      replay::open_messages(inputs.recording, config::load_config(inputs.configs.front()).dds.map_frame_id);
-  while (const auto message = source->next_input()) comparison.add(*message, storer);
-  warn_of(inputs.recording, source->refused(), source->cut_off());
-  warn_of(inputs.recording, source->left_out());
+  const auto add = [&](recording::RecordedMessage&& message) { comparison.add(message, storer); };
+  for_each_input(inputs.recording, config::load_config(inputs.configs.front()), inputs.strict, add);
 }
 
 /// Maps by their stamps.
-std::map<std::int64_t, LocalMap> read_maps(const std::string& file) {
+std::map<std::int64_t, LocalMap> read_maps(const std::string& file, bool strict) {
   std::map<std::int64_t, LocalMap> maps;
-  evaluation::for_each_map(file, [&](const LocalMap& map) { maps[map.stamp_ns] = map; });
+  for_each_map(file, strict, [&](const LocalMap& map) { maps[map.stamp_ns] = map; });
   return maps;
 }
 
@@ -128,16 +128,17 @@ void load_files(const RecordedInputs& inputs, Storer& storer) {
     return moment;
   };
   if (!inputs.frames.empty())
-    evaluation::for_each_frame(inputs.frames,
-                               [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-                                 view::ViewMoment& moment = at(frame.stamp_ns);
-                                 moment.detections = frame;
-                                 moment.map.map.T_map_body = T_map_body;
-                               });
+    for_each_frame(inputs.frames, inputs.strict,
+                   [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+                     view::ViewMoment& moment = at(frame.stamp_ns);
+                     moment.detections = frame;
+                     moment.map.map.T_map_body = T_map_body;
+                   });
   if (!inputs.maps.empty())
-    for (auto& [stamp_ns, map] : read_maps(inputs.maps.front())) at(stamp_ns).map.map = std::move(map);
+    for (auto& [stamp_ns, map] : read_maps(inputs.maps.front(), inputs.strict))
+      at(stamp_ns).map.map = std::move(map);
   for (std::size_t i = 1; i < inputs.maps.size(); ++i) {
-    const auto others = read_maps(inputs.maps[i]);
+    const auto others = read_maps(inputs.maps[i], inputs.strict);
     for (auto& [stamp_ns, moment] : moments) {
       const auto later = others.upper_bound(stamp_ns);
       moment.others.push_back(later == others.begin() ? LocalMap{.T_map_body = moment.map.map.T_map_body}
@@ -173,7 +174,7 @@ void load(const RecordedInputs& inputs, const RangeConfig& range, view::FrameSto
     else if (inputs.recording.empty())
       load_files(inputs, storer);
     else
-      load_recording(inputs.recording, storer);
+      load_recording(inputs.recording, inputs.strict, storer);
     store.finish(store.size() == 0 ? inputs.title() + ": there is nothing in it to show" : "");
   } catch (const std::exception& error) {
     store.finish(error.what());

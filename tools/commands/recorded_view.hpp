@@ -15,6 +15,7 @@ struct RecordedInputs {
   std::string frames;                ///< frames, instead of a recording
   std::vector<std::string> maps;     ///< maps of the same drive, likewise
   std::string truth;                 ///< of the road
+  bool strict = false;               ///< the first thing that is wrong is an error
 
   bool empty() const { return recording.empty() && frames.empty() && maps.empty(); }
   std::string title() const;

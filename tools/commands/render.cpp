@@ -9,11 +9,10 @@
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "commands/warn_of.hpp"
+#include "commands/read_input.hpp"
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
 #include "drawing/truth.hpp"
-#include "evaluation/inputs.hpp"
 #include "render/figure.hpp"
 
 namespace laneloom::commands {
@@ -24,6 +23,7 @@ struct RenderOptions {
   std::vector<double> at_s;
   std::size_t sequence = 0;
   RangeConfig range;
+  bool strict = false;
 };
 
 struct SeenFrame {
@@ -41,20 +41,15 @@ Inputs read(const RenderOptions& options) {
   Inputs inputs;
   if (!options.truth.empty()) inputs.truth = simulation::load_truth(options.truth);
   if (!options.frames.empty()) {
-    const evaluation::InputAccount account = evaluation::for_each_frame(
-        options.frames, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-          inputs.frames.push_back({frame, T_map_body});
-        });
-    warn_of(options.frames, account.refused, account.cut_off);
-    warn_of(options.frames, account.left_out);
+    for_each_frame(options.frames, options.strict,
+                   [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+                     inputs.frames.push_back({frame, T_map_body});
+                   });
     if (inputs.frames.empty())
       throw std::runtime_error(fmt::format("{}: holds no frame with a pose", options.frames));
   }
   if (!options.map.empty()) {
-    const evaluation::InputAccount account =
-        evaluation::for_each_map(options.map, [&](const LocalMap& map) { inputs.maps.push_back(map); });
-    warn_of(options.map, account.refused, account.cut_off);
-    warn_of(options.map, account.left_out);
+    for_each_map(options.map, options.strict, [&](const LocalMap& map) { inputs.maps.push_back(map); });
     if (inputs.maps.empty()) throw std::runtime_error(options.map + ": holds no map");
   }
   return inputs;
@@ -159,6 +154,7 @@ void add_render(CLI::App& app) {
   add_range(*command, options->range);
   command->add_option("--title", options->title, "Default: the road's name");
   command->add_option("--out", options->out, "Picture to write (.png or .svg)")->required();
+  add_strict(*command, options->strict);
   command->callback([options] { render(*options); });
 }
 

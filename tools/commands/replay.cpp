@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,6 +21,7 @@
 #include "replay/message_source.hpp"
 #include "replay/player.hpp"
 #include "replay/replay.hpp"
+#include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -40,27 +40,6 @@ struct ReplayOptions {
   int readers = 0;
   DdsConfig dds;
   double speed_up = 1.0;
-};
-
-/// Shows on a terminal how far the reading is.
-class ProgressBar {
- public:
-  void show(double share) {
-    const auto now = SteadyClock::now();
-    if (!visible_ || now < next_) return;
-    next_ = now + std::chrono::milliseconds(100);
-    constexpr int kWidth = 40;
-    const int done = static_cast<int>(share * kWidth);
-    fmt::print(stderr, "\r[{:#<{}}{:.<{}}] {:3.0f} %", "", done, "", kWidth - done, 100.0 * share);
-    std::fflush(stderr);
-  }
-  void clear() const {
-    if (visible_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  bool visible_ = isatty(STDERR_FILENO) == 1;
-  SteadyClock::time_point next_;
 };
 
 Config read_config(const ReplayOptions& options, const std::string& file) {
@@ -97,12 +76,12 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
     if (evaluation) evaluation->add(map.map);
   };
   replay::Replay replay(config, take_map, &result.timer);
-  ProgressBar bar;
+  support::ProgressBar bar;
   const auto start = SteadyClock::now();
   ReplayInput input;
   const auto next = [&] { return options.verify ? source->next() : source->next_input(); };
   while (std::optional<recording::RecordedMessage> message = next()) {
-    bar.show(source->progress());
+    bar.step(source->progress());
     if (options.verify) result.add_live(message->message);
     input.add(message->message);
     replay.add(std::move(*message));
@@ -142,7 +121,8 @@ void check_files(const ReplayOptions& options) {
   if (!options.report.empty()) written.push_back(options.report);
   for (auto path = written.begin(); path != written.end(); ++path) {
     const auto is_same = [&](const std::string& other) { return same_file(*path, other); };
-    if (is_same(options.in)) throw std::runtime_error(*path + ": is the input, and would be written over");
+    if (*path != io::kStandard && is_same(options.in))
+      throw std::runtime_error(*path + ": is the input, and would be written over");
     if (!options.truth.empty() && is_same(options.truth))
       throw std::runtime_error(*path + ": is the truth, and would be written over");
     if (std::any_of(written.begin(), path, is_same))
@@ -192,11 +172,11 @@ void play(const ReplayOptions& options) {
   while (player.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
   if (options.readers > 0 && !sleep_until(SteadyClock::now() + kDiscovery)) return;
-  ProgressBar bar;
+  support::ProgressBar bar;
   while (const std::optional<recording::RawMessage> message = source->next_raw()) {
     if (!sleep_until(player.due(*message))) break;
     player.publish(*message);
-    bar.show(source->progress());
+    bar.step(source->progress());
   }
   bar.clear();
   warn_of(options.in, source->refused(), source->cut_off());
@@ -214,10 +194,10 @@ void add_replay(CLI::App& app) {
   const auto options = std::make_shared<ReplayOptions>();
   command->add_option("--in,drive", options->in, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
-  auto* out =
-      command->add_option("--out", options->out, "Maps to write, one a frame: .mcap, else JSON lines");
+  auto* out = add_text_output(*command, "--out", options->out,
+                              "Maps to write, one a frame: .mcap, else JSON lines; - is standard output");
   add_compression(*command, options->compression)->needs(out);
-  auto* report = command->add_option("--report", options->report, "Timing report to write (.json)");
+  auto* report = add_text_output(*command, "--report", options->report, "Timing report to write (.json)");
   auto* config =
       command->add_option("--config", options->config_files, "Configuration (.yaml); several are compared");
   auto* preset =

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <variant>
 
 #include "commands/time_table.hpp"
+#include "io/text_file.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -100,10 +99,7 @@ void write_report(const std::string& path, const std::vector<ReplayResult>& resu
   } else {
     for (const ReplayResult& result : results) report["configurations"].push_back(as_json(result));
   }
-  std::ofstream out(path);
-  out << report.dump(2) << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(path + ": cannot be written");
+  io::write_text(path, report.dump(2) + "\n");
 }
 
 }  // namespace laneloom::commands

@@ -10,6 +10,7 @@
 #include "commands/options.hpp"
 #include "commands/road_source.hpp"
 #include "io/json_lines.hpp"
+#include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -29,13 +30,16 @@ void simulate(const RoadSource& source, double duration_s, const std::string& fr
   if (!(duration_s > 0.0)) duration_s = road.drive.duration_s();
   const auto frames = static_cast<std::int64_t>(std::floor(duration_s * 10.0));
   io::JsonLinesWriter out(frames_file);
+  support::ProgressBar bar;
   for (std::int64_t i = 1; i <= frames; ++i) {  // from 0.1 s on: a stamp of 0 would mean none
     VehiclePose pose = road.drive.pose_at(static_cast<double>(i) * 0.1);
     pose.stamp_ns = i * 100'000'000;
     io::FrameRecord record{perception.observe(pose), pose};
     if (traffic) record.objects = traffic->observe(pose);
     out.write(record);
+    bar.step(static_cast<double>(i) / static_cast<double>(frames));
   }
+  bar.clear();
   out.close();
   fmt::print("{}: {} frames of {}\n", frames_file, frames, road.name);
 }
@@ -58,9 +62,10 @@ void add_simulate(CLI::App& app) {
   add_road_source(*command, options->source);
   command->add_option("--duration", options->duration_s, "Seconds; default: the drive once")
       ->check(positive_seconds());
-  command->add_option("--frames", options->frames, "Detections and poses to write (.frames.jsonl)")
+  add_text_output(*command, "--frames", options->frames,
+                  "Detections and poses to write (.frames.jsonl); - is standard output")
       ->required();
-  command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
+  add_text_output(*command, "--truth", options->truth, "Truth of the road to write (.json)");
   command->footer("For a directory of logs, --frames and --truth are folders, with a file per log.");
   command->callback([options] { simulate_each(*options); });
 }

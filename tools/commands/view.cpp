@@ -114,6 +114,7 @@ void add_view(CLI::App& app) {
     foxglove->excludes(recorded);  // Foxglove opens recordings itself
   command->add_option("--truth", options->recorded.truth, "Truth of the road to show (.json)");
   add_range(*command, options->range);
+  add_strict(*command, options->recorded.strict);
   command->callback([options] { view(*options); });
 }
 

@@ -97,12 +97,14 @@ class NewestMaps {
 
 }  // namespace
 
-InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame& visit) {
-  InputAccount account;
+InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame& visit,
+                            const InputReading& reading) {
+  InputAccount account{.left_out = LeftOut(reading.strict)};
   if (recording::is_recording(path)) {
     recording::RecordingReader reader(path.string());
     RecordedFrames frames(visit);
     while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {
+      reading.on_step(reader.progress());
       if (const auto* pose = std::get_if<VehiclePose>(&recorded->message)) frames.add(*pose);
       auto* frame = std::get_if<DetectionFrame>(&recorded->message);
       if (frame == nullptr) continue;
@@ -115,17 +117,21 @@ InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame&
   }
   io::JsonLinesReader in(path);
   Ascending ascending(visit);
-  for (; const auto record = in.next_frame(account.left_out); ++account.count)
+  for (; const auto record = in.next_frame(account.left_out); ++account.count) {
+    reading.on_step(in.progress());
     ascending(record->frame, transform(record->pose));
+  }
   return account;
 }
 
-InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& visit) {
-  InputAccount account;
+InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& visit,
+                          const InputReading& reading) {
+  InputAccount account{.left_out = LeftOut(reading.strict)};
   NewestMaps maps(visit);
   if (recording::is_recording(path)) {
     recording::RecordingReader reader(path.string());
     while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {
+      reading.on_step(reader.progress());
       auto* published = std::get_if<PublishedMap>(&recorded->message);
       if (published == nullptr) continue;
       ++account.count;
@@ -135,7 +141,10 @@ InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& vis
     account.cut_off = reader.cut_off();
   } else {
     io::JsonLinesReader in(path);
-    for (; auto map = in.next_map(); ++account.count) maps.add(std::move(*map));
+    for (; auto map = in.next_map(account.left_out); ++account.count) {
+      reading.on_step(in.progress());
+      maps.add(std::move(*map));
+    }
   }
   maps.finish();
   return account;

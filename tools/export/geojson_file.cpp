@@ -3,11 +3,10 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "io/json_fields.hpp"
+#include "io/text_file.hpp"
 #include "laneloom/element_names.hpp"
 
 namespace laneloom::exports {
@@ -98,10 +97,7 @@ void write_geojson(const std::filesystem::path& path, const RoadNetwork& network
                                          {"one_way", lanelet.one_way},
                                          {"turn", turn_of(lanelet)},
                                          {"existence", or_null(lanelet.existence_probability)}}));
-  std::ofstream out(path);
-  out << json{{"type", "FeatureCollection"}, {"features", features}}.dump() << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(path.string() + ": cannot be written");
+  io::write_text(path, json{{"type", "FeatureCollection"}, {"features", features}}.dump() + "\n");
 }
 
 }  // namespace laneloom::exports

@@ -4,9 +4,9 @@
 
 #include <GeographicLib/LocalCartesian.hpp>
 #include <pugixml.hpp>
-#include <stdexcept>
 #include <string>
 
+#include "io/text_file.hpp"
 #include "laneloom/element_names.hpp"
 
 namespace laneloom::exports {
@@ -160,8 +160,9 @@ void write_lanelet2(const std::filesystem::path& path, const RoadNetwork& networ
   add_ways(network, ids, osm);
   add_lanelets(network, ids, osm);
   add_stops(network, ids, osm);
-  if (!document.save_file(path.c_str(), "  "))
-    throw std::runtime_error(path.string() + ": cannot be written");
+  io::TextFile file(path);
+  document.save(file.stream(), "  ");
+  file.close();
 }
 
 }  // namespace laneloom::exports

@@ -1,9 +1,11 @@
 #include "io/json_lines.hpp"
 
 #include <algorithm>
+#include <iostream>
 #include <stdexcept>
 
 #include "io/json_fields.hpp"
+#include "io/stamp_and_pose.hpp"
 
 namespace laneloom::io {
 namespace {
@@ -13,8 +15,11 @@ constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
 }  // namespace
 
 JsonLinesReader::JsonLinesReader(const std::filesystem::path& path, bool any_confidence)
-    : path_(path), any_confidence_(any_confidence), in_(path) {
-  if (!in_ || std::filesystem::is_directory(path))
+    : path_(path), any_confidence_(any_confidence), buffer_(std::cin.rdbuf()) {
+  if (path == kStandard) return;
+  file_.open(path);
+  buffer_ = file_.rdbuf();
+  if (!file_ || std::filesystem::is_directory(path))
     throw std::runtime_error(path.string() + ": cannot be read");
   std::error_code not_a_file;  // a pipe has no size
   size_ = std::filesystem::file_size(path, not_a_file);
@@ -31,10 +36,33 @@ std::optional<FrameRecord> JsonLinesReader::next_frame() {
 }
 
 std::optional<FrameRecord> JsonLinesReader::next_frame(LeftOut& left_out) {
+  return next(left_out, [&](const std::string& place) {
+    return frame_from_json(line_, {left_out, place, any_confidence_});
+  });
+}
+
+std::optional<LocalMap> JsonLinesReader::next_map() {
+  LeftOut nothing(/*strict=*/true);
+  return next_map(nothing);
+}
+
+std::optional<LocalMap> JsonLinesReader::next_map(LeftOut& left_out) {
+  return next(left_out, [&](const std::string& /*place*/) { return map_from_json(line_); });
+}
+
+std::optional<StampedLine> JsonLinesReader::next_stamped(LeftOut& left_out) {
+  return next(left_out, [&](const std::string& /*place*/) {
+    return StampedLine{read_stamp_ns(parse_json(line_)), line_};
+  });
+}
+
+template <typename Read>
+auto JsonLinesReader::next(LeftOut& left_out, Read read)
+    -> std::optional<std::invoke_result_t<Read, const std::string&>> {
   while (next_line()) {
     const std::string place = "line " + std::to_string(number_);
     try {
-      return frame_from_json(line_, {left_out, place, any_confidence_});
+      return read(place);
     } catch (const JsonError& complaint) {
       if (left_out.strict()) throw error(complaint.what());
       const bool cut = !line_ended_ && line_.find_last_of('}') != line_.size() - 1;
@@ -44,24 +72,14 @@ std::optional<FrameRecord> JsonLinesReader::next_frame(LeftOut& left_out) {
   return std::nullopt;
 }
 
-std::optional<LocalMap> JsonLinesReader::next_map() {
-  if (!next_line()) return std::nullopt;
-  try {
-    return map_from_json(line_);
-  } catch (const std::runtime_error& complaint) {
-    throw error(complaint.what());
-  }
-}
-
 bool JsonLinesReader::next_line() {
-  std::streambuf& buffer = *in_.rdbuf();
   constexpr int kEnd = std::char_traits<char>::eof();
   do {
     line_.clear();
     ++number_;
-    int c = buffer.sbumpc();
+    int c = buffer_->sbumpc();
     if (c == kEnd) return false;
-    for (; c != kEnd && c != '\n'; c = buffer.sbumpc()) {
+    for (; c != kEnd && c != '\n'; c = buffer_->sbumpc()) {
       if (line_.size() == kMaxLineBytes) throw error("the line is too long");
       line_.push_back(static_cast<char>(c));
     }
@@ -75,18 +93,9 @@ std::runtime_error JsonLinesReader::error(const std::string& complaint) const {
   return std::runtime_error(path_.string() + ":" + std::to_string(number_) + ": " + complaint);
 }
 
-JsonLinesWriter::JsonLinesWriter(const std::filesystem::path& path) : path_(path), out_(path) {
-  if (!out_) throw std::runtime_error(path.string() + ": cannot be written");
-}
-
 void JsonLinesWriter::write_line(const std::string& line) {
-  out_ << line << '\n';
-  if (!out_) throw std::runtime_error(path_.string() + ": cannot be written");
-}
-
-void JsonLinesWriter::close() {
-  out_.close();
-  if (!out_) throw std::runtime_error(path_.string() + ": cannot be written");
+  file_.stream() << line << '\n';
+  file_.check();
 }
 
 }  // namespace laneloom::io

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "base/left_out.hpp"
+#include "io/text_file.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -84,7 +86,13 @@ FrameRecord frame_from_json(std::string_view text);
 FrameRecord frame_from_json(std::string_view text, const FrameReading& reading);
 LocalMap map_from_json(std::string_view text);
 
-/// Reads a file line by line, skipping empty ones. Not thread-safe.
+/// A line of a file, without its end.
+struct StampedLine {
+  std::int64_t stamp_ns = 0;
+  std::string text;
+};
+
+/// Reads a file line by line, skipping empty ones; "-" is standard input. Not thread-safe.
 class JsonLinesReader {
  public:
   /// Throws std::runtime_error where the file cannot be read.
@@ -94,20 +102,25 @@ class JsonLinesReader {
   /// key; reading may go on with the line after.
   std::optional<FrameRecord> next_frame();
   std::optional<LocalMap> next_map();
-  /// The next line that is a frame. Others are left out, and detections that are wrong, unless that is
-  /// strict.
+  /// The next line that is a frame, a map, or has a stamp at all. Others are left out, and detections that
+  /// are wrong, unless that is strict.
   std::optional<FrameRecord> next_frame(LeftOut& left_out);
+  std::optional<LocalMap> next_map(LeftOut& left_out);
+  std::optional<StampedLine> next_stamped(LeftOut& left_out);
 
   /// The share of the file that was read, 0..1.
   double progress() const;
 
  private:
+  template <typename Read>
+  auto next(LeftOut& left_out, Read read) -> std::optional<std::invoke_result_t<Read, const std::string&>>;
   bool next_line();
   std::runtime_error error(const std::string& complaint) const;
 
   std::filesystem::path path_;
   bool any_confidence_;
-  std::ifstream in_;
+  std::ifstream file_;
+  std::streambuf* buffer_;  ///< of the file or of standard input
   std::uintmax_t size_ = 0;
   std::uintmax_t bytes_read_ = 0;
   std::string line_;
@@ -115,21 +128,19 @@ class JsonLinesReader {
   bool line_ended_ = false;  ///< by a line feed, and not by the end of the file
 };
 
-/// Writes a file line by line. Not thread-safe.
+/// Writes a file line by line; "-" is standard output. Not thread-safe.
 class JsonLinesWriter {
  public:
   /// Throws std::runtime_error where the file cannot be written.
-  explicit JsonLinesWriter(const std::filesystem::path& path);
-  /// All three throw std::runtime_error if writing fails.
+  explicit JsonLinesWriter(const std::filesystem::path& path) : file_(path) {}
+  /// All of these throw std::runtime_error if writing fails.
   void write(const FrameRecord& record) { write_line(to_json_line(record)); }
   void write(const LocalMap& map) { write_line(to_json_line(map)); }
-  void close();
+  void write_line(const std::string& line);
+  void close() { file_.close(); }
 
  private:
-  void write_line(const std::string& line);
-
-  std::filesystem::path path_;
-  std::ofstream out_;
+  TextFile file_;
 };
 
 }  // namespace laneloom::io

@@ -111,7 +111,7 @@ class JsonLinesMessages : public MessageSource {
 
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id,
                                              const MessageReading& reading) {
-  if (path == "-") return std::make_unique<JsonLinesMessages>("/dev/stdin", map_frame_id, reading);
+  if (path == io::kStandard) return std::make_unique<JsonLinesMessages>(path, map_frame_id, reading);
   if (recording::is_recording(path))
     return std::make_unique<McapMessages>(path, map_frame_id, reading.strict);
   if (const std::string kind = io::file_kind(path); !kind.empty())

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 
 #include "io/json_fields.hpp"
+#include "io/text_file.hpp"
 #include "simulation/borders.hpp"
 #include "simulation/road.hpp"
 
@@ -151,18 +151,14 @@ void check_references(const Road& road) {
 }
 
 void save_truth(const std::filesystem::path& path, const Road& road) {
-  std::ofstream out(path);
-  out << json{{"format", kFormat},
-              {"version", kVersion},
-              {"name", road.name},
-              {"driving_side", road.right_hand_traffic ? "right" : "left"},
-              {"markings", all_to_json(road.markings)},
-              {"lanes", all_to_json(road.lanes)},
-              {"drive", all_to_json(road.drive.poses())}}
-             .dump()
-      << '\n';
-  out.close();
-  if (!out) throw std::runtime_error(path.string() + ": cannot be written");
+  const json truth{{"format", kFormat},
+                   {"version", kVersion},
+                   {"name", road.name},
+                   {"driving_side", road.right_hand_traffic ? "right" : "left"},
+                   {"markings", all_to_json(road.markings)},
+                   {"lanes", all_to_json(road.lanes)},
+                   {"drive", all_to_json(road.drive.poses())}};
+  io::write_text(path, truth.dump() + "\n");
 }
 
 Road load_truth(const std::filesystem::path& path) {

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "commands/read_input.hpp"
+#include "commands/warn_of.hpp"
+#include "io/json_lines.hpp"
+#include "replay/message_source.hpp"
+#include "support/progress_bar.hpp"
+
+namespace laneloom::commands {
+namespace {
+
+/// The topics by their names without laneloom's prefix, as places in AnyMessage.
+const std::map<std::string, std::size_t> kTopics{
+    {"detections", 0}, {"vehicle_pose", 1}, {"lane_map", 2}, {"road_markings", 3}, {"status", 4}};
+
+struct CutOptions {
+  std::string drive, out;
+  double from_s = -std::numeric_limits<double>::infinity();
+  double to_s = std::numeric_limits<double>::infinity();
+  std::vector<std::string> topics;
+  std::string compression = "zstd";
+  bool strict = false;
+};
+
+/// What is to be kept, and how much was.
+class Part {
+ public:
+  explicit Part(const CutOptions& options) : options_(options) {}
+
+  /// Whether a message is kept. Times count from that of the first message.
+  bool holds(std::int64_t stamp_ns) {
+    if (!first_ns_) first_ns_ = stamp_ns;
+    const double at_s = static_cast<double>(stamp_ns - *first_ns_) * 1e-9;
+    const bool is_kept = at_s >= options_.from_s && at_s < options_.to_s;
+    kept_ += is_kept ? 1 : 0;
+    return is_kept;
+  }
+  bool holds(const recording::RawMessage& message) {
+    if (!first_ns_) first_ns_ = message.log_time_ns;
+    const auto is_it = [&](const std::string& name) { return kTopics.at(name) == message.topic; };
+    return (options_.topics.empty() || std::ranges::any_of(options_.topics, is_it)) &&
+           holds(message.log_time_ns);
+  }
+  std::size_t kept() const { return kept_; }
+
+ private:
+  const CutOptions& options_;
+  std::optional<std::int64_t> first_ns_;
+  std::size_t kept_ = 0;
+};
+
+/// Messages keep their bytes, refused ones as well.
+void cut_to_recording(const CutOptions& options, Part& part) {
+  const auto source = replay::open_messages(options.drive, "map", {.strict = options.strict});
+  recording::RecordingWriter out(options.out, {.compression = kCompressions.at(options.compression),
+                                               .configuration = source->origin().configuration});
+  support::ProgressBar bar;
+  while (const auto message = source->next_raw()) {
+    bar.step(source->progress());
+    if (part.holds(*message)) out.write_raw(*message);
+  }
+  out.close();
+  bar.clear();
+  warn_of(options.drive, source->refused(), source->cut_off());
+  warn_of(options.drive, source->left_out());
+}
+
+/// Lines keep their text.
+void cut_lines(const CutOptions& options, Part& part) {
+  if (!options.topics.empty())
+    throw std::runtime_error(options.drive + ": JSON lines have no topics; --topic needs a recording");
+  io::JsonLinesReader reader(options.drive);
+  io::JsonLinesWriter out(options.out);
+  LeftOut left_out(options.strict);
+  support::ProgressBar bar;
+  while (const auto line = reader.next_stamped(left_out)) {
+    bar.step(reader.progress());
+    if (part.holds(line->stamp_ns)) out.write_line(line->text);
+  }
+  out.close();
+  bar.clear();
+  warn_of(options.drive, left_out);
+}
+
+/// Writes the frames of a recording with their poses, or else its maps.
+void cut_to_lines(const CutOptions& options, Part& part) {
+  io::JsonLinesWriter out(options.out);
+  const bool maps = options.topics == std::vector<std::string>{"lane_map"};
+  if (!maps && !options.topics.empty())
+    throw std::runtime_error(options.out +
+                             ": JSON lines hold frames with their poses, or else maps (--topic lane_map)");
+  if (maps)
+    for_each_map(options.drive, options.strict, [&](const LocalMap& map) {
+      if (part.holds(map.stamp_ns)) out.write(map);
+    });
+  else
+    for_each_frame(options.drive, options.strict,
+                   [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+                     if (!part.holds(frame.stamp_ns)) return;
+                     out.write(io::FrameRecord{frame,
+                                               {.stamp_ns = frame.stamp_ns,
+                                                .position = T_map_body.translation(),
+                                                .orientation = Eigen::Quaterniond(T_map_body.linear())}});
+                   });
+  out.close();
+}
+
+void cut(const CutOptions& options) {
+  if (!(options.from_s < options.to_s)) throw CLI::ValidationError("--to", "must be later than --from");
+  refuse_same_file(options.out, options.drive);
+  Part part(options);
+  if (options.out.ends_with(".mcap"))
+    cut_to_recording(options, part);
+  else if (recording::is_recording(options.drive))
+    cut_to_lines(options, part);
+  else
+    cut_lines(options, part);
+  fmt::print("{}: {} messages\n", options.out, part.kept());
+  if (part.kept() == 0) throw std::runtime_error(options.drive + ": nothing of it is in that part");
+}
+
+}  // namespace
+
+void add_cut(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("cut", "Writes a part of a drive: some seconds, or some topics");
+  const auto options = std::make_shared<CutOptions>();
+  command
+      ->add_option("--in,drive", options->drive,
+                   "Recording (MCAP), or JSON lines of frames or maps; - is standard input")
+      ->required();
+  add_text_output(*command, "--out", options->out,
+                  "File to write: .mcap, else JSON lines; - is standard output")
+      ->required();
+  command->add_option("--from", options->from_s, "Begin, in seconds since the first message")
+      ->check(within(0.0, 1e9));
+  command->add_option("--to", options->to_s, "End, likewise; the message at that time is not in it")
+      ->check(within(0.0, 1e9));
+  command->add_option("--topic", options->topics, "Topic to keep; once for each. Default: all")
+      ->check(CLI::IsMember(kTopics));
+  add_compression(*command, options->compression);
+  add_strict(*command, options->strict);
+  command->callback([options] { cut(*options); });
+}
+
+}  // namespace laneloom::commands

@@ -1,0 +1,68 @@
+#include "commands/read_input.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "commands/warn_of.hpp"
+#include "evaluation/inputs.hpp"
+#include "support/progress_bar.hpp"
+
+namespace laneloom::commands {
+namespace {
+
+/// Reads with a progress bar. `read` takes how it is to read, and returns the account.
+template <typename Read>
+std::size_t read_with_bar(const std::string& path, bool strict, Read read) {
+  support::ProgressBar bar;
+  const evaluation::InputAccount account =
+      read(evaluation::InputReading{.strict = strict, .on_step = [&](double share) { bar.step(share); }});
+  bar.clear();
+  warn_of(path, account.refused, account.cut_off);
+  warn_of(path, account.left_out);
+  return account.count;
+}
+
+}  // namespace
+
+void for_each_input(const std::string& path, const Config& config, bool strict,
+                    const std::function<void(recording::RecordedMessage&&)>& visit) {
+  const auto source = replay::open_messages(path, config.dds.map_frame_id, {.strict = strict});
+  support::ProgressBar bar;
+  while (std::optional<recording::RecordedMessage> message = source->next_input()) {
+    visit(std::move(*message));
+    bar.step(source->progress());
+  }
+  bar.clear();
+  warn_of(path, source->refused(), source->cut_off());
+  warn_of(path, source->left_out());
+}
+
+void replay_input(const std::string& path, const Config& config, bool strict, replay::Replay& replay) {
+  for_each_input(path, config, strict,
+                 [&](recording::RecordedMessage&& message) { replay.add(std::move(message)); });
+}
+
+std::size_t for_each_frame(
+    const std::string& path, bool strict,
+    const std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>& visit) {
+  return read_with_bar(path, strict, [&](const evaluation::InputReading& reading) {
+    return evaluation::for_each_frame(path, visit, reading);
+  });
+}
+
+std::size_t for_each_map(const std::string& path, bool strict,
+                         const std::function<void(const LocalMap&)>& visit) {
+  return read_with_bar(path, strict, [&](const evaluation::InputReading& reading) {
+    return evaluation::for_each_map(path, visit, reading);
+  });
+}
+
+void refuse_same_file(const std::string& output, const std::string& input) {
+  std::error_code there_is_none;
+  if (!output.empty() && std::filesystem::equivalent(output, input, there_is_none))
+    throw std::runtime_error(output + ": is the input, and would be written over");
+}
+
+}  // namespace laneloom::commands

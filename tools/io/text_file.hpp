@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <string_view>
+
+namespace laneloom::io {
+
+/// The name that stands for standard input or standard output.
+inline constexpr const char* kStandard = "-";
+
+/// A text file that is written. Its name may be "-", which is standard output. Not thread-safe.
+class TextFile {
+ public:
+  /// Throws std::runtime_error naming the file if it cannot be written.
+  explicit TextFile(const std::filesystem::path& path);
+
+  std::ostream& stream() { return *stream_; }
+  /// Throws std::runtime_error naming the file if something written so far could not be written.
+  void check() const;
+  /// Ends the file, and throws as check().
+  void close();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream file_;
+  std::ostream* stream_;
+};
+
+/// Writes a whole file. Throws std::runtime_error naming the file if it cannot be written.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace laneloom::io
