@@ -11,6 +11,7 @@
 #include "session/admission.hpp"
 #include "session/gate.hpp"
 #include "session/pending_objects.hpp"
+#include "session/sensor_offsets.hpp"
 #include "session/source_agreement.hpp"
 #include "session/sources.hpp"
 #include "session/synchroniser.hpp"
@@ -51,15 +52,18 @@ std::string_view reason(Gate::Verdict verdict) {
 }  // namespace
 
 struct MappingSession::State {
-  explicit State(const Config& c)
+  explicit State(const Config& c) : State(c, with_profiles(c.mapper)) {}
+  /// `mapper_config` has the profiles of the networks.
+  State(const Config& c, MapperConfig mapper_config)
       : gate_config(c.gate),
         max_pause_s(c.service.snapshot_max_age_s),
         pose_gate(c.gate, true),
         sources(c.gate),
         agreement(c.mapper.fusion),
+        offsets(mapper_config.networks),
         synchroniser(c.sync),
         pending_objects(c),
-        mapper(with_profiles(c.mapper), sd_map::load_sd_map(c.sd_map)) {}
+        mapper(mapper_config, sd_map::load_sd_map(c.sd_map)) {}
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
@@ -86,6 +90,7 @@ struct MappingSession::State {
   Gate pose_gate;
   Sources sources;
   SourceAgreement agreement;
+  SensorOffsets offsets;
   Synchroniser synchroniser;
   PendingObjects pending_objects;
   Mapper mapper;
@@ -128,6 +133,7 @@ std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t
   const Sources::Verdict verdict = sources.check(frame, arrival_ns);
   if (!verdict.refusal.empty()) return verdict.refusal;
   if (verdict.restarted) counters.add("sources_restarted");
+  offsets.apply(frame);
   if (const auto left_out = admit(gate_config, frame); left_out > 0) {
     counters.add("frames_thinned");
     counters.add("detections_left_out", left_out);

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <functional>
+#include <vector>
 
 #include "io/json_lines.hpp"
 #include "tools/commands.hpp"
@@ -46,6 +49,37 @@ TEST_F(CheckCommand, ASoundDriveIsSound) {
   EXPECT_THAT(output(), HasSubstr("nothing wrong was found"));
   EXPECT_EQ(run({"check", "--json", file("drive.frames.jsonl")}), 0);
   EXPECT_TRUE(json::parse(output()).at("findings").empty()) << output();
+}
+
+TEST_F(CheckCommand, AnOffsetThatIsLearnedMovesThePoints) {
+  spoil([](io::FrameRecord& record) {
+    record.frame.source = "front";
+    for (Detection& detection : record.frame.detections)
+      for (Point& point : detection.points) point.y() -= 0.6;
+  });
+  ASSERT_EQ(run({"learn", "--sensor-left", file("spoilt.frames.jsonl"), "--out", file("network.yaml")}), 0)
+      << output();
+  EXPECT_THAT(content(file("network.yaml")), HasSubstr("sensor_left_m"));
+  std::ofstream(file("c.yaml")) << "mapper: {fusion: {profile_file: '" << file("network.yaml") << "'}}";
+  const auto own_middle_m = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"replay", file("spoilt.frames.jsonl"), "--out", file("maps.jsonl")};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run(words), 0) << output();
+    io::JsonLinesReader maps(file("maps.jsonl"));
+    std::vector<double> middles_m;
+    while (const auto map = maps.next_map())
+      if (map->way && !map->way->stations.empty())
+        middles_m.push_back((map->T_map_body.inverse() * map->way->stations.front().point).y());
+    std::ranges::sort(middles_m);
+    return middles_m.at(middles_m.size() / 2);
+  };
+  EXPECT_NEAR(own_middle_m({}), -0.6, 0.15);
+  EXPECT_NEAR(own_middle_m({"--config", file("c.yaml")}), 0.0, 0.15);
+  // What was learned with an offset keeps it.
+  ASSERT_EQ(
+      run({"learn", file("spoilt.frames.jsonl"), "--config", file("c.yaml"), "--out", file("again.yaml")}), 0)
+      << output();
+  EXPECT_THAT(content(file("again.yaml")), HasSubstr("sensor_left_m"));
 }
 
 TEST_F(CheckCommand, TheRemedyMendsTheDrive) {

@@ -28,7 +28,46 @@ Findings source_findings(std::vector<DetectionFrame> frames, const PoseTrack& po
   return found;
 }
 
+/// Calls `visit` for each source with what is found of it, and with its correction.
+template <typename Visit>
+void for_each_source(const Drive& drive, const PoseTrack& poses, const MapperConfig& mapper, Visit visit) {
+  for (const auto& [source, frames] : drive.frames) {
+    Correction correction;
+    Findings found = source_findings(frames, poses, mapper, correction);
+    visit(source, std::move(found), correction);
+  }
+}
+
+/// Names the source if there are several.
+Findings named(Findings found, const Drive& drive, const std::string& source) {
+  if (drive.frames.size() > 1)
+    for (Finding& finding : found) finding.found = fmt::format("\"{}\": {}", source, finding.found);
+  return found;
+}
+
 }  // namespace
+
+Findings fit_findings(const Drive& drive, const MapperConfig& mapper) {
+  if (drive.poses.empty()) return {};
+  Findings all;
+  for_each_source(drive, PoseTrack(drive.poses), mapper,
+                  [&](const std::string& source, Findings found, const Correction& /*correction*/) {
+                    append(all, named(std::move(found), drive, source));
+                  });
+  return all;
+}
+
+std::map<std::string, double> sensor_offsets(const Drive& drive, const MapperConfig& mapper) {
+  std::map<std::string, double> offsets;
+  if (drive.poses.empty()) return offsets;
+  for_each_source(drive, PoseTrack(drive.poses), mapper,
+                  [&](const std::string& source, const Findings& /*found*/, const Correction& correction) {
+                    const double left_m = correction.sensor_left_m;
+                    if (left_m != 0.0 && options(correction) == options({.sensor_left_m = left_m}))
+                      offsets[source] = left_m;
+                  });
+  return offsets;
+}
 
 Findings findings(const Drive& drive, const Config& config) {
   if (drive.frames.empty())
@@ -37,18 +76,15 @@ Findings findings(const Drive& drive, const Config& config) {
   if (drive.poses.empty())
     return {{"no_poses", "There are no poses.", "Record the topic of poses, or see laneloom doctor."}};
   const PoseTrack poses(drive.poses);
-  Correction correction;
+  Correction correction;  // of the last source: that of the poses is the same for all
   Findings stamps, conventions;
-  for (const auto& [source, frames] : drive.frames) {
-    const auto add = [&, &name = source](Findings& to, Findings found) {
-      for (Finding& finding : found)
-        if (drive.frames.size() > 1) finding.found = fmt::format("\"{}\": {}", name, finding.found);
-      append(to, std::move(found));
-    };
-    correction = {};
-    add(stamps, frame_stamp_findings(frames, drive.poses, config.sync));
-    add(conventions, source_findings(frames, poses, config.mapper, correction));
-  }
+  for (const auto& [source, frames] : drive.frames)
+    append(stamps, named(frame_stamp_findings(frames, drive.poses, config.sync), drive, source));
+  for_each_source(drive, poses, config.mapper,
+                  [&](const std::string& source, Findings found, const Correction& of_source) {
+                    append(conventions, named(std::move(found), drive, source));
+                    correction = of_source;
+                  });
   append(stamps, pose_stamp_findings(drive.poses));
   append(stamps, jump_findings(poses, correction));
   append(stamps, std::move(conventions));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,13 @@ using Findings = std::vector<Finding>;
 
 /// All that is found about each source of a drive, the likeliest cause first.
 Findings findings(const Drive& drive, const Config& config);
+
+/// What is found of conventions alone, and not of stamps and of jumps. None without detections or poses.
+Findings fit_findings(const Drive& drive, const MapperConfig& mapper);
+
+/// How far the points' frame of each source lies to the left in the body frame, in metres. A source whose
+/// points need no correction, or another one, is not in it.
+std::map<std::string, double> sensor_offsets(const Drive& drive, const MapperConfig& mapper);
 
 /// What is wrong with stamps: their order, gaps and rates.
 ///@{
