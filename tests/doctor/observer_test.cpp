@@ -155,6 +155,8 @@ TEST(Observer, JudgesEachSourceByItself) {
     seen = observer.observed();
   }
   EXPECT_EQ(seen.sources["front"].unnumbered, 0U);
+  EXPECT_EQ(seen.drive.frames["front"].size(), seen.sources["front"].messages)
+      << "kept, to see whether they fit";
   EXPECT_EQ(seen.sources["front"].without_view, 0U);
   EXPECT_GE(seen.sources["rear"].unnumbered, 4U) << "though another's came between";
   EXPECT_GE(seen.sources["rear"].without_view, 5U);

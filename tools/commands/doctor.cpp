@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,7 +22,7 @@ namespace laneloom::commands {
 namespace {
 
 struct DoctorOptions {
-  DdsConfig dds;
+  Config config;
   std::string config_problem;
   double duration_s = 3.0;
   bool json = false;
@@ -30,7 +31,7 @@ struct DoctorOptions {
 /// Reads the configuration file. Options given beside it are parsed after it, and thereby override it.
 void read_config(const std::string& file, DoctorOptions& options) {
   try {
-    options.dds = config::load_config(file).dds;
+    options.config = config::load_config(file);
   } catch (const ConfigError& error) {
     options.config_problem = error.what();
   }
@@ -51,17 +52,21 @@ doctor::Finding refused_participant(const std::string& problem) {
 /// The observations and the findings in them.
 std::pair<doctor::Observed, doctor::Findings> examine(const DoctorOptions& options) {
   doctor::Observed seen;
-  seen.dds = options.dds;
+  seen.dds = options.config.dds;
   if (!options.config_problem.empty()) return {seen, {refused_configuration(options.config_problem)}};
   try {
-    const doctor::Observer observer(options.dds);
+    const doctor::Observer observer(options.config.dds);
     const auto duration = std::chrono::milliseconds(std::llround(options.duration_s * 1e3));
     sleep_until(std::chrono::steady_clock::now() + duration);
     seen = observer.observed();
   } catch (const std::exception& error) {
     return {seen, {refused_participant(error.what())}};
   }
-  return {seen, findings(seen)};
+  const doctor::Findings found = findings(seen);
+  if (!std::ranges::all_of(found, &doctor::Finding::advice)) return {seen, found};
+  doctor::Findings all = fit_findings(seen, options.config.mapper);
+  std::ranges::copy(found, std::back_inserter(all));
+  return {seen, all};
 }
 
 void doctor(const DoctorOptions& options) {
@@ -86,7 +91,7 @@ void add_doctor(CLI::App& app) {
           "--config", [options](const std::string& file) { read_config(file, *options); },
           "Configuration of the service, checked too; its section dds says where to look")
       ->trigger_on_parse();
-  add_dds(*command, options->dds);
+  add_dds(*command, options->config.dds);
   command->add_option("--duration", options->duration_s, "Seconds to watch")
       ->check(within(1.0, 3600.0))
       ->capture_default_str();

@@ -41,8 +41,12 @@ Findings state_findings(const Observed& seen);
 /// Finds obstacles to shared memory, if that is used.
 Findings shared_memory_findings(const Observed& seen);
 
-/// All of these findings, each once, in this order, so that causes stand before their consequences. If nobody
-/// is in the domain, findings on what these participants lack are left out.
+/// Finds conventions by which detections and poses would fit together better, as `laneloom check` does of a
+/// recording. An offset to a side is left out: on a short drive it is the driver's.
+Findings fit_findings(const Observed& seen, const MapperConfig& mapper);
+
+/// All of these findings but the last, each once, in this order, so that causes stand before their
+/// consequences. If nobody is in the domain, findings on what these participants lack are left out.
 Findings findings(const Observed& seen);
 
 }  // namespace laneloom::doctor

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "check/drive.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/dds/discovery.hpp"
 #include "laneloom/messages.hpp"
@@ -68,6 +69,7 @@ struct Observed {
   std::vector<int> listening_domains;            ///< domains that processes of this host are in
   std::vector<SharedMemoryFile> shared_memory;
   std::vector<ServiceProcess> service_processes;  ///< of any vehicle
+  check::Drive drive;                             ///< detections and poses that are well formed
 };
 
 }  // namespace laneloom::doctor

@@ -19,6 +19,8 @@ constexpr const char* kName = "laneloom doctor";
 constexpr std::size_t kMaxSessions = 64;
 /// Most names of sources, or writers of a source, that are told apart. A perception stack has a few.
 constexpr std::size_t kMaxTold = 64;
+/// Most messages that are kept, to see whether they fit together: some minutes of driving.
+constexpr std::size_t kMostFrames = 2000, kMostPoses = 20000;
 
 double offset_s(const ServiceStatus& status) {
   return seconds(system_now_ns()) - seconds(status.published_ns);
@@ -90,6 +92,8 @@ void Observer::receive_detections(const dds::WriterId& writer, const Bytes& mess
     Stream& source = sources_[frame.source];
     source.note(writer, header);
     if (frame.field_of_view.empty()) ++source.observed.without_view;
+    std::vector<DetectionFrame>& frames = drive_.frames[frame.source];
+    if (frames.size() < kMostFrames) frames.push_back(std::move(frame));
   }
 }
 
@@ -98,7 +102,10 @@ void Observer::receive_pose(const dds::WriterId& writer, const Bytes& message) {
   const std::lock_guard lock(mutex_);
   poses_stream_.note(writer, dds::header_of(message));
   const auto refusal = dds::from_cdr(message, config_.map_frame_id, pose);
-  if (!refusal.empty()) ++poses_stream_.observed.refused[std::string(refusal)];
+  if (!refusal.empty())
+    ++poses_stream_.observed.refused[std::string(refusal)];
+  else if (drive_.poses.size() < kMostPoses)
+    drive_.poses.push_back(pose);
 }
 
 void Observer::receive_objects(const dds::WriterId& writer, const Bytes& message) {
@@ -156,6 +163,7 @@ Observed Observer::observed() const {
   result.detections = detections_stream_.until(now);
   result.poses = poses_stream_.until(now);
   result.objects = objects_stream_.until(now);
+  result.drive = drive_;
   for (const auto& [name, stream] : sources_) result.sources.emplace(name, stream.until(now));
   result.services.reserve(services_.size());
   for (const auto& [session, service] : services_) result.services.push_back(service);

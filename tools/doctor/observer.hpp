@@ -52,6 +52,7 @@ class Observer {
   Stream detections_stream_, poses_stream_, objects_stream_;
   std::map<std::string, Stream> sources_;
   std::map<std::uint64_t, ServiceObserved> services_;  ///< by session
+  check::Drive drive_;
   dds::Discovery discovery_;
   dds::Participant participant_;
   dds::RawReader<DetectionFrame> detections_;
