@@ -7,8 +7,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   laneloom::imports::DriveLog drive;
   drive.stamp_ns_of = [](const std::string& token) { return static_cast<std::int64_t>(token.size()) + 1; };
   laneloom::take_or_refuse([&] {
-    laneloom::imports::read_streammapnet(file.path(), drive, laneloom::imports::StreamNetwork::maptracker,
-                                         left_out);
+    laneloom::imports::read_streammapnet(file.path(), laneloom::imports::StreamNetwork::maptracker,
+                                         {drive, left_out});
   });
   return 0;
 }

@@ -71,6 +71,26 @@ TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
   EXPECT_EQ(frames[1].detections[0].points, (Polyline{{0, 2, -0.3}, {30, 2, -0.3}}));
 }
 
+TEST_F(ImportCommand, ClassesBecomeTheTypesThatAreSaid) {
+  ASSERT_EQ(run({"maptr", "--results", file("results.json"), "--argoverse2", file("log"), "--class",
+                 "ped_crossing=stopline", "--class", "divider=none", "--out", file("drive.mcap")}),
+            0)
+      << output();
+  EXPECT_THAT(output(), HasSubstr("1 lines of class divider"));
+  recording::RecordingReader reader(file("drive.mcap"));
+  std::vector<MarkingType> types;
+  while (const auto message = reader.next())
+    if (const auto* frame = std::get_if<DetectionFrame>(&message->message))
+      for (const Detection& detection : frame->detections) types.push_back(detection.type);
+  EXPECT_EQ(types, std::vector{MarkingType::stopline});
+  for (const std::string wrong : {"divider", "divider=kerb", "=none"}) {
+    EXPECT_EQ(run({"maptr", "--results", file("results.json"), "--argoverse2", file("log"), "--class", wrong,
+                   "--out", file("x.mcap")}),
+              64);
+    EXPECT_THAT(output(), HasSubstr("needs NAME=laneline, roadedge, stopline or none"));
+  }
+}
+
 TEST_F(ImportCommand, StreamMapNetAndMapTrackerNameSamplesByStamp) {
   write(
       "submission_vector.json",

@@ -32,7 +32,7 @@ class MapTr : public testing::Test {
   ImportedFrames read_text(const std::string& text, const DriveLog& of = drive(), bool strict = false) {
     std::ofstream(folder_.file("results.json")) << text;
     left_out_ = LeftOut(strict);
-    return read_maptr(folder_.file("results.json"), of, left_out_);
+    return read_maptr(folder_.file("results.json"), {of, left_out_, classes_});
   }
   std::string left_out() const { return left_out_.summary(); }
   /// What a strict reader says.
@@ -44,11 +44,13 @@ class MapTr : public testing::Test {
     }
     return "";
   }
+  void use(Classes classes) { classes_ = std::move(classes); }
   std::string sample_error(const std::string& samples) { return error(R"({"results":[)" + samples + "]}"); }
 
  private:
   TemporaryFolder folder_;
   LeftOut left_out_;
+  Classes classes_ = usual_classes();
 };
 
 TEST_F(MapTr, ClassesBecomeTypesAndOthersAreCounted) {
@@ -70,6 +72,18 @@ TEST_F(MapTr, ClassesBecomeTypesAndOthersAreCounted) {
   EXPECT_EQ(imported.other_drives, 1u);
 }
 
+TEST_F(MapTr, ClassesOfOthersBecomeTheTypesThatAreSaid) {
+  use({{"kerb", MarkingType::roadedge}, {"stop", MarkingType::stopline}, {"divider", std::nullopt}});
+  const ImportedFrames imported =
+      read(sample("drive_2", vector("kerb") + "," + vector("stop") + "," + vector("divider")));
+  const DetectionFrame& frame = imported.frames.at(0);
+  ASSERT_EQ(frame.detections.size(), 2u);
+  EXPECT_EQ(frame.detections[0].type, MarkingType::roadedge);
+  EXPECT_EQ(frame.detections[1].type, MarkingType::stopline);
+  EXPECT_EQ(frame.detected_types, (std::vector{MarkingType::roadedge, MarkingType::stopline}));
+  EXPECT_EQ(imported.left_out.at("divider"), 1u);
+}
+
 TEST_F(MapTr, PointsComeToTheBodyFrame) {
   DriveLog lidar = drive();  // x right, y forward, 1 m ahead of the body's origin and 2 m above
   lidar.T_body_points =
@@ -86,7 +100,7 @@ TEST_F(MapTr, PointsComeToTheBodyFrame) {
 
 TEST_F(MapTr, WhatIsWrongIsNamed) {
   EXPECT_THAT(sample_error(sample("drive_1", vector("divider") + "," + vector("kerb"))),
-              HasSubstr("results.json: results[0].vectors[1].cls_name: must be divider, boundary"));
+              HasSubstr("results.json: results[0].vectors[1].cls_name: the class "));
   EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2],[3,4]]", "1.01"))),
               HasSubstr("results[0].vectors[0].confidence_level: must be from 0 to 1"));
   EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2],[3,\"4\"]]"))),
@@ -119,7 +133,8 @@ TEST_F(MapTr, WhatIsWrongIsLeftOutAndTheRestComes) {
   EXPECT_EQ(imported.frames[1].detections.size(), 1u) << "the first of this stamp that is whole";
   EXPECT_EQ(left_out(),
             "2 x vectors[].pts[]: must be finite (first: results[0].vectors[0]), "
-            "1 x vectors[].cls_name: must be divider, boundary, ped_crossing or centerline, and is kerb "
+            "1 x vectors[].cls_name: the class kerb is none of boundary, centerline, divider, ped_crossing "
+            "(see --class) "
             "(first: results[0].vectors[3]), "
             "1 x vectors[].confidence_level: must be finite (first: results[0].vectors[4]), "
             "1 x must be an object (first: results[1]), "

@@ -25,7 +25,7 @@ class StreamMapNet : public testing::Test {
     std::ofstream(folder_.file("submission_vector.json"))
         << R"({"meta": {"output_format": "vector"}, "results": {)" << samples << "}}";
     left_out_ = LeftOut(strict);
-    return read_streammapnet(folder_.file("submission_vector.json"), of, network, left_out_);
+    return read_streammapnet(folder_.file("submission_vector.json"), network, {of, left_out_});
   }
   std::string left_out() const { return left_out_.summary(); }
   /// What a strict reader says.
@@ -85,7 +85,7 @@ TEST_F(StreamMapNet, WhatIsWrongIsNamed) {
            "}";
   };
   EXPECT_THAT(error(sample("[[[1,2],[3,4]]]", "[1]", "[3]")),
-              HasSubstr("submission_vector.json: results.drive_1.vectors[0]: must be 0, 1 or 2"));
+              HasSubstr("submission_vector.json: results.drive_1.vectors[0]: the class 3 is none of"));
   EXPECT_THAT(error(sample("[[[1,2],[3,4]]]", "[1.5]", "[1]")), HasSubstr("vectors[0]: must be from 0 to 1"));
   EXPECT_THAT(error(sample("[[[1,2],[3,4]]]", "[1, 1]", "[1]")), HasSubstr("vectors: must be as many as"));
   EXPECT_THAT(error(sample("[[[1,2]]]", "[1]", "[1]")),

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +21,7 @@
 #include "import/maptr.hpp"
 #include "import/openpilot.hpp"
 #include "import/streammapnet.hpp"
+#include "laneloom/element_names.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/road.hpp"
 
@@ -29,6 +32,7 @@ struct ResultsOptions {
   std::string results, out;
   std::string argoverse2, nuscenes, scene, poses, samples;
   std::string axes = "forward-left";
+  imports::Classes classes = imports::usual_classes();
   bool strict = false;
 };
 
@@ -40,14 +44,14 @@ imports::DriveLog load_drive(const ResultsOptions& options, LeftOut& left_out) {
 
 /// Reads the part of a file of results that belongs to the drive.
 using ReadResults = imports::ImportedFrames (*)(const std::filesystem::path& results,
-                                                const imports::DriveLog& drive, LeftOut& left_out);
+                                                const imports::ResultsReading& reading);
 
 void import_results(const ResultsOptions& options, ReadResults read) {
   const std::string& source = options.argoverse2.empty() ? options.poses : options.argoverse2;
   const imports::DriveLog drive =
       read_and_warn(source, options.strict, [&](LeftOut& left_out) { return load_drive(options, left_out); });
   imports::ImportedFrames imported = read_and_warn(options.results, options.strict, [&](LeftOut& left_out) {
-    return read(options.results, drive, left_out);
+    return read(options.results, {drive, left_out, options.classes});
   });
   const std::size_t without_pose = imports::drop_frames_without_pose(imported.frames, drive.poses);
   if (imported.frames.empty())
@@ -80,6 +84,27 @@ void add_drive(CLI::App& command, ResultsOptions& options) {
   add_axes(command, options.axes)->needs(poses);
 }
 
+/// Adds --class NAME=TYPE.
+void add_classes(CLI::App& command, imports::Classes& classes) {
+  const auto set = [&classes](const std::vector<std::string>& words) {
+    for (const std::string& word : words) {
+      const std::size_t equals = word.rfind('=');
+      const std::string type = equals == std::string::npos ? "" : word.substr(equals + 1);
+      const auto* const known = std::ranges::find(kTypeNames, type);
+      if (equals == 0 || (known == kTypeNames.end() && type != "none"))
+        throw CLI::ValidationError("--class", word + ": needs NAME=laneline, roadedge, stopline or none");
+      std::optional<MarkingType>& becomes = classes[word.substr(0, equals)];
+      becomes.reset();
+      if (type != "none") becomes = static_cast<MarkingType>(known - kTypeNames.begin());
+    }
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--class", set,
+          "Type that lines of a class become: laneline, roadedge, stopline or none; once for each class")
+      ->type_name("NAME=TYPE");
+}
+
 void add_results(CLI::App& app, const std::string& name, const std::string& whose, const std::string& file,
                  ReadResults read) {
   CLI::App* command = app.add_subcommand(name, "Detections of " + whose + ", and the poses of a drive");
@@ -87,6 +112,7 @@ void add_results(CLI::App& app, const std::string& name, const std::string& whos
   command->add_option("--results", options->results, "File that their evaluation wrote (" + file + ")")
       ->required();
   add_drive(*command, *options);
+  add_classes(*command, options->classes);
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
   add_strict(*command, options->strict);
   command->callback([options, read] { import_results(*options, read); });
@@ -170,13 +196,11 @@ void add_import(CLI::App& app) {
   command->require_subcommand(1);
   add_argoverse2(*command);
   add_results(*command, "maptr", "MapTR or MapTRv2", "…map_results.json", imports::read_maptr);
-  const auto streammapnet = [](const std::filesystem::path& results, const imports::DriveLog& drive,
-                               LeftOut& left_out) {
-    return read_streammapnet(results, drive, imports::StreamNetwork::streammapnet, left_out);
+  const auto streammapnet = [](const std::filesystem::path& results, const imports::ResultsReading& reading) {
+    return read_streammapnet(results, imports::StreamNetwork::streammapnet, reading);
   };
-  const auto maptracker = [](const std::filesystem::path& results, const imports::DriveLog& drive,
-                             LeftOut& left_out) {
-    return read_streammapnet(results, drive, imports::StreamNetwork::maptracker, left_out);
+  const auto maptracker = [](const std::filesystem::path& results, const imports::ResultsReading& reading) {
+    return read_streammapnet(results, imports::StreamNetwork::maptracker, reading);
   };
   add_results(*command, "streammapnet", "StreamMapNet", "submission_vector.json", streammapnet);
   add_results(*command, "maptracker", "MapTracker", "submission_vector.json", maptracker);

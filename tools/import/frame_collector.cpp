@@ -14,20 +14,28 @@ namespace {
 
 using nlohmann::json;
 
-/// The type of marking of a class. None: laneloom does not use the class.
-std::optional<MarkingType> type_of_class(const std::string& class_name) {
-  if (class_name == "divider") return MarkingType::laneline;
-  if (class_name == "boundary") return MarkingType::roadedge;
-  if (class_name == "ped_crossing" || class_name == "centerline") return std::nullopt;
-  throw io::JsonError("must be divider, boundary, ped_crossing or centerline, and is " + class_name);
+/// The types that the lines of some classes become.
+std::vector<MarkingType> types_of(const Classes& classes) {
+  std::set<MarkingType> types;
+  for (const auto& [name, type] : classes)
+    if (type) types.insert(*type);
+  return {types.begin(), types.end()};
+}
+
+std::string names_of(const Classes& classes) {
+  std::string names;
+  for (const auto& [name, type] : classes) names += (names.empty() ? "" : ", ") + name;
+  return names;
 }
 
 }  // namespace
 
-std::string class_name(const json& value) {
-  std::string name = io::text(value);
-  type_of_class(name);
-  return name;
+const Classes& usual_classes() {
+  static const Classes classes{{"divider", MarkingType::laneline},
+                               {"boundary", MarkingType::roadedge},
+                               {"ped_crossing", std::nullopt},
+                               {"centerline", std::nullopt}};
+  return classes;
 }
 
 double confidence(const json& value) {
@@ -43,11 +51,14 @@ void check_line(const Detection& line) {
     throw io::JsonError("the service would refuse this line: " + std::string(why));
 }
 
-FrameCollector::FrameCollector(const DriveLog& drive, std::string source, LeftOut& left_out,
+FrameCollector::FrameCollector(const ResultsReading& reading, std::string source,
                                const Eigen::Isometry3d& T_drive_points)
-    : drive_(drive), left_out_(left_out), T_body_points_(drive.T_body_points * T_drive_points) {
+    : drive_(reading.drive),
+      left_out_(reading.left_out),
+      classes_(reading.classes),
+      T_body_points_(reading.drive.T_body_points * T_drive_points) {
   frame_.source = std::move(source);
-  frame_.detected_types = {MarkingType::laneline, MarkingType::roadedge};
+  frame_.detected_types = types_of(classes_);
 }
 
 void FrameCollector::add_sample(const std::string& place, const std::function<void()>& read) {
@@ -71,8 +82,15 @@ bool FrameCollector::begin(const std::string& sample) {
   return true;
 }
 
+std::optional<MarkingType> FrameCollector::type_of(const std::string& class_name) const {
+  const auto found = classes_.find(class_name);
+  if (found == classes_.end())
+    throw io::JsonError("the class " + class_name + " is none of " + names_of(classes_) + " (see --class)");
+  return found->second;
+}
+
 void FrameCollector::add(const std::string& class_name, double confidence, const json& points) {
-  const std::optional<MarkingType> type = type_of_class(class_name);
+  const std::optional<MarkingType> type = type_of(class_name);
   if (!type) {
     ++imported_.left_out[class_name];
     return;

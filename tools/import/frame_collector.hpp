@@ -17,6 +17,21 @@
 
 namespace laneloom::imports {
 
+/// The type of marking that the lines of each class of a network become. None: they are counted, and left
+/// out.
+using Classes = std::map<std::string, std::optional<MarkingType>>;
+
+/// The classes of MapTR and those after it: a divider is a laneline and a boundary a roadedge; ped_crossing
+/// and centerline are left out.
+const Classes& usual_classes();
+
+/// How the results of a network are read. What it refers to must live as long as the reading.
+struct ResultsReading {
+  const DriveLog& drive;
+  LeftOut& left_out;
+  const Classes& classes = usual_classes();
+};
+
 /// Results of a network as detections of one drive.
 struct ImportedFrames {
   std::vector<DetectionFrame> frames;           ///< stamps ascend
@@ -24,13 +39,13 @@ struct ImportedFrames {
   std::size_t other_drives = 0;                 ///< number of samples of other drives
 };
 
-/// Collects the lines that a network with MapTR's classes saw in the samples of one drive. A line that is
+/// Collects the lines that a network saw in the samples of one drive. A line that is
 /// wrong is left out, and so is a frame. Not thread-safe.
 class FrameCollector {
  public:
-  /// `source` names the network. `T_drive_points` takes the network's points to the frame of points of
-  /// `drive`. `drive` and `left_out` must live as long.
-  FrameCollector(const DriveLog& drive, std::string source, LeftOut& left_out,
+  /// `source` names the network. `T_drive_points` takes the network's points to the frame of points of the
+  /// drive.
+  FrameCollector(const ResultsReading& reading, std::string source,
                  const Eigen::Isometry3d& T_drive_points = Eigen::Isometry3d::Identity());
 
   /// Takes a sample of the file: `read` calls begin(), add_line() and end(). What it throws as JsonError
@@ -41,8 +56,9 @@ class FrameCollector {
   bool begin(const std::string& sample);
   /// Adds line number `number` of the sample. `read` calls add(). Throws JsonError if that is strict.
   void add_line(std::size_t number, const std::function<void()>& read);
-  /// Adds a line to the frame. `points` is [[x, y], …] or [[x, y, z], …]; without z they are on the road. A
-  /// divider is a laneline and a boundary a roadedge; ped_crossing and centerline are counted, and left out.
+  /// The type of a class. Throws JsonError if there is no such class.
+  std::optional<MarkingType> type_of(const std::string& class_name) const;
+  /// Adds a line to the frame. `points` is [[x, y], …] or [[x, y, z], …]; without z they are on the road.
   /// Throws JsonError.
   void add(const std::string& class_name, double confidence, const nlohmann::json& points);
   /// Ends the frame. A frame that the service would refuse is a JsonError.
@@ -58,15 +74,13 @@ class FrameCollector {
 
   const DriveLog& drive_;
   LeftOut& left_out_;
+  const Classes& classes_;
   Eigen::Isometry3d T_body_points_;
   DetectionFrame frame_;
   ImportedFrames imported_;
   std::set<std::int64_t> stamps_;
   std::string place_;  ///< of the sample
 };
-
-/// The name of one of the classes. Throws JsonError.
-std::string class_name(const nlohmann::json& value);
 
 /// A number from 0 to 1. Throws JsonError.
 double confidence(const nlohmann::json& value);

@@ -11,7 +11,11 @@ namespace {
 using nlohmann::json;
 
 void read_vector(const json& vector, FrameCollector& frames) {
-  const auto name = io::required(vector, "cls_name", class_name);
+  const auto name = io::required(vector, "cls_name", [&](const json& value) {
+    std::string text = io::text(value);
+    frames.type_of(text);
+    return text;
+  });
   const double sure = io::required(vector, "confidence_level", confidence);
   io::required(vector, "pts", [&](const json& points) {
     frames.add(name, sure, points);
@@ -31,8 +35,8 @@ void read_sample(const json& result, FrameCollector& frames) {
 
 }  // namespace
 
-ImportedFrames read_maptr(const std::filesystem::path& path, const DriveLog& drive, LeftOut& left_out) {
-  FrameCollector frames(drive, "maptr", left_out);
+ImportedFrames read_maptr(const std::filesystem::path& path, const ResultsReading& reading) {
+  FrameCollector frames(reading, "maptr");
   std::size_t number = 0;
   return std::move(frames).collect(path, [&] {
     io::for_each_json_element(path, "results", [&](const json& result) {

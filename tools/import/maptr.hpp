@@ -23,11 +23,11 @@ namespace laneloom::imports {
 /// ns>`; the samples of all drives of the data set are in one file. Lines have no style. They are written
 /// even if their confidence is low.
 ///
-/// A divider is a laneline and a boundary a roadedge; ped_crossing and centerline are left out. What is wrong
+/// What is wrong
 /// is left out, and the rest comes: a vector with another class, a confidence out of 0..1 or a point that is
 /// not finite, a sample that is malformed or comes twice, and what follows the place where the file is
 /// damaged. Throws std::runtime_error naming the file and the problem: it is no such file, or has no sample
-/// of the drive; also of the first wrong value if `left_out` is strict.
-ImportedFrames read_maptr(const std::filesystem::path& path, const DriveLog& drive, LeftOut& left_out);
+/// of the drive; also of the first wrong value if `reading.left_out` is strict.
+ImportedFrames read_maptr(const std::filesystem::path& path, const ResultsReading& reading);
 
 }  // namespace laneloom::imports

@@ -12,12 +12,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array kClasses{"ped_crossing", "divider", "boundary"};  // by label
+constexpr std::array kClasses{"ped_crossing", "divider", "boundary"};  // by label; others have no name
 
 std::string class_of(const json& value) {
   const std::uint64_t label = io::count(value);
-  if (label >= kClasses.size()) throw io::JsonError("must be 0, 1 or 2");
-  return kClasses[label];
+  return label < kClasses.size() ? kClasses[label] : std::to_string(label);
 }
 
 void read_sample(const std::string& token, const json& sample, FrameCollector& frames) {
@@ -44,10 +43,10 @@ Eigen::Isometry3d T_drive_points(const DriveLog& drive, StreamNetwork network) {
 
 }  // namespace
 
-ImportedFrames read_streammapnet(const std::filesystem::path& path, const DriveLog& drive,
-                                 StreamNetwork network, LeftOut& left_out) {
+ImportedFrames read_streammapnet(const std::filesystem::path& path, StreamNetwork network,
+                                 const ResultsReading& reading) {
   const char* const source = network == StreamNetwork::streammapnet ? "streammapnet" : "maptracker";
-  FrameCollector frames(drive, source, left_out, T_drive_points(drive, network));
+  FrameCollector frames(reading, source, T_drive_points(reading.drive, network));
   return std::move(frames).collect(path, [&] {
     io::for_each_json_member(path, "results", [&](const std::string& token, const json& sample) {
       frames.add_sample("results." + token, [&] { read_sample(token, sample, frames); });

@@ -24,12 +24,12 @@ enum class StreamNetwork : std::uint8_t { streammapnet, maptracker };
 /// Argoverse 2 is called by its stamp in ns alone. MapTracker's tracks are not read: laneloom makes ids of
 /// its own.
 ///
-/// Classes become types as FrameCollector says. What is wrong is left out, and the rest comes: a vector with
+/// Another label is a class by its number. What is wrong is left out, and the rest comes: a vector with
 /// another label, a score out of 0..1 or a point that is not finite, a sample that is malformed, has lists of
 /// different lengths or comes twice, and what follows the place where the file is damaged. Throws
 /// std::runtime_error naming the file and the problem: it is no such file, or has no sample of the drive;
-/// also of the first wrong value if `left_out` is strict.
-ImportedFrames read_streammapnet(const std::filesystem::path& path, const DriveLog& drive,
-                                 StreamNetwork network, LeftOut& left_out);
+/// also of the first wrong value if `reading.left_out` is strict.
+ImportedFrames read_streammapnet(const std::filesystem::path& path, StreamNetwork network,
+                                 const ResultsReading& reading);
 
 }  // namespace laneloom::imports
