@@ -136,6 +136,7 @@ TEST(FrameJson, WhatIsWrongIsNamed) {
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,2]")), "pose: must have a quaternion of unit length");
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0]")), "pose: must be [x, y, z, qx, qy, qz, qw]");
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,1]", "1e300")), "t: is too large");
+  EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,1]", "-0.1")), "t: must be 0 or above");
   EXPECT_EQ(complaint(frame_with("[]", "[0,-1.1e7,0,0,0,0,1]")), "pose: is too far away");
   EXPECT_EQ(complaint(frame_with(R"([{"type":"laneline","score":0.5,"points":[[0,0,0],[1e308,0,0]]}])")),
             "detections[0].points[1]: is too far away");

@@ -93,6 +93,7 @@ FrameRecord frame_from_json(std::string_view text, const FrameReading& reading) 
   FrameRecord record;
   DetectionFrame& frame = record.frame;
   frame.stamp_ns = read_stamp_ns(object);
+  if (frame.stamp_ns < 0 || required(object, "t", number) < 0.0) throw JsonError("t", "must be 0 or above");
   if (frame.stamp_ns == 0) frame.stamp_ns = 1;  // a stamp of 0 would say that there is none
   record.pose = read_pose(object);
   frame.detections = detections(*required(object, "detections", array), reading);

@@ -14,7 +14,8 @@
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
-/// Frames and maps as JSON, one per line. It is the simple interface for other tools.
+/// Frames and maps as JSON, one per line. It is the simple interface for other tools. frame.schema.json and
+/// tools/ten-minutes.md tell the same of frames.
 ///
 /// A frame:
 ///
