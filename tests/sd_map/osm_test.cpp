@@ -82,6 +82,15 @@ TEST_F(OsmFile, LeavesOutPathsAndWhatLiesOutsideOfTheExtract) {
   EXPECT_EQ(read(kNodes + kMain + cut).verdict(from_west_, to_north_), Verdict::connected);
 }
 
+TEST(HarbourStreets, LeadIntoAOneWayStreetAndNotOutOfItsBegin) {
+  const SdMap map = load_sd_map({.file = LANELOOM_ROADS "/harbour_streets.osm"});
+  const Polyline into_junction = straight({20, 1.6, 0}, {50, 1.6, 0}),
+                 rope_walk = straight({72, 20, 0}, {72, 40, 0});
+  EXPECT_EQ(map.verdict(into_junction, rope_walk), Verdict::connected);
+  EXPECT_EQ(map.verdict(straight({72, 40, 0}, {72, 20, 0}), straight({50, -1.6, 0}, {20, -1.6, 0})),
+            Verdict::unknown);
+}
+
 TEST_F(OsmFile, NamesWhatIsWrong) {
   EXPECT_THAT(complaint(R"(<node id="1" lat="91" lon="9"/>)"), HasSubstr("node 1"));
   EXPECT_THAT(complaint(R"(<node id="1" lat="48"/>)"), HasSubstr("node 1"));

@@ -9,6 +9,7 @@
 #include "commands/warn_of.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/lanelet2.hpp"
+#include "simulation/opendrive.hpp"
 #include "simulation/scenarios.hpp"
 
 namespace laneloom::commands {
@@ -45,6 +46,10 @@ simulation::Road RoadSource::load() const {
     return read_and_warn(log, strict,
                          [&](LeftOut& left_out) { return simulation::load_argoverse2(log, left_out); });
   }
+  if (!opendrive.empty())
+    return read_and_warn(opendrive, strict, [&](LeftOut& left_out) {
+      return simulation::load_opendrive(opendrive, speed_mps, left_out);
+    });
   if (lanelet2.empty()) return simulation::make_scenario(scenario, speed_mps);
   return read_and_warn(lanelet2, strict, [&](LeftOut& left_out) {
     return simulation::load_lanelet2(lanelet2, speed_mps, left_out);
@@ -67,6 +72,8 @@ void add_road_source(CLI::App& command, RoadSource& source) {
   road->add_option("--argoverse2", source.argoverse2,
                    "Directory of an Argoverse 2 log, driven as recorded, or of logs");
   road->add_option("--lanelet2", source.lanelet2, "A Lanelet2 map (.osm), driven along its lanes");
+  road->add_option("--opendrive", source.opendrive,
+                   "A road network of OpenDRIVE (.xodr), driven along its lanes");
   road->require_option(1);
   command.add_option("--speed", source.speed_mps, "Speed of the vehicle in m/s; recorded drives keep theirs")
       ->check(within(0.1, 60.0))

@@ -15,7 +15,7 @@ namespace laneloom::commands {
 
 /// Options of `publish` and `simulate` for the road that is driven over, and how it is seen.
 struct RoadSource {
-  std::string scenario, argoverse2, lanelet2;
+  std::string scenario, argoverse2, lanelet2, opendrive;
   double speed_mps = 10.0;
   NoiseOption noise{.name = "none"};
   std::string traffic;  ///< a profile; empty: none
@@ -32,7 +32,7 @@ struct RoadSource {
   std::optional<simulation::Traffic> other_traffic(const simulation::Road& road) const;
 };
 
-/// Adds --scenario, --argoverse2 and --lanelet2, of which one is needed, and --speed, --noise,
+/// Adds --scenario, --argoverse2, --lanelet2 and --opendrive, of which one is needed, and --speed, --noise,
 /// --no-field-of-view, --traffic, --seed and --strict.
 void add_road_source(CLI::App& command, RoadSource& source);
 

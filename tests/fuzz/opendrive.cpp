@@ -1,0 +1,9 @@
+#include "simulation/opendrive.hpp"
+#include "memory_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const laneloom::MemoryFile file(data, size);
+  laneloom::LeftOut left_out;
+  laneloom::take_or_refuse([&] { laneloom::simulation::load_opendrive(file.path(), 10.0, left_out); });
+  return 0;
+}

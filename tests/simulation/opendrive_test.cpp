@@ -1,0 +1,246 @@
+#include "simulation/opendrive.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "laneloom/polyline.hpp"
+#include "road_checks.hpp"
+#include "simulation/lanelet2.hpp"
+#include "temporary_folder.hpp"
+
+namespace laneloom::simulation {
+namespace {
+
+using testing::HasSubstr;
+
+/// A road of a single lane that is 3 m wide, to the right of the reference line.
+std::string road_of(const std::string& geometries, const std::string& lanes = {},
+                    const std::string& more = {}) {
+  const std::string one_lane =
+      R"(<laneSection s="0"><center><lane id="0"><roadMark sOffset="0" type="solid"/></lane></center><right>)"
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3"/><roadMark sOffset="0" type="broken"/></lane>)"
+      R"(</right></laneSection>)";
+  return R"(<road id="7" junction="-1"><planView>)" + geometries + "</planView><lanes>" +
+         (lanes.empty() ? one_lane : lanes) + "</lanes>" + more + "</road>";
+}
+
+std::string geometry(double length_m, const std::string& shape, double s_m = 0.0, double heading_rad = 0.0) {
+  return R"(<geometry s=")" + std::to_string(s_m) + R"(" x="10" y="20" hdg=")" + std::to_string(heading_rad) +
+         R"(" length=")" + std::to_string(length_m) + R"(">)" + shape + "</geometry>";
+}
+
+class OpenDrive : public testing::Test {
+ protected:
+  Road load(const std::string& roads, bool strict = true) {
+    std::ofstream(folder_.file("road.xodr")) << "<OpenDRIVE>" << roads << "</OpenDRIVE>";
+    left_out_ = LeftOut(strict);
+    return load_opendrive(folder_.file("road.xodr"), 10.0, left_out_);
+  }
+  /// The end of the reference line, in the frame of its begin.
+  Point end_of(double length_m, const std::string& shape) {
+    const Road road = load(road_of(geometry(length_m, shape)));
+    return road.lanes.at(0).left.back() - Point(10.0, 20.0, 0.0);
+  }
+  std::string error(const std::string& roads) {
+    try {
+      load(roads);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string left_out() const { return left_out_.summary(); }
+
+ private:
+  TemporaryFolder folder_;
+  LeftOut left_out_;
+};
+
+void expect_near(const Point& point, double x, double y, double tolerance_m = 1e-3) {
+  EXPECT_NEAR(point.x(), x, tolerance_m);
+  EXPECT_NEAR(point.y(), y, tolerance_m);
+}
+
+TEST_F(OpenDrive, EveryGeometryLeadsWhereItShould) {
+  expect_near(end_of(40.0, "<line/>"), 40.0, 0.0);
+  const double quarter_m = 0.5 * std::numbers::pi * 30.0;
+  expect_near(end_of(quarter_m, R"(<arc curvature="0.0333333333333"/>)"), 30.0, 30.0);
+  expect_near(end_of(quarter_m, R"(<arc curvature="-0.0333333333333"/>)"), 30.0, -30.0);
+  // The series of the clothoid, by the heading at its end.
+  const double length_m = 15.0, turn = 0.5 * 0.05 * length_m, turn2 = turn * turn;
+  expect_near(end_of(length_m, R"(<spiral curvStart="0" curvEnd="0.05"/>)"),
+              length_m * (1.0 - turn2 / 10.0 + turn2 * turn2 / 216.0),
+              length_m * (turn / 3.0 - turn * turn2 / 42.0 + turn * turn2 * turn2 / 1320.0));
+  // A parabola y = x²/100 up to x = 30, along which x = 30 is at this length.
+  const double k = 0.02, slope = 30.0 * k;
+  const double parabola_m = (slope * std::hypot(1.0, slope) + std::asinh(slope)) / (2.0 * k);
+  expect_near(end_of(parabola_m, R"(<poly3 a="0" b="0" c="0.01" d="0"/>)"), 30.0, 9.0, 0.02);
+  expect_near(end_of(33.0, R"(<paramPoly3 aU="0" bU="30" cU="0" dU="0" aV="0" bV="0" cV="9" dV="0"/>)"), 30.0,
+              9.0);
+  expect_near(
+      end_of(
+          33.0,
+          R"(<paramPoly3 pRange="arcLength" aU="0" bU="1" cU="0" dU="0" aV="0" bV="0" cV="0.01" dV="0"/>)"),
+      33.0, 10.89);
+}
+
+TEST_F(OpenDrive, LanesHaveWidthsBordersOffsetsAndDirections) {
+  const std::string lanes =
+      R"(<laneOffset s="0" a="0.5"/><laneSection s="0">)"
+      R"(<left><lane id="1" type="driving"><width sOffset="0" a="3"/></lane></left><center><lane id="0"/></center>)"
+      R"(<right><lane id="-1" type="driving"><width sOffset="0" a="2" b="0.05"/></lane>)"
+      R"(<lane id="-2" type="sidewalk"><width sOffset="0" a="2"/></lane></right></laneSection>)"
+      R"(<laneSection s="20"><center><lane id="0"/></center><right>)"
+      R"(<lane id="-1" type="driving"><border sOffset="0" a="-3"/></lane></right></laneSection>)";
+  const Road road = load(road_of(geometry(40.0, "<line/>"), lanes));
+  ASSERT_EQ(road.lanes.size(), 3u);
+  const RoadLane &left = road.lanes[0], &right = road.lanes[1], &border = road.lanes[2];
+  expect_near(left.left.front(), 30.0, 20.5);  // it is driven against the reference line
+  expect_near(left.right.front(), 30.0, 23.5);
+  expect_near(right.left.front(), 10.0, 20.5);
+  expect_near(right.right.front(), 10.0, 18.5);
+  expect_near(right.right.back(), 30.0, 17.5);
+  expect_near(border.right.back(), 50.0, 17.5);
+  EXPECT_EQ(right.successors, std::vector<ElementId>{3});
+  for (const RoadLane& lane : road.lanes) expect_left_is_left(lane);
+  // Edges: beyond the left lane, and between the right lane and the sidewalk.
+  EXPECT_NE(left.right_marking, kNoElement);
+  EXPECT_NE(right.right_marking, kNoElement);
+  EXPECT_EQ(right.left_marking, kNoElement);
+}
+
+TEST_F(OpenDrive, TheRuleOfARoadTellsTheSideOfTraffic) {
+  std::string text = road_of(geometry(40.0, "<line/>"));
+  EXPECT_TRUE(load(text).right_hand_traffic);
+  text.insert(text.find("id="), R"(rule="LHT" )");
+  const Road road = load(text);
+  EXPECT_FALSE(road.right_hand_traffic);
+  expect_near(road.lanes.at(0).right.front(), 50.0,
+              20.0);  // driven against, with the centre line to its right
+  expect_left_is_left(road.lanes[0]);
+}
+
+TEST_F(OpenDrive, MarksHaveTypesAndStyles) {
+  const std::string lanes =
+      R"(<laneSection s="0"><center><lane id="0"><roadMark sOffset="0" type="solid solid"/>)"
+      R"(<roadMark sOffset="10" type="none"/><roadMark sOffset="20" type="broken solid"/></lane></center><right>)"
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3"/><roadMark sOffset="0" type="broken"/></lane>)"
+      R"(<lane id="-2" type="shoulder"><width sOffset="0" a="1"/><roadMark sOffset="0" type="curb"/></lane>)"
+      R"(</right></laneSection>)";
+  const std::string stop =
+      R"(<objects><object type="roadMark" name="StopLine" s="30" t="-1.5" hdg="0" width="3" length="0.4"/>)"
+      R"(<object type="tree" s="3" t="9"/></objects>)";
+  const Road road = load(road_of(geometry(40.0, "<line/>"), lanes, stop));
+  std::vector<std::tuple<MarkingType, MarkingStyle, double>> marks;
+  for (const RoadMarking& mark : road.markings)
+    marks.emplace_back(mark.type, mark.style, length(mark.points));
+  using enum MarkingType;
+  using enum MarkingStyle;
+  EXPECT_THAT(marks, testing::UnorderedElementsAre(
+                         std::tuple(laneline, solid, 10.0), std::tuple(laneline, unknown, 20.0),
+                         std::tuple(laneline, dashed, 40.0), std::tuple(roadedge, solid, 40.0),
+                         std::tuple(roadedge, solid,
+                                    11.0),  // where the centre line, the side of the road, has no mark
+
+                         std::tuple(stopline, solid, 3.0)));
+}
+
+TEST_F(OpenDrive, WhatIsWrongIsLeftOutWithItsRoad) {
+  const std::string good = road_of(geometry(40.0, "<line/>"));
+  const std::vector<std::pair<std::string, std::string>> bad{
+      {road_of(""), "has no geometry"},
+      {road_of(geometry(40.0, "<bezier/>")), "that is no line, arc, spiral, poly3 or paramPoly3"},
+      {road_of(geometry(-1.0, "<line/>")), "has a geometry of such a length"},
+      {road_of(geometry(2e5, "<line/>")), "has a geometry of such a length"},
+      {road_of(geometry(40.0, R"(<arc curvature="round"/>)")), "has no number within reach as arc.curvature"},
+      {road_of(geometry(40.0, R"(<arc curvature="nan"/>)")), "has no number within reach as arc.curvature"},
+      {road_of(geometry(40.0, R"(<arc/>)")), "has no arc.curvature"},
+      {road_of(geometry(40.0, R"(<spiral curvStart="0" curvEnd="1e9"/>)")),
+       "has no number within reach as spiral.curvEnd"}};
+  for (const auto& [road, complaint] : bad) {
+    EXPECT_THAT(error(good + road), HasSubstr("road.xodr: road 7: "));
+    EXPECT_THAT(error(good + road), HasSubstr(complaint));
+    EXPECT_EQ(load(good + road, false).lanes.size(), 1u);
+    EXPECT_THAT(left_out(), HasSubstr(complaint));
+    EXPECT_THAT(left_out(), HasSubstr("(first: road 7)"));
+  }
+  EXPECT_THAT(error(""), HasSubstr("has no lanes for vehicles"));
+}
+
+/// The drawn quarter: see tests/roads/README.md.
+class Harbour : public testing::Test {
+ protected:
+  static Road load() {
+    LeftOut nothing(/*strict=*/true);
+    return load_opendrive(LANELOOM_ROADS "/harbour.xodr", 10.0, nothing);
+  }
+};
+
+TEST_F(Harbour, LanesMeetAndAreOnTheirSide) {
+  const Road road = load();
+  EXPECT_FALSE(road.right_hand_traffic);
+  EXPECT_EQ(road.lanes.size(), 37u);
+  for (const RoadLane& lane : road.lanes) {
+    expect_left_is_left(lane);
+    expect_successors_meet(road, lane, 1e-3);
+    EXPECT_FALSE(lane.successors.empty()) << "lane " << lane.id;
+  }
+  expect_borders_on_markings(road, 1e-3);
+  check_references(road);
+}
+
+TEST_F(Harbour, HasTheOdditiesOfRealRoads) {
+  const Road road = load();
+  double narrowest_m = 10.0, widest_m = 0.0;
+  for (const RoadLane& lane : road.lanes) {
+    if (lane.in_intersection) continue;
+    const double width_m = (lane.left.at(lane.left.size() / 2) - lane.right.at(lane.right.size() / 2)).norm();
+    narrowest_m = std::min(narrowest_m, width_m);
+    widest_m = std::max(widest_m, width_m);
+  }
+  EXPECT_NEAR(narrowest_m, 2.6, 0.01);
+  EXPECT_NEAR(widest_m, 5.0, 0.01);
+  // Two kerbs with the same ends are those of an island.
+  std::size_t islands = 0, stops = 0;
+  const auto meet = [](const Point& a, const Point& b) { return (a - b).norm() < 1e-3; };
+  for (const RoadMarking& kerb : road.markings) {
+    stops += kerb.type == MarkingType::stopline ? 1U : 0U;
+    for (const RoadMarking& other : road.markings)
+      islands += kerb.type == MarkingType::roadedge && other.type == kerb.type && kerb.id < other.id &&
+                         length(kerb.points) < 40.0 && meet(kerb.points.front(), other.points.front()) &&
+                         meet(kerb.points.back(), other.points.back())
+                     ? 1U
+                     : 0U;
+  }
+  EXPECT_EQ(islands, 1u);
+  EXPECT_EQ(stops, 1u);
+}
+
+TEST_F(Harbour, IsTheSameAsALanelet2Map) {
+  const Road xodr = load(), osm = load_lanelet2(LANELOOM_ROADS "/harbour_lanelet2.osm");
+  EXPECT_FALSE(osm.right_hand_traffic);
+  ASSERT_EQ(osm.lanes.size(), xodr.lanes.size());
+  for (std::size_t i = 0; i < osm.lanes.size(); ++i) {
+    EXPECT_EQ(osm.lanes[i].successors, xodr.lanes[i].successors) << "lane " << i + 1;
+    for (const auto side : {&RoadLane::left, &RoadLane::right}) {
+      const MeasuredPolyline line(xodr.lanes[i].*side);
+      for (const Point& point : osm.lanes[i].*side) EXPECT_LT(line.project(point).distance_m, 0.02);
+    }
+  }
+  for (const MarkingType type : {MarkingType::laneline, MarkingType::roadedge, MarkingType::stopline}) {
+    const auto length_of = [&](const Road& road) {
+      double sum_m = 0.0;
+      for (const RoadMarking& marking : road.markings)
+        if (marking.type == type) sum_m += length(marking.points);
+      return sum_m;
+    };
+    EXPECT_NEAR(length_of(osm), length_of(xodr), 0.02 * length_of(xodr));
+  }
+}
+
+}  // namespace
+}  // namespace laneloom::simulation

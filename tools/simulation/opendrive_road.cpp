@@ -1,0 +1,284 @@
+#include "simulation/opendrive_road.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "laneloom/polyline.hpp"
+#include "simulation/borders.hpp"
+#include "simulation/opendrive_line.hpp"
+
+namespace laneloom::simulation {
+namespace {
+
+constexpr double kSectionStep_m = 1.0;
+constexpr double kLeastWidth_m = 0.5;   // of a lane, where it is widest
+constexpr double kLeastLength_m = 0.1;  // of a lane or a mark
+constexpr double kNoWidth_m = 0.03;     // width of a lane that is none
+constexpr std::size_t kMostLanes = 64;  // of one side
+constexpr std::array kVehicleLanes{"driving",        "entry",    "exit",         "onRamp", "offRamp",
+                                   "connectingRamp", "slipLane", "bus",          "taxi",   "HOV",
+                                   "mwyEntry",       "mwyExit",  "bidirectional"};
+constexpr std::array kOtherPavedLanes{"shoulder", "stop", "parking", "biking", "tram", "roadWorks"};
+
+bool is_one_of(const auto& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// A lane of a lane section: between `inner` and the border that is farther from the centre lane.
+struct Strip {
+  int id = 0;
+  std::string_view type{};
+  std::vector<double> inner_m{}, outer_m{};  ///< to the left of the reference line, at each station
+  pugi::xml_node element{};
+
+  bool is_for_vehicles() const { return is_one_of(kVehicleLanes, type); }
+  bool is_paved() const { return is_for_vehicles() || is_one_of(kOtherPavedLanes, type); }
+  bool is_wide() const {
+    for (std::size_t i = 0; i < inner_m.size(); ++i)
+      if (std::abs(outer_m[i] - inner_m[i]) >= kLeastWidth_m) return true;
+    return false;
+  }
+};
+
+/// The stations of a lane section along the reference line.
+std::vector<double> section_stations(double from_m, double to_m) {
+  const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil((to_m - from_m) / kSectionStep_m)));
+  std::vector<double> result;
+  for (std::size_t i = 0; i <= steps; ++i)
+    result.push_back(from_m + (to_m - from_m) * static_cast<double>(i) / static_cast<double>(steps));
+  return result;
+}
+
+/// Reads one road into the truth.
+class RoadReader {
+ public:
+  RoadReader(const pugi::xml_node& element, LengthLimit& limit)
+      : element_(element),
+        limit_(limit),
+        line_(element),
+        lane_offset_(element, element.child("lanes"), "laneOffset", "s"),
+        in_junction_(std::string_view(element.attribute("junction").as_string("-1")) != "-1"),
+        right_hand_(std::string_view(element.attribute("rule").as_string("RHT")) != "LHT") {}
+
+  Road read() && {
+    std::vector<pugi::xml_node> sections;
+    for (const pugi::xml_node& section : element_.child("lanes").children("laneSection"))
+      sections.push_back(section);
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      const double length_m = line_.length_m();
+      from_m_ = std::clamp(number(element_, sections[i], "s"), 0.0, length_m);
+      to_m_ = length_m;
+      if (i + 1 < sections.size()) to_m_ = std::min(length_m, number(element_, sections[i + 1], "s"));
+      if (to_m_ - from_m_ < kLeastLength_m) continue;
+      stations_ = section_stations(from_m_, to_m_);
+      read_section(sections[i]);
+    }
+    for (const pugi::xml_node& object : element_.child("objects").children("object")) read_object(object);
+    road_.right_hand_traffic = right_hand_;
+    return std::move(road_);
+  }
+
+ private:
+  void read_section(const pugi::xml_node& section) {
+    std::vector<double> centre_m;
+    for (const double s_m : stations_) centre_m.push_back(lane_offset_.at(s_m));
+    line(centre_m);  // for its length, which is limited
+    centre_ = section.child("center").child("lane");
+    add_marks(centre_, centre_m);
+    const std::vector<Strip> left = strips(section.child("left"), centre_m);
+    const std::vector<Strip> right = strips(section.child("right"), centre_m);
+    for (const std::vector<Strip>* side : {&left, &right})
+      for (const Strip& strip : *side) {
+        if (!strip.is_paved() || !strip.is_wide()) continue;
+        if (strip.is_for_vehicles()) add_lane(strip);
+        add_marks(strip.element, strip.outer_m);
+      }
+    add_edges(borders(left, right, centre_m));
+  }
+
+  /// The lanes of a side, from the centre outwards.
+  std::vector<Strip> strips(const pugi::xml_node& side, const std::vector<double>& centre_m) const {
+    std::map<int, pugi::xml_node> lanes;  // by their number from the centre
+    for (const pugi::xml_node& lane : side.children("lane"))
+      if (const int id = lane.attribute("id").as_int(); id != 0) lanes[std::abs(id)] = lane;
+    if (lanes.size() > kMostLanes) refuse(element_, "has more than 64 lanes on one side");
+    std::vector<Strip> result;
+    std::vector<double> inner_m = centre_m;
+    for (const auto& [number, lane] : lanes) {
+      Strip strip{
+          .id = lane.attribute("id").as_int(), .type = lane.attribute("type").as_string(), .element = lane};
+      const double sign = strip.id > 0 ? 1.0 : -1.0;
+      const Cubics widths(element_, lane, "width", "sOffset"), borders(element_, lane, "border", "sOffset");
+      for (std::size_t i = 0; i < stations_.size(); ++i) {
+        const double at_m = stations_[i] - from_m_;
+        const double width_m = widths.empty() && !borders.empty()
+                                   ? sign * (borders.at(at_m) + centre_m[i] - inner_m[i])
+                                   : widths.at(at_m);
+        strip.inner_m.push_back(inner_m[i]);
+        strip.outer_m.push_back(inner_m[i] + sign * std::max(0.0, width_m));
+      }
+      inner_m = strip.outer_m;
+      result.push_back(std::move(strip));
+    }
+    return result;
+  }
+
+  /// The line along stations `first` to `last`.
+  Polyline line(const std::vector<double>& left_m, std::size_t first, std::size_t last) {
+    Polyline points;
+    for (std::size_t i = first; i <= last; ++i) points.push_back(line_.point(stations_[i], left_m[i]));
+    if (!limit_.add(points)) refuse(element_, LengthLimit::kComplaint);
+    return points;
+  }
+  Polyline line(const std::vector<double>& left_m) { return line(left_m, 0, left_m.size() - 1); }
+
+  void add_lane(const Strip& strip) {
+    const bool against = (strip.id < 0) != right_hand_;
+    // The borders on the left and on the right of someone who looks along the reference line.
+    Polyline left = line(strip.id > 0 ? strip.outer_m : strip.inner_m);
+    Polyline right = line(strip.id > 0 ? strip.inner_m : strip.outer_m);
+    if (against) {
+      std::swap(left, right);
+      std::ranges::reverse(left);
+      std::ranges::reverse(right);
+    }
+    if (length(left) < kLeastLength_m || length(right) < kLeastLength_m) return;
+    Polyline centerline = midway(left, right);
+    road_.lanes.push_back({.id = road_.lanes.size() + 1,
+                           .left = std::move(left),
+                           .right = std::move(right),
+                           .centerline = std::move(centerline),
+                           .in_intersection = in_junction_});
+  }
+
+  /// Adds the marks of a lane, which lie on its outer border.
+  void add_marks(const pugi::xml_node& lane, const std::vector<double>& left_m) {
+    std::vector<pugi::xml_node> marks;
+    for (const pugi::xml_node& mark : lane.children("roadMark")) marks.push_back(mark);
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      const double begin_m = from_m_ + number(element_, marks[i], "sOffset");
+      const double end_m = i + 1 < marks.size() ? from_m_ + number(element_, marks[i + 1], "sOffset") : to_m_;
+      const auto first = std::ranges::lower_bound(stations_, begin_m - 1e-6) - stations_.begin();
+      const auto last = std::ranges::upper_bound(stations_, end_m + 1e-6) - stations_.begin() - 1;
+      if (first >= last) continue;
+      add_mark(marks[i].attribute("type").as_string(),
+               line(left_m, static_cast<std::size_t>(first), static_cast<std::size_t>(last)));
+    }
+  }
+
+  void add_mark(std::string_view type, Polyline points) {
+    if (type.empty() || type == "none" || length(points) < kLeastLength_m) return;
+    RoadMarking mark{.points = std::move(points)};
+    const bool solid = type.find("solid") != std::string_view::npos;
+    const bool broken = type.find("broken") != std::string_view::npos || type == "botts dots";
+    if (type == "curb" || type == "edge" || type == "grass") mark.type = MarkingType::roadedge;
+    if (solid != broken) mark.style = solid ? MarkingStyle::solid : MarkingStyle::dashed;
+    if (mark.type == MarkingType::roadedge) mark.style = MarkingStyle::solid;
+    add(std::move(mark));
+  }
+
+  /// A border between two lanes, or at the side of the road.
+  struct Border {
+    const std::vector<double>* left_m;
+    pugi::xml_node lane;        ///< whose marks lie on it
+    const Strip* beyond;        ///< the lane to its right; null: none
+    std::vector<bool> is_edge;  ///< of what is paved, at each station
+  };
+
+  std::vector<Border> borders(const std::vector<Strip>& left, const std::vector<Strip>& right,
+                              const std::vector<double>& centre_m) const {
+    std::vector<Border> result;
+    for (auto strip = left.rbegin(); strip != left.rend(); ++strip)
+      result.push_back({&strip->outer_m, strip->element, &*strip, {}});
+    result.push_back({&centre_m, centre_, nullptr, {}});
+    for (const Strip& strip : right) {
+      result.back().beyond = &strip;
+      result.push_back({&strip.outer_m, strip.element, nullptr, {}});
+    }
+    return result;
+  }
+
+  std::string_view mark_at(const pugi::xml_node& lane, double s_m) const {
+    std::string_view type = "none";
+    for (const pugi::xml_node& mark : lane.children("roadMark"))
+      if (from_m_ + number(element_, mark, "sOffset") <= s_m) type = mark.attribute("type").as_string();
+    return type;
+  }
+
+  /// Adds the edges of what is paved, where they have no mark.
+  void add_edges(std::vector<Border> all) {
+    if (in_junction_) return;
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+      bool paved = false;
+      for (Border& border : all) {
+        const Strip* strip = border.beyond;
+        const bool is_there =
+            strip == nullptr || std::abs(strip->outer_m[i] - strip->inner_m[i]) > kNoWidth_m;
+        const bool next_is_paved = is_there ? strip != nullptr && strip->is_paved() : paved;
+        border.is_edge.push_back(next_is_paved != paved && mark_at(border.lane, stations_[i]) == "none");
+        paved = next_is_paved;
+      }
+    }
+    for (const Border& border : all) add_edge(border);
+  }
+
+  /// Adds the stretches of a border that are edges, each with the station before and behind, where an island
+  /// is closed.
+  void add_edge(const Border& border) {
+    const std::size_t last = stations_.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+      if (!border.is_edge[i]) continue;
+      const std::size_t first = i, begin = i > 0 ? i - 1 : 0;
+      while (i < last && border.is_edge[i + 1]) ++i;
+      if (i == first) continue;  // where a lane begins or ends with no width
+      add({.type = MarkingType::roadedge,
+           .style = MarkingStyle::solid,
+           .points = line(*border.left_m, begin, std::min(last, i + 1))});
+    }
+  }
+
+  /// Adds an object if it is a stop line.
+  void read_object(const pugi::xml_node& object) {
+    if (std::string_view(object.attribute("type").as_string()) != "roadMark") return;
+    const std::string_view name = object.attribute("name").as_string();
+    if (std::string_view(object.attribute("subtype").as_string()) != "signalLines" &&
+        name.find("StopLine") == std::string_view::npos)
+      return;
+    Frame frame = line_.at(number(element_, object, "s")).moved(number(element_, object, "t"));
+    frame.heading_rad += number_or(element_, object, "hdg", 0.0);
+    const double half_m = 0.5 * number(element_, object, "width");
+    if (2.0 * half_m < kLeastLength_m) return;
+    add({.type = MarkingType::stopline,
+         .style = MarkingStyle::solid,
+         .points = {frame.moved(-half_m).position, frame.moved(half_m).position}});
+  }
+
+  void add(RoadMarking marking) {
+    marking.id = road_.markings.size() + 1;
+    road_.markings.push_back(std::move(marking));
+  }
+
+  const pugi::xml_node& element_;
+  LengthLimit& limit_;
+  Road road_;
+  ReferenceLine line_;
+  Cubics lane_offset_;
+  bool in_junction_, right_hand_;
+  double from_m_ = 0.0, to_m_ = 0.0;  ///< of the lane section
+  std::vector<double> stations_;
+  pugi::xml_node centre_;  ///< the centre lane
+};
+
+}  // namespace
+
+Road read_opendrive_road(const pugi::xml_node& element, LengthLimit& limit) {
+  return RoadReader(element, limit).read();
+}
+
+}  // namespace laneloom::simulation

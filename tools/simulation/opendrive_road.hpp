@@ -1,0 +1,14 @@
+#pragma once
+
+#include <pugixml.hpp>
+
+#include "simulation/borders.hpp"
+#include "simulation/road.hpp"
+
+namespace laneloom::simulation {
+
+/// The lanes and markings of one road of OpenDRIVE, with ids of its own, and its side of traffic. Neither
+/// successors nor markings of lanes are known yet. Throws BadElement if something in it is wrong.
+Road read_opendrive_road(const pugi::xml_node& element, LengthLimit& limit);
+
+}  // namespace laneloom::simulation
