@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "laneloom/polyline.hpp"
 #include "simulation/lanelet2.hpp"
+#include "simulation/opendrive.hpp"
 #include "support/child_process.hpp"
 #include "temporary_folder.hpp"
 
@@ -48,6 +51,50 @@ TEST_F(ExportCommand, FramesRecordingsAndMapsGiveTheSameMap) {
     const std::string of_maps = exported(maps);
     EXPECT_THAT(output(), HasSubstr("maps read"));
     EXPECT_TRUE(maps != "maps.mcap" || of_maps == of_frames);
+  }
+}
+
+/// How far points are from a line, where they are beside it and not before or behind it.
+double farthest_m(const Polyline& points, const Polyline& from) {
+  const MeasuredPolyline line(from);
+  double most_m = 0.0;
+  for (const Point& point : points)
+    if (const auto foot = line.project(point); foot.inside) most_m = std::max(most_m, foot.distance_m);
+  return most_m;
+}
+
+std::size_t successors_of(const simulation::Road& road) {
+  std::size_t count = 0;
+  for (const simulation::RoadLane& lane : road.lanes) count += lane.successors.size();
+  return count;
+}
+
+TEST_F(ExportCommand, OpenDriveHasTheLanesAndMarksOfLanelet2) {
+  for (const std::string scenario : {"town", "exit"}) {
+    simulate(scenario);
+    ASSERT_EQ(run({"export", file("drive.frames.jsonl"), "--lanelet2", file("map.osm"), "--opendrive",
+                   file("map.xodr")}),
+              0)
+        << output();
+    LeftOut nothing(/*strict=*/true);
+    const simulation::Road osm = simulation::load_lanelet2(file("map.osm"));
+    const simulation::Road xodr = simulation::load_opendrive(file("map.xodr"), 10.0, nothing);
+    ASSERT_GT(osm.lanes.size(), 5u);
+    EXPECT_EQ(xodr.lanes.size(), osm.lanes.size());
+    for (const simulation::RoadLane& lane : osm.lanes) {
+      const Point middle = MeasuredPolyline(lane.centerline).at(0.5 * length(lane.centerline));
+      const auto distance_m = [&](const simulation::RoadLane& other) {
+        return (MeasuredPolyline(other.centerline).at(0.5 * length(other.centerline)) - middle).norm();
+      };
+      const simulation::RoadLane& same = *std::ranges::min_element(xodr.lanes, {}, distance_m);
+      EXPECT_LT(farthest_m(same.left, lane.left), 0.1) << scenario << " lane " << lane.id;
+      EXPECT_LT(farthest_m(same.right, lane.right), 0.2) << scenario << " lane " << lane.id;
+    }
+    EXPECT_EQ(successors_of(xodr), successors_of(osm)) << scenario;
+    for (const MarkingType type : {MarkingType::laneline, MarkingType::stopline}) {
+      const auto is_one = [&](const simulation::RoadMarking& marking) { return marking.type == type; };
+      EXPECT_EQ(std::ranges::any_of(xodr.markings, is_one), std::ranges::any_of(osm.markings, is_one));
+    }
   }
 }
 

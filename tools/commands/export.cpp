@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -18,6 +19,7 @@
 #include "export/accumulate.hpp"
 #include "export/geojson_file.hpp"
 #include "export/lanelet2_file.hpp"
+#include "export/opendrive_file.hpp"
 #include "export/weave.hpp"
 #include "export/weld.hpp"
 #include "recording/damage.hpp"
@@ -29,7 +31,7 @@ namespace laneloom::commands {
 namespace {
 
 struct ExportOptions {
-  std::string in, config, preset, lanelet2, geojson;
+  std::string in, config, preset, lanelet2, opendrive, geojson;
   std::optional<exports::Origin> origin;
   bool plain = false, strict = false;
 };
@@ -121,8 +123,11 @@ exports::Origin origin(const std::string& text) {
 }
 
 void check_files(const ExportOptions& options) {
-  for (const std::string& out : {options.lanelet2, options.geojson}) refuse_same_file(out, options.in);
-  if (options.lanelet2 == options.geojson) throw std::runtime_error(options.geojson + ": is given twice");
+  std::set<std::string> written;
+  for (const std::string& out : {options.lanelet2, options.opendrive, options.geojson}) {
+    refuse_same_file(out, options.in);
+    if (!out.empty() && !written.insert(out).second) throw std::runtime_error(out + ": is given twice");
+  }
 }
 
 void export_drive(const ExportOptions& options) {
@@ -134,6 +139,7 @@ void export_drive(const ExportOptions& options) {
   if (options.plain) network.stops.clear();  // their ways stay
   if (!options.lanelet2.empty())
     write_lanelet2(options.lanelet2, network, options.origin.value_or(exports::Origin{}));
+  if (!options.opendrive.empty()) write_opendrive(options.opendrive, network);
   if (!options.geojson.empty()) write_geojson(options.geojson, network, *options.origin);
   fmt::print("{} lanes and {} linkages as {} lanelets, {} stop lines\n", map.lanes.size(),
              map.linkages.size(), network.lanelets.size(), map.stoplines.size());
@@ -151,12 +157,13 @@ void add_export(CLI::App& app) {
   command->add_option("--config", options->config, "Configuration that the maps are made with (.yaml)");
   command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
       ->check(CLI::IsMember(config::preset_names()));
-  CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
+  CLI::Option_group* outputs = command->add_option_group("Outputs", "one or more");
   CLI::Option* lanelet2 =
       add_text_output(*outputs, "--lanelet2", options->lanelet2, "Lanelet2 map to write (.osm)");
+  add_text_output(*outputs, "--opendrive", options->opendrive, "Road network of OpenDRIVE to write (.xodr)");
   CLI::Option* geojson =
       add_text_output(*outputs, "--geojson", options->geojson, "GeoJSON (RFC 7946) to write; needs --origin");
-  outputs->require_option(1, 2);
+  outputs->require_option(1, 3);
   command
       ->add_flag(
           "--plain", options->plain,
