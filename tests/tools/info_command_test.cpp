@@ -3,6 +3,8 @@
 
 #include <fstream>
 
+#include "config/config_file.hpp"
+#include "recording/recording.hpp"
 #include "tools/commands.hpp"
 
 namespace laneloom {
@@ -41,6 +43,26 @@ TEST_F(Commands, ARecordingOfMapsCarriesTheConfigurationThatMadeThem) {
       run({"replay", file("in.frames.jsonl"), "--config", file("theirs.yaml"), "--out", file("b.mcap")}), 0)
       << output();
   EXPECT_EQ(content(file("a.mcap")), content(file("b.mcap")));
+}
+
+TEST_F(Commands, ARecordingOfAServiceTellsTheConfigurationOfTheService) {
+  Config config;
+  config.mapper.range.forward_max_m = 42.0;
+  config.mapper.lane.min_width_m = 1.7;
+  config.dds.vehicle_id = "car_7";
+  config.service.snapshot_file = "/var/lib/a: b, c";
+  recording::RecordingWriter out(file("live.mcap"));
+  out.write(ServiceStatus{.published_ns = 5, .configuration = config::settings(config)}, 5);
+  out.close();
+  ASSERT_EQ(run({"info", "--configuration", file("live.mcap")}), 0);
+  std::ofstream(file("theirs.yaml")) << output();
+  EXPECT_EQ(config::config_hash(config::load_config(file("theirs.yaml"))), config::config_hash(config));
+
+  recording::RecordingWriter other(file("other.mcap"));
+  other.write(ServiceStatus{.published_ns = 5, .configuration = {{"mapper.unheard_of", "1"}}}, 5);
+  other.close();
+  ASSERT_EQ(run({"info", "--configuration", file("other.mcap")}), 0);
+  EXPECT_EQ(output(), "");
 }
 
 }  // namespace

@@ -9,11 +9,14 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/seconds.hpp"
 #include "commands/commands.hpp"
 #include "commands/warn_of.hpp"
+#include "config/config_file.hpp"
 #include "io/printable.hpp"
 #include "laneloom/dds/topics.hpp"
 #include "replay/message_source.hpp"
@@ -41,7 +44,8 @@ struct TopicInfo {
 struct FileInfo {
   recording::Origin origin{};
   std::array<TopicInfo, kTopicNames.size()> topics{};
-  std::set<std::string> sources{};  ///< of detections
+  std::set<std::string> sources{};                                      ///< of detections
+  std::vector<std::pair<std::string, std::string>> service_settings{};  ///< as a service told them last
 
   void add(const recording::RecordedMessage& message) {
     TopicInfo& topic = topics.at(message.message.index());
@@ -52,8 +56,36 @@ struct FileInfo {
     ++topic.messages;
     std::visit([&](const auto& content) { topic.sessions.insert(content.session_id); }, message.message);
     if (const auto* frame = std::get_if<DetectionFrame>(&message.message)) sources.insert(frame->source);
+    if (const auto* status = std::get_if<ServiceStatus>(&message.message))
+      service_settings = status->configuration;
   }
 };
+
+/// Sets a key to a value, which may be any text. False: it is refused.
+bool set_key(Config& config, const std::string& key, const std::string& value) {
+  const std::string quoted =
+      nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  for (const std::string& written : {quoted, value}) {  // a text, or a number
+    try {
+      config::set_value(config, key + "=" + written);
+      return true;
+    } catch (const ConfigError&) {
+    }
+  }
+  return false;
+}
+
+/// The configuration of a service by what it told of its settings. Empty: it told none, or has keys that this
+/// laneloom does not know.
+std::string configuration_of(std::vector<std::pair<std::string, std::string>> settings) {
+  if (settings.empty()) return {};
+  Config config;
+  // A setting may be refused until another one is made that goes with it.
+  const auto set = [&](const auto& setting) { return set_key(config, setting.first, setting.second); };
+  while (std::erase_if(settings, set) > 0) {
+  }
+  return settings.empty() ? config::dump(config) : std::string();
+}
 
 FileInfo read_info(const std::string& path) {
   const auto source = replay::open_messages(path, "map");
@@ -65,6 +97,7 @@ FileInfo read_info(const std::string& path) {
   }
   bar.clear();
   info.origin = source->origin();
+  if (info.origin.configuration.empty()) info.origin.configuration = configuration_of(info.service_settings);
   warn_of(path, source->refused(), source->cut_off());
   warn_of(path, source->left_out());
   return info;
