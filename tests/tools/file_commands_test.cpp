@@ -114,6 +114,35 @@ TEST_F(Commands, EveryCommandTakesRecordingsAndLines) {
   EXPECT_THAT(pictures, testing::Each(pictures.front()));
 }
 
+TEST_F(Commands, NarrowLanesThatTheConfigurationFindsAreRated) {
+  const std::string lane =
+      R"(type="driving"><width sOffset="0" a="1.5"/><roadMark sOffset="0" type="solid"/></lane>)";
+  std::ofstream(file("yard.xodr"))
+      << R"(<OpenDRIVE><road id="1"><planView><geometry s="0" x="0" y="0" hdg="0" length="80">)"
+      << R"(<line/></geometry></planView><lanes><laneSection s="0"><center><lane id="0">)"
+      << R"(<roadMark sOffset="0" type="solid"/></lane></center><right><lane id="-1" )" << lane
+      << R"(<lane id="-2" )" << lane << "</right></laneSection></lanes></road></OpenDRIVE>";
+  std::ofstream(file("yard.yaml")) << "mapper: {lane: {min_width_m: 1.2, assumed_width_m: 1.5}}";
+  ASSERT_EQ(run({"simulate", "--opendrive", file("yard.xodr"), "--speed", "8", "--frames",
+                 file("in.frames.jsonl"), "--truth", file("truth.json")}),
+            0)
+      << output();
+  const auto rate = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> replay{"replay", file("in.frames.jsonl"), "--out", file("map.jsonl")};
+    replay.insert(replay.end(), more.begin(), more.end());
+    EXPECT_EQ(run(replay), 0) << output();
+    EXPECT_EQ(run({"evaluate", "--truth", file("truth.json"), "--map", file("map.jsonl"), "--json", "-"}), 0);
+    return json::parse(output().substr(output().find("\n{\n"))).at("fused").at("lane");
+  };
+  const json narrow = rate({"--config", file("yard.yaml")});
+  EXPECT_GT(narrow.at("recall"), 0.9);
+  EXPECT_GT(narrow.at("precision"), 0.9);
+  EXPECT_EQ(rate({}).at("matched"), 0) << "lanes are wider by default";
+  ASSERT_EQ(run({"evaluate", "--later", file("in.frames.jsonl"), "--config", file("yard.yaml")}), 0)
+      << output();
+  EXPECT_THAT(output(), HasSubstr("own lane in 100.0 % of the frames, width 5/50/95 % 1.50/1.50/1.50 m"));
+}
+
 TEST_F(Commands, PublishListsItsRoads) {
   EXPECT_EQ(run({"publish", "--list"}), 0);
   EXPECT_THAT(output(), HasSubstr("town"));

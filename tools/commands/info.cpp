@@ -67,7 +67,7 @@ bool set_key(Config& config, const std::string& key, const std::string& value) {
       nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (const std::string& written : {quoted, value}) {  // a text, or a number
     try {
-      config::set_value(config, key + "=" + written);
+      config::set_value(config, std::string(key).append("=").append(written));
       return true;
     } catch (const ConfigError&) {
     }
