@@ -57,7 +57,7 @@ TEST(DrawingJson, ElementsTellWhatIsKnownOfThem) {
     "use": "lane", "evidence": ["markings", "edges"], "width_m": 3.5, "length_m": 10.0,
     "direction": "against", "direction_probability": 0.9, "direction_evidence": ["ego_path"],
     "section": 0, "left_neighbours": [{"lane": 22, "range_m": [0.0, 10.0], "crossable_m": [[4.0, 10.0]]}],
-    "right_neighbours": [], "successors": [22], "stoplines": [13],
+    "right_neighbours": [], "role": "own lane", "successors": [22], "stoplines": [13],
     "lineage": [{"kind": "split_from", "element": "lane", "id": 22, "other": 21}]})"));
   EXPECT_EQ(element(drawing, "lanes/22")["properties"]["predecessors"], json({21}));
   EXPECT_EQ(element(drawing, "linkages/21-22")["properties"], json::parse(R"({
@@ -88,7 +88,11 @@ TEST(DrawingJson, PaletteHasEveryStyleAndLayerOnce) {
   EXPECT_EQ(palette["layers"][0]["name"], "field_of_view");
   EXPECT_EQ(palette["styles"]["laneline_dashed"], json::parse(R"({
     "light": "#d41217ff", "dark": "#ff6661ff", "width": 2.2, "dash": [9.0, 7.0]})"));
-  EXPECT_EQ(palette["styles"]["course_b"]["head"], 9.0);
+  EXPECT_EQ(palette["styles"]["course_own"]["head"], 9.0);
+  for (const json& layer : palette["layers"])
+    EXPECT_TRUE(palette["styles"].contains(layer["sample"])) << layer["name"];
+  for (const json& entry : palette["legend"])
+    EXPECT_TRUE(palette["styles"].contains(entry["style"])) << entry["title"];
   EXPECT_EQ(palette["dark"]["text"], "#e6e6ebff");
 }
 
@@ -97,8 +101,8 @@ TEST(Palette, StylesAreWhatTheyAreCalled) {
   using palette::of;
   EXPECT_STREQ(palette::of(Style::laneline_unknown).name, "laneline_unknown");
   EXPECT_STREQ(palette::of(Style::stopline).name, "stopline");
-  EXPECT_STREQ(palette::of(palette::lane_style(6)).name, "lane_c");
-  EXPECT_STREQ(palette::of(palette::course_style(7)).name, "course_d");
+  EXPECT_STREQ(palette::of(palette::lane_style(LaneRole::oncoming)).name, "lane_oncoming");
+  EXPECT_STREQ(palette::of(palette::course_style(LaneRole::unused)).name, "course_unused");
   EXPECT_STREQ(palette::of(Style::uncertainty).name, "uncertainty");
   EXPECT_STREQ(palette::of(Style::id).name, "id");
   EXPECT_STREQ(palette::of(Layer::boundaries).name, "boundaries");

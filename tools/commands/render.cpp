@@ -120,7 +120,7 @@ render::Moment draw_moment(const RenderOptions& options, const Inputs& inputs, s
     add_map(nearest(inputs.maps, stamp_ns),
             moment.panels.emplace_back(render::Panel{"Fused map", over_truth}).drawing);
   if (inputs.truth)
-    add_map(drawing::map_of(*inputs.truth),
+    add_map(drawing::map_of(*inputs.truth, moment.T_map_body),
             moment.panels.emplace_back(render::Panel{"Ground truth", around}).drawing);
   return moment;
 }

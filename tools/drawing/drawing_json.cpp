@@ -99,9 +99,14 @@ json palette_json() {
            {"dark", theme(palette::kDarkGround, palette::kDarkText, palette::kDarkFaint)}};
   for (std::size_t i = 0; i < kLayerCount; ++i) {
     const palette::LayerSpec& layer = palette::of(static_cast<Layer>(i));
-    out["layers"].push_back(
-        {{"name", layer.name}, {"title", layer.title}, {"shown", layer.shown}, {"overlay", layer.overlay}});
+    out["layers"].push_back({{"name", layer.name},
+                             {"title", layer.title},
+                             {"sample", palette::of(layer.sample).name},
+                             {"shown", layer.shown},
+                             {"overlay", layer.overlay}});
   }
+  for (const palette::LegendEntry& entry : palette::legend())
+    out["legend"].push_back({{"style", palette::of(entry.style).name}, {"title", entry.title}});
   for (std::size_t i = 0; i < kStyleCount; ++i) {
     const palette::StyleSpec& style = palette::of(static_cast<Style>(i));
     out["styles"][style.name] = to_json(style);

@@ -14,17 +14,18 @@ constexpr double kArrowSpacing_m = 9.0;
 constexpr double kLinkageReach_m = 3.5;  ///< length of a linkage's arrow within either lane
 constexpr double kCenterlineOpacity = 0.6;
 constexpr double kUnknownDirection = 0.6;  ///< opacity of a lane whose driving direction is not known
+constexpr double kHatchSpacing_m = 1.5;    ///< along an inferred stretch
 
 Point as_point(const Eigen::Vector2d& direction) { return {direction.x(), direction.y(), 0.0}; }
 
 /// Adds the centerline, in driving direction if it is known, and arrows along it.
-void add_course(const Lane& lane, std::vector<Shape>& shapes) {
+void add_course(const Lane& lane, LaneRole role, std::vector<Shape>& shapes) {
   if (!drawable(lane.centerline)) return;
   Polyline centerline = lane.centerline;
   if (lane.direction == Lane::Direction::against_centerline)
     std::reverse(centerline.begin(), centerline.end());
   const double opacity = lane.direction == Lane::Direction::unknown ? kUnknownDirection : 1.0;
-  const Style style = palette::course_style(lane.id);
+  const Style style = palette::course_style(role);
   const MeasuredPolyline line(centerline);
   shapes.push_back({DrawnLine{std::move(centerline)}, style, kCenterlineOpacity * opacity});
   const auto arrows = std::max(1.0, std::floor(line.length() / kArrowSpacing_m));
@@ -36,7 +37,30 @@ void add_course(const Lane& lane, std::vector<Shape>& shapes) {
   }
 }
 
-Element element_of(const Lane& lane, const LocalMap& map) {
+/// The stretches of a lane that are concluded: all of an inferred lane.
+std::vector<Stretch> concluded(const Lane& lane, double length_m) {
+  if (lane.status == ElementStatus::inferred) return {{0.0, length_m}};
+  return lane.inferred_ranges;
+}
+
+/// Adds a zigzag between the sides of each concluded stretch.
+void add_hatching(const Lane& lane, std::vector<Shape>& shapes) {
+  const MeasuredPolyline center(lane.centerline), left(lane.left), right(lane.right);
+  if (center.length() <= 0.0) return;
+  for (const Stretch& range : concluded(lane, center.length())) {
+    const auto steps = static_cast<int>((range.to_m - range.from_m) / kHatchSpacing_m);
+    DrawnLine zigzag;
+    for (int i = 0; i <= steps; ++i) {
+      const double share = std::min(1.0, (range.from_m + i * kHatchSpacing_m) / center.length());
+      const MeasuredPolyline& side = i % 2 == 0 ? left : right;
+      zigzag.points.push_back(side.at(share * side.length()));
+    }
+    if (drawable(zigzag.points)) shapes.push_back({std::move(zigzag), Style::inferred});
+  }
+}
+
+Element element_of(const Lane& lane, const LocalMap& map, ElementId own) {
+  const LaneRole role = role_of(lane, own, map.T_map_body);
   Element element{.layer = Layer::lanes,
                   .key = key_of(Layer::lanes, lane.id),
                   .id = lane.id,
@@ -44,9 +68,12 @@ Element element_of(const Lane& lane, const LocalMap& map) {
                   .status = lane.status,
                   .properties = properties_of(lane, map),
                   .shapes = {}};
-  if (drawable(lane.left) && drawable(lane.right))
-    element.shapes.push_back({DrawnArea{lane.left, lane.right}, palette::lane_style(lane.id)});
-  add_course(lane, element.shapes);
+  element.properties["role"] = title(role);
+  if (drawable(lane.left) && drawable(lane.right)) {
+    element.shapes.push_back({DrawnArea{lane.left, lane.right}, palette::lane_style(role)});
+    add_hatching(lane, element.shapes);
+  }
+  add_course(lane, role, element.shapes);
   return element;
 }
 
@@ -74,7 +101,8 @@ Polyline linkage_path(const Linkage& linkage, const Lane& from, const Lane& to) 
 }
 
 void add_lanes(const LocalMap& map, Drawing& drawing) {
-  for (const Lane& lane : map.lanes) drawing.add(element_of(lane, map));
+  const ElementId own = own_lane_of(map);
+  for (const Lane& lane : map.lanes) drawing.add(element_of(lane, map, own));
 }
 
 void add_linkages(const LocalMap& map, Drawing& drawing) {

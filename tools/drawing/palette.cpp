@@ -11,8 +11,11 @@ constexpr Colour kWay{0.95, 0.45, 0.00, 0.75}, kDarkWay{1.00, 0.70, 0.20, 0.80};
 constexpr Colour kTruth{0.60, 0.60, 0.60}, kDarkTruth{0.58, 0.58, 0.60};
 constexpr Colour kVehicle{0.22, 0.24, 0.30, 0.90}, kDarkVehicle{0.78, 0.80, 0.85, 0.95};
 constexpr Colour kWindow{0.80, 0.86, 0.93}, kDarkWindow{0.20, 0.26, 0.33};
-constexpr std::array kLanes{Colour{0.25, 0.52, 0.86, 0.20}, Colour{0.95, 0.68, 0.15, 0.22},
-                            Colour{0.30, 0.68, 0.55, 0.20}, Colour{0.58, 0.42, 0.80, 0.18}};
+// By LaneRole. The own lane stands out; the others are as strong as they matter to a driver.
+constexpr std::array kLanes{Colour{0.10, 0.45, 0.95, 0.34}, Colour{0.25, 0.58, 0.82, 0.16},
+                            Colour{0.62, 0.32, 0.80, 0.20}, Colour{0.20, 0.62, 0.52, 0.18},
+                            Colour{0.50, 0.52, 0.56, 0.20}, Colour{0.50, 0.44, 0.34, 0.30}};
+constexpr Colour kInferred{0.20, 0.22, 0.28, 0.35}, kDarkInferred{0.90, 0.92, 1.00, 0.35};
 
 constexpr Colour darker(const Colour& colour) {
   return {colour.red * 0.6, colour.green * 0.6, colour.blue * 0.6, 0.9};
@@ -54,14 +57,19 @@ constexpr std::array<StyleSpec, kStyleCount> kStyles{
     line("laneline_unknown", kLaneline, kDarkLaneline, 1.1),
     line("roadedge", kRoadedge, kDarkRoadedge, 2.4),
     line("stopline", kStopline, kDarkStopline, 4.0),
-    lane("lane_a", 0),
-    lane("lane_b", 1),
-    lane("lane_c", 2),
-    lane("lane_d", 3),
-    course("course_a", 0),
-    course("course_b", 1),
-    course("course_c", 2),
-    course("course_d", 3),
+    lane("lane_own", 0),
+    lane("lane_same_way", 1),
+    lane("lane_oncoming", 2),
+    lane("lane_crossing", 3),
+    lane("lane_unknown", 4),
+    lane("lane_unused", 5),
+    course("course_own", 0),
+    course("course_same_way", 1),
+    course("course_oncoming", 2),
+    course("course_crossing", 3),
+    course("course_unknown", 4),
+    course("course_unused", 5),
+    line("inferred", kInferred, kDarkInferred, 1.0),
     linkage(),
     line("way", kWay, kDarkWay, 3.0),
     line("truth", kTruth, kDarkTruth, 1.0),
@@ -75,23 +83,42 @@ constexpr std::array<StyleSpec, kStyleCount> kStyles{
 
 // In the order of Layer.
 constexpr std::array<LayerSpec, kLayerCount> kLayers{
-    LayerSpec{.name = "field_of_view", .title = "field of view"},
-    LayerSpec{.name = "occlusions", .title = "occluded areas"},
-    LayerSpec{.name = "lanes", .title = "lanes"},
-    LayerSpec{.name = "truth", .title = "ground truth"},
-    LayerSpec{.name = "range", .title = "map range"},
-    LayerSpec{.name = "uncertainty", .title = "uncertainty (2 σ)"},
-    LayerSpec{.name = "markings", .title = "fused markings", .shown = false},
-    LayerSpec{.name = "boundaries", .title = "lane boundaries"},
-    LayerSpec{.name = "stoplines", .title = "stop lines"},
-    LayerSpec{.name = "linkages", .title = "linkages"},
-    LayerSpec{.name = "way", .title = "own way"},
-    LayerSpec{.name = "detections", .title = "detections", .overlay = 0.55},
-    LayerSpec{.name = "ids", .title = "ids", .shown = false},
-    LayerSpec{.name = "vehicle", .title = "vehicle"}};
+    LayerSpec{.name = "field_of_view", .title = "field of view", .sample = Style::field_of_view},
+    LayerSpec{.name = "occlusions", .title = "occluded areas", .sample = Style::occlusion},
+    LayerSpec{.name = "lanes", .title = "lanes", .sample = Style::lane_own},
+    LayerSpec{.name = "truth", .title = "ground truth", .sample = Style::truth},
+    LayerSpec{.name = "range", .title = "map range", .sample = Style::range},
+    LayerSpec{.name = "uncertainty", .title = "uncertainty (2 σ)", .sample = Style::uncertainty},
+    LayerSpec{
+        .name = "markings", .title = "fused markings", .sample = Style::laneline_unknown, .shown = false},
+    LayerSpec{.name = "boundaries", .title = "lane boundaries", .sample = Style::laneline_solid},
+    LayerSpec{.name = "stoplines", .title = "stop lines", .sample = Style::stopline},
+    LayerSpec{.name = "linkages", .title = "linkages", .sample = Style::linkage},
+    LayerSpec{.name = "way", .title = "own way", .sample = Style::way},
+    LayerSpec{
+        .name = "detections", .title = "detections", .sample = Style::laneline_unknown, .overlay = 0.55},
+    LayerSpec{.name = "ids", .title = "ids", .sample = Style::id, .shown = false},
+    LayerSpec{.name = "vehicle", .title = "vehicle", .sample = Style::vehicle}};
 
-Style nth(Style first, ElementId id) {
-  return static_cast<Style>(static_cast<std::size_t>(first) + id % kLaneStyles);
+constexpr std::array kLegend{LegendEntry{Style::laneline_solid, "solid line"},
+                             LegendEntry{Style::laneline_dashed, "dashed line"},
+                             LegendEntry{Style::laneline_unknown, "unknown style"},
+                             LegendEntry{Style::roadedge, "road edge"},
+                             LegendEntry{Style::stopline, "stop line"},
+                             LegendEntry{Style::lane_own, "own lane"},
+                             LegendEntry{Style::lane_same_way, "same direction"},
+                             LegendEntry{Style::lane_oncoming, "oncoming"},
+                             LegendEntry{Style::lane_crossing, "crossing"},
+                             LegendEntry{Style::lane_unknown, "direction unknown"},
+                             LegendEntry{Style::lane_unused, "shoulder, parking"},
+                             LegendEntry{Style::inferred, "inferred"},
+                             LegendEntry{Style::way, "own way"},
+                             LegendEntry{Style::linkage, "linkage"},
+                             LegendEntry{Style::truth, "ground truth"},
+                             LegendEntry{Style::range, "map range"}};
+
+Style of_role(Style first, LaneRole role) {
+  return static_cast<Style>(static_cast<std::size_t>(first) + static_cast<std::size_t>(role));
 }
 
 }  // namespace
@@ -106,7 +133,8 @@ Style marking_style(MarkingType type, MarkingStyle style) {
   return style == MarkingStyle::solid ? Style::laneline_solid : Style::laneline_unknown;
 }
 
-Style lane_style(ElementId lane) { return nth(Style::lane_a, lane); }
-Style course_style(ElementId lane) { return nth(Style::course_a, lane); }
+Style lane_style(LaneRole role) { return of_role(Style::lane_own, role); }
+Style course_style(LaneRole role) { return of_role(Style::course_own, role); }
+std::span<const LegendEntry> legend() { return kLegend; }
 
 }  // namespace laneloom::drawing::palette

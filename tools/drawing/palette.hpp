@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "drawing/colour.hpp"
+#include "drawing/lane_role.hpp"
 #include "laneloom/types.hpp"
 
 /// The colours and strokes of all pictures, of the viewer and of other programs' scenes. They are defined
@@ -18,14 +20,19 @@ enum class Style : std::uint8_t {
   laneline_unknown,
   roadedge,
   stopline,
-  lane_a,  ///< one of four colours of lanes, so that neighbours differ
-  lane_b,
-  lane_c,
-  lane_d,
-  course_a,  ///< centerline and arrows of a lane_a
-  course_b,
-  course_c,
-  course_d,
+  lane_own,  ///< lanes by their LaneRole, in its order
+  lane_same_way,
+  lane_oncoming,
+  lane_crossing,
+  lane_unknown,
+  lane_unused,
+  course_own,  ///< centerlines and arrows of lanes, in the same order
+  course_same_way,
+  course_oncoming,
+  course_crossing,
+  course_unknown,
+  course_unused,
+  inferred,  ///< hatching of the stretches of a lane that were concluded
   linkage,
   way,  ///< the own way
   truth,
@@ -37,8 +44,7 @@ enum class Style : std::uint8_t {
   window,  ///< of the vehicle
   id
 };
-inline constexpr std::size_t kStyleCount = 23;
-inline constexpr std::size_t kLaneStyles = 4;
+inline constexpr std::size_t kStyleCount = 28;
 
 /// A group of elements that can be shown or hidden together. Layers are painted in this order; the first lies
 /// lowest.
@@ -86,8 +92,15 @@ struct StyleSpec {
 struct LayerSpec {
   const char* name;
   const char* title;     ///< for people
+  Style sample;          ///< the style that stands for it in a legend
   bool shown = true;     ///< whether a viewer shows it at first
   double overlay = 1.0;  ///< factor on widths of lines in viewers that lay it over the fused map
+};
+
+/// A style with its meaning for people.
+struct LegendEntry {
+  Style style;
+  const char* title;
 };
 
 const palette::StyleSpec& of(Style style);
@@ -95,10 +108,12 @@ const palette::LayerSpec& of(Layer layer);
 
 /// The style of a marking: dashed if it is painted so, thin if its style is unknown.
 Style marking_style(MarkingType type, MarkingStyle style);
-/// The style of a lane's area. It stays the same as long as the lane keeps its id.
-Style lane_style(ElementId lane);
+/// The style of a lane's area.
+Style lane_style(LaneRole role);
 /// The style of a lane's centerline and arrows.
-Style course_style(ElementId lane);
+Style course_style(LaneRole role);
+/// The styles that a legend explains, in its order.
+std::span<const LegendEntry> legend();
 
 }  // namespace palette
 }  // namespace laneloom::drawing

@@ -1,5 +1,7 @@
 #include "drawing/truth.hpp"
 
+#include <algorithm>
+
 #include "drawing/marking_shapes.hpp"
 #include "io/json_fields.hpp"
 #include "laneloom/polyline.hpp"
@@ -22,6 +24,8 @@ Lane drawn(const simulation::RoadLane& lane) {
   drawn.left = lane.left;
   drawn.right = lane.right;
   drawn.centerline = lane.centerline;
+  const MeasuredPolyline left(lane.left), right(lane.right);
+  drawn.width_m = (left.at(0.5 * left.length()) - right.at(0.5 * right.length())).head<2>().norm();
   drawn.direction = Lane::Direction::along_centerline;
   return drawn;
 }
@@ -41,15 +45,21 @@ void add_truth(const simulation::Road& truth, Drawing& drawing) {
   }
 }
 
-LocalMap map_of(const simulation::Road& truth) {
-  LocalMap map;
+LocalMap map_of(const simulation::Road& truth, const Eigen::Isometry3d& T_map_body, double reach_m) {
+  LocalMap map{.T_map_body = T_map_body};
+  const auto is_near = [&](const Polyline& line) {
+    return std::ranges::any_of(
+        line, [&](const Point& point) { return (point - T_map_body.translation()).norm() <= reach_m; });
+  };
   for (const simulation::RoadMarking& marking : truth.markings) {
+    if (!is_near(marking.points)) continue;
     if (marking.type == MarkingType::stopline)
       map.stoplines.push_back({drawn(marking), {}, Point::Zero()});
     else
       map.boundaries.push_back(drawn(marking));
   }
   for (const simulation::RoadLane& lane : truth.lanes) {
+    if (!is_near(lane.centerline)) continue;
     map.lanes.push_back(drawn(lane));
     for (const ElementId next : lane.successors) {
       Linkage linkage;

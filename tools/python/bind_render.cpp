@@ -41,7 +41,7 @@ render::Moment draw_moment(const Inputs& inputs, const RangeConfig& range) {
   if (inputs.map != nullptr)
     add_map(*inputs.map, moment.panels.emplace_back(render::Panel{"Fused map", over_truth}).drawing);
   if (inputs.truth != nullptr)
-    add_map(drawing::map_of(*inputs.truth),
+    add_map(drawing::map_of(*inputs.truth, moment.T_map_body),
             moment.panels.emplace_back(render::Panel{"Ground truth", around}).drawing);
   return moment;
 }

@@ -9,9 +9,8 @@ namespace {
 
 constexpr double kAroundBox_m = 2.0;
 constexpr double kArrowStep_m = 0.3;  ///< tells an arrow's direction on the canvas
-constexpr double kLegendColumn = 125.0;
+constexpr double kLegendColumn = 150.0;
 constexpr double kLegendLine = 18.0;
-constexpr double kLegendEntries = 9.0;
 
 /// An arrow head with its tip at `tip`.
 Outline arrow_head(const Pixel& tip, const Pixel& direction, double size) {
@@ -101,33 +100,23 @@ void draw_panel(Canvas& canvas, const PanelView& view, const drawing::Drawing& d
 
 double legend_height(double width) {
   const double columns = std::max(1.0, std::floor(width / kLegendColumn));
-  return kLegendLine * std::ceil(kLegendEntries / columns);
+  return kLegendLine * std::ceil(static_cast<double>(drawing::palette::legend().size()) / columns);
 }
 
 void draw_legend(Canvas& canvas, const Pixel& top_left, double width) {
   constexpr double kSample = 26.0;
   Pixel at = top_left + Pixel(0.0, kLegendLine / 2);
-  const auto next = [&](const std::string& label) {
-    canvas.text(at + Pixel(kSample + 6.0, 4.0), label, 11.0, drawing::palette::kText);
+  for (const auto& [style, title] : drawing::palette::legend()) {
+    const drawing::palette::StyleSpec& spec = drawing::palette::of(style);
+    if (spec.head > 0.0) canvas.fill(arrow_head(at + Pixel(kSample, 0), {1, 0}, spec.head), spec.light);
+    if (spec.width > 0.0)
+      canvas.stroke({at, at + Pixel(kSample, 0)}, pen_of(style, 1.0));
+    else
+      canvas.fill(rectangle(at - Pixel(0, 5), {kSample, 10}), spec.light);
+    canvas.text(at + Pixel(kSample + 6.0, 4.0), title, 11.0, drawing::palette::kText);
     at.x() += kLegendColumn;
     if (at.x() + kLegendColumn > top_left.x() + width) at = Pixel(top_left.x(), at.y() + kLegendLine);
-  };
-  const auto line = [&](drawing::Style style, const std::string& label) {
-    canvas.stroke({at, at + Pixel(kSample, 0)}, pen_of(style, 1.0));
-    next(label);
-  };
-  line(drawing::Style::laneline_solid, "solid line");
-  line(drawing::Style::laneline_dashed, "dashed line");
-  line(drawing::Style::laneline_unknown, "unknown style");
-  line(drawing::Style::roadedge, "road edge");
-  line(drawing::Style::stopline, "stop line");
-  canvas.fill(rectangle(at - Pixel(0, 5), {kSample, 10}), drawing::palette::of(drawing::Style::lane_a).light);
-  next("lane");
-  const drawing::palette::StyleSpec& linkage = drawing::palette::of(drawing::Style::linkage);
-  canvas.fill(arrow_head(at + Pixel(kSample, 0), {1, 0}, linkage.head), linkage.light);
-  line(drawing::Style::linkage, "linkage");
-  line(drawing::Style::truth, "ground truth");
-  line(drawing::Style::range, "map range");
+  }
 }
 
 }  // namespace laneloom::render
