@@ -225,8 +225,27 @@ void LaterMeter::rate_first() {
     driven_m_ += moments_[1].driven_m - first.driven_m;
     for (std::size_t i = 0; i < kLaterDistances_m.size(); ++i) rate_lines(i, sides_seen());
     rate_own_lane();
+    rated_ns_ = first.stamp_ns;
   }
   moments_.pop_front();
+}
+
+LaterScore LaterMeter::take_scores() {
+  LaterScore sum;
+  const auto add = [](const LaterScore::Subject& from, LaterScore::Subject& to) {
+    to.lines += from.lines;
+    to.right += from.right;
+    to.found += from.found;
+    to.lateral_errors_m.add(from.lateral_errors_m);
+  };
+  for (const auto& by_type : std::exchange(scores_, {}))
+    for (const LaterScore& score : by_type) {
+      sum.seen_later += score.seen_later;
+      add(score.single, sum.single);
+      add(score.map, sum.map);
+    }
+  own_lane_.widths_m = {};
+  return sum;
 }
 
 bool LaterMeter::any() const {

@@ -76,6 +76,11 @@ class LaterMeter {
   const LaterScore& score(MarkingType type, std::size_t distance) const {
     return scores_[distance][index(type)];
   }
+  /// The scores of the frames that were rated since the last call, over all types and distances. The meter
+  /// forgets these scores, so that it can run forever.
+  LaterScore take_scores();
+  /// The stamp of the frame that was rated last; 0: none was.
+  std::int64_t rated_ns() const { return rated_ns_; }
   /// Whether any line was seen later, so that there are figures.
   bool any() const;
   const OwnLaneScore& own_lane() const { return own_lane_; }
@@ -111,6 +116,7 @@ class LaterMeter {
 
   double min_confidence_;
   std::int64_t begin_ns_ = 0;  ///< of the drive
+  std::int64_t rated_ns_ = 0;
   std::deque<Moment> moments_;
   std::array<std::array<LaterScore, kMarkingTypeCount>, kLaterDistances_m.size()> scores_;
   OwnLaneScore own_lane_;

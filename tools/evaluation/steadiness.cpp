@@ -87,15 +87,15 @@ Steadiness& Steadiness::operator+=(const Steadiness& other) {
   return *this;
 }
 
-SteadinessMeter::SteadinessMeter(const simulation::Road& truth) : truth_(as_map(truth)) {}
+SteadinessSteps::SteadinessSteps(const simulation::Road& truth) : truth_(as_map(truth)) {}
 
-SteadinessMeter::Lanes SteadinessMeter::lanes_of(const LocalMap& map) {
+SteadinessSteps::Lanes SteadinessSteps::lanes_of(const LocalMap& map) {
   Lanes lanes;
   for (const Lane& lane : map.lanes) lanes[lane.id] = {lane.centerline, lane.direction};
   return lanes;
 }
 
-void SteadinessMeter::add_blinks(const Lanes& lanes, const Eigen::Isometry3d& T_map_body,
+void SteadinessSteps::add_blinks(const Lanes& lanes, const Eigen::Isometry3d& T_map_body,
                                  Steadiness& added) const {
   for (const auto& [id, lane] : lanes)
     if (!lanes_.contains(id) && inner_length(lane.centerline, T_map_body_) > kLeastInner_m) ++added.blinks;
@@ -107,7 +107,7 @@ void SteadinessMeter::add_blinks(const Lanes& lanes, const Eigen::Isometry3d& T_
   }
 }
 
-void SteadinessMeter::add_changes(const Lanes& lanes, Steadiness& added) const {
+void SteadinessSteps::add_changes(const Lanes& lanes, Steadiness& added) const {
   for (const auto& [id, lane] : lanes) {
     const auto before = lanes_.find(id);
     if (before == lanes_.end()) continue;
@@ -116,7 +116,7 @@ void SteadinessMeter::add_changes(const Lanes& lanes, Steadiness& added) const {
   }
 }
 
-void SteadinessMeter::add_jumps(const Polyline& way, const Eigen::Isometry3d& T_map_body,
+void SteadinessSteps::add_jumps(const Polyline& way, const Eigen::Isometry3d& T_map_body,
                                 Steadiness& added) const {
   if (way.size() < 2 || way_.size() < 2) return;
   const MeasuredPolyline before(way_), now(way);
@@ -127,7 +127,7 @@ void SteadinessMeter::add_jumps(const Polyline& way, const Eigen::Isometry3d& T_
   }
 }
 
-void SteadinessMeter::add_own_change(const LocalMap& map, const Way& way, const Lanes& lanes,
+void SteadinessSteps::add_own_change(const LocalMap& map, const Way& way, const Lanes& lanes,
                                      Steadiness& added) {
   if (way.points.empty()) return;
   const ElementId before = std::exchange(own_lane_, way.lane);
@@ -139,7 +139,7 @@ void SteadinessMeter::add_own_change(const LocalMap& map, const Way& way, const 
   if (!linked) ++added.own_changes;
 }
 
-void SteadinessMeter::add_way(const Way& way, const Eigen::Isometry3d& T_map_body, Steadiness& added) const {
+void SteadinessSteps::add_way(const Way& way, const Eigen::Isometry3d& T_map_body, Steadiness& added) const {
   const Way true_way = truth_ ? way_ahead(*truth_, T_map_body, kTrueWay_m) : Way{};
   const bool wanted = !truth_ || !true_way.points.empty();
   added.own_wanted = wanted ? 1 : 0;
@@ -157,10 +157,10 @@ void SteadinessMeter::add_way(const Way& way, const Eigen::Isometry3d& T_map_bod
   added.kink_deg.add(largest_kink_deg(way.points));
 }
 
-void SteadinessMeter::add(const LocalMap& map) {
+std::optional<Steadiness> SteadinessSteps::next(const LocalMap& map) {
   if (!stamp_ns_) stamp_ns_ = map.stamp_ns + kWarmUp_ns;
-  const bool first = entries_.empty();
-  if (map.stamp_ns < *stamp_ns_ || (!first && map.stamp_ns == *stamp_ns_)) return;
+  const bool first = std::exchange(first_, first_ && map.stamp_ns < *stamp_ns_);
+  if (map.stamp_ns < *stamp_ns_ || (!first && map.stamp_ns == *stamp_ns_)) return std::nullopt;
   const std::int64_t passed_ns = map.stamp_ns - *stamp_ns_;
   Lanes lanes = lanes_of(map);
   Way way = way_ahead(map, map.T_map_body);
@@ -174,11 +174,16 @@ void SteadinessMeter::add(const LocalMap& map) {
   }
   add_way(way, map.T_map_body, added);
   add_own_change(map, way, lanes, added);
-  entries_.push_back({map.T_map_body.translation().head<2>(), std::move(added)});
   stamp_ns_ = map.stamp_ns;
   T_map_body_ = map.T_map_body;
   lanes_ = std::move(lanes);
   way_ = std::move(way.points);
+  return added;
+}
+
+void SteadinessMeter::add(const LocalMap& map) {
+  if (auto added = steps_.next(map))
+    entries_.push_back({map.T_map_body.translation().head<2>(), *std::move(added)});
 }
 
 Steadiness SteadinessMeter::steadiness() const {

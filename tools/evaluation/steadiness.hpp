@@ -51,22 +51,18 @@ struct Steadiness {
   Steadiness& operator+=(const Steadiness& other);
 };
 
-/// Not thread-safe.
-class SteadinessMeter {
+/// Tells what each map of a drive adds. It remembers the map before, and the
+/// ages of all lanes. Not thread-safe.
+class SteadinessSteps {
  public:
-  SteadinessMeter() = default;
-  explicit SteadinessMeter(const simulation::Road& truth);
+  SteadinessSteps() = default;
+  explicit SteadinessSteps(const simulation::Road& truth);
 
-  /// Adds the next map. One that is not later than the map before is passed over.
-  void add(const LocalMap& map);
-  Steadiness steadiness() const;
+  /// What the next map adds. Empty: the map does not count, as it is of the first 2 s, or not later than the
+  /// map before.
+  std::optional<Steadiness> next(const LocalMap& map);
 
  private:
-  /// What one map added.
-  struct Entry {
-    Eigen::Vector2d place;  ///< of the vehicle, map frame
-    Steadiness added;
-  };
   struct LaneBefore {
     Polyline centerline;
     Lane::Direction direction = Lane::Direction::unknown;
@@ -82,13 +78,34 @@ class SteadinessMeter {
 
   std::optional<LocalMap> truth_;         ///< its lanes and linkages
   std::optional<std::int64_t> stamp_ns_;  ///< of the map before, or from when on maps count
-  std::vector<Entry> entries_;
+  bool first_ = true;                     ///< no map counted yet
   // Of the map before:
   Eigen::Isometry3d T_map_body_ = Eigen::Isometry3d::Identity();
   Lanes lanes_;
   Polyline way_;
   ElementId own_lane_ = kNoElement;  ///< the last one; kNoElement: a path was later, or there was none
   std::map<ElementId, std::int64_t> lived_ns_;  ///< by lane
+};
+
+/// Not thread-safe.
+class SteadinessMeter {
+ public:
+  SteadinessMeter() = default;
+  explicit SteadinessMeter(const simulation::Road& truth) : steps_(truth) {}
+
+  /// Adds the next map. One that is not later than the map before is passed over.
+  void add(const LocalMap& map);
+  Steadiness steadiness() const;
+
+ private:
+  /// What one map added.
+  struct Entry {
+    Eigen::Vector2d place;  ///< of the vehicle, map frame
+    Steadiness added;
+  };
+
+  SteadinessSteps steps_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace laneloom::evaluation
