@@ -6,6 +6,7 @@
 
 #include "drawing/small_map.hpp"
 #include "view/events.hpp"
+#include "view/frame_placer.hpp"
 #include "view/frame_text.hpp"
 
 namespace laneloom::view {
@@ -56,9 +57,9 @@ TEST(MomentBuilder, AMapWhoseMarkingsAreLostComesWithTheNext) {
 /// The texts of the events between two moments.
 std::vector<std::string> events_between(const ViewMoment& before, const ViewMoment& after) {
   EventFinder finder;
-  EXPECT_THAT(finder.next(before), IsEmpty());
+  EXPECT_THAT(finder.next(before, nullptr), IsEmpty());
   std::vector<std::string> texts;
-  for (const ViewEvent& event : finder.next(after)) texts.push_back(event.kind + ": " + event.text);
+  for (const ViewEvent& event : finder.next(after, nullptr)) texts.push_back(event.kind + ": " + event.text);
   return texts;
 }
 
@@ -76,10 +77,61 @@ TEST(EventFinder, FindsWhatChanged) {
   ViewMoment refusing = before;
   refusing.status->sequence = 2;
   refusing.status->counters = {{"detections_refused_late", 4}, {"detections_fused", 9}};
-  EXPECT_THAT(events_between(before, refusing), testing::ElementsAre("counter: detections_refused_late +4"));
+  EXPECT_THAT(events_between(before, refusing), testing::ElementsAre("counter: detections refused late +4"));
   ViewMoment degraded = before;
   degraded.map.state = MapState::degraded;
   EXPECT_EQ(events_between(before, degraded).size(), 1U);
+}
+
+/// A moment with the vehicle beside the lane (`aside_m`), or in it, on a straight way.
+ViewMoment moment_at(double time_s, double aside_m, double way_m = 0.0) {
+  ViewMoment moment{.map = published(1, static_cast<std::int64_t>(time_s * 1e9))};
+  moment.seen_ns = moment.map.map.stamp_ns;
+  moment.map.map.lineage.clear();
+  moment.map.map.T_map_body.translate(Point(-12.0, aside_m, 0.0));
+  for (Lane& lane : moment.map.map.lanes) {
+    lane.direction = Lane::Direction::along_centerline;
+    lane.centerline = {{-20, way_m, 0}, {30, way_m, 0}};
+  }
+  moment.map.map.lanes.pop_back();
+  return moment;
+}
+
+TEST(FramePlacer, TellsWhatADriverWouldNotice) {
+  FramePlacer placer(RangeConfig{});
+  placer.next(moment_at(0.0, 0.0));
+  const FramePlace in_lane = placer.next(moment_at(3.0, 0.0));
+  ASSERT_EQ(in_lane.quality.size(), 1U);
+  EXPECT_EQ(in_lane.quality[0].own_lane, 21U);
+  EXPECT_THAT(in_lane.events, IsEmpty());
+  const FramePlace jumped = placer.next(moment_at(3.1, 0.0, 0.4));
+  EXPECT_NEAR(jumped.quality[0].jump_m.value(), 0.4, 1e-9);
+  ASSERT_EQ(jumped.events.size(), 1U);
+  EXPECT_EQ(jumped.events[0].text, "the way jumps 0.40 m, 10 m ahead");
+  const FramePlace lost = placer.next(moment_at(3.2, 5.0, 0.4));
+  EXPECT_EQ(lost.quality[0].own_lane, kNoElement);
+  ASSERT_EQ(lost.events.size(), 1U);
+  EXPECT_EQ(lost.events[0].text, "own lane 21 is lost");
+  const FramePlace found = placer.next(moment_at(3.7, 0.4, 0.4));
+  ASSERT_FALSE(found.events.empty());
+  EXPECT_EQ(found.events[0].text, "own lane 21 after 0.5 s without");
+  EXPECT_EQ(found.number, 4U);
+}
+
+TEST(FramePlacer, AMapThatIsRepeatedHasNoFigures) {
+  FramePlacer placer(RangeConfig{});
+  ViewMoment moment = moment_at(3.0, 0.0);
+  moment.map.age_s = 0.1;
+  EXPECT_TRUE(json::parse(summary_text(moment, placer.next(moment))).contains("age_s"));
+  moment.alive = false;
+  moment.repeated = true;
+  moment.seen_ns += 500'000'000;
+  const json summary = json::parse(summary_text(moment, placer.next(moment)));
+  EXPECT_EQ(summary["time_s"], 3.5);
+  EXPECT_EQ(summary["repeated"], true);
+  EXPECT_FALSE(summary.contains("age_s"));
+  EXPECT_FALSE(summary.contains("quality"));
+  EXPECT_EQ(summary["events"][0][0], "service");
 }
 
 TEST(FrameText, HasSummaryElementsAndWhatIsCompared) {
@@ -88,7 +140,7 @@ TEST(FrameText, HasSummaryElementsAndWhatIsCompared) {
                     .status = ServiceStatus{.counters = {{"detections_refused_late", 4}}}};
   moment.map.published_ns = moment.seen_ns - 2'000'000;
   moment.others = {small_map(), {}};
-  const FramePlace place{3, {{"reset", "a new map"}}};
+  const FramePlace place{3, {}, {{"reset", "a new map"}}};
   const json frame = json::parse(frame_text(moment, place, RangeConfig{}));
   EXPECT_EQ(frame["number"], 3);
   EXPECT_EQ(frame["time_s"], 1.5);

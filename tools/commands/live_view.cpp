@@ -11,6 +11,7 @@ namespace laneloom::commands {
 
 LiveView::LiveView(const DdsConfig& dds, const RangeConfig& range)
     : range_(range),
+      placer_(range),
       scenes_(dds.map_frame_id),
       participant_(dds, "laneloom view"),
       detections_(participant_, into_inbox<DetectionFrame>()),
@@ -24,7 +25,7 @@ void LiveView::run(view::Site& site, view::WebServer& server, bool with_scenes) 
     auto arrival = inbox_.take(std::chrono::milliseconds(50));
     if (!arrival) continue;
     if (const auto* alive = std::get_if<Alive>(&arrival->what)) {
-      set_alive(alive->alive);
+      set_alive(alive->alive, arrival->time_ns);
     } else {
       auto& message = std::get<recording::AnyMessage>(arrival->what);
       if (const auto* status = std::get_if<ServiceStatus>(&message)) site.set_status(*status);
@@ -50,15 +51,17 @@ bool LiveView::add(recording::AnyMessage&& message, std::int64_t time_ns) {
 }
 
 /// Shows the last moment once more, with the new liveliness.
-void LiveView::set_alive(bool alive) {
+void LiveView::set_alive(bool alive, std::int64_t time_ns) {
   alive_ = alive;
   if (!shown_) return;
   shown_->alive = alive;
+  shown_->repeated = true;
+  shown_->seen_ns = time_ns;
   shown_->map.map.lineage.clear();
 }
 
 void LiveView::show(view::WebServer& server) {
-  const view::FramePlace place{number_++, events_.next(*shown_)};
+  const view::FramePlace place = placer_.next(*shown_);
   server.publish(frame_text(*shown_, place, range_));
 }
 

@@ -9,7 +9,7 @@
 #include "laneloom/dds/reader.hpp"
 #include "recording/recording.hpp"
 #include "scene/scene_maker.hpp"
-#include "view/events.hpp"
+#include "view/frame_placer.hpp"
 #include "view/moment.hpp"
 #include "view/site.hpp"
 #include "view/web_server.hpp"
@@ -39,20 +39,19 @@ class LiveView {
 
   void publish_scenes(const recording::AnyMessage& message, std::int64_t time_ns, view::WebServer& server);
   bool add(recording::AnyMessage&& message, std::int64_t time_ns);
-  void set_alive(bool alive);
+  void set_alive(bool alive, std::int64_t time_ns);
   void show(view::WebServer& server);
   template <class T>
   dds::ReaderCallbacks<T> into_inbox();
   dds::ReaderCallbacks<PublishedMap> maps_into_inbox();
 
   RangeConfig range_;
+  view::FramePlacer placer_;
   Inbox<Arrival> inbox_;
   scene::SceneMaker scenes_;
   view::MomentBuilder builder_;
-  view::EventFinder events_;
   std::optional<view::ViewMoment> shown_;
   bool alive_ = true;
-  std::uint64_t number_ = 0;
   // They end before the inbox that they fill.
   dds::Participant participant_;
   dds::Reader<DetectionFrame> detections_;

@@ -1,5 +1,6 @@
 #include "commands/recorded_view.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <exception>
 #include <filesystem>
@@ -18,10 +19,13 @@
 #include "recording/recording.hpp"
 #include "replay/replay.hpp"
 #include "support/progress_bar.hpp"
+#include "view/frame_placer.hpp"
 #include "view/frame_text.hpp"
 
 namespace laneloom::commands {
 namespace {
+
+constexpr double kTruthReach_m = 60.0;  ///< of the truth that is drawn around the vehicle
 
 /// Is thrown to end the loading of a long file when the program is to end.
 struct Stopped {};
@@ -29,18 +33,21 @@ struct Stopped {};
 /// Writes moments into a store.
 class Storer {
  public:
-  Storer(const RangeConfig& range, view::FrameStore& store) : range_(range), store_(store) {}
+  Storer(const RangeConfig& range, std::size_t maps, const simulation::Road* truth, view::FrameStore& store)
+      : range_(range), truth_(truth), placer_(range, maps, truth), store_(store) {}
 
-  void add(const view::ViewMoment& moment) {
+  void add(view::ViewMoment moment) {
     if (stop_requested()) throw Stopped();
-    const view::FramePlace place{store_.size(), events_.next(moment)};
+    if (truth_ != nullptr) moment.truth = drawing::map_of(*truth_, moment.map.map.T_map_body, kTruthReach_m);
+    const view::FramePlace place = placer_.next(moment);
     store_.add(summary_text(moment, place), frame_text(moment, place, range_));
   }
 
  private:
   RangeConfig range_;
+  const simulation::Road* truth_;  ///< null: it is not known
+  view::FramePlacer placer_;
   view::FrameStore& store_;
-  view::EventFinder events_;
 };
 
 void load_recording(const std::string& path, bool strict, Storer& storer) {
@@ -156,19 +163,23 @@ std::string RecordedInputs::title() const {
 }
 
 std::vector<std::string> RecordedInputs::names() const {
-  const std::vector<std::string>& compared = configs.empty() ? maps : configs;
-  return compared.size() > 1 ? compared : std::vector<std::string>();
+  std::vector<std::string> names = configs.empty() ? maps : configs;
+  if (names.empty()) names.push_back("map");
+  if (!truth.empty()) names.emplace_back("truth");
+  return names.size() > 1 ? names : std::vector<std::string>();
 }
 
-std::string truth_elements(const RecordedInputs& inputs) {
+std::string truth_elements(const simulation::Road* truth) {
   drawing::Drawing drawing;
-  if (!inputs.truth.empty()) add_truth(simulation::load_truth(inputs.truth), drawing);
+  if (truth != nullptr) add_truth(*truth, drawing);
   return to_json(drawing)["elements"].dump();
 }
 
-void load(const RecordedInputs& inputs, const RangeConfig& range, view::FrameStore& store) {
+void load(const RecordedInputs& inputs, const RangeConfig& range, const simulation::Road* truth,
+          view::FrameStore& store) {
   try {
-    Storer storer(range, store);
+    const std::size_t maps = std::max({std::size_t{1}, inputs.configs.size(), inputs.maps.size()});
+    Storer storer(range, maps, truth, store);
     if (!inputs.configs.empty())
       load_comparison(inputs, storer);
     else if (inputs.recording.empty())

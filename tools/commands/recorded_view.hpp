@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "simulation/road.hpp"
 #include "view/frame_store.hpp"
 
 namespace laneloom::commands {
@@ -19,14 +20,16 @@ struct RecordedInputs {
 
   bool empty() const { return recording.empty() && frames.empty() && maps.empty(); }
   std::string title() const;
-  /// The names of the maps that are compared. Empty: there is one map.
+  /// The names of the maps that are seen beside one another, the truth last. Empty: there is one map.
   std::vector<std::string> names() const;
 };
 
-/// The elements to draw of the truth, as JSON; none if no truth is given. Throws as load_truth().
-std::string truth_elements(const RecordedInputs& inputs);
+/// The elements to draw of the truth beneath each map, as JSON; none if it is null.
+std::string truth_elements(const simulation::Road* truth);
 
-/// Reads the files into the store, and finishes it. Does not throw: the store has the error.
-void load(const RecordedInputs& inputs, const RangeConfig& range, view::FrameStore& store);
+/// Reads the files into the store, and finishes it. `truth` may be null. Does not throw: the store has the
+/// error.
+void load(const RecordedInputs& inputs, const RangeConfig& range, const simulation::Road* truth,
+          view::FrameStore& store);
 
 }  // namespace laneloom::commands

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -49,10 +50,12 @@ void view_live(const ViewOptions& options) {
 }
 
 void view_recording(const ViewOptions& options) {
+  std::optional<simulation::Road> truth;
+  if (!options.recorded.truth.empty()) truth = simulation::load_truth(options.recorded.truth);
+  const simulation::Road* road = truth ? &*truth : nullptr;
   view::FrameStore store;
-  const view::Site site(options.recorded.title(), truth_elements(options.recorded), &store,
-                        options.recorded.names());
-  std::thread loader([&] { load(options.recorded, options.range, store); });
+  const view::Site site(options.recorded.title(), truth_elements(road), &store, options.recorded.names());
+  std::thread loader([&] { load(options.recorded, options.range, road, store); });
   try {
     const view::WebServer server(options.server,
                                  [&site](std::string_view target) { return site.answer(target); });

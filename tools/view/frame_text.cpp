@@ -1,5 +1,6 @@
 #include "view/frame_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-double seconds(std::int64_t stamp_ns) { return drawing::rounded(static_cast<double>(stamp_ns) * 1e-9); }
+double stamp_s(std::int64_t stamp_ns) { return drawing::rounded(static_cast<double>(stamp_ns) * 1e-9); }
 json known(double value) { return value < 0.0 ? json() : json(drawing::rounded(value)); }
 
 std::uint64_t refusals(const ServiceStatus& status) {
@@ -32,15 +33,39 @@ void put_status(json& summary, const ServiceStatus& status) {
   summary["refused"] = refusals(status);
 }
 
+void put(const char* key, const std::optional<double>& value, json& to) {
+  if (value) to[key] = drawing::rounded(*value);
+}
+
+/// The time of a figure about an earlier frame is that of the frame.
+json quality_json(const MapQuality& quality, const ViewMoment& moment) {
+  json out{{"own_lane", quality.own_lane}, {"lanes", quality.lanes}};
+  put("jump_m", quality.jump_m, out);
+  if (quality.unsteady) out["unsteady"] = *quality.unsteady;
+  put("error_m", quality.lateral_error_m, out);
+  put("recall", quality.recall, out);
+  if (const auto& later = quality.later) {
+    json& proved =
+        out["later"] = {{"time_s", stamp_s(moment.seen_ns - (moment.map.map.stamp_ns - later->stamp_ns))}};
+    put("recall", later->recall, proved);
+    put("precision", later->precision, proved);
+    put("error_m", later->lateral_error_m, proved);
+  }
+  return out;
+}
+
 json summary_json(const ViewMoment& moment, const FramePlace& place) {
   const PublishedMap& map = moment.map;
-  json summary{{"number", place.number}, {"time_s", seconds(moment.seen_ns)}, {"alive", moment.alive}};
+  json summary{{"number", place.number}, {"time_s", stamp_s(moment.seen_ns)}, {"alive", moment.alive}};
   for (const LineageEvent& event : map.map.lineage)
     summary["lineage"].push_back(drawing::properties_of(event));
   for (const ViewEvent& event : place.events) summary["events"].push_back({event.kind, event.text});
+  for (const MapQuality& quality : place.quality) summary["quality"].push_back(quality_json(quality, moment));
+  if (moment.repeated) summary["repeated"] = true;
   if (!moment.has_state) return summary;
   summary["state"] = name(map.state);
   for (const StateReason reason : map.reasons) summary["reasons"].push_back(name(reason));
+  if (moment.repeated) return summary;  // its times are those of another moment
   summary["age_s"] = known(map.age_s);
   summary["lag_s"] = known(map.lag_s);
   summary["latency_ms"] = static_cast<double>(moment.seen_ns - map.published_ns) * 1e-6;
@@ -89,9 +114,11 @@ std::string summary_text(const ViewMoment& moment, const FramePlace& place) {
 std::string frame_text(const ViewMoment& moment, const FramePlace& place, const RangeConfig& range) {
   json frame = summary_json(moment, place);
   frame.update(to_json(drawing_of(moment.map.map, moment, range)));
-  for (const LocalMap& other : moment.others)
-    frame["others"].push_back(
-        {{"elements", std::move(to_json(drawing_of(other, moment, range))["elements"])}});
+  const auto put_beside = [&](const LocalMap& map) {
+    frame["others"].push_back({{"elements", std::move(to_json(drawing_of(map, moment, range))["elements"])}});
+  };
+  std::ranges::for_each(moment.others, put_beside);
+  if (moment.truth) put_beside(*moment.truth);
   frame["sequence"] = moment.map.sequence;
   frame["session_id"] = std::to_string(moment.map.session_id);
   frame["map_id"] = std::to_string(moment.map.map_id);

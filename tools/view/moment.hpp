@@ -15,11 +15,13 @@ struct ViewMoment {
   PublishedMap map;                          ///< with the markings of the topic road_markings
   bool has_state = true;                     ///< else the map is from a file without states
   bool alive = true;                         ///< the service asserts its liveliness
-  std::int64_t seen_ns = 0;                  ///< time of the map's reception, system clock
+  bool repeated = false;                     ///< the map was shown before: something else is new
+  std::int64_t seen_ns = 0;                  ///< time of the reception of what is new, system clock
   std::optional<DetectionFrame> detections;  ///< the frame that was fused last, seen from the map's pose
   std::optional<VehiclePose> pose;           ///< the newest pose
   std::optional<ServiceStatus> status;       ///< the newest status
   std::vector<LocalMap> others;              ///< maps of the same time to compare with; always as many
+  std::optional<LocalMap> truth;             ///< of the road around; drawn beside the maps
 };
 
 /// Makes moments of messages, in the order of their arrival. A map and its markings come one after the other.

@@ -88,6 +88,39 @@ async function saysThatTheServiceIsGone(browser, page, url, service) {
   return again;
 }
 
+/** No figure of the service's table is broken over two lines. */
+async function keepsNumbersWhole(page) {
+  await page.evaluate(() => (document.getElementById('service').closest('details').open = true));
+  await until(page, () => document.querySelectorAll('#service dd').length > 10);
+  const broken = await page.$$eval('#service dd', (cells) => cells.filter((cell) => {
+    const range = document.createRange();
+    range.selectNodeContents(cell);
+    return /^[\d.]+$/.test(cell.textContent) && new Set([...range.getClientRects()].map(({top}) => top)).size > 1;
+  }).map(({textContent}) => textContent));
+  assert.deepEqual(broken, []);
+  await page.evaluate(() => (document.getElementById('service').closest('details').open = false));
+}
+
+/** The band of states is red from the middle of an outage to its end, and the curves are broken there. */
+async function paintsTheOutageRed(page) {
+  const red = await page.evaluate(() => {
+    const {timeline, feed} = window.laneloom, gone = feed.summaries.findLast(({alive}) => alive === false);
+    const back = feed.summaries.find(({index, repeated}) => index > gone.index && !repeated), wanted = getComputedStyle(document.documentElement).getPropertyValue('--stale').trim();
+    timeline.draw();
+    const {canvas, left} = timeline, {first, last} = feed, width = canvas.clientWidth - left - 52, pen = canvas.getContext('2d');
+    const share = (time_s) => (time_s - Math.min(first.time_s, last.time_s - 10)) / (last.time_s - Math.min(first.time_s, last.time_s - 10));
+    const {data} = pen.getImageData(0, 2, canvas.width, 1);
+    const colours = [0.3, 0.5, 0.7, 0.85].map((part) => {
+      const pixel = 4 * Math.round((left + share(gone.time_s + part * (back.time_s - gone.time_s)) * width) * (devicePixelRatio || 1)), [r, g, b] = data.slice(pixel, pixel + 3);
+      return `#${[r, g, b].map((value) => value.toString(16).padStart(2, '0')).join('')}`;
+    });
+    return {colours, wanted, lasted_s: back.time_s - gone.time_s};
+  });
+  console.log(`the outage lasted ${red.lasted_s.toFixed(2)} s`);
+  assert.ok(red.lasted_s > 0);
+  assert.deepEqual(red.colours, red.colours.map(() => red.wanted));
+}
+
 async function recoversWithTheViewer(browser, viewer, url) {
   const page = await openTab(browser, url);  // whose console tells of the connection
   await hasLanes(page);
@@ -151,6 +184,8 @@ try {
   if (picture) await page.screenshot({path: picture});
   await aSuspendedTabSlowsNobody(browser, page, url);
   service = await saysThatTheServiceIsGone(browser, page, url, service);
+  await paintsTheOutageRed(page);
+  await keepsNumbersWhole(page);
   const {ms, worst_ms, frames} = await page.evaluate(() => window.laneloom.drawn);
   console.log(`drawing: ${ms.toFixed(2)} ms a frame, at most ${worst_ms.toFixed(2)} ms, ${frames} frames`);
   await refusesStrangers(browser, url);

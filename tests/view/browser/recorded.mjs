@@ -1,5 +1,5 @@
 // Drives a headless Chromium through a recording, and through its frames by two configurations side by side:
-//   node recorded.mjs LANELOOM RECORDING FRAMES CONFIG CONFIG [PICTURE]
+//   node recorded.mjs LANELOOM RECORDING FRAMES TRUTH CONFIG CONFIG [PICTURE]
 // Exits with 1 where something is not as a person would find it.
 import assert from 'node:assert/strict';
 import {mkdtempSync, readFileSync, existsSync, rmSync} from 'node:fs';
@@ -7,8 +7,8 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {clickALane, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
 
-const [laneloom, recording, frames, configA, configB, picture] = process.argv.slice(2);
-const MOST_BYTES = 150_000;  // of the page and its modules
+const [laneloom, recording, frames, truth, configA, configB, picture] = process.argv.slice(2);
+const MOST_BYTES = 200_000;  // of the page and its modules
 const screenshot = (page, name) => picture && page.screenshot({path: picture.replace('.png', `${name}.png`)});
 
 async function findsALaneByItsId(page) {
@@ -115,7 +115,10 @@ async function savesPictures(page) {
     await done;
     assert.ok(existsSync(join(folder, name)), name);
   }
-  assert.equal(readFileSync(join(folder, 'laneloom.png')).subarray(1, 4).toString(), 'PNG');
+  const png = readFileSync(join(folder, 'laneloom.png')), seen = await page.$eval('#map', ({clientWidth, clientHeight}) => [clientWidth, clientHeight]);
+  assert.equal(png.subarray(1, 4).toString(), 'PNG');
+  assert.equal(png.readUInt32BE(16), 2 * seen[0], 'the PNG is at twice the size');
+  assert.ok(png.readUInt32BE(20) > 2 * seen[1] + 60, 'the PNG has a caption and a legend');
   const drawn = await page.evaluate((text) => {
     const picture = new DOMParser().parseFromString(text, 'image/svg+xml');
     return [picture.querySelectorAll('parsererror').length, picture.querySelectorAll('path').length, picture.querySelectorAll('text').length];
@@ -137,6 +140,60 @@ async function fitsOnATablet(page) {
     await screenshot(page, name);
   }
   await page.setViewport({width: 1280, height: 720});
+}
+
+/** The whole range of the map is seen, at any size of the window. */
+async function fitsTheRange(page) {
+  await page.click('[data-do="reset"]');
+  for (const [width, height] of [[2560, 1440], [1280, 720], [1024, 768]]) {
+    await page.setViewport({width, height});
+    await until(page, (w) => window.laneloom.canvas.clientWidth > 0.5 * w && window.laneloom.drawn, width);
+    const {box, size} = await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => {
+      const {camera, elements} = window.laneloom, flat = elements.find(({layer}) => layer === 'range').shapes[0].line;
+      const corners = Array.from({length: flat.length / 2}, (_, i) => camera.project(flat[2 * i], flat[2 * i + 1]));
+      done({box: ['min', 'max'].map((f) => [0, 1].map((k) => Math[f](...corners.map((corner) => corner[k])))), size: [camera.width, camera.height]});
+    })));
+    assert.ok(box[0].every((low) => low >= 0) && box[1].every((high, k) => high <= size[k]), `at ${width} x ${height}: ${box} is within ${size}`);
+    assert.ok(box[1].some((high, k) => high - box[0][k] > 0.8 * size[k]), `at ${width} x ${height} the range fills the window`);
+  }
+  await page.setViewport({width: 1280, height: 720});
+}
+
+/** The worst moments are listed, and a click goes there. The figures have curves and means. */
+async function tellsOfQuality(page) {
+  await until(page, () => document.querySelectorAll('#worst button').length > 0 && document.querySelectorAll('#quality tr').length > 4);
+  const {worst_s, shown_s} = await page.evaluate(() => {
+    const {feed, quality} = window.laneloom, button = document.querySelector('#worst button');
+    button.click();
+    return {worst_s: button.querySelector('time').textContent, shown_s: feed.first.time_s, maps: quality.maps};
+  });
+  await until(page, (wanted) => window.laneloom.when(window.laneloom.player.summary) === wanted, worst_s);
+  assert.ok(shown_s >= 0);
+  const titles = await page.$$eval('#quality th:first-child', (cells) => cells.map(({textContent}) => textContent));
+  for (const title of ['own lane', 'jump at 10 m', 'lanes', 'unsteady lanes']) assert.ok(titles.includes(title), `${titles} has ${title}`);
+}
+
+/** With a truth, the truth is a panel, and errors are those by the truth. */
+async function showsTheTruth(browser) {
+  const {program: viewer, lines: [url]} = await start(laneloom, ['view', '--in', recording, '--truth', truth, '--port', '0'], 1);
+  const page = await openTab(browser, url);
+  await until(page, () => window.laneloom?.feed.complete && window.laneloom.elements.length > 0);
+  await hasLanesAt(page, 8);
+  const {columns, names, lanes} = await page.evaluate(() => {
+    const {panes} = window.laneloom;
+    return {columns: panes.columns, names: panes.names, lanes: panes.lists[1].filter(({type}) => type === 'lane').map(({shapes}) => shapes[0].style)};
+  });
+  assert.deepEqual([columns, names], [2, ['map', 'truth']]);
+  assert.ok(lanes.includes('lane_own') && lanes.includes('lane_oncoming'), `the lanes of the truth are ${lanes}`);
+  await tellsOfQuality(page);
+  const titles = await page.$$eval('#quality th:first-child', (cells) => cells.map(({textContent}) => textContent));
+  assert.ok(titles.includes('recall') && !titles.includes('recall, later seen'));
+  const recall = await page.evaluate(() => window.laneloom.feed.at(100).quality[0].recall);
+  assert.ok(recall > 0.3 && recall <= 1, `recall ${recall}`);
+  await screenshot(page, '_truth');
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+  assert.deepEqual(await stop(viewer), [0, null]);
 }
 
 async function goesToEvents(page) {
@@ -170,6 +227,8 @@ async function showsOneMap(browser) {
   await measures(page);
   await savesPictures(page);
   await fitsOnATablet(page);
+  await fitsTheRange(page);
+  await tellsOfQuality(page);
   await goesToEvents(page);
   const {ms, worst_ms, frames: count} = await page.evaluate(() => window.laneloom.drawn);
   console.log(`drawing: ${ms.toFixed(2)} ms a frame, at most ${worst_ms.toFixed(2)} ms, ${count} frames`);
@@ -193,6 +252,9 @@ async function comparesTwo(browser) {
   assert.deepEqual(beside.names, [configA, configB]);
   assert.deepEqual([beside.columns, beside.width], [2, beside.whole / 2]);
   assert.notEqual(beside.lines[0], beside.lines[1], 'the maps differ');
+  await tellsOfQuality(page);
+  assert.deepEqual(await page.$$eval('#quality tr:first-child th', (cells) => cells.map(({textContent}) => textContent)), ['', configA, configB, 'difference']);
+  await hasLanesAt(page, 8);
   const lane = await clickALane(page, 1);
   assert.equal(await page.evaluate(() => window.laneloom.selection.element.pane), 1, `lane ${lane} is of the second map`);
   await screenshot(page, '_beside');
@@ -209,6 +271,7 @@ async function comparesTwo(browser) {
 const browser = await launch();
 try {
   await showsOneMap(browser);
+  await showsTheTruth(browser);
   await comparesTwo(browser);
 } finally {
   await browser.close();

@@ -4,10 +4,12 @@ import {Camera} from './camera.js';
 import {Painter} from './draw.js';
 import {LiveFeed, RecordedFeed} from './feed.js';
 import {listen} from './keys.js';
-import {Events, Layers, showService} from './panels.js';
+import {Events, Layers, showLegend, showService} from './panels.js';
 import {Panes} from './panes.js';
+import {pictureOf} from './picture.js';
 import {Player} from './player.js';
 import {Pointer} from './pointer.js';
+import {Quality} from './quality.js';
 import {Selection} from './selection.js';
 import {applyState, copyLink, downloadPng, downloadSvg, remember, restore, stateOf} from './share.js';
 import {Timeline} from './timeline.js';
@@ -37,12 +39,14 @@ class App {
     this.feed = info.live ? new LiveFeed() : new RecordedFeed();
     this.player = new Player(this.feed);
     this.banner = new Banner(this.feed, this.player);
-    this.timeline = new Timeline(byId('timeline'), this.feed, this.player);
+    this.timeline = new Timeline(byId('timeline'), this.feed, this.player, info.names);
     this.layers = new Layers(byId('layers'), palette, this.painter, () => this.#changed());
     const go = (summary) => this.player.seek(summary);
-    this.events = new Events(byId('events'), {go, when: (summary) => this.when(summary)});
+    const when = (summary) => this.when(summary);
+    this.events = new Events(byId('events'), {go, when, choice: byId('eventKinds')});
+    this.quality = new Quality({table: byId('quality'), worst: byId('worst')}, {names: info.names, go, when});
     const {panes, layers, camera, feed, order} = this;
-    this.selection = new Selection({panes, layers, camera, feed, order, go, when: (summary) => this.when(summary), changed: () => (this.#dirty = true)});
+    this.selection = new Selection({panes, layers, camera, feed, order, go, when, changed: () => (this.#dirty = true)});
     this.#listen();
     applyState(this, restore());
   }
@@ -103,7 +107,7 @@ class App {
       measure: () => this.#measure(this.measuring ? null : []),
       compare: () => this.#compare(),
       link: async () => this.#toast(await copyLink(stateOf(this, true))),
-      png: () => downloadPng(this.canvas), svg: () => downloadSvg(this.canvas, (pen) => this.#paint(pen)),
+      png: () => downloadPng(this.#picture()), svg: () => downloadSvg(this.canvas, (pen) => this.#paint(pen)),
       theme: () => this.setTheme(this.painter.dark ? 'light' : 'dark'), help: () => byId('help').showModal(),
     };
   }
@@ -115,8 +119,16 @@ class App {
     this.panes.set([frame, ...(frame.others ?? [])].map(({elements}) => (this.truth.length
       ? [...elements, ...this.truth].sort((a, b) => this.order.get(a.layer) - this.order.get(b.layer)) : elements)));
     this.selection.newFrame(frame, summary);
+    const range = frame.elements.find(({layer}) => layer === 'range');
+    if (range) this.camera.setRange(range.shapes[0].line, frame.pose);
     this.camera.follow(frame.pose);
     this.#dirty = true;
+  }
+
+  #picture() {
+    const {canvas, painter, camera, info, player: {summary}} = this, scale = `1 m is ${(2 * camera.scale).toFixed(1)} pixels`;
+    const caption = [`laneloom: ${info.title}`, ...info.names, summary && this.when(summary, true), summary?.state, scale].filter(Boolean).join('   ');
+    return pictureOf({width: canvas.clientWidth, height: canvas.clientHeight, painter, caption, paint: (pen) => this.#paint(pen)});
   }
 
   #paint(pen) {
@@ -160,6 +172,7 @@ class App {
     this.#slow = {at: now, frames: drawn.frames};
     this.timeline.draw();
     this.events.update(feed);
+    this.quality.update(feed, player.summary);
     this.selection.tell();
     if (player.frame?.status && byId('service').closest('details').open) showService(byId('service'), player.frame.status);
     byId('rate').textContent = `${drawn.rate.toFixed(0)} fps${feed.lost ? `, ${feed.lost} lost` : ''}`;
@@ -229,6 +242,7 @@ class App {
     this.painter.dark = theme === 'auto' ? matchMedia('(prefers-color-scheme: dark)').matches : theme === 'dark';
     document.documentElement.dataset.theme = this.painter.dark ? 'dark' : 'light';
     this.layers.show();
+    showLegend(byId('legend'), this.painter);
     this.#dirty = true;
     remember(stateOf(this, false));
   }

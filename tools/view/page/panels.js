@@ -2,6 +2,25 @@
 
 const EVENTS = 200;
 
+/** A stroke in the colours of a style. */
+function sampleOf(painter, name) {
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), line = document.createElementNS(svg.namespaceURI, 'line');
+  const style = painter.palette.styles[name];
+  const attributes = {x1: 0, x2: 28, y1: 6, y2: 6, stroke: painter.colour(style), 'stroke-width': style.width ?? 10, 'stroke-dasharray': style.dash ?? ''};
+  for (const [key, value] of Object.entries(attributes)) line.setAttribute(key, value);
+  svg.append(line);
+  return svg;
+}
+
+/** Lists the colours with their meaning. */
+export function showLegend(node, painter) {
+  node.replaceChildren(...painter.palette.legend.map(({style, title}) => {
+    const item = document.createElement('span');
+    item.append(sampleOf(painter, style), title);
+    return item;
+  }));
+}
+
 /** The checkboxes of the layers. `shown` is a map of the layers that are shown, by name. */
 export class Layers {
   constructor(node, palette, painter, changed) {
@@ -21,34 +40,30 @@ export class Layers {
   }
 
   show() {
-    this.node.replaceChildren(...this.palette.layers.map(({name, title}, i) => {
+    this.node.replaceChildren(...this.palette.layers.map(({name, title, sample}, i) => {
       const box = Object.assign(document.createElement('input'), {type: 'checkbox', checked: this.shown.has(name), onchange: () => this.toggle(name)});
       box.dataset.layer = name;
       const label = document.createElement('label');
-      label.append(box, this.#sample(name), title + (i < 9 ? ` (${i + 1})` : ''));
+      label.append(box, sampleOf(this.painter, sample), title + (i < 9 ? ` (${i + 1})` : ''));
       return label;
     }));
   }
-
-  /** A stroke in the colour of the layer. */
-  #sample(name) {
-    const style = {lanes: 'lane_a', boundaries: 'laneline_solid', markings: 'laneline_dashed', stoplines: 'stopline', linkages: 'linkage',
-      detections: 'laneline_unknown', occlusions: 'occlusion', ids: 'id', vehicle: 'vehicle'}[name] ?? name;
-    const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), line = document.createElementNS(svg.namespaceURI, 'line');
-    const {light, dark, width, dash} = this.palette.styles[style];
-    const attributes = {x1: 0, x2: 28, y1: 6, y2: 6, stroke: this.painter.dark ? dark : light, 'stroke-width': width ?? 10, 'stroke-dasharray': dash ?? ''};
-    for (const [key, value] of Object.entries(attributes)) line.setAttribute(key, value);
-    svg.append(line);
-    return svg;
-  }
 }
 
-/** The list of events, newest first. A click goes to the time of the event. */
+const DRIVING = ['own_lane', 'way', 'stopline'], SERVICE = ['state', 'service', 'reset', 'counter'];
+const CHOICES = {driving: new Set(DRIVING), both: new Set([...DRIVING, ...SERVICE]), all: new Set([...DRIVING, ...SERVICE, 'lineage'])};
+
+/** The list of events, newest first. A click goes to the time of the event. `choice` is the select of the kinds. */
 export class Events {
   #index = -1;
 
-  constructor(node, {go, when}) {
-    Object.assign(this, {node, go, when});
+  constructor(node, {go, when, choice}) {
+    Object.assign(this, {node, go, when, kinds: CHOICES[choice.value]});
+    choice.onchange = () => {
+      this.kinds = CHOICES[choice.value];
+      this.#index = -1;
+      node.replaceChildren();
+    };
   }
 
   update(feed) {
@@ -64,6 +79,7 @@ export class Events {
   }
 
   #put(summary, kind, text) {
+    if (!this.kinds.has(kind)) return;
     const item = document.createElement('li'), button = document.createElement('button'), time = document.createElement('time');
     time.textContent = this.when(summary);
     button.append(time, text);

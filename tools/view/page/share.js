@@ -23,7 +23,7 @@ export function remember(state) {
 
 /** The state of the page: the view, and with `linked` also the time and the selected element. */
 export function stateOf({camera, layers, player, theme, selection: {element}}, linked) {
-  const state = {mode: camera.mode, scale: camera.scale.toFixed(2), layers: [...layers.shown.keys()].join(), theme};
+  const state = {mode: camera.mode, ...(camera.fitted && !(linked && camera.mode === 'free') ? {} : {scale: camera.scale.toFixed(2)}), layers: [...layers.shown.keys()].join(), theme};
   if (!linked) return state;
   if (camera.mode === 'free') Object.assign(state, {x: camera.x.toFixed(2), y: camera.y.toFixed(2), up: camera.up.toFixed(4)});
   if (!player.following && player.summary) state.t = player.summary.time_s;
@@ -35,6 +35,7 @@ export function applyState(app, {mode, scale, layers, theme, x, y, up, t, select
   const {camera} = app;
   if (['heading', 'north'].includes(mode) || (mode === 'free' && x)) camera.mode = mode;
   for (const [key, value] of Object.entries({scale, x, y, up})) if (Number.isFinite(parseFloat(value))) camera[key] = parseFloat(value);
+  if (Number.isFinite(parseFloat(scale))) camera.fitted = false;
   camera.zoom(1);
   app.setTheme(theme ?? 'auto');
   if (layers !== undefined) app.layers.set(layers.split(','));
@@ -80,6 +81,7 @@ function download(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
+/** The PNG is twice as large as the view, with a caption. */
 export function downloadPng(canvas) {
   canvas.toBlob((blob) => download(blob, 'laneloom.png'), 'image/png');
 }
