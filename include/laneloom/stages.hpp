@@ -26,6 +26,8 @@ inline constexpr std::size_t kStageCount = 14;
 /// The name of the enumerator.
 const char* name(Stage stage);
 
+struct FrameReasons;
+
 /// Is told when an update begins and when each of its stages ends, so that it can measure times. The mapper
 /// has no clock of its own.
 class StageObserver {
@@ -33,6 +35,9 @@ class StageObserver {
   virtual ~StageObserver() = default;
   virtual void update_begins() = 0;          ///< before the first stage
   virtual void stage_done(Stage stage) = 0;  ///< after each stage that the method runs
+  /// The place for the reasons of an update (reasons.hpp), asked once an update. Null: nobody asks why, and
+  /// nothing is noted.
+  virtual FrameReasons* reasons() { return nullptr; }
 };
 
 }  // namespace laneloom

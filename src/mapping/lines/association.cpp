@@ -86,7 +86,8 @@ std::vector<SampledDetection> sample_detections(const std::vector<markings::Obse
                                .type = marking.type,
                                .style = marking.style,
                                .confidence = marking.confidence,
-                               .belief = marking.belief};
+                               .belief = marking.belief,
+                               .number = marking.number};
     detection.spacing_m = line.length() / static_cast<double>(detection.samples.size() - 1);
     if (!marking.stddev_m.empty()) detection.stddev_m = deviations(marking, detection);
     detection.explained.assign(detection.samples.size(), false);

@@ -39,6 +39,7 @@ struct SampledDetection {
   double confidence = 0.0, belief = 0.0;  ///< as in markings::ObservedMarking
   std::vector<double> stddev_m{};         ///< lateral standard deviation per sample; empty: not given
   std::vector<bool> explained{};          ///< per sample: a line observed it, or was extended by it
+  std::size_t number = 0;                 ///< as in markings::ObservedMarking
 
   /// The length of the detection that a sample stands for, in metres: half of the way to each neighbour.
   double share_m(std::size_t sample) const {

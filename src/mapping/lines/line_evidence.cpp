@@ -29,13 +29,6 @@ bool contains(const Polyline& polygon, const Point& point) {
   return inside;
 }
 
-/// Log odds that a line exists, by the beliefs in its detections alone.
-double log_odds(const Beliefs& beliefs) {
-  if (beliefs.count <= 0.0) return 0.0;
-  const double variance = kCommonShare + (1.0 - kCommonShare) / std::max(1.0, beliefs.count);
-  return std::clamp(kPerBelief * (beliefs.mean - kUsualBelief) / variance, -kMostAgainst, kMostFor);
-}
-
 }  // namespace
 
 bool View::detects(MarkingType type) const {
@@ -64,6 +57,12 @@ bool View::sees(const Point& point_map, MarkingType type, const geometry::MapBox
   const bool in_view = frame->field_of_view.empty() ? range.shows(point_map) : field_of_view_.contains(point);
   return in_view &&
          std::ranges::none_of(occluded_areas_, [&](const Outline& area) { return area.contains(point); });
+}
+
+double log_odds(const Beliefs& beliefs) {
+  if (beliefs.count <= 0.0) return 0.0;
+  const double variance = kCommonShare + (1.0 - kCommonShare) / std::max(1.0, beliefs.count);
+  return std::clamp(kPerBelief * (beliefs.mean - kUsualBelief) / variance, -kMostAgainst, kMostFor);
 }
 
 double existence(std::span<const Station> stations, const Beliefs& beliefs) {

@@ -49,6 +49,9 @@ struct View {
   std::vector<Outline> occluded_areas_;
 };
 
+/// Log odds that a line exists, by the beliefs in its detections alone.
+double log_odds(const Beliefs& beliefs);
+
 /// Log odds that a line exists: the mean of its stations plus those of its beliefs.
 double existence(std::span<const Station> stations, const Beliefs& beliefs);
 

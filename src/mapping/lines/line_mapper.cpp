@@ -12,6 +12,7 @@
 #include "mapping/lines/line_joining.hpp"
 #include "mapping/lines/line_merging.hpp"
 #include "mapping/lines/line_publishing.hpp"
+#include "mapping/lines/reasoning.hpp"
 #include "mapping/markings/dashes.hpp"
 
 namespace laneloom::lines {
@@ -53,8 +54,11 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
   if (is_new) forget_views_of(source, lines_);
   Network& network = networks_[source];
   Viewpoint from = viewpoint(observed, source, network);
-  Association association = associated(
-      believed(std::move(observed.markings), network.detection, config.preprocess), network, fusion, from);
+  Reasoning reasons(log.reasons(), observed, lines_);
+  auto markings = believed(std::move(observed.markings), network.detection, config.preprocess);
+  reasons.believed(markings);
+  Association association = associated(std::move(markings), network, fusion, from);
+  reasons.associated(association, lines_);
   count_joints(association.matches, lines_, config.boundary.max_gap_m, joints_);
   log.done(Stage::association);
 
@@ -62,12 +66,14 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
   const View view(observed.T_map_body.inverse(), observed.frame, from.news);
   credit_observed(view, association, fusion, network.detection, lines_);
   discount_unobserved(view, scene.box, fusion, network.detection, lines_);
+  reasons.updated(lines_, fusion);
   log.done(Stage::line_update);
 
   extend_lines(from, scene.box, fusion, association, lines_);
   for (Line& line : new_lines(association.detections, from, scene.box, fusion, network.detection)) {
     line.id = ids.next();
     line.first_seen_ns = line.last_seen_ns = observed.frame.stamp_ns;
+    reasons.born(line, association.detections);
     lines_.push_back(std::move(line));
   }
   std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
@@ -77,8 +83,11 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
   forgotten_ = pruned.forgotten;
   log.done(Stage::line_set);
 
-  return log.done(Stage::polylines, markings::FusedMarkings{publish_lines(lines_, doubles_, config), joints_,
-                                                            std::move(relatives)});
+  std::vector<Marking> published = publish_lines(lines_, doubles_, config);
+  reasons.decided(lines_, doubles_, published, config);
+  reasons.ended(relatives, scene.box);
+  return log.done(Stage::polylines,
+                  markings::FusedMarkings{std::move(published), joints_, std::move(relatives)});
 }
 
 /// Samples the detections, takes the suspected pitch and pose error of the frame out of them, and matches

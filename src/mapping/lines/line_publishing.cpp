@@ -62,23 +62,6 @@ double existence_probability(double log_odds, const FusionConfig& config) {
   return config.existence_at_publish + share * (config.existence_at_max - config.existence_at_publish);
 }
 
-/// The lines that lie beside a stronger one of their type. Each is taken for a double of it until the two are
-/// seen together.
-std::vector<ElementId> shadows(const std::vector<Line>& lines, const markings::PairHistories& doubles,
-                               const FusionConfig& config) {
-  std::vector<ElementId> held_back;
-  for (const markings::PairHistory& pair : doubles) {
-    // Two lines that converge were seen together from the start on.
-    const bool never_apart = pair.apart == 0.0 && pair.together > 0.0;
-    if (never_apart || seen_together(pair)) continue;
-    const auto a = std::ranges::find(lines, pair.a, &Line::id),
-               b = std::ranges::find(lines, pair.b, &Line::id);
-    if (a == lines.end() || b == lines.end() || a->type() != b->type()) continue;
-    held_back.push_back(weight(*a, config) < weight(*b, config) ? a->id : b->id);
-  }
-  return held_back;
-}
-
 Marking as_marking(const Line& line, Stations stations, const MapperConfig& config) {
   Marking marking{.id = line.id, .type = line.type(), .points = smoothed(stations)};
   marking.lateral_stddev_m.reserve(stations.size());
@@ -103,13 +86,29 @@ Marking as_marking(const Line& line, Stations stations, const MapperConfig& conf
 
 }  // namespace
 
+std::vector<Shadow> shadows(const std::vector<Line>& lines, const markings::PairHistories& doubles,
+                            const FusionConfig& config) {
+  std::vector<Shadow> held_back;
+  for (const markings::PairHistory& pair : doubles) {
+    // Two lines that converge were seen together from the start on.
+    const bool never_apart = pair.apart == 0.0 && pair.together > 0.0;
+    if (never_apart || seen_together(pair)) continue;
+    const auto a = std::ranges::find(lines, pair.a, &Line::id),
+               b = std::ranges::find(lines, pair.b, &Line::id);
+    if (a == lines.end() || b == lines.end() || a->type() != b->type()) continue;
+    const bool a_is_weaker = weight(*a, config) < weight(*b, config);
+    held_back.push_back(a_is_weaker ? Shadow{a->id, b->id} : Shadow{b->id, a->id});
+  }
+  return held_back;
+}
+
 std::vector<Marking> publish_lines(const std::vector<Line>& lines, const markings::PairHistories& doubles,
                                    const MapperConfig& config) {
   const FusionConfig& fusion = config.fusion;
-  const std::vector<ElementId> held_back = shadows(lines, doubles, fusion);
+  const std::vector<Shadow> held_back = shadows(lines, doubles, fusion);
   std::vector<Marking> markings;
   for (const Line& line : lines) {
-    if (std::ranges::find(held_back, line.id) != held_back.end()) continue;
+    if (std::ranges::find(held_back, line.id, &Shadow::line) != held_back.end()) continue;
     const Stations stations = published_stretch(line, fusion);
     if (stations.size() < 2 || existence(stations, line.beliefs) < fusion.publish_log_odds) continue;
     Marking marking = as_marking(line, stations, config);

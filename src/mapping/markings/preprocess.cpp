@@ -46,7 +46,8 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
                                         const PreprocessConfig& config) {
   std::vector<ObservedMarking> markings;
   markings.reserve(frame.detections.size());
-  for (const Detection& detection : frame.detections) {
+  for (std::size_t number = 0; number < frame.detections.size(); ++number) {
+    const Detection& detection = frame.detections[number];
     if (detection.points.size() < 2) continue;
     if (config.reject_zigzag && is_zigzag(detection.points, detection.type, config)) continue;
     ObservedMarking marking{.type = detection.type,
@@ -54,7 +55,8 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
                             .confidence = detection.confidence,
                             .points = {},
                             .stddev_m = detection.stddev_m,
-                            .belief = detection.confidence};
+                            .belief = detection.confidence,
+                            .number = number};
     marking.points.reserve(detection.points.size());
     for (const Point& point_body : detection.points) marking.points.push_back(T_map_body * point_body);
     markings.push_back(std::move(marking));

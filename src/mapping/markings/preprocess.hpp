@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -14,7 +15,8 @@ struct ObservedMarking {
   double confidence = 0.0;         ///< 0..1, as it was told; of joined dashes the mean
   Polyline points;                 ///< map frame
   std::vector<double> stddev_m{};  ///< lateral standard deviation per point; empty: not given
-  double belief = 0.0;  ///< 0..1, on the scale of all networks; of joined dashes that of all together
+  double belief = 0.0;     ///< 0..1, on the scale of all networks; of joined dashes that of all together
+  std::size_t number = 0;  ///< of the detection in its frame; of joined dashes that of the first one
 };
 
 /// A frame with those of its detections that passed the filters.

@@ -11,6 +11,9 @@ class StageLog {
     if (observer_ != nullptr) observer_->update_begins();
   }
 
+  /// The place for the reasons of the update. Null: nobody asks.
+  FrameReasons* reasons() const { return observer_ != nullptr ? observer_->reasons() : nullptr; }
+
   void done(Stage stage) const {
     if (observer_ != nullptr) observer_->stage_done(stage);
   }
