@@ -80,7 +80,7 @@ TEST_F(ExportFiles, GeoJsonIsOnEarthLongitudeFirst) {
   const auto json = nlohmann::json::parse(in);
   EXPECT_EQ(json.at("type"), "FeatureCollection");
   EXPECT_FALSE(json.contains("crs"));
-  ASSERT_THAT(json.at("features"), SizeIs(network_.ways.size() + network_.lanelets.size()));
+  ASSERT_THAT(json.at("features"), SizeIs(network_.ways.size() + 2 * network_.lanelets.size()));
   for (const auto& feature : json.at("features")) {
     const auto& geometry = feature.at("geometry");
     const bool is_polygon = geometry.at("type") == "Polygon";
@@ -91,6 +91,43 @@ TEST_F(ExportFiles, GeoJsonIsOnEarthLongitudeFirst) {
     }
     EXPECT_TRUE(!is_polygon || positions.front() == positions.back());
   }
+}
+
+/// A graph can be made of the file alone: ids are unique, and all that are named are there.
+TEST_F(ExportFiles, GeoJsonIsAGraph) {
+  write_geojson(file("map.json"), network_, kOrigin);
+  std::ifstream in(file("map.json"));
+  std::map<std::string, nlohmann::json> features;
+  const auto json = nlohmann::json::parse(in);
+  for (const auto& feature : json.at("features"))
+    EXPECT_TRUE(features.emplace(feature.at("id"), feature).second) << feature.at("id");
+  std::ptrdiff_t successions = 0, lanes = 0;
+  for (const auto& [id, feature] : features) {
+    if (!id.starts_with("lanelet/")) continue;
+    const auto& properties = feature.at("properties");
+    lanes += properties.at("lane").is_null() ? 0 : 1;
+    for (const char* key : {"left", "right", "centreline"})
+      ASSERT_TRUE(features.contains(properties.at(key)));
+    const auto centre = features.at(properties.at("centreline")).at("geometry").at("coordinates");
+    for (const std::string next : properties.at("successors")) {
+      ++successions;
+      ASSERT_TRUE(features.contains(next));
+      const auto on =
+          features.at(features.at(next).at("properties").at("centreline")).at("geometry").at("coordinates");
+      EXPECT_EQ(centre.back(), on.front()) << id << " leads to " << next;
+    }
+  }
+  EXPECT_EQ(lanes, std::ssize(map_.lanes));
+  EXPECT_GE(successions, std::ssize(map_.linkages));
+}
+
+TEST_F(ExportFiles, WithoutExtrasThereAreNoTagsOfOthers) {
+  write_lanelet2(file("map.osm"), network_, kOrigin, false);
+  const std::string text = content(file("map.osm"));
+  for (const char* tag : {"local_x", "local_y", "turn_direction", "laneloom:"})
+    EXPECT_EQ(text.find(tag), std::string::npos) << tag;
+  for (const char* tag : {"k=\"ele\"", "k=\"type\" v=\"lanelet\"", "k=\"subtype\" v=\"road\""})
+    EXPECT_NE(text.find(tag), std::string::npos) << tag;
 }
 
 TEST_F(ExportFiles, FilesThatCannotBeWrittenAreNamed) {

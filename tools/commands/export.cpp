@@ -33,7 +33,7 @@ namespace {
 struct ExportOptions {
   std::string in, config, preset, lanelet2, opendrive, geojson;
   std::optional<exports::Origin> origin;
-  bool plain = false, strict = false;
+  bool plain = false, no_extras = false, strict = false;
 };
 
 /// Joins published maps to one drive.
@@ -138,7 +138,12 @@ void export_drive(const ExportOptions& options) {
   exports::RoadNetwork network = exports::weld(map);
   if (options.plain) network.stops.clear();  // their ways stay
   if (!options.lanelet2.empty())
-    write_lanelet2(options.lanelet2, network, options.origin.value_or(exports::Origin{}));
+    write_lanelet2(options.lanelet2, network, options.origin.value_or(exports::Origin{}), !options.no_extras);
+  if (!options.lanelet2.empty() && !options.origin)
+    fmt::print(
+        stderr,
+        "laneloom: {}: latitudes and longitudes are those of a place at 0, 0; --origin gives the true ones\n",
+        options.lanelet2);
   if (!options.opendrive.empty()) write_opendrive(options.opendrive, network);
   if (!options.geojson.empty()) write_geojson(options.geojson, network, *options.origin);
   fmt::print("{} lanes and {} linkages as {} lanelets, {} stop lines\n", map.lanes.size(),
@@ -168,6 +173,11 @@ void add_export(CLI::App& app) {
       ->add_flag(
           "--plain", options->plain,
           "Leave out the stop lines' regulatory elements, which Autoware's extension of Lanelet2 knows")
+      ->needs(lanelet2);
+  command
+      ->add_flag("--no-extras", options->no_extras,
+                 "Leave out the tags that Lanelet2 itself does not know: local_x, local_y, turn_direction, "
+                 "laneloom:*")
       ->needs(lanelet2);
   add_strict(*command, options->strict);
   CLI::Option* place = command->add_option_function<std::string>(

@@ -3,11 +3,15 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 
 #include "io/json_fields.hpp"
 #include "io/text_file.hpp"
 #include "laneloom/element_names.hpp"
+#include "laneloom/polyline.hpp"
 
 namespace laneloom::exports {
 namespace {
@@ -15,7 +19,7 @@ namespace {
 using nlohmann::json;
 using Way = RoadNetwork::Way;
 
-double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+double rounded(double value, double steps) { return std::round(value * steps) / steps + 0.0; }  // no -0
 
 json or_null(double value) { return value < 0.0 ? json() : json(rounded(value, 1e3)); }
 
@@ -38,6 +42,17 @@ class Geometry {
     for (const Point& point : ring) positions.push_back(position(point));
     positions.push_back(positions.front());
     return {{"type", "Polygon"}, {"coordinates", json::array({positions})}};
+  }
+
+  /// The line halfway between the sides, with a position a metre.
+  json centreline(const RoadNetwork::Lanelet& lanelet) const {
+    const MeasuredPolyline left(points(lanelet.left)), right(points(lanelet.right));
+    const double steps = std::max(1.0, std::ceil(0.5 * (left.length() + right.length())));
+    json positions = json::array();
+    for (double step = 0.0; step <= steps; step += 1.0)
+      positions.push_back(
+          position(0.5 * (left.at(step / steps * left.length()) + right.at(step / steps * right.length()))));
+    return {{"type", "LineString"}, {"coordinates", positions}};
   }
 
  private:
@@ -77,8 +92,52 @@ json turn_of(const RoadNetwork::Lanelet& lanelet) {
   return lanelet.turn == Linkage::Turn::unknown ? json() : json(name(lanelet.turn));
 }
 
-json feature(json geometry, json properties) {
-  return {{"type", "Feature"}, {"geometry", std::move(geometry)}, {"properties", std::move(properties)}};
+json feature(std::string id, json geometry, json properties) {
+  return {{"type", "Feature"},
+          {"id", std::move(id)},
+          {"geometry", std::move(geometry)},
+          {"properties", std::move(properties)}};
+}
+
+std::string id_of(const char* kind, std::size_t index) {
+  return std::string(kind) + "/" + std::to_string(index);
+}
+
+/// The lanelets that begin where others end, by the nodes of their ends.
+class Successions {
+ public:
+  explicit Successions(const RoadNetwork& network) : network_(network) {
+    for (std::size_t i = 0; i < network.lanelets.size(); ++i)
+      beginnings_.emplace(ends(network.lanelets[i], false), i);
+  }
+
+  json successors(const RoadNetwork::Lanelet& lanelet) const {
+    json ids = json::array();
+    const auto [first, last] = beginnings_.equal_range(ends(lanelet, true));
+    for (auto next = first; next != last; ++next) ids.push_back(id_of("lanelet", next->second));
+    return ids;
+  }
+
+ private:
+  using Ends = std::pair<std::size_t, std::size_t>;
+  Ends ends(const RoadNetwork::Lanelet& lanelet, bool at_back) const {
+    return {end_node(network_, lanelet.left, at_back), end_node(network_, lanelet.right, at_back)};
+  }
+
+  const RoadNetwork& network_;
+  std::multimap<Ends, std::size_t> beginnings_;
+};
+
+json properties_of(const RoadNetwork::Lanelet& lanelet, std::size_t index, const Successions& successions) {
+  return {{"kind", lanelet.linkage ? "linkage" : "lane"},
+          {"one_way", lanelet.one_way},
+          {"turn", turn_of(lanelet)},
+          {"existence", or_null(lanelet.existence_probability)},
+          {"lane", lanelet.lane == kNoElement ? json() : json(lanelet.lane)},
+          {"left", id_of("way", lanelet.left.way)},
+          {"right", id_of("way", lanelet.right.way)},
+          {"centreline", id_of("centreline", index)},
+          {"successors", successions.successors(lanelet)}};
 }
 
 }  // namespace
@@ -86,17 +145,22 @@ json feature(json geometry, json properties) {
 void write_geojson(const std::filesystem::path& path, const RoadNetwork& network, const Origin& origin) {
   const Geometry geometry(network, origin);
   json features = json::array();
-  for (const Way& way : network.ways)
-    features.push_back(feature(geometry.line(way), {{"kind", kind_of(way)},
-                                                    {"style", style_of(way)},
-                                                    {"existence", or_null(way.existence_probability)},
-                                                    {"stddev_m", or_null(way.lateral_stddev_m)}}));
-  for (const RoadNetwork::Lanelet& lanelet : network.lanelets)
+  for (std::size_t i = 0; i < network.ways.size(); ++i) {
+    const Way& way = network.ways[i];
+    features.push_back(feature(id_of("way", i), geometry.line(way),
+                               {{"kind", kind_of(way)},
+                                {"style", style_of(way)},
+                                {"existence", or_null(way.existence_probability)},
+                                {"stddev_m", or_null(way.lateral_stddev_m)}}));
+  }
+  const Successions successions(network);
+  for (std::size_t i = 0; i < network.lanelets.size(); ++i) {
+    const RoadNetwork::Lanelet& lanelet = network.lanelets[i];
     features.push_back(
-        feature(geometry.area(lanelet), {{"kind", lanelet.linkage ? "linkage" : "lane"},
-                                         {"one_way", lanelet.one_way},
-                                         {"turn", turn_of(lanelet)},
-                                         {"existence", or_null(lanelet.existence_probability)}}));
+        feature(id_of("lanelet", i), geometry.area(lanelet), properties_of(lanelet, i, successions)));
+    features.push_back(feature(id_of("centreline", i), geometry.centreline(lanelet),
+                               {{"kind", "centreline"}, {"lanelet", id_of("lanelet", i)}}));
+  }
   io::write_text(path, json{{"type", "FeatureCollection"}, {"features", features}}.dump() + "\n");
 }
 

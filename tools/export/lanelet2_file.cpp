@@ -145,9 +145,23 @@ void add_stops(const RoadNetwork& network, const Ids& ids, pugi::xml_node& osm) 
   }
 }
 
+/// Removes the tags that Lanelet2 does not know.
+void remove_extras(pugi::xml_node& osm) {
+  const auto is_extra = [](const std::string_view key) {
+    return key == "local_x" || key == "local_y" || key == "turn_direction" || key.starts_with("laneloom:");
+  };
+  for (pugi::xml_node element : osm.children())
+    for (pugi::xml_node tag = element.child("tag"); tag;) {
+      const pugi::xml_node next = tag.next_sibling("tag");
+      if (is_extra(tag.attribute("k").value())) element.remove_child(tag);
+      tag = next;
+    }
+}
+
 }  // namespace
 
-void write_lanelet2(const std::filesystem::path& path, const RoadNetwork& network, const Origin& origin) {
+void write_lanelet2(const std::filesystem::path& path, const RoadNetwork& network, const Origin& origin,
+                    bool extras) {
   pugi::xml_document document;
   pugi::xml_node osm = document.append_child("osm");
   osm.append_attribute("version") = "0.6";
@@ -160,6 +174,7 @@ void write_lanelet2(const std::filesystem::path& path, const RoadNetwork& networ
   add_ways(network, ids, osm);
   add_lanelets(network, ids, osm);
   add_stops(network, ids, osm);
+  if (!extras) remove_extras(osm);
   io::TextFile file(path);
   document.save(file.stream(), "  ");
   file.close();
