@@ -17,6 +17,9 @@ namespace laneloom::config {
 /// file, bad YAML, an unknown or repeated key, a wrong type, and values that validate() refuses.
 Config load_config(const std::filesystem::path& path);
 
+/// The same of a text. Errors name it `name`.
+Config parse_config(const std::string& text, const std::string& name);
+
 /// Sets one value, from "section.key=value" in the words of a file: "mapper.range.side_max_m=20".
 /// Throws ConfigError as load_config() does; `config` is unchanged then.
 void set_value(Config& config, std::string_view assignment);

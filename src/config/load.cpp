@@ -129,15 +129,28 @@ Config parse(const std::string& text, Config config = {}) {
 
 }  // namespace
 
-Config load_config(const std::filesystem::path& path) {
+namespace {
+
+/// Calls `make`. What it finds wrong is told with the name of the place where the text is from.
+template <class Make>
+Config located_in(std::string where, const Make& make) {
   try {
-    return parse(read_text(path));
+    return make();
   } catch (const LocatedProblem& error) {
-    std::string where = path.string();
     if (error.line > 0) where += ":" + std::to_string(error.line);
     if (!error.problem.key.empty()) where += ": " + error.problem.key;
     throw ConfigError(where + ": " + error.problem.what);
   }
+}
+
+}  // namespace
+
+Config load_config(const std::filesystem::path& path) {
+  return located_in(path.string(), [&] { return parse(read_text(path)); });
+}
+
+Config parse_config(const std::string& text, const std::string& name) {
+  return located_in(name, [&] { return parse(text); });
 }
 
 Config resolve_config(const std::filesystem::path& file, std::string_view preset) {
