@@ -3,19 +3,29 @@
 #include <cairo-svg.h>
 
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace laneloom::render {
 namespace {
 
 constexpr double kPngScale = 2.0;  ///< pixels of a PNG per unit: sharp in print
 
+cairo_surface_t* make_image(double width, double height) {
+  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(std::ceil(width * kPngScale)),
+                                    static_cast<int>(std::ceil(height * kPngScale)));
+}
+
 cairo_surface_t* make_surface(const std::string& path, double width, double height) {
-  if (path.ends_with(".png"))
-    return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(std::ceil(width * kPngScale)),
-                                      static_cast<int>(std::ceil(height * kPngScale)));
+  if (path.ends_with(".png")) return make_image(width, height);
   if (path.ends_with(".svg")) return cairo_svg_surface_create(path.c_str(), width, height);
   throw std::runtime_error(path + ": pictures are .png or .svg");
+}
+
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned size) {
+  static_cast<std::string*>(text)->append(bytes, bytes + size);
+  return CAIRO_STATUS_SUCCESS;
 }
 
 void check(const std::string& path, cairo_status_t status) {
@@ -24,14 +34,29 @@ void check(const std::string& path, cairo_status_t status) {
 
 }  // namespace
 
-Canvas::Canvas(const std::string& path, double width, double height)
+Canvas::Canvas(const std::string& path, bool is_png, cairo_surface_t* surface,
+               std::unique_ptr<std::string> memory)
     : path_(path),
-      is_png_(path.ends_with(".png")),
-      surface_(make_surface(path, width, height), cairo_surface_destroy),
+      is_png_(is_png),
+      memory_(std::move(memory)),
+      surface_(surface, cairo_surface_destroy),
       cairo_(cairo_create(surface_.get()), cairo_destroy) {
   if (is_png_) cairo_scale(cairo_.get(), kPngScale, kPngScale);
   cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
+}
+
+Canvas::Canvas(const std::string& path, double width, double height)
+    : Canvas(path, path.ends_with(".png"), make_surface(path, width, height), nullptr) {
   fill(rectangle({0, 0}, {width, height}), {1, 1, 1});
+}
+
+Canvas Canvas::in_memory(bool svg, double width, double height) {
+  auto memory = std::make_unique<std::string>();
+  cairo_surface_t* surface = svg ? cairo_svg_surface_create_for_stream(append, memory.get(), width, height)
+                                 : make_image(width, height);
+  Canvas canvas("", !svg, surface, std::move(memory));
+  canvas.fill(rectangle({0, 0}, {width, height}), {1, 1, 1});
+  return canvas;
 }
 
 void Canvas::stroke(const Outline& line, const Pen& pen) {
@@ -72,9 +97,27 @@ void Canvas::unclip() { cairo_restore(cairo_.get()); }
 
 void Canvas::finish() {
   check(path_, cairo_status(cairo_.get()));
+  if (is_png_ && memory_) return cairo_surface_flush(surface_.get());
   if (is_png_) check(path_, cairo_surface_write_to_png(surface_.get(), path_.c_str()));
   cairo_surface_finish(surface_.get());
   check(path_, cairo_surface_status(surface_.get()));
+}
+
+Image Canvas::image() const {
+  const int width = cairo_image_surface_get_width(surface_.get());
+  const int height = cairo_image_surface_get_height(surface_.get());
+  const int stride = cairo_image_surface_get_stride(surface_.get());
+  const unsigned char* const bytes = cairo_image_surface_get_data(surface_.get());
+  Image image{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
+  image.rgb.reserve(3 * image.width * image.height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      std::uint32_t pixel = 0;  // 0xAARRGGBB in the host's order of bytes
+      std::memcpy(&pixel, bytes + static_cast<std::ptrdiff_t>(y) * stride + 4 * x, sizeof(pixel));
+      for (const unsigned shift : {16U, 8U, 0U})
+        image.rgb.push_back(static_cast<std::uint8_t>(pixel >> shift));
+    }
+  return image;
 }
 
 void Canvas::trace(const Outline& outline) {

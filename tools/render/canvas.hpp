@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drawing/colour.hpp"
+#include "render/image.hpp"
 
 namespace laneloom::render {
 
@@ -29,6 +30,8 @@ class Canvas {
  public:
   /// Throws std::runtime_error for an extension other than ".png" and ".svg".
   Canvas(const std::string& path, double width, double height);
+  /// A sheet that is kept in memory: pixels, or with `svg` SVG.
+  static Canvas in_memory(bool svg, double width, double height);
 
   void stroke(const Outline& line, const Pen& pen);
   void fill(const Outline& polygon, const drawing::Colour& colour);
@@ -41,13 +44,19 @@ class Canvas {
 
   /// Writes the file. Throws std::runtime_error if that fails.
   void finish();
+  /// The sheet in memory, once it is finished: its pixels, at twice the size.
+  Image image() const;
+  /// Likewise as SVG.
+  const std::string& svg() const { return *memory_; }
 
  private:
+  Canvas(const std::string& path, bool is_png, cairo_surface_t* surface, std::unique_ptr<std::string> memory);
   void trace(const Outline& outline);
   void use(const drawing::Colour& colour);
 
   std::string path_;
   bool is_png_;
+  std::unique_ptr<std::string> memory_;  ///< of SVG; null: the sheet is a file
   std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
   std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
 };

@@ -35,27 +35,50 @@ void draw_moment(Canvas& canvas, const Moment& moment, const RangeConfig& range,
   }
 }
 
-}  // namespace
+/// The measures of a figure, in pixels.
+struct Layout {
+  explicit Layout(const Figure& figure) {
+    const Pixel panel = PanelView::size_of(figure.range);
+    std::size_t columns = 1;
+    for (const Moment& moment : figure.moments) columns = std::max(columns, moment.panels.size());
+    row_height = kPanelTitleHeight + panel.y() + kGap;
+    width = 2 * kMargin + static_cast<double>(columns) * (panel.x() + kGap) - kGap;
+    height = 2 * kMargin + kTitleHeight + static_cast<double>(figure.moments.size()) * row_height +
+             legend_height(inner_width());
+  }
+  double inner_width() const { return width - 2 * kMargin; }
 
-void draw_figure(const Figure& figure, const std::string& path) {
-  const Pixel panel = PanelView::size_of(figure.range);
-  std::size_t columns = 1;
-  for (const Moment& moment : figure.moments) columns = std::max(columns, moment.panels.size());
-  const double row_height = kPanelTitleHeight + panel.y() + kGap;
-  const double width = 2 * kMargin + static_cast<double>(columns) * (panel.x() + kGap) - kGap;
-  const double inner_width = width - 2 * kMargin;
-  const double height = 2 * kMargin + kTitleHeight + static_cast<double>(figure.moments.size()) * row_height +
-                        legend_height(inner_width);
+  double row_height, width, height;
+};
 
-  Canvas canvas(path, width, height);
+void draw(const Figure& figure, const Layout& layout, Canvas& canvas) {
   canvas.text({kMargin, kMargin + 14.0}, figure.title, 17.0, drawing::palette::kText, Align::left, true);
   Pixel at(kMargin, kMargin + kTitleHeight);
   for (const Moment& moment : figure.moments) {
     draw_moment(canvas, moment, figure.range, at);
-    at.y() += row_height;
+    at.y() += layout.row_height;
   }
-  draw_legend(canvas, at, inner_width);
+  draw_legend(canvas, at, layout.inner_width());
   canvas.finish();
 }
+
+Canvas drawn_in_memory(const Figure& figure, bool svg) {
+  const Layout layout(figure);
+  Canvas canvas = Canvas::in_memory(svg, layout.width, layout.height);
+  draw(figure, layout, canvas);
+  return canvas;
+}
+
+}  // namespace
+
+void draw_figure(const Figure& figure, const std::string& path) {
+  const Layout layout(figure);
+  Canvas canvas(path, layout.width, layout.height);
+  draw(figure, layout, canvas);
+}
+
+Image draw_image(const Figure& figure) { return drawn_in_memory(figure, false).image(); }
+
+std::string draw_svg(const Figure& figure) { return drawn_in_memory(figure, true).svg(); }
 
 }  // namespace laneloom::render

@@ -5,6 +5,7 @@
 
 #include "drawing/drawing.hpp"
 #include "laneloom/config.hpp"
+#include "render/image.hpp"
 
 /// Pictures of maps, seen from above with the vehicle's forward direction up.
 namespace laneloom::render {
@@ -32,5 +33,9 @@ struct Figure {
 /// Draws the moments below one another, with legend and scale, as PNG or SVG by the extension of `path`.
 /// Throws std::runtime_error if it can't be written.
 void draw_figure(const Figure& figure, const std::string& path);
+/// The same as pixels, at twice the size as a PNG has them.
+Image draw_image(const Figure& figure);
+/// The same as the text of an SVG file.
+std::string draw_svg(const Figure& figure);
 
 }  // namespace laneloom::render
