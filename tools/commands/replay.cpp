@@ -10,6 +10,7 @@
 #include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
+#include "commands/explain.hpp"
 #include "commands/options.hpp"
 #include "commands/replay_advice.hpp"
 #include "commands/replay_report.hpp"
@@ -29,7 +30,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 struct ReplayOptions {
-  std::string in, report, preset, truth;
+  std::string in, report, preset, truth, explain;
   std::vector<std::string> config_files, out;
   std::string compression = "zstd";
   RangeConfig range;
@@ -131,6 +132,10 @@ void check_files(const ReplayOptions& options) {
 }
 
 void replay(ReplayOptions& options) {
+  if (!options.explain.empty())
+    return explain(options.in,
+                   read_config(options, options.config_files.empty() ? "" : options.config_files.front()),
+                   options.explain);
   check_files(options);
   if (!options.out.empty() && options.out.size() != std::max<std::size_t>(1, options.config_files.size()))
     throw std::runtime_error("replay: --out is needed once per --config, or not at all");
@@ -207,11 +212,15 @@ void add_replay(CLI::App& app) {
       command->add_option("--truth", options->truth, "Truth of the road (.json), to rate the maps by");
   auto* verify = command->add_flag("--verify", options->verify,
                                    "Fail unless the maps equal those that a live service published");
+  auto* explain = command->add_option(
+      "--explain", options->explain,
+      "Tell why: ID@TIME of a line or lane, as 23@12.5, or dN@TIME of detection N; in s since the first map");
   add_strict(*command, options->strict);
   CLI::Option* range = add_range(*command, options->range);
   CLI::Option* publish = command->add_flag("--publish", options->publish,
                                            "Publish the detections and poses on DDS, as they came");
-  for (CLI::Option* of_maps : {out, report, config, preset, truth, verify, range}) publish->excludes(of_maps);
+  for (CLI::Option* of_maps : {out, report, config, preset, truth, verify, explain, range})
+    publish->excludes(of_maps);
   command->add_option("--speed-up", options->speed_up, "With --publish: recorded seconds per second")
       ->check(within(0.01, 100.0))
       ->needs(publish)
