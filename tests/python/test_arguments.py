@@ -116,5 +116,5 @@ def test_configurations(tmp_path):
         config["mapper.colour"] = 1
     with pytest.raises(KeyError):
         config["mapper.colour"]
-    with pytest.raises(laneloom.ConfigError, match="nowhere.yaml"):
+    with pytest.raises(FileNotFoundError, match="nowhere.yaml"):
         Config.load("nowhere.yaml")

@@ -74,7 +74,7 @@ def test_truth(tmp_path, truth):
 
 @pytest.mark.parametrize("read", [laneloom.read_frames, laneloom.read_maps, laneloom.Truth.load])
 def test_a_file_that_is_not_there_is_named(tmp_path, read):
-    with pytest.raises(RuntimeError, match="nowhere"):
+    with pytest.raises(FileNotFoundError, match="nowhere"):
         read(tmp_path / "nowhere")
 
 

@@ -1,5 +1,8 @@
 #include "arguments.hpp"
 
+#include <cerrno>
+#include <filesystem>
+
 #include <algorithm>
 #include <cmath>
 
@@ -126,6 +129,14 @@ std::vector<double> fixed_array(const py::handle& value, const std::string& name
                                 const std::vector<py::ssize_t>& shape) {
   const Array numbers = shaped(value, name, shape);
   return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+std::string existing_path(const py::handle& value, const std::string& name) {
+  std::string file = path(value, name);
+  if (std::filesystem::exists(file)) return file;
+  errno = ENOENT;
+  PyErr_SetFromErrnoWithFilename(PyExc_FileNotFoundError, file.c_str());
+  throw py::error_already_set();
 }
 
 }  // namespace laneloom::python

@@ -20,12 +20,13 @@ namespace py = pybind11;
 [[noreturn]] void refuse_type(const std::string& name, const std::string& expected, const py::handle& value);
 [[noreturn]] void refuse_value(const std::string& name, const std::string& complaint);
 
-double number(const py::handle& value, const std::string& name);         ///< finite
-std::int64_t integer(const py::handle& value, const std::string& name);  ///< no float, no bool
-std::uint64_t count(const py::handle& value, const std::string& name);   ///< not negative
-bool boolean(const py::handle& value, const std::string& name);          ///< exactly True or False
-std::string text(const py::handle& value, const std::string& name);      ///< a str
-std::string path(const py::handle& value, const std::string& name);      ///< a str or an os.PathLike
+double number(const py::handle& value, const std::string& name);              ///< finite
+std::int64_t integer(const py::handle& value, const std::string& name);       ///< no float, no bool
+std::uint64_t count(const py::handle& value, const std::string& name);        ///< not negative
+bool boolean(const py::handle& value, const std::string& name);               ///< exactly True or False
+std::string text(const py::handle& value, const std::string& name);           ///< a str
+std::string path(const py::handle& value, const std::string& name);           ///< a str or an os.PathLike
+std::string existing_path(const py::handle& value, const std::string& name);  ///< else FileNotFoundError
 Polyline polyline(const py::handle& value, const std::string& name);  ///< (N, 3), or nothing: an empty list
 Polyline line(const py::handle& value, const std::string& name);      ///< (N, 3) of at least two points
 

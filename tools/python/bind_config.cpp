@@ -67,7 +67,7 @@ void bind_config(py::module_& module) {
   py::class_<Config>(module, "Config", kDoc)
       .def(py::init(&make_config), py::arg("preset") = py::none())
       .def_static(
-          "load", [](const py::object& file) { return config::load_config(path(file, "path")); },
+          "load", [](const py::object& file) { return config::load_config(existing_path(file, "path")); },
           py::arg("path"),
           "The configuration in a YAML file; a key that is missing keeps its default. ConfigError: the file "
           "is wrong.")
@@ -86,6 +86,8 @@ void bind_config(py::module_& module) {
       .def(
           "dump", [](const Config& c) { return config::dump(c); },
           "The whole configuration as a YAML file, with units.")
+      .def(py::pickle([](const Config& c) { return config::dump(c); },
+                      [](const std::string& yaml) { return config::parse_config(yaml, "the pickle"); }))
       .def("__repr__", [](const Config& c) { return "<Config " + config::config_hash(c) + ">"; });
 }
 

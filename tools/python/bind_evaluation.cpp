@@ -88,6 +88,53 @@ void bind_scores(py::module_& module) {
       .def_readonly("truths", &evaluation::PairScore::truths);
 }
 
+py::dict stability_of(const evaluation::Measures& m) {
+  const evaluation::Stability of = m.markings_stability();
+  py::dict out;
+  out["jitter_mean_m"] = of.jitter_m.mean();
+  out["jitter_p95_m"] = of.jitter_m.quantile(0.95);
+  out["id_switches_per_km"] = of.id_switches_per_km();
+  out["flicker"] = of.flicker();
+  return out;
+}
+
+py::dict trust_of(const evaluation::Trust& of) {
+  py::dict out;
+  out["within_2_sigma"] = of.within_2_sigma();
+  out["expected_calibration_error"] = of.expected_calibration_error();
+  out["first_appearance_p50_s"] = of.first_appearance_s.quantile(0.5);
+  out["first_appearance_p50_m"] = of.first_appearance_m.quantile(0.5);
+  out["never_appeared"] = of.never_appeared;
+  return out;
+}
+
+py::dict steadiness_of(const evaluation::Measures& m) {
+  const evaluation::Steadiness& of = m.steadiness;
+  const auto share = [](std::size_t part, std::size_t whole) {
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+  };
+  py::dict out;
+  out["own_lane"] = share(of.own_lanes, of.own_wanted);
+  out["own_id_changes_per_km"] = of.own_changes_per_km();
+  out["blinks_per_s"] = of.per_second(of.blinks);
+  out["turned_per_s"] = of.per_second(of.turned);
+  out["doubted_per_s"] = of.per_second(of.doubted);
+  out["right_way"] = share(of.right_ways, of.true_ways);
+  out["reach_p5_m"] = of.reach_m.quantile(0.05);
+  py::dict jumps;
+  for (std::size_t i = 0; i < evaluation::kJumpsAhead_m.size(); ++i)
+    jumps[py::float_(evaluation::kJumpsAhead_m[i])] = of.jump_m[i].quantile(0.99);
+  out["jump_p99_m"] = jumps;
+  return out;
+}
+
+py::dict styles_of(const evaluation::Measures& m) {
+  py::dict out;
+  out["accuracy"] = m.styles.accuracy();
+  out["unknown_share"] = m.styles.unknown_share();
+  return out;
+}
+
 }  // namespace
 
 void bind_evaluation(py::module_& module) {
@@ -106,6 +153,22 @@ void bind_evaluation(py::module_& module) {
       .def_property_readonly(
           "mean_ap", [](const evaluation::Measures& m) { return m.average_precision.map(); },
           "Chamfer mAP at 0.5, 1.0 and 1.5 m, 0..1, of the markings.")
+      .def_property_readonly(
+          "top_ll", [](const evaluation::Measures& m) { return m.top_ll.value(); },
+          "OpenLane-V2's TOP_ll of the linkages, 0..1.")
+      .def_property_readonly("stability", &stability_of, "Of the markings, from map to map.")
+      .def_property_readonly(
+          "trust", [](const evaluation::Measures& m) { return trust_of(m.markings); },
+          "How far deviations and probabilities of the markings can be believed.")
+      .def_property_readonly("styles", &styles_of, "Solid or dashed.")
+      .def_property_readonly("steadiness", &steadiness_of,
+                             "What a planner takes from the maps; zeros where detections were rated.")
+      .def("__repr__",
+           [](const evaluation::Measures& m) {
+             return fmt::format("<Evaluation of {} frames: markings F1 {:.3f}, lanes F1 {:.3f}>",
+                                m.score.frames, m.score.markings().f1(),
+                                m.score.of(evaluation::LineKind::lane).f1());
+           })
       .def_property_readonly("linkages", [](const evaluation::Measures& m) { return m.topology.linkages; })
       .def_property_readonly("directions",
                              [](const evaluation::Measures& m) { return m.topology.directions; })

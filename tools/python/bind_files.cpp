@@ -5,9 +5,13 @@
 #include "evaluation/inputs.hpp"
 #include "import/drive_recording.hpp"
 #include "io/json_lines.hpp"
+#include "stream.hpp"
 
 namespace laneloom::python {
 namespace {
+
+using FrameStream = Stream<SeenFrame>;
+using MapStream = Stream<LocalMap>;
 
 constexpr const char* kReadFramesDoc =
     R"(The frames of a file, each with the pose at its stamp: [(Frame, Pose), ...].
@@ -16,7 +20,7 @@ path: JSON lines (.frames.jsonl) or a recording (.mcap); the first bytes tell wh
 
 Of a recording, these are the frames and poses that the service would believe; frames without poses around them are
 left out. Frames come in the order of their stamps. What is passed over for another reason is a RuntimeWarning.
-RuntimeError: the file cannot be read or is malformed.)";
+FileNotFoundError; RuntimeError: the file cannot be read or is malformed.)";
 
 constexpr const char* kWriteFramesDoc = R"(Writes frames and their poses.
 
@@ -30,7 +34,7 @@ constexpr const char* kReadMapsDoc = R"(The maps of a file: [LocalMap, ...], in 
 path: JSON lines or a recording (.mcap) of what the service published; the first bytes tell which
 
 Of several maps of one stamp, it is the last. What is passed over is a RuntimeWarning.
-RuntimeError: the file cannot be read or is malformed.)";
+FileNotFoundError; RuntimeError: the file cannot be read or is malformed.)";
 
 void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
@@ -50,7 +54,7 @@ VehiclePose pose_of(const Eigen::Isometry3d& T_map_body, std::int64_t stamp_ns) 
 }
 
 py::list read_frames(const py::object& file) {
-  const std::string name = path(file, "path");
+  const std::string name = existing_path(file, "path");
   std::vector<SeenFrame> frames;
   evaluation::InputAccount account;
   {
@@ -96,7 +100,7 @@ void write_frames(const py::object& file, const py::object& frames) {
 }
 
 py::list read_maps(const py::object& file) {
-  const std::string name = path(file, "path");
+  const std::string name = existing_path(file, "path");
   std::vector<LocalMap> maps;
   evaluation::InputAccount account;
   {
@@ -120,10 +124,60 @@ void write_maps(const py::object& file, const py::object& maps) {
   out.close();
 }
 
+py::object next_frame(FrameStream& stream) {
+  std::optional<SeenFrame> seen;
+  {
+    const py::gil_scoped_release others_run;
+    seen = stream.next();
+  }
+  if (seen) return py::make_tuple(std::move(seen->frame), std::move(seen->pose));
+  warn_of(stream.file(), stream.account());
+  throw py::stop_iteration();
+}
+
+py::object next_map(MapStream& stream) {
+  std::optional<LocalMap> map;
+  {
+    const py::gil_scoped_release others_run;
+    map = stream.next();
+  }
+  if (map) return py::cast(*std::move(map));
+  warn_of(stream.file(), stream.account());
+  throw py::stop_iteration();
+}
+
+std::unique_ptr<FrameStream> iter_frames(const py::object& file) {
+  return std::make_unique<FrameStream>(
+      existing_path(file, "path"), [](const std::string& name, const auto& put) {
+        return evaluation::for_each_frame(
+            name, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+              put({frame, pose_of(T_map_body, frame.stamp_ns)});
+            });
+      });
+}
+
+std::unique_ptr<MapStream> iter_maps(const py::object& file) {
+  return std::make_unique<MapStream>(
+      existing_path(file, "path"), [](const std::string& name, const auto& put) {
+        return evaluation::for_each_map(name, [&](const LocalMap& map) { put(map); });
+      });
+}
+
 }  // namespace
 
 void bind_files(py::module_& module) {
   using py::arg;
+  const auto self = [](const py::object& stream) { return stream; };
+  py::class_<FrameStream>(module, "FrameIterator", "The frames of a file, one after the other.")
+      .def("__iter__", self)
+      .def("__next__", &next_frame);
+  py::class_<MapStream>(module, "MapIterator", "The maps of a file, one after the other.")
+      .def("__iter__", self)
+      .def("__next__", &next_map);
+  module.def("iter_frames", &iter_frames, arg("path"),
+             "The same as read_frames(), one after the other: a long file takes little memory.");
+  module.def("iter_maps", &iter_maps, arg("path"),
+             "The same as read_maps(), one after the other: a long file takes little memory.");
   module.def("read_frames", &read_frames, arg("path"), kReadFramesDoc);
   module.def("write_frames", &write_frames, arg("path"), arg("frames"), kWriteFramesDoc);
   module.def("read_maps", &read_maps, arg("path"), kReadMapsDoc);

@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "binding.hpp"
 #include "laneloom/element_names.hpp"
+#include "pickling.hpp"
 #include "session/gate.hpp"
 
 namespace laneloom::python {
@@ -105,6 +106,7 @@ void bind_detection(py::module_& module) {
   py::class_<Detection>(module, "Detection", kDetectionDoc)
       .def(py::init(&make_detection), arg("type"), arg("points"), arg("confidence") = 1.0,
            arg("style") = "unknown", arg("stddev") = py::none())
+      .def(pickled<Detection>())
       .def_property_readonly("type", [](const Detection& d) { return name(d.type); })
       .def_property_readonly("style", [](const Detection& d) { return name(d.style); })
       .def_property_readonly("confidence", [](const Detection& d) { return d.confidence; })
@@ -126,6 +128,7 @@ void bind_frames(py::module_& module) {
       .def(py::init(&make_frame), arg("stamp_ns"), arg("detections"), arg("source") = "", py::kw_only(),
            arg("detected_types") = py::tuple(), arg("field_of_view") = py::tuple(),
            arg("occluded_areas") = py::tuple(), arg("sequence") = 0, arg("session_id") = 0)
+      .def(pickled<Frame>())
       .def_property_readonly("stamp_ns", [](const Frame& f) { return f.stamp_ns; })
       .def_property_readonly("detections", [](const Frame& f) { return to_tuple(f.detections); })
       .def_property_readonly("source", [](const Frame& f) { return f.source; })
@@ -151,6 +154,7 @@ void bind_pose(py::module_& module) {
       .def(py::init(&make_pose), arg("position"), arg("orientation"), arg("stamp_ns") = 1)
       .def_static("from_matrix", &pose_of_matrix, arg("matrix"), arg("stamp_ns") = 1,
                   "Pose of an array (4, 4) that takes the body frame to the map frame.")
+      .def(pickled<Pose>())
       .def_property_readonly("stamp_ns", [](const Pose& p) { return p.stamp_ns; })
       .def_property_readonly("position", [](const Pose& p) { return to_array(p.position); })
       .def_property_readonly("orientation", [](const Pose& p) { return to_array(p.orientation); })

@@ -3,6 +3,7 @@
 #include "arrays.hpp"
 #include "binding.hpp"
 #include "laneloom/element_names.hpp"
+#include "pickling.hpp"
 
 namespace laneloom::python {
 namespace {
@@ -22,7 +23,8 @@ void bind_marking(py::module_& module) {
   const auto style = [](const StyleRange& s) {
     return py::make_tuple(s.range.from_m, s.range.to_m, name(s.style));
   };
-  marking.def_property_readonly("id", [](const Marking& m) { return m.id; })
+  marking.def(pickled<Marking>())
+      .def_property_readonly("id", [](const Marking& m) { return m.id; })
       .def_property_readonly(
           "type", [](const Marking& m) { return name(m.type); },
           "\"laneline\", \"roadedge\" or \"stopline\".")
@@ -51,7 +53,8 @@ void bind_marking(py::module_& module) {
 void bind_stopline(py::module_& module) {
   py::class_<Stopline> stopline(module, "Stopline", "A stopline and the lanes that it ends.");
   const auto id = [](ElementId value) { return py::int_(value); };
-  stopline.def_property_readonly("marking", [](const Stopline& s) { return s.marking; })
+  stopline.def(pickled<Stopline>())
+      .def_property_readonly("marking", [](const Stopline& s) { return s.marking; })
       .def_property_readonly(
           "lanes", [id](const Stopline& s) { return to_tuple(s.lanes, id); }, "Ids, ascending.")
       .def_property_readonly(
@@ -62,7 +65,8 @@ void bind_stopline(py::module_& module) {
 void bind_neighbour(py::module_& module) {
   py::class_<Neighbour> neighbour(module, "Neighbour",
                                   "A lane on the other side of a boundary, along a stretch.");
-  neighbour.def_property_readonly("lane", [](const Neighbour& n) { return n.lane; })
+  neighbour.def(pickled<Neighbour>())
+      .def_property_readonly("lane", [](const Neighbour& n) { return n.lane; })
       .def_property_readonly(
           "range", [](const Neighbour& n) { return pair(n.range); },
           "(from, to), by metres along the centerline of the lane that names it.")
@@ -73,7 +77,7 @@ void bind_neighbour(py::module_& module) {
 
 void bind_border(py::module_& module) {
   py::class_<Border> border(module, "Border", "What bounds a lane on one side, along a stretch of it.");
-  border
+  border.def(pickled<Border>())
       .def_property_readonly(
           "boundary", [](const Border& b) { return b.boundary; }, "Id of the map's boundary; 0: unseen.")
       .def_property_readonly(
@@ -88,7 +92,8 @@ void bind_lane(py::module_& module) {
   py::class_<Lane> lane(
       module, "Lane",
       "A lane between two boundaries. Lines are in the map frame, all in the same direction.");
-  lane.def_property_readonly("id", [](const Lane& l) { return l.id; })
+  lane.def(pickled<Lane>())
+      .def_property_readonly("id", [](const Lane& l) { return l.id; })
       .def_property_readonly(
           "left", [](const Lane& l) { return to_array(l.left); }, "Array (N, 3).")
       .def_property_readonly(
@@ -137,7 +142,8 @@ void bind_lane(py::module_& module) {
 
 void bind_linkage(py::module_& module) {
   py::class_<Linkage> linkage(module, "Linkage", "One lane continues another.");
-  linkage.def_property_readonly("from_lane", [](const Linkage& l) { return l.from; })
+  linkage.def(pickled<Linkage>())
+      .def_property_readonly("from_lane", [](const Linkage& l) { return l.from; })
       .def_property_readonly("to_lane", [](const Linkage& l) { return l.to; })
       .def_property_readonly("kind", [](const Linkage& l) { return name(l.kind); })
       .def_property_readonly(
@@ -155,7 +161,7 @@ void bind_linkage(py::module_& module) {
 
 void bind_lineage(py::module_& module) {
   py::class_<LineageEvent> event(module, "LineageEvent", "How an id came to be in the map or left it.");
-  event
+  event.def(pickled<LineageEvent>())
       .def_property_readonly(
           "kind", [](const LineageEvent& e) { return name(e.kind); },
           "\"born\", \"merged_into\", \"split_from\" or \"retired\".")
@@ -180,8 +186,9 @@ void bind_map(py::module_& module) {
   py::class_<LocalMap> map(
       module, "LocalMap",
       "The map around the vehicle after one fused frame. Every id that is referred to is in it.");
-  map.def_property_readonly(
-         "stamp_ns", [](const LocalMap& m) { return m.stamp_ns; }, "Of the newest fused frame.")
+  map.def(pickled<LocalMap>())
+      .def_property_readonly(
+          "stamp_ns", [](const LocalMap& m) { return m.stamp_ns; }, "Of the newest fused frame.")
       .def_property_readonly(
           "pose", [](const LocalMap& m) { return to_array(m.T_map_body); },
           "Array (4, 4) that takes the body frame to the map frame, at the stamp.")

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "arguments.hpp"
 #include "binding.hpp"
 #include "drawing/frame_elements.hpp"
@@ -11,7 +13,7 @@ namespace {
 
 constexpr const char* kDoc = R"(Draws one moment as seen from above, the vehicle's forward direction up.
 
-path: picture to write (.png or .svg)
+path: picture to write (.png or .svg); None: an array (height, width, 3) of bytes is returned
 frame: a pair (Frame, Pose), drawn in a panel of its own
 map: LocalMap, likewise
 truth: Truth, likewise, and beneath the other two
@@ -46,8 +48,15 @@ render::Moment draw_moment(const Inputs& inputs, const RangeConfig& range) {
   return moment;
 }
 
-void render(const py::object& file, const py::object& map, const py::object& frame, const py::object& truth,
-            const py::object& config, const py::object& title) {
+/// An array (height, width, 3) of a picture.
+py::array_t<std::uint8_t> to_array(const render::Image& image) {
+  py::array_t<std::uint8_t> array({image.height, image.width, std::size_t{3}});
+  std::ranges::copy(image.rgb, array.mutable_data());
+  return array;
+}
+
+py::object render(const py::object& file, const py::object& map, const py::object& frame,
+                  const py::object& truth, const py::object& config, const py::object& title) {
   if (map.is_none() && frame.is_none()) throw py::type_error("map, frame: one of the two must be given");
   Inputs inputs;
   if (!map.is_none()) inputs.map = &instance<LocalMap>(map, "map");
@@ -55,16 +64,32 @@ void render(const py::object& file, const py::object& map, const py::object& fra
   if (!frame.is_none()) inputs.seen = seen_frame(frame, "frame");
   render::Figure figure{.title = text(title, "title")};
   if (!config.is_none()) figure.range = instance<Config>(config, "config").mapper.range;
-  const std::string name = path(file, "path");
-  const py::gil_scoped_release others_run;
-  figure.moments.push_back(draw_moment(inputs, figure.range));
-  draw_figure(figure, name);
+  const std::string name = file.is_none() ? "" : path(file, "path");
+  render::Image image;
+  {
+    const py::gil_scoped_release others_run;
+    figure.moments.push_back(draw_moment(inputs, figure.range));
+    if (name.empty())
+      image = draw_image(figure);
+    else
+      draw_figure(figure, name);
+  }
+  return name.empty() ? py::object(to_array(image)) : py::none();
+}
+
+std::string svg_of(const LocalMap& map) {
+  render::Figure figure;
+  figure.title = "LocalMap at " + std::to_string(map.stamp_ns) + " ns";
+  figure.moments.push_back(draw_moment({.map = &map}, figure.range));
+  return draw_svg(figure);
 }
 
 }  // namespace
 
 void bind_render(py::module_& module) {
   using py::arg;
+  // What notebooks show of a map.
+  py::class_<LocalMap>(module.attr("LocalMap")).def("_repr_svg_", &svg_of);
   module.def("render", &render, arg("path"), arg("map") = py::none(), py::kw_only(),
              arg("frame") = py::none(), arg("truth") = py::none(), arg("config") = py::none(),
              arg("title") = "laneloom", kDoc);

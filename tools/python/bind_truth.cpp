@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "binding.hpp"
 #include "laneloom/element_names.hpp"
+#include "pickling.hpp"
 #include "simulation/road.hpp"
 
 namespace laneloom::python {
@@ -80,7 +81,7 @@ simulation::Road make_truth(const py::object& name, const py::object& markings, 
 }
 
 simulation::Road load(const py::object& file) {
-  const std::string name = path(file, "path");
+  const std::string name = existing_path(file, "path");
   const py::gil_scoped_release others_run;
   return simulation::load_truth(name);
 }
@@ -95,6 +96,7 @@ void bind_parts(py::module_& module) {
   using py::arg;
   py::class_<simulation::RoadMarking>(module, "TruthMarking", kMarkingDoc)
       .def(py::init(&make_marking), arg("id"), arg("type"), arg("points"), arg("style") = "unknown")
+      .def(pickled<simulation::RoadMarking>())
       .def_property_readonly("id", [](const simulation::RoadMarking& m) { return m.id; })
       .def_property_readonly("type", [](const simulation::RoadMarking& m) { return name(m.type); })
       .def_property_readonly("style", [](const simulation::RoadMarking& m) { return name(m.style); })
@@ -103,6 +105,7 @@ void bind_parts(py::module_& module) {
       .def(py::init(&make_lane), arg("id"), arg("left"), arg("right"), arg("centerline"), py::kw_only(),
            arg("left_marking") = 0, arg("right_marking") = 0, arg("in_intersection") = false,
            arg("successors") = py::tuple())
+      .def(pickled<simulation::RoadLane>())
       .def_property_readonly("id", [](const simulation::RoadLane& l) { return l.id; })
       .def_property_readonly("left", [](const simulation::RoadLane& l) { return to_array(l.left); })
       .def_property_readonly("right", [](const simulation::RoadLane& l) { return to_array(l.right); })
@@ -128,6 +131,7 @@ void bind_truth(py::module_& module) {
       .def_static("load", &load, arg("path"),
                   "The truth in a .truth.json file. RuntimeError: the file is wrong.")
       .def("save", &save, arg("path"), "Writes a .truth.json file.")
+      .def(pickled<simulation::Road>())
       .def_property_readonly("name", [](const simulation::Road& r) { return r.name; })
       .def_property_readonly(
           "driving_side", [](const simulation::Road& r) { return r.right_hand_traffic ? "right" : "left"; })

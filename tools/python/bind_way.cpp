@@ -5,6 +5,7 @@
 #include "binding.hpp"
 #include "laneloom/element_names.hpp"
 #include "laneloom/way.hpp"
+#include "pickling.hpp"
 
 namespace laneloom::python {
 namespace {
@@ -44,7 +45,7 @@ py::array_t<double> to_map(const Way& way, const py::object& s, const py::object
 void bind_own_way(py::module_& module) {
   py::class_<WayStation> station(module, "WayStation",
                                  "The own way at one place. Lengths in metres; -1: not known.");
-  station
+  station.def(pickled<WayStation>())
       .def_property_readonly(
           "point", [](const WayStation& s) { return to_array(s.point); }, "Array (3,).")
       .def_property_readonly(
@@ -66,8 +67,9 @@ void bind_own_way(py::module_& module) {
       .def_property_readonly("may_change_left", [](const WayStation& s) { return s.may_change_left; })
       .def_property_readonly("may_change_right", [](const WayStation& s) { return s.may_change_right; });
   py::class_<Way> way(module, "Way", "One smooth line ahead, from beside the vehicle.");
-  way.def_property_readonly(
-         "step", [](const Way& w) { return w.step_m; }, "Metres between stations.")
+  way.def(pickled<Way>())
+      .def_property_readonly(
+          "step", [](const Way& w) { return w.step_m; }, "Metres between stations.")
       .def_property_readonly("stations", [](const Way& w) { return to_tuple(w.stations); })
       .def_property_readonly(
           "lanes",
@@ -89,7 +91,8 @@ void bind_own_way(py::module_& module) {
 void bind_driven_path(py::module_& module) {
   py::class_<DrivenPath> path(module, "DrivenPath",
                               "A path that others drove, where no lane between markings is known.");
-  path.def_property_readonly("id", [](const DrivenPath& p) { return p.id; })
+  path.def(pickled<DrivenPath>())
+      .def_property_readonly("id", [](const DrivenPath& p) { return p.id; })
       .def_property_readonly(
           "points", [](const DrivenPath& p) { return to_array(p.points); },
           "Array (N, 3), in the order in which they were driven.")

@@ -17,6 +17,7 @@ void bind_config(py::module_& module);
 void bind_frame(py::module_& module);
 void bind_map(py::module_& module);
 void bind_way(py::module_& module);
+void bind_graph(py::module_& module);
 void bind_mapper(py::module_& module);
 void bind_truth(py::module_& module);
 void bind_files(py::module_& module);

@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   bind_config(module);
   bind_frame(module);
   bind_map(module);
+  bind_graph(module);
   bind_mapper(module);
   bind_truth(module);
   bind_files(module);

@@ -23,6 +23,7 @@ from ._core import (
     Evaluation,
     Frame,
     Lane,
+    LaneGraph,
     LaterEvaluation,
     LaterFigures,
     LaterScore,
@@ -44,6 +45,8 @@ from ._core import (
     __version__,
     evaluate,
     evaluate_later,
+    iter_frames,
+    iter_maps,
     read_frames,
     read_maps,
     render,
@@ -51,6 +54,11 @@ from ._core import (
     write_frames,
     write_maps,
 )
+from ._tables import evaluation_to_html, evaluation_to_pandas, map_to_pandas
+
+setattr(LocalMap, "to_pandas", map_to_pandas)
+setattr(Evaluation, "to_pandas", evaluation_to_pandas)
+setattr(Evaluation, "_repr_html_", evaluation_to_html)
 
 __all__ = [
     "Border",
@@ -61,6 +69,7 @@ __all__ = [
     "Evaluation",
     "Frame",
     "Lane",
+    "LaneGraph",
     "LaterEvaluation",
     "LaterFigures",
     "LaterScore",
@@ -82,6 +91,8 @@ __all__ = [
     "__version__",
     "evaluate",
     "evaluate_later",
+    "iter_frames",
+    "iter_maps",
     "read_frames",
     "read_maps",
     "render",
