@@ -29,7 +29,7 @@ class Viewer {
 
  private:
   view::FrameStore frames_;
-  view::Site site_{"fuzz", "[]", &frames_};
+  view::Site site_{{.title = "fuzz"}, frames_};
   view::WebServer server_{
       {.patience_s = 0.2, .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
       [this](std::string_view target) { return site_.answer(target); }};

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace laneloom::view {
@@ -11,7 +13,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 TEST(Site, HasThePageAndNothingElse) {
-  const Site site("a vehicle", "[]", nullptr);
+  const FrameStore frames;
+  const BlackBox box({}, {});
+  const Site site({.title = "a vehicle", .black_box = &box}, frames);
   EXPECT_THAT(site.answer("/").body, HasSubstr("<title>laneloom</title>"));
   EXPECT_EQ(site.answer("/").body, site.answer("/index.html").body);
   EXPECT_EQ(site.answer("/main.js").type, "text/javascript; charset=utf-8");
@@ -19,18 +23,18 @@ TEST(Site, HasThePageAndNothingElse) {
             json::parse(R"({"title": "a vehicle", "live": true, "names": []})"));
   EXPECT_TRUE(json::parse(site.answer("/palette").body).contains("styles"));
   for (const char* none :
-       {"", "/nothing", "/../main.js", "//main.js", "/main.js/", "/recording?from=0", "/frame?number=0"})
+       {"", "/nothing", "/../main.js", "//main.js", "/main.js/", "/recording?from=x", "/frame?number=0"})
     EXPECT_EQ(site.answer(none).status, 404U) << none;
 }
 
 TEST(Site, GivesTheFramesOfARecordingWhileItIsRead) {
   FrameStore store;
-  const Site site("drive.mcap", "[]", &store, {"A.yaml", "B.yaml"});
+  const Site site({.title = "drive.mcap", .names = {"A.yaml", "B.yaml"}}, store);
   EXPECT_EQ(json::parse(site.answer("/info").body)["names"], json::parse(R"(["A.yaml", "B.yaml"])"));
   EXPECT_EQ(json::parse(site.answer("/recording?from=0").body)["complete"], false);
   const std::string frame(100'000, 'x');
-  store.add(R"({"number":0})", frame);
-  store.add(R"({"number":1})", "second");
+  store.add(0, R"({"number":0})", frame);
+  store.add(0, R"({"number":1})", "second");
   EXPECT_EQ(site.answer("/frame?number=0").body, frame);
   EXPECT_EQ(site.answer("/frame?number=1").body, "second");
   for (const char* none : {"2", "-1", "", "1x", "18446744073709551616", "0x1"})
@@ -41,10 +45,42 @@ TEST(Site, GivesTheFramesOfARecordingWhileItIsRead) {
             json::parse(R"({"complete": true, "error": "the file is cut off", "frames": [{"number": 1}]})"));
   EXPECT_EQ(json::parse(site.answer("/recording?from=99").body)["frames"], json::array());
   EXPECT_EQ(site.answer("/metrics").status, 404U);
+  EXPECT_EQ(site.answer("/save").status, 404U);
+}
+
+TEST(FrameStore, KeepsWhatItsLimitsAllow) {
+  FrameStore store({.span_s = 10.0});
+  for (int i = 0; i < 300; ++i)
+    store.add(i * 100'000'000LL, fmt::format(R"({{"number":{}}})", i), fmt::format("frame {}", i));
+  EXPECT_EQ(store.size(), 300U);
+  EXPECT_FALSE(store.frame(100));
+  EXPECT_EQ(store.frame(250), "frame 250");
+  EXPECT_EQ(store.frame(299), "frame 299");
+  const json kept = json::parse(store.summaries(0))["frames"];
+  const std::size_t first = kept.front()["number"];
+  EXPECT_GE(first, 190U);
+  EXPECT_LE(first, 200U);
+  EXPECT_EQ(kept.size(), 300 - first);
+  EXPECT_EQ(store.frame(first), fmt::format("frame {}", first));
+  EXPECT_FALSE(store.frame(first - 1));
+  EXPECT_EQ(json::parse(store.summaries(298))["frames"].size(), 2U);
+}
+
+TEST(FrameStore, BytesAreLimited) {
+  FrameStore store({.bytes = 100'000});
+  std::string frame(50'000, '\0');
+  std::uint32_t noise = 1;
+  for (int i = 0; i < 100; ++i) {
+    for (char& byte : frame) byte = static_cast<char>((noise = noise * 1664525U + 1013904223U) >> 24U);
+    store.add(i, "{}", frame);
+  }
+  EXPECT_LT(json::parse(store.summaries(0))["frames"].size(), 10U);
 }
 
 TEST(Site, HasTheServicesFiguresForPrometheus) {
-  Site site("a vehicle", "[]", nullptr);
+  const FrameStore frames;
+  const BlackBox box({}, {});
+  Site site({.title = "a vehicle", .black_box = &box}, frames);
   EXPECT_EQ(site.answer("/metrics").status, 503U);
   ServiceStatus status{.state = MapState::degraded, .reasons = {StateReason::no_poses}};
   status.tick.p99_ms = 2.5;

@@ -9,10 +9,21 @@
 
 namespace laneloom::commands {
 
+namespace {
+
+/// For a tab that is opened after an incident.
+constexpr view::StoreLimits kKeptFrames{.span_s = 300.0, .bytes = 10U << 20U};
+/// To be saved as a recording.
+constexpr view::StoreLimits kKeptMessages{.span_s = 60.0, .bytes = 8U << 20U};
+
+}  // namespace
+
 LiveView::LiveView(const DdsConfig& dds, const RangeConfig& range)
     : range_(range),
       placer_(range),
       scenes_(dds.map_frame_id),
+      frames_(kKeptFrames),
+      black_box_(dds, kKeptMessages),
       participant_(dds, "laneloom view"),
       detections_(participant_, into_inbox<DetectionFrame>()),
       poses_(participant_, into_inbox<VehiclePose>()),
@@ -29,6 +40,7 @@ void LiveView::run(view::Site& site, view::WebServer& server, bool with_scenes) 
     } else {
       auto& message = std::get<recording::AnyMessage>(arrival->what);
       if (const auto* status = std::get_if<ServiceStatus>(&message)) site.set_status(*status);
+      black_box_.add(message, arrival->time_ns);
       if (with_scenes) publish_scenes(message, arrival->time_ns, server);
       if (!add(std::move(message), arrival->time_ns)) continue;
       shown_ = builder_.take();
@@ -62,7 +74,9 @@ void LiveView::set_alive(bool alive, std::int64_t time_ns) {
 
 void LiveView::show(view::WebServer& server) {
   const view::FramePlace place = placer_.next(*shown_);
-  server.publish(frame_text(*shown_, place, range_));
+  std::string frame = frame_text(*shown_, place, range_);
+  frames_.add(shown_->seen_ns, summary_text(*shown_, place), frame);
+  server.publish(std::move(frame));
 }
 
 template <class T>

@@ -9,7 +9,9 @@
 #include "laneloom/dds/reader.hpp"
 #include "recording/recording.hpp"
 #include "scene/scene_maker.hpp"
+#include "view/black_box.hpp"
 #include "view/frame_placer.hpp"
+#include "view/frame_store.hpp"
 #include "view/moment.hpp"
 #include "view/site.hpp"
 #include "view/web_server.hpp"
@@ -22,6 +24,10 @@ class LiveView {
   /// `range` is the map's range box until the service tells its own. Throws std::runtime_error if DDS
   /// refuses.
   LiveView(const DdsConfig& dds, const RangeConfig& range);
+
+  /// What was shown and heard lately. Thread-safe.
+  const view::FrameStore& frames() const { return frames_; }
+  const view::BlackBox& black_box() const { return black_box_; }
 
   /// Publishes frames, and scenes if the server has scene_topics(), until the program is to end.
   void run(view::Site& site, view::WebServer& server, bool with_scenes);
@@ -49,6 +55,8 @@ class LiveView {
   view::FramePlacer placer_;
   Inbox<Arrival> inbox_;
   scene::SceneMaker scenes_;
+  view::FrameStore frames_;
+  view::BlackBox black_box_;
   view::MomentBuilder builder_;
   std::optional<view::ViewMoment> shown_;
   bool alive_ = true;

@@ -21,6 +21,7 @@
 #include "support/progress_bar.hpp"
 #include "view/frame_placer.hpp"
 #include "view/frame_text.hpp"
+#include "why/reason_history.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -40,7 +41,7 @@ class Storer {
     if (stop_requested()) throw Stopped();
     if (truth_ != nullptr) moment.truth = drawing::map_of(*truth_, moment.map.map.T_map_body, kTruthReach_m);
     const view::FramePlace place = placer_.next(moment);
-    store_.add(summary_text(moment, place), frame_text(moment, place, range_));
+    store_.add(moment.seen_ns, summary_text(moment, place), frame_text(moment, place, range_));
   }
 
  private:
@@ -50,8 +51,55 @@ class Storer {
   view::FrameStore& store_;
 };
 
+/// Maps a recording anew, to know why its maps are as they are. It knows that only of maps that come out the
+/// same.
+class Explainer {
+ public:
+  explicit Explainer(const Config& config)
+      : replay_(
+            config, [this](const PublishedMap& map, std::int64_t) { take(map.map); }, &reasons_) {}
+  Explainer(const Explainer&) = delete;
+  Explainer& operator=(const Explainer&) = delete;
+
+  void add(const recording::RecordedMessage& message) { replay_.add(message); }
+
+  nlohmann::json why(const LocalMap& map) const {
+    const auto made = made_.find(map.stamp_ns);
+    return made != made_.end() && made->second.ids == ids_of(map) ? made->second.why : nlohmann::json();
+  }
+
+ private:
+  struct Made {
+    std::vector<ElementId> ids;
+    nlohmann::json why;
+  };
+  static constexpr std::size_t kKept = 64;
+
+  static std::vector<ElementId> ids_of(const LocalMap& map) {
+    std::vector<ElementId> ids;
+    for (const Marking& boundary : map.boundaries) ids.push_back(boundary.id);
+    for (const Lane& lane : map.lanes) ids.push_back(lane.id);
+    return ids;
+  }
+  void take(const LocalMap& map) {
+    made_[map.stamp_ns] = {ids_of(map), reasons_.to_json(map)};
+    if (made_.size() > kKept) made_.erase(made_.begin());
+  }
+
+  why::ReasonHistory reasons_;
+  std::map<std::int64_t, Made> made_;  ///< by stamp, the newest
+  replay::Replay replay_;
+};
+
+/// The configuration that made the maps of a recording. The defaults, if the recording does not tell.
+Config config_of(const recording::RecordingReader& reader, const std::string& path) {
+  const std::string text = reader.origin().configuration;
+  return text.empty() ? Config{} : config::parse_config(text, path + ": its configuration");
+}
+
 void load_recording(const std::string& path, bool strict, Storer& storer) {
   recording::RecordingReader reader(path);
+  Explainer explainer(config_of(reader, path));
   view::MomentBuilder builder;
   LeftOut left_out(strict);
   support::ProgressBar bar;
@@ -60,7 +108,14 @@ void load_recording(const std::string& path, bool strict, Storer& storer) {
     const auto add = [&](auto&& message) {
       return builder.add(std::forward<decltype(message)>(message), recorded->log_time_ns);
     };
-    if (std::visit(add, std::move(recorded->message))) storer.add(builder.take());
+    if (std::holds_alternative<DetectionFrame>(recorded->message) ||
+        std::holds_alternative<VehiclePose>(recorded->message) ||
+        std::holds_alternative<TrackedObjects>(recorded->message))
+      explainer.add(*recorded);
+    if (!std::visit(add, std::move(recorded->message))) continue;
+    view::ViewMoment moment = builder.take();
+    moment.why = explainer.why(moment.map.map);
+    storer.add(std::move(moment));
   }
   if (const auto last = builder.finish()) storer.add(*last);
   bar.clear();
@@ -73,8 +128,13 @@ class Comparison {
  public:
   explicit Comparison(const std::vector<std::string>& configs) : maps_(configs.size()) {
     for (std::size_t i = 0; i < configs.size(); ++i)
-      replays_.emplace_back(config::load_config(configs[i]),
-                            [this, i](const PublishedMap& map, std::int64_t) { maps_[i].push_back(map); });
+      replays_.emplace_back(
+          config::load_config(configs[i]),
+          [this, i](const PublishedMap& map, std::int64_t) {
+            maps_[i].push_back(map);
+            if (i == 0) whys_.push_back(reasons_.to_json(map.map));
+          },
+          i == 0 ? &reasons_ : nullptr);
   }
   Comparison(const Comparison&) = delete;
   Comparison& operator=(const Comparison&) = delete;
@@ -85,8 +145,13 @@ class Comparison {
       builder_.add(VehiclePose(*pose), message.log_time_ns);
     if (const auto* frame = std::get_if<DetectionFrame>(&message.message))
       builder_.add(DetectionFrame(*frame), message.log_time_ns);
-    for (PublishedMap& map : std::exchange(maps_.front(), {}))
-      storer.add(moment_of(std::move(map), message.log_time_ns));
+    auto why = whys_.begin();
+    for (PublishedMap& map : std::exchange(maps_.front(), {})) {
+      view::ViewMoment moment = moment_of(std::move(map), message.log_time_ns);
+      moment.why = std::move(*why++);
+      storer.add(std::move(moment));
+    }
+    whys_.clear();
   }
 
  private:
@@ -107,6 +172,8 @@ class Comparison {
     return moment;
   }
 
+  why::ReasonHistory reasons_;                  ///< of the first configuration
+  std::vector<nlohmann::json> whys_;            ///< of the maps of the first one
   std::vector<std::deque<PublishedMap>> maps_;  ///< per configuration; the last map of the others stays
   std::deque<replay::Replay> replays_;
   view::MomentBuilder builder_;

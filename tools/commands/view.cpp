@@ -41,9 +41,10 @@ void print_urls(const ViewOptions& options, std::uint16_t port) {
 }
 
 void view_live(const ViewOptions& options) {
-  view::Site site(fmt::format("vehicle {}, domain {}", options.dds.vehicle_id, options.dds.domain), "[]",
-                  nullptr);
   LiveView view(options.dds, options.range);
+  view::Site site({.title = fmt::format("vehicle {}, domain {}", options.dds.vehicle_id, options.dds.domain),
+                   .black_box = &view.black_box()},
+                  view.frames());
   view::WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
   print_urls(options, server.port());
   view.run(site, server, options.foxglove);
@@ -54,7 +55,9 @@ void view_recording(const ViewOptions& options) {
   if (!options.recorded.truth.empty()) truth = simulation::load_truth(options.recorded.truth);
   const simulation::Road* road = truth ? &*truth : nullptr;
   view::FrameStore store;
-  const view::Site site(options.recorded.title(), truth_elements(road), &store, options.recorded.names());
+  const view::Site site(
+      {.title = options.recorded.title(), .truth = truth_elements(road), .names = options.recorded.names()},
+      store);
   std::thread loader([&] { load(options.recorded, options.range, road, store); });
   try {
     const view::WebServer server(options.server,

@@ -1,29 +1,48 @@
 #include "view/frame_store.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "recording/compression.hpp"
+#include "base/seconds.hpp"
 
 namespace laneloom::view {
 namespace {
 
 constexpr std::size_t kSummariesPerAnswer = 4000;
+constexpr std::size_t kFramesPerGroup = 8;
 
-recording::ByteView bytes_of(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+/// The frame of an index among frames that end where `ends` says.
+std::string cut_out(const std::string& frames, const std::vector<std::size_t>& ends, std::size_t index) {
+  const std::size_t begin = index == 0 ? 0 : ends[index - 1];
+  return frames.substr(begin, ends[index] - begin);
 }
 
 }  // namespace
 
-void FrameStore::add(std::string summary, std::string_view frame) {
-  Compressed compressed{.size = frame.size()};
-  compress(recording::Compression::zstd, bytes_of(frame), compressed.bytes);
-  compressed.bytes.shrink_to_fit();
+void FrameStore::add(std::int64_t time_ns, std::string summary, std::string_view frame) {
   const std::lock_guard lock(mutex_);
-  frames_.push_back(std::move(compressed));
+  if (open_ends_.empty()) open_time_ns_ = time_ns;
+  open_ += frame;
+  open_ends_.push_back(open_.size());
   summaries_.push_back(std::move(summary));
+  ++size_;
+  if (open_ends_.size() >= kFramesPerGroup) close_group();
+  while (!groups_.empty() &&
+         (seconds(time_ns - groups_.front().time_ns) > limits_.span_s || bytes_ > limits_.bytes)) {
+    const Group& oldest = groups_.front();
+    bytes_ -= oldest.frames.bytes();
+    summaries_.erase(summaries_.begin(),
+                     summaries_.begin() + static_cast<std::ptrdiff_t>(oldest.ends.size()));
+    groups_.pop_front();
+  }
+}
+
+void FrameStore::close_group() {
+  groups_.push_back({open_time_ns_, size_ - open_ends_.size(), std::exchange(open_ends_, {}), Packed(open_)});
+  bytes_ += groups_.back().frames.bytes();
+  open_.clear();
 }
 
 void FrameStore::finish(const std::string& error) {
@@ -34,30 +53,33 @@ void FrameStore::finish(const std::string& error) {
 
 std::size_t FrameStore::size() const {
   const std::lock_guard lock(mutex_);
-  return frames_.size();
+  return size_;
 }
 
 std::string FrameStore::failure() const {
   const std::lock_guard lock(mutex_);
-  return frames_.empty() ? error_ : "";
+  return size_ == 0 ? error_ : "";
 }
 
 std::optional<std::string> FrameStore::frame(std::size_t number) const {
   const std::lock_guard lock(mutex_);
-  if (number >= frames_.size()) return std::nullopt;
-  const Compressed& compressed = frames_[number];
-  std::string text(compressed.size, '\0');
-  decompress(recording::Compression::zstd, compressed.bytes,
-             {reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
-  return text;
+  const std::size_t first_open = size_ - open_ends_.size();
+  if (number >= size_) return std::nullopt;
+  if (number >= first_open) return cut_out(open_, open_ends_, number - first_open);
+  const auto after = std::ranges::upper_bound(groups_, number, {}, &Group::first);
+  if (after == groups_.begin()) return std::nullopt;
+  const Group& group = *std::prev(after);
+  return cut_out(group.frames.unpacked(), group.ends, number - group.first);
 }
 
 std::string FrameStore::summaries(std::size_t from) const {
   const std::lock_guard lock(mutex_);
+  const std::size_t kept = size_ - summaries_.size();
+  const std::size_t begin = std::max(from, kept) - kept;
   const std::size_t end =
-      std::min(summaries_.size(), from < summaries_.size() ? from + kSummariesPerAnswer : from);
+      std::min(summaries_.size(), begin < summaries_.size() ? begin + kSummariesPerAnswer : begin);
   std::string list;
-  for (std::size_t i = from; i < end; ++i) list += (i == from ? "" : ",") + summaries_[i];
+  for (std::size_t i = begin; i < end; ++i) list += (i == begin ? "" : ",") + summaries_[i];
   const bool complete = finished_ && end >= summaries_.size();
   return R"({"complete":)" + nlohmann::json(complete).dump() + R"(,"error":)" +
          nlohmann::json(error_).dump() + R"(,"frames":[)" + list + "]}";

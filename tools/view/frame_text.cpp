@@ -119,6 +119,7 @@ std::string frame_text(const ViewMoment& moment, const FramePlace& place, const 
   };
   std::ranges::for_each(moment.others, put_beside);
   if (moment.truth) put_beside(*moment.truth);
+  if (!moment.why.is_null()) frame["why"] = moment.why;
   frame["sequence"] = moment.map.sequence;
   frame["session_id"] = std::to_string(moment.map.session_id);
   frame["map_id"] = std::to_string(moment.map.map_id);

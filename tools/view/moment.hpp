@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,7 +22,8 @@ struct ViewMoment {
   std::optional<VehiclePose> pose;           ///< the newest pose
   std::optional<ServiceStatus> status;       ///< the newest status
   std::vector<LocalMap> others;              ///< maps of the same time to compare with; always as many
-  std::optional<LocalMap> truth;             ///< of the road around; drawn beside the maps
+  nlohmann::json why;             ///< reasons of the mapper (why/reason_history.hpp); null: not known
+  std::optional<LocalMap> truth;  ///< of the road around; drawn beside the maps
 };
 
 /// Makes moments of messages, in the order of their arrival. A map and its markings come one after the other.

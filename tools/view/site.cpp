@@ -1,6 +1,7 @@
 #include "view/site.hpp"
 
 #include <charconv>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -27,15 +28,15 @@ std::optional<std::size_t> number_of(std::string_view text) {
 
 }  // namespace
 
-Site::Site(std::string title, std::string truth, const FrameStore* recording, std::vector<std::string> names)
-    : title_(std::move(title)), truth_(std::move(truth)), recording_(recording), names_(std::move(names)) {}
+Site::Site(Content content, const FrameStore& frames) : content_(std::move(content)), frames_(frames) {}
 
 WebAnswer Site::answer(std::string_view asked) const {
   const Target target(asked);
   if (target.path == "/info") return {.body = info()};
   if (target.path == "/palette") return {.body = drawing::palette_json().dump()};
-  if (target.path == "/truth") return {.body = truth_};
-  if (target.path == "/metrics" && recording_ == nullptr) return metrics_answer();
+  if (target.path == "/truth") return {.body = content_.truth};
+  if (target.path == "/metrics" && content_.black_box != nullptr) return metrics_answer();
+  if (target.path == "/save" && content_.black_box != nullptr) return saved();
   if (target.path == "/recording") return recorded(target.path, target.value("from"));
   if (target.path == "/frame") return recorded(target.path, target.value("number"));
   const auto file = page_files().find(target.path == "/" ? "/index.html" : target.path);
@@ -44,15 +45,16 @@ WebAnswer Site::answer(std::string_view asked) const {
 }
 
 std::string Site::info() const {
-  return nlohmann::json{{"title", title_}, {"live", recording_ == nullptr}, {"names", names_}}.dump(
-      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return nlohmann::json{
+      {"title", content_.title}, {"live", content_.black_box != nullptr}, {"names", content_.names}}
+      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 WebAnswer Site::recorded(std::string_view path, std::string_view number) const {
   const auto value = number_of(number);
-  if (recording_ == nullptr || !value) return not_found();
-  if (path == "/recording") return {.body = recording_->summaries(*value)};
-  auto frame = recording_->frame(*value);
+  if (!value) return not_found();
+  if (path == "/recording") return {.body = frames_.summaries(*value)};
+  auto frame = frames_.frame(*value);
   return frame ? WebAnswer{.body = *std::move(frame)} : not_found();
 }
 
@@ -61,6 +63,14 @@ WebAnswer Site::metrics_answer() const {
   if (!status_ || SteadyClock::now() - status_time_ > kStatusLasts)
     return {503, "text/plain", "no status of the service in the last 5 s\n"};
   return {.type = "text/plain; version=0.0.4", .body = metrics(*status_)};
+}
+
+WebAnswer Site::saved() const {
+  try {
+    return {.type = "application/octet-stream", .body = content_.black_box->mcap()};
+  } catch (const std::exception& error) {
+    return {500, "text/plain", std::string(error.what()) + "\n"};
+  }
 }
 
 void Site::set_status(const ServiceStatus& status) {

@@ -8,21 +8,28 @@
 #include <vector>
 
 #include "laneloom/messages.hpp"
+#include "view/black_box.hpp"
 #include "view/frame_store.hpp"
 #include "view/web_server.hpp"
 
 namespace laneloom::view {
 
 /// The answers to a viewer's requests by HTTP, both live and of a recording: the page with its modules,
-/// `/info`, `/palette`, `/truth`, `/metrics`, and of a recording `/recording?from=` and `/frame?number=`.
-/// Thread-safe.
+/// `/info`, `/palette`, `/truth`, `/recording?from=` and `/frame?number=`; of a live view also `/metrics` and
+/// `/save`. Thread-safe.
 class Site {
  public:
-  /// `title` names the vehicle or the recording. `recording` is null for a live view; otherwise it must
-  /// outlive this. `truth` has elements to draw in every frame, as JSON. `names` are the names of the maps
-  /// that are compared; empty: there is one map.
-  Site(std::string title, std::string truth, const FrameStore* recording,
-       std::vector<std::string> names = {});
+  /// What a view shows.
+  struct Content {
+    std::string title;               ///< names the vehicle or the recording
+    std::string truth = "[]";        ///< elements to draw in every frame, as JSON
+    std::vector<std::string> names;  ///< of the maps that are compared; empty: there is one map
+    const BlackBox* black_box =
+        nullptr;  ///< of a live view; null: it is a recording. It must outlive the site
+  };
+
+  /// `frames` must outlive this.
+  Site(Content content, const FrameStore& frames);
 
   WebAnswer answer(std::string_view target) const;
   /// The newest status of the service, for `/metrics`.
@@ -34,10 +41,10 @@ class Site {
   std::string info() const;
   WebAnswer recorded(std::string_view path, std::string_view number) const;
   WebAnswer metrics_answer() const;
+  WebAnswer saved() const;
 
-  std::string title_, truth_;
-  const FrameStore* recording_;
-  std::vector<std::string> names_;
+  Content content_;
+  const FrameStore& frames_;
   mutable std::mutex mutex_;
   std::optional<ServiceStatus> status_;
   SteadyClock::time_point status_time_;

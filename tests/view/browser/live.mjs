@@ -1,7 +1,11 @@
 // Drives a headless Chromium through a live view: node live.mjs LANELOOMD LANELOOM DOMAIN [PICTURE]
 // Exits with 1 where something is not as a person would find it.
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readdirSync, rmSync} from 'node:fs';
 import http from 'node:http';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
 import {once} from 'node:events';
 import WebSocket from 'ws';
 import {clickALane, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
@@ -121,6 +125,32 @@ async function paintsTheOutageRed(page) {
   assert.deepEqual(red.colours, red.colours.map(() => red.wanted));
 }
 
+/** A tab that is opened after an incident sees it, a link goes there, and it can be saved. */
+async function remembersForATabThatComesLater(browser, page, url) {
+  const {time_s, number} = await page.evaluate(() => window.laneloom.feed.summaries[5]), late = await openTab(browser, `${url}#t=${time_s}`);
+  await isMode(late, 'paused');
+  await until(late, (wanted) => window.laneloom.player.frame?.number === wanted, number);
+  const {lost, incidents} = await late.evaluate(() => ({lost: window.laneloom.feed.lost, incidents: window.laneloom.feed.summaries.filter(({alive}) => alive === false).length}));
+  assert.ok(incidents > 0, 'the tab knows when the service was gone');
+  assert.equal(lost, 0);
+  const folder = mkdtempSync(join(tmpdir(), 'laneloom-save-')), debug = await late.createCDPSession();
+  await debug.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder, eventsEnabled: true});
+  const done = new Promise((resolve) => debug.on('Browser.downloadProgress', ({state}) => state === 'completed' && resolve()));
+  await late.click('#save');
+  await done;
+  const [file] = readdirSync(folder), info = JSON.parse(execFileSync(laneloom, ['info', join(folder, file), '--json'], {encoding: 'utf8'}));
+  assert.ok(info.configuration.includes('mapper:') && info.version, 'the recording has version and configuration');
+  rmSync(folder, {recursive: true});
+  await late.click('#live');
+  await until(late, () => window.laneloom.player.summary === window.laneloom.feed.last);
+  assert.deepEqual(late.complaints, []);
+  await late.close();
+  const forgotten = await openTab(browser, `${url}#t=1`);
+  await until(forgotten, () => document.getElementById('toast').textContent.includes('no longer remembers'));
+  await forgotten.close();
+  await page.bringToFront();
+}
+
 async function recoversWithTheViewer(browser, viewer, url) {
   const page = await openTab(browser, url);  // whose console tells of the connection
   await hasLanes(page);
@@ -185,6 +215,7 @@ try {
   await aSuspendedTabSlowsNobody(browser, page, url);
   service = await saysThatTheServiceIsGone(browser, page, url, service);
   await paintsTheOutageRed(page);
+  await remembersForATabThatComesLater(browser, page, url);
   await keepsNumbersWhole(page);
   const {ms, worst_ms, frames} = await page.evaluate(() => window.laneloom.drawn);
   console.log(`drawing: ${ms.toFixed(2)} ms a frame, at most ${worst_ms.toFixed(2)} ms, ${frames} frames`);

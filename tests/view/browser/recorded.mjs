@@ -196,6 +196,36 @@ async function showsTheTruth(browser) {
   assert.deepEqual(await stop(viewer), [0, null]);
 }
 
+/** A click on a line tells what made it; a click on a detection tells what became of it. */
+async function tellsWhy(page) {
+  await hasLanesAt(page, 8);
+  await page.evaluate(() => window.laneloom.player.pause());
+  const line = await page.evaluate(() => {
+    const {elements, selection, player} = window.laneloom, found = elements.find(({layer, status, id}) => layer === 'boundaries' && status === 'confirmed' && player.frame.why.lines[id]);
+    selection.select(found);
+    return found.id;
+  });
+  await until(page, () => document.querySelectorAll('.why p').length >= 3 && window.laneloom.selection.evidence.detections.length > 0 && document.querySelector('.why .curve'));
+  const text = await page.$eval('.why', ({textContent}) => textContent);
+  assert.ok(text.includes(`${line} is confirmed, with log odds of`), text);
+  await screenshot(page, '_why');
+  const fates = await page.evaluate(() => {
+    const {elements, selection} = window.laneloom;
+    return elements.filter(({layer}) => layer === 'detections').map((detection) => {
+      selection.select(detection);
+      return document.querySelector('.why')?.textContent ?? 'nothing';
+    });
+  });
+  assert.ok(fates.length > 0 && fates.every((fate) => /taken: |dropped: |not used: /.test(fate)), fates.join());
+  assert.ok(fates.some((fate) => fate.includes('it observes line')), fates.join());
+  await page.evaluate(() => {
+    const {elements, selection} = window.laneloom;
+    selection.select(elements.find(({type}) => type === 'lane'));
+  });
+  await until(page, () => /Left side, .*Right side, /s.test(document.querySelector('.why')?.textContent ?? ''));
+  await page.keyboard.press('Escape');
+}
+
 async function goesToEvents(page) {
   await page.evaluate(() => window.laneloom.player.seek(window.laneloom.feed.last));
   await until(page, () => document.querySelector('#events button'));
@@ -259,6 +289,7 @@ async function comparesTwo(browser) {
   assert.equal(await page.evaluate(() => window.laneloom.selection.element.pane), 1, `lane ${lane} is of the second map`);
   await screenshot(page, '_beside');
   await savesPictures(page);
+  await tellsWhy(page);
   await page.keyboard.press('v');
   const over = await state();
   assert.deepEqual([over.columns, over.width], [1, over.whole]);

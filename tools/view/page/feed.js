@@ -35,9 +35,11 @@ export class LiveFeed extends Feed {
   #texts = new Map();
   #characters = 0;
   #next = 0;
-  #number = null;
+  #number = null;      // of the last frame of this connection
 
-  connect() {
+  /** Learns what the server remembers, and then listens. */
+  async connect() {
+    if (!this.last) await this.#remember();
     const socket = new WebSocket(`ws://${location.host}/live`);
     socket.onopen = () => {
       this.connected = true;
@@ -52,18 +54,39 @@ export class LiveFeed extends Feed {
     };
   }
 
-  frame(index) {
+  async #remember() {
+    try {
+      for (const summary of (await (await fetch('/recording?from=0')).json()).frames) this.summaries.push({...summary, index: this.#next++});
+      this.arrival_ms = performance.now();
+    } catch {  // the stream goes on without
+    }
+    if (this.last) this.tell('history');
+  }
+
+  /** A frame from before this page was opened is asked of the server, which may have forgotten it. */
+  async frame(index) {
     const text = this.#texts.get(index);
-    return Promise.resolve(text ? JSON.parse(text) : null);
+    if (text) return JSON.parse(text);
+    const {number, time_s} = this.at(index) ?? {};
+    try {
+      const answer = await fetch(`/frame?number=${number}`), frame = answer.ok ? await answer.json() : null;
+      return frame?.time_s === time_s ? frame : null;  // else it is of another run of the server
+    } catch {
+      return null;
+    }
   }
 
   #add(text) {
     const frame = JSON.parse(text);
     if (this.#number !== null) this.lost += Math.max(0, frame.number - this.#number - 1);
-    // After a reconnection the first frame may be one that is known already.
-    const known = this.#number === null && this.last?.time_s === frame.time_s && this.last.alive === frame.alive;
+    // The first frame of a connection may be one that is known already.
+    const known = this.last?.number === frame.number && this.last.time_s === frame.time_s;
     this.#number = frame.number;
-    if (known) return;
+    if (known && this.newest) return;
+    if (known) {
+      this.newest = frame;
+      return this.tell('frame');
+    }
     this.arrival_ms = performance.now();
     const {elements, status, ...summary} = frame;
     summary.index = this.#next++;
@@ -81,7 +104,7 @@ export class LiveFeed extends Feed {
     while (this.summaries.length > 1 &&
            (this.last.time_s - this.first.time_s > RING_S || this.#characters > RING_CHARACTERS)) {
       const {index} = this.summaries.shift();
-      this.#characters -= this.#texts.get(index).length;
+      this.#characters -= this.#texts.get(index)?.length ?? 0;
       this.#texts.delete(index);
     }
   }

@@ -41,8 +41,8 @@ export class Inspector {
     this.node.replaceChildren(make('p', {textContent: 'Click something on the map, or find it by its id.'}));
   }
 
-  /** Shows the element `selected`. `element` is the same in the present frame, or null if it is not there. */
-  show(selected, element, history) {
+  /** Shows the element `selected`. `element` is the same in the present frame, or null if it is not there. `why` has sentences and a picture. */
+  show(selected, element, history, why) {
     const parts = [make('h2', {id: 'selected', textContent: titleOf(selected)})];
     if (!element) parts.push(make('p', {textContent: 'It is not in this frame.'}));
     else {
@@ -50,8 +50,12 @@ export class Inspector {
       if (element.status) this.#row(list, 'status', element.status);
       for (const [key, value] of Object.entries(element.properties ?? {})) if (key !== 'lineage') this.#row(list, key, value);
       parts.push(list);
-      const why = this.#why(element);
-      if (why) parts.push(make('p', {textContent: why}));
+      const note = this.#note(element);
+      if (note) parts.push(make('p', {textContent: note}));
+    }
+    if (why.sentences.length) {
+      const text = make('section', {className: 'why'}, make('h2', {textContent: 'Why?'}), ...why.sentences.map((textContent) => make('p', {textContent})), ...(why.picture ? [why.picture] : []));
+      parts.splice(1, 0, text);
     }
     if (history.length) parts.push(make('h2', {textContent: 'History'}), this.#history(history));
     if (!this.node.contains(document.activeElement)) this.node.replaceChildren(...parts);
@@ -76,7 +80,7 @@ export class Inspector {
     });
   }
 
-  #why({status, properties = {}}) {
+  #note({status, properties = {}}) {
     const evidence = properties.existence_probability === undefined ? '' : `, existence ${number(properties.existence_probability)}`;
     const seen = properties.observations === undefined ? '' : `seen ${properties.observations} times`;
     if (status === 'tentative') return `Tentative: ${seen || 'one of its boundaries is'}${evidence}, not enough to rely on.`;

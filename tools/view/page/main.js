@@ -11,7 +11,7 @@ import {Player} from './player.js';
 import {Pointer} from './pointer.js';
 import {Quality} from './quality.js';
 import {Selection} from './selection.js';
-import {applyState, copyLink, downloadPng, downloadSvg, remember, restore, stateOf} from './share.js';
+import {applyState, copyLink, downloadPng, downloadSvg, remember, restore, saveRecording, stateOf} from './share.js';
 import {Timeline} from './timeline.js';
 
 const PAN = 60;           // pixels a key moves the map
@@ -46,7 +46,7 @@ class App {
     this.events = new Events(byId('events'), {go, when, choice: byId('eventKinds')});
     this.quality = new Quality({table: byId('quality'), worst: byId('worst')}, {names: info.names, go, when});
     const {panes, layers, camera, feed, order} = this;
-    this.selection = new Selection({panes, layers, camera, feed, order, go, when, changed: () => (this.#dirty = true)});
+    this.selection = new Selection({panes, layers, camera, feed, order, go, when, isMoving: () => this.player.playing, changed: () => (this.#dirty = true)});
     this.#listen();
     applyState(this, restore());
   }
@@ -70,7 +70,10 @@ class App {
   #listen() {
     new ResizeObserver(() => this.#resize()).observe(this.canvas);
     this.player.addEventListener('frame', () => this.#newFrame());
-    this.player.addEventListener('mode', () => this.#showMode());
+    this.player.addEventListener('mode', () => {
+      this.#showMode();
+      if (this.player.frame) this.selection.newFrame(this.player.frame, this.player.summary);
+    });
     this.feed.addEventListener('connection', () => this.banner.update());
     const inColumn = (pixel) => this.panes.at(pixel, this.camera).pixel, at = (pixel) => this.camera.unproject(...inColumn(pixel));
     new Pointer(this.canvas, {
@@ -106,7 +109,8 @@ class App {
       find: () => byId('findId').focus(), layer: (i) => this.layers.toggle(this.painter.palette.layers[i].name),
       measure: () => this.#measure(this.measuring ? null : []),
       compare: () => this.#compare(),
-      link: async () => this.#toast(await copyLink(stateOf(this, true))),
+      save: async () => this.info.live && this.toast(await saveRecording()),
+      link: async () => this.toast(await copyLink(stateOf(this, true))),
       png: () => downloadPng(this.#picture()), svg: () => downloadSvg(this.canvas, (pen) => this.#paint(pen)),
       theme: () => this.setTheme(this.painter.dark ? 'light' : 'dark'), help: () => byId('help').showModal(),
     };
@@ -199,7 +203,7 @@ class App {
   #find(id) {
     const at = this.selection.selectById(id);
     if (at) this.#moved(() => this.camera.centre(...at));
-    else this.#toast(`Nothing here has the id ${id}.`);
+    else this.toast(`Nothing here has the id ${id}.`);
   }
 
   /** Switches between maps side by side and maps over one another. */
@@ -233,7 +237,7 @@ class App {
       measure: Boolean(this.measuring), compare: this.panes.over, live: this.player.following};
     for (const [name, on] of Object.entries(pressed)) document.querySelector(`[data-do="${name}"]`).setAttribute('aria-pressed', on);
     byId('play').textContent = this.player.playing ? '❚❚' : '▶';
-    byId('live').hidden = !this.info.live;
+    byId('live').hidden = byId('save').hidden = !this.info.live;
     document.body.dataset.mode = this.player.following ? 'live' : this.player.playing ? 'playing' : 'paused';
   }
 
@@ -247,7 +251,7 @@ class App {
     remember(stateOf(this, false));
   }
 
-  #toast(text) {
+  toast(text) {
     const toast = byId('toast');
     toast.textContent = text;
     toast.hidden = false;

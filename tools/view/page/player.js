@@ -21,7 +21,7 @@ export class Player extends EventTarget {
 
   #arrived() {
     if (!this.feed.last) return;
-    if (this.following) return this.#show(this.feed.newest, this.feed.last);
+    if (this.following) return this.feed.newest && this.#show(this.feed.newest, this.feed.last);
     if (!this.summary && this.#wanted === null) this.#want(this.feed.first);
     else if (this.summary && this.summary.index < this.feed.first.index) this.#want(this.feed.first);
     this.dispatchEvent(new Event('mode'));

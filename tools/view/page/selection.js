@@ -1,6 +1,7 @@
 // The element under the pointer, the selected element, and the text about it.
 import {Inspector, Memory, titleOf} from './inspect.js';
 import {middle, pick, pickable} from './pick.js';
+import {Evidence, sentencesOf} from './why.js';
 
 const REACH = 9;  // pixels from a line that is still on it
 const byId = (id) => document.getElementById(id);
@@ -13,9 +14,10 @@ export class Selection {
   #memory = new Memory();
   #told = null;
 
-  /** `view` has panes, layers, camera, feed, order (of the layers), when(summary), go(summary), and changed(). */
+  /** `view` has panes, layers, camera, feed, order (of the layers), when(summary), go(summary), isMoving(), and changed(). */
   constructor(view) {
     this.view = view;
+    this.evidence = new Evidence(view.feed, () => this.#showEvidence());
     this.inspector = new Inspector(byId('inspector'), {go: view.go, select: (id, type) => this.select(this.find(id, type))});
   }
 
@@ -24,6 +26,21 @@ export class Selection {
     const found = this.element && this.view.panes.find(this.element);
     if (found) this.element = found;
     this.seen = Boolean(found);
+    this.why = frame.why;
+    this.summary = summary;
+    this.#lookForEvidence();
+  }
+
+  /** Looks what made the selected element, unless the frames go by too fast. */
+  #lookForEvidence() {
+    if (!this.element || !this.why || this.element.pane || this.view.isMoving()) return this.evidence.clear();
+    this.evidence.look(this.element, this.summary);
+  }
+
+  #showEvidence() {
+    this.#told = null;
+    this.tell();
+    this.view.changed();
   }
 
   pick(pixel) {
@@ -40,6 +57,7 @@ export class Selection {
     this.element = element;
     this.seen = Boolean(element);
     this.#told = null;
+    this.#lookForEvidence();
     this.tell();
     this.view.changed();
   }
@@ -75,6 +93,7 @@ export class Selection {
   /** Outlines both elements if the column that is painted `has` them. */
   paint(pen, painter, has) {
     const {hovered, element, view: {camera}} = this;
+    if (element && !element.pane && has(element)) this.evidence.paint(pen, painter, camera);
     if (hovered && !isSame(hovered, element) && has(hovered)) painter.highlight(pen, camera, hovered, false);
     if (element && this.seen && has(element)) painter.highlight(pen, camera, element, true);
   }
@@ -89,9 +108,11 @@ export class Selection {
       return;
     }
     const known = element.pane ? [] : this.#memory.history(element, feed.summaries, feed.first);  // of the first map alone
-    const told = JSON.stringify([element.key, element.status, element.properties, seen, known.length]);
+    const sentences = sentencesOf(element, this.why);
+    const told = JSON.stringify([element.key, element.status, element.properties, seen, known.length, sentences]);
     if (told === this.#told) return;
     this.#told = told;
-    inspector.show(element, seen ? element : null, known.map((entry) => ({...entry, when: when(entry.summary)})));
+    inspector.show(element, seen ? element : null, known.map((entry) => ({...entry, when: when(entry.summary)})),
+      {sentences, picture: this.why && this.evidence.picture(this.why)});
   }
 }

@@ -53,9 +53,14 @@ function selectOnceSeen({player, panes, selection}, wanted) {
   player.addEventListener('frame', look);
 }
 
-/** Goes to a time of a recording once it is loaded. A live view has no frames from before the page was opened. */
-function goOnceKnown({feed, player}, time_s) {
-  if (feed.live) return;
+/** Goes to a time of a recording once it is loaded, or to one that the server of a live view remembers. */
+function goOnceKnown(app, time_s) {
+  const {feed, player} = app;
+  if (feed.live) {
+    const remembered = () => (feed.first.time_s <= time_s ? player.seekTime(time_s) : app.toast('The server no longer remembers the time of this link.'));
+    feed.addEventListener('history', remembered, {once: true});
+    return;
+  }
   player.playing = false;
   const go = () => {
     if (!feed.complete && !(feed.last?.time_s >= time_s)) return;
@@ -84,6 +89,18 @@ function download(blob, name) {
 /** The PNG is twice as large as the view, with a caption. */
 export function downloadPng(canvas) {
   canvas.toBlob((blob) => download(blob, 'laneloom.png'), 'image/png');
+}
+
+/** Saves the last minute as a recording. Returns a text about it. */
+export async function saveRecording() {
+  try {
+    const answer = await fetch('/save');
+    if (!answer.ok) return `Nothing was saved: ${await answer.text()}`;
+    download(await answer.blob(), `laneloom_${new Date().toISOString().replace(/[:.]/g, '-').slice(0, 19)}.mcap`);
+    return 'The last 60 s are saved.';
+  } catch {
+    return 'Nothing was saved: there is no connection to laneloom view.';
+  }
 }
 
 export function downloadSvg(canvas, paint) {

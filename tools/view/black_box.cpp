@@ -1,0 +1,104 @@
+#include "view/black_box.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <variant>
+
+#include "base/seconds.hpp"
+#include "config/config_file.hpp"
+#include "laneloom/dds/cdr.hpp"
+#include "view/door.hpp"
+
+namespace laneloom::view {
+namespace {
+
+constexpr std::size_t kGroupBytes = 1U << 19U;
+
+/// A file that is removed when this ends.
+class TemporaryFile {
+ public:
+  TemporaryFile()
+      : path_(std::filesystem::temp_directory_path() / ("laneloom_" + random_token() + ".mcap")) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+
+  std::string path() const { return path_.string(); }
+  std::string content() const {
+    std::string content(std::filesystem::file_size(path_), '\0');
+    std::ifstream file(path_, std::ios::binary);
+    file.read(content.data(), static_cast<std::streamsize>(content.size()));
+    if (!file) throw std::runtime_error(path_.string() + ": cannot be read");
+    return content;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The configuration that a status tells, as a file. Empty: it is of another version of laneloom.
+std::string configuration_of(const ServiceStatus& status) {
+  try {
+    Config config;
+    for (const auto& [key, value] : status.configuration)
+      config::set_value(config, key + "=" + (value.empty() ? "\"\"" : value));
+    return config::dump(config);
+  } catch (const ConfigError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+BlackBox::BlackBox(const DdsConfig& dds, const StoreLimits& limits)
+    : map_frame_id_(dds.map_frame_id), limits_(limits) {}
+
+void BlackBox::add(const recording::AnyMessage& message, std::int64_t time_ns) {
+  const std::lock_guard lock(mutex_);
+  if (const auto* status = std::get_if<ServiceStatus>(&message)) status_ = *status;
+  std::visit([&](const auto& any) { dds::to_cdr(any, map_frame_id_, cdr_); }, message);
+  open_.append(cdr_.begin(), cdr_.end());
+  log_time_ns_ = std::max(log_time_ns_ + 1, time_ns);
+  open_entries_.push_back({log_time_ns_, message.index(), open_.size()});
+  if (open_.size() >= kGroupBytes) {
+    groups_.push_back({std::exchange(open_entries_, {}), Packed(open_)});
+    bytes_ += groups_.back().messages.bytes();
+    open_.clear();
+  }
+  while (!groups_.empty() &&
+         (seconds(log_time_ns_ - groups_.front().entries.back().log_time_ns) > limits_.span_s ||
+          bytes_ > limits_.bytes)) {
+    bytes_ -= groups_.front().messages.bytes();
+    groups_.pop_front();
+  }
+}
+
+std::string BlackBox::mcap() const {
+  const std::lock_guard lock(mutex_);
+  const TemporaryFile file;
+  recording::RecordingWriter writer(
+      file.path(),
+      {.map_frame_id = map_frame_id_, .configuration = status_ ? configuration_of(*status_) : ""});
+  const auto write = [&](const std::vector<Entry>& entries, const std::string& messages) {
+    std::size_t begin = 0;
+    for (const Entry& entry : entries) {
+      writer.write_raw({.log_time_ns = entry.log_time_ns,
+                        .topic = entry.topic,
+                        .bytes = {messages.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  messages.begin() + static_cast<std::ptrdiff_t>(entry.end)}});
+      begin = entry.end;
+    }
+  };
+  for (const Group& group : groups_) write(group.entries, group.messages.unpacked());
+  write(open_entries_, open_);
+  writer.close();
+  return file.content();
+}
+
+}  // namespace laneloom::view
