@@ -83,11 +83,10 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
   forgotten_ = pruned.forgotten;
   log.done(Stage::line_set);
 
-  std::vector<Marking> published = publish_lines(lines_, doubles_, config);
-  reasons.decided(lines_, doubles_, published, config);
-  reasons.ended(relatives, scene.box);
-  return log.done(Stage::polylines,
-                  markings::FusedMarkings{std::move(published), joints_, std::move(relatives)});
+  markings::FusedMarkings fused{publish_lines(lines_, doubles_, config), joints_, std::move(relatives)};
+  reasons.decided(lines_, doubles_, fused.markings, config);
+  reasons.ended(fused.relatives, scene.box);
+  return log.done(Stage::polylines, std::move(fused));
 }
 
 /// Samples the detections, takes the suspected pitch and pose error of the frame out of them, and matches
