@@ -20,7 +20,7 @@ constexpr std::string_view kEndOfHeaders = "\r\n\r\n";
 class Viewer {
  public:
   Viewer() {
-    frames_.add(R"({"number":0})", R"({"elements":[]})");
+    frames_.add(0, R"({"number":0})", R"({"elements":[]})");
     frames_.finish();
     server_.publish(R"({"number":0})");
     server_.publish(0, 1, "transform");

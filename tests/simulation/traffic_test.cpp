@@ -101,7 +101,7 @@ TEST_F(TrafficTest, ChangesLanesAndOvertakesWhereThereAreLanes) {
     const auto seen = drive(profile, 20.0);
     for (std::size_t i = 0; i < seen.size(); ++i)
       for (const TrackedObject& object : seen[i].objects)
-        count += on_a_lane(object, pose(static_cast<int>(i) + 1), 0.3, -1.0) ? 1 : 0;
+        count += on_a_lane(object, pose(static_cast<int>(i) + 1), 0.3, -1.0) ? 1U : 0U;
     return count;
   };
   profile.lane_changes_per_s = 0.5;
@@ -119,9 +119,9 @@ TEST_F(TrafficTest, AHostileTrackerErrs) {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     for (const TrackedObject& object : seen[i].objects) {
       hostile.insert(object.id);
-      against += on_a_lane(object, pose(static_cast<int>(i) + 1), 1.5, -1.0) ? 1 : 0;
-      parked += object.speed_mps == 0.0 ? 1 : 0;
-      ghosts += object.existence_probability == 0.6 ? 1 : 0;
+      against += on_a_lane(object, pose(static_cast<int>(i) + 1), 1.5, -1.0) ? 1U : 0U;
+      parked += object.speed_mps == 0.0 ? 1U : 0U;
+      ghosts += object.existence_probability == 0.6 ? 1U : 0U;
     }
   }
   EXPECT_GT(hostile.size(), 3 * usual.size()) << "ids change";

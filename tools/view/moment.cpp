@@ -40,6 +40,8 @@ bool MomentBuilder::add(ServiceStatus&& status, std::int64_t) {
   return false;
 }
 
+bool MomentBuilder::add(TrackedObjects&&, std::int64_t) { return false; }
+
 ViewMoment MomentBuilder::take() { return moment_of(std::move(*std::exchange(complete_, std::nullopt))); }
 
 std::optional<ViewMoment> MomentBuilder::finish() {

@@ -36,6 +36,7 @@ class MomentBuilder {
   bool add(PublishedMap&& map, std::int64_t now_ns);
   bool add(RoadMarkings&& markings, std::int64_t now_ns);
   bool add(ServiceStatus&& status, std::int64_t now_ns);
+  bool add(TrackedObjects&& objects, std::int64_t now_ns);  ///< they are not shown
 
   /// The moment that was completed. Is to be called once each time that add() returns true.
   ViewMoment take();
