@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "laneloom/messages.hpp"
+#include "laneloom/objects.hpp"
 
 namespace laneloom::view {
 
