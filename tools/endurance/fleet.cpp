@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace laneloom::endurance {
@@ -98,7 +99,12 @@ std::string Fleet::restart(const Member& member) {
 std::vector<support::PublicationLog> Fleet::publications() const {
   std::vector<support::PublicationLog> result;
   result.reserve(logs_.size());
-  for (const auto& log : logs_) result.push_back(support::read_publication_log(log));
+  for (const auto& log : logs_) {
+    // Who is killed before it has begun its log has published nothing.
+    std::error_code absent;
+    const auto size = std::filesystem::file_size(log, absent);
+    if (!absent && size > 0) result.push_back(support::read_publication_log(log));
+  }
   return result;
 }
 
