@@ -99,10 +99,10 @@ TEST_F(Render, DrawsMarkingsWhereTheVehicleSeesThem) {
   const Png png(file("map.png"));
   ASSERT_TRUE(png.good());
   // Ahead is up: what lies 10 m ahead is above the middle. Left of the vehicle is left in the picture.
-  EXPECT_EQ(png.strongest(0.54, 0.56, 0.35, 0.48), 'r');
-  EXPECT_EQ(png.strongest(0.54, 0.56, 0.52, 0.65), 'g');
-  EXPECT_EQ(png.strongest(0.43, 0.49, 0.60, 0.75), 'b');
-  EXPECT_EQ(png.strongest(0.54, 0.56, 0.66, 0.95), ' ');
+  EXPECT_EQ(png.strongest(0.50, 0.518, 0.35, 0.48), 'r');
+  EXPECT_EQ(png.strongest(0.50, 0.518, 0.52, 0.65), 'g');
+  EXPECT_EQ(png.strongest(0.40, 0.455, 0.60, 0.75), 'b');
+  EXPECT_EQ(png.strongest(0.50, 0.518, 0.66, 0.95), ' ');
 }
 
 TEST_F(Render, WritesSvgWithTheSameStrokes) {

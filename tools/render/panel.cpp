@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kAroundBox_m = 2.0;
 constexpr double kArrowStep_m = 0.3;  ///< tells an arrow's direction on the canvas
-constexpr double kLegendColumn = 150.0;
+constexpr double kLegendColumn = 145.0;
 constexpr double kLegendLine = 18.0;
 
 /// An arrow head with its tip at `tip`.
