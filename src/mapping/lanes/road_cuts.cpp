@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mapping/geometry/levels.hpp"
+#include "mapping/geometry/reproducible.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom::lanes {
@@ -20,7 +21,7 @@ double log_odds(const Marking& marking) {
   if (marking.existence_probability < 0.0)
     return marking.status == ElementStatus::tentative ? 0.0 : kConfirmed;
   const double p = std::clamp(marking.existence_probability, 1.0 - kSurest, kSurest);
-  return std::log(p / (1.0 - p));
+  return geometry::reproducible::log(p / (1.0 - p));
 }
 
 /// The curvature of a line about an arc length, without sign. 0 at its ends.
