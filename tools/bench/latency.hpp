@@ -24,8 +24,8 @@ struct LatencySpec {
   std::string scenario, noise;
   double speed_mps = 10.0;
   double delay_spread_ms = 100.0;  ///< of the publisher's network: the longest delay minus the shortest
-  double duration_s = 30.0;      ///< time that is measured
-  unsigned busy_threads = 0;     ///< number of threads of this process that keep a core busy each
+  double duration_s = 30.0;        ///< time that is measured
+  unsigned busy_threads = 0;       ///< number of threads of this process that keep a core busy each
   std::size_t viewers = 0;  ///< number of readers of a `laneloom view` that runs beside; 0: it does not run
 };
 
