@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mapping/geometry/levels.hpp"
+#include "mapping/lanes/gores.hpp"
 
 namespace laneloom::lanes {
 namespace {
@@ -111,6 +112,20 @@ double taper_at(const Hypothesis& hypothesis, std::size_t i, const std::vector<R
   return std::abs(width(to) - width(from)) / (step_m * static_cast<double>(to - from));
 }
 
+std::vector<bool> gore_places(const Hypothesis& hypothesis, const std::vector<RoadCut>& cuts) {
+  if (hypothesis.room != Room::between) return std::vector<bool>(hypothesis.marks.size());
+  const auto may_be_crossed = [](const Mark& mark) { return !mark.is_edge && mark.dashed >= 0.0; };
+  std::vector<PlaceBetween> places;
+  for (std::size_t i = 0; i < hypothesis.marks.size(); ++i) {
+    const RoadCut& cut = cuts[hypothesis.first + i];
+    const Mark& other = cut.marks[hypothesis.marks[i]];
+    places.push_back({.along_m = cut.self().arc_m,
+                      .width_m = other.lateral_m,
+                      .may_be_crossed = may_be_crossed(cut.self()) || may_be_crossed(other)});
+  }
+  return in_gore(places);
+}
+
 }  // namespace
 
 std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
@@ -143,9 +158,11 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadC
       return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
                                : vehicle.is_left_up_to(road.boundaries[one.other].course);
     });
+    const std::vector<bool> gore = gore_places(one, cuts);
     for (std::size_t i = 0; i < one.marks.size(); ++i) {
       Candidate candidate = candidate_at(one, i, cuts);
       candidate.driven = is_driven;
+      candidate.gore = gore[i];
       candidate.taper = taper_at(one, i, cuts, step_m);
       one.log_odds.push_back(std::clamp(log_odds(cuts[one.first + i], candidate, config), kLeast, kMost));
     }

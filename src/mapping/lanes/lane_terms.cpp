@@ -45,6 +45,7 @@ constexpr double kDriven = 0.91;          // the vehicle drives in the lane
 constexpr double kDrivenEdges = 1.65;     // likewise, between two edges
 constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within the lane
 constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
+constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
 constexpr double kBend = -7.82;           // curvature, 1/m
 constexpr double kBendOpen = -18.67;      // likewise, where the other border is unseen
 constexpr double kDrivenOpen = 2.40;      // the vehicle drives in the lane, whose other border is unseen
@@ -228,7 +229,10 @@ double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig
   double sum = of_width(around, wide_m, candidate.room, config);
   sum += kSurer * bounded(std::min(left.log_odds, right.log_odds)) + kEdgeInside * around.inside(true);
   sum += kTaper * std::min(candidate.taper, kMostTaper) + kBend * std::min(cut.bend, kMostBend);
-  if (candidate.driven) sum += of_driving(around);
+  if (candidate.driven)
+    sum += of_driving(around);
+  else if (candidate.gore)
+    sum += kGore;
   for (const Side side : kSides)
     if (!(side == Side::left ? left : right).is_edge && around.edge_along(side)) sum += kEdgeAlong;
   if (candidate.room == Room::between) {

@@ -25,6 +25,7 @@ struct Candidate {
   std::size_t left = 0, right = 0;  ///< marks of the cross-section; the same one where a side is open
   double taper = 0.0;               ///< change of the width along the road, metres per metre
   bool driven = false;              ///< the vehicle drives in it
+  bool gore = false;  ///< its borders meet at an end of it, and neither may be crossed up to here
 };
 
 /// The distance between the marks; of an open lane, the room up to the next mark. Metres.
