@@ -314,10 +314,10 @@ TEST(ShippedFiles, PaperYamlPinsThePapersParameters) {
 TEST(ShippedFiles, PaperYamlHasNothingBeyondThePaper) {
   const MapperConfig mapper = load_config(kConfigDir / "paper.yaml").mapper;
   EXPECT_EQ(mapper.method, FusionMethod::voxels);
-  EXPECT_EQ(mapper.lane.max_kerb_width_m, mapper.lane.max_width_m);
-  EXPECT_FALSE(mapper.lane.find_shoulders);
+  EXPECT_EQ(mapper.lane.method, LaneMethod::paper);
+  EXPECT_EQ(mapper.lane.min_width_m, 2.5);
+  EXPECT_EQ(mapper.lane.max_width_m, 4.5);
   EXPECT_FALSE(mapper.lane.unmarked_roads);
-  EXPECT_FALSE(mapper.lane.one_sided_lanes);
   EXPECT_FALSE(mapper.linkage.straight_across);
   EXPECT_FALSE(mapper.linkage.turns);
   EXPECT_EQ(mapper.direction.driving_side, DrivingSide::unknown);

@@ -82,7 +82,11 @@ TEST_F(HealthTest, FramesThatAreOldByTheirStampsMakeItOutdated) {
 
 TEST_F(HealthTest, ASourceThatIsNotFusedDegradesTheMapOfTheOthers) {
   const auto fused_ago = [&](double ago_s) {
-    return health_.assess(now_ns_, {0.0, 0.0, ago_s, -1.0, 0.1, true});
+    return health_.assess(now_ns_, {.detections_age_s = 0.0,
+                                    .poses_age_s = 0.0,
+                                    .fused_age_s = ago_s,
+                                    .lag_s = 0.1,
+                                    .source_not_fused = true});
   };
   EXPECT_EQ(fused_ago(0.1), (Verdict{MapState::degraded, {StateReason::source_not_fused}}));
   EXPECT_EQ(fused_ago(0.5), (Verdict{MapState::stale, {StateReason::unsynchronised}})) << "none is";
@@ -90,7 +94,11 @@ TEST_F(HealthTest, ASourceThatIsNotFusedDegradesTheMapOfTheOthers) {
 
 TEST_F(HealthTest, ADrivingSideThatTrafficContradictsIsSaid) {
   const auto fused_ago = [&](double ago_s) {
-    return health_.assess(now_ns_, {0.0, 0.0, ago_s, -1.0, 0.1, false, true});
+    return health_.assess(now_ns_, {.detections_age_s = 0.0,
+                                    .poses_age_s = 0.0,
+                                    .fused_age_s = ago_s,
+                                    .lag_s = 0.1,
+                                    .driving_side_contradicted = true});
   };
   EXPECT_EQ(fused_ago(0.1), (Verdict{MapState::degraded, {StateReason::driving_side_contradicted}}));
   EXPECT_EQ(fused_ago(0.5), (Verdict{MapState::stale, {StateReason::unsynchronised}})) << "nothing is fused";

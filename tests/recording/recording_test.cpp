@@ -29,7 +29,8 @@ template <class T>
 MessageOf<T> random_message(unsigned seed) {
   MessageOf<T> message;
   dds::RandomMessages(seed).fill(message);
-  if constexpr (std::is_same_v<T, DetectionFrame>) message.header().frame_id("body");
+  if constexpr (std::is_same_v<T, DetectionFrame> || std::is_same_v<T, TrackedObjects>)
+    message.header().frame_id("body");
   if constexpr (std::is_same_v<T, VehiclePose>) {
     message.header().frame_id(kMapFrame);
     message.covariance().clear();
