@@ -112,16 +112,29 @@ double taper_at(const Hypothesis& hypothesis, std::size_t i, const std::vector<R
   return std::abs(width(to) - width(from)) / (step_m * static_cast<double>(to - from));
 }
 
+/// The mark on the other side of the room of a candidate. Null: an open lane's room has none.
+const Mark* across(const RoadCut& cut, const Candidate& candidate) {
+  if (candidate.room == Room::open_left)
+    return candidate.left + 1 < cut.marks.size() ? &cut.marks[candidate.left + 1] : nullptr;
+  if (candidate.room == Room::open_right)
+    return candidate.right > 0 ? &cut.marks[candidate.right - 1] : nullptr;
+  return &cut.marks[candidate.left];
+}
+
+/// Whether each place of a hypothesis lies in a gore. Two lanes fit into none.
 std::vector<bool> gore_places(const Hypothesis& hypothesis, const std::vector<RoadCut>& cuts) {
-  if (hypothesis.room != Room::between) return std::vector<bool>(hypothesis.marks.size());
-  const auto may_be_crossed = [](const Mark& mark) { return !mark.is_edge && mark.dashed >= 0.0; };
+  if (hypothesis.room == Room::divided) return std::vector<bool>(hypothesis.marks.size());
+  const auto may_be_crossed = [](const Mark* mark) {
+    return mark != nullptr && !mark->is_edge && mark->dashed >= 0.0;
+  };
   std::vector<PlaceBetween> places;
   for (std::size_t i = 0; i < hypothesis.marks.size(); ++i) {
     const RoadCut& cut = cuts[hypothesis.first + i];
-    const Mark& other = cut.marks[hypothesis.marks[i]];
-    places.push_back({.along_m = cut.self().arc_m,
-                      .width_m = other.lateral_m,
-                      .may_be_crossed = may_be_crossed(cut.self()) || may_be_crossed(other)});
+    const Candidate candidate = candidate_at(hypothesis, i, cuts);
+    places.push_back(
+        {.along_m = cut.self().arc_m,
+         .width_m = width_m(cut, candidate),
+         .may_be_crossed = may_be_crossed(&cut.self()) || may_be_crossed(across(cut, candidate))});
   }
   return in_gore(places);
 }

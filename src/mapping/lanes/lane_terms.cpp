@@ -140,7 +140,10 @@ double of_open_lane(const RoadCut& cut, double room_m, const Candidate& candidat
   const Side other = candidate.room == Room::open_left ? Side::right : Side::left;
   double sum =
       on_curve(kOpen, room_m) + kSurer * bounded(mark.log_odds) + kBendOpen * std::min(cut.bend, kMostBend);
-  if (candidate.driven) sum += kDrivenOpen;
+  if (candidate.driven)
+    sum += kDrivenOpen;
+  else if (candidate.gore)
+    sum += kGore;
   if (around.edge_along(other)) sum += kAlongEdgeOpen;
   if (!mark.is_edge) return sum + kDashedOpen * dashed(mark);
   return sum + kOpenEdge + kEdgeOfLanes * around.lines_outside();
