@@ -36,7 +36,7 @@ constexpr double kSurer = 0.10;        // log odds of the less sure mark
 constexpr double kLineInside = -0.37;  // log odds of a line within the lane, plus 2
 constexpr double kEdgeInside = -0.54;  // likewise of an edge
 constexpr double kDashed = 0.23;       // dashed share of both lines
-constexpr double kBothSolid = -2.82;   // product of their solid shares: a median
+constexpr double kBothSolid = -1.40;   // product of their solid shares: a median
 constexpr double kShoulder = -4.45;    // metres below max_shoulder_width_m, across a solid line from a lane
 constexpr double kNothingBeyond = -1.14;  // beside an edge: nothing lies across the line
 constexpr double kEdgeAlong = 1.00;       // lines that are painted along an edge
@@ -149,16 +149,17 @@ double of_open_lane(const RoadCut& cut, double room_m, const Candidate& candidat
   return sum + kOpenEdge + kEdgeOfLanes * around.lines_outside();
 }
 
-/// A width as it counts on a curve, which was fitted with the default limits: what lies between a usual width
-/// and a configured limit is stretched to what lies between it and the default limit.
-double stretched(double width_m, double least_m, double most_m, double default_most_m) {
-  if (width_m < kUsualFrom_m)
-    return kUsualFrom_m - (kUsualFrom_m - width_m) * (kUsualFrom_m - kLeastWidth_m) /
-                              std::max(kUsualFrom_m - least_m, kLeastSpan_m);
+/// A width as it counts on a curve, which was fitted with the default limits. A width is as far above a
+/// configured lower limit as it counts above the default one, up to usual widths; what lies between a usual
+/// width and a configured upper limit is stretched to what lies between it and the default limit.
+double as_by_default(double width_m, double least_m, double most_m, double default_most_m) {
   if (width_m > kUsualTo_m)
     return kUsualTo_m + (width_m - kUsualTo_m) * (default_most_m - kUsualTo_m) /
                             std::max(most_m - kUsualTo_m, kLeastSpan_m);
-  return width_m;
+  const double usual_from_m = std::min(least_m + kUsualFrom_m - kLeastWidth_m, kUsualTo_m - kLeastSpan_m);
+  if (width_m < usual_from_m) return kUsualFrom_m - (usual_from_m - width_m);
+  const double from_m = std::max(usual_from_m, kUsualFrom_m);
+  return kUsualFrom_m + std::max(width_m - from_m, 0.0) * (kUsualTo_m - kUsualFrom_m) / (kUsualTo_m - from_m);
 }
 
 /// What the width says, and the kinds of the marks.
@@ -171,10 +172,10 @@ double of_width(const Surroundings& around, double width_m, Room room, const Lan
                          : 0.0);
   const double least_m = config.min_width_m;
   if (edges == 0)
-    return on_curve(kBetweenLines, stretched(width_m, least_m, config.max_width_m, kMaxWidth_m));
+    return on_curve(kBetweenLines, as_by_default(width_m, least_m, config.max_width_m, kMaxWidth_m));
   if (edges == 1)
-    return on_curve(kBesideEdge, stretched(width_m, least_m, config.max_kerb_width_m, kMaxKerbWidth_m));
-  return on_curve(kBetweenEdges, stretched(width_m, least_m, config.min_divided_width_m, kDividedFrom_m));
+    return on_curve(kBesideEdge, as_by_default(width_m, least_m, config.max_kerb_width_m, kMaxKerbWidth_m));
+  return on_curve(kBetweenEdges, as_by_default(width_m, least_m, config.min_divided_width_m, kDividedFrom_m));
 }
 
 /// What it says that the vehicle drives there.
