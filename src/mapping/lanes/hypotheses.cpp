@@ -25,6 +25,8 @@ constexpr double kDrivenFrom = 0.2,
                  kDrivenTo = 0.8;             // places of the vehicle in a lane, as shares of its width
 constexpr double kBegin = 4.0;                // log odds that it takes for a lane to begin, or to end
 constexpr double kLeast = -4.0, kMost = 4.0;  // log odds that a single place can say
+constexpr double kOuterOfTwo =
+    -0.1;  // beyond that, among the surest: of two lines side by side, the inner one is the border
 
 /// The place of the vehicle beside boundaries.
 class VehicleBeside {
@@ -177,7 +179,10 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadC
       candidate.driven = is_driven;
       candidate.gore = gore[i];
       candidate.taper = taper_at(one, i, cuts, step_m);
-      one.log_odds.push_back(std::clamp(log_odds(cuts[one.first + i], candidate, config), kLeast, kMost));
+      const RoadCut& cut = cuts[one.first + i];
+      const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
+      one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
+                             (outer ? kOuterOfTwo : 0.0));
     }
   }
   return found;

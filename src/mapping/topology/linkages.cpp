@@ -29,19 +29,18 @@ std::optional<double> shared_gap(const lanes::LaneSide& from, const lanes::LaneS
   return follows ? std::optional(std::max(gap_m, 0.0)) : std::nullopt;
 }
 
-/// The path from the end of `from` to the start of `to`, beside the boundary that they share between its arc
-/// lengths `from_m` and `to_m`.
-Polyline path_along(const MeasuredPolyline& boundary, double from_m, double to_m, const Lane& from,
-                    const Lane& to) {
+/// The path from the end of `from` to the start of `to`, beside the boundary that they share.
+Polyline path_along(const MeasuredPolyline& boundary, const Lane& from, const Lane& to) {
   const Point &start = from.centerline.back(), &end = to.centerline.front();
-  const double start_m = boundary.project(start).lateral_m, end_m = boundary.project(end).lateral_m;
-  const int steps = static_cast<int>(std::ceil(std::abs(to_m - from_m) / lanes::kPathStep_m));
+  const Projection begun = boundary.project(start), continued = boundary.project(end);
+  const double length_m = continued.arc_m - begun.arc_m;
+  const int steps = static_cast<int>(std::ceil(std::abs(length_m) / lanes::kPathStep_m));
   Polyline path{start};
   for (int i = 1; i < steps; ++i) {
     const double share = static_cast<double>(i) / steps;
-    const double arc_m = from_m + share * (to_m - from_m);
+    const double arc_m = begun.arc_m + share * length_m;
     const Eigen::Vector2d along = boundary.chord(arc_m - lanes::kPathStep_m, arc_m + lanes::kPathStep_m);
-    const double lateral_m = start_m + share * (end_m - start_m);
+    const double lateral_m = begun.lateral_m + share * (continued.lateral_m - begun.lateral_m);
     path.push_back(geometry::beside(boundary.at(arc_m), along, lateral_m));
   }
   path.push_back(end);
@@ -71,8 +70,7 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
                   .evidence = evidence_between(from, *next),
                   .path = {}};
   if (next_gap_m >= lanes::kMinGap_m)
-    linkage.path = path_along(layout.boundaries.of(begun.of.boundary).course, begun.end_m(),
-                              lanes::side_at_end(*next, side, End::front).begin_m(), from, *next);
+    linkage.path = path_along(layout.boundaries.of(begun.of.boundary).course, from, *next);
   return linkage;
 }
 
