@@ -17,7 +17,7 @@ constexpr double kKnown =
     1.0;  // log odds of a place where the last map had a lane between the same boundaries
 constexpr double kNever = -1e6;      // log odds of a place that another lane has
 constexpr double kMinAdvance = 0.3;  // share of the step; less is the inside of a bend that is too tight
-constexpr double kSpared = 0.75;     // share of an open lane's width up to where there must be no other lane
+constexpr double kSpared = 0.75;     // share of a lane's width up to where there must be no other lane
 
 /// Takes hypotheses, the surest first, as far as nothing that was taken lies there.
 class Choice {
@@ -136,11 +136,8 @@ class Choice {
     const auto at = [&](double share) -> Point {
       return section.right + share * (section.left - section.right);
     };
-    if (one.room == Room::divided)
-      return taken_.contains(at(0.25)) || taken_.contains(at(0.75)) || taken_.contains(at(0.5));
-    if (one.room == Room::open_left && taken_.contains(at(kSpared))) return true;
-    if (one.room == Room::open_right && taken_.contains(at(1.0 - kSpared))) return true;
-    return taken_.contains(at(0.5));
+    return taken_.contains(at(0.5)) || (one.room != Room::open_right && taken_.contains(at(kSpared))) ||
+           (one.room != Room::open_left && taken_.contains(at(1.0 - kSpared)));
   }
 
   void occupy(const Hypothesis& one, std::span<const CrossSection> part) {
