@@ -131,6 +131,18 @@ TEST(Contract, LanesThatOverlapByMoreAreFoundWhateverTheirOrder) {
   EXPECT_THAT(contract::check_lanes_apart(map.map), testing::IsEmpty());
 }
 
+TEST(Contract, LanesMayOverlapAtTheirEnds) {
+  const auto behind = [](double along_m) {
+    PublishedMap map = good_map();
+    Lane& upper = map.map.lanes[1];
+    for (Polyline* line : {&upper.left, &upper.right, &upper.centerline})
+      for (Point& point : *line) point += Point(along_m, -1.5, 0.0);
+    return contract::check_lanes_apart(map.map);
+  };
+  EXPECT_THAT(behind(19.0), testing::IsEmpty()) << "each lane is 20 m long";
+  EXPECT_THAT(behind(15.0), testing::Not(testing::IsEmpty()));
+}
+
 TEST(Contract, LineageOfAMapThatWasMissedIsNotAskedFor) {
   PublishedMap map = good_map();
   PublishedMap previous = map;

@@ -17,12 +17,13 @@ enum class ContractRule : std::uint8_t {
   centered_line,               ///< a lane's centerline lies between its sides
   neighbours_across_boundary,  ///< a lane and its neighbour share the boundary between them, and each names
                                ///< the other
-  joined_lanes_meet,   ///< a linkage leads from the end of one lane to the beginning of the other, without a
-                       ///< path only where both are one point
-  kept_orientation,    ///< a lane's points run one way as long as its id lasts
-  told_lineage,        ///< lineage tells of each lane that came or went
-  covering_borders,    ///< the borders of a lane cover its centerline on either side, in order
-  lanes_apart,         ///< lanes overlap by no more than the deviations of their borders tell
+  joined_lanes_meet,  ///< a linkage leads from the end of one lane to the beginning of the other, without a
+                      ///< path only where both are one point
+  kept_orientation,   ///< a lane's points run one way as long as its id lasts
+  told_lineage,       ///< lineage tells of each lane that came or went
+  covering_borders,   ///< the borders of a lane cover its centerline on either side, in order
+  lanes_apart,  ///< lanes overlap by no more than the deviations of their borders tell, but for 2 m at their
+                ///< ends
   stated_evidence,     ///< there is evidence of each lane, linkage and direction that is told
   sound_way,           ///< the own way begins beside the vehicle, has even stations that fit one another, and
                        ///< leads through lanes of the map

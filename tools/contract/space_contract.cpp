@@ -11,6 +11,8 @@ namespace {
 constexpr double kSigmas = 3.0;
 constexpr double kOverlapTolerance_m = 0.1;
 constexpr double kStep_m = 2.0;
+constexpr double kJoint_m =
+    2.0;  // along the lane, up to which one lane may begin before the one behind it ends
 constexpr double kLevel_m = 2.0;  // lanes further above one another belong to two roads
 
 using BoundariesById = std::map<ElementId, const Marking*>;
@@ -43,6 +45,12 @@ std::optional<double> stddev_m(const Strip& strip, Side side, const Point& place
   return boundary.lateral_stddev_m[static_cast<std::size_t>(nearest - boundary.points.begin())];
 }
 
+/// Whether a place lies beside an end of a strip, where another lane goes on.
+bool is_at_end(const Strip& strip, const Point& place) {
+  const double arc_m = strip.centerline.project(place).arc_m;
+  return arc_m < kJoint_m || arc_m > strip.centerline.length() - kJoint_m;
+}
+
 /// A side of a strip, and how far inside of it a place lies.
 struct Depth {
   Side side;
@@ -64,7 +72,7 @@ double overlap_m(const Strip& one, const Strip& other, const BoundariesById& bou
   double overlap_m = 0.0;
   for (const Side side : kSides) {
     for (const Point& place : (side == Side::left ? one.left : one.right).resample(kStep_m)) {
-      if (!other.box.contains(place)) continue;
+      if (!other.box.contains(place) || (is_at_end(one, place) && is_at_end(other, place))) continue;
       const auto depth = depth_in(other, place);
       if (!depth || depth->depth_m <= kOverlapTolerance_m + overlap_m) continue;
       const auto own_m = stddev_m(one, side, place, boundaries);
