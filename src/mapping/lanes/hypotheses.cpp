@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kStraddled_m = 1.0;  // a lane does not straddle a line that lies further within it
 
+constexpr double kLeastParted_m = 2.0;  // a line parts two boundaries if it lies that far from each
+
 constexpr double kMinWidth_m = 0.8, kMaxWidth_m = 8.5;  // of a lane
 constexpr double kMinDivided_m = 4.0;                   // width of two lanes
 constexpr double kMinRoom_m = 5.0;                      // beside one mark
@@ -23,6 +25,7 @@ constexpr double kBeyondEnd_m =
 constexpr double kAsDriven = 0.9;  // cosine between its heading and the boundary
 constexpr double kDrivenFrom = 0.2,
                  kDrivenTo = 0.8;             // places of the vehicle in a lane, as shares of its width
+constexpr double kUnseen_m = 30.0;            // along the road, up to where a line goes on unseen
 constexpr double kBegin = 4.0;                // log odds that it takes for a lane to begin, or to end
 constexpr double kLeast = -4.0, kMost = 4.0;  // log odds that a single place can say
 constexpr double kOuterOfTwo =
@@ -141,6 +144,45 @@ std::vector<bool> gore_places(const Hypothesis& hypothesis, const std::vector<Ro
   return in_gore(places);
 }
 
+/// How near along the cut boundary a line parts it from another boundary: from 1 to 0 per cross-section. A
+/// line does so that rather is there than not.
+std::vector<double> parted_from(std::size_t other, const std::vector<RoadCut>& cuts, double step_m) {
+  std::vector<double> parted(cuts.size(), 0.0);
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const std::vector<Mark>& marks = cuts[c].marks;
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(marks, other, &Mark::boundary) - marks.begin());
+    if (at == marks.size()) continue;
+    const auto [right, left] = std::minmax(at, cuts[c].own);
+    for (std::size_t i = right + 1; i < left; ++i) {
+      const double aside_m =
+          std::min(marks[i].lateral_m - marks[right].lateral_m, marks[left].lateral_m - marks[i].lateral_m);
+      if (marks[i].log_odds > 0.0 && aside_m >= kLeastParted_m) parted[c] = 1.0;
+    }
+  }
+  const double fading = step_m / kUnseen_m;
+  for (std::size_t c = 1; c < parted.size(); ++c) parted[c] = std::max(parted[c], parted[c - 1] - fading);
+  for (std::size_t c = parted.size() - 1; c-- > 0;) parted[c] = std::max(parted[c], parted[c + 1] - fading);
+  return parted;
+}
+
+/// What is asked of the cross-sections along a boundary, for each other boundary once.
+class PartedFrom {
+ public:
+  PartedFrom(const std::vector<RoadCut>& cuts, double step_m) : cuts_(cuts), step_m_(step_m) {}
+  double at(std::size_t cut, const Mark* other) {
+    if (other == nullptr) return 0.0;
+    const auto [known, is_new] = known_.try_emplace(other->boundary);
+    if (is_new) known->second = parted_from(other->boundary, cuts_, step_m_);
+    return known->second[cut];
+  }
+
+ private:
+  const std::vector<RoadCut>& cuts_;
+  double step_m_;
+  std::map<std::size_t, std::vector<double>> known_;
+};
+
 }  // namespace
 
 std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
@@ -167,6 +209,7 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadC
                         static_cast<double>(std::max<std::size_t>(cuts.size() - 1, 1));
   std::vector<VehicleBeside> vehicles;
   for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(road.boundaries[boundary].course, pose);
+  PartedFrom parted(cuts, step_m);
   std::vector<Hypothesis> found = collection.take();
   for (Hypothesis& one : found) {
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
@@ -178,6 +221,7 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadC
       Candidate candidate = candidate_at(one, i, cuts);
       candidate.driven = is_driven;
       candidate.gore = gore[i];
+      candidate.parted = parted.at(one.first + i, across(cuts[one.first + i], candidate));
       candidate.taper = taper_at(one, i, cuts, step_m);
       const RoadCut& cut = cuts[one.first + i];
       const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);

@@ -46,6 +46,8 @@ constexpr double kDrivenEdges = 1.65;     // likewise, between two edges
 constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within the lane
 constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
 constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
+constexpr double kUnseenLine = -3.00;  // a line parts the marks not far along the road, which goes on unseen
+constexpr double kUnseenLineOpen = 2.50;  // likewise the room
 constexpr double kBend = -7.82;           // curvature, 1/m
 constexpr double kBendOpen = -18.67;      // likewise, where the other border is unseen
 constexpr double kDrivenOpen = 2.40;      // the vehicle drives in the lane, whose other border is unseen
@@ -60,6 +62,7 @@ constexpr double kLeastSpan_m = 0.1;
 
 constexpr double kAlongEdge_m = 1.2;                // distance of a line that is painted along an edge
 constexpr double kLane_m = 2.2, kWideLane_m = 5.0;  // widths that rather are a lane's
+constexpr double kWide_m = 4.0, kWider_m = 1.0;     // a lane's width, and how much more is two lanes' rather
 constexpr double kNothing_m = 8.0;                  // room in which nothing lies
 constexpr double kNear_m = 8.0;                     // distance of lines that belong to the same road
 constexpr double kMostNarrow_m = 1.5;
@@ -80,6 +83,8 @@ double on_curve(std::span<const Knot> curve, double at_m) {
   return curve.back().log_odds;
 }
 
+/// From 0 for a usual lane's width to 1 for one that rather is a lane's and more.
+double wide(double width_m) { return std::clamp((width_m - kWide_m) / kWider_m, 0.0, 1.0); }
 double bounded(double log_odds) { return std::clamp(log_odds, kLeastLogOdds, kMostLogOdds); }
 double solid(const Mark& line) { return std::max(-line.dashed, 0.0); }
 double dashed(const Mark& line) { return std::max(line.dashed, 0.0); }
@@ -140,6 +145,7 @@ double of_open_lane(const RoadCut& cut, double room_m, const Candidate& candidat
   const Side other = candidate.room == Room::open_left ? Side::right : Side::left;
   double sum =
       on_curve(kOpen, room_m) + kSurer * bounded(mark.log_odds) + kBendOpen * std::min(cut.bend, kMostBend);
+  sum += kUnseenLineOpen * candidate.parted;
   if (candidate.driven)
     sum += kDrivenOpen;
   else if (candidate.gore)
@@ -240,8 +246,8 @@ double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig
   for (const Side side : kSides)
     if (!(side == Side::left ? left : right).is_edge && around.edge_along(side)) sum += kEdgeAlong;
   if (candidate.room == Room::between) {
-    sum += kLineInside * around.inside(false) + kDashed * (dashed(left) + dashed(right)) +
-           kBothSolid * solid(left) * solid(right);
+    sum += kUnseenLine * candidate.parted * wide(wide_m) + kLineInside * around.inside(false) +
+           kDashed * (dashed(left) + dashed(right)) + kBothSolid * solid(left) * solid(right);
   }
   if (left.is_edge && right.is_edge) return sum + kVerge * around.lines_outside();
   return left.is_edge || right.is_edge ? sum + of_shoulder(around, wide_m, candidate.room, config) : sum;
