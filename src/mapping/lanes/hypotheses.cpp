@@ -34,8 +34,12 @@ constexpr double kOuterOfTwo =
 /// The place of the vehicle beside boundaries.
 class VehicleBeside {
  public:
-  VehicleBeside(const MeasuredPolyline& line, const Eigen::Isometry3d& T_map_body)
+  VehicleBeside(const MeasuredPolyline& line, bool reversed, const Eigen::Isometry3d& T_map_body)
       : vehicle_(T_map_body.translation()), foot_(line.project(vehicle_)), ahead_(line.direction(foot_)) {
+    if (reversed) {
+      foot_.lateral_m = -foot_.lateral_m;
+      ahead_ = -ahead_;
+    }
     const double beyond_m2 = foot_.distance_m * foot_.distance_m - foot_.lateral_m * foot_.lateral_m;
     const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
     is_beside_ = beyond_m2 < kBeyondEnd_m * kBeyondEnd_m && geometry::same_level(foot_.foot, vehicle_) &&
@@ -79,12 +83,12 @@ bool is_parted(const RoadCut& cut, std::size_t left, double least_aside_m) {
 /// Collects the candidates of cross-sections to hypotheses.
 class Collection {
  public:
-  explicit Collection(std::size_t base) : base_(base) {}
+  Collection(std::size_t base, bool reversed) : base_(base), reversed_(reversed) {}
 
   void add(std::size_t cut, Room room, std::size_t other, std::size_t mark) {
     std::vector<Hypothesis>& all = by_place_[{room, other}];
     if (all.empty() || all.back().first + all.back().marks.size() != cut)
-      all.push_back({.room = room, .base = base_, .other = other, .first = cut});
+      all.push_back({.room = room, .base = base_, .reversed = reversed_, .other = other, .first = cut});
     all.back().marks.push_back(mark);
   }
 
@@ -96,6 +100,7 @@ class Collection {
 
  private:
   std::size_t base_;
+  bool reversed_;
   std::map<std::pair<Room, std::size_t>, std::vector<Hypothesis>> by_place_;
 };
 
@@ -183,34 +188,32 @@ class PartedFrom {
   std::map<std::size_t, std::vector<double>> known_;
 };
 
-}  // namespace
-
-std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
-                                   const boundaries::SectionGraph& road, Poses driven,
-                                   const LaneConfig& config) {
-  Collection collection(boundary);
-  for (std::size_t c = 0; c < cuts.size(); ++c) {
-    const RoadCut& cut = cuts[c];
-    for (std::size_t left = cut.own + 1; left < cut.marks.size(); ++left) {
-      const Mark& mark = cut.marks[left];
-      if (mark.lateral_m < kMinWidth_m) continue;
-      if (is_parted(cut, left, kStraddled_m)) break;
-      if (mark.opposed && mark.boundary < boundary) continue;  // the older boundary is the one that is cut
-      if (mark.lateral_m < kMaxWidth_m) collection.add(c, Room::between, mark.boundary, left);
-      if (config.unmarked_roads && mark.lateral_m > kMinDivided_m && !is_parted(cut, left, kBesideBorder_m))
-        collection.add(c, Room::divided, mark.boundary, left);
-    }
-    for (const Room room : {Room::open_left, Room::open_right})
-      if (config.one_sided_lanes &&
-          width_m(cut, {.room = room, .left = cut.own, .right = cut.own}) > kMinRoom_m)
-        collection.add(c, room, boundary, cut.own);
+/// Adds the candidates between the cut boundary and those on its left that are wanted: of two opposed
+/// boundaries, the older one is the one that is cut.
+template <class IsWanted>
+void add_on_left(const RoadCut& cut, std::size_t at, const LaneConfig& config, Collection& collection,
+                 const IsWanted& is_wanted) {
+  for (std::size_t left = cut.own + 1; left < cut.marks.size(); ++left) {
+    const Mark& mark = cut.marks[left];
+    if (mark.lateral_m < kMinWidth_m) continue;
+    if (is_parted(cut, left, kStraddled_m)) return;
+    if (!is_wanted(mark)) continue;
+    if (mark.lateral_m < kMaxWidth_m) collection.add(at, Room::between, mark.boundary, left);
+    if (config.unmarked_roads && mark.lateral_m > kMinDivided_m && !is_parted(cut, left, kBesideBorder_m))
+      collection.add(at, Room::divided, mark.boundary, left);
   }
-  const double step_m = road.boundaries[boundary].course.length() /
-                        static_cast<double>(std::max<std::size_t>(cuts.size() - 1, 1));
+}
+
+/// Gives hypotheses their log odds.
+std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const std::vector<RoadCut>& cuts,
+                                const boundaries::SectionGraph& road, Poses driven,
+                                const LaneConfig& config) {
+  if (found.empty()) return found;
+  const MeasuredPolyline& base = road.boundaries[found.front().base].course;
+  const double step_m = base.length() / static_cast<double>(std::max<std::size_t>(cuts.size() - 1, 1));
   std::vector<VehicleBeside> vehicles;
-  for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(road.boundaries[boundary].course, pose);
+  for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(base, found.front().reversed, pose);
   PartedFrom parted(cuts, step_m);
-  std::vector<Hypothesis> found = collection.take();
   for (Hypothesis& one : found) {
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
       return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
@@ -218,18 +221,46 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadC
     });
     const std::vector<bool> gore = gore_places(one, cuts);
     for (std::size_t i = 0; i < one.marks.size(); ++i) {
+      const RoadCut& cut = cuts[one.first + i];
       Candidate candidate = candidate_at(one, i, cuts);
       candidate.driven = is_driven;
       candidate.gore = gore[i];
-      candidate.parted = parted.at(one.first + i, across(cuts[one.first + i], candidate));
+      candidate.parted = parted.at(one.first + i, across(cut, candidate));
       candidate.taper = taper_at(one, i, cuts, step_m);
-      const RoadCut& cut = cuts[one.first + i];
       const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
       one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
                              (outer ? kOuterOfTwo : 0.0));
     }
   }
   return found;
+}
+
+}  // namespace
+
+std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
+                                   const boundaries::SectionGraph& road, Poses driven,
+                                   const LaneConfig& config) {
+  Collection collection(boundary, false);
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const RoadCut& cut = cuts[c];
+    add_on_left(cut, c, config, collection,
+                [&](const Mark& mark) { return !mark.opposed || mark.boundary > boundary; });
+    for (const Room room : {Room::open_left, Room::open_right})
+      if (config.one_sided_lanes &&
+          width_m(cut, {.room = room, .left = cut.own, .right = cut.own}) > kMinRoom_m)
+        collection.add(c, room, boundary, cut.own);
+  }
+  return weighed(collection.take(), cuts, road, driven, config);
+}
+
+std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const std::vector<RoadCut>& cuts,
+                                           const boundaries::SectionGraph& road, Poses driven,
+                                           const LaneConfig& config) {
+  Collection collection(boundary, true);
+  for (std::size_t c = 0; c < cuts.size(); ++c)
+    add_on_left(cuts[c], c, config, collection,
+                [&](const Mark& mark) { return !mark.opposed && mark.boundary > boundary; });
+  return weighed(collection.take(), cuts, road, driven, config);
 }
 
 std::vector<Run> best_runs(const std::vector<double>& log_odds) {

@@ -16,6 +16,7 @@ namespace laneloom::lanes {
 struct Hypothesis {
   Room room = Room::between;
   std::size_t base = 0;            ///< the boundary that is cut; the right one, unless the right side is open
+  bool reversed = false;           ///< the cross-sections run against it
   std::size_t other = 0;           ///< the boundary on the left; `base` where a side is open
   std::size_t first = 0;           ///< cross-section with which it begins
   std::vector<std::size_t> marks;  ///< per cross-section, the mark of `other`
@@ -33,6 +34,12 @@ using KnownBorders = std::set<std::array<ElementId, 2>>;
 std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
                                    const boundaries::SectionGraph& road, Poses driven,
                                    const LaneConfig& config);
+
+/// The hypotheses about the lanes between a boundary and opposed ones, where each lies on the right of the
+/// other: about those that no boundary has on its left. `cuts` are reversed.
+std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const std::vector<RoadCut>& cuts,
+                                           const boundaries::SectionGraph& road, Poses driven,
+                                           const LaneConfig& config);
 
 /// Consecutive cross-sections of a hypothesis.
 struct Run {

@@ -29,7 +29,10 @@ class Choice {
       for (const std::size_t i : road.sections[s].boundaries) section_of_[i] = s;
     for (std::size_t i = 0; i < road.boundaries.size(); ++i) {
       cuts_.push_back(cut_along(i, road, config));
+      against_.push_back(reversed(cuts_.back()));
       for (Hypothesis& one : hypotheses(i, cuts_.back(), road, driven, config)) consider(std::move(one));
+      for (Hypothesis& one : hypotheses_against(i, against_.back(), road, driven, config))
+        consider(std::move(one));
     }
   }
 
@@ -71,25 +74,32 @@ class Choice {
 
   const boundaries::LaneBoundary& left(const Hypothesis& one) const { return road_.boundaries[one.other]; }
   const boundaries::LaneBoundary& right(const Hypothesis& one) const { return road_.boundaries[one.base]; }
-  bool is_opposed(const Hypothesis& one) const {
-    return !is_open(one.room) && cuts_[one.base][one.first].marks[one.marks.front()].opposed;
+  const RoadCut& cut_of(const Hypothesis& one, std::size_t i) const {
+    return (one.reversed ? against_ : cuts_)[one.base][one.first + i];
   }
+  /// Whether the border on the left runs against the hypothesis.
+  bool is_opposed(const Hypothesis& one) const {
+    if (is_open(one.room)) return one.reversed;
+    return cut_of(one, 0).marks[one.marks.front()].opposed;
+  }
+  LaneBorder left_border(const Hypothesis& one) const { return {left(one), is_opposed(one)}; }
+  LaneBorder right_border(const Hypothesis& one) const { return {right(one), one.reversed}; }
 
   /// Whether the border is an edge, or a line that is painted along one, where the hypothesis begins.
   bool is_kerb(const Hypothesis& one, Side border) const {
-    const RoadCut& cut = cuts_[one.base][one.first];
+    const RoadCut& cut = cut_of(one, 0);
     return lanes::is_kerb(cut, border == Side::left ? one.marks.front() : cut.own, border);
   }
 
   std::vector<CrossSection> sections_of(const Hypothesis& one) const {
     std::vector<CrossSection> sections;
-    const double left_m = left(one).course.length();
+    const double left_m = left(one).course.length(), right_m = right(one).course.length();
     const bool opposed = is_opposed(one);
     for (std::size_t i = 0; i < one.marks.size(); ++i) {
-      const RoadCut& cut = cuts_[one.base][one.first + i];
+      const RoadCut& cut = cut_of(one, i);
       const Mark &self = cut.self(), &other = cut.marks[one.marks[i]];
       CrossSection section{.left_arc_m = opposed ? left_m - other.arc_m : other.arc_m,
-                           .right_arc_m = self.arc_m,
+                           .right_arc_m = one.reversed ? right_m - self.arc_m : self.arc_m,
                            .width_m = other.lateral_m,
                            .left = other.point,
                            .right = self.point,
@@ -121,7 +131,8 @@ class Choice {
   /// The side of the boundary `of` a hypothesis on which its lane lies, as the boundary runs.
   BoundarySide inner(const Hypothesis& one, Side border) const {
     if (border == Side::right)
-      return {right(one).marking.id, one.room == Room::open_right ? Side::right : Side::left};
+      return {right(one).marking.id,
+              as_seen(one.room == Room::open_right ? Side::right : Side::left, one.reversed)};
     return {left(one).marking.id, as_seen(Side::right, is_opposed(one))};
   }
 
@@ -129,10 +140,12 @@ class Choice {
     const auto on_side = [&](Side side, double arc_m) {
       return geometry::contains(taken_.beside(inner(one, side)), arc_m);
     };
-    const double left_arc_m =
-        is_opposed(one) ? left(one).course.length() - section.left_arc_m : section.left_arc_m;
-    if (on_side(Side::right, section.right_arc_m)) return true;
-    if (!is_open(one.room) && on_side(Side::left, left_arc_m)) return true;
+    const auto own = [](const boundaries::LaneBoundary& border, bool reversed, double arc_m) {
+      return reversed ? border.course.length() - arc_m : arc_m;
+    };
+    if (on_side(Side::right, own(right(one), one.reversed, section.right_arc_m))) return true;
+    if (!is_open(one.room) && on_side(Side::left, own(left(one), is_opposed(one), section.left_arc_m)))
+      return true;
     const auto at = [&](double share) -> Point {
       return section.right + share * (section.left - section.right);
     };
@@ -141,11 +154,11 @@ class Choice {
   }
 
   void occupy(const Hypothesis& one, std::span<const CrossSection> part) {
-    const LaneBorder left_border(left(one), is_opposed(one));
-    taken_.beside(inner(one, Side::right)).push_back({part.front().right_arc_m, part.back().right_arc_m});
+    taken_.beside(inner(one, Side::right))
+        .push_back(right_border(one).own({part.front().right_arc_m, part.back().right_arc_m}));
     if (!is_open(one.room))
       taken_.beside(inner(one, Side::left))
-          .push_back(left_border.own({part.front().left_arc_m, part.back().left_arc_m}));
+          .push_back(left_border(one).own({part.front().left_arc_m, part.back().left_arc_m}));
     Polyline middle;
     double width_m = 0.0;
     for (const CrossSection& section : part) {
@@ -156,7 +169,7 @@ class Choice {
   }
 
   void add_lane(const Hypothesis& one, std::span<const CrossSection> part) {
-    Lane lane = make_lane(part, LaneBorder(left(one), is_opposed(one)), LaneBorder(right(one), false));
+    Lane lane = make_lane(part, left_border(one), right_border(one));
     lane.section = section_of_[one.base];
     occupy(one, part);
     lanes_.push_back(std::move(lane));
@@ -166,7 +179,8 @@ class Choice {
     InferredBoundary found{.section = section_of_[one.base]};
     found.on_left.emplace(
         InferredBoundary::Beside{.boundary = one.other, .reversed = is_opposed(one), .sections = {}});
-    found.on_right.emplace(InferredBoundary::Beside{.boundary = one.base, .sections = {}});
+    found.on_right.emplace(
+        InferredBoundary::Beside{.boundary = one.base, .reversed = one.reversed, .sections = {}});
     Polyline divider;
     for (const CrossSection& section : part) {
       CrossSection in_left = section, in_right = section;
@@ -197,8 +211,9 @@ class Choice {
   const geometry::MapBox& box_;
   const KnownBorders& known_;
   const LaneConfig& config_;
-  std::vector<std::uint32_t> section_of_;   ///< by boundary
-  std::vector<std::vector<RoadCut>> cuts_;  ///< by boundary
+  std::vector<std::uint32_t> section_of_;      ///< by boundary
+  std::vector<std::vector<RoadCut>> cuts_;     ///< by boundary
+  std::vector<std::vector<RoadCut>> against_;  ///< likewise, reversed
   std::vector<Waiting> waiting_;
   TakenSpace taken_;
   std::vector<Lane> lanes_;

@@ -43,6 +43,20 @@ Mark mark_at(std::size_t index, double arc_m, const Point& point, const boundari
 
 }  // namespace
 
+std::vector<RoadCut> reversed(const std::vector<RoadCut>& cuts) {
+  std::vector<RoadCut> turned(cuts.rbegin(), cuts.rend());
+  for (RoadCut& cut : turned) {
+    std::ranges::reverse(cut.marks);
+    cut.own = cut.marks.size() - 1 - cut.own;
+    cut.ahead = -cut.ahead;
+    for (Mark& mark : cut.marks) {
+      mark.lateral_m = -mark.lateral_m;
+      if (mark.boundary != cut.self().boundary) mark.opposed = !mark.opposed;
+    }
+  }
+  return turned;
+}
+
 std::vector<RoadCut> cut_along(std::size_t boundary, const boundaries::SectionGraph& road,
                                const LaneConfig& config) {
   const boundaries::LaneBoundary& base = road.boundaries[boundary];

@@ -31,6 +31,9 @@ struct RoadCut {
   const Mark& self() const { return marks[own]; }
 };
 
+/// The same cross-sections along the boundary as it runs the other way. Arc lengths stay.
+std::vector<RoadCut> reversed(const std::vector<RoadCut>& cuts);
+
 /// Greatest distance between two marks of a cross-section.
 inline constexpr double kCutReach_m = 14.0;
 
