@@ -115,6 +115,43 @@ TEST(FindLanes, ALaneAcrossBoundariesThatRunAgainstEachOtherIsFoundOnce) {
   EXPECT_THAT(widths(find(lines)), are({3.5}));
 }
 
+TEST(FindLanes, ALaneBetweenOpposedBoundariesThatAreRightOfEachOtherIsFoundOnce) {
+  auto lines = road({dashed(3.5), edge(0)});
+  std::ranges::reverse(lines.back().marking.points);
+  // Sections are turned so that this is rare: where streets meet, not all of one can be turned alike.
+  boundaries::SectionGraph graph = road_sections(lines, test::at(0), {});
+  for (const std::size_t i : {0U, 1U}) {
+    if ((graph.boundaries[i].course.at(0.0).x() < 1.0) == (i == 0)) continue;
+    graph.boundaries.reverse(i);
+    for (boundaries::SideBySide& beside : graph.beside[i]) beside.lateral_m = -beside.lateral_m;
+    for (const std::size_t k : {0U, 1U}) graph.beside[k].front().opposed = !graph.beside[k].front().opposed;
+  }
+  ASSERT_TRUE(graph.beside[0].front().opposed);
+  ASSERT_LT(graph.beside[0].front().lateral_m, 0.0);
+  ASSERT_LT(graph.beside[1].front().lateral_m, 0.0);
+  const FoundLanes found = find_lanes(graph, test::scene(1).box, {}, {}, {});
+  ASSERT_THAT(widths(found), are({3.5}));
+  const Lane& lane = found.lanes.front();
+  EXPECT_LT(lane.centerline.back().x(), lane.centerline.front().x());
+  EXPECT_GT(lane.left.front().x(), 29.0);
+  EXPECT_LT(lane.left.front().y(), lane.right.front().y()) << "the lane runs along -x";
+  EXPECT_TRUE(lane.right_borders.front().reversed);
+  EXPECT_FALSE(lane.left_borders.front().reversed);
+}
+
+TEST(FindLanes, ALineThatEndsGoesOnUnseen) {
+  // Of two lanes beside an edge, 2.9 m each, the line between them ends half-way.
+  auto lines = road({dashed(2.9), dashed(2.9), edge(0)});
+  lines[1].marking.points = {{0, kLeft_m - 2.9, 0}, {12, kLeft_m - 2.9, 0}};
+  lines[1] = boundary(2, lines[1].marking.points, MarkingType::laneline);
+  lines[1].marking.styles = {{{0, 12}, MarkingStyle::dashed}};
+  for (const Lane& lane : find(lines).lanes) EXPECT_LT(lane.width_m, 3.5);
+}
+
+TEST(FindLanes, OfADoubleLineTheNearerOneIsTheBorder) {
+  EXPECT_THAT(widths({dashed(3.5), solid(0.24), solid(3.5), dashed(0)}), are({3.5, 3.5}));
+}
+
 TEST(FindLanes, EndWhereTheRoadWidensToASquare) {
   auto lines = road({solid(3.5)});
   lines.push_back(boundary(2, {{0, 4.5, 0}, {15, 4.5, 0}, {30, -10, 0}}));
