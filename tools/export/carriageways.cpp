@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "export/strays.hpp"
 #include "laneloom/polyline.hpp"
 
 namespace laneloom::exports {
@@ -105,28 +106,62 @@ bool lay_out(const RoadNetwork& network, Carriageway& way) {
   return true;
 }
 
+/// The lanelets of a network that lie beside each other in one carriageway.
+class Neighbours {
+ public:
+  explicit Neighbours(const RoadNetwork& network)
+      : lanelets_(network.lanelets), before_(lanelets_.size()), behind_(lanelets_.size()) {
+    for (std::size_t i = 0; i < lanelets_.size(); ++i) {
+      by_left_.emplace(key(lanelets_[i].left), i);
+      by_right_.emplace(key(lanelets_[i].right), i);
+    }
+    for (const auto& [from, to] : followers(network)) {
+      if (from.backwards || to.backwards) continue;
+      behind_[from.lanelet].push_back(to.lanelet);
+      before_[to.lanelet].push_back(from.lanelet);
+    }
+  }
+
+  /// The lanelet on the right of another one. None: the two come from two roads, or lead to two.
+  std::optional<std::size_t> right_of(std::size_t i) const {
+    const auto right = beside(i);
+    return right && go_on_together(behind_, i, *right) && go_on_together(before_, i, *right) ? right
+                                                                                             : std::nullopt;
+  }
+
+ private:
+  /// A lanelet to the right, if both have only each other there.
+  std::optional<std::size_t> beside(std::size_t i) const {
+    const auto found = by_left_.find(key(lanelets_[i].right));
+    if (found == by_left_.end() || by_right_.at(found->first) != i) return std::nullopt;
+    return found->second;
+  }
+  bool go_on_together(const std::vector<std::vector<std::size_t>>& next, std::size_t left,
+                      std::size_t right) const {
+    if (next[left].empty() || next[right].empty()) return true;
+    return std::ranges::any_of(next[left], [&](std::size_t one) {
+      return std::ranges::find(next[right], one) != next[right].end() ||
+             std::ranges::find(next[right], beside(one).value_or(lanelets_.size())) != next[right].end();
+    });
+  }
+
+  const std::vector<RoadNetwork::Lanelet>& lanelets_;
+  std::map<std::pair<std::size_t, bool>, std::size_t> by_left_, by_right_;  ///< the first one with that side
+  std::vector<std::vector<std::size_t>> before_, behind_;                   ///< by lanelet
+};
+
 }  // namespace
 
 std::vector<Carriageway> carriageways(const RoadNetwork& network) {
-  std::map<std::pair<std::size_t, bool>, std::size_t> by_left, by_right;  // the first lanelet with that side
-  for (std::size_t i = 0; i < network.lanelets.size(); ++i) {
-    by_left.emplace(key(network.lanelets[i].left), i);
-    by_right.emplace(key(network.lanelets[i].right), i);
-  }
-  // A lanelet to the right, if both have only each other there.
-  const auto right_neighbour = [&](std::size_t i) -> std::optional<std::size_t> {
-    const auto found = by_left.find(key(network.lanelets[i].right));
-    if (found == by_left.end() || by_right.at(found->first) != i) return std::nullopt;
-    return found->second;
-  };
+  const Neighbours neighbours(network);
   std::vector<bool> is_right_neighbour(network.lanelets.size(), false);
   for (std::size_t i = 0; i < network.lanelets.size(); ++i)
-    if (const auto right = right_neighbour(i)) is_right_neighbour[*right] = true;
+    if (const auto right = neighbours.right_of(i)) is_right_neighbour[*right] = true;
   std::vector<Carriageway> ways;
   for (std::size_t i = 0; i < network.lanelets.size(); ++i) {
     if (is_right_neighbour[i]) continue;
     Carriageway way;
-    for (std::optional<std::size_t> next = i; next; next = right_neighbour(*next))
+    for (std::optional<std::size_t> next = i; next; next = neighbours.right_of(*next))
       way.lanelets.push_back(*next);
     if (lay_out(network, way)) ways.push_back(std::move(way));
   }

@@ -22,8 +22,8 @@ struct Curve {
   double length_m = 0.0;
 };
 
-/// Lanelets beside each other that are driven in one direction. The reference line is the left border of the
-/// leftmost one.
+/// Lanelets beside each other that are driven in one direction, come from one road and lead to one. The
+/// reference line is the left border of the leftmost one.
 struct Carriageway {
   std::vector<std::size_t> lanelets;         ///< from left to right
   std::vector<CrossSection> cross_sections;  ///< two or more

@@ -31,10 +31,12 @@ RoadLinks::RoadLinks(const RoadNetwork& network, const std::vector<Carriageway>&
 
 void RoadLinks::find_connecting(const RoadNetwork& network, const std::vector<Carriageway>& roads) {
   const auto is_linkage = [&](std::size_t lanelet) { return network.lanelets[lanelet].linkage.has_value(); };
-  for (std::size_t road = 0; road < roads.size(); ++road)
-    if (std::ranges::all_of(roads[road].lanelets, is_linkage) && before_[road].size() == 1 &&
-        behind_[road].size() == 1)
-      connecting_.insert(road);
+  for (std::size_t road = 0; road < roads.size(); ++road) {
+    if (before_[road].size() != 1 || behind_[road].size() != 1) continue;
+    const bool parts = behind_[*before_[road].begin()].size() > 1;
+    const bool joins = before_[*behind_[road].begin()].size() > 1;
+    if (parts || joins || std::ranges::all_of(roads[road].lanelets, is_linkage)) connecting_.insert(road);
+  }
   // A connecting road leads from a road that is none to another such road.
   const std::set<std::size_t> candidates = connecting_;
   std::erase_if(connecting_, [&](std::size_t road) {

@@ -16,7 +16,8 @@
 namespace laneloom::simulation {
 namespace {
 
-constexpr double kLanesMeet_m = 0.3;    // between the ends of lanes that follow one another
+constexpr double kLanesMeet_m =
+    0.6;  // between the ends of lanes that follow one another, where roads bend at their joint
 constexpr double kLanesMeet_cos = 0.9;  // between their directions
 constexpr double kMarksMeet_m = 0.05;   // between the ends of marks
 
