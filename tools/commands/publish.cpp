@@ -50,7 +50,6 @@ class Publisher {
       : participant_(options.dds, "laneloom publish"),
         detections_(participant_),
         poses_(participant_),
-        objects_(participant_),
         road_(road),
         from_s_(options.from_s),
         perception_(options.source.perception(road)),
@@ -58,6 +57,7 @@ class Publisher {
         network_(options.source.seed, options.delay_spread_ms),
         session_id_(random_id()),
         start_ns_(system_now_ns()) {
+    if (traffic_) objects_.emplace(participant_);
     if (!options.frames.empty()) record_ = std::make_unique<io::JsonLinesWriter>(options.frames);
     if (!options.times.empty())
       times_ = std::make_unique<support::PublicationLogWriter>(options.times, session_id_);
@@ -107,7 +107,7 @@ class Publisher {
   void deliver(const io::FrameRecord& record) {
     if (times_) times_->add(record.frame.sequence, system_now_ns());
     if (!detections_.write(record.frame)) ++not_taken_;
-    if (record.objects && !objects_.write(*record.objects)) ++not_taken_;
+    if (record.objects && !objects_->write(*record.objects)) ++not_taken_;
     if (record_) record_->write(record);
     ++delivered_;
   }
@@ -115,7 +115,7 @@ class Publisher {
   dds::Participant participant_;
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
-  dds::Writer<TrackedObjects> objects_;
+  std::optional<dds::Writer<TrackedObjects>> objects_;  ///< where there is traffic
   const simulation::Road& road_;
   double from_s_;
   simulation::Perception perception_;
