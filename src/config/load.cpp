@@ -1,6 +1,8 @@
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "config/config_file.hpp"
@@ -104,14 +106,62 @@ class Parser {
   std::map<std::string, YAML::Node> values_;
 };
 
+/// Throws LocatedProblem where a second document has something in it.
+class OneDocument : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override { take(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {
+    take(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {
+    take(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {
+    take(mark);
+  }
+  void OnMapEnd() override {}
+
+  bool is_empty() const { return is_empty_; }
+  void next() {
+    ++documents_;
+    is_empty_ = true;
+  }
+
+ private:
+  void take(const YAML::Mark& mark) {
+    if (documents_ > 1)
+      throw LocatedProblem{mark.line + 1, {"", "begins a second document, and there may be one"}};
+    is_empty_ = false;
+  }
+
+  int documents_ = 0;
+  bool is_empty_ = true;
+};
+
+/// YAML::LoadAll() would tell of the second document, but of some damaged texts it makes documents without
+/// end.
+void refuse_second_document(const std::string& text) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  OneDocument handler;
+  for (handler.next(); parser.HandleNextDocument(handler); handler.next())
+    if (handler.is_empty() && parser)
+      throw LocatedProblem{0, {"", "bad YAML: something stands outside of its document"}};
+}
+
 /// The values of `text`, on top of `config`.
 Config parse(const std::string& text, Config config = {}) {
   Parser::Lines lines;
   try {
-    const auto documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      throw LocatedProblem{line_of(documents[1]), {"", "begins a second document, and there may be one"}};
-    const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
+    refuse_second_document(text);
+    const YAML::Node root = YAML::Load(text);
     if (!root.IsNull()) {
       Parser parser(root, "", lines);
       visit(parser, config);

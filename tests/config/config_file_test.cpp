@@ -60,6 +60,11 @@ TEST_F(ConfigFile, ASecondDocumentIsNotPassedOver) {
   EXPECT_EQ(load_config(write("---\ndds:\n  domain: 3\n")).dds.domain, 3);
 }
 
+// YAML::LoadAll() of yaml-cpp 0.7 takes it for documents without end.
+TEST_F(ConfigFile, ATextThatBeginsWithACommaIsRefused) {
+  EXPECT_THAT(error_of(", dds:\n  domain: 3\n"), HasSubstr("outside of its document"));
+}
+
 TEST_F(ConfigFile, AnEmptyFileIsTheDefaults) {
   EXPECT_EQ(dump(load_config(write("# nothing\n"))), dump(Config{}));
 }
