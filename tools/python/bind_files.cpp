@@ -34,7 +34,7 @@ constexpr const char* kReadMapsDoc = R"(The maps of a file: [LocalMap, ...], in 
 path: JSON lines or a recording (.mcap) of what the service published; the first bytes tell which
 
 Of several maps of one stamp, it is the last. What is passed over is a RuntimeWarning.
-FileNotFoundError; RuntimeError: the file cannot be read or is malformed.)";
+FileNotFoundError; RuntimeError: the file cannot be read, or has nothing but malformed maps.)";
 
 void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
@@ -43,6 +43,8 @@ void warn(const std::string& text) {
 void warn_of(const std::string& file, const evaluation::InputAccount& account) {
   for (const auto& [what, count] : account.refused.values())
     warn(fmt::format("{}: {} messages passed over: {}", file, count, what));
+  if (account.count == 0 && !account.left_out.empty())
+    throw std::runtime_error(file + ": nothing is left: " + account.left_out.summary());
   if (!account.left_out.empty()) warn(file + ": left out: " + account.left_out.summary());
   if (account.cut_off) warn(file + ": the recording is cut off");
 }
