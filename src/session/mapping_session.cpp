@@ -59,7 +59,7 @@ struct MappingSession::State {
         max_pause_s(c.service.snapshot_max_age_s),
         pose_gate(c.gate, true),
         sources(c.gate),
-        agreement(c.mapper.fusion),
+        agreement(c.mapper),
         offsets(mapper_config.networks),
         synchroniser(c.sync),
         pending_objects(c),

@@ -87,13 +87,22 @@ bool SourceAgreement::may_fuse(const DetectionFrame& frame, const Eigen::Isometr
   forget_silent(frame.stamp_ns);
   auto source = std::ranges::find(sources_, frame.source, &Source::name);
   if (source == sources_.end()) source = sources_.insert(sources_.end(), Source{.name = frame.source});
-  source->stddev_m = stddev_m(frame);
-  compare(frame, T_map_body, *source);
+  const DetectionFrame told = trusted(frame);
+  source->stddev_m = stddev_m(told);
+  compare(told, T_map_body, *source);
   if (frame.stamp_ns >= source->stamp_ns) {
     source->stamp_ns = frame.stamp_ns;
-    source->lines = in_map(frame, T_map_body);
+    source->lines = in_map(told, T_map_body);
   }
   return !source->disagrees();
+}
+
+/// The frame without the detections that the mapper drops.
+DetectionFrame SourceAgreement::trusted(const DetectionFrame& frame) const {
+  DetectionFrame kept{.stamp_ns = frame.stamp_ns, .source = frame.source};
+  std::ranges::copy_if(frame.detections, std::back_inserter(kept.detections),
+                       [this](const Detection& one) { return one.confidence >= min_confidence_; });
+  return kept;
 }
 
 /// Forgets sources of which nothing came for a while. Who comes back comes last.
@@ -134,7 +143,7 @@ double SourceAgreement::stddev_m(const DetectionFrame& frame) const {
       sum_m += stddev_m;
       values += 1.0;
     }
-  return values > 0.0 ? sum_m / values : config_.stddev_m + config_.stddev_per_m * kTypicalRange_m;
+  return values > 0.0 ? sum_m / values : fusion_.stddev_m + fusion_.stddev_per_m * kTypicalRange_m;
 }
 
 std::vector<Disagreement> SourceAgreement::disagreements() const {

@@ -18,10 +18,11 @@ struct Disagreement {
 
 /// Tells which sources see the same lines at other places than a source that was there before them. Each of
 /// them may be right, but a map of both has every line twice. Frames are compared with the newest one of the
-/// other source, by the poses of both.
+/// other source, by the poses of both. Detections that the mapper drops for their confidence tell nothing.
 class SourceAgreement {
  public:
-  explicit SourceAgreement(FusionConfig config) : config_(std::move(config)) {}
+  explicit SourceAgreement(const MapperConfig& config)
+      : fusion_(config.fusion), min_confidence_(config.preprocess.min_confidence) {}
 
   /// Whether a frame of that pose may be fused. It may not while its source disagrees.
   bool may_fuse(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body);
@@ -42,10 +43,12 @@ class SourceAgreement {
     bool disagrees() const { return contradiction > 0.5; }
   };
   void forget_silent(std::int64_t stamp_ns);
+  DetectionFrame trusted(const DetectionFrame& frame) const;
   void compare(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, Source& source) const;
   double stddev_m(const DetectionFrame& frame) const;
 
-  FusionConfig config_;
+  FusionConfig fusion_;
+  double min_confidence_;        ///< of detections that are compared
   std::vector<Source> sources_;  ///< in the order in which they came
 };
 

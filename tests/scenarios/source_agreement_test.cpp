@@ -33,7 +33,7 @@ Told drive(const Pair& pair, double left_m) {
   simulation::Perception first(road, simulation::noise_profile(pair.noise), simulation::SensorView{}, 1);
   simulation::Perception second(road, simulation::noise_profile(pair.other_noise), simulation::SensorView{},
                                 2);
-  SourceAgreement agreement{FusionConfig{}};
+  SourceAgreement agreement{MapperConfig{}};
   Told told;
   for (double t_s = kFrame_s; t_s < std::min(kDuration_s, road.drive.duration_s()); t_s += kFrame_s) {
     const VehiclePose pose = road.drive.pose_at(t_s);
@@ -78,6 +78,25 @@ TEST(SourceAgreementOnRoads, OneWhoseLinesLieBesideIsTold) {
           << pair.scenario << " " << pair.noise << " " << pair.other_noise << " by " << left_m;
       EXPECT_NEAR(told.beside_m / told.disagreeing, std::abs(left_m), 0.25);
     }
+  }
+}
+
+// Padding, or what a network itself holds for a ghost.
+TEST(SourceAgreementOnRoads, LinesThatNobodyTrustsContradictNothing) {
+  const simulation::Road road = simulation::make_scenario("town");
+  simulation::Perception first(road, simulation::noise_profile("none"), simulation::SensorView{}, 1);
+  SourceAgreement agreement{MapperConfig{}};
+  for (int i = 1; i < 50; ++i) {
+    const VehiclePose pose = road.drive.pose_at(kFrame_s * i);
+    DetectionFrame one = first.observe(pose), ghosts = one;
+    one.source = "first";
+    ghosts.source = "second";
+    for (Detection& detection : ghosts.detections) {
+      detection.confidence = 0.05;
+      for (Point& point : detection.points) point.y() += 1.0;
+    }
+    EXPECT_TRUE(agreement.may_fuse(one, transform(pose)));
+    EXPECT_TRUE(agreement.may_fuse(ghosts, transform(pose)));
   }
 }
 
