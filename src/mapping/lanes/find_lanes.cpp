@@ -11,7 +11,7 @@ namespace laneloom::lanes {
 FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::MapBox& box, Poses driven,
                       const KnownBorders& known, const LaneConfig& config) {
   if (config.method == LaneMethod::paper) return paper_lanes(std::move(road), config);
-  FoundLanes found = choose_lanes(std::move(road), box, driven, known, config);
+  FoundLanes found = choose_lanes(road, box, driven, known, config);
   found.forks = cut_at_forks(found.boundaries, config, found.lanes);
   return found;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <ranges>
 
 namespace laneloom::lanes {
 namespace {
@@ -15,9 +14,8 @@ constexpr double kMaxAhead_m = 60.0;     // from the end to where borders that c
 constexpr double kMinEntry_m = 1.5;      // width; nobody turns across dashes into less
 
 /// Whether the borders meet at the first of these places, or not far before it.
-template <class Places>
-bool begins_at_meeting(const Places& places) {
-  const PlaceBetween& first = *places.begin();
+bool begins_at_meeting(std::span<const PlaceBetween> places) {
+  const PlaceBetween& first = places.front();
   if (first.width_m < kMeeting_m) return true;
   const auto distance_m = [&](const PlaceBetween& place) { return std::abs(place.along_m - first.along_m); };
   const auto beyond =
@@ -30,8 +28,7 @@ bool begins_at_meeting(const Places& places) {
 }
 
 /// The number of places from the first on that lie in a gore.
-template <class Places>
-std::size_t from_meeting(const Places& places) {
+std::size_t from_meeting(std::span<const PlaceBetween> places) {
   if (places.empty() || !begins_at_meeting(places)) return 0;
   const auto entry = std::ranges::find_if(
       places, [](const PlaceBetween& place) { return place.may_be_crossed && place.width_m > kMinEntry_m; });
@@ -41,7 +38,8 @@ std::size_t from_meeting(const Places& places) {
 }  // namespace
 
 std::vector<bool> in_gore(std::span<const PlaceBetween> places) {
-  const std::size_t opening = from_meeting(places), closing = from_meeting(std::views::reverse(places));
+  const std::vector<PlaceBetween> backwards(places.rbegin(), places.rend());
+  const std::size_t opening = from_meeting(places), closing = from_meeting(backwards);
   std::vector<bool> found(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) found[i] = i < opening || places.size() - i <= closing;
   return found;

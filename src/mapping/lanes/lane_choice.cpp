@@ -222,7 +222,7 @@ class Choice {
 
 }  // namespace
 
-FoundLanes choose_lanes(boundaries::SectionGraph road, const geometry::MapBox& box, Poses driven,
+FoundLanes choose_lanes(const boundaries::SectionGraph& road, const geometry::MapBox& box, Poses driven,
                         const KnownBorders& known, const LaneConfig& config) {
   Choice choice(road, box, driven, known, config);
   choice.choose();
