@@ -143,6 +143,22 @@ TEST_F(Commands, NarrowLanesThatTheConfigurationFindsAreRated) {
   EXPECT_THAT(output(), HasSubstr("own lane in 100.0 % of the frames, width 5/50/95 % 1.50/1.50/1.50 m"));
 }
 
+TEST_F(Commands, ADriveIsMappedAndRatedByItsTruthAtOnce) {
+  ASSERT_EQ(run({"simulate", "--scenario", "split", "--noise", "inhouse", "--duration", "6", "--frames",
+                 file("a.frames.jsonl"), "--truth", file("truth.json")}),
+            0);
+  ASSERT_EQ(run({"replay", file("a.frames.jsonl"), "--out", file("map.jsonl")}), 0);
+  const auto figures = [&](std::vector<std::string> inputs) {
+    inputs.insert(inputs.begin(),
+                  {"evaluate", "--truth", file("truth.json"), "--json", file("figures.json")});
+    EXPECT_EQ(run(inputs), 0) << output();
+    return json::parse(content(file("figures.json")));
+  };
+  const json at_once = figures({file("a.frames.jsonl")});
+  EXPECT_EQ(at_once, figures({"--frames", file("a.frames.jsonl"), "--map", file("map.jsonl")}));
+  EXPECT_GT(at_once.at("fused").at("total").at("f1"), 0.5);
+}
+
 TEST_F(Commands, PublishListsItsRoads) {
   EXPECT_EQ(run({"publish", "--list"}), 0);
   EXPECT_THAT(output(), HasSubstr("town"));

@@ -20,7 +20,7 @@ namespace laneloom::commands {
 namespace {
 
 struct CheckOptions {
-  std::string drive, config;
+  std::string drive, config, out;
   bool json = false;
 };
 
@@ -51,8 +51,12 @@ void check(const CheckOptions& options) {
   const check::Findings found = findings(check::read_drive(*source), config);
   warn_of(options.drive, source->refused(), source->cut_off());
   warn_of(options.drive, source->left_out());
+  const auto json = [&] {
+    return report_json(found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  };
+  if (!options.out.empty()) io::write_text(options.out, json());
   if (options.json)
-    fmt::print("{}\n", report_json(found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}", json());
   else
     fmt::print("{}{}", is_sound(found) ? options.drive + ": nothing wrong was found.\n" : "", list_of(found));
   if (!is_sound(found)) end_with(kFoundWrong);
@@ -78,6 +82,7 @@ void add_check(CLI::App& app) {
       ->required();
   command->add_option("--config", options->config, "Configuration (.yaml), whose limits are looked at, too");
   command->add_flag("--json", options->json, "One JSON object");
+  command->add_option("--out", options->out, "Findings to write, too (.json)");
   command->callback([options] { check(*options); });
 }
 

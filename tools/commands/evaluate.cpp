@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -22,6 +23,7 @@
 #include "evaluation/inputs.hpp"
 #include "evaluation/map_evaluation.hpp"
 #include "io/text_file.hpp"
+#include "replay/replay.hpp"
 #include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
@@ -92,10 +94,10 @@ Comparison comparison(const EvaluateOptions& options) {
 }
 
 evaluation::MapEvaluation evaluate_detections(const EvaluateOptions& options, const simulation::Road& truth,
-                                              const Stamps& stamps) {
+                                              const std::string& frames, const Stamps& stamps) {
   evaluation::MapEvaluation evaluation(truth, options.range, evaluation::Subject::detections);
   support::ProgressBar bar;
-  evaluation::for_each_frame(options.frames,
+  evaluation::for_each_frame(frames,
                              [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
                                if (stamps.contains(frame.stamp_ns))
                                  evaluation.add(frame, T_map_body, options.min_confidence);
@@ -114,6 +116,30 @@ evaluation::MapEvaluation evaluate_maps(const EvaluateOptions& options, const si
                            },
                            {.on_step = [&](double share) { bar.step(share); }});
   return evaluation;
+}
+
+/// A drive that was mapped.
+struct Mapped {
+  evaluation::MapEvaluation evaluation;
+  Stamps stamps;  ///< of the maps
+};
+
+Mapped evaluate_mapped(const EvaluateOptions& options, const simulation::Road& truth) {
+  Mapped mapped{{truth, options.range, evaluation::Subject::maps}, {}};
+  std::optional<LocalMap> newest;  // another one of its stamp may follow
+  const auto take_newest = [&] {
+    if (newest && mapped.stamps.insert(newest->stamp_ns).second) mapped.evaluation.add(*newest);
+  };
+  const Config config = config::resolve_config(options.config, {});
+  replay::Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) {
+    if (map.map.stamp_ns <= 0) return;  // no frame was fused yet
+    if (newest && newest->stamp_ns != map.map.stamp_ns) take_newest();
+    newest = map.map;
+  });
+  replay_input(options.in, config, options.strict, replay);
+  take_newest();
+  mapped.stamps = moments(options.in, std::move(mapped.stamps), 0).stamps;
+  return mapped;
 }
 
 LaterRating later_rating(const EvaluateOptions& options) {
@@ -139,13 +165,10 @@ void rate_by_later(const EvaluateOptions& options) {
   io::write_text(options.json, json.dump(2) + "\n");
 }
 
-void rate_by_truth(const EvaluateOptions& options) {
-  const simulation::Road truth = simulation::load_truth(options.truth);
-  const auto [stamps, account] = comparison(options);
+/// Prints and writes the rating of detections and maps by the truth. `account` tells how much was compared.
+void tell(const EvaluateOptions& options, const std::vector<NamedEvaluation>& evaluations,
+          const std::string& account) {
   std::vector<NamedScore> scores;
-  std::vector<NamedEvaluation> evaluations;
-  if (!options.frames.empty()) evaluations.emplace_back("raw", evaluate_detections(options, truth, stamps));
-  if (!options.map.empty()) evaluations.emplace_back("fused", evaluate_maps(options, truth, stamps));
   scores.reserve(evaluations.size());
   for (const auto& [who, evaluation] : evaluations) scores.emplace_back(who, evaluation.score());
   fmt::print("{}{} compared, range {:g}..{:g} m, +-{:g} m\n", score_table(scores), account,
@@ -157,6 +180,22 @@ void rate_by_truth(const EvaluateOptions& options) {
   json.update(evaluation_json(evaluations), true);
   json.update(profile_json(evaluations), true);
   io::write_text(options.json, json.dump(2) + "\n");
+}
+
+void rate_by_truth(const EvaluateOptions& options) {
+  const simulation::Road truth = simulation::load_truth(options.truth);
+  std::vector<NamedEvaluation> evaluations;
+  if (!options.in.empty()) {
+    Mapped mapped = evaluate_mapped(options, truth);
+    evaluations.emplace_back("raw", evaluate_detections(options, truth, options.in, mapped.stamps));
+    evaluations.emplace_back("fused", std::move(mapped.evaluation));
+    return tell(options, evaluations, fmt::format("{} frames and their maps", mapped.stamps.size()));
+  }
+  const auto [stamps, account] = comparison(options);
+  if (!options.frames.empty())
+    evaluations.emplace_back("raw", evaluate_detections(options, truth, options.frames, stamps));
+  if (!options.map.empty()) evaluations.emplace_back("fused", evaluate_maps(options, truth, stamps));
+  tell(options, evaluations, account);
 }
 
 void evaluate(const EvaluateOptions& options) {
@@ -176,15 +215,13 @@ void add_evaluate(CLI::App& app) {
       "by: laneloom evaluate --later --in drive.mcap. By truth: precision, recall, stability, lanes, trust");
   const auto options = std::make_shared<EvaluateOptions>();
   CLI::Option_group* references = command->add_option_group("Rated by", "one of");
-  CLI::Option* later =
-      references->add_flag("--later", options->later,
-                           "What the vehicle sees later from close by; needs --in, or --frames and --map");
+  references->add_flag("--later", options->later,
+                       "What the vehicle sees later from close by; needs --in, or --frames and --map");
   CLI::Option* truth = references->add_option("--truth", options->truth, "Truth of the road (.json)");
   references->require_option(1);
   CLI::Option_group* inputs = command->add_option_group("Inputs", "compared at their common stamps");
   CLI::Option* in =
-      inputs->add_option("--in,drive", options->in, "Drive (.mcap or .frames.jsonl), to be mapped")
-          ->needs(later);
+      inputs->add_option("--in,drive", options->in, "Drive (.mcap or .frames.jsonl), to be mapped");
   inputs->add_option("--frames", options->frames, "Single detections (.frames.jsonl or .mcap)")->excludes(in);
   inputs->add_option("--map", options->map, "Fused maps (.jsonl or .mcap)")->excludes(in);
   inputs->require_option(1, 2);
