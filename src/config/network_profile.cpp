@@ -81,6 +81,20 @@ NetworkProfiles load_network_profiles(const std::filesystem::path& path) {
   }
 }
 
+NetworkProfiles merged(std::span<const NetworkProfiles> of_drives) {
+  NetworkProfiles sum;
+  for (const NetworkProfiles& drive : of_drives) {
+    for (const auto& [source, profile] : drive) {
+      for (const auto& [name, learned] : profile) {
+        LearnedValue& all = sum[source][name];
+        all.weight += learned.weight;
+        all.value += (learned.value - all.value) * learned.weight / all.weight;
+      }
+    }
+  }
+  return sum;
+}
+
 std::string dump(const NetworkProfiles& profiles) {
   YAML::Emitter yaml;
   yaml.SetDoublePrecision(9);

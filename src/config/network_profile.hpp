@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "laneloom/error.hpp"
@@ -14,6 +15,10 @@ namespace laneloom::config {
 /// given twice, a value that is no number or beyond 1e9, and a weight that is not above 0. Mapper checks
 /// whether a network has values of these names. An empty path gives no profiles.
 NetworkProfiles load_network_profiles(const std::filesystem::path& path);
+
+/// What was learned of networks in several drives: of each value the mean by weight, with the sum of the
+/// weights.
+NetworkProfiles merged(std::span<const NetworkProfiles> of_drives);
 
 /// The text of profiles, as load_network_profiles() reads it back.
 std::string dump(const NetworkProfiles& profiles);

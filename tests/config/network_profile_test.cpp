@@ -63,5 +63,17 @@ TEST_F(NetworkProfileFile, AFileThatIsNotThereIsNamed) {
   EXPECT_THROW(load_network_profiles(path_), ConfigError);
 }
 
+TEST(MergedProfiles, HaveTheMeanByWeightOfEachValue) {
+  const std::vector<NetworkProfiles> of_drives{
+      {{"front", {{"a", {1.0, 10.0}}, {"b", {5.0, 2.0}}}}},
+      {{"front", {{"a", {4.0, 20.0}}}}, {"rear", {{"a", {7.0, 1.0}}}}}};
+  const NetworkProfiles all = merged(of_drives);
+  EXPECT_DOUBLE_EQ(all.at("front").at("a").value, 3.0);
+  EXPECT_DOUBLE_EQ(all.at("front").at("a").weight, 30.0);
+  EXPECT_EQ(all.at("front").at("b"), (LearnedValue{5.0, 2.0}));
+  EXPECT_EQ(all.at("rear").at("a"), (LearnedValue{7.0, 1.0}));
+  EXPECT_TRUE(merged({}).empty());
+}
+
 }  // namespace
 }  // namespace laneloom::config
