@@ -9,6 +9,7 @@ class App;
 /// and calls end_with() (exit_codes.hpp) for any other exit code.
 namespace laneloom::commands {
 
+void add_batch(CLI::App& app);
 void add_publish(CLI::App& app);
 void add_pnc(CLI::App& app);
 void add_status(CLI::App& app);

@@ -1,0 +1,85 @@
+#include "batch/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+#include "batch/outputs.hpp"
+#include "support/child_process.hpp"
+
+namespace laneloom::batch {
+namespace {
+
+constexpr int kFoundSomething = 2;  // exit code of a command (commands/exit_codes.hpp)
+
+/// The last line that a command printed: an error is told there.
+std::string last_line(const std::filesystem::path& log) {
+  std::ifstream file(log);
+  std::string last;
+  for (std::string line; std::getline(file, line);)
+    if (!line.empty()) last = line;
+  constexpr std::string_view kProgram = "laneloom: ";
+  return last.starts_with(kProgram) ? last.substr(kProgram.size()) : last;
+}
+
+Result made(const Work& work, const Drive& drive, const Output& output) {
+  Result result{.drive = drive, .output = output.path()};
+  output.begin();
+  const auto begin = std::chrono::steady_clock::now();
+  support::ChildProcess command(command_line(work.laneloom, work.step, drive, output.part()),
+                                output.log().string());
+  const int code = command.wait();
+  result.duration_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.found_something = code == kFoundSomething && kind_of(work.step).may_find_something;
+  if (code != 0 && !result.found_something) {
+    const std::string line = last_line(output.log());
+    result.problem = line.empty() ? command.failure() : fmt::format("{} ({})", line, command.failure());
+    return result;
+  }
+  output.finish();
+  result.state = Result::State::made;
+  return result;
+}
+
+Result result_of(const Work& work, const Drive& drive, const std::string& program) {
+  const Output output(work.folder, work.step, drive, program);
+  try {
+    if (output.is_made()) return {.drive = drive, .state = Result::State::kept, .output = output.path()};
+    return made(work, drive, output);
+  } catch (const std::exception& error) {
+    return {.drive = drive, .problem = error.what(), .output = output.path()};
+  }
+}
+
+}  // namespace
+
+std::vector<Result> run(const Work& work, const std::vector<Drive>& drives,
+                        const std::function<void(double)>& on_step) {
+  static_cast<void>(kind_of(work.step));  // throws
+  const std::string program = digest_of(work.laneloom);
+  std::vector<Result> results(drives.size());
+  std::atomic<std::size_t> next = 0;
+  std::size_t done = 0;
+  std::mutex mutex;
+  const auto work_on = [&] {
+    for (std::size_t i = next++; i < drives.size(); i = next++) {
+      results[i] = result_of(work, drives[i], program);
+      const std::scoped_lock lock(mutex);
+      on_step(static_cast<double>(++done) / static_cast<double>(drives.size()));
+    }
+  };
+  std::vector<std::jthread> workers;
+  for (unsigned i = 1; i < work.jobs; ++i) workers.emplace_back(work_on);
+  work_on();
+  workers.clear();  // waits for them
+  return results;
+}
+
+}  // namespace laneloom::batch
