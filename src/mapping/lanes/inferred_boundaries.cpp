@@ -33,7 +33,10 @@ bool TakenSpace::contains(const Point& point) const {
 }
 
 LaneLayout laid_out(FoundLanes found) {
-  LaneLayout layout{.boundaries = {}, .lanes = std::move(found.lanes), .forks = std::move(found.forks)};
+  LaneLayout layout{.boundaries = {},
+                    .lanes = std::move(found.lanes),
+                    .forks = std::move(found.forks),
+                    .denied = std::move(found.denied)};
   std::vector<boundaries::LaneBoundary> added;
   for (InferredBoundary& one : found.inferred) {
     added.push_back({.marking = one.marking, .members = {one.marking.id}, .two_way = one.two_way});

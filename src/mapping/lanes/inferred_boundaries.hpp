@@ -65,6 +65,7 @@ struct FoundLanes {
   std::vector<Lane> lanes;
   std::vector<InferredBoundary> inferred;
   std::vector<Fork> forks{};
+  std::vector<DeniedStretch> denied{};  ///< where the last map had a lane
 };
 
 /// Adds the inferred boundaries to the boundaries, and the lanes beside them to the lanes. The inferred

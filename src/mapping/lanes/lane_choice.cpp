@@ -15,9 +15,10 @@ namespace {
 
 constexpr double kKnown =
     1.0;  // log odds of a place where the last map had a lane between the same boundaries
-constexpr double kNever = -1e6;      // log odds of a place that another lane has
-constexpr double kMinAdvance = 0.3;  // share of the step; less is the inside of a bend that is too tight
-constexpr double kSpared = 0.75;     // share of a lane's width up to where there must be no other lane
+constexpr double kLeastDoubted = -2.0;  // with less, a place has no lane, whatever the last map had
+constexpr double kNever = -1e6;         // log odds of a place that another lane has
+constexpr double kMinAdvance = 0.3;     // share of the step; less is the inside of a bend that is too tight
+constexpr double kSpared = 0.75;        // share of a lane's width up to where there must be no other lane
 
 /// Takes hypotheses, the surest first, as far as nothing that was taken lies there.
 class Choice {
@@ -41,7 +42,12 @@ class Choice {
     for (std::size_t i = 0; i < waiting_.size(); ++i) take(waiting_[i].hypothesis);
   }
 
-  FoundLanes result() && { return {road_.boundaries, std::move(lanes_), std::move(inferred_)}; }
+  FoundLanes result() && {
+    return {.boundaries = road_.boundaries,
+            .lanes = std::move(lanes_),
+            .inferred = std::move(inferred_),
+            .denied = std::move(denied_)};
+  }
 
  private:
   struct Waiting {
@@ -50,11 +56,30 @@ class Choice {
   };
 
   void consider(Hypothesis hypothesis) {
-    if (known_.contains({left(hypothesis).marking.id, right(hypothesis).marking.id}))
+    const ElementId left_id = left(hypothesis).marking.id, right_id = right(hypothesis).marking.id;
+    if (hypothesis.room == Room::between &&
+        (known_.contains({left_id, right_id}) || known_.contains({right_id, left_id})))
+      deny(hypothesis);
+    if (known_.contains({left_id, right_id}))
       for (double& log_odds : hypothesis.log_odds) log_odds += kKnown;
     double best = 0.0;
     for (const Run& run : best_runs(hypothesis.log_odds)) best = std::max(best, run.log_odds);
     if (best > 0.0) waiting_.push_back({std::move(hypothesis), best});
+  }
+
+  /// Notes where a known lane is denied.
+  void deny(const Hypothesis& one) {
+    Polyline middle;
+    for (std::size_t i = 0; i <= one.log_odds.size(); ++i) {
+      if (i < one.log_odds.size() && one.log_odds[i] < kLeastDoubted) {
+        const RoadCut& cut = cut_of(one, i);
+        middle.push_back(0.5 * (cut.self().point + cut.marks[one.marks[i]].point));
+      } else {
+        if (middle.size() > 1)
+          denied_.push_back({{left(one).marking.id, right(one).marking.id}, std::move(middle)});
+        middle.clear();
+      }
+    }
   }
 
   void take(const Hypothesis& one) {
@@ -218,6 +243,7 @@ class Choice {
   TakenSpace taken_;
   std::vector<Lane> lanes_;
   std::vector<InferredBoundary> inferred_;
+  std::vector<DeniedStretch> denied_;
 };
 
 }  // namespace

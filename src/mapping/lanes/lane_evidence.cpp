@@ -11,6 +11,7 @@ namespace {
 constexpr double kMost = 5.0;           // of a lane between seen borders
 constexpr double kMostInferred = 2.5;   // of another one
 constexpr double kMissed = 0.1;         // of a frame that does not find the lane
+constexpr double kDenied = 0.25;        // of a frame that shows the borders, and says that no lane lies there
 constexpr double kTaken = 0.8;          // of a frame that finds another lane in its place
 constexpr double kParting = 0.5;        // of a frame in which one lane ends and another one begins
 constexpr double kCorrection_m = 20.0;  // over which a correction of what was found reaches what was not
@@ -101,7 +102,7 @@ void observe(const std::vector<Strip>& strips, const std::vector<Match>& matches
     LaneStation& station = track.stations[i];
     if (!matches[i].strip) {
       station.found = false;
-      station.log_odds -= matches[i].is_taken ? kTaken : kMissed;
+      station.log_odds -= matches[i].is_taken ? kTaken : matches[i].is_denied ? kDenied : kMissed;
       continue;
     }
     const Strip& strip = strips[*matches[i].strip];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <vector>
@@ -28,11 +29,18 @@ inline std::size_t forks_before(const LaneSide& side, const std::vector<Fork>& f
       forks, [&](const Fork& fork) { return fork.branch == side.of && fork.arc_m < middle_m; }));
 }
 
+/// A stretch between two boundaries, both of which a frame shows, where it says that no lane lies.
+struct DeniedStretch {
+  std::array<ElementId, 2> borders{kNoElement, kNoElement};  ///< by side
+  Polyline middle;                                           ///< map frame
+};
+
 /// The lanes of a map with the boundaries that they name.
 struct LaneLayout {
   boundaries::Boundaries boundaries;
   std::vector<Lane> lanes;
   std::vector<Fork> forks{};  ///< between lanes beside detected boundaries
+  std::vector<DeniedStretch> denied{};
 
   /// The lane of an id. Null: there is none.
   const Lane* find(ElementId id) const {

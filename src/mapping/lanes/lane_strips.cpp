@@ -71,6 +71,15 @@ class Matching {
     }
   }
 
+  void deny(const DeniedStretch& stretch) {
+    const MeasuredPolyline middle(stretch.middle);
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+      if (!between(stations_[i], stretch.borders)) continue;
+      const Projection foot = middle.project(centers_[i], kSameLane_m);
+      if (foot.inside && foot.distance_m < kSameLane_m) matches_[i].is_denied = true;
+    }
+  }
+
   /// The places. A strip that shows only a few stations in a row is left out: of two strips that overlap, it
   /// is nearer by chance. What lies between stations that one strip shows is shown by it as well.
   std::vector<Match> take() {
@@ -97,9 +106,11 @@ class Matching {
       matches_[i] = {before.strip, before.arc_m + share * (behind.arc_m - before.arc_m), before.reversed};
     }
   }
+  static bool between(const LaneStation& station, const std::array<ElementId, 2>& borders) {
+    return borders == station.boundary || std::array{borders[1], borders[0]} == station.boundary;
+  }
   static bool has_borders_of(const LaneStation& station, const Strip& strip) {
-    const std::array of{strip.boundary(Side::left), strip.boundary(Side::right)};
-    return of == station.boundary || std::array{of[1], of[0]} == station.boundary;
+    return between(station, {strip.boundary(Side::left), strip.boundary(Side::right)});
   }
 
   const std::vector<LaneStation>& stations_;
@@ -140,8 +151,10 @@ LaneStation Strip::at(double at_m) const {
   return between(stations[i - 1], stations[i], (at_m - arc_m[i - 1]) / (arc_m[i] - arc_m[i - 1]));
 }
 
-std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips) {
+std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips,
+                         const std::vector<DeniedStretch>& denied) {
   Matching matching(track);
+  for (const DeniedStretch& stretch : denied) matching.deny(stretch);
   for (std::size_t s = 0; s < strips.size(); ++s) matching.consider(strips[s], s);
   return matching.take();
 }

@@ -36,9 +36,11 @@ struct Match {
   double arc_m = 0.0;                ///< on the center of the strip
   bool reversed = false;             ///< the strip runs against the track
   bool is_taken = false;             ///< a strip that is another lane lies there
+  bool is_denied = false;            ///< the frame shows the borders, and says that no lane lies there
 };
 
 /// Per station of a track, its place in the strips of a frame.
-std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips);
+std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips,
+                         const std::vector<DeniedStretch>& denied);
 
 }  // namespace laneloom::lanes

@@ -132,7 +132,7 @@ LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, co
   std::vector<std::vector<Match>> matches;
   matches.reserve(tracks_.size());
   for (LaneTrack& track : tracks_) {
-    matches.push_back(match(track, strips));
+    matches.push_back(match(track, strips, found.denied));
     observe(strips, matches.back(), config, track);
   }
   grow(strips, matches, config, ids, tracks_);

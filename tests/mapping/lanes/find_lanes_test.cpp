@@ -84,6 +84,23 @@ TEST(FindLanes, ShouldersAreNone) {
               testing::Contains(DoubleNear(2.6, 1e-6)));
 }
 
+TEST(FindLanes, AKnownLaneIsDeniedWhereItsBordersTellOfNone) {
+  const auto denied = [](const KnownBorders& known) {
+    const Eigen::Isometry3d vehicle = test::at(10, kNowhere_m);
+    return find_lanes(road_sections(road({edge(2.3), solid(3.5), dashed(3.4), solid(0)}), test::at(0), {}),
+                      test::scene(1).box, {&vehicle, 1}, known, {})
+        .denied;
+  };
+  EXPECT_THAT(denied({}), IsEmpty()) << "a shoulder that never was a lane";
+  EXPECT_THAT(denied({{2, 3}}), IsEmpty()) << "a lane";
+  for (const KnownBorders& shoulder : {KnownBorders{{1, 2}}, KnownBorders{{2, 1}}}) {
+    const auto found = denied(shoulder);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(length(found.front().middle), 30.0, 1e-6);
+    EXPECT_NEAR(found.front().middle.front().y(), kLeft_m - 1.15, 1e-6);
+  }
+}
+
 TEST(FindLanes, AMedianIsNone) {
   EXPECT_THAT(widths({dashed(3.5), solid(1.5), solid(3.5), dashed(0)}), are({3.5, 3.5}));
 }

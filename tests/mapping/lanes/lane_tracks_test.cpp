@@ -42,8 +42,10 @@ class Tracks : public ::testing::Test {
     return lane;
   }
 
-  std::vector<Lane> frame(const std::vector<Found>& found, std::vector<Fork> forks = {}) {
-    LaneLayout layout{.boundaries = boundaries_, .lanes = {}, .forks = std::move(forks)};
+  std::vector<Lane> frame(const std::vector<Found>& found, std::vector<Fork> forks = {},
+                          std::vector<DeniedStretch> denied = {}) {
+    LaneLayout layout{
+        .boundaries = boundaries_, .lanes = {}, .forks = std::move(forks), .denied = std::move(denied)};
     for (const Found& one : found) layout.lanes.push_back(lane(one));
     lanes_ = tracks_.update(std::move(layout), test::scene(++frame_), {}, ids_).lanes;
     renamed_ = tracks_.publish(lanes_, ids_);
@@ -103,6 +105,22 @@ TEST_F(Tracks, HideALaneThatIsNotFoundForLong) {
   EXPECT_THAT(tracks_.all(), testing::SizeIs(1)) << "it is known for a little longer";
   for (int i = 0; i < 20; ++i) frame({});
   EXPECT_THAT(tracks_.all(), IsEmpty());
+}
+
+TEST_F(Tracks, HideALaneSoonerThatFramesDeny) {
+  const auto frames_until_hidden = [&](const std::vector<DeniedStretch>& denied) {
+    tracks_ = {};
+    for (int i = 0; i < 20; ++i) frame({{0, 30}});
+    int frames = 0;
+    while (frames < 100 && !frame({}, {}, denied).empty()) ++frames;
+    return frames;
+  };
+  const Polyline middle = test::straight({-10, 0.2, 0}, {40, 0.2, 0}, 51);
+  EXPECT_GT(frames_until_hidden({}), 40) << "it is not seen";
+  EXPECT_LT(frames_until_hidden({{{1, 2}, middle}}), 25);
+  EXPECT_LT(frames_until_hidden({{{2, 1}, middle}}), 25) << "seen the other way round";
+  EXPECT_GT(frames_until_hidden({{{1, 3}, middle}}), 40) << "between other lines";
+  EXPECT_GT(frames_until_hidden({{{1, 2}, test::straight({-10, 3, 0}, {40, 3, 0}, 51)}}), 40) << "elsewhere";
 }
 
 TEST_F(Tracks, AHiddenLaneComesBackByItsId) {
