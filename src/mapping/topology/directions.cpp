@@ -24,13 +24,12 @@ constexpr double kMemory = 0.98;  // factor per frame beside the lane, where the
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
-constexpr double kTrailEvidence = 2.0;     // of the first trail; the n-th one counts 1/n² of it
-constexpr double kMaxTrailEvidence = 4.0;
-constexpr double kWrongSide = -6.0;  // for traffic that keeps to the wrong side
-constexpr double kKnown = 1.5;       // from here on, a direction is published
-constexpr double kNews = 0.05;       // share of a frame in the belief in a direction
-constexpr double kGrowth = 0.3;      // likewise, where the frame says more than the belief
-constexpr double kDoubted = 0.5;     // below, a direction is published no longer
+constexpr double kTrailEvidence = 1.5;     // of the first trail; the n-th one counts 1/n² of it
+constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
+constexpr double kKnown = 1.5;             // from here on, a direction is published
+constexpr double kNews = 0.05;             // share of a frame in the belief in a direction
+constexpr double kGrowth = 0.3;            // likewise, where the frame says more than the belief
+constexpr double kDoubted = 0.5;           // below, a direction is published no longer
 
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
 
@@ -166,7 +165,6 @@ std::vector<double> traffic_evidence(const std::vector<DrivenStretch>& driven,
     const int number = ++trails[of.second][length_m > 0.0 ? 0 : 1];
     evidence[of.second] += std::copysign(kTrailEvidence / (number * number), length_m);
   }
-  for (double& one : evidence) one = std::clamp(one, -kMaxTrailEvidence, kMaxTrailEvidence);
   return evidence;
 }
 

@@ -168,11 +168,14 @@ TEST_F(Directions, FurtherTrailsTellLess) {
   }
 }
 
-TEST_F(Directions, ATrailOutweighsTheEdgeOfTheRoad) {
+TEST_F(Directions, TwoTrailsOutweighTheEdgeOfTheRoad) {
   divider(MarkingStyle::dashed);  // both lanes run alike
   find();
   EXPECT_FALSE(known(11));
-  driven_ = {{.trail = 0, .lane = 0, .along_m = -20.0}, {.trail = 1, .lane = 1, .along_m = -20.0}};
+  driven_ = {{.trail = 0, .lane = 0, .along_m = -20.0},
+             {.trail = 1, .lane = 0, .along_m = -20.0},
+             {.trail = 2, .lane = 1, .along_m = -20.0},
+             {.trail = 3, .lane = 1, .along_m = -20.0}};
   find();
   EXPECT_TRUE(known(11) && known(12));
   EXPECT_FALSE(runs_forward(11) || runs_forward(12));
