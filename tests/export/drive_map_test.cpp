@@ -66,7 +66,7 @@ struct DrivenOnce {
   explicit DrivenOnce(const test::MappedDrive& drive)
       : local(*drive.road, drive.config.range, evaluation::Subject::maps),
         exported(*drive.road, drive.config.range, evaluation::Subject::maps) {
-    LocalMap whole = weave(test::accumulated(drive), drive.config);
+    LocalMap whole = weave(test::surveyed(drive), drive.config);
     for (std::size_t i = kFirst; i < drive.maps.size(); i += kStep) {
       local.add(drive.maps[i]);
       whole.stamp_ns = drive.maps[i].stamp_ns;

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "experiment/drive_simulation.hpp"
-#include "export/accumulate.hpp"
+#include "export/drive_lines.hpp"
+#include "export/survey.hpp"
 #include "laneloom/mapper.hpp"
 #include "simulation/noise_profile.hpp"
 #include "simulation/scenarios.hpp"
@@ -30,10 +31,16 @@ inline MappedDrive map_drive(const std::string& scenario, const std::string& noi
   return drive;
 }
 
-inline exports::DriveAccumulator::Drive accumulated(const MappedDrive& drive) {
-  exports::DriveAccumulator accumulator(drive.config.range);
-  for (const LocalMap& map : drive.maps) accumulator.add(map);
+inline exports::DriveLines lines_of(const std::vector<LocalMap>& maps, const RangeConfig& range) {
+  exports::DriveAccumulator accumulator(range);
+  for (const LocalMap& map : maps) accumulator.add(map);
   return accumulator.finish();
+}
+
+inline exports::SurveyedRoad surveyed(const MappedDrive& drive) {
+  exports::Survey survey;
+  survey.add(lines_of(drive.maps, drive.config.range));
+  return survey.road();
 }
 
 }  // namespace laneloom::test

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "laneloom/polyline.hpp"
 #include "simulation/lanelet2.hpp"
@@ -135,6 +136,49 @@ TEST_F(ExportCommand, GeoJsonNeedsAnOrigin) {
       << output();
   std::ifstream in(file("map.json"));
   EXPECT_FALSE(nlohmann::json::parse(in).at("features").empty());
+}
+
+/// Moves the poses of a file of frames.
+void move_poses(const std::string& path, double by_m) {
+  std::istringstream lines(content(path));
+  std::ofstream out(path);
+  for (std::string line; std::getline(lines, line);) {
+    nlohmann::json frame = nlohmann::json::parse(line);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      frame["pose"][axis] = frame["pose"][axis].get<double>() + by_m;
+    out << frame.dump() << '\n';
+  }
+}
+
+TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {
+  simulate("intersection");
+  std::vector<std::string> command{"export", file("drive.frames.jsonl")};
+  ASSERT_EQ(run({"export", file("drive.frames.jsonl"), "--lanelet2", file("one.osm")}), 0) << output();
+  for (const std::string seed : {"2", "3"}) {
+    const std::string frames = file(seed + ".frames.jsonl");
+    ASSERT_EQ(run({"simulate", "--scenario", "intersection", "--seed", seed, "--frames", frames, "--duration",
+                   "20"}),
+              0);
+    move_poses(frames, 1.0);
+    command.push_back(frames);
+  }
+  std::ofstream(file("broken.jsonl")) << "nothing\n";
+  command.insert(command.end(),
+                 {file("broken.jsonl"), "--lanelet2", file("all.osm"), "--report", file("report.json")});
+  ASSERT_EQ(run(command), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("broken.jsonl"));
+  EXPECT_THAT(output(), HasSubstr("left out"));
+  const nlohmann::json report = nlohmann::json::parse(content(file("report.json")));
+  ASSERT_EQ(report.at("drives").size(), 3u);
+  for (const std::size_t drive : {1U, 2U}) {
+    EXPECT_NEAR(report["drives"][drive].at("mean_m").get<double>(), 1.41, 0.3);
+    EXPECT_GT(report["drives"][drive].at("met_share").get<double>(), 0.8);
+  }
+  const std::size_t of_one = simulation::load_lanelet2(file("one.osm")).lanes.size();
+  EXPECT_LT(simulation::load_lanelet2(file("all.osm")).lanes.size(), of_one + of_one / 2)
+      << "nothing is there twice";
+  command.emplace_back("--strict");
+  EXPECT_EQ(run(command), 1);
 }
 
 TEST_F(ExportCommand, WrongUseAndInputAreNamed) {

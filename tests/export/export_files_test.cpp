@@ -27,7 +27,7 @@ class ExportFiles : public testing::Test {
  protected:
   ExportFiles() {
     const test::MappedDrive drive = test::map_drive("intersection", "none");
-    map_ = weave(test::accumulated(drive), drive.config);
+    map_ = weave(test::surveyed(drive), drive.config);
     network_ = weld(map_);
   }
   std::string file(const std::string& name) const { return folder_.file(name); }

@@ -24,8 +24,8 @@ Polyline along_x(double from_x, double to_x, Course&& y) {
 }
 
 /// A drive along the x axis, from 0 to 60 m, at y = `beside_m`.
-DriveAccumulator::Drive drive(double beside_m, std::vector<Marking> markings) {
-  DriveAccumulator::Drive result{.markings = std::move(markings), .poses = {}};
+SurveyedRoad drive(double beside_m, std::vector<Marking> markings) {
+  SurveyedRoad result{.markings = std::move(markings), .poses = {}};
   for (double x = 0.0; x <= 60.0; x += 2.0) result.poses.emplace_back(Eigen::Translation3d(x, beside_m, 0.0));
   return result;
 }

@@ -100,7 +100,7 @@ class Welded : public testing::TestWithParam<std::string> {};
 
 TEST_P(Welded, TheTopologyIsInTheNodesAndWays) {
   const test::MappedDrive drive = test::map_drive(GetParam(), "inhouse");
-  const LocalMap map = weave(test::accumulated(drive), drive.config);
+  const LocalMap map = weave(test::surveyed(drive), drive.config);
   ASSERT_FALSE(map.lanes.empty());
   const RoadNetwork network = weld(map);
   expect_sound(network);

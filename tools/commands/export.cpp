@@ -2,113 +2,38 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <variant>
+#include <vector>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "commands/read_drive.hpp"
 #include "commands/read_input.hpp"
-#include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
-#include "export/accumulate.hpp"
 #include "export/geojson_file.hpp"
 #include "export/lanelet2_file.hpp"
 #include "export/opendrive_file.hpp"
+#include "export/survey.hpp"
 #include "export/weave.hpp"
 #include "export/weld.hpp"
-#include "recording/damage.hpp"
-#include "recording/recording.hpp"
-#include "replay/replay.hpp"
-#include "support/progress_bar.hpp"
+#include "io/text_file.hpp"
+#include "laneloom/element_names.hpp"
+#include "laneloom/polyline.hpp"
 
 namespace laneloom::commands {
 namespace {
 
 struct ExportOptions {
-  std::string in, config, preset, lanelet2, opendrive, geojson;
+  std::vector<std::string> in;
+  std::string config, preset, lanelet2, opendrive, geojson, report;
   std::optional<exports::Origin> origin;
   bool plain = false, no_extras = false, strict = false;
 };
-
-/// Joins published maps to one drive.
-class DriveReader {
- public:
-  explicit DriveReader(const RangeConfig& range) : accumulator_(range) {}
-
-  void take(const PublishedMap& published) {
-    if (published.map.stamp_ns == 0 || published.map.stamp_ns < stamp_ns_) return;
-    if (maps_ > 0 && published.map_id != map_id_) accumulator_.begin_anew();
-    map_id_ = published.map_id;
-    stamp_ns_ = published.map.stamp_ns;
-    accumulator_.add(published.map);
-    ++maps_;
-  }
-  std::size_t maps() const { return maps_; }
-  exports::DriveAccumulator::Drive finish() { return accumulator_.finish(); }
-
- private:
-  exports::DriveAccumulator accumulator_;
-  std::size_t maps_ = 0;
-  std::uint64_t map_id_ = 0;
-  std::int64_t stamp_ns_ = 0;
-};
-
-/// Whether the first line of JSON lines is a map.
-bool holds_json_maps(const std::string& path) {
-  std::ifstream in(path);
-  std::string line;
-  while (line.empty() && std::getline(in, line)) {
-  }
-  const auto json = nlohmann::json::parse(line, nullptr, false);
-  return json.is_object() && json.contains("instances");
-}
-
-void take_json_maps(const std::string& path, bool strict, DriveReader& taker) {
-  for_each_map(path, strict, [&](const LocalMap& map) {
-    PublishedMap published;
-    published.map = map;
-    taker.take(published);
-  });
-}
-
-void take_recorded_maps(const std::string& path, bool strict, DriveReader& taker) {
-  recording::RecordingReader reader(path);
-  LeftOut left_out(strict);
-  support::ProgressBar bar;
-  while (const auto recorded = recording::next_or_leave_out(left_out, [&] { return reader.next(); })) {
-    bar.step(reader.progress());
-    if (const auto* published = std::get_if<PublishedMap>(&recorded->message)) taker.take(*published);
-  }
-  bar.clear();
-  if (taker.maps() == 0) return;
-  warn_of(path, reader.refused(), reader.cut_off());
-  warn_of(path, left_out);
-}
-
-void map_frames(const std::string& path, const Config& config, bool strict, DriveReader& taker) {
-  replay::Replay replay(config,
-                        [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { taker.take(map); });
-  replay_input(path, config, strict, replay);
-}
-
-exports::DriveAccumulator::Drive read_drive(const ExportOptions& options, const Config& config) {
-  DriveReader taker(config.mapper.range);
-  const bool recorded = recording::is_recording(options.in);
-  if (recorded) take_recorded_maps(options.in, options.strict, taker);
-  if (!recorded && holds_json_maps(options.in)) take_json_maps(options.in, options.strict, taker);
-  const bool has_maps = taker.maps() > 0;
-  if (!has_maps) map_frames(options.in, config, options.strict, taker);
-  if (taker.maps() == 0)
-    throw std::runtime_error(options.in + ": has no maps, and no detections with poses to make them of");
-  fmt::print("{} maps {}\n", taker.maps(), has_maps ? "read" : "made of the detections");
-  return taker.finish();
-}
 
 exports::Origin origin(const std::string& text) {
   const std::size_t comma = text.find(',');
@@ -124,17 +49,85 @@ exports::Origin origin(const std::string& text) {
 
 void check_files(const ExportOptions& options) {
   std::set<std::string> written;
-  for (const std::string& out : {options.lanelet2, options.opendrive, options.geojson}) {
-    refuse_same_file(out, options.in);
+  for (const std::string& out : {options.lanelet2, options.opendrive, options.geojson, options.report}) {
+    for (const std::string& in : options.in) refuse_same_file(out, in);
     if (!out.empty() && !written.insert(out).second) throw std::runtime_error(out + ": is given twice");
   }
 }
 
-void export_drive(const ExportOptions& options) {
+/// A road of the drives that could be read, and what is told of them.
+struct Surveyed {
+  exports::Survey survey;
+  std::vector<std::string> files;
+  nlohmann::json drives = nlohmann::json::array();
+
+  void add(const std::string& file, exports::DriveLines lines) {
+    const exports::Survey::Offset offset = survey.add(std::move(lines));
+    if (!files.empty())
+      fmt::print(
+          "{}: moved by {:.2f} m (at most {:.2f} m and {:.2f} deg); {:.0f} % of its lines are on the road so "
+          "far\n",
+          file, offset.mean_m, offset.greatest_m, offset.greatest_deg, 100.0 * offset.met_share);
+    files.push_back(file);
+    drives.push_back({{"file", file},
+                      {"mean_m", offset.mean_m},
+                      {"greatest_m", offset.greatest_m},
+                      {"greatest_deg", offset.greatest_deg},
+                      {"met_share", offset.met_share}});
+  }
+};
+
+Surveyed survey(const ExportOptions& options, const Config& config) {
+  Surveyed surveyed;
+  for (const std::string& file : options.in) {
+    try {
+      surveyed.add(file, read_drive(file, config, options.strict));
+    } catch (const std::runtime_error& error) {
+      if (options.strict || options.in.size() == 1) throw;
+      fmt::print(stderr, "laneloom: {}; the drive is left out\n", error.what());
+    }
+  }
+  if (surveyed.files.empty()) throw std::runtime_error("none of the drives could be read");
+  return surveyed;
+}
+
+constexpr std::size_t kMostTold = 10;
+
+void tell(const std::vector<exports::Change>& changes, const Surveyed& surveyed) {
+  for (std::size_t i = 0; i < std::min(changes.size(), kMostTold); ++i) {
+    const exports::Change& change = changes[i];
+    const Point& at = change.points[change.points.size() / 2];
+    fmt::print("{}: a {} of {:.0f} m at ({:.1f}, {:.1f}), {} seen by {}\n", change.gone ? "gone" : "new",
+               name(change.type), length(change.points), at.x(), at.y(), change.gone ? "last" : "first",
+               surveyed.files[change.drive]);
+  }
+  if (changes.size() > kMostTold)
+    fmt::print("{} more changes; --report has them\n", changes.size() - kMostTold);
+}
+
+void write_report(const std::string& path, const std::vector<exports::Change>& changes,
+                  const Surveyed& surveyed) {
+  nlohmann::json report{{"drives", surveyed.drives}, {"changes", nlohmann::json::array()}};
+  for (const exports::Change& change : changes) {
+    nlohmann::json points = nlohmann::json::array();
+    for (const Point& point : change.points) points.push_back({point.x(), point.y(), point.z()});
+    report["changes"].push_back({{"gone", change.gone},
+                                 {"type", name(change.type)},
+                                 {"seen_by", surveyed.files[change.drive]},
+                                 {"points", std::move(points)}});
+  }
+  io::write_text(path, report.dump(2) + "\n");
+}
+
+void export_drives(const ExportOptions& options) {
   check_files(options);
   const Config config = config::resolve_config(options.config, options.preset);
-  const LocalMap map = weave(read_drive(options, config), config.mapper);
-  if (map.lanes.empty()) throw std::runtime_error(options.in + ": has no lanes to export");
+  const Surveyed surveyed = survey(options, config);
+  const LocalMap map = weave(surveyed.survey.road(), config.mapper);
+  if (map.lanes.empty()) throw std::runtime_error(surveyed.files.front() + ": has no lanes to export");
+  const std::vector<exports::Change> changes = surveyed.survey.changes();
+  tell(changes, surveyed);
+  if (!options.report.empty()) write_report(options.report, changes, surveyed);
   exports::RoadNetwork network = exports::weld(map);
   if (options.plain) network.stops.clear();  // their ways stay
   if (!options.lanelet2.empty())
@@ -153,11 +146,12 @@ void export_drive(const ExportOptions& options) {
 }  // namespace
 
 void add_export(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("export", "Makes one map of a drive, for other programs");
+  CLI::App* command = app.add_subcommand("export", "Makes one map of drives, for other programs");
   const auto options = std::make_shared<ExportOptions>();
   command
-      ->add_option("--in,drive", options->in,
-                   "Maps (.mcap or .jsonl), or detections and poses to map (.mcap or .frames.jsonl)")
+      ->add_option("--in,drives", options->in,
+                   "Maps (.mcap or .jsonl), or detections and poses to map (.mcap or .frames.jsonl). Several "
+                   "are made one, in the order given")
       ->required();
   command->add_option("--config", options->config, "Configuration that the maps are made with (.yaml)");
   command->add_option("--preset", options->preset, "Range and alpha_n of a data set of the paper")
@@ -169,6 +163,8 @@ void add_export(CLI::App& app) {
   CLI::Option* geojson =
       add_text_output(*outputs, "--geojson", options->geojson, "GeoJSON (RFC 7946) to write; needs --origin");
   outputs->require_option(1, 3);
+  add_text_output(*command, "--report", options->report,
+                  "How each drive was moved, and what changed between drives (.json)");
   command
       ->add_flag(
           "--plain", options->plain,
@@ -185,7 +181,7 @@ void add_export(CLI::App& app) {
       "Place of the map frame's origin in degrees (WGS84); x points east, y north");
   place->type_name("LAT,LON");
   geojson->needs(place);
-  command->callback([options] { export_drive(*options); });
+  command->callback([options] { export_drives(*options); });
 }
 
 }  // namespace laneloom::commands

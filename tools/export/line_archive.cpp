@@ -4,35 +4,21 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "mapping/geometry/levels.hpp"
 
 namespace laneloom::exports {
 namespace {
 
-constexpr double kVertexStep_m = 1.0;  // between vertices
-constexpr double kMinAlong = 0.9;      // cosine between a piece and the line that it lies along
-constexpr double kAtEnd_m = 1.5;       // a match that is nearer to the line's end leads beyond it
-constexpr double kMinLength_m = 2.0;
-constexpr double kShadow = 0.8;       // share of a shadow that lies along another line
-constexpr double kRepeated_m = 0.05;  // vertices that are nearer are one
+constexpr double kMinAlong = 0.9;  // cosine between a piece and the line that it lies along
+constexpr double kAtEnd_m = 1.5;   // a match that is nearer to the line's end leads beyond it
 constexpr std::uint64_t kMinObservations = 15;
 constexpr double kMinExistence = 0.7;
-constexpr double kUnknownStddev_m = 0.3;
-constexpr double kMinShare = 0.5;  // share of the votes that a style needs
-
-Eigen::AlignedBox2d box_of(const Polyline& points, double margin_m) {
-  Eigen::AlignedBox2d box;
-  for (const Point& point : points) box.extend(point.head<2>());
-  return {box.min().array() - margin_m, box.max().array() + margin_m};
-}
-
-MarkingStyle style_at(const Marking& marking, double arc_m) {
-  const auto after =
-      std::ranges::find_if(marking.styles, [&](const StyleRange& part) { return arc_m < part.range.to_m; });
-  if (after != marking.styles.end()) return after->style;
-  return marking.styles.empty() ? MarkingStyle::unknown : marking.styles.back().style;
-}
+constexpr double kNearEnd_m = 2.0;     // vertices this near to a line's end continue it only if they lead on
+constexpr double kLeast_m = 0.3;       // that they lead on
+constexpr double kMinChange_m = 10.0;  // length of a stretch that is gone or new
+constexpr int kMinDrives = 3;          // that agree, before the others say otherwise
 
 /// Whether a marking was seen as seldom, or is believed in as little, as lines that are not there sometimes
 /// are.
@@ -42,119 +28,111 @@ bool is_doubtful(const Marking& marking) {
          marking.observations < kMinObservations;
 }
 
-}  // namespace
+bool is_gone(const Votes& votes) { return votes.belief <= -Votes::kSeen && votes.seen >= kMinDrives; }
+bool is_new(const Votes& votes) { return votes.belief >= Votes::kSeen && votes.against >= kMinDrives; }
 
-LineArchive::Vertices LineArchive::vertices_of(const ArchivedPiece& archived) {
-  const Marking& piece = archived.marking;
-  const MeasuredPolyline line(piece.points);
-  const std::vector<double> arcs_m = arc_lengths(piece.points);
-  const Polyline points = line.resample(kVertexStep_m);
-  Vertices vertices;
-  vertices.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double arc_m = line.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
-    Vertex& vertex = vertices.emplace_back();
-    vertex.source = {archived.pass, piece.id};
-    vertex.position = points[i];
-    vertex.stddev_m = piece.lateral_stddev_m.empty()
-                          ? kUnknownStddev_m
-                          : std::max(0.01, markings::deviation_at(arcs_m, piece.lateral_stddev_m, arc_m));
-    vertex.weight = 1.0 / (vertex.stddev_m * vertex.stddev_m);
-    vertex.existence = piece.existence_probability;
-    vertex.as_double = archived.beside.empty() ? -1 : 1;
-    vertex.confirmed = piece.status == ElementStatus::confirmed;
-    vertex.styles[index(style_at(piece, arc_m))] = vertex.weight;
+/// Appends the stretches of a line for which `is_changed` holds.
+template <class IsChanged>
+void append_changes(const ArchivedLine& line, bool gone, IsChanged is_changed, std::vector<Change>& changes) {
+  Change run{.gone = gone, .type = line.type, .points = {}};
+  const auto end_run = [&] {
+    if (length(run.points) >= kMinChange_m) changes.push_back(run);
+    run.points.clear();
+  };
+  for (const ArchivedVertex& vertex : line.vertices) {
+    if (!is_changed(vertex)) {
+      end_run();
+      continue;
+    }
+    if (run.points.empty()) run.drive = vertex.votes.first_drive;
+    run.drive =
+        gone ? std::max(run.drive, vertex.votes.last_drive) : std::min(run.drive, vertex.votes.first_drive);
+    run.points.push_back(vertex.position);
   }
-  return vertices;
+  end_run();
 }
 
-void LineArchive::measure(Line& line) {
-  const auto repeats = [](const Vertex& a, const Vertex& b) {
-    return (a.position - b.position).head<2>().norm() < kRepeated_m;
-  };
-  line.vertices.erase(std::unique(line.vertices.begin(), line.vertices.end(), repeats), line.vertices.end());
-  Polyline points;
-  points.reserve(line.vertices.size());
-  for (const Vertex& vertex : line.vertices) points.push_back(vertex.position);
-  line.course = MeasuredPolyline(points);
-  line.box = box_of(points, kSameLine_m);
+}  // namespace
+
+void LineArchive::measure(std::size_t k) {
+  lines_[k].measure();
+  for (const ArchivedVertex& vertex : lines_[k].vertices) tiles_.add(k, vertex.position);
 }
 
 std::vector<LineArchive::Match> LineArchive::match(const ArchivedPiece& piece,
                                                    const Vertices& vertices) const {
   std::vector<Match> matches(vertices.size(), Match{.line = kNoLine});
-  std::vector<double> nearest_m(vertices.size(), kSameLine_m);
-  const auto is_another = [&](const Source& source) {
+  const auto is_another = [&](const ArchivedVertex::Source& source) {
     return source.first == piece.pass && std::ranges::find(piece.beside, source.second) != piece.beside.end();
   };
-  for (std::size_t k = 0; k < lines_.size(); ++k) {
-    const Line& line = lines_[k];
-    if (line.type != piece.marking.type) continue;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Point& point = vertices[i].position;
-      if (!line.box.contains(point.head<2>())) continue;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Point& point = vertices[i].position;
+    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, vertices.size() - 1);
+    const Eigen::Vector2d along = (vertices[after].position - vertices[before].position).head<2>();
+    double nearest_m = kSameLine_m;
+    for (const std::size_t k : tiles_.near(point)) {
+      const ArchivedLine& line = lines_[k];
+      if (line.type != piece.marking.type || !line.box.contains(point.head<2>())) continue;
       const Projection foot = line.course.project(point, kSameLine_m);
       if (!foot.inside || foot.distance_m >= kSameLine_m || !geometry::same_level(foot.foot, point)) continue;
-      const Source& source = line.vertices[foot.segment].source;
+      const ArchivedVertex::Source& source = line.vertices[foot.segment].source;
       const double distance_m = source == vertices[i].source ? 0.0 : foot.distance_m;
-      if (distance_m >= nearest_m[i] || is_another(source)) continue;
-      const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, vertices.size() - 1);
-      const Eigen::Vector2d along = (vertices[after].position - vertices[before].position).head<2>();
+      if (distance_m >= nearest_m || is_another(source)) continue;
       if (std::abs(line.course.direction(foot).dot(along)) < kMinAlong * along.norm()) continue;
-      nearest_m[i] = distance_m;
+      nearest_m = distance_m;
       matches[i] = {k, foot.arc_m};
     }
   }
   return matches;
 }
 
-void LineArchive::fuse(const Vertices& piece, Line& line) {
+void LineArchive::fuse(const Vertices& piece, std::size_t k) {
   Polyline points;
-  for (const Vertex& vertex : piece) points.push_back(vertex.position);
+  for (const ArchivedVertex& vertex : piece) points.push_back(vertex.position);
   const MeasuredPolyline course(points);
-  const Eigen::AlignedBox2d box = box_of(points, kSameLine_m);
-  for (Vertex& vertex : line.vertices) {
-    if (!box.contains(vertex.position.head<2>())) continue;
+  for (ArchivedVertex& vertex : lines_[k].vertices) {
     const Projection foot = course.project(vertex.position, kSameLine_m);
     if (!foot.inside || foot.distance_m >= kSameLine_m || !geometry::same_level(foot.foot, vertex.position))
       continue;
-    const Vertex& seen = piece[std::min(foot.segment, piece.size() - 1)];
+    const ArchivedVertex& seen = piece[std::min(foot.segment, piece.size() - 1)];
     vertex.position += seen.weight / (seen.weight + vertex.weight) * (foot.foot - vertex.position);
     vertex.source = seen.source;
-    vertex.as_double += seen.as_double;
+    vertex.maps += seen.maps;
+    vertex.beside += seen.beside;
     vertex.weight += seen.weight;
     vertex.stddev_m = std::min(vertex.stddev_m, seen.stddev_m);
     vertex.existence = std::max(vertex.existence, seen.existence);
     vertex.confirmed = vertex.confirmed || seen.confirmed;
     for (std::size_t style = 0; style < kMarkingStyleCount; ++style)
       vertex.styles[style] += seen.styles[style];
+    vertex.votes.see(drive_);
   }
-  measure(line);
+  measure(k);
 }
 
 bool LineArchive::extend(const Match& beside, const Vertices& beyond) {
-  Line& line = lines_[beside.line];
+  ArchivedLine& line = lines_[beside.line];
   const bool at_back = line.course.length() - beside.arc_m <= kAtEnd_m;
   if (!at_back && beside.arc_m > kAtEnd_m) return false;
   const Point& end = at_back ? line.vertices.back().position : line.vertices.front().position;
   const Eigen::Vector2d leaving = end_direction(line.course.points(), at_back ? End::back : End::front);
   Vertices added = beyond;
-  std::erase_if(added, [&](const Vertex& vertex) {
+  std::erase_if(added, [&](const ArchivedVertex& vertex) {
     const Eigen::Vector2d from_end = (vertex.position - end).head<2>();
-    return from_end.norm() < 2.0 * kVertexStep_m && from_end.dot(leaving) < 0.3 * kVertexStep_m;
+    return from_end.norm() < kNearEnd_m && from_end.dot(leaving) < kLeast_m;
   });
   if (added.empty()) return true;
   line.vertices.insert(at_back ? line.vertices.end() : line.vertices.begin(), added.begin(), added.end());
   if (!at_back) std::reverse(line.vertices.begin(), line.vertices.begin() + std::ssize(added));
-  measure(line);
+  measure(beside.line);
   return true;
 }
 
-void LineArchive::credit(const ArchivedPiece& piece, Line& line) {
+void LineArchive::credit(const ArchivedPiece& piece, ArchivedLine& line) {
   const Marking& marking = piece.marking;
-  const bool is_new = line.observations == 0;
+  const bool is_first = line.observations == 0;
   line.observations = std::max(line.observations, marking.observations);
-  line.first_seen_ns = is_new ? marking.first_seen_ns : std::min(line.first_seen_ns, marking.first_seen_ns);
+  line.first_seen_ns = is_first ? marking.first_seen_ns : std::min(line.first_seen_ns, marking.first_seen_ns);
   line.last_seen_ns = std::max(line.last_seen_ns, marking.last_seen_ns);
 }
 
@@ -166,20 +144,21 @@ void LineArchive::add_unmatched(const ArchivedPiece& piece, const Vertices& vert
     if (end == begin) continue;
     Vertices run(vertices.begin() + static_cast<std::ptrdiff_t>(begin),
                  vertices.begin() + static_cast<std::ptrdiff_t>(end));
+    for (ArchivedVertex& vertex : run) vertex.votes = Votes::of_new(drive_, places_.passed(vertex.position));
     const bool grown = begin > 0 && extend(matches[begin - 1], run);
     Vertices backwards(run.rbegin(), run.rend());
     if (!grown && !(end < vertices.size() && extend(matches[end], backwards)) && run.size() > 1) {
-      Line& line = lines_.emplace_back();
+      ArchivedLine& line = lines_.emplace_back();
       line.type = piece.marking.type;
       line.vertices = std::move(run);
       credit(piece, line);
-      measure(line);
+      measure(lines_.size() - 1);
     }
   }
 }
 
 void LineArchive::add(const ArchivedPiece& piece) {
-  if (piece.marking.type == MarkingType::stopline) return stoplines_.add(piece.marking);
+  if (piece.marking.type == MarkingType::stopline) return stoplines_.add(piece.marking, drive_, places_);
   if (!(length(piece.marking.points) > 0.0)) return;
   const Vertices vertices = vertices_of(piece);
   const std::vector<Match> matches = match(piece, vertices);
@@ -187,67 +166,110 @@ void LineArchive::add(const ArchivedPiece& piece) {
   for (const Match& match : matches)
     if (match.line != kNoLine) matched.insert(match.line);
   for (const std::size_t k : matched) {
-    fuse(vertices, lines_[k]);
+    fuse(vertices, k);
     credit(piece, lines_[k]);
   }
   add_unmatched(piece, vertices, matches);
 }
 
-Marking LineArchive::marking_of(const Line& line) {
-  Marking marking{.type = line.type, .points = line.course.points()};
-  const std::vector<double> arcs_m = arc_lengths(marking.points);
-  double existence_sum = 0.0;
-  std::ptrdiff_t confirmed = 0;
-  for (std::size_t i = 0; i < line.vertices.size(); ++i) {
-    const Vertex& vertex = line.vertices[i];
-    marking.lateral_stddev_m.push_back(vertex.stddev_m);
-    existence_sum += vertex.existence;
-    confirmed += vertex.confirmed ? 1 : 0;
-    if (i > 0)
-      markings::append_style(marking.styles, {{arcs_m[i - 1], arcs_m[i]},
-                                              markings::voted(vertex.styles, {.min_share = kMinShare})});
+void LineArchive::end_drive(const std::vector<Eigen::Isometry3d>& poses) {
+  std::set<std::size_t> beside;
+  for (const Eigen::Isometry3d& pose : poses) {
+    places_.add(pose.translation(), drive_);
+    for (const double dx : {-DrivenPlaces::kReach_m, DrivenPlaces::kReach_m})
+      for (const double dy : {-DrivenPlaces::kReach_m, DrivenPlaces::kReach_m})
+        beside.merge(std::set(tiles_.near(pose.translation() + Point(dx, dy, 0))));
   }
-  const auto count = static_cast<double>(line.vertices.size());
-  marking.existence_probability = existence_sum / count;
-  marking.status =
-      2 * confirmed > std::ssize(line.vertices) ? ElementStatus::confirmed : ElementStatus::tentative;
-  marking.observations = line.observations;
-  marking.first_seen_ns = line.first_seen_ns;
-  marking.last_seen_ns = line.last_seen_ns;
-  return marking;
+  for (const std::size_t k : beside)
+    for (ArchivedVertex& vertex : lines_[k].vertices)
+      if (places_.passed_last(vertex.position, drive_)) vertex.votes.pass(drive_);
+  stoplines_.end_drive(drive_, places_);
+  ++drive_;
 }
 
-/// The lines that lie along longer ones, and that no map had beside those.
-std::vector<std::size_t> LineArchive::shadows() const {
-  std::vector<std::size_t> shadows;
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const auto is_covered = [&](const Vertex& vertex) {
-      return vertex.as_double <= 0 && std::ranges::any_of(lines_, [&](const Line& line) {
-               if (line.type != lines_[i].type || line.course.length() <= lines_[i].course.length())
-                 return false;
-               if (!line.box.contains(vertex.position.head<2>())) return false;
-               const Projection foot = line.course.project(vertex.position, kSameLine_m);
-               return foot.inside && foot.distance_m < kSameLine_m &&
-                      geometry::same_level(foot.foot, vertex.position);
-             });
-    };
-    const auto covered = std::ranges::count_if(lines_[i].vertices, is_covered);
-    if (static_cast<double>(covered) > kShadow * static_cast<double>(lines_[i].vertices.size()))
-      shadows.push_back(i);
+std::optional<LineArchive::Place> LineArchive::nearest(MarkingType type, const Point& point,
+                                                       const Eigen::Vector2d& along, double within_m,
+                                                       double height_m) const {
+  std::optional<Place> nearest;
+  const auto consider = [&](const MeasuredPolyline& course, const auto& stddev_at) {
+    const Projection foot = course.project(point, within_m);
+    if (!foot.inside || foot.distance_m >= within_m || std::abs(foot.foot.z() - point.z()) > height_m) return;
+    const Eigen::Vector2d direction = course.direction(foot);
+    if (std::abs(direction.dot(along)) < kMinAlong) return;
+    within_m = foot.distance_m;
+    nearest = {foot.foot, direction, stddev_at(foot)};
+  };
+  if (type == MarkingType::stopline) {
+    for (const StoplineArchive::Entry& entry : stoplines_.entries())
+      consider(entry.course, [&](const Projection&) {
+        return entry.marking.lateral_stddev_m.empty() ? kUnknownStddev_m
+                                                      : entry.marking.lateral_stddev_m.front();
+      });
+    return nearest;
   }
-  return shadows;
+  for (const std::size_t k : tiles_.near(point))
+    if (lines_[k].type == type)
+      consider(lines_[k].course,
+               [&](const Projection& foot) { return lines_[k].vertices[foot.segment].stddev_m; });
+  return nearest;
+}
+
+/// The lines of its type that the drives agree on, other than its own, on which a vertex lies.
+std::size_t LineArchive::lines_at(const ArchivedVertex& vertex, const ArchivedLine& of,
+                                  double longer_than_m) const {
+  const auto lies_there = [&](std::size_t k) {
+    const ArchivedLine& line = lines_[k];
+    if (&line == &of || line.type != of.type || line.course.length() <= longer_than_m) return false;
+    if (!line.box.contains(vertex.position.head<2>())) return false;
+    const Projection foot = line.course.project(vertex.position, kSameLine_m);
+    return foot.inside && foot.distance_m < kSameLine_m && line.vertices[foot.segment].votes.believed() &&
+           geometry::same_level(foot.foot, vertex.position);
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(tiles_.near(vertex.position), lies_there));
+}
+
+/// Whether more longer lines lie at a vertex than maps had beside it, on average.
+bool LineArchive::is_covered(const ArchivedVertex& vertex, const ArchivedLine& of) const {
+  const std::size_t longer = lines_at(vertex, of, of.course.length());
+  return 2 * longer * vertex.maps >= 2 * vertex.beside + vertex.maps;
+}
+
+std::vector<bool> LineArchive::kept_vertices(const ArchivedLine& line) const {
+  std::vector<bool> kept;
+  for (const ArchivedVertex& vertex : line.vertices)
+    kept.push_back(vertex.votes.believed() && !is_covered(vertex, line));
+  return kept;
 }
 
 std::vector<Marking> LineArchive::markings() const {
-  const std::vector<std::size_t> left_out = shadows();
   std::vector<Marking> markings;
-  for (std::size_t i = 0; i < lines_.size(); ++i)
-    if (lines_[i].course.length() >= kMinLength_m && std::ranges::count(left_out, i) == 0)
-      markings.push_back(marking_of(lines_[i]));
-  std::ranges::copy(stoplines_.markings(), std::back_inserter(markings));
+  for (const ArchivedLine& line : lines_)
+    std::ranges::move(line.markings(kept_vertices(line)), std::back_inserter(markings));
+  for (const StoplineArchive::Entry& entry : stoplines_.entries())
+    if (entry.votes.believed()) markings.push_back(entry.marking);
   std::erase_if(markings, is_doubtful);
   for (ElementId id = 0; Marking & marking : markings) marking.id = ++id;
   return markings;
+}
+
+std::vector<Change> LineArchive::changes() const {
+  std::vector<Change> changes;
+  for (const ArchivedLine& line : lines_) {
+    const auto is_alone = [&](const ArchivedVertex& vertex) { return lines_at(vertex, line, 0.0) == 0; };
+    append_changes(
+        line, true, [&](const ArchivedVertex& v) { return is_gone(v.votes) && is_alone(v); }, changes);
+    append_changes(
+        line, false, [&](const ArchivedVertex& v) { return is_new(v.votes) && is_alone(v); }, changes);
+  }
+  for (const StoplineArchive::Entry& entry : stoplines_.entries()) {
+    const bool gone = is_gone(entry.votes);
+    if (gone || is_new(entry.votes))
+      changes.push_back({.gone = gone,
+                         .type = MarkingType::stopline,
+                         .points = entry.marking.points,
+                         .drive = gone ? entry.votes.last_drive : entry.votes.first_drive});
+  }
+  return changes;
 }
 
 }  // namespace laneloom::exports

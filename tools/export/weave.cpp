@@ -22,49 +22,56 @@ namespace laneloom::exports {
 namespace {
 
 /// Greatest gap between the ends of lines that are joined. It is larger than in a local map, which may yet
-/// see more of a line; here the drive is over.
+/// see more of a line; here all drives are over.
 constexpr double kMaxGap_m = 12.0;
+constexpr double kMaxStep_m = 5.0;  // between poses of one drive
 
 RangeConfig everything() {
   constexpr double kEverywhere_m = 1e7;
   return {.forward_min_m = -kEverywhere_m, .forward_max_m = kEverywhere_m, .side_max_m = kEverywhere_m};
 }
 
-boundaries::Boundaries boundaries_of(const DriveAccumulator::Drive& drive, BoundaryConfig config,
+boundaries::Boundaries boundaries_of(const SurveyedRoad& surveyed, BoundaryConfig config,
                                      markings::IdSource& ids) {
   config.max_gap_m = std::max(config.max_gap_m, kMaxGap_m);
-  return cut_self_crossings(boundaries::lane_boundaries(drive.markings, {}, config), ids);
+  return cut_self_crossings(boundaries::lane_boundaries(surveyed.markings, {}, config), ids);
 }
 
-void link(const DriveAccumulator::Drive& drive, const MapperConfig& config, lanes::LaneTracks& tracks,
+void link(const SurveyedRoad& surveyed, const MapperConfig& config, lanes::LaneTracks& tracks,
           topology::RoadGraph& road) {
-  for (const Eigen::Isometry3d& pose : drive.poses)
-    topology::observe_directions(road.lanes, pose, drive.markings, config.stopline, tracks);
+  for (const Eigen::Isometry3d& pose : surveyed.poses)
+    topology::observe_directions(road.lanes, pose, surveyed.markings, config.stopline, tracks);
   find_directions(config.direction, {}, tracks, road);
   link_across_intersections(SdMap{}, config.linkage, road);
   topology::EgoTrack track;
-  for (const Eigen::Isometry3d& pose : drive.poses) link_ego_track(pose, track, road);
+  Point before = surveyed.poses.front().translation();
+  for (const Eigen::Isometry3d& pose : surveyed.poses) {
+    if ((pose.translation() - before).norm() > kMaxStep_m) track.lane = kNoElement;  // another drive
+    link_ego_track(pose, track, road);
+    before = pose.translation();
+  }
 }
 
 }  // namespace
 
-LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config) {
+LocalMap weave(const SurveyedRoad& surveyed, const MapperConfig& config) {
   LocalMap map;
-  if (drive.poses.empty()) return map;
-  const geometry::Scene scene{.box = geometry::MapBox(everything(), drive.poses.back()), .frame = 1};
-  markings::IdSource ids(drive.markings.size() + 1);
+  if (surveyed.poses.empty()) return map;
+  const geometry::Scene scene{.box = geometry::MapBox(everything(), surveyed.poses.back()), .frame = 1};
+  markings::IdSource ids(surveyed.markings.size() + 1);
   lanes::InferredMemory inferred;
   lanes::LaneTracks tracks;
-  boundaries::Boundaries boundaries = boundaries_of(drive, config.boundary, ids);
+  boundaries::Boundaries boundaries = boundaries_of(surveyed, config.boundary, ids);
   boundaries.insert(
       inferred.recognise(lanes::continued_edges(boundaries, scene.box, config.lane), scene, ids));
   boundaries::SectionGraph sections =
       road_sections(std::move(boundaries), scene.T_map_body(), config.section);
-  lanes::FoundLanes found = lanes::find_lanes(std::move(sections), scene.box, drive.poses, {}, config.lane);
+  lanes::FoundLanes found =
+      lanes::find_lanes(std::move(sections), scene.box, surveyed.poses, {}, config.lane);
   lanes::LaneLayout layout = tracks.adopt(inferred.recognise(std::move(found), scene, config.lane, ids), ids);
   topology::RoadGraph road = topology::link_lanes(std::move(layout), config.linkage);
-  link(drive, config, tracks, road);
-  map.stoplines = topology::tie_stoplines(drive.markings, road.lanes, config.stopline);
+  link(surveyed, config, tracks, road);
+  map.stoplines = topology::tie_stoplines(surveyed.markings, road.lanes, config.stopline);
   map.lanes = std::move(road.lanes);
   map.linkages = std::move(road.linkages);
   for (boundaries::LaneBoundary& boundary : std::move(road.boundaries).take())

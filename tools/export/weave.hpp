@@ -1,15 +1,15 @@
 #pragma once
 
-#include "export/accumulate.hpp"
+#include "export/survey.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::exports {
 
-/// Finds the lanes of a whole drive and their linkages, by the rules of the mapper for a local map. The rims
-/// of the local maps do not matter. Directions and linkages that the vehicle drove count as driven. The
+/// Finds the lanes of a surveyed road and their linkages, by the rules of the mapper for a local map. The
+/// rims of the local maps do not matter. Directions and linkages that a vehicle drove count as driven. The
 /// result keeps the contract of a local map; its stamp and pose stay unset. `config` must be valid; its range
 /// is not used.
-LocalMap weave(const DriveAccumulator::Drive& drive, const MapperConfig& config);
+LocalMap weave(const SurveyedRoad& surveyed, const MapperConfig& config);
 
 }  // namespace laneloom::exports

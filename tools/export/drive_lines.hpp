@@ -1,20 +1,27 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "export/line_archive.hpp"
+#include "export/archived_line.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::exports {
 
-/// Collects the lines of a whole drive from its local maps, and the way that the vehicle drove. Each place is
+/// The lines of a drive, in the frame of its poses.
+struct DriveLines {
+  std::vector<ArchivedPiece> pieces;     ///< in the order in which they left the map
+  std::vector<Eigen::Isometry3d> poses;  ///< T_map_body, about every 2 m
+  std::int64_t first_stamp_ns = 0;
+};
+
+/// Collects the lines of a drive from its local maps, and the way that the vehicle drove. Each place is
 /// taken from the last map that it was in. Lines that left a map because the vehicle drove on are kept; lines
-/// that left it because they turned out not to be there are not. Several passes of a place are made one
-/// (line_archive.hpp). Inferred boundaries are left out, since they follow from the lines, and so are
-/// roadedges where the vehicle drove (driven_over.hpp). Not thread-safe.
+/// that left it because they turned out not to be there are not. Inferred boundaries are left out, since they
+/// follow from the lines. Not thread-safe.
 class DriveAccumulator {
  public:
   /// `range` is the range of the maps. A line beyond it and its margin has left the map because the vehicle
@@ -27,22 +34,17 @@ class DriveAccumulator {
   /// cleared.
   void begin_anew();
 
-  struct Drive {
-    std::vector<Marking> markings;         ///< lanelines, roadedges and stoplines, with ids from 1 on
-    std::vector<Eigen::Isometry3d> poses;  ///< T_map_body, about every 2 m
-  };
-  /// The drive of all maps that were added. Nothing may be added after it.
-  Drive finish();
+  /// The lines of all maps that were added. Nothing may be added after it.
+  DriveLines finish();
 
  private:
-  void archive_what_left(const LocalMap& before, const LocalMap& now);
-  void archive_all(const LocalMap& map);
+  void keep_what_left(const LocalMap& before, const LocalMap& now);
+  void keep_all(const LocalMap& map);
 
   RangeConfig range_;
-  LineArchive archive_;
+  DriveLines drive_;
   std::optional<LocalMap> before_;  ///< the last map that was used
   std::optional<LocalMap> newest_;  ///< a later map, which differs little
-  std::vector<Eigen::Isometry3d> poses_;
   std::uint64_t pass_ = 0;
 };
 

@@ -1,9 +1,8 @@
-#include "export/accumulate.hpp"
+#include "export/drive_lines.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "export/driven_over.hpp"
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/map_box.hpp"
 #include "mapping/markings/markings.hpp"
@@ -66,24 +65,30 @@ std::vector<ElementId> lines_beside(const Marking& line, const std::vector<Marki
 
 }  // namespace
 
-void DriveAccumulator::archive_what_left(const LocalMap& before, const LocalMap& now) {
+void DriveAccumulator::keep_what_left(const LocalMap& before, const LocalMap& now) {
   const geometry::MapBox range(range_, now.T_map_body);
   const std::vector<Marking> lines = seen_lines(before);
   for (const Marking& line : lines) {
     const std::vector<Stretch> left = stretches_outside(MeasuredPolyline(line.points), range);
     if (left.empty()) continue;
+    const auto keep = [&](Marking piece, std::vector<ElementId> beside) {
+      drive_.pieces.push_back({std::move(piece), pass_, std::move(beside), drive_.poses.size() - 1});
+    };
     if (line.type == MarkingType::stopline) {
-      archive_.add({.marking = line});
+      keep(line, {});
       continue;
     }
-    const std::vector<ElementId> beside = lines_beside(line, lines);
-    for (const Stretch& stretch : left) archive_.add({markings::slice(line, stretch), pass_, beside});
+    for (const Stretch& stretch : left) {
+      const Marking piece = markings::slice(line, stretch);
+      keep(piece, lines_beside(piece, lines));
+    }
   }
 }
 
-void DriveAccumulator::archive_all(const LocalMap& map) {
+void DriveAccumulator::keep_all(const LocalMap& map) {
   const std::vector<Marking> lines = seen_lines(map);
-  for (const Marking& line : lines) archive_.add({line, pass_, lines_beside(line, lines)});
+  for (const Marking& line : lines)
+    drive_.pieces.push_back({line, pass_, lines_beside(line, lines), drive_.poses.size() - 1});
 }
 
 void DriveAccumulator::add(const LocalMap& map) {
@@ -91,22 +96,23 @@ void DriveAccumulator::add(const LocalMap& map) {
     newest_ = map;
     return;
   }
-  if (before_) archive_what_left(*before_, map);
-  poses_.push_back(map.T_map_body);
+  if (drive_.poses.empty()) drive_.first_stamp_ns = map.stamp_ns;
+  if (before_) keep_what_left(*before_, map);
+  drive_.poses.push_back(map.T_map_body);
   before_ = map;
   newest_.reset();
 }
 
 void DriveAccumulator::begin_anew() {
-  if (const auto last = newest_ ? newest_ : before_) archive_all(*last);
+  if (const auto last = newest_ ? newest_ : before_) keep_all(*last);
   newest_.reset();
   before_.reset();
   ++pass_;
 }
 
-DriveAccumulator::Drive DriveAccumulator::finish() {
+DriveLines DriveAccumulator::finish() {
   begin_anew();
-  return {without_edges_driven_over(archive_.markings(), poses_), std::move(poses_)};
+  return std::move(drive_);
 }
 
 }  // namespace laneloom::exports

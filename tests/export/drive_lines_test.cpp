@@ -1,4 +1,5 @@
-#include "export/accumulate.hpp"
+#include "drives.hpp"
+#include "export/survey.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,16 +24,20 @@ LocalMap map_at(double x, double y) {
   return map;
 }
 
-DriveAccumulator::Drive drive_of(const std::vector<LocalMap>& maps) {
-  DriveAccumulator accumulator(RangeConfig{});
-  for (const LocalMap& map : maps) accumulator.add(map);
-  return accumulator.finish();
+SurveyedRoad road_of(DriveLines drive) {
+  Survey survey;
+  survey.add(std::move(drive));
+  return survey.road();
+}
+
+SurveyedRoad drive_of(const std::vector<LocalMap>& maps) {
+  return road_of(test::lines_of(maps, RangeConfig{}));
 }
 
 TEST(DriveAccumulator, KeepsWhatTheVehicleLeftBehind) {
   std::vector<LocalMap> maps;
   for (int i = 0; i <= 200; ++i) maps.push_back(map_at(i, 2.0));
-  const auto drive = drive_of(maps);
+  const SurveyedRoad drive = drive_of(maps);
   ASSERT_THAT(drive.markings, SizeIs(1));
   EXPECT_NEAR(length(drive.markings[0].points), 270.0, 1.0);
   EXPECT_NEAR(static_cast<double>(drive.poses.size()), 100.0, 2.0);
@@ -41,7 +46,7 @@ TEST(DriveAccumulator, KeepsWhatTheVehicleLeftBehind) {
 TEST(DriveAccumulator, APlaceIsAsItWasLastInTheMap) {
   std::vector<LocalMap> maps;
   for (int i = 0; i <= 100; ++i) maps.push_back(map_at(i, i < 20 ? 2.5 : 2.0));
-  const auto drive = drive_of(maps);
+  const SurveyedRoad drive = drive_of(maps);
   ASSERT_THAT(drive.markings, SizeIs(1));
   const MeasuredPolyline line(drive.markings[0].points);
   EXPECT_NEAR(line.project(Point(30, 2, 0)).foot.y(), 2.0, 1e-3) << "what was better known later";
@@ -67,7 +72,7 @@ TEST(DriveAccumulator, ARestartKeepsWhatWasKnown) {
     empty.boundaries.clear();
     accumulator.add(empty);
   }
-  const auto drive = accumulator.finish();
+  const SurveyedRoad drive = road_of(accumulator.finish());
   ASSERT_THAT(drive.markings, SizeIs(1));
   EXPECT_NEAR(length(drive.markings[0].points), 120.0, 1.0);
 }
@@ -79,7 +84,7 @@ TEST(DriveAccumulator, InferredBoundariesAreLeftOut) {
 }
 
 /// Maps of a drive along x, whose roadedge has a stretch of 30 m beneath the vehicle, at a lateral position.
-DriveAccumulator::Drive drive_over_an_edge(double y) {
+SurveyedRoad drive_over_an_edge(double y) {
   std::vector<LocalMap> maps;
   for (int i = 0; i <= 100; ++i) {
     LocalMap map = map_at(i, 5.0);

@@ -1,0 +1,276 @@
+#include "export/align.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "export/drive_stations.hpp"
+#include "mapping/geometry/levels.hpp"
+
+namespace laneloom::exports {
+namespace {
+
+using Motion = Eigen::Vector4d;  ///< x, y, z in metres and yaw in radians, about a place
+/// A motion, and drift: how far the vehicle comes ahead (m) and turns left (rad) beyond what its poses say,
+/// per metre driven.
+using State = Eigen::Matrix<double, 6, 1>;
+using Covariance = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+// What a drive may be off at first, and its drift. What changes from station to station.
+const State kFirstStddev{{3.0, 3.0, 3.0, 1.0 * kDegree, 0.02, 3e-4}};
+const State kStepStddev{{0.02, 0.02, 0.05, 3e-4, 1e-3, 2e-5}};
+// A sample is met within this, and within kGateSigmas of what is doubted. The errors of a line's samples are
+// not independent: together they count as one every 10 m.
+constexpr double kGate_m = 0.5, kGateSigmas = 2.5, kMaxGate_m = 1.8, kMaxStoplineGate_m = 5.0;
+constexpr double kSampleStddev_m = 0.1, kHeightStddev_m = 0.3, kDependence = 5.0;
+constexpr int kIterations = 10;
+constexpr double kSettled_m = 1e-3;
+// A search is needed where the place across is doubted by more than this.
+constexpr double kLost_m = 0.8;
+constexpr std::size_t kSearchStations = 8;
+constexpr double kSearch_m = 6.0, kSearchStep_m = 0.75, kSearchYaw = 1.5 * kDegree;
+constexpr double kFound = 0.5;     // least share of the samples that are met
+constexpr double kSecond = 0.85;   // greatest share of the best score that a place beside may have
+constexpr double kBeside_m = 1.5;  // across, between places that are told apart
+constexpr double kFoundStddev_m = 0.5;
+constexpr std::size_t kMinSamples = 20;
+
+/// A transform from the drive to the road, with the drift, and how they are doubted about the vehicle's
+/// place.
+struct Estimate {
+  Eigen::Isometry3d T_road_drive = Eigen::Isometry3d::Identity();
+  Eigen::Vector2d drift = Eigen::Vector2d::Zero();
+  Covariance covariance = kFirstStddev.cwiseAbs2().asDiagonal();
+};
+
+Eigen::Vector2d left_of(const Eigen::Vector2d& along) { return {-along.y(), along.x()}; }
+
+double yaw_of(const Eigen::Isometry3d& T) { return std::atan2(T(1, 0), T(0, 0)); }
+
+/// `T` turned and moved about a place of the road.
+Eigen::Isometry3d moved(const Eigen::Isometry3d& T, const Motion& by, const Point& about) {
+  return Eigen::Translation3d(about + by.head<3>()) * Eigen::AngleAxisd(by[3], Point::UnitZ()) *
+         Eigen::Translation3d(-about) * T;
+}
+
+/// The motion about a place of the road that leads from one transform to another.
+Motion motion(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, const Point& about) {
+  const Eigen::Isometry3d step = to * from.inverse();
+  Motion by;
+  by << step * about - about, yaw_of(step);
+  return by;
+}
+
+/// What leads from one estimate to another.
+State difference(const Estimate& from, const Estimate& to, const Point& about) {
+  State by;
+  by << motion(from.T_road_drive, to.T_road_drive, about), to.drift - from.drift;
+  return by;
+}
+
+void change(Estimate& estimate, const State& by, const Point& about) {
+  estimate.T_road_drive = moved(estimate.T_road_drive, by.head<4>(), about);
+  estimate.drift += by.tail<2>();
+}
+
+/// Follows a drive along a road.
+class Follower {
+ public:
+  Follower(const std::vector<DriveStation>& stations, const LineArchive& road)
+      : stations_(stations), road_(road) {}
+
+  std::vector<Eigen::Isometry3d> follow();
+
+ private:
+  Point place(std::size_t k, const Eigen::Isometry3d& T_road_drive) const {
+    return T_road_drive * Point(stations_[k].T_drive_body.translation());
+  }
+  Eigen::Vector2d heading(std::size_t k, const Eigen::Isometry3d& T_road_drive) const {
+    return (T_road_drive.linear() * stations_[k].T_drive_body.linear().col(0)).head<2>().normalized();
+  }
+  Estimate predict(std::size_t k, const Estimate& before, Covariance& carry) const;
+  bool is_lost(std::size_t k, const Estimate& estimate) const;
+  void search(std::size_t k, Estimate& estimate) const;
+  double score(const std::vector<const DriveStation::Sample*>& samples, const Eigen::Isometry3d& T,
+               double& met) const;
+  void correct(std::size_t k, Estimate& estimate) const;
+  std::optional<LineArchive::Place> meet(const DriveStation::Sample& sample, const Eigen::Isometry3d& T,
+                                         double gate_m) const;
+
+  const std::vector<DriveStation>& stations_;
+  const LineArchive& road_;
+};
+
+/// The estimate for a station by that for the one before. `carry` is its derivative.
+Estimate Follower::predict(std::size_t k, const Estimate& before, Covariance& carry) const {
+  const double driven_m = stations_[k].driven_m - stations_[k - 1].driven_m;
+  const Point from = place(k - 1, before.T_road_drive), to = place(k, before.T_road_drive);
+  const Eigen::Vector2d ahead = driven_m * heading(k, before.T_road_drive);
+  carry.setIdentity();
+  carry.block<2, 1>(0, 3) = left_of((to - from).head<2>());
+  carry.block<2, 1>(0, 4) = ahead;
+  carry.block<2, 1>(0, 5) = 0.5 * driven_m * left_of(ahead);
+  carry(3, 5) = driven_m;
+  Estimate estimate = before;
+  State drift = State::Zero();
+  drift.tail<2>() = before.drift;
+  State by = carry * drift;
+  by.tail<2>().setZero();
+  change(estimate, by, to);
+  estimate.covariance = carry * before.covariance * carry.transpose();
+  estimate.covariance.diagonal() += driven_m / kStation_m * kStepStddev.cwiseAbs2();
+  return estimate;
+}
+
+bool Follower::is_lost(std::size_t k, const Estimate& estimate) const {
+  const Eigen::Vector2d across = left_of(heading(k, estimate.T_road_drive));
+  return across.dot(estimate.covariance.topLeftCorner<2, 2>() * across) > kLost_m * kLost_m;
+}
+
+std::optional<LineArchive::Place> Follower::meet(const DriveStation::Sample& sample,
+                                                 const Eigen::Isometry3d& T, double gate_m) const {
+  return road_.nearest(sample.type, T * sample.position, T.linear().topLeftCorner<2, 2>() * sample.along,
+                       gate_m, geometry::kLevel_m);
+}
+
+/// How well samples lie on the road, and the number of those that do.
+double Follower::score(const std::vector<const DriveStation::Sample*>& samples, const Eigen::Isometry3d& T,
+                       double& met) const {
+  double score = 0.0;
+  met = 0.0;
+  for (const DriveStation::Sample* sample : samples) {
+    const auto near = meet(*sample, T, kSearchStep_m);
+    if (!near) continue;
+    met += 1.0;
+    score += 1.0 - ((T * sample->position - near->foot).head<2>().norm()) / kSearchStep_m;
+  }
+  return score;
+}
+
+/// Tries the places around. Of those that are equally good, the nearest is taken.
+void Follower::search(std::size_t k, Estimate& estimate) const {
+  std::vector<const DriveStation::Sample*> samples;
+  for (std::size_t i = k; i < std::min(stations_.size(), k + kSearchStations); ++i)
+    for (const DriveStation::Sample& sample : stations_[i].samples) samples.push_back(&sample);
+  if (samples.size() < kMinSamples) return;
+  const Point about = place(k, estimate.T_road_drive);
+  const Eigen::Vector2d ahead = heading(k, estimate.T_road_drive), across = left_of(ahead);
+  struct Try {
+    Motion by = Motion::Zero();
+    double across_m = 0.0, score = 0.0, met = 0.0;
+  };
+  std::vector<Try> tries;
+  const int steps = static_cast<int>(kSearch_m / kSearchStep_m);
+  for (int i = -steps; i <= steps; ++i)
+    for (int j = -steps; j <= steps; ++j)
+      for (const double yaw : {-kSearchYaw, 0.0, kSearchYaw}) {
+        const Eigen::Vector2d to = kSearchStep_m * (i * ahead + j * across);
+        Try next{.by = Motion(to.x(), to.y(), 0.0, yaw), .across_m = kSearchStep_m * j};
+        next.score = score(samples, moved(estimate.T_road_drive, next.by, about), next.met);
+        next.score *= std::exp(-0.5 * to.squaredNorm() / (4.0 * kSearch_m * kSearch_m));
+        tries.push_back(next);
+      }
+  const Try best = *std::ranges::max_element(tries, {}, &Try::score);
+  const bool is_ambiguous = std::ranges::any_of(tries, [&](const Try& other) {
+    return std::abs(other.across_m - best.across_m) >= kBeside_m && other.score > kSecond * best.score;
+  });
+  if (best.met < kFound * static_cast<double>(samples.size()) || is_ambiguous) return;
+  estimate.T_road_drive = moved(estimate.T_road_drive, best.by, about);
+  State stddev = kFirstStddev;
+  stddev.head<4>() << kFoundStddev_m, kFoundStddev_m, kFoundStddev_m, kSearchYaw;
+  estimate.covariance = stddev.cwiseAbs2().asDiagonal();
+}
+
+void Follower::correct(std::size_t k, Estimate& estimate) const {
+  const Estimate prior = estimate;
+  const Covariance held = prior.covariance.inverse();
+  const Point about = place(k, prior.T_road_drive);
+  Covariance H = held;
+  for (int i = 0; i < kIterations; ++i) {
+    H = held;
+    State g = held * difference(prior, estimate, about);
+    for (const DriveStation::Sample& sample : stations_[k].samples) {
+      const Eigen::Vector2d across =
+          left_of(estimate.T_road_drive.linear().topLeftCorner<2, 2>() * sample.along);
+      const Point point = estimate.T_road_drive * sample.position;
+      State a = State::Zero();
+      a.head<4>() << across, 0.0, across.dot(left_of((point - about).head<2>()));
+      const double most_m = sample.type == MarkingType::stopline ? kMaxStoplineGate_m : kMaxGate_m;
+      const double gate_m = std::min(most_m, kGate_m + kGateSigmas * std::sqrt(a.dot(prior.covariance * a)));
+      const auto near = meet(sample, estimate.T_road_drive, gate_m);
+      if (!near) continue;
+      const Eigen::Vector2d normal = left_of(near->along);
+      const double residual_m = normal.dot((point - near->foot).head<2>());
+      const double kernel_m = gate_m / 3.0, weight = 1.0 / (1.0 + std::pow(residual_m / kernel_m, 2));
+      const double variance =
+          kDependence * (sample.stddev_m * sample.stddev_m + near->stddev_m * near->stddev_m +
+                         kSampleStddev_m * kSampleStddev_m);
+      a.head<4>() << normal, 0.0, normal.dot(left_of((point - about).head<2>()));
+      H += weight / variance * a * a.transpose();
+      g += weight / variance * residual_m * a;
+      const double height = 1.0 / (kDependence * kHeightStddev_m * kHeightStddev_m);
+      H(2, 2) += height;
+      g[2] += height * (point.z() - near->foot.z());
+    }
+    const State step = -H.ldlt().solve(g);
+    change(estimate, step, about);
+    if (step.head<2>().norm() < kSettled_m) break;
+  }
+  estimate.covariance = H.inverse();
+}
+
+std::vector<Eigen::Isometry3d> Follower::follow() {
+  std::vector<Estimate> predicted, filtered;
+  std::vector<Covariance> carried;
+  for (std::size_t k = 0; k < stations_.size(); ++k) {
+    Covariance& carry = carried.emplace_back(Covariance::Identity());
+    Estimate estimate = k > 0 ? predict(k, filtered.back(), carry) : Estimate{};
+    predicted.push_back(estimate);
+    if (is_lost(k, estimate)) search(k, estimate);
+    if (!is_lost(k, estimate)) correct(k, estimate);
+    filtered.push_back(estimate);
+  }
+  for (std::size_t k = stations_.size() - 1; k-- > 0;) {
+    const Estimate &ahead = predicted[k + 1], &smoothed = filtered[k + 1];
+    const Covariance gain = filtered[k].covariance * carried[k + 1].transpose() * ahead.covariance.inverse();
+    const State found = difference(ahead, smoothed, place(k + 1, ahead.T_road_drive));
+    change(filtered[k], gain * found, place(k, filtered[k].T_road_drive));
+  }
+  std::vector<Eigen::Isometry3d> transforms(filtered.size());
+  std::ranges::transform(filtered, transforms.begin(), &Estimate::T_road_drive);
+  return transforms;
+}
+
+/// The transforms for the poses of a drive, between those of its stations.
+std::vector<Eigen::Isometry3d> between(const std::vector<DriveStation>& stations,
+                                       const std::vector<Eigen::Isometry3d>& T_road_drive,
+                                       const DriveLines& drive) {
+  std::vector<Eigen::Isometry3d> result;
+  double driven_m = 0.0;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < drive.poses.size(); ++i) {
+    if (i > 0) driven_m += (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
+    while (k + 2 < stations.size() && stations[k + 1].driven_m < driven_m) ++k;
+    const std::size_t next = std::min(k + 1, stations.size() - 1);
+    const double length_m = stations[next].driven_m - stations[k].driven_m;
+    const double share =
+        length_m > 0.0 ? std::clamp((driven_m - stations[k].driven_m) / length_m, 0.0, 1.0) : 0.0;
+    const Point about = T_road_drive[k] * Point(drive.poses[i].translation());
+    result.push_back(
+        moved(T_road_drive[k], share * motion(T_road_drive[k], T_road_drive[next], about), about));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Eigen::Isometry3d> align(const DriveLines& drive, const LineArchive& road) {
+  if (road.empty() || drive.poses.empty())
+    return std::vector<Eigen::Isometry3d>(drive.poses.size(), Eigen::Isometry3d::Identity());
+  const std::vector<DriveStation> stations = stations_of(drive);
+  return between(stations, Follower(stations, road).follow(), drive);
+}
+
+}  // namespace laneloom::exports

@@ -1,0 +1,43 @@
+#include "export/drive_stations.hpp"
+
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom::exports {
+namespace {
+
+constexpr double kSample_m = 2.0;  // between samples of a line
+
+void append_samples(const Marking& marking, std::vector<DriveStation::Sample>& samples) {
+  const MeasuredPolyline line(marking.points);
+  const std::vector<double> arcs_m = arc_lengths(marking.points);
+  const Polyline points = line.resample(kSample_m);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double arc_m = line.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    const double stddev_m = marking.lateral_stddev_m.empty()
+                                ? kUnknownStddev_m
+                                : markings::deviation_at(arcs_m, marking.lateral_stddev_m, arc_m);
+    samples.push_back({marking.type, points[i], line.direction(arc_m), stddev_m});
+  }
+}
+
+}  // namespace
+
+std::vector<DriveStation> stations_of(const DriveLines& drive) {
+  std::vector<DriveStation> stations;
+  auto piece = drive.pieces.begin();
+  double driven_m = 0.0;
+  std::vector<DriveStation::Sample> samples;
+  for (std::size_t i = 0; i < drive.poses.size(); ++i) {
+    const bool is_last = i + 1 == drive.poses.size();
+    if (i > 0) driven_m += (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
+    for (; piece != drive.pieces.end() && piece->pose <= i; ++piece) append_samples(piece->marking, samples);
+    if (!stations.empty() && !is_last && driven_m < stations.back().driven_m + kStation_m) continue;
+    stations.push_back({drive.poses[i], driven_m, std::exchange(samples, {})});
+  }
+  return stations;
+}
+
+}  // namespace laneloom::exports

@@ -1,0 +1,94 @@
+#include "export/survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "export/align.hpp"
+#include "export/driven_over.hpp"
+
+namespace laneloom::exports {
+namespace {
+
+constexpr double kPlace_m = 4.0;
+constexpr int kHeadings = 8;
+constexpr int kEnoughWays = 3;  // more drives along one way tell nothing new of its lanes
+constexpr double kMet_m = 1.0;
+constexpr double kHeight_m = 2.0;
+constexpr double kSample_m = 2.0;
+
+Marking moved(Marking marking, const Eigen::Isometry3d& T) {
+  for (Point& point : marking.points) point = T * point;
+  return marking;
+}
+
+std::array<int, 3> way_key(const Eigen::Isometry3d& pose) {
+  const double heading = std::atan2(pose(1, 0), pose(0, 0)) / (2.0 * 3.14159265358979323846);
+  return {static_cast<int>(std::floor(pose.translation().x() / kPlace_m)),
+          static_cast<int>(std::floor(pose.translation().y() / kPlace_m)),
+          static_cast<int>(std::floor((heading + 0.5) * kHeadings)) % kHeadings};
+}
+
+/// The share of a drive's lines that lie on lines of a road.
+double met_share(const std::vector<ArchivedPiece>& pieces, const LineArchive& road) {
+  std::size_t met = 0, all = 0;
+  for (const ArchivedPiece& piece : pieces) {
+    const MeasuredPolyline line(piece.marking.points);
+    for (const Point& point : line.resample(kSample_m)) {
+      const Eigen::Vector2d along = line.direction(line.project(point));
+      met += road.nearest(piece.marking.type, point, along, kMet_m, kHeight_m) ? 1U : 0U;
+      ++all;
+    }
+  }
+  return all == 0 ? 0.0 : static_cast<double>(met) / static_cast<double>(all);
+}
+
+Survey::Offset offset_of(const std::vector<Eigen::Isometry3d>& poses,
+                         const std::vector<Eigen::Isometry3d>& T_road_drive) {
+  Survey::Offset offset;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Point place = poses[i].translation();
+    const double offset_m = (T_road_drive[i] * place - place).head<2>().norm();
+    offset.mean_m += offset_m / static_cast<double>(poses.size());
+    offset.greatest_m = std::max(offset.greatest_m, offset_m);
+    const double yaw = std::atan2(T_road_drive[i](1, 0), T_road_drive[i](0, 0));
+    offset.greatest_deg = std::max(offset.greatest_deg, std::abs(yaw) * 180.0 / 3.14159265358979323846);
+  }
+  return offset;
+}
+
+}  // namespace
+
+Survey::Offset Survey::add(DriveLines drive) {
+  const std::vector<Eigen::Isometry3d> T_road_drive = align(drive, archive_);
+  Offset offset = offset_of(drive.poses, T_road_drive);
+  std::uint64_t last_pass = 0;
+  for (ArchivedPiece& piece : drive.pieces) {
+    piece.marking = moved(std::move(piece.marking), T_road_drive[piece.pose]);
+    last_pass = piece.pass;
+    piece.pass += passes_;
+  }
+  passes_ += last_pass + 1;
+  offset.met_share = met_share(drive.pieces, archive_);
+  for (const ArchivedPiece& piece : drive.pieces) archive_.add(piece);
+  for (std::size_t i = 0; i < drive.poses.size(); ++i) drive.poses[i] = T_road_drive[i] * drive.poses[i];
+  archive_.end_drive(drive.poses);
+  keep_way(drive.poses);
+  return offset;
+}
+
+void Survey::keep_way(const std::vector<Eigen::Isometry3d>& poses) {
+  std::map<std::array<int, 3>, int> now;
+  for (const Eigen::Isometry3d& pose : poses) {
+    const auto key = way_key(pose);
+    const auto known = ways_.find(key);
+    if (known != ways_.end() && known->second >= kEnoughWays) continue;
+    poses_.push_back(pose);
+    now[key] = 1;
+  }
+  for (const auto& [key, one] : now) ways_[key] += one;
+}
+
+SurveyedRoad Survey::road() const { return {without_edges_driven_over(archive_.markings(), poses_), poses_}; }
+
+}  // namespace laneloom::exports
