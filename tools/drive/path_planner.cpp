@@ -23,6 +23,7 @@ constexpr double kMinBlend_m = 12.0;
 constexpr double kBlend_s = 2.0;
 constexpr double kMaxSlope = 0.5;
 constexpr double kMinGap_m = 2.0;
+constexpr double kTangent_m = 2.0;
 
 /// The previous plan, cut off behind the vehicle, and prolonged ahead of it if need be.
 Plan carried_on(const Eigen::Isometry3d& T_map_body, Plan plan) {
@@ -142,7 +143,9 @@ Plan until(const Plan& plan, double arc_m) {
 void approach(const MeasuredPolyline& track, double from_m, double blend_m, const Plan& way, Plan& plan) {
   const MeasuredPolyline line(way.path);
   const Projection foot = line.project(track.at(from_m));
-  const Eigen::Vector2d along = line.direction(foot.arc_m), now = track.direction(from_m);
+  // Chords over the same length, since in a bend the directions of segments differ by where the vertices lie.
+  const Eigen::Vector2d along = line.chord(foot.arc_m, foot.arc_m + kTangent_m);
+  const Eigen::Vector2d now = track.chord(from_m, from_m + kTangent_m);
   const Blend blend(foot.lateral_m, cross(along, now) / std::max(0.1, along.dot(now)), blend_m);
   for (double arc_m = foot.arc_m; arc_m <= line.length(); arc_m += kStep_m) {
     plan.path.push_back(
