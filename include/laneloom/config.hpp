@@ -79,7 +79,7 @@ struct BoundaryConfig {
 /// ours.
 struct SectionConfig {
   double max_angle_deg = 25.0;   ///< directions that differ by less are "similar"
-  double max_distance_m = 13.0;  ///< boundaries further apart do not overlap
+  double max_distance_m = 16.0;  ///< boundaries further apart do not overlap
 };
 
 /// How lanes are found between boundaries.

@@ -49,8 +49,8 @@ class VehicleBeside {
   /// Whether the vehicle drives between the boundary and another one on its left.
   bool is_left_up_to(const MeasuredPolyline& other) const {
     if (!is_beside_) return false;
-    const Projection foot = other.project(vehicle_, kCutReach_m);
-    if (foot.distance_m >= kCutReach_m) return false;
+    const Projection foot = other.project(vehicle_, kStreetReach_m);
+    if (foot.distance_m >= kStreetReach_m) return false;
     const double sense = other.direction(foot).dot(ahead_) > 0.0 ? 1.0 : -1.0;
     return is_within(foot_.lateral_m, foot_.lateral_m - sense * foot.lateral_m);
   }

@@ -71,9 +71,9 @@ std::vector<RoadCut> cut_along(std::size_t boundary, const boundaries::SectionGr
     cut.marks.push_back(mark_at(boundary, arc_m, points[i], base));
     for (const boundaries::SideBySide& beside : road.beside[boundary]) {
       const boundaries::LaneBoundary& other = road.boundaries[beside.other];
-      const Projection foot = other.course.project(points[i], kCutReach_m);
-      if (!foot.inside || foot.distance_m >= kCutReach_m || !geometry::same_level(foot.foot, points[i]))
-        continue;
+      const double reach_m = base.is_edge() && other.is_edge() ? kStreetReach_m : kCutReach_m;
+      const Projection foot = other.course.project(points[i], reach_m);
+      if (!foot.inside || foot.distance_m >= reach_m || !geometry::same_level(foot.foot, points[i])) continue;
       const double along = other.course.direction(foot).dot(cut.ahead);
       if (std::abs(along) < kAlongside) continue;
       Mark mark = mark_at(beside.other, foot.arc_m, foot.foot, other);

@@ -34,8 +34,8 @@ struct RoadCut {
 /// The same cross-sections along the boundary as it runs the other way. Arc lengths stay.
 std::vector<RoadCut> reversed(const std::vector<RoadCut>& cuts);
 
-/// Greatest distance between two marks of a cross-section.
-inline constexpr double kCutReach_m = 14.0;
+/// Greatest distance between two marks of a cross-section, and between two edges, which may be a street's.
+inline constexpr double kCutReach_m = 14.0, kStreetReach_m = 16.5;
 
 /// Cross-sections of the road along a boundary, LaneConfig::step_m apart, from its begin to its end. They
 /// show the boundaries beside it.

@@ -122,6 +122,7 @@ std::vector<double> outermost_evidence(const lanes::LaneLayout& layout,
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
   for (const SideBySideLanes& pair : pairs) open_right[pair.left] = open_left[pair.right] = false;
   const auto evidence_of = [&](const Lane& lane, Side side) {
+    if (goes_on_beyond(layout, lane, side)) return 0.0;
     return lanes::mean_over(lane.borders(side), [&](const Border& border) {
       return border_evidence(layout.boundaries.of(border.boundary).marking, border.on_boundary);
     });

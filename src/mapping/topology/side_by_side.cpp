@@ -29,6 +29,10 @@ constexpr double kMaxVariation_m = 0.4;         // of the width of a median
 constexpr double kMaxDoubleVariation_m = 0.15;  // of a double line; with more, its lines diverge
 constexpr double kMedianStep_m = 3.0;
 
+constexpr double kMaxShoulder_m = 4.5;
+constexpr double kMaxBeyond_m = 14.0;  // up to where the next boundary tells that a road goes on
+constexpr double kAlongside = 0.8;     // cosine between boundaries of one road
+
 /// Whether a boundary with `left` and `right` lanes on its two sides lies in the middle of a road. If a road
 /// has three lanes, either direction may have two of them: no boundary counts as its middle. If it has five,
 /// the middle lane may be a turning lane of either direction: both its boundaries count.
@@ -62,7 +66,7 @@ double boundary_evidence(const boundaries::LaneBoundary& boundary, const Stretch
 class SideBySide {
  public:
   explicit SideBySide(const lanes::LaneLayout& layout)
-      : lanes_(layout.lanes), boundaries_(layout.boundaries) {
+      : layout_(layout), lanes_(layout.lanes), boundaries_(layout.boundaries) {
     for (const Lane& lane : lanes_) left_sides_.emplace_back(lane.left);
   }
 
@@ -71,7 +75,8 @@ class SideBySide {
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (const auto right = across(i, Side::right)) {
         const Lane& lane = lanes_[i];
-        const bool in_middle = is_middle(lanes_on(i, Side::left) + 1, lanes_on(*right, Side::right) + 1);
+        const bool in_middle = is_middle(lanes_on(i, Side::left) + 1, lanes_on(*right, Side::right) + 1) &&
+                               !goes_on(i, Side::left) && !goes_on(*right, Side::right);
         pairs.push_back({i, *right, evidence_beside(lane, in_middle)});
       } else if (lanes_[i].right_neighbours.empty()) {
         if (const auto median = median_right_of(i)) pairs.push_back(across_median(i, *median));
@@ -113,6 +118,14 @@ class SideBySide {
     return count;
   }
 
+  /// Whether the road may go on beyond the last lane on a side of a lane.
+  bool goes_on(std::size_t i, Side side) const {
+    std::size_t last = i, count = 0;
+    for (auto next = across(i, side); next && count < lanes_.size(); next = across(*next, side), ++count)
+      last = *next;
+    return goes_on_beyond(layout_, lanes_[last], side);
+  }
+
   /// The median on the right of a lane, up to the nearest lane beyond it. Empty: there is none.
   std::optional<Median> median_right_of(std::size_t i) const {
     const MeasuredPolyline side(lanes_[i].right);
@@ -151,6 +164,7 @@ class SideBySide {
             median.width_m > kNarrow_m};
   }
 
+  const lanes::LaneLayout& layout_;
   const std::vector<Lane>& lanes_;
   const boundaries::Boundaries& boundaries_;
   std::vector<MeasuredPolyline> left_sides_;
@@ -160,6 +174,27 @@ class SideBySide {
 
 std::vector<SideBySideLanes> side_by_side(const lanes::LaneLayout& layout) {
   return SideBySide(layout).pairs();
+}
+
+bool goes_on_beyond(const lanes::LaneLayout& layout, const Lane& lane, Side side) {
+  const auto ends_road = [&](const Border& border) {
+    return border.boundary == kNoElement || layout.boundaries.of(border.boundary).is_edge();
+  };
+  if (std::ranges::any_of(lane.borders(side), ends_road)) return false;
+  const MeasuredPolyline border(side == Side::left ? lane.left : lane.right);
+  const double middle_m = 0.5 * border.length();
+  const Point middle = border.at(middle_m);
+  const Eigen::Vector2d along = border.direction(middle_m);
+  double nearest_m = kMaxBeyond_m;
+  for (const boundaries::LaneBoundary& boundary : layout.boundaries) {
+    if (std::ranges::count(lane.borders(side), boundary.marking.id, &Border::boundary) > 0) continue;
+    const Projection foot = boundary.course.project(middle, nearest_m);
+    if (!foot.inside || foot.distance_m >= nearest_m || !geometry::same_level(foot.foot, middle)) continue;
+    const bool is_left = cross(along, (foot.foot - middle).head<2>()) > 0.0;
+    if (is_left == (side == Side::left) && std::abs(boundary.course.direction(foot).dot(along)) > kAlongside)
+      nearest_m = foot.distance_m;
+  }
+  return nearest_m > kMaxShoulder_m && nearest_m < kMaxBeyond_m;
 }
 
 }  // namespace laneloom::topology

@@ -21,4 +21,8 @@ struct SideBySideLanes {
 /// the roads of an exit. Beyond a wide median there may also be another road. Ours.
 std::vector<SideBySideLanes> side_by_side(const lanes::LaneLayout& layout);
 
+/// Whether the road may have another lane beyond the outermost one of a side, where none was found: its
+/// border there is no edge, and the next boundary beyond it is further away than a shoulder is wide.
+bool goes_on_beyond(const lanes::LaneLayout& layout, const Lane& lane, Side side);
+
 }  // namespace laneloom::topology

@@ -1,0 +1,109 @@
+// Roads as cars meet them, drawn line by line, and driven for some seconds with detections that do not err.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "laneloom/mapper.hpp"
+#include "laneloom/polyline.hpp"
+
+namespace laneloom {
+namespace {
+
+using testing::SizeIs;
+
+struct Drawn {
+  MarkingType type = MarkingType::laneline;
+  double left_m = 0.0;  ///< of the vehicle
+  MarkingStyle style = MarkingStyle::solid;
+};
+
+constexpr MarkingType kEdge = MarkingType::roadedge;
+
+/// The map after 6 s along x at 8 m/s.
+LocalMap driven(const std::vector<Drawn>& lines, const MapperConfig& config = {}) {
+  Mapper mapper(config);
+  LocalMap map;
+  for (std::int64_t i = 1; i <= 60; ++i) {
+    Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+    T_map_body.translation().x() = 0.8 * static_cast<double>(i);
+    DetectionFrame frame{.stamp_ns = i * 100'000'000, .sequence = static_cast<std::uint64_t>(i)};
+    for (const Drawn& line : lines) {
+      Detection detection{.type = line.type, .style = line.style, .confidence = 0.9};
+      for (double x = -5.0; x <= 30.0; x += 1.0) detection.points.emplace_back(x, line.left_m, 0.0);
+      frame.detections.push_back(detection);
+    }
+    map = mapper.update(frame, T_map_body);
+  }
+  return map;
+}
+
+/// The lane at a lateral place beside the vehicle. Null: there is none.
+const Lane* lane_at(const LocalMap& map, double left_m) {
+  const Point place = map.T_map_body * Point(0.0, left_m, 0.0);
+  for (const Lane& lane : map.lanes) {
+    const Projection left = MeasuredPolyline(lane.left).project(place),
+                     right = MeasuredPolyline(lane.right).project(place);
+    if (left.inside && right.inside && left.lateral_m * right.lateral_m < 0.0) return &lane;
+  }
+  return nullptr;
+}
+
+TEST(RoadKinds, AStreetFromKerbToKerbHasOneLaneOrTwoAtAnyWidth) {
+  for (double width_m = 2.4; width_m <= 16.0; width_m += 0.4) {
+    SCOPED_TRACE(width_m);
+    const bool is_wide = width_m > 6.2;
+    const double from_right_m = (is_wide ? 0.25 : 0.5) * width_m;
+    const LocalMap map = driven({{kEdge, width_m - from_right_m}, {kEdge, -from_right_m}});
+    EXPECT_THAT(map.lanes, SizeIs(is_wide ? 2 : 1));
+    ASSERT_NE(lane_at(map, 0.0), nullptr) << "the vehicle's";
+    EXPECT_NEAR(lane_at(map, 0.0)->width_m, is_wide ? 0.5 * width_m : width_m, 0.1);
+  }
+}
+
+TEST(RoadKinds, ALaneLiesBesideASingleKerb) {
+  for (const double side : {-1.0, 1.0})
+    for (double aside_m = 1.0; aside_m <= 2.6; aside_m += 0.2) {
+      SCOPED_TRACE(side * aside_m);
+      const LocalMap map = driven({{kEdge, side * aside_m}});
+      EXPECT_THAT(map.lanes, SizeIs(1));
+      EXPECT_NE(lane_at(map, 0.0), nullptr);
+    }
+}
+
+/// Lines 5 m apart, as on a fifth of the lanes of a public map.
+TEST(RoadKinds, ALaneBetweenSolidLinesIsUpToFiveMetresWide) {
+  for (double width_m = 2.4; width_m <= 5.3; width_m += 0.2) {
+    SCOPED_TRACE(width_m);
+    const LocalMap map =
+        driven({{MarkingType::laneline, 0.5 * width_m}, {MarkingType::laneline, -0.5 * width_m}});
+    EXPECT_THAT(map.lanes, SizeIs(1));
+    EXPECT_NE(lane_at(map, 0.0), nullptr);
+  }
+}
+
+/// The vehicle's own lines are unseen. On its far side there are a lane and a strip for parking.
+TEST(RoadKinds, ALaneBeyondASolidLineIsNotToldToRunAlong) {
+  for (const DrivingSide keeps : {DrivingSide::right, DrivingSide::left})
+    for (const double line_m : {3.6, 4.9, 6.5})
+      for (const double width_m : {2.8, 3.3, 3.8}) {
+        SCOPED_TRACE(testing::Message() << "line " << line_m << ", lane " << width_m);
+        const double far = keeps == DrivingSide::right ? 1.0 : -1.0;
+        MapperConfig config;
+        config.direction.driving_side = keeps;
+        const LocalMap map = driven({{kEdge, far * (line_m + width_m + 3.4)},
+                                     {MarkingType::laneline, far * (line_m + width_m)},
+                                     {MarkingType::laneline, far * line_m},
+                                     {kEdge, far * -5.1}},
+                                    config);
+        const Lane* lane = lane_at(map, far * (line_m + 0.5 * width_m));
+        ASSERT_NE(lane, nullptr);
+        const bool runs_ahead = lane->centerline.back().x() > lane->centerline.front().x();
+        EXPECT_TRUE(lane->direction == Lane::Direction::unknown ||
+                    (lane->direction == Lane::Direction::along_centerline && !runs_ahead));
+      }
+}
+
+}  // namespace
+}  // namespace laneloom
