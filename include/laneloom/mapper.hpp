@@ -52,6 +52,8 @@ class Mapper {
   /// Number of lines that the last update forgot because there was no room: a mapper keeps at most 256 lines
   /// with 20000 places together. The lines of the least evidence go. 0 with the voxel method.
   std::size_t lines_forgotten() const;
+  /// Number of detections of the last update that were left out because they zigzag (PreprocessConfig).
+  std::size_t detections_zigzagging() const { return detections_zigzagging_; }
   /// Whether the poses had jumped at the last update: by a step that no vehicle makes, and that the
   /// detections contradict. The map has moved with them, with its ids. The voxel method cleared it.
   bool poses_jumped() const { return poses_jumped_; }
@@ -78,6 +80,7 @@ class Mapper {
   MapperConfig config_;
   SdMap sd_map_;
   std::unique_ptr<MapperState> state_;
+  std::size_t detections_zigzagging_ = 0;
   bool poses_jumped_ = false;
 };
 

@@ -115,6 +115,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       frame, seen_from,
       log.done(Stage::preprocess,
                markings::preprocess(frame, seen_from, config_.preprocess))};  // paper, III-A
+  detections_zigzagging_ = frame.detections.size() - observed.markings.size();
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   lanes::LaneLayout layout = lanes_of(fused, scene, config_, log, state);

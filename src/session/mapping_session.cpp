@@ -193,6 +193,8 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
     counters.add("pose_jumps");
     ++progress.pose_jumps;
   }
+  if (const auto zigzagging = mapper.detections_zigzagging(); zigzagging > 0)
+    counters.add("detections_zigzagging", zigzagging);
   if (const auto forgotten = mapper.lines_forgotten(); forgotten > 0)
     counters.add("lines_forgotten", forgotten);
   progress.fused.push_back({frame.source, frame.session_id, frame.sequence, frame.stamp_ns});

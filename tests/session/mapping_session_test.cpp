@@ -172,6 +172,18 @@ TEST_F(MappingSessionTest, ALongFrameIsThinnedAndCounted) {
   EXPECT_EQ(refused(), 0U);
 }
 
+TEST_F(MappingSessionTest, ADetectionThatZigzagsIsLeftOutAndCounted) {
+  drive(10'000, 10'300);
+  auto jagged = frame(10'250);
+  Detection zigzag = jagged.detections[0];
+  zigzag.points.clear();
+  for (int i = 0; i < 12; ++i) zigzag.points.emplace_back(i, i % 2 == 0 ? 0.0 : 3.0, 0.0);
+  jagged.detections.push_back(zigzag);
+  add(jagged);
+  EXPECT_EQ(refused(), 0U) << "the rest of the frame is used";
+  EXPECT_EQ(session_.counters()["detections_zigzagging"], 1U);
+}
+
 TEST_F(MappingSessionTest, AFrameWithoutPosesIsRefusedInTheEnd) {
   add(frame(10'000));
   EXPECT_EQ(session_.pending(), 1U);

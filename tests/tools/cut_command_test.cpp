@@ -57,6 +57,15 @@ TEST_F(CutCommand, OfARecordingTopicsAndTimeAreKeptWithTheConfiguration) {
   EXPECT_NE(part.at("configuration"), "");
 }
 
+TEST_F(CutCommand, ObjectsOfOthersAreATopic) {
+  ASSERT_EQ(run({"simulate", "--scenario", "town", "--traffic", "usual", "--duration", "2", "--frames",
+                 file("t.frames.jsonl")}),
+            0);
+  ASSERT_EQ(run({"cut", file("t.frames.jsonl"), "--out", file("t.mcap")}), 0) << output();
+  ASSERT_EQ(run({"cut", file("t.mcap"), "--topic", "objects", "--out", file("objects.mcap")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("20 messages"));
+}
+
 TEST_F(CutCommand, ARecordingBecomesLinesAndLinesARecording) {
   ASSERT_EQ(run({"cut", file("in.frames.jsonl"), "--out", file("drive.mcap")}), 0) << output();
   ASSERT_EQ(run({"cut", file("drive.mcap"), "--out", file("back.frames.jsonl")}), 0) << output();

@@ -23,8 +23,8 @@ namespace laneloom::commands {
 namespace {
 
 /// The topics by their names without laneloom's prefix, as places in AnyMessage.
-const std::map<std::string, std::size_t> kTopics{
-    {"detections", 0}, {"vehicle_pose", 1}, {"lane_map", 2}, {"road_markings", 3}, {"status", 4}};
+const std::map<std::string, std::size_t> kTopics{{"detections", 0},    {"vehicle_pose", 1}, {"lane_map", 2},
+                                                 {"road_markings", 3}, {"status", 4},       {"objects", 5}};
 
 struct CutOptions {
   std::string drive, out;
