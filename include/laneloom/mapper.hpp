@@ -35,8 +35,9 @@ class Mapper {
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 
-  /// Takes what a tracker follows, seen from T_map_body. The next update() uses it. Messages come in the
-  /// order of their stamps, and of their sessions where stamps are equal. All values must be finite.
+  /// Takes what a tracker follows. T_map_body is the vehicle's pose at their stamp. The next update() uses
+  /// it. Messages come in the order of their stamps, and of their sessions where stamps are equal. All values
+  /// must be finite.
   void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body);
 
   /// The map after the last update.

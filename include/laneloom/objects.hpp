@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,8 +24,8 @@ struct TrackedObject {
   std::uint64_t id = 0;  ///< stays while the object is followed
   ObjectKind kind = ObjectKind::unknown;
   double existence_probability = -1.0;  ///< 0..1; -1: not estimated
-  Point position = Point::Zero();       ///< of the box's centre, on the ground; body frame
-  Point heading = Point::Zero();        ///< unit vector, body frame; zero: unknown, or known up to its sign
+  Point position = Point::Zero();       ///< of the box's centre, on the ground
+  Point heading = Point::Zero();        ///< unit vector; zero: unknown, or known up to its sign
   double speed_mps = 0.0;               ///< over ground, along the heading; negative: backwards
   double position_stddev_m = -1.0;      ///< horizontal
   double length_m = -1.0;               ///< along the heading
@@ -37,6 +38,19 @@ struct TrackedObjects {
   std::uint64_t sequence = 0;          ///< counts up by one per message of the writer
   std::uint64_t session_id = 0;        ///< of the writer's run; ids of objects are valid within it
   std::vector<TrackedObject> objects;  ///< empty: none is followed
+  bool in_map_frame = false;           ///< positions and headings are in the map frame, not in the body frame
 };
+
+/// The same objects in the body frame. T_map_body is the vehicle's pose at their stamp.
+inline TrackedObjects in_body_frame(TrackedObjects objects, const Eigen::Isometry3d& T_map_body) {
+  if (!objects.in_map_frame) return objects;
+  const Eigen::Isometry3d T_body_map = T_map_body.inverse();
+  for (TrackedObject& object : objects.objects) {
+    object.position = T_body_map * object.position;
+    object.heading = T_body_map.linear() * object.heading;
+  }
+  objects.in_map_frame = false;
+  return objects;
+}
 
 }  // namespace laneloom

@@ -88,17 +88,18 @@ Refusal from_msg(const msg::VehiclePose& from, const std::string& map_frame_id, 
   return intake.refusal();
 }
 
-std::size_t to_msg(const TrackedObjects& from, const std::string& /*map_frame_id*/, msg::Objects& to) {
-  to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, kBodyFrame));
+std::size_t to_msg(const TrackedObjects& from, const std::string& map_frame_id, msg::Objects& to) {
+  const std::string frame_id = from.in_map_frame ? map_frame_id : kBodyFrame;
+  to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, frame_id));
   return put_fitting(from.objects, to.objects());
 }
 
 Refusal from_msg(const msg::Objects& from, const std::string& map_frame_id, TrackedObjects& to) {
   Intake intake;
-  if (intake.text(from.header().frame_id().to_string()) == map_frame_id) intake.refuse("wrong_frame");
   to.stamp_ns = from.header().stamp_ns();
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();
+  to.in_map_frame = intake.text(from.header().frame_id().to_string()) == map_frame_id;
   intake.take(from.objects(), to.objects);
   return intake.refusal();
 }

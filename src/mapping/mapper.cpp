@@ -152,7 +152,7 @@ Eigen::Isometry3d Mapper::follow_poses(const DetectionFrame& frame, const Eigen:
 }
 
 void Mapper::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
-  if (config_.direction.use_traffic) state_->trails.add(objects, T_map_body);
+  if (config_.direction.use_traffic) state_->trails.add(in_body_frame(objects, T_map_body), T_map_body);
 }
 
 const LocalMap& Mapper::map() const { return state_->map; }

@@ -42,8 +42,10 @@ TEST(Convert, VehiclePosesSurvive) {
 TEST(Convert, ObjectsSurvive) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
     auto message = RandomMessages(seed).objects();
-    message.header().frame_id("body");
-    EXPECT_TRUE(through_plain<TrackedObjects>(message, "map") == message) << seed;
+    for (const char* frame : {"body", "map"}) {
+      message.header().frame_id(frame);
+      EXPECT_TRUE(through_plain<TrackedObjects>(message, "map") == message) << seed << frame;
+    }
   }
 }
 
@@ -57,11 +59,14 @@ TEST(Convert, OfTooManyObjectsTheFirstOnesAreSent) {
   EXPECT_EQ(message.objects().back().id(), 0U);
 }
 
-TEST(Refuse, ObjectsInTheMapFrame) {
+TEST(Convert, ObjectsAreInTheMapFrameOrInAnyOther) {
   auto message = RandomMessages(1).objects();
-  message.header().frame_id("map");
   TrackedObjects objects;
-  EXPECT_EQ(from_msg(message, "map", objects), "wrong_frame");
+  for (const char* frame : {"map", "body", "base_link"}) {
+    message.header().frame_id(frame);
+    EXPECT_EQ(from_msg(message, "map", objects), "");
+    EXPECT_EQ(objects.in_map_frame, frame == std::string("map")) << frame;
+  }
 }
 
 TEST(Refuse, ObjectsWithNumbersOrClassesThatAreNone) {

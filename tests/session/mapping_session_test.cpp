@@ -394,6 +394,26 @@ TEST(Objects, GoIntoTheMapInAnyOrderOfArrival) {
   EXPECT_NE(map_of({4, 1, 3, 0}, 21), map);
 }
 
+TEST(Objects, InTheMapFrameLeaveTheSameTrails) {
+  const auto trail_of = [](bool in_map_frame) {
+    MappingSession session{Config{}};
+    for (std::int64_t t = 10'000; t <= 12'000; t += 10) {
+      session.add(pose(t));
+      if (t % 100 != 0) continue;
+      TrackedObjects cars = objects(t);
+      cars.in_map_frame = in_map_frame;
+      if (in_map_frame) cars.objects[0].position += pose(t).position;
+      session.add(std::move(cars));
+      session.add(frame(t), 0);
+    }
+    return session.mapper().state().trails.all().at(0).points;
+  };
+  const Polyline wanted = trail_of(false), found = trail_of(true);
+  ASSERT_GT(wanted.size(), 10U);
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(found[i].isApprox(wanted[i], 1e-9)) << i;
+}
+
 TEST_F(MappingSessionTest, EveryMessageOfObjectsIsAccountedFor) {
   session_.add(objects(9'900));  // before the first pose
   drive(10'000, 11'000);

@@ -123,7 +123,6 @@ void Observer::take_configuration(const ServiceStatus& status) {
   config_.map_frame_id = frame_id;
   detections_stream_.observed.refused.erase("wrong_frame");
   poses_stream_.observed.refused.erase("wrong_frame");
-  objects_stream_.observed.refused.erase("wrong_frame");
 }
 
 void Observer::receive(ServiceStatus&& status) {

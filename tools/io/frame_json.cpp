@@ -79,7 +79,8 @@ std::string to_json_line(const FrameRecord& record) {
   for (const MarkingType type : frame.detected_types) out["detected_types"].push_back(name(type));
   if (!frame.field_of_view.empty()) out["field_of_view"] = polyline_json(frame.field_of_view);
   for (const Polyline& area : frame.occluded_areas) out["occluded_areas"].push_back(polyline_json(area));
-  if (record.objects) out["objects"] = ToJson::of(record.objects->objects);
+  if (record.objects)
+    out["objects"] = ToJson::of(in_body_frame(*record.objects, transform(record.pose)).objects);
   return out.dump();
 }
 

@@ -35,7 +35,7 @@ struct Trail {
 /// The order of objects within a message does not matter.
 class Trails {
  public:
-  /// Takes the objects of one message, at the vehicle's pose at their stamp.
+  /// Takes the objects of one message, in the body frame, at the vehicle's pose at their stamp.
   void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body);
   /// Forgets what lies further from the vehicle than it will be of use.
   void keep_around(const Point& vehicle);

@@ -54,6 +54,17 @@ TEST_F(TrailsTest, AVehicleLeavesATrailInTheMapFrame) {
   EXPECT_NEAR((trails_.all()[0].points[13] - Point(13.0, 2.0, 0.0)).norm(), 0.0, 1e-9);
 }
 
+TEST_F(TrailsTest, ObjectsInTheMapFrameAreThoseOfTheBodyFrame) {
+  TrackedObject car = seen_at(13.0, 2.0);
+  car.position = {13.0, 2.0, 0.0};
+  car.heading = Point::UnitX();
+  const TrackedObjects seen = in_body_frame({.objects = {car}, .in_map_frame = true}, T_map_body());
+  EXPECT_FALSE(seen.in_map_frame);
+  EXPECT_TRUE(seen.objects[0].position.isApprox(seen_at(13.0, 2.0).position, 1e-9));
+  EXPECT_TRUE(seen.objects[0].heading.isApprox(seen_at(13.0, 2.0).heading, 1e-9));
+  EXPECT_EQ(in_body_frame({.objects = {car}}, T_map_body()).objects[0].position, car.position);
+}
+
 TEST_F(TrailsTest, PointsAreAMetreApart) {
   drive(0, 40, [](TrackedObject& car, int step) {
     car = seen_at(0.25 * step, 2.0);
