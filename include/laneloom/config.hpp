@@ -267,6 +267,8 @@ struct Ros2Config {
   std::string distro = "jazzy";  ///< humble or jazzy; only `announce` depends on it
   bool announce = false;         ///< show a node in `ros2 node list`
   std::string odometry_topic = "odom";  ///< of the vehicle's poses (nav_msgs/Odometry)
+  /// Topic of other vehicles (autoware_perception_msgs/TrackedObjects).
+  std::string objects_topic = "tracked_objects";
   /// Topic of the map in the vehicle's frame (autoware_mapless_planning_msgs/RoadSegments).
   std::string road_segments_topic = "laneloom/road_segments";
 };

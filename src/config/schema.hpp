@@ -399,9 +399,10 @@ void visit(auto& v, Is<SdMapConfig> auto& c) {
 }
 
 void visit(auto& v, Is<Ros2Config> auto& c) {
-  auto& [enabled, ros_namespace, distro, announce, odometry_topic, road_segments_topic] = c;
+  auto& [enabled, ros_namespace, distro, announce, odometry_topic, objects_topic, road_segments_topic] = c;
   v.flag("enabled", enabled,
-         "Whether the service also takes odometry and detections from ROS 2, and publishes the map there.");
+         "Whether the service also takes odometry, detections and objects from ROS 2, and publishes the map "
+         "there.");
   v.path("namespace", ros_namespace,
          "ROS 2 namespace of this vehicle, such as /car_1. Empty: there is none.");
   v.choice("distro", distro, "humble|jazzy",
@@ -411,6 +412,9 @@ void visit(auto& v, Is<Ros2Config> auto& c) {
          "distribution ros2.distro.");
   v.path("odometry_topic", odometry_topic,
          "Topic of the vehicle's poses in dds.map_frame_id (nav_msgs/Odometry).");
+  v.path(
+      "objects_topic", objects_topic,
+      "Topic of other vehicles, in dds.map_frame_id or base_link (autoware_perception_msgs/TrackedObjects).");
   v.path("road_segments_topic", road_segments_topic,
          "Topic of the map in the vehicle's frame (autoware_mapless_planning_msgs/RoadSegments).");
 }

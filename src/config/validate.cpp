@@ -96,6 +96,7 @@ std::optional<Problem> find_wrong_name(const Ros2Config& ros2) {
   if (!ros2.ros_namespace.empty() && !fits(ros2.ros_namespace))
     return problem("namespace", ros2.ros_namespace);
   if (!fits(ros2.odometry_topic)) return problem("odometry_topic", ros2.odometry_topic);
+  if (!fits(ros2.objects_topic)) return problem("objects_topic", ros2.objects_topic);
   if (!fits(ros2.road_segments_topic)) return problem("road_segments_topic", ros2.road_segments_topic);
   return std::nullopt;
 }

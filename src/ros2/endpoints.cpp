@@ -22,6 +22,7 @@ namespace laneloom::ros2 {
 namespace {
 
 using autoware_mapless_planning_msgs::msg::dds_::RoadSegments_PubSubType;
+using autoware_perception_msgs::msg::dds_::TrackedObjects_;
 using dds::TopicKind;
 using diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType;
 using nav_msgs::msg::dds_::Odometry_;
@@ -62,10 +63,13 @@ class Endpoints::Impl {
                     relative<dds::CheckedType<msg::DetectionsPubSubType>>(kDetectionsTopic, kDetectionsType,
                                                                           TopicKind::detections),
                     std::move(inputs.detections),
-                    in_map_frame<msg::Detections&&, DetectionFrame>(dds::from_msg)),
+                    with_map_frame<msg::Detections&&, DetectionFrame>(dds::from_msg)),
         odometry_(participant_,
                   relative<OdometryType>(config.ros2.odometry_topic, kOdometryType, TopicKind::poses),
-                  std::move(inputs.poses), in_map_frame<const Odometry_&, VehiclePose>(from_ros)) {
+                  std::move(inputs.poses), with_map_frame<const Odometry_&, VehiclePose>(from_ros)),
+        objects_(
+            participant_, relative<ObjectsType>(config.ros2.objects_topic, kObjectsType, TopicKind::objects),
+            std::move(inputs.objects), with_map_frame<const TrackedObjects_&, TrackedObjects>(from_ros)) {
     if (config.ros2.announce) announcement_ = announce(participant_, config.ros2);
   }
 
@@ -93,7 +97,7 @@ class Endpoints::Impl {
   }
   /// `From` is a message as `convert` takes it.
   template <class From, class T>
-  typename Input<std::remove_cvref_t<From>, T>::Convert in_map_frame(
+  typename Input<std::remove_cvref_t<From>, T>::Convert with_map_frame(
       std::string_view (*convert)(From, const std::string&, T&)) const {
     return [convert, frame = config_.dds.map_frame_id](std::remove_cvref_t<From>&& from, T& to) {
       return convert(std::move(from), frame, to);
@@ -107,6 +111,7 @@ class Endpoints::Impl {
   dds::TopicWriter map_, markers_writer_, segments_, diagnostics_;
   Input<msg::Detections, DetectionFrame> detections_;
   Input<Odometry_, VehiclePose> odometry_;
+  Input<TrackedObjects_, TrackedObjects> objects_;
   std::unique_ptr<dds::TopicWriter> announcement_;  ///< null: there is none
 };
 

@@ -8,6 +8,7 @@
 #include "laneloom/dds/participant.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/objects.hpp"
 
 namespace laneloom::ros2 {
 
@@ -15,11 +16,12 @@ namespace laneloom::ros2 {
 /// its topics and types have the names that ROS gives them. Not thread-safe.
 class Endpoints {
  public:
-  /// Callbacks for the inputs, as those of dds::Reader. A frame or a pose without a session gets one that is
+  /// Callbacks for the inputs, as those of dds::Reader. A message without a session gets one that is
   /// derived from its DDS writer, and the sequence number that DDS gave it.
   struct Inputs {
     dds::ReaderCallbacks<DetectionFrame> detections;
     dds::ReaderCallbacks<VehiclePose> poses;
+    dds::ReaderCallbacks<TrackedObjects> objects;
   };
   /// Throws as dds::Participant().
   Endpoints(const Config& config, Inputs inputs, dds::Participant::Presence presence);

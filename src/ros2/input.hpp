@@ -1,24 +1,29 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <new>
+#include <span>
 #include <string_view>
 #include <utility>
 
+#include "AutowarePerceptionMsgsPubSubTypes.h"
 #include "NavMsgsPubSubTypes.h"
 #include "dds/checked_type.hpp"
 #include "dds/topic_reader.hpp"
 #include "ros2/names.hpp"
 #include "ros2/odometry.hpp"
+#include "ros2/tracked_objects.hpp"
 
 namespace laneloom::ros2 {
 
-/// The generated type support of an odometry, made safe as dds::CheckedType does.
-class OdometryType : public nav_msgs::msg::dds_::Odometry_PubSubType {
+/// The generated type support of a message of ROS, made safe as dds::CheckedType does. `is_whole` tells
+/// whether a payload can be such a message.
+template <class PubSubType, bool (*is_whole)(std::span<const std::uint8_t>)>
+class ScannedType : public PubSubType {
  public:
-  using Base = nav_msgs::msg::dds_::Odometry_PubSubType;
-  using Sample = dds::Sample<nav_msgs::msg::dds_::Odometry_>;
+  using Sample = dds::Sample<typename PubSubType::type>;
   using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
 
   bool deserialize(Payload* payload, void* data) override {
@@ -26,7 +31,7 @@ class OdometryType : public nav_msgs::msg::dds_::Odometry_PubSubType {
     sample->refusal = {};
     try {
       const bool whole =
-          is_odometry({payload->data, payload->length}) && Base::deserialize(payload, &sample->message);
+          is_whole({payload->data, payload->length}) && PubSubType::deserialize(payload, &sample->message);
       if (!whole) sample->refusal = "malformed";
     } catch (...) {
       sample->refusal = "malformed";
@@ -36,6 +41,10 @@ class OdometryType : public nav_msgs::msg::dds_::Odometry_PubSubType {
   void* createData() override { return new Sample; }
   void deleteData(void* data) override { delete static_cast<Sample*>(data); }
 };
+
+using OdometryType = ScannedType<nav_msgs::msg::dds_::Odometry_PubSubType, is_odometry>;
+using ObjectsType =
+    ScannedType<autoware_perception_msgs::msg::dds_::TrackedObjects_PubSubType, is_tracked_objects>;
 
 /// Reads messages of ROS as plain types.
 template <class Message, class T>

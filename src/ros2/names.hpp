@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,11 @@ inline constexpr const char* kDetectionsTopic = "laneloom/detections";
 inline constexpr const char* kDetectionsType = "laneloom_msgs/msg/Detections";
 /// Type of the poses. The configuration names their topic.
 inline constexpr const char* kOdometryType = "nav_msgs/msg/Odometry";
+/// Type of the tracked objects. The configuration names their topic.
+inline constexpr const char* kObjectsType = "autoware_perception_msgs/msg/TrackedObjects";
+
+/// The name of the vehicle's frame in ROS.
+inline constexpr const char* kBaseLink = "base_link";
 
 /// The namespace with its leading '/'; "/" if there is none.
 std::string full_namespace(const Ros2Config& config);
@@ -37,6 +43,9 @@ std::string user_data(std::string_view ros_type);
 
 /// The user data of a participant of ROS. It names the security enclave that the participant belongs to.
 inline constexpr const char* kParticipantUserData = "enclave=/;";
+
+/// A number for a name of many bytes, such as a UUID: two names have different ones, but by bad luck.
+std::uint64_t hash_of(std::span<const std::uint8_t> name);
 
 /// A session id for a writer whose messages name none: a different one for each writer, never 0.
 std::uint64_t session_of(const dds::WriterId& writer);

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "ros2/names.hpp"
 #include "ros2/parts.hpp"
 
 namespace laneloom::ros2 {

@@ -5,9 +5,6 @@
 
 namespace laneloom::ros2 {
 
-/// The name of the vehicle's frame in ROS.
-inline constexpr const char* kBaseLink = "base_link";
-
 /// The map's lanes as Autoware's mapless nodes read them, in the vehicle's frame at the map's stamp: the
 /// vehicle is at the origin. Segments are numbered from 0 in each message. A segment's first line is its left
 /// one. A segment has two neighbours, left and right; a neighbour that does not exist, or runs the other way,

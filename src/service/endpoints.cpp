@@ -62,7 +62,10 @@ Endpoints::Endpoints(const Config& config, std::uint64_t session_id, IngestionQu
       services_(participant_, look_for_others(session_id, queue, now_ns)) {
   if (!config.ros2.enabled) return;
   ros2 = std::make_unique<ros2::Endpoints>(
-      config, ros2::Endpoints::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns)}, presence);
+      config,
+      ros2::Endpoints::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns),
+                              take_objects(queue, now_ns)},
+      presence);
 }
 
 Counters Endpoints::refused_datagrams() const {

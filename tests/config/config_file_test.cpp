@@ -159,7 +159,7 @@ TEST_F(ConfigFile, ANameThatRos2RefusesIsNamedWithItsLine) {
   for (const std::string name : {"/", "car-1", "/car_1/", "//car", "a//b", "1car", "/a/1", "a b", "rt/ö"})
     EXPECT_THAT(error_of("ros2:\n  namespace: '" + name + "'\n"), StartsWith(":2: ros2.namespace: \"" + name))
         << name;
-  for (const std::string key : {"odometry_topic", "road_segments_topic"}) {
+  for (const std::string key : {"odometry_topic", "objects_topic", "road_segments_topic"}) {
     EXPECT_THAT(error_of("ros2:\n  " + key + ": ''\n"), StartsWith(":2: ros2." + key + ": \"\" is no name"));
     EXPECT_EQ(error_of("ros2:\n  " + key + ": " + std::string(100, 'a') + "\n"), "no error");
     EXPECT_THAT(error_of("ros2:\n  " + key + ": " + std::string(101, 'a') + "\n"),

@@ -10,6 +10,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr const char* kOdometry = "nav_msgs::msg::dds_::Odometry_";
+constexpr const char* kObjects = "autoware_perception_msgs::msg::dds_::TrackedObjects_";
 constexpr const char* kRosDetections = "laneloom_msgs::msg::dds_::Detections_";
 
 dds::Endpoint node(bool is_writer, const char* topic, const char* type) {
@@ -54,6 +55,23 @@ TEST(Ros2, AnotherTopic) {
   EXPECT_THAT(found[0].found, HasSubstr("rt/car_1/odom"));
   EXPECT_THAT(found[0].found, HasSubstr("not rt/localization/kinematic_state"));
   EXPECT_THAT(found[0].remedy, HasSubstr("ros2.odometry_topic"));
+}
+
+TEST(Ros2, ObjectsOfAnotherTopic) {
+  Observed seen = with_nodes();
+  seen.endpoints.push_back(node(true, "rt/perception/objects", kObjects));
+  const Findings found = ros_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("ros_topic"));
+  EXPECT_THAT(found[0].remedy, HasSubstr("ros2.objects_topic"));
+  seen.services[0].last.configuration.emplace_back("ros2.objects_topic", "/perception/objects");
+  EXPECT_THAT(ids(ros_findings(seen)), IsEmpty());
+}
+
+TEST(Ros2, ObjectsAreOptional) {
+  Observed seen = healthy();
+  seen.services[0].last.configuration = {{"ros2.enabled", "false"}};
+  seen.endpoints.push_back(node(true, "rt/perception/objects", kObjects));
+  EXPECT_THAT(ids(ros_findings(seen)), IsEmpty());
 }
 
 TEST(Ros2, NotEnabled) {

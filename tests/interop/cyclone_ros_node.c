@@ -1,7 +1,8 @@
 // cyclone_ros_node DOMAIN NAMESPACE FILE [SECONDS]: what a node of ROS 2 is on DDS, on Cyclone DDS, with the
 // names and the quality of service that rclcpp gives by default. It drives along a straight road with one
-// lane: writes nav_msgs/Odometry and laneloom_msgs/Detections, and prints what it reads of the service into
-// FILE, a line each, until it is killed. With SECONDS, it writes no detections after them.
+// lane, behind another vehicle: writes nav_msgs/Odometry, laneloom_msgs/Detections and
+// autoware_perception_msgs/TrackedObjects, and prints what it reads of the service into FILE, a line each,
+// until it is killed. With SECONDS, it writes no detections after them.
 #include <dds/dds.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -9,6 +10,7 @@
 #include <string.h>
 
 #include "AutowareMaplessPlanningMsgs.h"
+#include "AutowarePerceptionMsgs.h"
 #include "Detections.h"
 #include "DiagnosticMsgs.h"
 #include "LaneMap.h"
@@ -65,16 +67,40 @@ static dds_qos_t* best_effort_qos(void) {
 #define SEQUENCE(array) \
   { ._length = sizeof(array) / sizeof *(array), ._buffer = (array) }
 
+static std_msgs_msg_dds__Header_ header_at(int64_t time_ms) {
+  return (std_msgs_msg_dds__Header_){.stamp = {.sec = (int32_t)(kStart_s + time_ms / 1000),
+                                               .nanosec = (uint32_t)(time_ms % 1000) * 1000000U},
+                                     .frame_id = "map"};
+}
+
 static void write_odometry(dds_entity_t writer, int64_t time_ms) {
   const nav_msgs_msg_dds__Odometry_ odometry = {
-      .header = {.stamp = {.sec = (int32_t)(kStart_s + time_ms / 1000),
-                           .nanosec = (uint32_t)(time_ms % 1000) * 1000000U},
-                 .frame_id = "map"},
+      .header = header_at(time_ms),
       .child_frame_id = "base_link",
       .pose = {.pose = {.position = {.x = kSpeed_mps * (double)time_ms / 1e3}, .orientation = {.w = 1.0}},
                .covariance = {[0] = 0.01}},
       .twist = {.twist = {.linear = {.x = kSpeed_mps}}}};
   dds_write(writer, &odometry);
+}
+
+/// The vehicle ahead, in the map frame.
+static void write_objects(dds_entity_t writer, int64_t time_ms) {
+  autoware_perception_msgs_msg_dds__ObjectClassification_ car = {.label = 1, .probability = 0.9F};
+  autoware_perception_msgs_msg_dds__TrackedObject_ vehicle = {
+      .object_id = {.uuid = {[0] = 1}},
+      .existence_probability = 0.9F,
+      .classification = {._length = 1, ._buffer = &car},
+      .kinematics = {.pose_with_covariance = {.pose = {.position = {.x = 12.0 +
+                                                                         kSpeed_mps * (double)time_ms / 1e3,
+                                                                    .z = 0.75},
+                                                       .orientation = {.w = 1.0}},
+                                              .covariance = {[0] = 0.04, [7] = 0.04}},
+                     .twist_with_covariance = {.twist = {.linear = {.x = kSpeed_mps}}},
+                     .orientation_availability = 2},
+      .shape = {.dimensions = {.x = 4.5, .y = 1.8, .z = 1.5}}};
+  const autoware_perception_msgs_msg_dds__TrackedObjects_ message = {
+      .header = header_at(time_ms), .objects = {._length = 1, ._buffer = &vehicle}};
+  dds_write(writer, &message);
 }
 
 /// Both lines of the lane, without a session: the writer's counts.
@@ -98,8 +124,12 @@ static void write_detections(dds_entity_t writer, int64_t time_ms) {
 
 static void print_map(const void* sample) {
   const laneloom_msg_LaneMap* map = sample;
-  fprintf(output, "{\"topic\":\"lane_map\",\"state\":%d,\"lanes\":%u,\"fused\":%u,\"session\":%s}\n",
-          (int)map->state, map->lanes._length, map->fused_frames._length,
+  uint32_t evidence = 0;  // of all directions
+  for (uint32_t i = 0; i < map->lanes._length; ++i) evidence |= map->lanes._buffer[i].direction_evidence;
+  fprintf(output,
+          "{\"topic\":\"lane_map\",\"state\":%d,\"lanes\":%u,\"traffic\":%s,\"fused\":%u,\"session\":%s}\n",
+          (int)map->state, map->lanes._length,
+          (evidence & laneloom_msg_EVIDENCE_TRAFFIC) != 0 ? "true" : "false", map->fused_frames._length,
           map->fused_frames._length > 0 && map->fused_frames._buffer[0].session_id != 0 ? "true" : "false");
 }
 
@@ -193,10 +223,17 @@ typedef struct {
   dds_entity_t reader;
 } Output;
 
-static void run(dds_entity_t odometry, dds_entity_t detections, const Output* outputs, int count) {
+/// The writers of the node.
+typedef struct {
+  dds_entity_t odometry, detections, objects;
+} Inputs;
+
+static void run(Inputs inputs, const Output* outputs, int count) {
   for (int64_t time_ms = 0;; time_ms += kStep_ms) {
-    write_odometry(odometry, time_ms);
-    if (time_ms % kFramePeriod_ms == 0 && time_ms < blind_after_ms) write_detections(detections, time_ms);
+    write_odometry(inputs.odometry, time_ms);
+    if (time_ms % kFramePeriod_ms == 0) write_objects(inputs.objects, time_ms);
+    if (time_ms % kFramePeriod_ms == 0 && time_ms < blind_after_ms)
+      write_detections(inputs.detections, time_ms);
     for (int i = 0; i < count; ++i) print_new(outputs[i].reader, outputs[i].print);
     dds_sleepfor(DDS_MSECS(kStep_ms));
   }
@@ -222,6 +259,9 @@ int main(int argc, char** argv) {
   const dds_entity_t detections =
       topic(participant, &laneloom_msg_Detections_desc, "laneloom_msgs::msg::dds_::Detections_", below,
             "laneloom/detections");
+  const dds_entity_t objects =
+      topic(participant, &autoware_perception_msgs_msg_dds__TrackedObjects__desc,
+            "autoware_perception_msgs::msg::dds_::TrackedObjects_", below, "tracked_objects");
   Output outputs[] = {
       {&laneloom_msg_LaneMap_desc, "laneloom_msgs::msg::dds_::LaneMap_", below, "laneloom/lane_map",
        default_qos(), print_map, 0, 0},
@@ -246,6 +286,8 @@ int main(int argc, char** argv) {
                                   : topic(participant, o->type, o->type_name, o->name_space, o->name);
     o->reader = made(dds_create_reader(participant, read, o->qos, NULL), o->name);
   }
-  run(made(dds_create_writer(participant, odometry, default_qos(), NULL), "odometry"),
-      made(dds_create_writer(participant, detections, default_qos(), NULL), "detections"), outputs, count);
+  const Inputs inputs = {made(dds_create_writer(participant, odometry, default_qos(), NULL), "odometry"),
+                         made(dds_create_writer(participant, detections, default_qos(), NULL), "detections"),
+                         made(dds_create_writer(participant, objects, default_qos(), NULL), "objects")};
+  run(inputs, outputs, count);
 }

@@ -21,6 +21,11 @@ namespace {
 
 using nlohmann::json;
 
+bool counts(const ServiceStatus& status, const std::string& counter) {
+  return std::ranges::any_of(status.counters,
+                             [&](const auto& entry) { return entry.first == counter && entry.second > 0; });
+}
+
 class CycloneRosNode : public ::testing::Test {
  protected:
   void SetUp() override { start_node(); }
@@ -93,6 +98,18 @@ TEST_F(CycloneRosNode, DrivesTheServiceAndReadsItsMap) {
   EXPECT_TRUE(read("node").empty()) << "announced, but nobody asked";
 }
 
+TEST_F(CycloneRosNode, ItsObjectsTellTheDirectionOfTheirLane) {
+  start_service();
+  EXPECT_TRUE(wait_for("lane_map", [](const json& map) { return map["traffic"] == true; }));
+}
+
+TEST_F(CycloneRosNode, ObjectsOfAnotherFrameAreRefusedAndCounted) {
+  Listener<ServiceStatus> statuses(config_);
+  start_service("dds:\n  map_frame_id: odom\n");
+  EXPECT_TRUE(statuses.wait_for(
+      [](const ServiceStatus& status) { return counts(status, "objects_refused_wrong_frame"); }));
+}
+
 TEST_F(CycloneRosNode, MarkersKeepTheirIds) {
   start_service();
   ASSERT_TRUE(wait_for("marker", [](const json& marker) { return marker["ns"] == "lanes"; }));
@@ -113,11 +130,6 @@ TEST_F(CycloneRosNode, NothingOfItIsRefusedAtTheDoor) {
   ASSERT_TRUE(statuses.wait_for([](const ServiceStatus&) { return true; }));
   EXPECT_FALSE(refused_datagrams(statuses.samples().back()));
   EXPECT_FALSE(statuses.refused_datagrams());
-}
-
-bool counts(const ServiceStatus& status, const std::string& counter) {
-  return std::ranges::any_of(status.counters,
-                             [&](const auto& entry) { return entry.first == counter && entry.second > 0; });
 }
 
 TEST_F(CycloneRosNode, AnotherWriterOfOdometryIsAnotherSession) {
@@ -172,6 +184,8 @@ TEST_F(CycloneRosNode, IsToldTheHashesOfTheTypes) {
   EXPECT_TRUE(told("reader", "rt/fleet/car_1/odom",
                    "typehash=RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0;"));
   EXPECT_TRUE(told("reader", "rt/fleet/car_1/laneloom/detections", "typehash=RIHS01_"));
+  EXPECT_TRUE(told("reader", "rt/fleet/car_1/tracked_objects",
+                   "typehash=RIHS01_3559bd4e62ce8a4d96e32720c02bbe656cc090bb2b3f3f91f52a7c3ab095417a;"));
   EXPECT_TRUE(told("writer", "rt/fleet/car_1/laneloom/lane_map", "typehash=RIHS01_"));
   EXPECT_TRUE(told("writer", "rt/fleet/car_1/laneloom/markers",
                    "typehash=RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf;"));
@@ -185,7 +199,7 @@ TEST_F(CycloneRosNode, IsToldOfTheNodeThatTheServiceIs) {
   start_service("  announce: true\n");
   EXPECT_TRUE(wait_for("node", [](const json& node) {
     // Detections have two readers.
-    return node["namespace"] == "/fleet/car_1" && node["name"] == "laneloom" && node["readers"] == 3 &&
+    return node["namespace"] == "/fleet/car_1" && node["name"] == "laneloom" && node["readers"] == 4 &&
            node["writers"] == 4;
   }));
 }

@@ -17,6 +17,7 @@
 #include "ros2/markers.hpp"
 #include "ros2/odometry.hpp"
 #include "ros2/road_segments.hpp"
+#include "ros2/tracked_objects.hpp"
 #include "temporary_folder.hpp"
 
 // npm's @foxglove/rosmsg and @foxglove/rosmsg2-serialization share no code with laneloom.
@@ -159,6 +160,29 @@ TEST_F(Decoders, WriteAnOdometryThatIsRead) {
   EXPECT_EQ(message.child_frame_id(), "base_link");
   EXPECT_EQ(message.twist().twist().angular().z(), 9.0);
   EXPECT_EQ(message.twist().covariance()[35], 0.25);
+}
+
+TEST_F(Decoders, WriteTrackedObjectsThatAreRead) {
+  const Bytes bytes = from_hex(run("--objects"));
+  ASSERT_TRUE(is_tracked_objects(bytes));
+  autoware_perception_msgs::msg::dds_::TrackedObjects_ message;
+  dds::read_cdr(bytes, [&](eprosima::fastcdr::Cdr& cdr) { message.deserialize(cdr); });
+  TrackedObjects objects;
+  EXPECT_EQ(from_ros(message, "map", objects), "");
+  EXPECT_EQ(objects.stamp_ns, 1'700'000'000'250'000'000);
+  ASSERT_EQ(objects.objects.size(), 2U);
+  const TrackedObject& bus = objects.objects[1];
+  EXPECT_NE(bus.id, objects.objects[0].id);
+  EXPECT_EQ(bus.kind, ObjectKind::bus);
+  EXPECT_EQ(bus.existence_probability, 0.5);
+  EXPECT_EQ(bus.position, Point(1.0, 2.0, 1.5));
+  EXPECT_EQ(bus.heading, Point::UnitX());
+  EXPECT_EQ(bus.speed_mps, 4.0);
+  EXPECT_EQ(bus.position_stddev_m, 0.5);
+  EXPECT_EQ(bus.length_m, 12.0);
+  EXPECT_EQ(bus.width_m, 2.5);
+  EXPECT_EQ(message.objects()[1].kinematics().acceleration_with_covariance().covariance()[35], 0.125);
+  EXPECT_EQ(message.objects()[1].shape().footprint().points().at(1).y(), 6.0F);
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ TEST(TypeHashes, AreThoseOfRos) {
             "typehash=RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e;");
   EXPECT_EQ(hash("autoware_mapless_planning_msgs/msg/RoadSegments"),
             "typehash=RIHS01_61e98577e4de1fd1307e9bdfc809000f99d188c35ed507fe6aa575f5a0445352;");
+  EXPECT_EQ(hash("autoware_perception_msgs/msg/TrackedObjects"),
+            "typehash=RIHS01_3559bd4e62ce8a4d96e32720c02bbe656cc090bb2b3f3f91f52a7c3ab095417a;");
   EXPECT_EQ(hash("rmw_dds_common/msg/ParticipantEntitiesInfo"),
             "typehash=RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e;");
   for (const char* ours : {"laneloom_msgs/msg/Detections", "laneloom_msgs/msg/LaneMap"})

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bytes.hpp"
+#include "read.hpp"
 #include "ros2/input.hpp"
 
 namespace laneloom::ros2 {
@@ -25,18 +26,6 @@ Odometry_ odometry() {
   message.pose().pose().orientation().z(std::sqrt(0.5));
   message.pose().pose().orientation().w(std::sqrt(0.5));
   return message;
-}
-
-/// The sample that a reader makes of these bytes.
-OdometryType::Sample read(std::vector<std::uint8_t> bytes) {
-  OdometryType type;
-  OdometryType::Sample sample;
-  OdometryType::Payload payload;
-  payload.data = bytes.data();
-  payload.length = payload.max_size = static_cast<std::uint32_t>(bytes.size());
-  EXPECT_TRUE(type.deserialize(&payload, &sample));
-  payload.data = nullptr;
-  return sample;
 }
 
 TEST(Odometry, IsAPose) {
@@ -65,17 +54,18 @@ TEST(Odometry, IsRefusedForWhatIsWrong) {
 
 TEST(Odometry, OfAnyBytesIsReadOrRefused) {
   const auto bytes = bytes_of(odometry());
-  EXPECT_EQ(read(bytes).refusal, "");
-  EXPECT_EQ(read(bytes).message.child_frame_id(), "base_link");
+  EXPECT_EQ(read<OdometryType>(bytes).refusal, "");
+  EXPECT_EQ(read<OdometryType>(bytes).message.child_frame_id(), "base_link");
   for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_EQ(read({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}).refusal, "malformed")
+    EXPECT_EQ(read<OdometryType>({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}).refusal,
+              "malformed")
         << size;
   auto longer = bytes;
   longer.resize(bytes.size() + 4);
-  EXPECT_EQ(read(longer).refusal, "malformed");
+  EXPECT_EQ(read<OdometryType>(longer).refusal, "malformed");
   auto huge = bytes;
   for (const std::size_t i : {12U, 13U, 14U, 15U}) huge.at(i) = 0xFF;  // the length of frame_id
-  EXPECT_EQ(read(huge).refusal, "malformed");
+  EXPECT_EQ(read<OdometryType>(huge).refusal, "malformed");
 }
 
 }  // namespace

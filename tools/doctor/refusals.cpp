@@ -25,9 +25,11 @@ constexpr std::array kRefusals{
     Refusal{"not_a_rotation", "their quaternion is not of length one",
             "Normalise it where they are written."},
     Refusal{
-        "wrong_frame", "their frame_id is not the map frame, or, of detections or objects, it is",
+        "wrong_frame",
+        "their frame_id is not the map frame; of detections, it is; of ROS 2's objects, it is not base_link "
+        "either",
         "Set dds.map_frame_id to the frame that poses are given in, or the frame_id of the poses to that. "
-        "Detections and objects are given in the body frame, which has another name."},
+        "Detections are given in the body frame, which has another name."},
     Refusal{"wrong_size", "lists that belong together differ in length", kWriter},
     Refusal{"stamp", "their stamp is zero, negative or absurd", "Stamp them in nanoseconds, at measurement."},
     Refusal{"coordinate", "a coordinate is further out than gate.max_coordinate_m", kGate},

@@ -22,6 +22,7 @@ struct RosInput {
   std::string what, topic, type;
   std::string key;        ///< key of the configuration that names its topic
   std::string own_topic;  ///< laneloom's own topic for the same input
+  bool needed = true;     ///< whether the service maps nothing without it
 };
 
 RosInput detections_of(const Ros2Config& ros2) {
@@ -34,6 +35,15 @@ RosInput poses_of(const Ros2Config& ros2) {
           "ros2.odometry_topic", dds::kVehiclePoseTopic};
 }
 
+RosInput objects_of(const Ros2Config& ros2) {
+  return {"objects",
+          ros2::dds_topic(ros2, ros2.objects_topic),
+          ros2::dds_type(ros2::kObjectsType),
+          "ros2.objects_topic",
+          dds::kObjectsTopic,
+          false};
+}
+
 /// The section ros2 of the service's configuration. None: there is no service, or it told nothing.
 std::optional<Ros2Config> ros2_of(const Observed& seen) {
   if (seen.services.empty()) return std::nullopt;
@@ -42,6 +52,7 @@ std::optional<Ros2Config> ros2_of(const Observed& seen) {
     if (key == "ros2.enabled") ros2.enabled = value == "true";
     if (key == "ros2.namespace") ros2.ros_namespace = value;
     if (key == "ros2.odometry_topic") ros2.odometry_topic = value;
+    if (key == "ros2.objects_topic") ros2.objects_topic = value;
   }
   return ros2;
 }
@@ -80,6 +91,7 @@ bool is_written_without_ros(const Observed& seen, const RosInput& input) {
 
 void judge(const Observed& seen, const Ros2Config& ros2, const RosInput& input, Findings& found) {
   if (is_written_without_ros(seen, input) || (ros2.enabled && is_written(seen, input))) return;
+  if (!input.needed && !ros2.enabled) return;
   for (const Endpoint& endpoint : seen.endpoints) {
     if (!endpoint.is_writer || endpoint.type != input.type) continue;
     found.push_back(ros2.enabled ? elsewhere(endpoint, input) : not_enabled(endpoint));
@@ -98,6 +110,11 @@ bool ros_writes_poses(const Observed& seen) {
   return ros2 && ros2->enabled && is_written(seen, poses_of(*ros2));
 }
 
+bool ros_writes_objects(const Observed& seen) {
+  const auto ros2 = ros2_of(seen);
+  return ros2 && ros2->enabled && is_written(seen, objects_of(*ros2));
+}
+
 bool is_of_ros(const Endpoint& endpoint) { return endpoint.type.find("::dds_::") != std::string::npos; }
 
 Findings ros_findings(const Observed& seen) {
@@ -106,6 +123,7 @@ Findings ros_findings(const Observed& seen) {
   if (!ros2) return found;
   judge(seen, *ros2, detections_of(*ros2), found);
   judge(seen, *ros2, poses_of(*ros2), found);
+  judge(seen, *ros2, objects_of(*ros2), found);
   return found;
 }
 

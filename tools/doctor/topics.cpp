@@ -30,7 +30,7 @@ constexpr std::array kTopics{
     Topic{"detections", "detections", dds::kDetectionsTopic, dds::kDetectionsType, true, true,
           ros_writes_detections},
     Topic{"poses", "poses", dds::kVehiclePoseTopic, dds::kVehiclePoseType, true, true, ros_writes_poses},
-    Topic{"objects", "objects", dds::kObjectsTopic, dds::kObjectsType, true, false},
+    Topic{"objects", "objects", dds::kObjectsTopic, dds::kObjectsType, true, false, ros_writes_objects},
     Topic{"lane_map", "the lane map", dds::kLaneMapTopic, dds::kLaneMapType, false, false},
     Topic{"road_markings", "the road markings", dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, false,
           false}};

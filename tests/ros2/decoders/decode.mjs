@@ -2,8 +2,8 @@
 //   node decode.mjs CASES LANELOOM_MSGS
 // A line of CASES is a message: type, bytes (hexadecimal), and the fields that it must have. LANELOOM_MSGS is the
 // folder of the package. What was read is written again, and must give the same bytes.
-//   node decode.mjs --odometry
-// writes an odometry to standard output, as hexadecimal bytes.
+//   node decode.mjs --odometry | --objects
+// writes an odometry, or tracked objects, to standard output, as hexadecimal bytes.
 import { parse } from "@foxglove/rosmsg";
 import common from "@foxglove/rosmsg-msgs-common";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
@@ -49,6 +49,35 @@ function roadSegments() {
     "std_msgs/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
     "geometry_msgs/Pose": "Point position\nQuaternion orientation\n",
     "geometry_msgs/Point": "float64 x\nfloat64 y\nfloat64 z\n",
+    "geometry_msgs/Quaternion": "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n",
+  });
+}
+
+function trackedObjects() {
+  const prefix = "autoware_perception_msgs";
+  const six = (name) => `${name} ${name.toLowerCase()}\nfloat64[36] covariance\n`;
+  const vectors = "Vector3 linear\nVector3 angular\n";
+  return concatenated("std_msgs/Header header\nTrackedObject[] objects\n", {
+    [`${prefix}/TrackedObject`]:
+      "unique_identifier_msgs/UUID object_id\nfloat32 existence_probability\nObjectClassification[] classification\n" +
+      "TrackedObjectKinematics kinematics\nShape shape\n",
+    [`${prefix}/ObjectClassification`]: "uint8 label\nfloat32 probability\n",
+    [`${prefix}/TrackedObjectKinematics`]:
+      "geometry_msgs/PoseWithCovariance pose_with_covariance\ngeometry_msgs/TwistWithCovariance twist_with_covariance\n" +
+      "geometry_msgs/AccelWithCovariance acceleration_with_covariance\nuint8 orientation_availability\nbool is_stationary\n",
+    [`${prefix}/Shape`]: "uint8 type\ngeometry_msgs/Polygon footprint\ngeometry_msgs/Vector3 dimensions\n",
+    "unique_identifier_msgs/UUID": "uint8[16] uuid\n",
+    "std_msgs/Header": "builtin_interfaces/Time stamp\nstring frame_id\n",
+    "geometry_msgs/PoseWithCovariance": six("Pose"),
+    "geometry_msgs/TwistWithCovariance": six("Twist"),
+    "geometry_msgs/AccelWithCovariance": six("Accel"),
+    "geometry_msgs/Pose": "Point position\nQuaternion orientation\n",
+    "geometry_msgs/Twist": vectors,
+    "geometry_msgs/Accel": vectors,
+    "geometry_msgs/Polygon": "Point32[] points\n",
+    "geometry_msgs/Point": "float64 x\nfloat64 y\nfloat64 z\n",
+    "geometry_msgs/Point32": "float32 x\nfloat32 y\nfloat32 z\n",
+    "geometry_msgs/Vector3": "float64 x\nfloat64 y\nfloat64 z\n",
     "geometry_msgs/Quaternion": "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n",
   });
 }
@@ -99,9 +128,40 @@ function odometry() {
   return new MessageWriter(standard(common.ros2humble, "nav_msgs/Odometry")).writeMessage(message);
 }
 
+function objects() {
+  const zero = { x: 0, y: 0, z: 0 };
+  const object = (last, label) => ({
+    object_id: { uuid: new Uint8Array(16).fill(3, 0, last) },
+    existence_probability: 0.5,
+    classification: [
+      { label: 1, probability: 0.25 },
+      { label, probability: 0.75 },
+    ],
+    kinematics: {
+      pose_with_covariance: {
+        pose: { position: { x: 1, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } },
+        covariance: new Float64Array(36).fill(0.25),
+      },
+      twist_with_covariance: { twist: { linear: { x: 4, y: 5, z: 6 }, angular: zero }, covariance: new Float64Array(36) },
+      acceleration_with_covariance: { accel: { linear: zero, angular: zero }, covariance: new Float64Array(36).fill(0.125) },
+      orientation_availability: 2,
+      is_stationary: false,
+    },
+    shape: {
+      type: 2,
+      footprint: { points: [zero, { x: 5, y: 6, z: 7 }] },
+      dimensions: { x: 12, y: 2.5, z: 3 },
+    },
+  });
+  const header = { stamp: { sec: 1700000000, nsec: 250000000 }, frame_id: "map" };
+  return new MessageWriter(trackedObjects()).writeMessage({ header, objects: [object(15, 2), object(16, 3)] });
+}
+
 const [cases, folder] = process.argv.slice(2);
 if (cases === "--odometry") {
   process.stdout.write(Buffer.from(odometry()).toString("hex"));
+} else if (cases === "--objects") {
+  process.stdout.write(Buffer.from(objects()).toString("hex"));
 } else {
   const lines = readFileSync(cases, "utf8").trim().split("\n").map((line) => JSON.parse(line));
   for (const distribution of [common.ros2humble, common.ros2jazzy])

@@ -1,0 +1,101 @@
+#include "ros2/tracked_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Common.h"
+#include "ros2/input_parts.hpp"
+#include "ros2/names.hpp"
+
+namespace laneloom::ros2 {
+namespace {
+
+using autoware_perception_msgs::msg::dds_::ObjectClassification_;
+using autoware_perception_msgs::msg::dds_::TrackedObject_;
+using autoware_perception_msgs::msg::dds_::TrackedObjectKinematics_;
+
+constexpr std::size_t kMaxClasses = 64;  // far more than there are
+constexpr std::size_t kY = 7;            // of the variance of y in a covariance of 6 x 6
+
+/// TrackedObjectKinematics.orientation_availability, as Autoware numbers it.
+enum Orientation : std::uint8_t { kUnavailable, kSignUnknown, kAvailable };
+
+void scan_object(dds::CdrScanner& cdr) {
+  cdr.numbers(sizeof(std::uint8_t), 16);
+  cdr.numbers(sizeof(float));
+  cdr.sequence(kMaxClasses, [](dds::CdrScanner& classification) {
+    classification.numbers(sizeof(std::uint8_t));
+    classification.numbers(sizeof(float));
+  });
+  cdr.numbers(sizeof(double), 7 + kCovariance);  // pose
+  cdr.numbers(sizeof(double), 6 + kCovariance);  // twist
+  cdr.numbers(sizeof(double), 6 + kCovariance);  // acceleration
+  cdr.numbers(sizeof(std::uint8_t), 3);          // up to the shape's type
+  cdr.sequence(msg::MAX_POINTS, [](dds::CdrScanner& point) { point.numbers(sizeof(float), 3); });
+  cdr.numbers(sizeof(double), 3);
+}
+
+/// The most probable class. Autoware numbers classes as laneloom does, and has more of them.
+ObjectKind kind_of(const std::vector<ObjectClassification_>& classes, dds::Intake& intake) {
+  const auto likely = std::ranges::max_element(classes, {}, [&](const ObjectClassification_& each) {
+    return intake.number(double{each.probability()});
+  });
+  if (likely == classes.end() || likely->label() > static_cast<std::uint8_t>(ObjectKind::pedestrian))
+    return ObjectKind::unknown;
+  return static_cast<ObjectKind>(likely->label());
+}
+
+/// Horizontal deviation; -1 where a variance is none.
+double stddev_of(const std::array<double, kCovariance>& covariance) {
+  const double variance = std::max(covariance[0], covariance[kY]);
+  return covariance[0] >= 0.0 && covariance[kY] >= 0.0 && std::isfinite(variance) ? std::sqrt(variance)
+                                                                                  : -1.0;
+}
+
+double length_of(double dimension) { return dimension > 0.0 ? dimension : -1.0; }
+
+Point heading_of(const TrackedObjectKinematics_& kinematics, dds::Intake& intake) {
+  if (kinematics.orientation_availability() > kAvailable) intake.refuse("unknown_enum");
+  if (kinematics.orientation_availability() != kAvailable) return Point::Zero();
+  return rotation_of(kinematics.pose_with_covariance().pose().orientation(), intake) * Point::UnitX();
+}
+
+TrackedObject object_of(const TrackedObject_& from, dds::Intake& intake) {
+  const auto& kinematics = from.kinematics();
+  const auto& pose = kinematics.pose_with_covariance();
+  const auto& size = from.shape().dimensions();
+  TrackedObject to;
+  to.id = hash_of(from.object_id().uuid());
+  to.kind = kind_of(from.classification(), intake);
+  to.existence_probability = intake.number(double{from.existence_probability()});
+  to.position = point_of(pose.pose().position(), intake) - 0.5 * intake.number(size.z()) * Point::UnitZ();
+  to.heading = heading_of(kinematics, intake);
+  if (!kinematics.is_stationary())
+    to.speed_mps = intake.number(kinematics.twist_with_covariance().twist().linear().x());
+  to.position_stddev_m = stddev_of(pose.covariance());
+  to.length_m = length_of(intake.number(size.x()));
+  to.width_m = length_of(intake.number(size.y()));
+  return to;
+}
+
+}  // namespace
+
+bool is_tracked_objects(std::span<const std::uint8_t> payload) {
+  dds::CdrScanner cdr(payload);
+  scan_header(cdr);
+  cdr.sequence(msg::MAX_OBJECTS, scan_object);
+  return cdr.complete();
+}
+
+std::string_view from_ros(const autoware_perception_msgs::msg::dds_::TrackedObjects_& from,
+                          const std::string& map_frame_id, TrackedObjects& to) {
+  dds::Intake intake;
+  to.stamp_ns = stamp_of(from.header(), intake);
+  to.in_map_frame = from.header().frame_id() == map_frame_id;
+  if (!to.in_map_frame && from.header().frame_id() != kBaseLink) intake.refuse("wrong_frame");
+  to.objects.clear();
+  for (const TrackedObject_& object : from.objects()) to.objects.push_back(object_of(object, intake));
+  return intake.refusal();
+}
+
+}  // namespace laneloom::ros2
