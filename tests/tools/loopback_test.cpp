@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <functional>
 #include <memory>
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include "io/json_lines.hpp"
+#include "laneloom/dds/discovery.hpp"
+#include "laneloom/dds/topics.hpp"
 #include "own_domain.hpp"
 #include "recording/recording.hpp"
 #include "tools/commands.hpp"
@@ -138,6 +141,30 @@ TEST_F(RecordedLoopback, AReplayMakesTheMapsThatTheServicePublished) {
   ASSERT_EQ(run({"replay", "--in", file("again.mcap"), "--verify", "--report", file("again.json")}), 0)
       << output();
   EXPECT_EQ(json::parse(content(file("again.json"))).at("hash"), live.at("hash"));
+}
+
+TEST_F(Loopback, AReplayAnnouncesObjectsOnlyWhereThereAreSome) {
+  DdsConfig dds;
+  dds.domain = own_domain();
+  for (const bool with_objects : {false, true}) {
+    std::vector<std::string> simulate{"simulate", "--scenario", "straight",         "--duration",
+                                      "1",        "--frames",   file("drive.jsonl")};
+    if (with_objects) simulate.insert(simulate.end(), {"--traffic", "usual"});
+    ASSERT_EQ(run(simulate), 0) << output();
+    const dds::Discovery discovery(dds, "test");
+    const auto is_written = [&](const char* topic) {
+      return std::ranges::any_of(discovery.endpoints(), [&](const dds::Endpoint& endpoint) {
+        return endpoint.is_writer && endpoint.topic == topic;
+      });
+    };
+    const support::ChildProcess replay(command({LANELOOM_COMMAND, "replay", "--in", file("drive.jsonl"),
+                                                "--publish", "--wait-for-readers", "1"}),
+                                       file("replay.log"));
+    // Writers are announced in the order in which they are made, and that of poses is the last.
+    ASSERT_TRUE(eventually([&] { return is_written(dds::kVehiclePoseTopic); }))
+        << content(file("replay.log"));
+    EXPECT_EQ(is_written(dds::kObjectsTopic), with_objects);
+  }
 }
 
 TEST_F(Loopback, ThePlannerOutlivesTheService) {

@@ -169,11 +169,17 @@ void replay(ReplayOptions& options) {
   }
 }
 
+/// Whether the input may have objects. Standard input can only be read once.
+bool may_have_objects(const ReplayOptions& options) {
+  return options.in == io::kStandard ||
+         replay::has_objects(*replay::open_messages(options.in, options.dds.map_frame_id));
+}
+
 void play(const ReplayOptions& options) {
   catch_stop_signals();
   const std::unique_ptr<replay::MessageSource> source =
       replay::open_messages(options.in, options.dds.map_frame_id, {.strict = options.strict});
-  replay::Player player(options.dds, options.speed_up);
+  replay::Player player(options.dds, options.speed_up, may_have_objects(options));
   while (player.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
   if (options.readers > 0 && !sleep_until(SteadyClock::now() + kDiscovery)) return;

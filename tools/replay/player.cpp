@@ -13,11 +13,17 @@ bool is(const recording::RawMessage& message) {
 
 }  // namespace
 
-Player::Player(const DdsConfig& dds, double speed_up)
+bool has_objects(MessageSource& source) {
+  while (const auto message = source.next_raw())
+    if (is<TrackedObjects>(*message)) return true;
+  return false;
+}
+
+Player::Player(const DdsConfig& dds, double speed_up, bool with_objects)
     : participant_(dds, "laneloom replay"),
+      objects_(with_objects ? std::make_unique<dds::RawWriter<TrackedObjects>>(participant_) : nullptr),
       detections_(participant_),
       poses_(participant_),
-      objects_(participant_),
       speed_up_(speed_up) {}
 
 std::chrono::steady_clock::time_point Player::due(const recording::RawMessage& message) {
@@ -34,7 +40,7 @@ void Player::publish(const recording::RawMessage& message) {
     ++(detections_.write(message.bytes) ? detections_published_ : not_taken_);
   } else if (is<VehiclePose>(message)) {
     ++(poses_.write(message.bytes) ? poses_published_ : not_taken_);
-  } else if (is<TrackedObjects>(message) && !objects_.write(message.bytes)) {
+  } else if (is<TrackedObjects>(message) && objects_ && !objects_->write(message.bytes)) {
     ++not_taken_;
   }
 }

@@ -3,20 +3,26 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "laneloom/dds/raw_writer.hpp"
 #include "laneloom/objects.hpp"
 #include "recording/recording.hpp"
+#include "replay/message_source.hpp"
 
 namespace laneloom::replay {
+
+/// Whether there are objects among the messages that a source has left. It reads up to the first of them.
+bool has_objects(MessageSource& source);
 
 /// Publishes recorded detections, poses and objects again, byte for byte, as their participants did. Not
 /// thread-safe.
 class Player {
  public:
-  /// `speed_up`: recorded seconds per second. Throws std::runtime_error where DDS refuses.
-  Player(const DdsConfig& dds, double speed_up);
+  /// `speed_up`: recorded seconds per second. `with_objects`: whether there will be objects; otherwise their
+  /// topic is not announced, and they are passed over. Throws std::runtime_error where DDS refuses.
+  Player(const DdsConfig& dds, double speed_up, bool with_objects);
 
   /// Number of readers, of detections or poses, whichever has fewer.
   int readers() const { return std::min(detections_.matched(), poses_.matched()); }
@@ -33,9 +39,9 @@ class Player {
 
  private:
   dds::Participant participant_;
+  std::unique_ptr<dds::RawWriter<TrackedObjects>> objects_;  ///< null: there will be none
   dds::RawWriter<DetectionFrame> detections_;
   dds::RawWriter<VehiclePose> poses_;
-  dds::RawWriter<TrackedObjects> objects_;
   double speed_up_;
   std::optional<std::int64_t> first_ns_;
   std::chrono::steady_clock::time_point start_;
