@@ -50,6 +50,31 @@ TEST(DriveRecording, AServiceFusesEveryFrameInTheOrderOfLogTimes) {
   EXPECT_EQ(session.counters()["poses_accepted"], 10u);
 }
 
+TEST(DriveRecording, AServiceFusesAllObjects) {
+  const TemporaryFolder folder;
+  std::vector<DetectionFrame> frames;
+  std::vector<TrackedObjects> objects;
+  for (const int ms : {0, 50, 150, 200, 850, 899}) {
+    objects.push_back({.stamp_ns = kSecond_ns + ms * 1'000'000, .objects = {{.id = 7}}});
+    if (ms % 200 != 50) frames.push_back(frame(objects.back().stamp_ns));
+  }
+  write_drive(folder.file("drive.mcap"), poses(10), frames, objects);
+  recording::RecordingReader reader(folder.file("drive.mcap"));
+  session::MappingSession session{Config{}};
+  std::vector<std::uint64_t> sequences;
+  while (auto message = reader.next()) {
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) session.add(*pose);
+    if (const auto* seen = std::get_if<DetectionFrame>(&message->message))
+      session.add(*seen, message->log_time_ns);
+    if (auto* others = std::get_if<TrackedObjects>(&message->message)) {
+      sequences.push_back(others->sequence);
+      session.add(std::move(*others));
+    }
+  }
+  EXPECT_EQ(sequences, (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(session.counters()["objects_fused"], 6U);
+}
+
 TEST(DriveRecording, FramesWithoutPosesAroundThemGo) {
   std::vector<VehiclePose> with_gap = poses(10);
   with_gap.erase(with_gap.begin() + 4, with_gap.begin() + 7);  // 1.3 s, then 1.7 s

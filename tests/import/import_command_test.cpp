@@ -4,6 +4,7 @@
 #include <fstream>
 #include <variant>
 
+#include "io/feather_writer.hpp"
 #include "recording/recording.hpp"
 #include "simulation/road.hpp"
 #include "support/child_process.hpp"
@@ -177,6 +178,36 @@ TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   EXPECT_NE(run({"argoverse2", file("log")}), 0);
   EXPECT_EQ(run({"argoverse2", file("nowhere"), "--truth", file("x.json")}), 1);
   EXPECT_THAT(output(), HasSubstr("nowhere"));
+}
+
+TEST_F(ImportCommand, TheObjectsOfALogComeBesideItsPoses) {
+  std::vector<AnnotationRow> rows;
+  for (const int sweep : {0, 1, 2, 3, 4, 5})
+    rows.push_back({1'000'000'000 + sweep * 100'000'000, "a", "REGULAR_VEHICLE", 20.0});
+  write_bytes(file("log/annotations.feather"), FeatherWriter(annotation_columns(rows)).write());
+  ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("drive.mcap")}), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("6 poses, 6 sweeps with objects"));
+  recording::RecordingReader reader(file("drive.mcap"));
+  std::vector<std::int64_t> poses_ns, objects_ns;
+  while (const auto message = reader.next()) {
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) poses_ns.push_back(pose->stamp_ns);
+    const auto* objects = std::get_if<TrackedObjects>(&message->message);
+    if (objects == nullptr) continue;
+    objects_ns.push_back(objects->stamp_ns);
+    EXPECT_EQ(poses_ns.back(), objects->stamp_ns) << "behind the pose of its stamp";
+    EXPECT_EQ(objects->sequence, objects_ns.size());
+    EXPECT_NEAR(objects->objects.at(0).speed_mps, 10.0, 1e-6);
+  }
+  EXPECT_TRUE(reader.refused().values().empty());
+  EXPECT_EQ(objects_ns, poses_ns);
+
+  rows.back().length_m = -1.0;
+  write_bytes(file("log/annotations.feather"), FeatherWriter(annotation_columns(rows)).write());
+  ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("rest.mcap")}), 0) << output();
+  EXPECT_THAT(output(),
+              HasSubstr("left out: 1 x a size of 0 or more is expected (first: annotations.feather: row 5)"));
+  EXPECT_EQ(run({"argoverse2", file("log"), "--out", file("strict.mcap"), "--strict"}), 1);
+  EXPECT_FALSE(std::filesystem::exists(file("strict.mcap")));
 }
 
 TEST_F(ImportCommand, ADirectoryOfLogsGivesAFileEach) {

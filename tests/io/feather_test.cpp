@@ -24,6 +24,7 @@ class Feather : public testing::Test {
     try {
       const FeatherTable table = open();
       EXPECT_EQ(table.column<std::int64_t>("stamp").size(), table.rows());
+      EXPECT_EQ(table.column<std::string>("name").size(), table.rows());
       EXPECT_EQ(table.column<double>("x").size(), table.rows());
     } catch (const std::runtime_error& error) {
       EXPECT_THAT(error.what(), HasSubstr(file_));
@@ -34,14 +35,15 @@ class Feather : public testing::Test {
 
   const std::vector<std::int64_t> stamps_{315966265660000000, 315966265660000001, -1};
   const std::vector<double> x_{0.1, -2e300, 3.0};
-  const FeatherWriter::Columns columns_{{"stamp", stamps_}, {"x", x_}};
+  const std::vector<std::string> names_{"car", "", "two words, and ü"};
+  const FeatherWriter::Columns columns_{{"stamp", stamps_}, {"name", names_}, {"x", x_}};
 
  private:
   TemporaryFolder folder_;
   std::string file_ = folder_.file("table.feather");
 };
 
-TEST_F(Feather, NumbersAreReadAsTheyWereWritten) {
+TEST_F(Feather, CellsAreReadAsTheyWereWritten) {
   for (const auto compression :
        {recording::Compression::lz4, recording::Compression::zstd, recording::Compression::none}) {
     for (const std::size_t rows_per_batch : {1U, 2U, 3U}) {
@@ -49,6 +51,7 @@ TEST_F(Feather, NumbersAreReadAsTheyWereWritten) {
       const FeatherTable table = open();
       EXPECT_EQ(table.rows(), 3u);
       EXPECT_EQ(table.column<std::int64_t>("stamp"), stamps_) << "to the last bit";
+      EXPECT_EQ(table.column<std::string>("name"), names_);
       EXPECT_EQ(table.column<double>("x"), x_);
     }
   }
@@ -57,10 +60,13 @@ TEST_F(Feather, NumbersAreReadAsTheyWereWritten) {
 TEST_F(Feather, WhatIsNoTableOfTheseColumnsIsNamed) {
   EXPECT_THAT(refusal({}), HasSubstr("is no Feather file"));
   EXPECT_THAT(refusal({'F', 'E', 'A', '1', 0, 0, 0, 0}), HasSubstr("is no Feather file"));
-  EXPECT_THAT(refusal(FeatherWriter({{"stamp", stamps_}}).write()), HasSubstr("has no column x"));
+  EXPECT_THAT(refusal(FeatherWriter({{"stamp", stamps_}, {"name", names_}}).write()),
+              HasSubstr("has no column x"));
   EXPECT_THAT(refusal(FeatherWriter({{"stamp", x_}, {"x", x_}}).write()),
               HasSubstr("the column stamp must be of 64-bit integers"));
-  EXPECT_THAT(refusal(FeatherWriter({{"stamp", stamps_}, {"x", stamps_}}).write()),
+  EXPECT_THAT(refusal(FeatherWriter({{"stamp", stamps_}, {"name", x_}}).write()),
+              HasSubstr("the column name must be of texts"));
+  EXPECT_THAT(refusal(FeatherWriter({{"stamp", stamps_}, {"name", names_}, {"x", stamps_}}).write()),
               HasSubstr("the column x must be of 64-bit floating-point numbers"));
 }
 
@@ -96,6 +102,9 @@ TEST_F(Feather, WhatWouldTakeAllMemoryIsRefused) {
   const std::vector<std::int64_t> many(1'000'001, 0);
   EXPECT_THAT(refusal(FeatherWriter({{"stamp", many}}).write(2'000'000)),
               HasSubstr("more than a million rows"));
+  const std::vector<std::string> long_text{std::string((1U << 26U) + 1, 'x')};
+  EXPECT_THAT(refusal(FeatherWriter({{"stamp", std::vector<std::int64_t>{1}}, {"name", long_text}}).write()),
+              HasSubstr("a column of texts is too long"));
 }
 
 }  // namespace

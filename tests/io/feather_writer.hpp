@@ -2,6 +2,7 @@
 
 #include <arrow_generated.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -16,8 +17,9 @@ namespace laneloom {
 /// Writes Arrow's IPC file format as pandas does for a data set, from the format's description alone.
 class FeatherWriter {
  public:
-  using Numbers = std::variant<std::vector<std::int64_t>, std::vector<double>>;
-  using Columns = std::vector<std::pair<std::string, Numbers>>;
+  using Texts = std::vector<std::string>;
+  using Cells = std::variant<std::vector<std::int64_t>, std::vector<double>, Texts>;
+  using Columns = std::vector<std::pair<std::string, Cells>>;
 
   explicit FeatherWriter(Columns columns, recording::Compression compression = recording::Compression::lz4)
       : columns_(std::move(columns)), compression_(compression) {}
@@ -36,7 +38,7 @@ class FeatherWriter {
 
  private:
   std::size_t rows() const {
-    return std::visit([](const auto& numbers) { return numbers.size(); }, columns_.front().second);
+    return std::visit([](const auto& cells) { return cells.size(); }, columns_.front().second);
   }
   void append(const recording::Bytes& bytes) { file_.insert(file_.end(), bytes.begin(), bytes.end()); }
   void append_number(std::int32_t number) {
@@ -46,11 +48,30 @@ class FeatherWriter {
   }
   static void pad(recording::Bytes& bytes) { bytes.resize((bytes.size() + 7) / 8 * 8); }
 
-  recording::Bytes buffer_of(const Numbers& column, std::size_t first, std::size_t count) const {
-    recording::Bytes plain(count * 8);
-    std::visit([&](const auto& numbers) { std::memcpy(plain.data(), numbers.data() + first, plain.size()); },
-               column);
-    if (compression_ == recording::Compression::none) return plain;
+  /// The buffers of a column behind the one that tells which cells are empty.
+  static std::vector<recording::Bytes> contents(const Cells& column, std::size_t first, std::size_t count) {
+    if (const auto* texts = std::get_if<Texts>(&column)) {
+      std::vector<std::int32_t> ends{0};
+      std::string all;
+      for (std::size_t row = first; row < first + count; ++row) {
+        all += (*texts)[row];
+        ends.push_back(static_cast<std::int32_t>(all.size()));
+      }
+      return {bytes_of(ends.data(), ends.size() * sizeof(std::int32_t)), bytes_of(all.data(), all.size())};
+    }
+    if (const auto* numbers = std::get_if<std::vector<double>>(&column))
+      return {bytes_of(numbers->data() + first, count * sizeof(double))};
+    const auto& numbers = std::get<std::vector<std::int64_t>>(column);
+    return {bytes_of(numbers.data() + first, count * sizeof(std::int64_t))};
+  }
+  static recording::Bytes bytes_of(const void* data, std::size_t size) {
+    recording::Bytes bytes(size);
+    if (size > 0) std::memcpy(bytes.data(), data, size);
+    return bytes;
+  }
+
+  recording::Bytes buffer_of(const recording::Bytes& plain) const {
+    if (compression_ == recording::Compression::none || plain.empty()) return plain;
     recording::Bytes buffer(8);
     const auto size = static_cast<std::int64_t>(plain.size());
     std::memcpy(buffer.data(), &size, 8);
@@ -62,13 +83,16 @@ class FeatherWriter {
     recording::Bytes body;
     std::vector<arrow::FieldNode> nodes;
     std::vector<arrow::Buffer> buffers;
-    for (const auto& [name, numbers] : columns_) {
-      const recording::Bytes buffer = buffer_of(numbers, first, count);
+    for (const auto& [name, cells] : columns_) {
       nodes.emplace_back(static_cast<std::int64_t>(count), 0);
       buffers.emplace_back(static_cast<std::int64_t>(body.size()), 0);  // no cell is empty
-      buffers.emplace_back(static_cast<std::int64_t>(body.size()), static_cast<std::int64_t>(buffer.size()));
-      body.insert(body.end(), buffer.begin(), buffer.end());
-      pad(body);
+      for (const recording::Bytes& plain : contents(cells, first, count)) {
+        const recording::Bytes buffer = buffer_of(plain);
+        buffers.emplace_back(static_cast<std::int64_t>(body.size()),
+                             static_cast<std::int64_t>(buffer.size()));
+        body.insert(body.end(), buffer.begin(), buffer.end());
+        pad(body);
+      }
     }
     flatbuffers::FlatBufferBuilder builder;
     const auto codec =
@@ -92,17 +116,22 @@ class FeatherWriter {
     append(body);
   }
 
+  static std::pair<arrow::Type, flatbuffers::Offset<void>> type_of(const Cells& cells,
+                                                                   flatbuffers::FlatBufferBuilder& builder) {
+    if (std::holds_alternative<Texts>(cells)) return {arrow::Type::Utf8, arrow::CreateUtf8(builder).Union()};
+    if (std::holds_alternative<std::vector<double>>(cells))
+      return {arrow::Type::FloatingPoint,
+              arrow::CreateFloatingPoint(builder, arrow::Precision::Double).Union()};
+    return {arrow::Type::Integer, arrow::CreateInteger(builder, 64, true).Union()};
+  }
+
   recording::Bytes make_footer() const {
     flatbuffers::FlatBufferBuilder builder;
     std::vector<flatbuffers::Offset<arrow::Field>> fields;
-    for (const auto& [name, numbers] : columns_) {
-      const bool whole = std::holds_alternative<std::vector<std::int64_t>>(numbers);
+    for (const auto& [name, cells] : columns_) {
       const auto text = builder.CreateString(name);
-      fields.push_back(
-          whole ? arrow::CreateField(builder, text, arrow::Type::Integer,
-                                     arrow::CreateInteger(builder, 64, true).Union())
-                : arrow::CreateField(builder, text, arrow::Type::FloatingPoint,
-                                     arrow::CreateFloatingPoint(builder, arrow::Precision::Double).Union()));
+      const auto [type, of] = type_of(cells, builder);
+      fields.push_back(arrow::CreateField(builder, text, type, of));
     }
     const auto schema = arrow::CreateSchema(builder, arrow::Endianness::Little, builder.CreateVector(fields));
     builder.Finish(arrow::CreateFooter(builder, schema, builder.CreateVectorOfStructs(blocks_)));
@@ -114,6 +143,48 @@ class FeatherWriter {
   recording::Bytes file_;
   std::vector<arrow::Block> blocks_;
 };
+
+/// A row of the annotations of Argoverse 2: a box of 4 x 2 x 1.5 m, at a place of the body frame.
+struct AnnotationRow {
+  std::int64_t stamp_ns = 0;
+  std::string track, category;
+  double x = 0.0, y = 0.0;
+  double yaw_rad = 0.0;
+  double length_m = 4.0;
+};
+
+/// Annotations as Argoverse 2 has them.
+inline FeatherWriter::Columns annotation_columns(const std::vector<AnnotationRow>& rows) {
+  std::vector<std::int64_t> stamps_ns, points;
+  FeatherWriter::Texts tracks, categories;
+  std::vector<double> lengths, x, y, qw, qz;
+  for (const AnnotationRow& row : rows) {
+    stamps_ns.push_back(row.stamp_ns);
+    points.push_back(9);
+    tracks.push_back(row.track);
+    categories.push_back(row.category);
+    lengths.push_back(row.length_m);
+    x.push_back(row.x);
+    y.push_back(row.y);
+    qw.push_back(std::cos(row.yaw_rad / 2.0));
+    qz.push_back(std::sin(row.yaw_rad / 2.0));
+  }
+  const auto all = [&](double value) { return std::vector<double>(rows.size(), value); };
+  return {{"timestamp_ns", stamps_ns},
+          {"track_uuid", tracks},
+          {"category", categories},
+          {"length_m", lengths},
+          {"width_m", all(2.0)},
+          {"height_m", all(1.5)},
+          {"qw", qw},
+          {"qx", all(0.0)},
+          {"qy", all(0.0)},
+          {"qz", qz},
+          {"tx_m", x},
+          {"ty_m", y},
+          {"tz_m", all(0.75)},
+          {"num_interior_pts", points}};
+}
 
 /// Poses 100 ms apart along x, as Argoverse 2 has them.
 inline FeatherWriter::Columns pose_columns(std::int64_t first_ns, std::size_t count) {

@@ -63,6 +63,37 @@ TEST_F(Commands, EveryLogInADirectoryIsSimulated) {
   EXPECT_THAT(output(), HasSubstr("holds 2 logs; name one"));
 }
 
+TEST_F(Commands, TheTrafficOfALogIsSimulatedAsItWasRecorded) {
+  std::filesystem::create_directories(file("log"));
+  write_bytes(file("log/city_SE3_egovehicle.feather"),
+              FeatherWriter(pose_columns(1'000'000'000, 11)).write());
+  std::ofstream(file("log/log_map_archive_x.json")) << R"({"lane_segments":{},"drivable_areas":{}})";
+  const std::vector<std::string> recorded{"simulate", "--argoverse2", file("log"),    "--traffic",
+                                          "recorded", "--frames",     file("a.jsonl")};
+  ASSERT_EQ(run(recorded), 0) << output();
+  EXPECT_FALSE(io::JsonLinesReader(file("a.jsonl")).next_frame()->objects) << "it has no annotations";
+
+  std::vector<AnnotationRow> rows;
+  for (const int sweep : {4, 5, 6})
+    rows.push_back({1'000'000'000 + sweep * 100'000'000 - 30'000'000, "a", "TRUCK", 20.0});
+  write_bytes(file("log/annotations.feather"), FeatherWriter(annotation_columns(rows)).write());
+  ASSERT_EQ(run(recorded), 0) << output();
+  io::JsonLinesReader frames(file("a.jsonl"));
+  std::vector<std::size_t> counts;
+  while (const auto record = frames.next_frame()) {
+    ASSERT_TRUE(record->objects);
+    counts.push_back(record->objects->objects.size());
+    for (const TrackedObject& truck : record->objects->objects) {
+      EXPECT_EQ(truck.kind, ObjectKind::truck);
+      EXPECT_NEAR(truck.position.x(), 20.0, 1e-6) << "it drives ahead as fast as the vehicle";
+    }
+  }
+  EXPECT_EQ(counts, (std::vector<std::size_t>{0, 0, 0, 1, 1, 1, 1, 0, 0, 0}));
+
+  EXPECT_EQ(run({"simulate", "--scenario", "straight", "--traffic", "recorded", "--frames", file("b")}), 1);
+  EXPECT_THAT(output(), HasSubstr("only a log (--argoverse2) has recorded traffic"));
+}
+
 TEST_F(Commands, FusedMapsAreEvaluatedAtTheStampsThatDetectionsHaveToo) {
   simulate("none", "in.frames.jsonl");
   ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();

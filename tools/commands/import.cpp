@@ -23,6 +23,7 @@
 #include "import/streammapnet.hpp"
 #include "laneloom/element_names.hpp"
 #include "simulation/argoverse2.hpp"
+#include "simulation/argoverse2_objects.hpp"
 #include "simulation/road.hpp"
 
 namespace laneloom::commands {
@@ -159,8 +160,9 @@ void import_log(const std::filesystem::path& log, const std::string& out, const 
   if (!truth.empty()) save_truth(truth, simulation::load_argoverse2(log, left_out));
   if (out.empty()) return;
   const std::vector<VehiclePose> poses = simulation::argoverse2_poses(log, left_out);
-  imports::write_drive(out, poses, {});
-  fmt::print("{}: {} poses\n", log.string(), poses.size());
+  const std::vector<TrackedObjects> sweeps = simulation::argoverse2_objects(log, poses, left_out);
+  imports::write_drive(out, poses, {}, sweeps);
+  fmt::print("{}: {} poses, {} sweeps with objects\n", log.string(), poses.size(), sweeps.size());
 }
 
 void import_argoverse2(const LogOptions& options) {
@@ -177,11 +179,12 @@ void import_argoverse2(const LogOptions& options) {
 }
 
 void add_argoverse2(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("argoverse2", "Map and poses of an Argoverse 2 log");
+  CLI::App* command =
+      app.add_subcommand("argoverse2", "Map, poses and annotated objects of an Argoverse 2 log");
   const auto options = std::make_shared<LogOptions>();
   command->add_option("directory", options->directory, "Directory of the log, or of logs")->required();
   CLI::Option_group* outputs = command->add_option_group("Outputs", "one or both");
-  outputs->add_option("--out", options->out, "Recording of the poses to write (.mcap)");
+  outputs->add_option("--out", options->out, "Recording of the poses and objects to write (.mcap)");
   outputs->add_option("--truth", options->truth, "Truth of the road to write (.json)");
   outputs->require_option(1, 2);
   add_strict(*command, options->strict);

@@ -1,6 +1,7 @@
 #include "commands/noise_option.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "simulation/traffic.hpp"
 
@@ -29,10 +30,12 @@ void add_without_view(CLI::App& command, bool& without_view) {
                    "Frames do not tell the field of view and what is occluded, as real networks' do not");
 }
 
-void add_traffic(CLI::App& command, std::string& traffic) {
+void add_traffic(CLI::App& command, std::string& traffic, const std::vector<std::string>& others) {
+  std::vector<std::string> names = simulation::traffic_profile_names();
+  names.insert(names.end(), others.begin(), others.end());
   command
       .add_option("--traffic", traffic, "Other vehicles, as a tracker of this profile tells; default: none")
-      ->check(CLI::IsMember(simulation::traffic_profile_names()));
+      ->check(CLI::IsMember(std::move(names)));
 }
 
 void add_noise(CLI::App& command, NoiseOption& noise) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "simulation/noise_profile.hpp"
 
@@ -20,8 +21,8 @@ struct NoiseOption {
 
 /// Adds --noise and --no-field-of-view.
 void add_noise(CLI::App& command, NoiseOption& noise);
-/// Adds --traffic.
-void add_traffic(CLI::App& command, std::string& traffic);
+/// Adds --traffic, which takes a profile or one of `others`.
+void add_traffic(CLI::App& command, std::string& traffic, const std::vector<std::string>& others = {});
 /// Adds --no-field-of-view alone.
 void add_without_view(CLI::App& command, bool& without_view);
 

@@ -53,11 +53,11 @@ class Publisher {
         road_(road),
         from_s_(options.from_s),
         perception_(options.source.perception(road)),
-        traffic_(options.source.other_traffic(road)),
+        tracker_(options.source.tracker(road)),
         network_(options.source.seed, options.delay_spread_ms),
         session_id_(random_id()),
         start_ns_(system_now_ns()) {
-    if (traffic_) objects_.emplace(participant_);
+    if (tracker_) objects_.emplace(participant_);
     if (!options.frames.empty()) record_ = std::make_unique<io::JsonLinesWriter>(options.frames);
     if (!options.times.empty())
       times_ = std::make_unique<support::PublicationLogWriter>(options.times, session_id_);
@@ -71,7 +71,7 @@ class Publisher {
     const std::int64_t now_ns = step * kPosePeriod_ns;
     const VehiclePose pose = pose_at(step);
     if (!poses_.write(pose)) ++not_taken_;
-    if (step % kPosesPerFrame == 0) network_.put(observe(pose), now_ns);
+    if (step % kPosesPerFrame == 0) network_.put(observe(pose, drive_s(step)), now_ns);
     while (const std::optional<io::FrameRecord> record = network_.take(now_ns)) deliver(*record);
   }
 
@@ -84,21 +84,25 @@ class Publisher {
   }
 
  private:
-  VehiclePose pose_at(std::int64_t step) const {
+  /// Seconds since the drive's start.
+  double drive_s(std::int64_t step) const {
     const double t_s = from_s_ + static_cast<double>(step) * static_cast<double>(kPosePeriod_ns) * 1e-9;
-    VehiclePose pose = road_.drive.pose_at(std::fmod(t_s, road_.drive.duration_s()));
+    return std::fmod(t_s, road_.drive.duration_s());
+  }
+  VehiclePose pose_at(std::int64_t step) const {
+    VehiclePose pose = road_.drive.pose_at(drive_s(step));
     pose.stamp_ns = start_ns_ + step * kPosePeriod_ns;
     pose.sequence = static_cast<std::uint64_t>(step);
     pose.session_id = session_id_;
     return pose;
   }
 
-  io::FrameRecord observe(const VehiclePose& pose) {
+  io::FrameRecord observe(const VehiclePose& pose, double drive_s) {
     io::FrameRecord record{perception_.observe(pose), pose};
     record.frame.session_id = session_id_;
     record.frame.source = "laneloom publish";
-    if (traffic_) {
-      record.objects = traffic_->observe(pose);
+    if (tracker_) {
+      record.objects = tracker_(pose, drive_s);
       record.objects->session_id = session_id_;
     }
     return record;
@@ -119,7 +123,7 @@ class Publisher {
   const simulation::Road& road_;
   double from_s_;
   simulation::Perception perception_;
-  std::optional<simulation::Traffic> traffic_;
+  Tracker tracker_;
   simulation::NetworkDelay<io::FrameRecord> network_;
   std::uint64_t session_id_;
   std::int64_t start_ns_;

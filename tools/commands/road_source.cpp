@@ -8,9 +8,12 @@
 #include "commands/options.hpp"
 #include "commands/warn_of.hpp"
 #include "simulation/argoverse2.hpp"
+#include "simulation/argoverse2_objects.hpp"
 #include "simulation/lanelet2.hpp"
 #include "simulation/opendrive.hpp"
+#include "simulation/recorded_traffic.hpp"
 #include "simulation/scenarios.hpp"
+#include "simulation/traffic.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -60,9 +63,23 @@ simulation::Perception RoadSource::perception(const simulation::Road& road) cons
   return {road, noise.profile(), simulation::SensorView{}, seed};
 }
 
-std::optional<simulation::Traffic> RoadSource::other_traffic(const simulation::Road& road) const {
-  if (traffic.empty()) return std::nullopt;
-  return simulation::Traffic(road, simulation::traffic_profile(traffic), seed);
+Tracker RoadSource::tracker(const simulation::Road& road) const {
+  if (traffic.empty()) return {};
+  if (traffic != kRecordedTraffic) {
+    simulation::Traffic others(road, simulation::traffic_profile(traffic), seed);
+    return [others](const VehiclePose& pose, double) mutable { return others.observe(pose); };
+  }
+  if (argoverse2.empty())
+    throw std::runtime_error("--traffic recorded: only a log (--argoverse2) has recorded traffic");
+  const std::filesystem::path log = only_log(argoverse2, strict);
+  // What is wrong with the poses was told when the road was loaded.
+  LeftOut nothing_told;
+  const std::vector<VehiclePose> poses = simulation::argoverse2_poses(log, nothing_told);
+  auto objects = read_and_warn(
+      log, strict, [&](LeftOut& left_out) { return simulation::argoverse2_objects(log, poses, left_out); });
+  if (objects.empty()) return {};
+  simulation::RecordedTraffic others(std::move(objects), road.drive, poses.front().stamp_ns);
+  return [others](const VehiclePose& pose, double drive_s) mutable { return others.observe(pose, drive_s); };
 }
 
 void add_road_source(CLI::App& command, RoadSource& source) {
@@ -79,7 +96,7 @@ void add_road_source(CLI::App& command, RoadSource& source) {
       ->check(within(0.1, 60.0))
       ->capture_default_str();
   add_noise(command, source.noise);
-  add_traffic(command, source.traffic);
+  add_traffic(command, source.traffic, {kRecordedTraffic});
   command.add_option("--seed", source.seed, "Seed of the noise and the traffic")->capture_default_str();
   add_strict(command, source.strict);
 }

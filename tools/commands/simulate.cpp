@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "commands/commands.hpp"
 #include "commands/log_files.hpp"
@@ -26,16 +25,17 @@ void simulate(const RoadSource& source, double duration_s, const std::string& fr
   const simulation::Road road = source.load();
   if (!truth_file.empty()) save_truth(truth_file, road);
   simulation::Perception perception = source.perception(road);
-  std::optional<simulation::Traffic> traffic = source.other_traffic(road);
+  const Tracker tracker = source.tracker(road);
   if (!(duration_s > 0.0)) duration_s = road.drive.duration_s();
   const auto frames = static_cast<std::int64_t>(std::floor(duration_s * 10.0));
   io::JsonLinesWriter out(frames_file);
   support::ProgressBar bar;
   for (std::int64_t i = 1; i <= frames; ++i) {  // from 0.1 s on: a stamp of 0 would mean none
-    VehiclePose pose = road.drive.pose_at(static_cast<double>(i) * 0.1);
+    const double drive_s = static_cast<double>(i) * 0.1;
+    VehiclePose pose = road.drive.pose_at(drive_s);
     pose.stamp_ns = i * 100'000'000;
     io::FrameRecord record{perception.observe(pose), pose};
-    if (traffic) record.objects = traffic->observe(pose);
+    if (tracker) record.objects = tracker(pose, drive_s);
     out.write(record);
     bar.step(static_cast<double>(i) / static_cast<double>(frames));
   }

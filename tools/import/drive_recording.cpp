@@ -43,16 +43,28 @@ std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
 }
 
 void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
-                 const std::vector<DetectionFrame>& frames) {
+                 const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects) {
   recording::RecordingWriter out(path);
   Stream<VehiclePose> pose_stream(out);
   Stream<DetectionFrame> frame_stream(out);
+  Stream<TrackedObjects> objects_stream(out);
+  auto next = objects.begin();
+  const auto write_objects_until = [&](std::int64_t stamp_ns) {
+    for (; next != objects.end() && next->stamp_ns <= stamp_ns; ++next) objects_stream.write(*next);
+  };
   auto frame = frames.begin();
+  const auto write_before = [&](std::int64_t stamp_ns) {
+    for (; frame != frames.end() && frame->stamp_ns < stamp_ns; ++frame) {
+      write_objects_until(frame->stamp_ns);
+      frame_stream.write(*frame);
+    }
+    write_objects_until(stamp_ns - 1);
+  };
   for (const VehiclePose& pose : poses) {
-    for (; frame != frames.end() && frame->stamp_ns < pose.stamp_ns; ++frame) frame_stream.write(*frame);
+    write_before(pose.stamp_ns);
     pose_stream.write(pose);
   }
-  for (; frame != frames.end(); ++frame) frame_stream.write(*frame);
+  write_before(std::numeric_limits<std::int64_t>::max());
   out.close();
   if (out.left_out() > 0)
     throw std::runtime_error(out.path() + ": " + std::to_string(out.left_out()) +

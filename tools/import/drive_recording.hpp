@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::imports {
@@ -13,11 +14,12 @@ namespace laneloom::imports {
 std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
                                      const std::vector<VehiclePose>& poses);
 
-/// Writes poses and frames (stamps ascend) as the recording `path`. Log times are their stamps, so that a
-/// frame comes after the pose before it, and before the pose after it. Sequences are counted up from 1, in
-/// session 1. Throws std::runtime_error naming the file if it exists or cannot be written, or where a frame
+/// Writes poses, frames and objects (stamps ascend) as the recording `path`. Log times are their stamps, so
+/// that a frame comes after the pose before it, and before the pose after it. Objects come before a frame of
+/// their stamp. Sequences are counted up from 1, in
+/// session 1. Throws std::runtime_error naming the file if it exists or cannot be written, or where a message
 /// exceeds the bounds of the IDL.
 void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
-                 const std::vector<DetectionFrame>& frames);
+                 const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects = {});
 
 }  // namespace laneloom::imports

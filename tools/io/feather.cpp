@@ -2,6 +2,7 @@
 
 #include <arrow_generated.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <stdexcept>
@@ -16,10 +17,11 @@ static_assert(std::endian::native == std::endian::little, "as the numbers in the
 
 const recording::Bytes kMagic{'A', 'R', 'R', 'O', 'W', '1'};  // at both ends of the file
 constexpr std::int64_t kMagicBytes = 6;
-constexpr std::int64_t kLengthBytes = 4;      // of the footer's length, behind it
-constexpr std::int64_t kPrefixBytes = 8;      // before a batch's metadata
-constexpr std::int64_t kMaxRows = 1'000'000;  // more than an hour of poses; bounds the memory
-constexpr std::size_t kMaxPaddingBytes = 64;  // of a column, as Arrow recommends
+constexpr std::int64_t kLengthBytes = 4;          // of the footer's length, behind it
+constexpr std::int64_t kPrefixBytes = 8;          // before a batch's metadata
+constexpr std::int64_t kMaxRows = 1'000'000;      // more than an hour of poses; bounds the memory
+constexpr std::size_t kMaxTextBytes = 1U << 26U;  // of a column in a batch: 64 for each of a million rows
+constexpr std::size_t kMaxPaddingBytes = 64;      // of a column, as Arrow recommends
 
 /// The number at the beginning of the bytes.
 template <class Number>
@@ -43,9 +45,11 @@ bool is_misaligned(const List* list) {
   return list != nullptr && reinterpret_cast<std::uintptr_t>(list->Data()) % alignof(std::int64_t) != 0;
 }
 
-template <class Number>
+template <class Cell>
 bool is_of(const arrow::Field& field) {
-  if constexpr (std::is_same_v<Number, double>) {
+  if constexpr (std::is_same_v<Cell, std::string>) {
+    return field.type_type() == arrow::Type::Utf8;
+  } else if constexpr (std::is_same_v<Cell, double>) {
     const arrow::FloatingPoint* type = field.type_as_FloatingPoint();
     return type != nullptr && type->precision() == arrow::Precision::Double;
   } else {
@@ -54,9 +58,29 @@ bool is_of(const arrow::Field& field) {
   }
 }
 
-/// Whether a column is of numbers. Such a column has two buffers: which cells are empty, and the numbers.
-bool is_of_numbers(const arrow::Field& field) {
-  return field.type_type() == arrow::Type::Integer || field.type_type() == arrow::Type::FloatingPoint;
+template <class Cell>
+constexpr const char* kCells = nullptr;
+template <>
+constexpr const char* kCells<std::int64_t> = "64-bit integers";
+template <>
+constexpr const char* kCells<double> = "64-bit floating-point numbers";
+template <>
+constexpr const char* kCells<std::string> = "texts";
+
+/// The number of a column's buffers in a batch: which cells are empty, then the numbers, or the texts' ends
+/// and the texts. 0: it is of a type that is not known.
+std::uint32_t buffers_of(const arrow::Field& field) {
+  if (field.dictionary() != nullptr) return 0;
+  switch (field.type_type()) {
+    case arrow::Type::Integer:
+    case arrow::Type::FloatingPoint:
+      return 2;
+    case arrow::Type::Binary:
+    case arrow::Type::Utf8:
+      return 3;
+    default:
+      return 0;
+  }
 }
 
 /// The content of a buffer, decompressed. The decompressed length comes first; it is -1 if the buffer is not
@@ -100,17 +124,16 @@ FeatherTable::FeatherTable(const std::filesystem::path& path) : file_(path.strin
   });
 }
 
-template <class Number>
-std::vector<Number> FeatherTable::column(const std::string& name) const {
+template <class Cell>
+std::vector<Cell> FeatherTable::column(const std::string& name) const {
   return naming_the_file([&] {
-    const std::uint32_t column = index_of(name);
-    if (!is_of<Number>(*verified<arrow::Footer>(footer_).schema()->fields()->Get(column)))
-      throw std::runtime_error("the column " + name + " must be of 64-bit " +
-                               (std::is_same_v<Number, double> ? "floating-point numbers" : "integers"));
-    std::vector<Number> numbers;
-    numbers.reserve(rows());
-    for (const Batch& batch : batches_) append(batch, column, numbers);
-    return numbers;
+    const Place place = place_of(name);
+    if (!is_of<Cell>(*verified<arrow::Footer>(footer_).schema()->fields()->Get(place.column)))
+      throw std::runtime_error("the column " + name + " must be of " + kCells<Cell>);
+    std::vector<Cell> cells;
+    cells.reserve(rows());
+    for (const Batch& batch : batches_) append(batch, place, cells);
+    return cells;
   });
 }
 
@@ -133,35 +156,67 @@ void FeatherTable::add_batch(const arrow::Block& block) {
   batches_.push_back(std::move(batch));
 }
 
-std::uint32_t FeatherTable::index_of(const std::string& name) const {
-  const auto& fields = *verified<arrow::Footer>(footer_).schema()->fields();
-  for (std::uint32_t i = 0; i < fields.size(); ++i) {
-    if (!is_of_numbers(*fields.Get(i))) break;  // the number of its buffers is not known
-    if (fields.Get(i)->name() != nullptr && fields.Get(i)->name()->string_view() == name) return i;
+FeatherTable::Place FeatherTable::place_of(const std::string& name) const {
+  Place place;
+  for (const arrow::Field* field : *verified<arrow::Footer>(footer_).schema()->fields()) {
+    const std::uint32_t buffers = buffers_of(*field);
+    if (buffers == 0) break;  // the places of the columns behind it are not known
+    if (field->name() != nullptr && field->name()->string_view() == name) return place;
+    ++place.column;
+    place.buffer += buffers;
   }
-  throw std::runtime_error("has no column " + name + ", or one that is not of numbers before it");
+  throw std::runtime_error("has no column " + name +
+                           ", or one that is neither of numbers nor of texts before it");
+}
+
+/// The number of rows of a batch, which must all have a cell in the column.
+std::size_t FeatherTable::full_rows(const Batch& batch, std::uint32_t column) const {
+  const arrow::RecordBatch& rows = *verified<arrow::Message>(batch.metadata).header_as_RecordBatch();
+  if (rows.nodes()->size() <= column || rows.nodes()->Get(column)->length() != rows.length())
+    throw std::runtime_error("a batch of rows is damaged");
+  if (rows.nodes()->Get(column)->null_count() != 0) throw std::runtime_error("has empty cells");
+  return static_cast<std::size_t>(rows.length());
+}
+
+/// A buffer of a batch, decompressed: `expected` bytes, and padding.
+recording::Bytes FeatherTable::buffer(const Batch& batch, std::uint32_t number, std::size_t expected) const {
+  const arrow::RecordBatch& rows = *verified<arrow::Message>(batch.metadata).header_as_RecordBatch();
+  if (rows.buffers()->size() <= number) throw std::runtime_error("a batch of rows is damaged");
+  const arrow::Buffer& place = *rows.buffers()->Get(number);
+  if (place.offset() < 0 || place.length() < 0 || place.offset() > batch.body_length ||
+      place.length() > batch.body_length - place.offset())
+    throw std::runtime_error("a batch of rows is damaged");
+  if (expected == 0) return {};
+  recording::Bytes bytes = read(batch.body_offset + place.offset(), place.length());
+  if (rows.compression() != nullptr) bytes = decompressed(bytes, rows.compression()->codec(), expected);
+  if (bytes.size() < expected) throw std::runtime_error("a column is cut off");
+  return bytes;
 }
 
 template <class Number>
-void FeatherTable::append(const Batch& batch, std::uint32_t column, std::vector<Number>& to) const {
-  const arrow::RecordBatch& rows = *verified<arrow::Message>(batch.metadata).header_as_RecordBatch();
-  const std::uint32_t numbers = 2 * column + 1;
-  if (rows.nodes()->size() <= column || rows.buffers()->size() <= numbers ||
-      rows.nodes()->Get(column)->length() != rows.length())
-    throw std::runtime_error("a batch of rows is damaged");
-  if (rows.nodes()->Get(column)->null_count() != 0) throw std::runtime_error("has empty cells");
-  if (rows.length() == 0) return;
-  const arrow::Buffer& buffer = *rows.buffers()->Get(numbers);
-  if (buffer.offset() < 0 || buffer.length() < 0 || buffer.offset() > batch.body_length ||
-      buffer.length() > batch.body_length - buffer.offset())
-    throw std::runtime_error("a batch of rows is damaged");
-  recording::Bytes bytes = read(batch.body_offset + buffer.offset(), buffer.length());
-  const std::size_t expected = static_cast<std::size_t>(rows.length()) * sizeof(Number);
-  if (rows.compression() != nullptr) bytes = decompressed(bytes, rows.compression()->codec(), expected);
-  if (bytes.size() < expected) throw std::runtime_error("a column is cut off");
+void FeatherTable::append(const Batch& batch, const Place& place, std::vector<Number>& to) const {
+  const std::size_t rows = full_rows(batch, place.column);
+  const recording::Bytes bytes = buffer(batch, place.buffer + 1, rows * sizeof(Number));
+  if (rows == 0) return;
   const std::size_t before = to.size();
-  to.resize(before + static_cast<std::size_t>(rows.length()));
-  std::memcpy(to.data() + before, bytes.data(), expected);
+  to.resize(before + rows);
+  std::memcpy(to.data() + before, bytes.data(), rows * sizeof(Number));
+}
+
+void FeatherTable::append(const Batch& batch, const Place& place, std::vector<std::string>& to) const {
+  const std::size_t rows = full_rows(batch, place.column);
+  if (rows == 0) return;
+  // A text ends where the next one begins; the first number is where the first text begins.
+  std::vector<std::int32_t> ends(rows + 1);
+  const std::size_t ends_bytes = ends.size() * sizeof(std::int32_t);
+  std::memcpy(ends.data(), buffer(batch, place.buffer + 1, ends_bytes).data(), ends_bytes);
+  if (ends.front() < 0 || !std::ranges::is_sorted(ends))
+    throw std::runtime_error("a column of texts is damaged");
+  const auto text_bytes = static_cast<std::size_t>(ends.back());
+  if (text_bytes > kMaxTextBytes) throw std::runtime_error("a column of texts is too long");
+  const recording::Bytes texts = buffer(batch, place.buffer + 2, text_bytes);
+  for (std::size_t row = 0; row < rows; ++row)
+    to.emplace_back(texts.begin() + ends[row], texts.begin() + ends[row + 1]);
 }
 
 recording::Bytes FeatherTable::read(std::int64_t offset, std::int64_t length) const {
@@ -186,5 +241,6 @@ recording::Bytes FeatherTable::read_footer() const {
 
 template std::vector<std::int64_t> FeatherTable::column(const std::string&) const;
 template std::vector<double> FeatherTable::column(const std::string&) const;
+template std::vector<std::string> FeatherTable::column(const std::string&) const;
 
 }  // namespace laneloom::io

@@ -1,7 +1,6 @@
 #include "simulation/pose_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,22 +14,11 @@ namespace {
 
 constexpr std::int64_t kSamePose_ns = 1'000'000;
 
-using Numbers = std::array<double, 7>;  // qw to tz_m
-
-VehiclePose checked_pose(std::int64_t stamp_ns, const Numbers& v) {
-  if (stamp_ns < 0) throw std::runtime_error("a stamp of 0 or more is expected");
-  const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
-  if (!is_unit(q)) throw std::runtime_error("a quaternion of unit length is expected");
-  VehiclePose pose{.stamp_ns = stamp_ns, .position = {v[4], v[5], v[6]}, .orientation = q.normalized()};
-  if (!pose.position.allFinite()) throw std::runtime_error("a finite number is expected");
-  return pose;
-}
-
 std::vector<VehiclePose> read_csv(const std::filesystem::path& path, LeftOut& left_out) {
   std::vector<VehiclePose> poses;
   io::for_each_csv_row(path, "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m", left_out, [&](std::string_view row) {
     const auto stamp_ns = io::take_number<std::int64_t>(row);
-    Numbers numbers{};
+    PoseNumbers numbers{};
     for (double& number : numbers) number = io::take_number<double>(row);
     poses.push_back(checked_pose(stamp_ns, numbers));
   });
@@ -41,11 +29,11 @@ std::vector<VehiclePose> read_feather(const std::filesystem::path& path, LeftOut
   const io::FeatherTable table(path);
   const std::vector<std::int64_t> stamps_ns = table.column<std::int64_t>("timestamp_ns");
   std::vector<std::vector<double>> columns;
-  for (const char* name : {"qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m"})
-    columns.push_back(table.column<double>(name));
+  columns.reserve(kPoseColumns.size());
+  for (const char* name : kPoseColumns) columns.push_back(table.column<double>(name));
   std::vector<VehiclePose> poses;
   for (std::size_t row = 0; row < stamps_ns.size(); ++row) {
-    Numbers numbers{};
+    PoseNumbers numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = columns[i][row];
     try {
       poses.push_back(checked_pose(stamps_ns[row], numbers));
@@ -59,6 +47,15 @@ std::vector<VehiclePose> read_feather(const std::filesystem::path& path, LeftOut
 }
 
 }  // namespace
+
+VehiclePose checked_pose(std::int64_t stamp_ns, const PoseNumbers& v) {
+  if (stamp_ns < 0) throw std::runtime_error("a stamp of 0 or more is expected");
+  const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
+  if (!is_unit(q)) throw std::runtime_error("a quaternion of unit length is expected");
+  VehiclePose pose{.stamp_ns = stamp_ns, .position = {v[4], v[5], v[6]}, .orientation = q.normalized()};
+  if (!pose.position.allFinite()) throw std::runtime_error("a finite number is expected");
+  return pose;
+}
 
 std::vector<VehiclePose> read_pose_table(const std::filesystem::path& path, LeftOut& left_out) {
   std::vector<VehiclePose> poses =

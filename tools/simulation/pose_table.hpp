@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -7,6 +9,12 @@
 #include "laneloom/types.hpp"
 
 namespace laneloom::simulation {
+
+/// The columns qw, qx, qy, qz, tx_m, ty_m, tz_m of a row of Argoverse 2.
+using PoseNumbers = std::array<double, 7>;
+inline constexpr std::array kPoseColumns{"qw", "qx", "qy", "qz", "tx_m", "ty_m", "tz_m"};
+/// The pose in a row. Throws std::runtime_error where it is none.
+VehiclePose checked_pose(std::int64_t stamp_ns, const PoseNumbers& numbers);
 
 /// Reads poses T_map_body from a table with the columns of Argoverse 2: timestamp_ns, qw, qx, qy, qz, tx_m,
 /// ty_m, tz_m. A file called .feather is a Feather file (io/feather.hpp). Any other has comma-separated
