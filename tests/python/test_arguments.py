@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 import laneloom
-from laneloom import Config, Detection, Frame, Mapper, Pose, Truth, TruthLane, TruthMarking
+from laneloom import Config, Detection, Frame, Mapper, Objects, Pose, TrackedObject, Truth, TruthLane, TruthMarking
 
 LINE = np.array([[0.0, 1.0, 0.0], [5.0, 1.0, 0.0]])
 LANE = dict(id=1, left=LINE, right=LINE, centerline=LINE)
@@ -41,6 +41,17 @@ WRONG = [
     (lambda: frame(field_of_view=LINE[0]), ValueError, "field_of_view: must have the shape (N, 3), not (3,)"),
     (lambda: frame(occluded_areas=[LINE[0]]), ValueError, "occluded_areas[0]: must have the shape (N, 3), not (3,)"),
     (lambda: frame(sequence=-1), ValueError, "sequence: must not be negative"),
+    (lambda: TrackedObject(-1, [0, 0, 0]), ValueError, "id: must not be negative"),
+    (lambda: TrackedObject(1, [0, 0]), ValueError, "position: must have the shape (3,), not (2,)"),
+    (lambda: TrackedObject(1, [0, 0, 0], kind="tank"), ValueError, "kind: must be one of unknown, car, truck, bus, "),
+    (lambda: TrackedObject(1, [0, 0, 0], speed="fast"), TypeError, "speed: must be a number, not str"),
+    (lambda: Objects(1, [LINE]), TypeError, "objects[0]: must be TrackedObject, not ndarray"),
+    (lambda: Objects(0, []), ValueError, "Objects: the service would refuse it: stamp"),
+    (lambda: Objects(1, [TrackedObject(1, [0, 0, 0], [2, 0, 0])]), ValueError,
+     "Objects: the service would refuse it: heading"),
+    (lambda: Objects(1, 2 * [TrackedObject(1, [0, 0, 0])]), ValueError,
+     "Objects: the service would refuse it: repeated_id"),
+    (lambda: Objects(1, [], in_map_frame=1), TypeError, "in_map_frame: must be a bool, not int"),
     (lambda: Pose([0, 0], LEVEL), ValueError, "position: must have the shape (3,), not (2,)"),
     (lambda: Pose([0, 0, 0], [0, 0, 0, 2]), ValueError, "Pose: the service would refuse it: not_a_rotation"),
     (lambda: Pose([1e9, 0, 0], LEVEL), ValueError, "Pose: the service would refuse it: coordinate"),
@@ -50,6 +61,7 @@ WRONG = [
     (lambda: Mapper({"range": 1}), TypeError, "config: must be Config, not dict"),
     (lambda: Mapper().update(LINE, Pose([0, 0, 0], LEVEL)), TypeError, "frame: must be Frame, not ndarray"),
     (lambda: Mapper().update(frame(), np.eye(4)), TypeError, "pose: must be Pose, not ndarray"),
+    (lambda: Mapper().add(frame(), Pose([0, 0, 0], LEVEL)), TypeError, "objects: must be Objects, not Frame"),
     (lambda: Config(3), TypeError, "preset: must be a str, not int"),
     (lambda: Truth(lanes=[TruthLane(**LANE, successors=[7])]), ValueError,
      "lanes: lane 1 refers to the unknown id 7"),
@@ -58,6 +70,10 @@ WRONG = [
     (lambda: TruthLane(**LANE, in_intersection=1), TypeError, "in_intersection: must be a bool, not int"),
     (lambda: laneloom.read_frames(3), TypeError, "path: must be a str or an os.PathLike, not int"),
     (lambda: laneloom.write_frames("x.jsonl", [frame()]), TypeError, "frames[0]: must be a pair (Frame, Pose)"),
+    (lambda: laneloom.write_frames("x.jsonl", [], [Objects(1, [])]), TypeError,
+     "objects[0]: must be a pair (Objects, Pose)"),
+    (lambda: laneloom.write_frames("x.jsonl", [], [(Objects(1, []), Pose([0, 0, 0], LEVEL))]), ValueError,
+     "objects[0]: no frame has its stamp"),
     (lambda: laneloom.write_maps("x.mcap", []), ValueError, "path: maps are written as JSON lines"),
     (lambda: laneloom.evaluate(Truth()), TypeError, "maps, frames: exactly one of the two must be given"),
     (lambda: laneloom.evaluate(Truth(), maps=[LINE]), TypeError, "maps[0]: must be LocalMap, not ndarray"),

@@ -4,7 +4,7 @@ import pytest
 
 import laneloom
 from conftest import run
-from laneloom import Detection, Frame, Pose
+from laneloom import Detection, Frame, Objects, Pose, TrackedObject
 
 
 def made_frames():
@@ -40,6 +40,49 @@ def test_frames(tmp_path, name):
         assert np.allclose(pose_read.matrix, pose.matrix)
 
 
+def made_objects(frames):
+    """A car ahead, which drives at the speed of the vehicle, and another one whose place is all that is known."""
+    car = TrackedObject(7, [20, 0, 0.1], [1, 0, 0], "truck", 10, existence=0.5, stddev=0.25, length=9, width=2.5)
+    return [(Objects(frame.stamp_ns, [car, TrackedObject(8, [i, 2, 3])]), pose) for i, (frame, pose) in enumerate(frames)]
+
+
+@pytest.mark.parametrize("name", ["a.frames.jsonl", "a.mcap"])
+def test_objects(tmp_path, name):
+    frames = made_frames()
+    written = made_objects(frames)
+    laneloom.write_frames(tmp_path / name, frames, written)
+    read = laneloom.read_objects(tmp_path / name)
+    assert len(read) == len(written)
+    for (ours, pose), (theirs, pose_read) in zip(written, read):
+        assert theirs.stamp_ns == ours.stamp_ns
+        assert not theirs.in_map_frame
+        assert np.allclose(pose_read.matrix, pose.matrix)
+        for a, b in zip(ours.objects, theirs.objects, strict=True):
+            assert (a.id, a.kind, a.speed) == (b.id, b.kind, b.speed)
+            assert (a.existence, a.stddev, a.length, a.width) == (b.existence, b.stddev, b.length, b.width)
+            assert np.allclose(a.position, b.position) and np.allclose(a.heading, b.heading)
+    assert [o.stamp_ns for o, _ in laneloom.iter_objects(tmp_path / name)] == [o.stamp_ns for o, _ in read]
+
+
+def test_objects_may_be_in_the_map_frame(tmp_path):
+    frames = made_frames()
+    frame, pose = frames[1]
+    place = pose.matrix @ [20, 0, 0, 1]
+    ahead = Objects(frame.stamp_ns, [TrackedObject(7, place[:3], pose.matrix[:3, 0])], in_map_frame=True)
+    for name in ("a.mcap", "a.jsonl"):
+        laneloom.write_frames(tmp_path / name, frames, [(ahead, pose)])
+    [(recorded, _)], [(line, _)] = laneloom.read_objects(tmp_path / "a.mcap"), laneloom.read_objects(tmp_path / "a.jsonl")
+    assert recorded.in_map_frame and np.allclose(recorded.objects[0].position, place[:3])
+    assert not line.in_map_frame  # JSON lines have no map frame
+    assert np.allclose(line.objects[0].position, [20, 0, 0])
+    assert np.allclose(line.objects[0].heading, [1, 0, 0])
+
+
+def test_a_file_may_have_no_objects(tmp_path):
+    laneloom.write_frames(tmp_path / "a.jsonl", made_frames())
+    assert laneloom.read_objects(tmp_path / "a.jsonl") == []
+
+
 def test_recordings_are_those_of_the_program(drive, frames):
     recording = drive.folder / "ours.mcap"
     laneloom.write_frames(recording, frames)
@@ -72,7 +115,7 @@ def test_truth(tmp_path, truth):
     assert len(again.poses) == len(truth.poses) > 10
 
 
-@pytest.mark.parametrize("read", [laneloom.read_frames, laneloom.read_maps, laneloom.Truth.load])
+@pytest.mark.parametrize("read", [laneloom.read_frames, laneloom.read_objects, laneloom.read_maps, laneloom.Truth.load])
 def test_a_file_that_is_not_there_is_named(tmp_path, read):
     with pytest.raises(FileNotFoundError, match="nowhere"):
         read(tmp_path / "nowhere")

@@ -1,4 +1,5 @@
 """Maps, their figures and pictures are those of the program."""
+import heapq
 import json
 import sys
 import threading
@@ -87,6 +88,30 @@ def test_maps_are_those_of_the_program(drive, maps):
     for ours, theirs in zip(maps, replayed):
         assert [m.id for m in ours.boundaries] == [m.id for m in theirs.boundaries]
         assert [lane.id for lane in ours.lanes] == [lane.id for lane in theirs.lanes]
+
+
+def test_maps_with_objects_are_those_of_the_program(tmp_path):
+    road, out = tmp_path / "road.frames.jsonl", tmp_path / "maps.jsonl"
+    run("simulate", "--scenario", "straight", "--traffic", "usual", "--duration", 8, "--frames", road)
+    run("replay", "--in", road, "--out", out)
+    frames, objects = laneloom.read_frames(road), laneloom.read_objects(road)
+    assert len(objects) == len(frames)
+
+    def told(maps):
+        return [[(lane.id, lane.direction_evidence) for lane in m.lanes] for m in maps]
+
+    def mapped(objects):
+        mapper, maps = laneloom.Mapper(), []
+        for seen, pose in heapq.merge(objects, frames, key=lambda pair: pair[0].stamp_ns):
+            if isinstance(seen, laneloom.Objects):
+                mapper.add(seen, pose)
+            else:
+                maps.append(mapper.update(seen, pose))
+        return told(maps)
+
+    assert any("traffic" in evidence for lanes in mapped(objects) for _, evidence in lanes)
+    assert mapped(objects) == told(laneloom.read_maps(out))
+    assert mapped([]) != mapped(objects)
 
 
 def test_figures_are_those_of_the_program(drive, truth, frames, maps):

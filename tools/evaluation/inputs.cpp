@@ -1,5 +1,6 @@
 #include "evaluation/inputs.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -9,12 +10,14 @@
 #include "recording/damage.hpp"
 #include "recording/recording.hpp"
 #include "session/gate.hpp"
+#include "session/pending_objects.hpp"
 #include "session/synchroniser.hpp"
 
 namespace laneloom::evaluation {
 namespace {
 
 using VisitFrame = std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>;
+using VisitObjects = std::function<void(const TrackedObjects&, const Eigen::Isometry3d&)>;
 using VisitMap = std::function<void(const LocalMap&)>;
 
 /// Passes on frames that are later than all before them.
@@ -32,38 +35,83 @@ class Ascending {
   std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
 };
 
+/// The poses of a recording that a service would believe, and what waits for them.
+class RecordedPoses {
+ public:
+  void add(const VehiclePose& pose) {
+    if (!session::defect(pose, gate_config_).empty()) return;
+    const session::Gate::Verdict verdict = gate_.check({pose.stamp_ns, pose.session_id, pose.position});
+    if (verdict == session::Gate::Verdict::begins_anew) synchroniser.clear_poses();
+    if (verdict != session::Gate::Verdict::accepted && verdict != session::Gate::Verdict::begins_anew) return;
+    synchroniser.add(pose);
+    newest_ns = pose.stamp_ns;
+  }
+
+  session::Synchroniser synchroniser{SyncConfig{}};
+  std::optional<std::int64_t> newest_ns;
+
+ private:
+  GateConfig gate_config_;
+  session::Gate gate_{gate_config_};
+};
+
 /// Gives each frame of a recording its pose.
 class RecordedFrames {
  public:
   explicit RecordedFrames(const VisitFrame& visit) : visit_(visit) {}
 
   void add(const VehiclePose& pose) {
-    if (!session::defect(pose, gate_config_).empty()) return;
-    const session::Gate::Verdict verdict = pose_gate_.check({pose.stamp_ns, pose.session_id, pose.position});
-    if (verdict == session::Gate::Verdict::begins_anew) synchroniser_.clear_poses();
-    if (verdict == session::Gate::Verdict::accepted || verdict == session::Gate::Verdict::begins_anew)
-      synchroniser_.add(pose);
+    poses_.add(pose);
     visit_ready();
   }
 
   void add(DetectionFrame&& frame) {
-    if (!session::defect(frame, gate_config_).empty()) return;
-    synchroniser_.add(session::PendingFrame{.frame = std::move(frame)});
+    if (!session::defect(frame, GateConfig{}).empty()) return;
+    poses_.synchroniser.add(session::PendingFrame{.frame = std::move(frame)});
     visit_ready();
-    synchroniser_.drop_excess();
+    poses_.synchroniser.drop_excess();
   }
 
  private:
   void visit_ready() {
     std::size_t without_pose = 0;
-    while (const auto ready = synchroniser_.next(without_pose))
+    while (const auto ready = poses_.synchroniser.next(without_pose))
       visit_(ready->pending.frame, ready->T_map_body);
   }
 
   Ascending visit_;
-  GateConfig gate_config_;
-  session::Gate pose_gate_{gate_config_};
-  session::Synchroniser synchroniser_{SyncConfig{}};
+  RecordedPoses poses_;
+};
+
+/// Gives all objects of a recording their poses.
+class RecordedObjects {
+ public:
+  explicit RecordedObjects(const VisitObjects& visit) : visit_(visit) {}
+
+  void add(const VehiclePose& pose) {
+    poses_.add(pose);
+    visit_ready();
+  }
+
+  void add(TrackedObjects&& objects) {
+    if (!session::defect(objects, GateConfig{}).empty()) return;
+    pending_.add(std::move(objects), poses_.newest_ns);
+    pending_.drop_excess();
+  }
+
+  /// Visits what is no newer than the poses.
+  void visit_ready() {
+    if (!poses_.newest_ns) return;
+    Eigen::Isometry3d T_map_body;
+    while (const auto objects = pending_.take_until(*poses_.newest_ns))
+      if (poses_.synchroniser.pose_at(objects->stamp_ns, T_map_body) == session::PoseBuffer::Answer::found)
+        visit_(*objects, T_map_body);
+  }
+
+ private:
+  const VisitObjects& visit_;
+  RecordedPoses poses_;
+  session::PendingObjects pending_{Config{}};
 };
 
 /// A map on the wire may have lines of less than two points, with which nothing can be compared.
@@ -95,33 +143,66 @@ class NewestMaps {
   std::optional<LocalMap> newest_;  // another of its stamp may follow
 };
 
+/// Hands the poses of a recording to `taker`, and its messages of type T, which it counts.
+template <class T, class Taker>
+InputAccount read_recorded(const std::filesystem::path& path, const InputReading& reading, Taker& taker) {
+  InputAccount account{.left_out = LeftOut(reading.strict)};
+  recording::RecordingReader reader(path.string());
+  while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {
+    reading.on_step(reader.progress());
+    if (const auto* pose = std::get_if<VehiclePose>(&recorded->message)) taker.add(*pose);
+    auto* message = std::get_if<T>(&recorded->message);
+    if (message == nullptr) continue;
+    ++account.count;
+    taker.add(std::move(*message));
+  }
+  account.refused = reader.refused();
+  account.cut_off = reader.cut_off();
+  return account;
+}
+
+/// Hands the frames of a file of JSON lines to `take`, and counts those that it says it took.
+template <class Take>
+InputAccount read_lines(const std::filesystem::path& path, const InputReading& reading, Take take) {
+  InputAccount account{.left_out = LeftOut(reading.strict)};
+  io::JsonLinesReader in(path);
+  while (const auto record = in.next_frame(account.left_out)) {
+    reading.on_step(in.progress());
+    account.count += take(*record) ? 1U : 0U;
+  }
+  return account;
+}
+
 }  // namespace
 
 InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame& visit,
                             const InputReading& reading) {
-  InputAccount account{.left_out = LeftOut(reading.strict)};
   if (recording::is_recording(path)) {
-    recording::RecordingReader reader(path.string());
     RecordedFrames frames(visit);
-    while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {
-      reading.on_step(reader.progress());
-      if (const auto* pose = std::get_if<VehiclePose>(&recorded->message)) frames.add(*pose);
-      auto* frame = std::get_if<DetectionFrame>(&recorded->message);
-      if (frame == nullptr) continue;
-      ++account.count;
-      frames.add(std::move(*frame));
-    }
-    account.refused = reader.refused();
-    account.cut_off = reader.cut_off();
+    return read_recorded<DetectionFrame>(path, reading, frames);
+  }
+  Ascending ascending(visit);
+  return read_lines(path, reading, [&](const io::FrameRecord& record) {
+    ascending(record.frame, transform(record.pose));
+    return true;
+  });
+}
+
+InputAccount for_each_objects(const std::filesystem::path& path, const VisitObjects& visit,
+                              const InputReading& reading) {
+  if (recording::is_recording(path)) {
+    RecordedObjects objects(visit);
+    InputAccount account = read_recorded<TrackedObjects>(path, reading, objects);
+    objects.visit_ready();
     return account;
   }
-  io::JsonLinesReader in(path);
-  Ascending ascending(visit);
-  for (; const auto record = in.next_frame(account.left_out); ++account.count) {
-    reading.on_step(in.progress());
-    ascending(record->frame, transform(record->pose));
-  }
-  return account;
+  std::int64_t last_stamp_ns = 0;
+  return read_lines(path, reading, [&](const io::FrameRecord& record) {
+    if (!record.objects) return false;
+    if (record.objects->stamp_ns > last_stamp_ns) visit(*record.objects, transform(record.pose));
+    last_stamp_ns = std::max(last_stamp_ns, record.objects->stamp_ns);
+    return true;
+  });
 }
 
 InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& visit,

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <map>
+#include <set>
+
 #include "arguments.hpp"
 #include "binding.hpp"
 #include "evaluation/inputs.hpp"
@@ -11,6 +14,7 @@ namespace laneloom::python {
 namespace {
 
 using FrameStream = Stream<SeenFrame>;
+using ObjectsStream = Stream<SeenObjects>;
 using MapStream = Stream<LocalMap>;
 
 constexpr const char* kReadFramesDoc =
@@ -22,12 +26,23 @@ Of a recording, these are the frames and poses that the service would believe; f
 left out. Frames come in the order of their stamps. What is passed over for another reason is a RuntimeWarning.
 FileNotFoundError; RuntimeError: the file cannot be read or is malformed.)";
 
+constexpr const char* kReadObjectsDoc =
+    R"(What a tracker followed, each message with the pose at its stamp: [(Objects, Pose), ...].
+
+path: JSON lines (.frames.jsonl) or a recording (.mcap); the first bytes tell which
+
+Of a recording, these are the objects and poses that the service would believe; objects without poses around them are
+left out. They come in the order of their stamps. A file without objects gives an empty list. Warnings and errors are
+those of read_frames().)";
+
 constexpr const char* kWriteFramesDoc = R"(Writes frames and their poses.
 
 path: a recording where it ends with .mcap, which must not exist yet; else JSON lines (.frames.jsonl), written anew
 frames: pairs (Frame, Pose); a pose is taken to be of its frame's stamp. Of a recording, stamps ascend
+objects: pairs (Objects, Pose), whose stamps ascend; in JSON lines, each of them has the stamp of a frame
 
-In a recording, sequences are counted up from 1, in session 1. RuntimeError: the file cannot be written.)";
+In a recording, sequences are counted up from 1, in session 1, and the poses are those of the frames. RuntimeError: the
+file cannot be written.)";
 
 constexpr const char* kReadMapsDoc = R"(The maps of a file: [LocalMap, ...], in the order of their stamps.
 
@@ -49,6 +64,14 @@ void warn_of(const std::string& file, const evaluation::InputAccount& account) {
   if (account.cut_off) warn(file + ": the recording is cut off");
 }
 
+/// Converts what was read of a file to a list of pairs.
+template <class Seen>
+py::list pairs(std::vector<Seen>&& all) {
+  py::list out;
+  for (auto& [seen, pose] : all) out.append(py::make_tuple(std::move(seen), std::move(pose)));
+  return out;
+}
+
 VehiclePose pose_of(const Eigen::Isometry3d& T_map_body, std::int64_t stamp_ns) {
   return {.stamp_ns = stamp_ns,
           .position = T_map_body.translation(),
@@ -67,12 +90,26 @@ py::list read_frames(const py::object& file) {
         });
   }
   warn_of(name, account);
-  py::list out;
-  for (SeenFrame& seen : frames) out.append(py::make_tuple(std::move(seen.frame), std::move(seen.pose)));
-  return out;
+  return pairs(std::move(frames));
 }
 
-void write_recording(const std::string& file, const std::vector<SeenFrame>& seen) {
+py::list read_objects(const py::object& file) {
+  const std::string name = existing_path(file, "path");
+  std::vector<SeenObjects> objects;
+  evaluation::InputAccount account;
+  {
+    const py::gil_scoped_release others_run;
+    account = evaluation::for_each_objects(
+        name, [&](const TrackedObjects& seen, const Eigen::Isometry3d& T_map_body) {
+          objects.push_back({seen, pose_of(T_map_body, seen.stamp_ns)});
+        });
+  }
+  warn_of(name, account);
+  return pairs(std::move(objects));
+}
+
+void write_recording(const std::string& file, const std::vector<SeenFrame>& seen,
+                     const std::vector<SeenObjects>& seen_objects) {
   std::vector<VehiclePose> poses;
   std::vector<DetectionFrame> frames;
   for (const auto& [frame, pose] : seen) {
@@ -82,23 +119,53 @@ void write_recording(const std::string& file, const std::vector<SeenFrame>& seen
     poses.back().stamp_ns = frame.stamp_ns;
     frames.push_back(frame);
   }
-  imports::write_drive(file, poses, frames);
+  std::vector<TrackedObjects> objects;
+  objects.reserve(seen_objects.size());
+  for (const SeenObjects& each : seen_objects) objects.push_back(each.objects);
+  imports::write_drive(file, poses, frames, objects);
 }
 
-void write_json_lines(const std::string& file, const std::vector<SeenFrame>& seen) {
+void write_json_lines(const std::string& file, const std::vector<SeenFrame>& seen,
+                      const std::vector<SeenObjects>& seen_objects) {
+  std::map<std::int64_t, const TrackedObjects*> objects;
+  for (const SeenObjects& each : seen_objects) objects[each.objects.stamp_ns] = &each.objects;
   io::JsonLinesWriter out(file);
-  for (const auto& [frame, pose] : seen) out.write(io::FrameRecord{frame, pose});
+  for (const auto& [frame, pose] : seen) {
+    io::FrameRecord record{frame, pose};
+    if (const auto found = objects.find(frame.stamp_ns); found != objects.end())
+      record.objects = *found->second;
+    out.write(record);
+  }
   out.close();
 }
 
-void write_frames(const py::object& file, const py::object& frames) {
+/// Objects in the order of their stamps; in JSON lines, each of them belongs to a frame.
+std::vector<SeenObjects> objects_to_write(const py::object& value, const std::vector<SeenFrame>& frames,
+                                          bool of_frames) {
+  std::vector<SeenObjects> objects = list(value, "objects", seen_objects);
+  std::set<std::int64_t> stamps_ns;
+  for (const SeenFrame& seen : frames) stamps_ns.insert(seen.frame.stamp_ns);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::int64_t stamp_ns = objects[i].objects.stamp_ns;
+    if (i > 0 && stamp_ns <= objects[i - 1].objects.stamp_ns)
+      refuse_value(fmt::format("objects[{}]", i), "the stamps must ascend");
+    if (of_frames && !stamps_ns.contains(stamp_ns))
+      refuse_value(fmt::format("objects[{}]", i),
+                   "no frame has its stamp, as JSON lines need; write a .mcap");
+  }
+  return objects;
+}
+
+void write_frames(const py::object& file, const py::object& frames, const py::object& objects) {
   const std::string name = path(file, "path");
+  const bool recorded = name.ends_with(".mcap");
   const std::vector<SeenFrame> seen = list(frames, "frames", seen_frame);
+  const std::vector<SeenObjects> others = objects_to_write(objects, seen, !recorded);
   const py::gil_scoped_release others_run;
-  if (name.ends_with(".mcap"))
-    write_recording(name, seen);
+  if (recorded)
+    write_recording(name, seen, others);
   else
-    write_json_lines(name, seen);
+    write_json_lines(name, seen, others);
 }
 
 py::list read_maps(const py::object& file) {
@@ -126,24 +193,20 @@ void write_maps(const py::object& file, const py::object& maps) {
   out.close();
 }
 
-py::object next_frame(FrameStream& stream) {
-  std::optional<SeenFrame> seen;
-  {
-    const py::gil_scoped_release others_run;
-    seen = stream.next();
-  }
-  if (seen) return py::make_tuple(std::move(seen->frame), std::move(seen->pose));
-  warn_of(stream.file(), stream.account());
-  throw py::stop_iteration();
+py::object to_python(SeenFrame&& seen) { return py::make_tuple(std::move(seen.frame), std::move(seen.pose)); }
+py::object to_python(SeenObjects&& seen) {
+  return py::make_tuple(std::move(seen.objects), std::move(seen.pose));
 }
+py::object to_python(LocalMap&& map) { return py::cast(std::move(map)); }
 
-py::object next_map(MapStream& stream) {
-  std::optional<LocalMap> map;
+template <class T>
+py::object next(Stream<T>& stream) {
+  std::optional<T> item;
   {
     const py::gil_scoped_release others_run;
-    map = stream.next();
+    item = stream.next();
   }
-  if (map) return py::cast(*std::move(map));
+  if (item) return to_python(*std::move(item));
   warn_of(stream.file(), stream.account());
   throw py::stop_iteration();
 }
@@ -154,6 +217,16 @@ std::unique_ptr<FrameStream> iter_frames(const py::object& file) {
         return evaluation::for_each_frame(
             name, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
               put({frame, pose_of(T_map_body, frame.stamp_ns)});
+            });
+      });
+}
+
+std::unique_ptr<ObjectsStream> iter_objects(const py::object& file) {
+  return std::make_unique<ObjectsStream>(
+      existing_path(file, "path"), [](const std::string& name, const auto& put) {
+        return evaluation::for_each_objects(
+            name, [&](const TrackedObjects& seen, const Eigen::Isometry3d& T_map_body) {
+              put({seen, pose_of(T_map_body, seen.stamp_ns)});
             });
       });
 }
@@ -172,16 +245,23 @@ void bind_files(py::module_& module) {
   const auto self = [](const py::object& stream) { return stream; };
   py::class_<FrameStream>(module, "FrameIterator", "The frames of a file, one after the other.")
       .def("__iter__", self)
-      .def("__next__", &next_frame);
+      .def("__next__", &next<SeenFrame>);
+  py::class_<ObjectsStream>(module, "ObjectsIterator", "The objects of a file, one message after the other.")
+      .def("__iter__", self)
+      .def("__next__", &next<SeenObjects>);
   py::class_<MapStream>(module, "MapIterator", "The maps of a file, one after the other.")
       .def("__iter__", self)
-      .def("__next__", &next_map);
+      .def("__next__", &next<LocalMap>);
   module.def("iter_frames", &iter_frames, arg("path"),
              "The same as read_frames(), one after the other: a long file takes little memory.");
+  module.def("iter_objects", &iter_objects, arg("path"),
+             "The same as read_objects(), one after the other: a long file takes little memory.");
   module.def("iter_maps", &iter_maps, arg("path"),
              "The same as read_maps(), one after the other: a long file takes little memory.");
   module.def("read_frames", &read_frames, arg("path"), kReadFramesDoc);
-  module.def("write_frames", &write_frames, arg("path"), arg("frames"), kWriteFramesDoc);
+  module.def("read_objects", &read_objects, arg("path"), kReadObjectsDoc);
+  module.def("write_frames", &write_frames, arg("path"), arg("frames"), arg("objects") = py::tuple(),
+             kWriteFramesDoc);
   module.def("read_maps", &read_maps, arg("path"), kReadMapsDoc);
   module.def("write_maps", &write_maps, arg("path"), arg("maps"),
              "Writes maps as JSON lines (.jsonl). RuntimeError: the file cannot be written.");

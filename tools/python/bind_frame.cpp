@@ -30,6 +30,26 @@ sequence, session_id: number of the frame, and of the network's run
 
 ValueError: a coordinate is beyond 10 000 km, or whatever else the service would refuse the frame for.)";
 
+constexpr const char* kTrackedObjectDoc = R"(Something that a tracker follows.
+
+id: stays while it is followed; unique among the objects of one instant
+position: array (3,), of the box's centre on the ground, in metres
+heading: array (3,), unit vector from rear to front; zeros: unknown, or known up to its sign
+kind: "car", "truck", "bus", "trailer", "motorcycle", "bicycle", "pedestrian" or "unknown"
+speed: over ground, along the heading, in m/s; negative: backwards
+existence: 0..1; -1: not estimated
+stddev: of the position, in metres; -1: unknown, as are
+length, width: metres)";
+
+constexpr const char* kObjectsDoc = R"(Everything that a tracker follows at one instant.
+
+stamp_ns: time of the sensor in nanoseconds, above 0
+objects: TrackedObject objects
+in_map_frame: whether positions and headings are in the map frame, not in the body frame
+sequence, session_id: number of the message, and of the tracker's run
+
+ValueError: two objects have one id, a heading is not of unit length, or whatever else the service would refuse.)";
+
 constexpr const char* kPoseDoc = R"(Where the vehicle is in the map frame at one instant.
 
 position: array (3,), metres
@@ -77,6 +97,37 @@ DetectionFrame make_frame(const py::object& stamp_ns, const py::object& detectio
                                 .occluded_areas = list(occluded_areas, "occluded_areas", polyline),
                                 .detections = list(detections, "detections", instance<Detection>)},
                  "Frame");
+}
+
+Point point(const py::object& value, const char* name) {
+  const std::vector<double> values = fixed_array(value, name, {3});
+  return {values[0], values[1], values[2]};
+}
+
+TrackedObject make_tracked_object(const py::object& id, const py::object& position, const py::object& heading,
+                                  const py::object& kind, const py::object& speed,
+                                  const py::object& existence, const py::object& stddev,
+                                  const py::object& length, const py::object& width) {
+  return {.id = count(id, "id"),
+          .kind = word<ObjectKind>(kind, "kind", kObjectKindNames),
+          .existence_probability = number(existence, "existence"),
+          .position = point(position, "position"),
+          .heading = point(heading, "heading"),
+          .speed_mps = number(speed, "speed"),
+          .position_stddev_m = number(stddev, "stddev"),
+          .length_m = number(length, "length"),
+          .width_m = number(width, "width")};
+}
+
+TrackedObjects make_objects(const py::object& stamp_ns, const py::object& objects,
+                            const py::object& in_map_frame, const py::object& sequence,
+                            const py::object& session_id) {
+  return checked(TrackedObjects{.stamp_ns = integer(stamp_ns, "stamp_ns"),
+                                .sequence = count(sequence, "sequence"),
+                                .session_id = count(session_id, "session_id"),
+                                .objects = list(objects, "objects", instance<TrackedObject>),
+                                .in_map_frame = boolean(in_map_frame, "in_map_frame")},
+                 "Objects");
 }
 
 VehiclePose make_pose(const py::object& position, const py::object& orientation, const py::object& stamp_ns) {
@@ -147,6 +198,46 @@ void bind_frames(py::module_& module) {
       });
 }
 
+void bind_tracked_object(py::module_& module) {
+  using py::arg;
+  const py::tuple zeros = py::make_tuple(0.0, 0.0, 0.0);
+  py::class_<TrackedObject>(module, "TrackedObject", kTrackedObjectDoc)
+      .def(py::init(&make_tracked_object), arg("id"), arg("position"), arg("heading") = zeros,
+           arg("kind") = "car", arg("speed") = 0.0, py::kw_only(), arg("existence") = -1.0,
+           arg("stddev") = -1.0, arg("length") = -1.0, arg("width") = -1.0)
+      .def(pickled<TrackedObject>())
+      .def_property_readonly("id", [](const TrackedObject& o) { return o.id; })
+      .def_property_readonly("kind", [](const TrackedObject& o) { return name(o.kind); })
+      .def_property_readonly("position", [](const TrackedObject& o) { return to_array(o.position); })
+      .def_property_readonly("heading", [](const TrackedObject& o) { return to_array(o.heading); })
+      .def_property_readonly("speed", [](const TrackedObject& o) { return o.speed_mps; })
+      .def_property_readonly("existence", [](const TrackedObject& o) { return o.existence_probability; })
+      .def_property_readonly("stddev", [](const TrackedObject& o) { return o.position_stddev_m; })
+      .def_property_readonly("length", [](const TrackedObject& o) { return o.length_m; })
+      .def_property_readonly("width", [](const TrackedObject& o) { return o.width_m; })
+      .def("__repr__", [](const TrackedObject& o) {
+        return fmt::format("<TrackedObject {}: {} at ({:.1f}, {:.1f}), {:.1f} m/s>", o.id, name(o.kind),
+                           o.position.x(), o.position.y(), o.speed_mps);
+      });
+}
+
+void bind_objects(py::module_& module) {
+  using py::arg;
+  using Objects = TrackedObjects;
+  py::class_<Objects>(module, "Objects", kObjectsDoc)
+      .def(py::init(&make_objects), arg("stamp_ns"), arg("objects"), py::kw_only(),
+           arg("in_map_frame") = false, arg("sequence") = 0, arg("session_id") = 0)
+      .def(pickled<Objects>())
+      .def_property_readonly("stamp_ns", [](const Objects& o) { return o.stamp_ns; })
+      .def_property_readonly("objects", [](const Objects& o) { return to_tuple(o.objects); })
+      .def_property_readonly("in_map_frame", [](const Objects& o) { return o.in_map_frame; })
+      .def_property_readonly("sequence", [](const Objects& o) { return o.sequence; })
+      .def_property_readonly("session_id", [](const Objects& o) { return o.session_id; })
+      .def("__repr__", [](const Objects& o) {
+        return fmt::format("<Objects at {} ns, {} objects>", o.stamp_ns, o.objects.size());
+      });
+}
+
 void bind_pose(py::module_& module) {
   using py::arg;
   using Pose = VehiclePose;
@@ -167,13 +258,22 @@ void bind_pose(py::module_& module) {
       });
 }
 
+py::sequence pair_of(const py::handle& value, const std::string& name, const char* expected) {
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) || py::len(value) != 2)
+    refuse_type(name, expected, value);
+  return py::reinterpret_borrow<py::sequence>(value);
+}
+
 }  // namespace
 
 SeenFrame seen_frame(const py::handle& value, const std::string& name) {
-  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) || py::len(value) != 2)
-    refuse_type(name, "a pair (Frame, Pose)", value);
-  const auto pair = py::reinterpret_borrow<py::sequence>(value);
+  const py::sequence pair = pair_of(value, name, "a pair (Frame, Pose)");
   return {instance<DetectionFrame>(pair[0], name + "[0]"), instance<VehiclePose>(pair[1], name + "[1]")};
+}
+
+SeenObjects seen_objects(const py::handle& value, const std::string& name) {
+  const py::sequence pair = pair_of(value, name, "a pair (Objects, Pose)");
+  return {instance<TrackedObjects>(pair[0], name + "[0]"), instance<VehiclePose>(pair[1], name + "[1]")};
 }
 
 std::vector<SeenFrame> frames_in_order(const py::handle& value, const std::string& name) {
@@ -187,6 +287,8 @@ std::vector<SeenFrame> frames_in_order(const py::handle& value, const std::strin
 void bind_frame(py::module_& module) {
   bind_detection(module);
   bind_frames(module);
+  bind_tracked_object(module);
+  bind_objects(module);
   bind_pose(module);
 }
 

@@ -31,6 +31,11 @@ constexpr const char* kUpdateDoc = R"(Fuses one frame and returns the map after 
 frame: Frame, as the network saw it
 pose: Pose of the vehicle at the frame's stamp. Poses of one drive are in one map frame)";
 
+constexpr const char* kAddDoc = R"(Takes what a tracker follows. The next update() uses it.
+
+objects: Objects, in the order of their stamps, and of their sessions where stamps are equal
+pose: Pose of the vehicle at their stamp)";
+
 /// A mapper that several threads may use, one at a time.
 class SharedMapper {
  public:
@@ -40,6 +45,10 @@ class SharedMapper {
   LocalMap update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
     const std::lock_guard lock(mutex_);
     return mapper_.update(frame, T_map_body, explain_ ? &reasons_ : nullptr);
+  }
+  void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
+    const std::lock_guard lock(mutex_);
+    mapper_.add(objects, T_map_body);
   }
   std::vector<std::string> why(ElementId id) {
     const std::lock_guard lock(mutex_);
@@ -115,6 +124,13 @@ LocalMap update(SharedMapper& mapper, const py::object& frame, const py::object&
   return mapper.update(seen, T_map_body);
 }
 
+void add(SharedMapper& mapper, const py::object& objects, const py::object& pose) {
+  const TrackedObjects& seen = instance<TrackedObjects>(objects, "objects");
+  const Eigen::Isometry3d T_map_body = transform(instance<VehiclePose>(pose, "pose"));
+  const py::gil_scoped_release others_run;
+  mapper.add(seen, T_map_body);
+}
+
 py::dict learned(SharedMapper& mapper, const py::object& source) {
   py::dict out;
   for (const auto& [what, value] : mapper.learned(text(source, "source"))) out[py::str(what)] = value;
@@ -130,6 +146,7 @@ void bind_mapper(py::module_& module) {
       .def(py::pickle(&saved, &loaded))
       .def("why", &why, py::arg("id") = py::none(), py::kw_only(), py::arg("detection") = py::none(), kWhyDoc)
       .def("update", &update, py::arg("frame"), py::arg("pose"), kUpdateDoc)
+      .def("add", &add, py::arg("objects"), py::arg("pose"), kAddDoc)
       .def_property_readonly("map", py::cpp_function(&SharedMapper::map, Release()),
                              "The map after the last update.")
       .def("learned", &learned, py::arg("source"),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
 /// The parts of the module, each in a file of its own. Objects of the module cannot be changed once they are
@@ -31,8 +32,16 @@ struct SeenFrame {
   VehiclePose pose;
 };
 
+/// Objects and the pose at their stamp.
+struct SeenObjects {
+  TrackedObjects objects;
+  VehiclePose pose;
+};
+
 /// Converts a pair (Frame, Pose), as read_frames() gives it.
 SeenFrame seen_frame(const py::handle& value, const std::string& name);
+/// Converts a pair (Objects, Pose), as read_objects() gives it.
+SeenObjects seen_objects(const py::handle& value, const std::string& name);
 /// Converts a list of such pairs, whose stamps must ascend.
 std::vector<SeenFrame> frames_in_order(const py::handle& value, const std::string& name);
 

@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "base/fields.hpp"
+#include "laneloom/objects.hpp"
 #include "simulation/road.hpp"
 
 /// Lets objects of the module be pickled, and so copied and sent to other processes.
@@ -51,6 +52,12 @@ void serialize(Archive& archive, DetectionFrame& frame) {
   auto& [stamp_ns, sequence, session_id, source, detected_types, field_of_view, occluded_areas, detections] =
       frame;
   archive(stamp_ns, sequence, session_id, source, detected_types, field_of_view, occluded_areas, detections);
+}
+
+template <class Archive>
+void serialize(Archive& archive, TrackedObjects& objects) {
+  auto& [stamp_ns, sequence, session_id, all, in_map_frame] = objects;
+  archive(stamp_ns, sequence, session_id, all, in_map_frame);
 }
 
 template <class Archive>
