@@ -5,15 +5,21 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstddef>
+#include <filesystem>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "view/file_desk.hpp"
 #include "view/site.hpp"
 
 namespace {
 
 using namespace laneloom;
 
+constexpr std::size_t kMaxFileBytes = 100;
 constexpr std::string_view kEndOfHeaders = "\r\n\r\n";
 
 /// A viewer of a recording and of live frames at once, so that everything there is can be asked for.
@@ -30,9 +36,19 @@ class Viewer {
  private:
   view::FrameStore frames_;
   view::Site site_{{.title = "fuzz"}, frames_};
+  view::FileDesk desk_{site_,
+                       [](const std::filesystem::path&, view::FrameStore& store, const std::stop_token&) {
+                         store.finish("it is not read");
+                       },
+                       kMaxFileBytes};
   view::WebServer server_{
-      {.patience_s = 0.2, .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
-      [this](std::string_view target) { return site_.answer(target); }};
+      {.patience_s = 0.2,
+       .max_file_bytes = kMaxFileBytes,
+       .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
+      [this](std::string_view target) { return desk_.answer(target); },
+      [this](std::string_view target, view::TemporaryFolder folder) {
+        return desk_.open(target, std::move(folder));
+      }};
 };
 
 int connect_to(std::uint16_t port) {

@@ -56,6 +56,20 @@ TEST(Door, OnlyGets) {
   }
 }
 
+TEST(Door, TakesFilesWhereNoOtherHostReachesIt) {
+  Knock knock = from("localhost:8642", "http://localhost:8642");
+  knock.is_file = true;
+  EXPECT_EQ(Door("127.0.0.1", "").judge(knock), 405U) << "a GET brings none";
+  knock.method = "PUT";
+  EXPECT_EQ(Door("127.0.0.1", "").judge(knock), 200U);
+  for (const char* address : {"0.0.0.0", "::", "192.0.2.1"}) {
+    knock.host = address;
+    knock.origin = "";
+    knock.authorization = "Bearer secret";
+    EXPECT_EQ(Door(address, "secret").judge(knock), 403U) << address;
+  }
+}
+
 TEST(Door, OnEveryAddressTakesNumbersButNoNames) {
   const Door door("0.0.0.0", "secret");
   Knock knock = from("192.0.2.1:8642");

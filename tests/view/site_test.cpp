@@ -20,7 +20,7 @@ TEST(Site, HasThePageAndNothingElse) {
   EXPECT_EQ(site.answer("/").body, site.answer("/index.html").body);
   EXPECT_EQ(site.answer("/main.js").type, "text/javascript; charset=utf-8");
   EXPECT_EQ(json::parse(site.answer("/info").body),
-            json::parse(R"({"title": "a vehicle", "live": true, "names": []})"));
+            json::parse(R"({"title": "a vehicle", "live": true, "names": [], "max_file_bytes": 0})"));
   EXPECT_TRUE(json::parse(site.answer("/palette").body).contains("styles"));
   for (const char* none :
        {"", "/nothing", "/../main.js", "//main.js", "/main.js/", "/recording?from=x", "/frame?number=0"})

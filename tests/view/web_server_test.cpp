@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "client.hpp"
@@ -83,6 +86,99 @@ TEST_F(Server, RefusesMalformedAndOversizedRequests) {
   one.send(get("/b"));
   EXPECT_THAT(one.receive_all(), StartsWith("HTTP/1.1 400"));  // of the space in its target
   EXPECT_THAT(answer_to(get("/b", "Connection: close\r\n")), HasSubstr("you asked for /b"));
+}
+
+std::string put(const std::string& target, std::size_t bytes, const std::string& more = "") {
+  return "PUT " + target +
+         " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nContent-Length: " + std::to_string(bytes) +
+         "\r\n" + more + "\r\n";
+}
+
+/// A server that takes files of 100 kB.
+class FileServer : public Server {
+ protected:
+  void start(WebServerConfig config = {}) {
+    config.max_file_bytes = 100'000;
+    server_ =
+        std::make_unique<WebServer>(config, echo, [this](std::string_view target, TemporaryFolder folder) {
+          const std::filesystem::path path = folder.path(WebServer::kFileName);
+          std::ifstream file(path);
+          std::stringstream content;
+          content << file.rdbuf();
+          taken_.push_back(content.str());
+          path_ = path;
+          is_private_ = (std::filesystem::status(path.parent_path()).permissions() &
+                         (std::filesystem::perms::group_all | std::filesystem::perms::others_all)) ==
+                        std::filesystem::perms::none;
+          return WebAnswer{200, "text/plain", "took " + std::string(target)};
+        });
+  }
+
+  // Of the server's thread; are read when its answer has come.
+  std::vector<std::string> taken_;
+  std::filesystem::path path_;
+  bool is_private_ = false;
+};
+
+TEST_F(FileServer, TakesAFileOfItsPage) {
+  start();
+  std::string content(100'000, '\0');
+  for (std::size_t i = 0; i < content.size(); ++i) content[i] = static_cast<char>(i * 7);
+  EXPECT_THAT(answer_to(put("/open?name=a", content.size(), "Origin: http://localhost\r\n") + content),
+              HasSubstr("took /open?name=a"));
+  ASSERT_EQ(taken_.size(), 1U);
+  EXPECT_EQ(taken_[0], content);
+  EXPECT_TRUE(is_private_) << "nobody else can read it";
+  EXPECT_FALSE(std::filesystem::exists(path_.parent_path())) << "it is removed";
+  EXPECT_THAT(answer_to(put("/open", 1) + "x"), HasSubstr("took /open")) << "and then another one";
+  EXPECT_THAT(answer_to(get("/b", "Connection: close\r\n")), HasSubstr("you asked for /b"));
+}
+
+TEST_F(FileServer, TakesNoFileOfAnybodyElseNorElsewhereNorTooLarge) {
+  start();
+  EXPECT_THAT(answer_to(put("/open", 1, "Origin: http://evil.example\r\n") + "x"),
+              StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer_to("PUT /open HTTP/1.1\r\nHost: evil.example\r\nContent-Length: 1\r\n\r\nx"),
+              StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer_to(put("/elsewhere", 1) + "x"), StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(answer_to("POST /open HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\n\r\nx"),
+              StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(answer_to("OPTIONS /open HTTP/1.1\r\nHost: localhost\r\nOrigin: http://evil.example\r\n"
+                        "Access-Control-Request-Method: PUT\r\n\r\n"),
+              StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer_to(get("/", "Content-Length: 5\r\n") + "hello"), StartsWith("HTTP/1.1 413"));
+  EXPECT_THAT(answer_to(put("/open", 100'001)), StartsWith("HTTP/1.1 413"));
+  // A length that is not told in advance is limited too.
+  Client chunked = client();
+  chunked.send("PUT /open HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n");
+  for (int i = 0; i < 3; ++i) chunked.send("c350\r\n" + std::string(50'000, 'x') + "\r\n");
+  EXPECT_THAT(chunked.receive_all(), StartsWith("HTTP/1.1 413"));
+  EXPECT_TRUE(taken_.empty());
+}
+
+TEST_F(FileServer, TakesOneFileAtATime) {
+  start();
+  Client first = client();
+  first.send(put("/open", 10) + "01234");
+  std::string answer;
+  do {  // until the server has read the header of the first one
+    answer = answer_to(put("/open", 1) + "x");
+  } while (answer.starts_with("HTTP/1.1 200"));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 503"));
+  first.send("56789");
+  EXPECT_THAT(first.receive_all(), HasSubstr("took /open"));
+  EXPECT_EQ(taken_.back(), "0123456789");
+  client().send(put("/open", 10) + "01234");  // and leaves
+  do {
+    answer = answer_to(put("/open", 1) + "x");
+  } while (answer.starts_with("HTTP/1.1 503"));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(FileServer, TakesNoFileWhereOtherHostsReachIt) {
+  start({.address = "0.0.0.0", .token = "secret"});
+  EXPECT_THAT(answer_to(put("/open?token=secret", 1) + "x"), StartsWith("HTTP/1.1 403"));
+  EXPECT_TRUE(taken_.empty());
 }
 
 TEST_F(Server, CutsOffWhoSendsNoWholeRequest) {

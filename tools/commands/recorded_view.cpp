@@ -28,17 +28,23 @@ namespace {
 
 constexpr double kTruthReach_m = 60.0;  ///< of the truth that is drawn around the vehicle
 
-/// Is thrown to end the loading of a long file when the program is to end.
+/// Is thrown to end the loading of a long file.
 struct Stopped {};
 
 /// Writes moments into a store.
 class Storer {
  public:
-  Storer(const RangeConfig& range, std::size_t maps, const simulation::Road* truth, view::FrameStore& store)
-      : range_(range), truth_(truth), placer_(range, maps, truth), store_(store) {}
+  Storer(const RangeConfig& range, std::size_t maps, const simulation::Road* truth, view::FrameStore& store,
+         std::stop_token stop)
+      : range_(range), truth_(truth), placer_(range, maps, truth), store_(store), stop_(std::move(stop)) {}
+
+  /// Throws Stopped if the loading is to end.
+  void check() const {
+    if (stop_requested() || stop_.stop_requested()) throw Stopped();
+  }
 
   void add(view::ViewMoment moment) {
-    if (stop_requested()) throw Stopped();
+    check();
     if (truth_ != nullptr) moment.truth = drawing::map_of(*truth_, moment.map.map.T_map_body, kTruthReach_m);
     const view::FramePlace place = placer_.next(moment);
     store_.add(moment.seen_ns, summary_text(moment, place), frame_text(moment, place, range_));
@@ -49,6 +55,7 @@ class Storer {
   const simulation::Road* truth_;  ///< null: it is not known
   view::FramePlacer placer_;
   view::FrameStore& store_;
+  std::stop_token stop_;
 };
 
 /// Maps a recording anew, to know why its maps are as they are. It knows that only of maps that come out the
@@ -104,6 +111,7 @@ void load_recording(const std::string& path, bool strict, Storer& storer) {
   LeftOut left_out(strict);
   support::ProgressBar bar;
   while (auto recorded = recording::next_or_leave_out(left_out, [&] { return reader.next(); })) {
+    storer.check();
     bar.step(reader.progress());
     const auto add = [&](auto&& message) {
       return builder.add(std::forward<decltype(message)>(message), recorded->log_time_ns);
@@ -123,13 +131,13 @@ void load_recording(const std::string& path, bool strict, Storer& storer) {
   warn_of(path, left_out);
 }
 
-/// Maps one drive with several configurations, in step.
+/// Maps one drive with several configurations, in step; or with a single one.
 class Comparison {
  public:
-  explicit Comparison(const std::vector<std::string>& configs) : maps_(configs.size()) {
+  explicit Comparison(const std::vector<Config>& configs) : maps_(configs.size()) {
     for (std::size_t i = 0; i < configs.size(); ++i)
       replays_.emplace_back(
-          config::load_config(configs[i]),
+          configs[i],
           [this, i](const PublishedMap& map, std::int64_t) {
             maps_[i].push_back(map);
             if (i == 0) whys_.push_back(reasons_.to_json(map.map));
@@ -179,10 +187,17 @@ class Comparison {
   view::MomentBuilder builder_;
 };
 
-void load_comparison(const RecordedInputs& inputs, Storer& storer) {
-  Comparison comparison(inputs.configs);
-  const auto add = [&](recording::RecordedMessage&& message) { comparison.add(message, storer); };
-  for_each_input(inputs.recording, config::load_config(inputs.configs.front()), inputs.strict, add);
+/// Maps a drive anew, by the defaults if there is no configuration.
+void load_mapped(const RecordedInputs& inputs, Storer& storer) {
+  std::vector<Config> configs;
+  for (const std::string& path : inputs.configs) configs.push_back(config::load_config(path));
+  if (configs.empty()) configs.emplace_back();
+  Comparison comparison(configs);
+  const auto add = [&](recording::RecordedMessage&& message) {
+    storer.check();
+    comparison.add(message, storer);
+  };
+  for_each_input(inputs.recording, configs.front(), inputs.strict, add);
 }
 
 /// Maps by their stamps.
@@ -243,19 +258,22 @@ std::string truth_elements(const simulation::Road* truth) {
 }
 
 void load(const RecordedInputs& inputs, const RangeConfig& range, const simulation::Road* truth,
-          view::FrameStore& store) {
+          view::FrameStore& store, const std::stop_token& stop) {
   try {
     const std::size_t maps = std::max({std::size_t{1}, inputs.configs.size(), inputs.maps.size()});
-    Storer storer(range, maps, truth, store);
-    if (!inputs.configs.empty())
-      load_comparison(inputs, storer);
-    else if (inputs.recording.empty())
+    Storer storer(range, maps, truth, store, stop);
+    if (inputs.recording.empty())
       load_files(inputs, storer);
-    else
+    else if (inputs.configs.empty() && recording::is_recording(inputs.recording))
       load_recording(inputs.recording, inputs.strict, storer);
+    else
+      load_mapped(inputs, storer);
     store.finish(store.size() == 0 ? inputs.title() + ": there is nothing in it to show" : "");
   } catch (const std::exception& error) {
-    store.finish(error.what());
+    std::string complaint = error.what();
+    if (!inputs.name.empty() && complaint.starts_with(inputs.recording))
+      complaint.replace(0, inputs.recording.size(), inputs.name);
+    store.finish(complaint);
   } catch (const Stopped&) {
     store.finish();
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,13 @@ namespace laneloom::commands {
 
 /// Files that a view shows. An empty name: the file is not given.
 struct RecordedInputs {
-  std::string recording;             ///< all topics (.mcap)
+  std::string recording;             ///< all topics (.mcap), or frames that are mapped anew (.frames.jsonl)
   std::vector<std::string> configs;  ///< each maps the recording's detections, instead of its own maps
   std::string frames;                ///< frames, instead of a recording
   std::vector<std::string> maps;     ///< maps of the same drive, likewise
   std::string truth;                 ///< of the road
   bool strict = false;               ///< the first thing that is wrong is an error
+  std::string name{};                ///< of the recording, for people; empty: its path
 
   bool empty() const { return recording.empty() && frames.empty() && maps.empty(); }
   std::string title() const;
@@ -27,9 +29,9 @@ struct RecordedInputs {
 /// The elements to draw of the truth beneath each map, as JSON; none if it is null.
 std::string truth_elements(const simulation::Road* truth);
 
-/// Reads the files into the store, and finishes it. `truth` may be null. Does not throw: the store has the
-/// error.
+/// Reads the files into the store, and finishes it. `truth` may be null. Ends early if a stop is requested,
+/// of it or of the program. Does not throw: the store has the error.
 void load(const RecordedInputs& inputs, const RangeConfig& range, const simulation::Road* truth,
-          view::FrameStore& store);
+          view::FrameStore& store, const std::stop_token& stop = {});
 
 }  // namespace laneloom::commands

@@ -2,10 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
 #include <utility>
 
@@ -15,11 +18,13 @@
 #include "commands/recorded_view.hpp"
 #include "commands/stop_signal.hpp"
 #include "view/door.hpp"
+#include "view/file_desk.hpp"
 
 namespace laneloom::commands {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{200};  // between looks at whether a recording can be read
+constexpr std::size_t kMaxFileBytes = 256U << 20U;  // of a file that is dropped onto the page
+constexpr std::chrono::milliseconds kLook{200};     // between looks at whether a recording can be read
 
 struct ViewOptions {
   DdsConfig dds;
@@ -40,12 +45,28 @@ void print_urls(const ViewOptions& options, std::uint16_t port) {
   std::fflush(stdout);
 }
 
+/// Reads a file that a page put.
+view::FileDesk::Loader file_loader(const RangeConfig& range) {
+  return [range](const std::filesystem::path& file, view::FrameStore& store, const std::stop_token& stop) {
+    load({.recording = file.string(), .name = file.filename().string()}, range, nullptr, store, stop);
+  };
+}
+
+view::WebServer serve(const ViewOptions& options, view::FileDesk& desk) {
+  return {options.server, [&desk](std::string_view target) { return desk.answer(target); },
+          [&desk](std::string_view target, view::TemporaryFolder folder) {
+            return desk.open(target, std::move(folder));
+          }};
+}
+
 void view_live(const ViewOptions& options) {
   LiveView view(options.dds, options.range);
   view::Site site({.title = fmt::format("vehicle {}, domain {}", options.dds.vehicle_id, options.dds.domain),
+                   .max_file_bytes = options.server.max_file_bytes,
                    .black_box = &view.black_box()},
                   view.frames());
-  view::WebServer server(options.server, [&site](std::string_view target) { return site.answer(target); });
+  view::FileDesk desk(site, file_loader(options.range), options.server.max_file_bytes);
+  view::WebServer server = serve(options, desk);
   print_urls(options, server.port());
   view.run(site, server, options.foxglove);
 }
@@ -55,13 +76,15 @@ void view_recording(const ViewOptions& options) {
   if (!options.recorded.truth.empty()) truth = simulation::load_truth(options.recorded.truth);
   const simulation::Road* road = truth ? &*truth : nullptr;
   view::FrameStore store;
-  const view::Site site(
-      {.title = options.recorded.title(), .truth = truth_elements(road), .names = options.recorded.names()},
-      store);
+  const view::Site site({.title = options.recorded.title(),
+                         .truth = truth_elements(road),
+                         .names = options.recorded.names(),
+                         .max_file_bytes = options.server.max_file_bytes},
+                        store);
   std::thread loader([&] { load(options.recorded, options.range, road, store); });
   try {
-    const view::WebServer server(options.server,
-                                 [&site](std::string_view target) { return site.answer(target); });
+    view::FileDesk desk(site, file_loader(options.range), options.server.max_file_bytes);
+    const view::WebServer server = serve(options, desk);
     print_urls(options, server.port());
     while (store.failure().empty() && sleep_until(std::chrono::steady_clock::now() + kLook)) {
     }
@@ -75,7 +98,10 @@ void view_recording(const ViewOptions& options) {
 
 void view(ViewOptions options) {
   catch_stop_signals();
-  if (!view::is_loopback(options.server.address)) options.server.token = view::random_token();
+  if (view::is_loopback(options.server.address))
+    options.server.max_file_bytes = kMaxFileBytes;
+  else
+    options.server.token = view::random_token();
   if (options.foxglove) options.server.foxglove_topics = scene::scene_topics();
   options.recorded.empty() ? view_live(options) : view_recording(options);
 }
@@ -103,7 +129,8 @@ void add_view(CLI::App& app) {
   command->add_option("--map-frame-id", options->dds.map_frame_id, "Live: frame of the poses")
       ->capture_default_str();
   CLI::Option* in =
-      command->add_option("--in,drive", options->recorded.recording, "Recording to show (.mcap)");
+      command->add_option("--in,drive", options->recorded.recording,
+                          "Drive to show: a recording (.mcap), or frames to map (.frames.jsonl)");
   CLI::Option* frames =
       command->add_option("--frames", options->recorded.frames, "Detections to show (.frames.jsonl or .mcap)")
           ->excludes(in);

@@ -10,37 +10,20 @@
 #include "base/seconds.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/dds/cdr.hpp"
-#include "view/door.hpp"
+#include "view/temporary_folder.hpp"
 
 namespace laneloom::view {
 namespace {
 
 constexpr std::size_t kGroupBytes = 1U << 19U;
 
-/// A file that is removed when this ends.
-class TemporaryFile {
- public:
-  TemporaryFile()
-      : path_(std::filesystem::temp_directory_path() / ("laneloom_" + random_token() + ".mcap")) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-
-  std::string path() const { return path_.string(); }
-  std::string content() const {
-    std::string content(std::filesystem::file_size(path_), '\0');
-    std::ifstream file(path_, std::ios::binary);
-    file.read(content.data(), static_cast<std::streamsize>(content.size()));
-    if (!file) throw std::runtime_error(path_.string() + ": cannot be read");
-    return content;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+std::string content_of(const std::filesystem::path& path) {
+  std::string content(std::filesystem::file_size(path), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+  return content;
+}
 
 /// The configuration that a status tells, as a file. Empty: it is of another version of laneloom.
 std::string configuration_of(const ServiceStatus& status) {
@@ -81,9 +64,10 @@ void BlackBox::add(const recording::AnyMessage& message, std::int64_t time_ns) {
 
 std::string BlackBox::mcap() const {
   const std::lock_guard lock(mutex_);
-  const TemporaryFile file;
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path("last.mcap");
   recording::RecordingWriter writer(
-      file.path(),
+      path.string(),
       {.map_frame_id = map_frame_id_, .configuration = status_ ? configuration_of(*status_) : ""});
   const auto write = [&](const std::vector<Entry>& entries, const std::string& messages) {
     std::size_t begin = 0;
@@ -98,7 +82,7 @@ std::string BlackBox::mcap() const {
   for (const Group& group : groups_) write(group.entries, group.messages.unpacked());
   write(open_entries_, open_);
   writer.close();
-  return file.content();
+  return content_of(path);
 }
 
 }  // namespace laneloom::view

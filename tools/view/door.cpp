@@ -59,7 +59,8 @@ Door::Door(std::string address, std::string token, std::vector<std::string> prog
 unsigned Door::judge(const Knock& knock) const {
   if (!is_own_host(knock.host)) return 403;
   if (!is_own_origin(knock)) return 403;
-  if (knock.method != "GET") return 405;
+  if (knock.method != (knock.is_file ? "PUT" : "GET")) return 405;
+  if (knock.is_file && !is_loopback(address_)) return 403;
   return token_.empty() || brings_token(knock) ? 200 : 401;
 }
 

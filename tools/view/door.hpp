@@ -11,6 +11,7 @@ namespace laneloom::view {
 struct Knock {
   std::string_view method, target, host, origin, cookie, authorization;
   bool is_for_programs = false;  ///< whether it asks for the stream that pages of other programs may read
+  bool is_file = false;          ///< whether it brings a file to the place where files are taken
 };
 
 /// Decides by the rules of one server. Immutable, so thread-safe.
@@ -24,8 +25,8 @@ class Door {
   /// Pages of `program_origins` get the stream for programs, and nothing else.
   Door(std::string address, std::string token, std::vector<std::string> program_origins = {});
 
-  /// The status of HTTP that the request deserves: 200, 401 (no token), 403 (foreign Host or Origin), or 405
-  /// (not GET).
+  /// The status of HTTP that the request deserves: 200, 401 (no token), 403 (foreign Host or Origin, or a
+  /// file where other hosts reach the server), or 405 (neither GET, nor PUT of a file).
   unsigned judge(const Knock& knock) const;
 
   const std::string& token() const { return token_; }

@@ -45,8 +45,10 @@ WebAnswer Site::answer(std::string_view asked) const {
 }
 
 std::string Site::info() const {
-  return nlohmann::json{
-      {"title", content_.title}, {"live", content_.black_box != nullptr}, {"names", content_.names}}
+  return nlohmann::json{{"title", content_.title},
+                        {"live", content_.black_box != nullptr},
+                        {"names", content_.names},
+                        {"max_file_bytes", content_.max_file_bytes}}
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

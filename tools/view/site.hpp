@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ class Site {
     std::string title;               ///< names the vehicle or the recording
     std::string truth = "[]";        ///< elements to draw in every frame, as JSON
     std::vector<std::string> names;  ///< of the maps that are compared; empty: there is one map
+    std::size_t max_file_bytes = 0;  ///< of a file that the page may open; 0: it may open none
     const BlackBox* black_box =
         nullptr;  ///< of a live view; null: it is a recording. It must outlive the site
   };

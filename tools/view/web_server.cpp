@@ -12,6 +12,7 @@ namespace laneloom::view {
 namespace {
 
 constexpr std::uint32_t kMaxHeaderBytes = 8192;
+constexpr std::chrono::seconds kFilePatience{120};
 constexpr int kSendBufferBytes = 1 << 17;  // the kernel's; a tab that was suspended sees few old frames
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
@@ -25,6 +26,23 @@ Knock knock_of(const Request& request) {
           .authorization = view_of(request[http::field::authorization])};
 }
 
+/// A file that is being put. There is one at a time.
+struct Upload {
+  Upload(Hub& server, http::request_parser<http::empty_body>&& header)
+      : hub(server), parser(std::move(header)) {
+    hub.takes_file = true;
+    parser.get().body().open(folder.path(WebServer::kFileName).c_str(), beast::file_mode::write_new, failure);
+  }
+  Upload(const Upload&) = delete;
+  Upload& operator=(const Upload&) = delete;
+  ~Upload() { hub.takes_file = false; }
+
+  Hub& hub;
+  TemporaryFolder folder;
+  FileParser parser;
+  error_code failure;  ///< of the folder's file
+};
+
 /// A connection over which requests come, one after another.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
@@ -33,10 +51,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void read() {
     parser_.emplace();
     parser_->header_limit(kMaxHeaderBytes);
-    parser_->body_limit(0);
+    parser_->body_limit(hub_.config.max_file_bytes);
     stream_.expires_after(hub_.patience());
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
+    http::async_read_header(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](error_code error, std::size_t) { self->on_read(error); });
   }
 
   /// Whether no request came yet that the door let in.
@@ -47,19 +66,54 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void on_read(error_code error) {
     if (error == asio::error::operation_aborted) return;  // it was closed
     if (error == beast::error::timeout || error == http::error::end_of_stream) return end();
-    // The rest of a malformed request, or of one with a body, is not read.
-    if (error)
-      return refuse(error == http::error::header_limit ? 431 : error == http::error::body_limit ? 413 : 400);
+    // The rest of a malformed request, or of one with a body that is not taken, is not read.
+    if (error) return refuse(status_of(error));
     const Request& request = parser_->get();
     const std::string_view protocol = foxglove_protocol(request);
     Knock knock = knock_of(request);
     knock.is_for_programs = !protocol.empty();
+    knock.is_file =
+        hub_.take_file && knock.method == "PUT" && Target(knock.target).path == WebServer::kFilePath;
     const unsigned status = hub_.door.judge(knock);
     if (status != 200) return refuse(status);
     known_ = true;
+    if (knock.is_file) return receive();
+    if (!parser_->is_done()) return refuse(413);
     if (!protocol.empty()) return upgrade(std::make_unique<FoxgloveStream>(*hub_.foxglove), protocol);
     if (Target(knock.target).path == "/live") return upgrade(std::make_unique<PageStream>(kPageChannel), {});
     answer(hub_.handler(view_of(request.target())), request.keep_alive());
+  }
+
+  static unsigned status_of(error_code error) {
+    if (error == http::error::header_limit) return 431;
+    return error == http::error::body_limit ? 413 : 400;
+  }
+
+  /// Writes the file that follows the header to a folder of its own, and hands it over.
+  void receive() {
+    if (hub_.takes_file) return refuse(503);
+    try {
+      upload_.emplace(hub_, std::move(*parser_));
+    } catch (const std::exception&) {
+      return refuse(500);
+    }
+    if (upload_->failure) return refuse(500);
+    stream_.expires_after(kFilePatience);
+    http::async_read(stream_, buffer_, upload_->parser,
+                     [self = shared_from_this()](error_code error, std::size_t) { self->on_file(error); });
+  }
+
+  void on_file(error_code error) {
+    const std::string target(view_of(upload_->parser.get().target()));
+    const bool keep_alive = upload_->parser.get().keep_alive();
+    upload_->parser.get().body().close();
+    TemporaryFolder folder = std::move(upload_->folder);
+    upload_.reset();
+    if (error == asio::error::operation_aborted) return;  // it was closed
+    if (error == beast::error::timeout || error == http::error::partial_message) return end();
+    static const auto& kOfHttp = make_error_code(http::error::body_limit).category();
+    if (error) return refuse(error.category() == kOfHttp ? status_of(error) : 507);  // else the disk is full
+    answer(hub_.take_file(target, std::move(folder)), keep_alive);
   }
 
   /// The subprotocol of Foxglove that a request asks for. Empty: it asks for none.
@@ -123,6 +177,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool known_ = false;
   beast::flat_buffer buffer_{2UL * kMaxHeaderBytes};
   std::optional<http::request_parser<http::empty_body>> parser_;
+  std::optional<Upload> upload_;
   http::response<http::string_body> response_;
 };
 
@@ -130,7 +185,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 class WebServer::Impl {
  public:
-  Impl(const WebServerConfig& config, Handler handler) : hub_(config, std::move(handler)) {
+  Impl(const WebServerConfig& config, Handler handler, FileTaker take_file)
+      : hub_(config, std::move(handler), std::move(take_file)) {
     open();
     accept();
     thread_ = std::thread([this] { context_.run(); });
@@ -207,8 +263,8 @@ class WebServer::Impl {
   std::thread thread_;
 };
 
-WebServer::WebServer(const WebServerConfig& config, Handler handler)
-    : impl_(std::make_unique<Impl>(config, std::move(handler))) {}
+WebServer::WebServer(const WebServerConfig& config, Handler handler, FileTaker take_file)
+    : impl_(std::make_unique<Impl>(config, std::move(handler), std::move(take_file))) {}
 
 WebServer::~WebServer() = default;
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "recording/recording.hpp"
+#include "view/temporary_folder.hpp"
 
 namespace laneloom::view {
 
@@ -20,12 +21,13 @@ struct WebServerConfig {
   std::size_t max_viewers = 64;       ///< WebSockets; a further one is answered with 503
   std::size_t max_connections = 256;  ///< HTTP and WebSockets; a further one replaces one that is silent
   double patience_s = 15.0;           ///< for a whole request, and for a client to take its answer
+  std::size_t max_file_bytes = 0;     ///< of a file that is put; 0: no file is taken
   std::vector<recording::ExtraTopic>
       foxglove_topics;  ///< for clients of Foxglove's protocol; empty: it is not offered
   std::vector<std::string> foxglove_origins;  ///< origins of other pages that may be such clients
 };
 
-/// The answer to a GET.
+/// The answer to a request.
 struct WebAnswer {
   unsigned status = 200;  ///< of HTTP
   std::string type = "application/json";
@@ -36,7 +38,8 @@ struct WebAnswer {
 /// WebSocket of any path that asks for it), in a thread of its own.
 ///
 /// Only GET is answered, only to its own pages (view/door.hpp), and with a policy (CSP) that lets a page load
-/// nothing from elsewhere. Of the messages that clients send over their WebSockets, only Foxglove's
+/// nothing from elsewhere. A page may PUT a file to kFilePath, one at a time, if no other host reaches the
+/// server. Of the messages that clients send over their WebSockets, only Foxglove's
 /// subscriptions are read. Each client has a slot for one frame, or one for each topic: if a client is slow,
 /// a newer message replaces the one that waits.
 class WebServer {
@@ -44,8 +47,15 @@ class WebServer {
   /// Answers a GET of `target`. Called by the server's thread; must not throw, nor take long.
   using Handler = std::function<WebAnswer(std::string_view target)>;
 
-  /// Throws std::runtime_error if it can not listen on the address.
-  WebServer(const WebServerConfig& config, Handler handler);
+  /// Takes a file that a page has put, `kFileName` in `folder`. Likewise.
+  using FileTaker = std::function<WebAnswer(std::string_view target, TemporaryFolder folder)>;
+
+  static constexpr const char* kFilePath = "/open";
+  static constexpr const char* kFileName = "file";
+
+  /// Throws std::runtime_error if it can not listen on the address. `take_file` may be empty if
+  /// config.max_file_bytes is 0.
+  WebServer(const WebServerConfig& config, Handler handler, FileTaker take_file = {});
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
   /// Ends all connections.

@@ -34,12 +34,16 @@ inline constexpr std::size_t kPageChannel = 0, kFirstTopicChannel = 1;
 
 class Viewer;
 
+/// The request by which a page puts a file.
+using FileParser = http::request_parser<http::file_body>;
+
 /// The state that all connections share. Only the server's thread uses it.
 struct Hub {
-  Hub(const WebServerConfig& server, WebServer::Handler answer)
+  Hub(const WebServerConfig& server, WebServer::Handler answer, WebServer::FileTaker file_taker)
       : config(server),
         door(server.address, server.token, server.foxglove_origins),
         handler(std::move(answer)),
+        take_file(std::move(file_taker)),
         newest(kFirstTopicChannel + server.foxglove_topics.size()) {
     if (!server.foxglove_topics.empty())
       foxglove.emplace(server.foxglove_topics, kFirstTopicChannel, random_token());
@@ -53,6 +57,8 @@ struct Hub {
   WebServerConfig config;
   Door door;
   WebServer::Handler handler;
+  WebServer::FileTaker take_file;
+  bool takes_file = false;  ///< now
   std::optional<FoxgloveGreeting> foxglove;
   std::set<Viewer*> viewers;
   std::size_t connections = 0;

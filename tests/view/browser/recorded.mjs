@@ -2,10 +2,10 @@
 //   node recorded.mjs LANELOOM RECORDING FRAMES TRUTH CONFIG CONFIG [PICTURE]
 // Exits with 1 where something is not as a person would find it.
 import assert from 'node:assert/strict';
-import {mkdtempSync, readFileSync, existsSync, rmSync} from 'node:fs';
+import {existsSync, mkdtempSync, readFileSync, rmSync, truncateSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
-import {join} from 'node:path';
-import {clickALane, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
+import {join, resolve} from 'node:path';
+import {clickALane, dropFiles, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
 
 const [laneloom, recording, frames, truth, configA, configB, picture] = process.argv.slice(2);
 const MOST_BYTES = 200_000;  // of the page and its modules
@@ -299,11 +299,72 @@ async function comparesTwo(browser) {
   assert.deepEqual(await stop(viewer), [0, null]);
 }
 
+const toasts = (page, part) => until(page, (wanted) => !document.getElementById('toast').hidden && document.getElementById('toast').textContent.includes(wanted), part);
+const shows = (page, title) => until(page, (wanted) => window.laneloom?.info.title === wanted && window.laneloom.elements.length > 0, title);
+
+/** A file that is dropped onto the page, or chosen, is shown beside what the viewer shows. A file that cannot be shown is refused with the reason. */
+async function opensFiles(browser) {
+  const {program: viewer, lines: [url]} = await start(laneloom, ['view', recording, '--port', '0'], 1);
+  const page = await openTab(browser, url), folder = mkdtempSync(join(tmpdir(), 'laneloom-view-'));
+  await shows(page, recording);
+  await dropFiles(page, [resolve(frames)]);
+  await shows(page, frames);
+  assert.ok(page.url().startsWith(`${url}?view=1`), page.url());
+  const first = await openTab(browser, page.url());
+  await shows(first, frames);
+  await page.bringToFront();
+  await page.keyboard.press('Escape');
+  const [chooser] = await Promise.all([page.waitForFileChooser(), page.click('[data-do="open"]')]);
+  await chooser.accept([resolve(recording)]);
+  await shows(page, recording);
+  assert.ok(page.url().startsWith(`${url}?view=2`), page.url());
+  // The file before is gone, which its tab says; the viewer's own view is there still.
+  await first.bringToFront();
+  await first.evaluate(() => window.laneloom.player.seek(window.laneloom.feed.last));
+  await until(first, () => document.getElementById('reasons').textContent === 'the file is open no longer');
+  await first.goto(url);
+  await shows(first, recording);
+  const complaints = (tab) => tab.complaints.filter((text) => !text.includes('410'));  // of a file that is gone
+  assert.deepEqual(complaints(first), []);
+  await first.close();
+  await page.bringToFront();
+  const odd = join(folder, 'näme of a "drive".jsonl');
+  writeFileSync(odd, '{"this": "is no frame"}\n');
+  await dropFiles(page, [odd]);
+  await until(page, () => /^n_me_of_a__drive_.jsonl: .*/.test(document.getElementById('reasons').textContent) && document.body.dataset.state === 'STALE');
+  const large = join(folder, 'large.mcap');
+  writeFileSync(large, '');
+  truncateSync(large, 256 * 2 ** 20 + 1);
+  await dropFiles(page, [large]);
+  await toasts(page, 'large.mcap has 257 MB; at most 256 can be dropped');
+  await dropFiles(page, [odd, large]);
+  await toasts(page, 'One file at a time');
+  await until(page, () => document.getElementById('drop').hidden);
+  rmSync(folder, {recursive: true});
+  assert.deepEqual(complaints(page), []);
+  await page.close();
+  assert.deepEqual(await stop(viewer), [0, null]);
+}
+
+/** A viewer that other hosts can reach takes no files. */
+async function opensNoFilesOfOthers(browser) {
+  const {program: viewer, lines: [url]} = await start(laneloom, ['view', recording, '--listen', '0.0.0.0', '--port', '0'], 1);
+  const page = await openTab(browser, url);
+  await shows(page, recording);
+  await dropFiles(page, [resolve(frames)]);
+  await toasts(page, 'This viewer can be reached by other hosts, and takes no files');
+  assert.equal(await page.evaluate(async () => (await fetch('/open?name=a', {method: 'PUT', body: 'x'})).status), 413);
+  await page.close();
+  assert.deepEqual(await stop(viewer), [0, null]);
+}
+
 const browser = await launch();
 try {
   await showsOneMap(browser);
   await showsTheTruth(browser);
   await comparesTwo(browser);
+  await opensFiles(browser);
+  await opensNoFilesOfOthers(browser);
 } finally {
   await browser.close();
   await stopAll();

@@ -43,6 +43,14 @@ export async function openTab(browser, url) {
   return page;
 }
 
+/** Drops files of this computer onto the page, as a file manager does. */
+export async function dropFiles(page, files) {
+  const debug = await page.createCDPSession();
+  for (const type of ['dragEnter', 'dragOver', 'drop'])
+    await debug.send('Input.dispatchDragEvent', {type, x: 200, y: 200, data: {items: [], files, dragOperationsMask: 1}});
+  await debug.detach();
+}
+
 /** A place on the screen at which a click finds a lane: halfway between its left and its right side. */
 const laneOnScreen = (page, pane) => page.evaluate((column) => {
   const {camera, canvas, panes, selection} = window.laneloom, box = canvas.getBoundingClientRect(), left = column * camera.width;

@@ -1,6 +1,8 @@
 // Sources of frames: the live stream with a ring of the last minutes, or a recording.
 // A feed has `summaries` in the order of time, whose `index` counts up by one, and gives the frame of each.
 
+import {ask} from './ask.js';
+
 const RING_S = 300;
 const RING_CHARACTERS = 120e6;
 const RECONNECT_MS = 500;
@@ -125,16 +127,27 @@ export class RecordedFeed extends Feed {
   /** Learns of the frames, which may still be loaded by the server. */
   async connect() {
     try {
-      const answer = await (await fetch(`/recording?from=${this.summaries.length}`)).json();
-      for (const summary of answer.frames) this.summaries.push({...summary, index: this.summaries.length});
-      this.complete = answer.complete;
-      this.error = answer.error;
+      const answer = await ask(`/recording?from=${this.summaries.length}`);
       this.connected = true;
+      if (answer.ok) this.#add(await answer.json());
+      else await this.#end(answer);
     } catch {
       this.connected = false;
     }
     this.tell('frame');
     if (!this.complete) setTimeout(() => this.connect(), this.connected ? POLL_MS : RECONNECT_MS);
+  }
+
+  #add({frames, complete, error}) {
+    for (const summary of frames) this.summaries.push({...summary, index: this.summaries.length});
+    this.complete = complete;
+    this.error = error;
+  }
+
+  /** The server shows another file by now. */
+  async #end(answer) {
+    this.complete = true;
+    this.error = (await answer.text()).trim();
   }
 
   frame(index) {
@@ -144,10 +157,11 @@ export class RecordedFeed extends Feed {
 
   #fetch(index) {
     const found = this.#cache.get(index) ??
-      fetch(`/frame?number=${index}`).then((answer) => (answer.ok ? answer.json() : null)).then((frame) => {
+      ask(`/frame?number=${index}`).then(async (answer) => {
         this.connected = true;
-        return frame;
-      }, () => {
+        if (answer.status === 410) await this.#end(answer);
+        return answer.ok ? answer.json() : null;
+      }).catch(() => {
         this.#cache.delete(index);
         this.connected = false;
         return null;

@@ -3,7 +3,7 @@
 const PAGE_S = 10;
 const ACTIONS = {
   ' ': 'play', l: 'live', Home: 'begin', End: 'live', h: 'heading', n: 'north', f: 'free', '+': 'zoomIn', '=': 'zoomIn', '-': 'zoomOut', r: 'reset',
-  '[': 'previous', ']': 'next', Escape: 'escape', '/': 'find', m: 'measure', c: 'link', p: 'png', g: 'svg', d: 'theme', v: 'compare', b: 'save', '?': 'help',
+  '[': 'previous', ']': 'next', Escape: 'escape', '/': 'find', m: 'measure', c: 'link', p: 'png', g: 'svg', d: 'theme', v: 'compare', b: 'save', o: 'open', '?': 'help',
   w: 'up', z: 'down', a: 'left', s: 'right',
 };
 

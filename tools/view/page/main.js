@@ -1,10 +1,12 @@
 // Puts the page together.
+import {ask} from './ask.js';
 import {Banner} from './banner.js';
 import {Camera} from './camera.js';
 import {Painter} from './draw.js';
 import {LiveFeed, RecordedFeed} from './feed.js';
 import {listen} from './keys.js';
 import {Events, Layers, showLegend, showService} from './panels.js';
+import {listenForFiles} from './open.js';
 import {Panes} from './panes.js';
 import {pictureOf} from './picture.js';
 import {Player} from './player.js';
@@ -84,6 +86,7 @@ class App {
     });
     this.actions = this.#actions();
     listen(this.actions);
+    listenForFiles({most: this.info.max_file_bytes, veil: byId('drop'), input: byId('file'), toast: (text) => this.toast(text)});
     document.addEventListener('click', ({target}) => this.actions[target.closest?.('[data-do]')?.dataset.do]?.());
     byId('speed').onchange = ({target}) => (this.player.speed = Number(target.value));
     byId('find').onsubmit = (event) => {
@@ -109,6 +112,7 @@ class App {
       find: () => byId('findId').focus(), layer: (i) => this.layers.toggle(this.painter.palette.layers[i].name),
       measure: () => this.#measure(this.measuring ? null : []),
       compare: () => this.#compare(),
+      open: () => byId('file').click(),
       save: async () => this.info.live && this.toast(await saveRecording()),
       link: async () => this.toast(await copyLink(stateOf(this, true))),
       png: () => downloadPng(this.#picture()), svg: () => downloadSvg(this.canvas, (pen) => this.#paint(pen)),
@@ -256,12 +260,17 @@ class App {
     toast.textContent = text;
     toast.hidden = false;
     clearTimeout(this.toastTimer);
-    this.toastTimer = setTimeout(() => (toast.hidden = true), 2500);
+    this.toastTimer = setTimeout(() => (toast.hidden = true), Math.max(2500, 60 * text.length));  // as long as it takes to read
   }
 }
 
-const [info, palette, truth] = await Promise.all(['/info', '/palette', '/truth'].map(async (path) => (await fetch(path)).json()));
-document.title = `laneloom: ${info.title}`;
-byId('title').textContent = info.title;
-window.laneloom = new App(info, palette, truth);
-window.laneloom.start();
+const answers = await Promise.all(['/info', '/palette', '/truth'].map(ask));
+if (answers.every(({ok}) => ok)) {
+  const [info, palette, truth] = await Promise.all(answers.map((answer) => answer.json()));
+  document.title = `laneloom: ${info.title}`;
+  byId('title').textContent = info.title;
+  window.laneloom = new App(info, palette, truth);
+  window.laneloom.start();
+} else {
+  byId('reasons').textContent = (await answers[0].text()).trim();
+}
