@@ -7,6 +7,8 @@
 
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
+#include "drawing/marking_shapes.hpp"
+#include "drawing/traffic_elements.hpp"
 #include "drawing/truth.hpp"
 #include "small_map.hpp"
 
@@ -162,6 +164,53 @@ TEST(LinkagePath, LeadsFromEndToBeginWhateverWayTrafficRuns) {
     from.direction = to.direction = direction;
     EXPECT_EQ(linkage_path({.path = {{11, 1, 0}}}, from, to), expected);
   }
+}
+
+TEST(Traffic, ObjectsAreBoxesOfTheirSizeWhereTheyAre) {
+  const TrackedObjects objects{.session_id = 3,
+                               .objects = {{.id = 7,
+                                            .kind = ObjectKind::truck,
+                                            .existence_probability = 0.5,
+                                            .position = {10, 2, 0},
+                                            .heading = {0, 1, 0},
+                                            .speed_mps = 8.0,
+                                            .length_m = 6.0,
+                                            .width_m = 2.0},
+                                           {.id = 8, .position = {5, 0, 0}}}};
+  Drawing drawing;
+  add_objects(objects, Eigen::Isometry3d(Eigen::Translation3d(100, 0, 0)), drawing);
+  const Element& truck = element(drawing, "traffic/3/object/7");
+  EXPECT_EQ(truck.type, "truck");
+  EXPECT_EQ(truck.properties["speed_mps"], 8.0);
+  EXPECT_EQ(truck.shapes.at(0).opacity, opacity_of(0.5));
+  EXPECT_EQ(forms<DrawnArea>(truck).at(0).left,
+            (Polyline{{109, 5, 0}, {111, 5, 0}, {111, -1, 0}, {109, -1, 0}}));
+  const Element& unknown = element(drawing, "traffic/3/object/8");
+  EXPECT_FALSE(unknown.properties.contains("length_m"));
+  EXPECT_EQ(forms<DrawnArea>(unknown).at(0).left.at(0), Point(105.5, 0.5, 0)) << "a small square";
+}
+
+TEST(Traffic, TrailsTellInWhichLanesTheyWereDriven) {
+  LocalMap map = small_map();
+  map.lanes[0].direction_evidence = Evidence::ego_path | Evidence::traffic;
+  std::vector<trails::Trail> trails(4, {.session = 3, .object = 7});
+  trails[0].points = {{9, 0, 0}, {6, 0, 0}, {3, 0, 0}, {0, 0, 0}};
+  trails[1].points = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}};  // too short
+  trails[2].points = {{0, 0, 0}};                        // no line
+  trails[3].object = 8;
+  trails[3].points = {{3, -9, 0}, {3, 9, 0}};  // across
+  Drawing drawing;
+  add_trails(trails, map, drawing);
+  EXPECT_EQ(drawing.elements().size(), 4U);
+  const Element& along = element(drawing, "traffic/3/trail/7/0");
+  EXPECT_EQ(along.properties["drove"], nlohmann::json::parse(R"([{"lane": 21, "along_m": -9.0}])"));
+  EXPECT_EQ(forms<DrawnArrow>(along).at(0).direction, Point(-1, 0, 0));
+  EXPECT_FALSE(element(drawing, "traffic/3/trail/7/1").properties.contains("drove"));
+  EXPECT_FALSE(element(drawing, "traffic/3/trail/8/0").properties.contains("drove"));
+  // Traffic runs against the points of the lane: so do the arrows. No trail tells of the other lane.
+  const Element& told = element(drawing, "traffic/21");
+  EXPECT_EQ(told.shapes.at(0).style, Style::told);
+  EXPECT_EQ(forms<DrawnArrow>(told).at(0).direction, Point(-1, 0, 0));
 }
 
 }  // namespace

@@ -54,6 +54,60 @@ TEST(MomentBuilder, AMapWhoseMarkingsAreLostComesWithTheNext) {
   EXPECT_EQ(builder.finish()->map.sequence, 8U);
 }
 
+VehiclePose pose_at(double time_s, std::uint64_t session_id = 1) {
+  return {.stamp_ns = static_cast<std::int64_t>(time_s * 1e9),
+          .session_id = session_id,
+          .position = {10.0 * time_s, 0.0, 0.0}};
+}
+/// A car that keeps 20 m ahead of the vehicle.
+TrackedObjects objects_at(double time_s) {
+  return {.stamp_ns = static_cast<std::int64_t>(time_s * 1e9),
+          .session_id = 5,
+          .objects = {{.id = 7,
+                       .kind = ObjectKind::car,
+                       .position = {20.0, 0.0, 0.0},
+                       .heading = Point::UnitX(),
+                       .speed_mps = 10.0,
+                       .position_stddev_m = 0.3}}};
+}
+
+/// Takes poses and objects of each tenth of a second of [from_s, to_s), and the map then. Returns its moment.
+ViewMoment drive(MomentBuilder& builder, int from, int to) {
+  for (int i = from; i < to; ++i) {
+    builder.add(pose_at(0.1 * i), i);
+    builder.add(objects_at(0.1 * i), i);
+  }
+  builder.add(published(static_cast<std::uint64_t>(to), pose_at(0.1 * (to - 1)).stamp_ns), to);
+  return *builder.finish();
+}
+
+TEST(MomentBuilder, KeepsTheOtherVehiclesAndTheirTrails) {
+  MomentBuilder builder;
+  EXPECT_FALSE(builder.add(objects_at(0.1), 1)) << "no pose is known yet";
+  const Traffic first = drive(builder, 1, 2).traffic;
+  ASSERT_EQ(first.seen.size(), 1U);
+  EXPECT_EQ(first.seen[0].objects.objects.at(0).id, 7U);
+  const Traffic later = drive(builder, 2, 21).traffic;
+  ASSERT_EQ(later.seen.size(), 1U);
+  EXPECT_NEAR(later.seen[0].T_map_body.translation().x(), 20.0, 1e-6);
+  ASSERT_EQ(later.trails.size(), 1U);
+  EXPECT_NEAR(later.trails[0].points.front().x(), 21.0, 1e-6);
+  EXPECT_NEAR(later.trails[0].points.back().x(), 40.0, 1.0);
+}
+
+TEST(MomentBuilder, OtherVehiclesAreGoneWhenTheirTrackerIsSilentAndInAnotherSessionOfPoses) {
+  MomentBuilder builder;
+  EXPECT_EQ(drive(builder, 1, 11).traffic.seen.size(), 1U);
+  for (int i = 11; i < 30; ++i) builder.add(pose_at(0.1 * i), i);
+  builder.add(published(30, pose_at(2.9).stamp_ns), 30);
+  const Traffic silent = builder.finish()->traffic;
+  EXPECT_THAT(silent.seen, IsEmpty());
+  EXPECT_EQ(silent.trails.size(), 1U) << "the trail is still known";
+  builder.add(pose_at(3.0, 2), 31);
+  builder.add(published(31, pose_at(3.0).stamp_ns), 31);
+  EXPECT_THAT(builder.finish()->traffic.trails, IsEmpty());
+}
+
 /// The texts of the events between two moments.
 std::vector<std::string> events_between(const ViewMoment& before, const ViewMoment& after) {
   EventFinder finder;
@@ -140,6 +194,8 @@ TEST(FrameText, HasSummaryElementsAndWhatIsCompared) {
                     .status = ServiceStatus{.counters = {{"detections_refused_late", 4}}}};
   moment.map.published_ns = moment.seen_ns - 2'000'000;
   moment.others = {small_map(), {}};
+  moment.traffic = {.seen = {{.objects = objects_at(1.0)}},
+                    .trails = {{.session = 5, .object = 7, .points = {{0, 0, 0}, {9, 0, 0}}}}};
   const FramePlace place{3, {}, {{"reset", "a new map"}}};
   const json frame = json::parse(frame_text(moment, place, RangeConfig{}));
   EXPECT_EQ(frame["number"], 3);
@@ -152,6 +208,9 @@ TEST(FrameText, HasSummaryElementsAndWhatIsCompared) {
   EXPECT_EQ(frame["lineage"][0]["kind"], "merged_into");
   const auto is_lane = [](const json& element) { return element["key"] == "lanes/21"; };
   EXPECT_TRUE(std::any_of(frame["elements"].begin(), frame["elements"].end(), is_lane));
+  for (const char* key : {"traffic/5/object/7", "traffic/5/trail/7/0"})
+    EXPECT_TRUE(std::ranges::any_of(frame["elements"], [&](const json& e) { return e["key"] == key; }))
+        << key;
   ASSERT_EQ(frame["others"].size(), 2U);
   const json& first = frame["others"][0]["elements"];
   EXPECT_TRUE(std::any_of(first.begin(), first.end(), is_lane));

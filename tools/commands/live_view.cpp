@@ -27,6 +27,7 @@ LiveView::LiveView(const DdsConfig& dds, const RangeConfig& range)
       participant_(dds, "laneloom view"),
       detections_(participant_, into_inbox<DetectionFrame>()),
       poses_(participant_, into_inbox<VehiclePose>()),
+      objects_(participant_, into_inbox<TrackedObjects>()),
       maps_(participant_, maps_into_inbox()),
       markings_(participant_, into_inbox<RoadMarkings>()),
       statuses_(participant_, into_inbox<ServiceStatus>()) {}

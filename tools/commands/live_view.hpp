@@ -64,6 +64,7 @@ class LiveView {
   dds::Participant participant_;
   dds::Reader<DetectionFrame> detections_;
   dds::Reader<VehiclePose> poses_;
+  dds::Reader<TrackedObjects> objects_;
   dds::Reader<PublishedMap> maps_;
   dds::Reader<RoadMarkings> markings_;
   dds::Reader<ServiceStatus> statuses_;

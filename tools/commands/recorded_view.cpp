@@ -151,6 +151,8 @@ class Comparison {
     for (replay::Replay& replay : replays_) replay.add(message);
     if (const auto* pose = std::get_if<VehiclePose>(&message.message))
       builder_.add(VehiclePose(*pose), message.log_time_ns);
+    if (const auto* objects = std::get_if<TrackedObjects>(&message.message))
+      builder_.add(TrackedObjects(*objects), message.log_time_ns);
     if (const auto* frame = std::get_if<DetectionFrame>(&message.message))
       builder_.add(DetectionFrame(*frame), message.log_time_ns);
     auto why = whys_.begin();

@@ -105,8 +105,9 @@ json palette_json() {
                              {"shown", layer.shown},
                              {"overlay", layer.overlay}});
   }
-  for (const palette::LegendEntry& entry : palette::legend())
-    out["legend"].push_back({{"style", palette::of(entry.style).name}, {"title", entry.title}});
+  for (const auto& legend : {palette::legend(), palette::traffic_legend()})
+    for (const palette::LegendEntry& entry : legend)
+      out["legend"].push_back({{"style", palette::of(entry.style).name}, {"title", entry.title}});
   for (std::size_t i = 0; i < kStyleCount; ++i) {
     const palette::StyleSpec& style = palette::of(static_cast<Style>(i));
     out["styles"][style.name] = to_json(style);

@@ -10,6 +10,8 @@ constexpr Colour kLinkage{0.80, 0.00, 0.75}, kDarkLinkage{1.00, 0.45, 0.95};
 constexpr Colour kWay{0.95, 0.45, 0.00, 0.75}, kDarkWay{1.00, 0.70, 0.20, 0.80};
 constexpr Colour kTruth{0.60, 0.60, 0.60}, kDarkTruth{0.58, 0.58, 0.60};
 constexpr Colour kVehicle{0.22, 0.24, 0.30, 0.90}, kDarkVehicle{0.78, 0.80, 0.85, 0.95};
+constexpr Colour kObject{0.00, 0.42, 0.48, 0.75}, kDarkObject{0.35, 0.82, 0.88, 0.80};
+constexpr Colour kTrail{0.00, 0.48, 0.55, 0.60}, kDarkTrail{0.30, 0.88, 0.95, 0.50};
 constexpr Colour kWindow{0.80, 0.86, 0.93}, kDarkWindow{0.20, 0.26, 0.33};
 // By LaneRole. The own lane stands out; the others are as strong as they matter to a driver.
 constexpr std::array kLanes{Colour{0.10, 0.45, 0.95, 0.34}, Colour{0.25, 0.58, 0.82, 0.16},
@@ -38,15 +40,12 @@ constexpr StyleSpec area(const char* name, const Colour& light, const Colour& da
 constexpr StyleSpec lane(const char* name, std::size_t i) {
   return area(name, kLanes[i], kLanes[i].faded(1.2));
 }
-constexpr StyleSpec course(const char* name, std::size_t i) {
-  StyleSpec spec = dashed(line(name, darker(kLanes[i]), brighter(kLanes[i]), 0.8), 2.0, 4.0);
-  spec.head = 9.0;
+constexpr StyleSpec arrow(StyleSpec spec, double head) {
+  spec.head = head;
   return spec;
 }
-constexpr StyleSpec linkage() {
-  StyleSpec spec = line("linkage", kLinkage, kDarkLinkage, 1.8);
-  spec.head = 9.0;
-  return spec;
+constexpr StyleSpec course(const char* name, std::size_t i) {
+  return arrow(dashed(line(name, darker(kLanes[i]), brighter(kLanes[i]), 0.8), 2.0, 4.0), 9.0);
 }
 constexpr StyleSpec id() { return {.name = "id", .light = kText, .dark = kDarkText, .text = 11.0}; }
 
@@ -70,7 +69,7 @@ constexpr std::array<StyleSpec, kStyleCount> kStyles{
     course("course_unknown", 4),
     course("course_unused", 5),
     line("inferred", kInferred, kDarkInferred, 1.0),
-    linkage(),
+    arrow(line("linkage", kLinkage, kDarkLinkage, 1.8), 9.0),
     line("way", kWay, kDarkWay, 3.0),
     line("truth", kTruth, kDarkTruth, 1.0),
     area("field_of_view", {0.35, 0.55, 0.75, 0.07}, {0.55, 0.75, 0.95, 0.07}),
@@ -79,6 +78,9 @@ constexpr std::array<StyleSpec, kStyleCount> kStyles{
     dashed(line("range", kBox, kBox, 0.9), 5.0, 4.0),
     area("vehicle", kVehicle, kDarkVehicle),
     area("window", kWindow, kDarkWindow),
+    area("object", kObject, kDarkObject),
+    arrow(line("trail", kTrail, kDarkTrail, 1.2), 8.0),
+    arrow(line("told", kObject, kDarkObject, 0.0), 15.0),
     id()};
 
 // In the order of Layer.
@@ -95,6 +97,7 @@ constexpr std::array<LayerSpec, kLayerCount> kLayers{
     LayerSpec{.name = "stoplines", .title = "stop lines", .sample = Style::stopline},
     LayerSpec{.name = "linkages", .title = "linkages", .sample = Style::linkage},
     LayerSpec{.name = "way", .title = "own way", .sample = Style::way},
+    LayerSpec{.name = "traffic", .title = "other vehicles", .sample = Style::trail},
     LayerSpec{
         .name = "detections", .title = "detections", .sample = Style::laneline_unknown, .overlay = 0.55},
     LayerSpec{.name = "ids", .title = "ids", .sample = Style::id, .shown = false},
@@ -116,6 +119,9 @@ constexpr std::array kLegend{LegendEntry{Style::laneline_solid, "solid line"},
                              LegendEntry{Style::linkage, "linkage"},
                              LegendEntry{Style::truth, "ground truth"},
                              LegendEntry{Style::range, "map range"}};
+constexpr std::array kTrafficLegend{LegendEntry{Style::object, "other vehicle"},
+                                    LegendEntry{Style::trail, "its trail"},
+                                    LegendEntry{Style::told, "told by trails"}};
 
 Style of_role(Style first, LaneRole role) {
   return static_cast<Style>(static_cast<std::size_t>(first) + static_cast<std::size_t>(role));
@@ -136,5 +142,6 @@ Style marking_style(MarkingType type, MarkingStyle style) {
 Style lane_style(LaneRole role) { return of_role(Style::lane_own, role); }
 Style course_style(LaneRole role) { return of_role(Style::course_own, role); }
 std::span<const LegendEntry> legend() { return kLegend; }
+std::span<const LegendEntry> traffic_legend() { return kTrafficLegend; }
 
 }  // namespace laneloom::drawing::palette

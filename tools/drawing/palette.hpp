@@ -42,9 +42,12 @@ enum class Style : std::uint8_t {
   range,
   vehicle,
   window,  ///< of the vehicle
+  object,  ///< another vehicle, or what else a tracker follows
+  trail,   ///< the way that another vehicle drove
+  told,    ///< arrows of a lane whose direction was told by trails
   id
 };
-inline constexpr std::size_t kStyleCount = 28;
+inline constexpr std::size_t kStyleCount = 31;
 
 /// A group of elements that can be shown or hidden together. Layers are painted in this order; the first lies
 /// lowest.
@@ -60,11 +63,12 @@ enum class Layer : std::uint8_t {
   stoplines,
   linkages,
   way,
+  traffic,
   detections,
   ids,
   vehicle
 };
-inline constexpr std::size_t kLayerCount = 14;
+inline constexpr std::size_t kLayerCount = 15;
 
 namespace palette {
 
@@ -112,8 +116,10 @@ Style marking_style(MarkingType type, MarkingStyle style);
 Style lane_style(LaneRole role);
 /// The style of a lane's centerline and arrows.
 Style course_style(LaneRole role);
-/// The styles that a legend explains, in its order.
+/// The styles of maps that a legend explains, in its order.
 std::span<const LegendEntry> legend();
+/// Likewise those of other vehicles, which viewers show and pictures do not.
+std::span<const LegendEntry> traffic_legend();
 
 }  // namespace palette
 }  // namespace laneloom::drawing

@@ -9,6 +9,7 @@
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
 #include "drawing/properties.hpp"
+#include "drawing/traffic_elements.hpp"
 #include "laneloom/state_names.hpp"
 #include "status/report.hpp"
 
@@ -94,6 +95,8 @@ drawing::Drawing drawing_of(const LocalMap& map, const ViewMoment& moment, const
   add_markings(map, drawing);
   add_uncertainty(map, drawing);
   add_ids(map, drawing);
+  for (const auto& [objects, T_map_body] : moment.traffic.seen) add_objects(objects, T_map_body, drawing);
+  add_trails(moment.traffic.trails, map, drawing);
   if (moment.detections) {
     add_detections(*moment.detections, map.T_map_body, drawing);
     add_view(*moment.detections, map.T_map_body, drawing);

@@ -17,6 +17,7 @@ bool MomentBuilder::add(DetectionFrame&& frame, std::int64_t) {
 }
 
 bool MomentBuilder::add(VehiclePose&& pose, std::int64_t) {
+  traffic_.add(pose);
   pose_ = std::move(pose);
   return false;
 }
@@ -40,7 +41,10 @@ bool MomentBuilder::add(ServiceStatus&& status, std::int64_t) {
   return false;
 }
 
-bool MomentBuilder::add(TrackedObjects&&, std::int64_t) { return false; }
+bool MomentBuilder::add(TrackedObjects&& objects, std::int64_t) {
+  traffic_.add(std::move(objects));
+  return false;
+}
 
 ViewMoment MomentBuilder::take() { return moment_of(std::move(*std::exchange(complete_, std::nullopt))); }
 
@@ -52,8 +56,10 @@ std::optional<ViewMoment> MomentBuilder::finish() {
 ViewMoment MomentBuilder::moment_of(Waiting&& waiting) {
   ViewMoment moment{
       .map = std::move(waiting.first), .seen_ns = waiting.second, .pose = pose_, .status = status_};
+  const LocalMap& map = moment.map.map;
+  moment.traffic = traffic_.at(map.stamp_ns, map.T_map_body.translation());
   const auto fused = std::find_if(frames_.rbegin(), frames_.rend(), [&](const DetectionFrame& frame) {
-    return frame.stamp_ns == moment.map.map.stamp_ns;
+    return frame.stamp_ns == map.stamp_ns;
   });
   if (fused != frames_.rend()) moment.detections = *fused;
   return moment;

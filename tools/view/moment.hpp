@@ -9,6 +9,7 @@
 
 #include "laneloom/messages.hpp"
 #include "laneloom/objects.hpp"
+#include "view/traffic.hpp"
 
 namespace laneloom::view {
 
@@ -22,6 +23,7 @@ struct ViewMoment {
   std::optional<DetectionFrame> detections;  ///< the frame that was fused last, seen from the map's pose
   std::optional<VehiclePose> pose;           ///< the newest pose
   std::optional<ServiceStatus> status;       ///< the newest status
+  Traffic traffic;                           ///< the other vehicles at the map's stamp
   std::vector<LocalMap> others;              ///< maps of the same time to compare with; always as many
   nlohmann::json why;             ///< reasons of the mapper (why/reason_history.hpp); null: not known
   std::optional<LocalMap> truth;  ///< of the road around; drawn beside the maps
@@ -37,7 +39,7 @@ class MomentBuilder {
   bool add(PublishedMap&& map, std::int64_t now_ns);
   bool add(RoadMarkings&& markings, std::int64_t now_ns);
   bool add(ServiceStatus&& status, std::int64_t now_ns);
-  bool add(TrackedObjects&& objects, std::int64_t now_ns);  ///< they are not shown
+  bool add(TrackedObjects&& objects, std::int64_t now_ns);
 
   /// The moment that was completed. Is to be called once each time that add() returns true.
   ViewMoment take();
@@ -54,6 +56,7 @@ class MomentBuilder {
   std::deque<DetectionFrame> frames_;  ///< the newest
   std::optional<VehiclePose> pose_;
   std::optional<ServiceStatus> status_;
+  TrafficFollower traffic_;
 };
 
 }  // namespace laneloom::view

@@ -203,7 +203,7 @@ try {
   const early = await openTab(browser, url);
   await until(early, () => document.getElementById('reasons').textContent === 'no map was heard yet');
   let service = await startService();
-  await start(laneloom, ['publish', '--scenario', 'town', '--noise', 'inhouse', '--loop', '--wait-for-readers', '2', ...dds]);
+  await start(laneloom, ['publish', '--scenario', 'town', '--noise', 'inhouse', '--traffic', 'usual', '--loop', '--wait-for-readers', '2', ...dds]);
   await isState(early, 'OK');
   await hasLanes(early);
   assert.deepEqual(early.complaints, []);
@@ -213,6 +213,7 @@ try {
   await until(page, () => window.laneloom.feed.summaries.length > 30);
   await pausesScrubsAndJumpsToLive(page);
   if (picture) await page.screenshot({path: picture});
+  await until(page, () => ['trail', 'car'].every((wanted) => window.laneloom.elements.some(({layer, type}) => layer === 'traffic' && type === wanted)));
   await aSuspendedTabSlowsNobody(browser, page, url);
   service = await saysThatTheServiceIsGone(browser, page, url, service);
   await paintsTheOutageRed(page);

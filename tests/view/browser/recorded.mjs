@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import {existsSync, mkdtempSync, readFileSync, rmSync, truncateSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
-import {clickALane, dropFiles, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
+import {clickALane, clickALineOf, dropFiles, launch, openTab, start, stop, stopAll, until} from './tools.mjs';
 
 const [laneloom, recording, frames, truth, configA, configB, picture] = process.argv.slice(2);
 const MOST_BYTES = 200_000;  // of the page and its modules
@@ -267,6 +267,39 @@ async function showsOneMap(browser) {
   assert.deepEqual(await stop(viewer), [0, null]);
 }
 
+/** Other vehicles are a layer with a legend; a trail tells of which lanes it tells the direction. Frames without maps are mapped. */
+async function showsOtherVehicles(browser) {
+  const {program: viewer, lines: [url]} = await start(laneloom, ['view', frames, '--port', '0'], 1);
+  const page = await openTab(browser, url);
+  await until(page, () => window.laneloom?.feed.complete && window.laneloom.elements.length > 0);
+  await page.evaluate(() => window.laneloom.player.pause());
+  await hasLanesAt(page, 12);
+  await until(page, () => ['trail', 'car', 'told direction'].every((wanted) => window.laneloom.elements.some(({layer, type}) => layer === 'traffic' && type === wanted)));
+  await page.$$eval('summary', (nodes) => nodes.filter(({textContent}) => /Layers|Legend/.test(textContent)).forEach((node) => node.click()));
+  const legend = await page.$$eval('#legend span', (items) => items.map(({textContent}) => textContent));
+  for (const title of ['other vehicle', 'its trail', 'told by trails']) assert.ok(legend.includes(title), `${legend} has ${title}`);
+  const key = await clickALineOf(page, 'trail');
+  await until(page, () => /^(It drove [0-9]+ m (along|against) lane|It drove less than 5 m)/.test(document.querySelector('.why p')?.textContent ?? ''));
+  await screenshot(page, '_traffic');
+  // A trail that was driven along a lane leads to it, and the lane says that trails told its direction.
+  await page.evaluate(() => {
+    const {elements, selection} = window.laneloom, told = new Set(elements.filter(({type}) => type === 'told direction').map(({key}) => Number(key.split('/')[1])));
+    selection.select(elements.find(({type, properties}) => type === 'trail' && told.has(properties.drove?.[0].lane)));
+  });
+  await page.click('[data-key="drove"] .chip');
+  await until(page, () => /^lane /.test(document.getElementById('selected').textContent) && document.querySelector('[data-key="direction_evidence"]'));
+  assert.ok(await page.$eval('[data-key="direction_evidence"]', ({textContent}) => textContent.includes('traffic')));
+  await page.click('[data-layer="traffic"]');
+  await until(page, () => !window.laneloom.layers.shown.has('traffic'));
+  assert.equal(await page.evaluate((hidden) => {
+    const {camera, elements, selection} = window.laneloom, {line} = elements.find(({key}) => key === hidden).shapes[0];
+    return selection.pick(camera.project(line[0], line[1]))?.type;
+  }, key) === 'trail', false, 'what is not shown cannot be picked');
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+  assert.deepEqual(await stop(viewer), [0, null]);
+}
+
 /** Two configurations of one drive, which move together. */
 async function comparesTwo(browser) {
   const {program: viewer, lines: [url]} = await start(laneloom, ['view', '--in', frames, '--config', configA, '--config', configB, '--port', '0'], 1);
@@ -363,6 +396,7 @@ try {
   await showsOneMap(browser);
   await showsTheTruth(browser);
   await comparesTwo(browser);
+  await showsOtherVehicles(browser);
   await opensFiles(browser);
   await opensNoFilesOfOthers(browser);
 } finally {

@@ -64,7 +64,25 @@ const laneOnScreen = (page, pane) => page.evaluate((column) => {
   return found ? {id: found.id, x: box.x + left + found.at[0], y: box.y + found.at[1]} : null;
 }, pane);
 
+/** A place on the screen at which a click finds an element of this type, on one of its lines. */
+const lineOnScreen = (page, type) => page.evaluate((wanted) => {
+  const {camera, canvas, elements, selection} = window.laneloom, box = canvas.getBoundingClientRect();
+  const places = elements.filter((element) => element.type === wanted).flatMap(({key, shapes}) => shapes.flatMap(({line = []}) =>
+    Array.from({length: Math.max(0, line.length / 2 - 1)}, (_, i) => ({key, at: camera.project((line[2 * i] + line[2 * i + 2]) / 2, (line[2 * i + 1] + line[2 * i + 3]) / 2)}))));
+  const found = places.find(({key, at: [x, y]}) => x > 0 && y > 0 && x < camera.width && y < box.height && selection.pick([x, y])?.key === key);
+  return found ? {key: found.key, x: box.x + found.at[0], y: box.y + found.at[1]} : null;
+}, type);
+
 const nextPicture = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => done())));
+
+/** Clicks a line of an element of this type; the map has to stand still. Returns the element's key. */
+export async function clickALineOf(page, type) {
+  const line = await lineOnScreen(page, type);
+  assert.ok(line, `a ${type} can be clicked`);
+  await page.mouse.click(line.x, line.y);
+  await until(page, (key) => window.laneloom.selection.element?.key === key, line.key);
+  return line.key;
+}
 
 /** Clicks a lane of the map in this column, which has to stand still. Clicks again while the page still moves. Returns the lane's id. */
 export async function clickALane(page, pane = 0) {

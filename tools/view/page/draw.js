@@ -1,5 +1,12 @@
 // Draws elements with anything that has the strokes of a CanvasRenderingContext2D: a canvas, or svg.js.
 
+/** The corners of the head of an arrow that points by an angle, clockwise from the right. */
+export function headOf(tip, size, angle = 0) {
+  const cos = Math.cos(angle), sin = Math.sin(angle);
+  const at = (back, side) => [tip[0] - size * (back * cos + side * sin), tip[1] - size * (back * sin - side * cos)];
+  return [tip, at(1, 0.45), at(0.7, 0), at(1, -0.45)];
+}
+
 export class Painter {
   constructor(palette) {
     this.palette = palette;
@@ -66,9 +73,7 @@ export class Painter {
   }
 
   head(pen, camera, [x, y, direction], {colour, size}) {
-    const tip = camera.project(x, y), angle = camera.angle(direction), cos = Math.cos(angle), sin = Math.sin(angle);
-    const at = (back, side) => [tip[0] - size * (back * cos + side * sin), tip[1] - size * (back * sin - side * cos)];
-    this.polygon(pen, [tip, at(1, 0.45), at(0.7, 0), at(1, -0.45)], colour);
+    this.polygon(pen, headOf(camera.project(x, y), size, camera.angle(direction)), colour);
   }
 
   /** Fills a polygon whose corners are pixels. */

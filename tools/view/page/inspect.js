@@ -1,12 +1,12 @@
 // The properties of the selected element, in words, and its history.
 
 const NAMES = {existence_probability: 'existence', lateral_stddev_mean_m: 'σ lateral (mean)', lateral_stddev_max_m: 'σ lateral (max)',
-  age_s: 'age', unseen_s: 'last seen before', inferred_m: 'inferred at', observations: 'observations'};
-const UNITS = {m: ' m', s: ' s', deg: '°'};
-const REFERENCES = new Set(['left_borders', 'right_borders', 'left_border_of', 'right_border_of', 'from', 'to', 'lane', 'lanes',
+  age_s: 'age', unseen_s: 'last seen before', inferred_m: 'inferred at', observations: 'observations', drove: 'drove along'};
+const UNITS = {mps: ' m/s', m: ' m', s: ' s', deg: '°'}, UNIT = /_(mps|m|s|deg)$/;
+const REFERENCES = new Set(['left_borders', 'right_borders', 'left_border_of', 'right_border_of', 'from', 'to', 'lane', 'lanes', 'drove',
   'left_neighbours', 'right_neighbours', 'predecessors', 'successors']);
 
-export const titleOf = (element) => [element.type, element.id].filter((part) => part !== undefined).join(' ');
+export const titleOf = ({type, id, properties}) => [type, id ?? properties?.object].filter((part) => part !== undefined).join(' ');
 
 function make(tag, properties = {}, ...children) {
   const node = Object.assign(document.createElement(tag), properties);
@@ -15,7 +15,7 @@ function make(tag, properties = {}, ...children) {
 }
 
 function words(key) {
-  return NAMES[key] ?? key.replace(/_(m|s|deg)$/, '').replaceAll('_', ' ');
+  return NAMES[key] ?? key.replace(UNIT, '').replaceAll('_', ' ');
 }
 
 function number(value) {
@@ -58,11 +58,20 @@ export class Inspector {
       parts.splice(1, 0, text);
     }
     if (history.length) parts.push(make('h2', {textContent: 'History'}), this.#history(history));
-    if (!this.node.contains(document.activeElement)) this.node.replaceChildren(...parts);
+    this.#replace(parts, `${selected.pane ?? 0} ${selected.key}`);
+  }
+
+  /** Leaves the focus where it is while the same element is shown. A button that led to another element is gone. */
+  #replace(parts, shown) {
+    const isInside = this.node.contains(document.activeElement);
+    if (isInside && shown === this.shown) return;
+    this.shown = shown;
+    this.node.replaceChildren(...parts);
+    if (isInside) this.node.focus();
   }
 
   #row(list, key, value) {
-    const unit = UNITS[/_(m|s|deg)$/.exec(key)?.[1]] ?? '';
+    const unit = UNITS[UNIT.exec(key)?.[1]] ?? '';
     const cell = make('dd', {}, ...(REFERENCES.has(key) ? this.#chips(key, value) : [plain(value, unit)]));
     cell.dataset.key = key;
     list.append(make('dt', {textContent: words(key)}), cell);
@@ -112,8 +121,9 @@ export class Memory {
       if (track.at(-1).summary.index < before) this.#tracks.delete(key);
   }
 
-  /** The events in the life of an element, in the order of time. */
+  /** The events in the life of an element, in the order of time. What has no id has none. */
   history(element, summaries, first) {
+    if (element.id === undefined) return [];
     const found = [], statuses = (this.#tracks.get(element.key) ?? []).map(({status, summary}) => ({summary, text: `is ${status}`}));
     for (const summary of summaries)
       for (const {kind, id, other} of summary.lineage ?? [])

@@ -1,14 +1,19 @@
 // The lists beside the map: layers, events, and the service's status.
 
+import {headOf} from './draw.js';
+
 const EVENTS = 200;
 
-/** A stroke in the colours of a style. */
+/** A stroke, an area or an arrow in the colours of a style. */
 function sampleOf(painter, name) {
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), line = document.createElementNS(svg.namespaceURI, 'line');
-  const style = painter.palette.styles[name];
-  const attributes = {x1: 0, x2: 28, y1: 6, y2: 6, stroke: painter.colour(style), 'stroke-width': style.width ?? 10, 'stroke-dasharray': style.dash ?? ''};
-  for (const [key, value] of Object.entries(attributes)) line.setAttribute(key, value);
-  svg.append(line);
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg'), style = painter.palette.styles[name], colour = painter.colour(style);
+  const add = (tag, attributes) => {
+    const node = document.createElementNS(svg.namespaceURI, tag);
+    for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+    svg.append(node);
+  };
+  if (style.width || !style.head) add('line', {x1: 0, x2: 28, y1: 6, y2: 6, stroke: colour, 'stroke-width': style.width ?? 10, 'stroke-dasharray': style.dash ?? ''});
+  if (style.head) add('polygon', {points: headOf([style.width ? 28 : 20, 6], style.head).join(' '), fill: colour});
   return svg;
 }
 

@@ -1,8 +1,10 @@
 // Pictures of what is seen, for papers and reports: at twice the size, with a caption and a legend.
 
+import {headOf} from './draw.js';
+
 const FACTOR = 2, PADDING = 14, LINE = 18, COLUMN = 150;
 
-/** A stroke or an area in the colours of a style, at the left end of `at`, 26 pixels long. */
+/** A stroke, an area or an arrow in the colours of a style, from `at` on, 26 pixels long. */
 function sample(pen, painter, name, [x, y]) {
   const style = painter.palette.styles[name], colour = painter.colour(style);
   pen.fillStyle = pen.strokeStyle = colour;
@@ -11,8 +13,9 @@ function sample(pen, painter, name, [x, y]) {
   pen.beginPath();
   pen.moveTo(x, y);
   pen.lineTo(x + 26, y);
-  pen.stroke();
+  if (style.width || !style.head) pen.stroke();
   pen.setLineDash([]);
+  if (style.head) painter.polygon(pen, headOf([x + (style.width ? 26 : 20), y], style.head), colour);
 }
 
 /** The view with a caption below it. `paint(pen)` paints the view, which is `width` by `height` pixels. */

@@ -8,8 +8,15 @@ function linesOf({type, id, properties = {}}) {
   return [...(properties.left_borders ?? []), ...(properties.right_borders ?? [])].map(({boundary}) => boundary).filter(Boolean);
 }
 
+/** What the trail of another vehicle tells. */
+function toldBy({properties: {drove}}) {
+  if (!drove) return ['It drove less than 5 m in any lane, and tells no direction.'];
+  return drove.map(({lane, along_m}) => `It drove ${Math.abs(along_m).toFixed(0)} m ${along_m < 0 ? 'against' : 'along'} lane ${lane}: that speaks ${along_m < 0 ? 'against' : 'for'} its direction.`);
+}
+
 /** What the mapper says of an element, in sentences. It knows nothing of a second map. */
 export function sentencesOf(element, why) {
+  if (element.type === 'trail') return toldBy(element);
   if (!why || element.pane) return [];
   if (element.layer === 'detections') return [why.detections?.[Number(element.key.split('/')[1])]?.text].filter(Boolean);
   if (element.type === 'lane') return why.lanes?.[element.id] ?? [];
