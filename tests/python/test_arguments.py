@@ -100,8 +100,12 @@ def test_what_numpy_makes_numbers_of_is_taken():
 
 def test_what_is_given_back_cannot_change_the_object():
     detection = Detection("laneline", LINE)
-    detection.points[:] = 9
+    with pytest.raises(ValueError, match="read-only"):
+        detection.points[:] = 9
     assert np.array_equal(detection.points, LINE)
+    pose = Pose([1, 2, 3], [0, 0, 0, 1])
+    pose.position[:] = 9  # a copy
+    assert np.array_equal(pose.position, [1, 2, 3])
     with pytest.raises(AttributeError):
         Frame(1, []).detections.append(detection)
     with pytest.raises(AttributeError):

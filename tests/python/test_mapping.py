@@ -1,4 +1,5 @@
 """Maps, their figures and pictures are those of the program."""
+import gc
 import heapq
 import json
 import sys
@@ -37,6 +38,36 @@ def test_a_map_is_made_of_arrays(maps):
     assert set(lane.evidence) & {"markings", "edges"}
     assert {linkage.from_lane for linkage in last.linkages} <= {lane.id for lane in last.lanes}
     assert any(event.kind == "born" and event.element == "lane" for m in maps for event in m.lineage)
+
+
+def test_lines_are_views_that_keep_their_map(frames):
+    mapper = laneloom.Mapper()
+    for frame, pose in frames:
+        last = mapper.update(frame, pose)
+    line = last.lanes[0].centerline
+    stddev = last.boundaries[0].lateral_stddev
+    points = frames[-1][0].detections[0].points
+    for view in (line, stddev, points):
+        assert not view.flags.owndata and not view.flags.writeable
+        with pytest.raises(ValueError, match="read-only"):
+            view[0] = 1
+        with pytest.raises(ValueError):
+            view.flags.writeable = True
+    assert np.shares_memory(line, last.lanes[0].centerline), "nothing is copied"
+    assert np.shares_memory(points, frames[-1][0].detections[0].points)
+    copies = [view.copy() for view in (line, stddev)]
+    del last, mapper
+    gc.collect()
+    others = [np.full_like(line, i) for i in range(1000)]  # which would take memory that was given back
+    assert len(others) and np.array_equal(line, copies[0]) and np.array_equal(stddev, copies[1])
+    own = np.array(line)
+    own[0] = 1
+    assert laneloom.Detection("laneline", line).points.flags.owndata is False
+
+
+def test_what_has_no_points_is_an_empty_array():
+    assert laneloom.Frame(1, []).field_of_view.shape == (0, 3)
+    assert laneloom.Detection("laneline", [[0, 0, 0], [1, 0, 0]]).stddev.shape == (0,)
 
 
 def test_a_map_has_the_own_way(maps):

@@ -161,10 +161,9 @@ void bind_detection(py::module_& module) {
       .def_property_readonly("type", [](const Detection& d) { return name(d.type); })
       .def_property_readonly("style", [](const Detection& d) { return name(d.style); })
       .def_property_readonly("confidence", [](const Detection& d) { return d.confidence; })
-      .def_property_readonly("points", [](const Detection& d) { return to_array(d.points); })
-      .def_property_readonly(
-          "stddev", [](const Detection& d) { return to_array(d.stddev_m); },
-          "Array (N,), or (0,) where it is not given.")
+      .def_property_readonly("points", viewed(&Detection::points))
+      .def_property_readonly("stddev", viewed(&Detection::stddev_m),
+                             "Array (N,), or (0,) where it is not given.")
       .def("__repr__", [](const Detection& d) {
         return fmt::format("<Detection {} of {} points, confidence {:.2f}>", name(d.type), d.points.size(),
                            d.confidence);
@@ -181,11 +180,11 @@ void bind_frames(py::module_& module) {
            arg("occluded_areas") = py::tuple(), arg("sequence") = 0, arg("session_id") = 0)
       .def(pickled<Frame>())
       .def_property_readonly("stamp_ns", [](const Frame& f) { return f.stamp_ns; })
-      .def_property_readonly("detections", [](const Frame& f) { return to_tuple(f.detections); })
+      .def_property_readonly("detections", items_of(&Frame::detections))
       .def_property_readonly("source", [](const Frame& f) { return f.source; })
       .def_property_readonly("detected_types",
                              [type_name](const Frame& f) { return to_tuple(f.detected_types, type_name); })
-      .def_property_readonly("field_of_view", [](const Frame& f) { return to_array(f.field_of_view); })
+      .def_property_readonly("field_of_view", viewed(&Frame::field_of_view))
       .def_property_readonly("occluded_areas",
                              [](const Frame& f) {
                                return to_tuple(f.occluded_areas,

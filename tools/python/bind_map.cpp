@@ -31,14 +31,12 @@ void bind_marking(py::module_& module) {
       .def_property_readonly(
           "status", [](const Marking& m) { return name(m.status); },
           "\"tentative\", \"confirmed\" or \"inferred\".")
-      .def_property_readonly(
-          "points", [](const Marking& m) { return to_array(m.points); }, "Array (N, 3).")
+      .def_property_readonly("points", viewed(&Marking::points), "Array (N, 3).")
       .def_property_readonly(
           "styles", [style](const Marking& m) { return to_tuple(m.styles, style); },
           "(from, to, style), by metres along the points, in order.")
-      .def_property_readonly(
-          "lateral_stddev", [](const Marking& m) { return to_array(m.lateral_stddev_m); },
-          "Array (N,), metres; (0,): not estimated.")
+      .def_property_readonly("lateral_stddev", viewed(&Marking::lateral_stddev_m),
+                             "Array (N,), metres; (0,): not estimated.")
       .def_property_readonly(
           "existence_probability", [](const Marking& m) { return m.existence_probability; },
           "0..1; -1: not estimated.")
@@ -94,22 +92,17 @@ void bind_lane(py::module_& module) {
       "A lane between two boundaries. Lines are in the map frame, all in the same direction.");
   lane.def(pickled<Lane>())
       .def_property_readonly("id", [](const Lane& l) { return l.id; })
-      .def_property_readonly(
-          "left", [](const Lane& l) { return to_array(l.left); }, "Array (N, 3).")
-      .def_property_readonly(
-          "right", [](const Lane& l) { return to_array(l.right); }, "Array (N, 3).")
-      .def_property_readonly(
-          "centerline", [](const Lane& l) { return to_array(l.centerline); }, "Array (N, 3).")
-      .def_property_readonly(
-          "left_borders", [](const Lane& l) { return to_tuple(l.left_borders); },
-          "In order along the centerline, which they cover.")
-      .def_property_readonly(
-          "right_borders", [](const Lane& l) { return to_tuple(l.right_borders); },
-          "In order along the centerline, which they cover.")
+      .def_property_readonly("left", viewed(&Lane::left), "Array (N, 3).")
+      .def_property_readonly("right", viewed(&Lane::right), "Array (N, 3).")
+      .def_property_readonly("centerline", viewed(&Lane::centerline), "Array (N, 3).")
+      .def_property_readonly("left_borders", items_of(&Lane::left_borders),
+                             "In order along the centerline, which they cover.")
+      .def_property_readonly("right_borders", items_of(&Lane::right_borders),
+                             "In order along the centerline, which they cover.")
       .def_property_readonly(
           "width", [](const Lane& l) { return l.width_m; }, "Mean, in metres.")
-      .def_property_readonly("left_neighbours", [](const Lane& l) { return to_tuple(l.left_neighbours); })
-      .def_property_readonly("right_neighbours", [](const Lane& l) { return to_tuple(l.right_neighbours); })
+      .def_property_readonly("left_neighbours", items_of(&Lane::left_neighbours))
+      .def_property_readonly("right_neighbours", items_of(&Lane::right_neighbours))
       .def_property_readonly(
           "direction", [](const Lane& l) { return name(l.direction); },
           "Of the traffic: \"unknown\", \"along\" or \"against\" the centerline, or \"both\".")
@@ -154,9 +147,8 @@ void bind_linkage(py::module_& module) {
       .def_property_readonly(
           "evidence", [](const Linkage& l) { return words(l.evidence); },
           "What tells that the one lane continues the other.")
-      .def_property_readonly(
-          "path", [](const Linkage& l) { return to_array(l.path); },
-          "Array (N, 3) across a gap; (0, 3): the lanes meet.");
+      .def_property_readonly("path", viewed(&Linkage::path),
+                             "Array (N, 3) across a gap; (0, 3): the lanes meet.");
 }
 
 void bind_lineage(py::module_& module) {
@@ -192,21 +184,18 @@ void bind_map(py::module_& module) {
       .def_property_readonly(
           "pose", [](const LocalMap& m) { return to_array(m.T_map_body); },
           "Array (4, 4) that takes the body frame to the map frame, at the stamp.")
-      .def_property_readonly(
-          "boundaries", [](const LocalMap& m) { return to_tuple(m.boundaries); },
-          "Markings that bound lanes: lanelines, roadedges, and inferred ones.")
-      .def_property_readonly("stoplines", [](const LocalMap& m) { return to_tuple(m.stoplines); })
-      .def_property_readonly("lanes", [](const LocalMap& m) { return to_tuple(m.lanes); })
-      .def_property_readonly("linkages", [](const LocalMap& m) { return to_tuple(m.linkages); })
+      .def_property_readonly("boundaries", items_of(&LocalMap::boundaries),
+                             "Markings that bound lanes: lanelines, roadedges, and inferred ones.")
+      .def_property_readonly("stoplines", items_of(&LocalMap::stoplines))
+      .def_property_readonly("lanes", items_of(&LocalMap::lanes))
+      .def_property_readonly("linkages", items_of(&LocalMap::linkages))
       .def_property_readonly(
           "way", [](const LocalMap& m) { return m.way ? py::cast(*m.way) : py::none(); },
           "None: the vehicle is in no lane.")
-      .def_property_readonly("driven_paths", [](const LocalMap& m) { return to_tuple(m.driven_paths); })
-      .def_property_readonly(
-          "markings", [](const LocalMap& m) { return to_tuple(m.markings); },
-          "The fused markings of all types; empty in a map that was read from a file.")
-      .def_property_readonly(
-          "lineage", [](const LocalMap& m) { return to_tuple(m.lineage); }, "Since the map before.");
+      .def_property_readonly("driven_paths", items_of(&LocalMap::driven_paths))
+      .def_property_readonly("markings", items_of(&LocalMap::markings),
+                             "The fused markings of all types; empty in a map that was read from a file.")
+      .def_property_readonly("lineage", items_of(&LocalMap::lineage), "Since the map before.");
   map.def("__repr__", [](const LocalMap& m) {
     return fmt::format("<LocalMap at {} ns, {} boundaries, {} lanes>", m.stamp_ns, m.boundaries.size(),
                        m.lanes.size());

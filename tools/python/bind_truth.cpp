@@ -100,17 +100,16 @@ void bind_parts(py::module_& module) {
       .def_property_readonly("id", [](const simulation::RoadMarking& m) { return m.id; })
       .def_property_readonly("type", [](const simulation::RoadMarking& m) { return name(m.type); })
       .def_property_readonly("style", [](const simulation::RoadMarking& m) { return name(m.style); })
-      .def_property_readonly("points", [](const simulation::RoadMarking& m) { return to_array(m.points); });
+      .def_property_readonly("points", viewed(&simulation::RoadMarking::points));
   py::class_<simulation::RoadLane>(module, "TruthLane", kLaneDoc)
       .def(py::init(&make_lane), arg("id"), arg("left"), arg("right"), arg("centerline"), py::kw_only(),
            arg("left_marking") = 0, arg("right_marking") = 0, arg("in_intersection") = false,
            arg("successors") = py::tuple())
       .def(pickled<simulation::RoadLane>())
       .def_property_readonly("id", [](const simulation::RoadLane& l) { return l.id; })
-      .def_property_readonly("left", [](const simulation::RoadLane& l) { return to_array(l.left); })
-      .def_property_readonly("right", [](const simulation::RoadLane& l) { return to_array(l.right); })
-      .def_property_readonly("centerline",
-                             [](const simulation::RoadLane& l) { return to_array(l.centerline); })
+      .def_property_readonly("left", viewed(&simulation::RoadLane::left))
+      .def_property_readonly("right", viewed(&simulation::RoadLane::right))
+      .def_property_readonly("centerline", viewed(&simulation::RoadLane::centerline))
       .def_property_readonly("left_marking", [](const simulation::RoadLane& l) { return l.left_marking; })
       .def_property_readonly("right_marking", [](const simulation::RoadLane& l) { return l.right_marking; })
       .def_property_readonly("in_intersection",
@@ -135,8 +134,8 @@ void bind_truth(py::module_& module) {
       .def_property_readonly("name", [](const simulation::Road& r) { return r.name; })
       .def_property_readonly(
           "driving_side", [](const simulation::Road& r) { return r.right_hand_traffic ? "right" : "left"; })
-      .def_property_readonly("markings", [](const simulation::Road& r) { return to_tuple(r.markings); })
-      .def_property_readonly("lanes", [](const simulation::Road& r) { return to_tuple(r.lanes); })
+      .def_property_readonly("markings", items_of(&simulation::Road::markings))
+      .def_property_readonly("lanes", items_of(&simulation::Road::lanes))
       .def_property_readonly(
           "poses", [](const simulation::Road& r) { return to_tuple(r.drive.poses()); },
           "How the road is driven: Pose objects, whose stamps are times since the start. Empty: not given.")

@@ -93,9 +93,8 @@ void bind_driven_path(py::module_& module) {
                               "A path that others drove, where no lane between markings is known.");
   path.def(pickled<DrivenPath>())
       .def_property_readonly("id", [](const DrivenPath& p) { return p.id; })
-      .def_property_readonly(
-          "points", [](const DrivenPath& p) { return to_array(p.points); },
-          "Array (N, 3), in the order in which they were driven.")
+      .def_property_readonly("points", viewed(&DrivenPath::points),
+                             "Array (N, 3), in the order in which they were driven.")
       .def_property_readonly(
           "lateral_stddev", [](const DrivenPath& p) { return p.lateral_stddev_m; }, "Metres.")
       .def_property_readonly(
