@@ -35,8 +35,8 @@ class StageObserver {
   virtual ~StageObserver() = default;
   virtual void update_begins() = 0;          ///< before the first stage
   virtual void stage_done(Stage stage) = 0;  ///< after each stage that the method runs
-  /// The place for the reasons of an update (reasons.hpp), asked once an update. Null: nobody asks why, and
-  /// nothing is noted.
+  /// The place for the reasons of an update (reasons.hpp): the same at all stages of it. Null: nobody asks
+  /// why, and nothing is noted.
   virtual FrameReasons* reasons() { return nullptr; }
 };
 

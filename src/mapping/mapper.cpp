@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <utility>
 
+#include "laneloom/reasons.hpp"
 #include "laneloom/way.hpp"
 #include "mapping/boundaries/lane_boundaries.hpp"
 #include "mapping/boundaries/road_sections.hpp"
@@ -55,16 +57,27 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
                                                  state.lane_tracks.known_borders(), config.lane),
                                scene, config.lane, state.ids);  // III-D-3
   return log.done(Stage::lanes,
-                  state.lane_tracks.update(std::move(found), scene, config.lane, state.ids));  // ours
+                  state.lane_tracks.update(std::move(found), scene, config.lane, state.ids,  // ours
+                                           log.reasons()));
 }
 
 /// Sets the directions of lanes, by the trails of others too.
-void tell_directions(DirectionConfig config, MapperState& state, topology::RoadGraph& road) {
+void tell_directions(DirectionConfig config, FrameReasons* reasons, MapperState& state,
+                     topology::RoadGraph& road) {
   const std::vector<topology::DrivenStretch> driven =
       topology::driven_stretches(state.trails.all(), road.lanes);
   state.side.observe(road, driven, state.lane_tracks, state.trails.all());
   if (state.side.contradicts(config.driving_side)) config.driving_side = DrivingSide::unknown;
-  topology::find_directions(config, driven, state.lane_tracks, road);
+  topology::find_directions(config, driven, state.lane_tracks, road, reasons);
+}
+
+/// Renames the lanes that have another id now, because they run the other way.
+void rename(const std::map<ElementId, ElementId>& renamed, FrameReasons* reasons) {
+  if (reasons == nullptr) return;
+  for (LaneReason& lane : reasons->lanes)
+    if (const auto found = renamed.find(lane.id); found != renamed.end()) lane.id = found->second;
+  for (const auto& [former, now] : renamed)
+    reasons->lanes.push_back({.id = former, .verdict = LaneReason::Verdict::replaced, .other = now});
 }
 
 /// The map of a frame, but for the way. `state` is that of the map before; its membership is set to that of
@@ -123,11 +136,12 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
                                state.lane_tracks);
-  tell_directions(config_.direction, state, road);
+  tell_directions(config_.direction, log.reasons(), state, road);
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
   const auto renamed = state.lane_tracks.publish(road.lanes, state.ids);
   road.rename(renamed);
+  rename(renamed, log.reasons());
   state.ego_track.forget(renamed);
   meet_at_joints(road);
   LocalMap map =

@@ -17,11 +17,11 @@ The same configuration and the same frames give the same maps, to the last bit. 
 one frame at a time. Other threads of Python run meanwhile.
 
 config: Config; None: the defaults
-explain: whether the mapper keeps its reasons for 3 s, for why())";
+explain: whether the mapper keeps its reasons for 10 s, for why())";
 
 constexpr const char* kWhyDoc = R"(Why a line or lane is in the map, or is not: a list of sentences.
 
-id: of a line or lane; one that ended within 3 s is known, too. Empty: nothing of that id was followed
+id: of a line or lane; one that ended within 10 s is known, too. Empty: nothing of that id was followed
 detection: number of a detection of the last frame, instead: taken by which line, or dropped by which rule
 
 ValueError: the mapper was made without explain=True.)";

@@ -7,6 +7,7 @@
 
 #include "mapping/lanes/lane_evidence.hpp"
 #include "mapping/lanes/lane_growth.hpp"
+#include "mapping/lanes/lane_reasoning.hpp"
 #include "mapping/lanes/lane_strips.hpp"
 #include "mapping/lanes/neighbours.hpp"
 #include "mapping/lanes/shown_lane.hpp"
@@ -125,7 +126,8 @@ bool runs_against_road(const std::vector<LaneStation>& stations, const boundarie
 }  // namespace
 
 LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, const LaneConfig& config,
-                              markings::IdSource& ids) {
+                              markings::IdSource& ids, FrameReasons* reasons) {
+  LaneReasoning reasoning(reasons, tracks_);
   std::vector<Strip> strips;
   strips.reserve(found.lanes.size());
   for (const Lane& lane : found.lanes) strips.emplace_back(lane, found.forks);
@@ -134,6 +136,7 @@ LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, co
   for (LaneTrack& track : tracks_) {
     matches.push_back(match(track, strips, found.denied));
     observe(strips, matches.back(), config, track);
+    reasoning.observed(track, matches.back());
   }
   grow(strips, matches, config, ids, tracks_);
   std::vector<LaneTrack> whole = std::exchange(tracks_, {});
@@ -148,6 +151,7 @@ LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, co
   for (LaneTrack& track : tracks_) {
     if (runs_against_road(track.stations, found.boundaries)) reverse(track);
     auto lane = shown_lane(track, found.boundaries);
+    reasoning.decided(track, lane);
     if (!lane) {
       track.published = 0;
       continue;
@@ -155,6 +159,7 @@ LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, co
     track.begin = lane->centerline.front();
     found.lanes.push_back(std::move(*lane));
   }
+  reasoning.ended(tracks_, scene.box);
   find_neighbours(found);
   return found;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/reasons.hpp"
 #include "mapping/geometry/scene.hpp"
 #include "mapping/lanes/hypotheses.hpp"
 #include "mapping/lanes/lane_layout.hpp"
@@ -22,9 +23,9 @@ class LaneTracks {
   explicit LaneTracks(std::vector<LaneTrack> tracks) : tracks_(std::move(tracks)) {}
 
   /// Takes in the lanes that a frame found. Returns the layout with the lanes of the tracks, by ascending id,
-  /// and their neighbours, in place of these.
+  /// and their neighbours, in place of these. `reasons` may be null.
   LaneLayout update(LaneLayout found, const geometry::Scene& scene, const LaneConfig& config,
-                    markings::IdSource& ids);
+                    markings::IdSource& ids, FrameReasons* reasons = nullptr);
 
   /// Takes the lanes that were found as they are, for a map that is made at once.
   LaneLayout adopt(LaneLayout found, markings::IdSource& ids);

@@ -96,8 +96,10 @@ struct SideBySideGroups {
   double to_left = 0.0, to_right = 0.0;  ///< messages of belief propagation
 };
 
+/// Log odds are per group, that it runs along its first lane.
 struct Model {
-  std::vector<double> evidence;  ///< per group: log odds that it runs along its first lane
+  std::vector<double> drive, borders, trails;  ///< the terms of the evidence
+  std::vector<double> evidence;                ///< their sum
   std::vector<SideBySideGroups> pairs;
 };
 
@@ -196,13 +198,18 @@ Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroup
   const std::vector<Lane>& lanes = layout.lanes;
   const std::vector<SideBySideLanes> beside = side_by_side(layout);
   const std::vector<double> outermost = outermost_evidence(layout, beside);
-  Model model{.evidence = remembered_evidence(lanes, groups, tracks),
+  Model model{.drive = remembered_evidence(lanes, groups, tracks),
+              .borders = {},
+              .trails = traffic_evidence(driven, groups, lanes.size()),
+              .evidence = {},
               .pairs = side_by_side_groups(beside, groups)};
   std::vector<Mean> borders(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
     borders[groups.group(i)].add((is_opposed(groups, i) ? -1.0 : 1.0) * side * outermost[i]);
-  const std::vector<double> traffic = traffic_evidence(driven, groups, lanes.size());
-  for (std::size_t i = 0; i < lanes.size(); ++i) model.evidence[i] += borders[i].value() + traffic[i];
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    model.borders.push_back(borders[i].value());
+    model.evidence.push_back(model.drive[i] + (model.borders[i] + model.trails[i]));
+  }
   return model;
 }
 
@@ -288,6 +295,13 @@ std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups,
   return evidence;
 }
 
+/// The place for the reasons of a lane. Null: nobody asks.
+LaneReason* reason_of(ElementId id, FrameReasons* reasons) {
+  if (reasons == nullptr) return nullptr;
+  const auto found = std::ranges::find(reasons->lanes, id, &LaneReason::id);
+  return found == reasons->lanes.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
@@ -308,10 +322,12 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 }
 
 void find_directions(const DirectionConfig& config, const std::vector<DrivenStretch>& driven,
-                     lanes::LaneTracks& tracks, RoadGraph& road) {
+                     lanes::LaneTracks& tracks, RoadGraph& road, FrameReasons* reasons) {
   const geometry::OrientedGroups groups = group(road);
   const double side = driving_side(config);
-  std::vector<double> belief = beliefs(build_model(road, groups, driven, tracks, side), side);
+  const Model model = build_model(road, groups, driven, tracks, side);
+  const std::vector<double> now = beliefs(model, side);
+  std::vector<double> belief = now;
   const Told before = told(road.lanes, groups, tracks);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
@@ -327,8 +343,16 @@ void find_directions(const DirectionConfig& config, const std::vector<DrivenStre
       lane.direction_probability = geometry::reproducible::probability(std::abs(belief[of]));
       lane.direction_evidence = evidence[of];
     }
-    if (sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0)
-      against.push_back(lane.id);
+    const bool turns = sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0;
+    if (turns) against.push_back(lane.id);
+    if (LaneReason* reason = reason_of(lane.id, reasons)) {
+      const double along = turns ? -sense : sense;
+      reason->by_drive = along * model.drive[of];
+      reason->by_borders = along * model.borders[of];
+      reason->by_trails = along * model.trails[of];
+      reason->by_beside = along * (now[of] - model.evidence[of]);
+      reason->direction = along * belief[of];
+    }
   }
   road.turn(against);
   for (Linkage& linkage : road.linkages)

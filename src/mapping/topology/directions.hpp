@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/reasons.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/topology/road_graph.hpp"
@@ -31,7 +32,9 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 /// `driven` holds the stretches of trails in the lanes of `road`.
 ///
 /// Linkages between lanes that are turned are turned too. At last the turn of every linkage is set.
+///
+/// `reasons` has those of the lanes, and may be null.
 void find_directions(const DirectionConfig& config, const std::vector<DrivenStretch>& driven,
-                     lanes::LaneTracks& tracks, RoadGraph& road);
+                     lanes::LaneTracks& tracks, RoadGraph& road, FrameReasons* reasons = nullptr);
 
 }  // namespace laneloom::topology

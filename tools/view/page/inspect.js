@@ -54,20 +54,29 @@ export class Inspector {
       if (note) parts.push(make('p', {textContent: note}));
     }
     if (why.sentences.length) {
-      const text = make('section', {className: 'why'}, make('h2', {textContent: 'Why?'}), ...why.sentences.map((textContent) => make('p', {textContent})), ...(why.picture ? [why.picture] : []));
+      const text = make('section', {className: 'why'}, make('h2', {textContent: 'Why?'}), ...(why.picture ? [why.picture] : []), ...why.sentences.map((sentence) => make('p', {}, ...this.#linked(sentence, selected))));
       parts.splice(1, 0, text);
     }
     if (history.length) parts.push(make('h2', {textContent: 'History'}), this.#history(history));
     this.#replace(parts, `${selected.pane ?? 0} ${selected.key}`);
   }
 
-  /** Leaves the focus where it is while the same element is shown. A button that led to another element is gone. */
+  /** Keeps the focus on its button while the same element is shown. A button that led to another element is gone, and what is new begins at the top. */
   #replace(parts, shown) {
-    const isInside = this.node.contains(document.activeElement);
-    if (isInside && shown === this.shown) return;
-    this.shown = shown;
+    const buttons = () => [...this.node.querySelectorAll('button')], focused = buttons().indexOf(document.activeElement);
     this.node.replaceChildren(...parts);
-    if (isInside) this.node.focus();
+    if (focused >= 0) ((shown === this.shown && buttons()[focused]) || this.node).focus({preventScroll: true});
+    if (shown !== this.shown) this.node.parentElement.scrollTop = 0;
+    this.shown = shown;
+  }
+
+  /** A sentence, with a button for each line and lane that it names, but for the selected one. */
+  #linked(sentence, {id: own}) {
+    return sentence.split(/\b((?:laneline|roadedge|stopline|line|boundary|lane) [0-9]+)\b/i).map((part, i) => {
+      const [type, id] = part.split(' ');
+      if (i % 2 === 0 || Number(id) === own) return part;
+      return make('button', {className: 'chip', textContent: part, onclick: () => this.select(Number(id), type.toLowerCase() === 'lane' ? 'lane' : 'boundary')});
+    });
   }
 
   #row(list, key, value) {

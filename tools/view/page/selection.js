@@ -7,6 +7,9 @@ const REACH = 9;  // pixels from a line that is still on it
 const byId = (id) => document.getElementById(id);
 const isSame = (a, b) => a?.key === b?.key && a?.pane === b?.pane;
 
+/** An element that is not in the frame that is shown, but that reasons may be known of. */
+export const absent = (type, id) => ({type, id, layer: type === 'lane' ? 'lanes' : 'boundaries', key: `${type === 'lane' ? 'lanes' : 'boundaries'}/${id}`, shapes: []});
+
 export class Selection {
   element = null;  // as it was last seen
   seen = false;    // in the frame that is shown
@@ -18,7 +21,7 @@ export class Selection {
   constructor(view) {
     this.view = view;
     this.evidence = new Evidence(view.feed, () => this.#showEvidence());
-    this.inspector = new Inspector(byId('inspector'), {go: view.go, select: (id, type) => this.select(this.find(id, type))});
+    this.inspector = new Inspector(byId('inspector'), {go: view.go, select: (id, type) => this.select(this.find(id, type) ?? absent(type, id))});
   }
 
   newFrame(frame, summary) {
@@ -34,7 +37,7 @@ export class Selection {
   /** Looks what made the selected element, unless the frames go by too fast. */
   #lookForEvidence() {
     if (!this.element || !this.why || this.element.pane || this.view.isMoving()) return this.evidence.clear();
-    this.evidence.look(this.element, this.summary);
+    this.evidence.look(this.element, this.summary, this.why);
   }
 
   #showEvidence() {
@@ -55,7 +58,7 @@ export class Selection {
 
   select(element) {
     this.element = element;
-    this.seen = Boolean(element);
+    this.seen = Boolean(element && this.view.panes.find(element));
     this.#told = null;
     this.#lookForEvidence();
     this.tell();
@@ -113,6 +116,6 @@ export class Selection {
     if (told === this.#told) return;
     this.#told = told;
     inspector.show(element, seen ? element : null, known.map((entry) => ({...entry, when: when(entry.summary)})),
-      {sentences, picture: this.why && this.evidence.picture(this.why)});
+      {sentences, picture: this.why && this.evidence.picture(this.why, (index) => this.view.go(this.view.feed.at(index)))});
   }
 }

@@ -3,10 +3,7 @@
 const BACK_S = 3, MOST_FRAMES = 40;
 
 /** The ids of the lines that an element comes from. */
-function linesOf({type, id, properties = {}}) {
-  if (type !== 'lane') return id === undefined ? [] : [id];
-  return [...(properties.left_borders ?? []), ...(properties.right_borders ?? [])].map(({boundary}) => boundary).filter(Boolean);
-}
+const linesOf = ({type, id}, why) => (type === 'lane' ? why.lanes?.[id]?.lines ?? [] : id === undefined ? [] : [id]);
 
 /** What the trail of another vehicle tells. */
 function toldBy({properties: {drove}}) {
@@ -19,15 +16,17 @@ export function sentencesOf(element, why) {
   if (element.type === 'trail') return toldBy(element);
   if (!why || element.pane) return [];
   if (element.layer === 'detections') return [why.detections?.[Number(element.key.split('/')[1])]?.text].filter(Boolean);
-  if (element.type === 'lane') return why.lanes?.[element.id] ?? [];
+  if (element.type === 'lane') return why.lanes?.[element.id]?.text ?? [];
   return why.lines?.[element.id]?.text ?? [];
 }
 
 /** The detections that made an element, and its evidence over time, of the frames before the one that is shown. */
 export class Evidence {
   detections = [];  // [{line, share}], share from 0 (old) to 1 (now)
-  curve = [];       // [[seconds before now, log odds]]
+  curve = [];       // [{index, ago_s, value}], log odds of the frames, the newest first
+  observed = [];    // [seconds before now] of the frames of which a detection observes it
   #of = '';
+  #lane = null;     // its id, if it is one
 
   constructor(feed, changed) {
     Object.assign(this, {feed, changed});
@@ -37,25 +36,30 @@ export class Evidence {
     this.#of = '';
     this.detections = [];
     this.curve = [];
+    this.observed = [];
   }
 
-  /** Looks `element` up in the frames before `summary`. To be called when either is another one. */
-  async look(element, summary) {
+  /** Looks `element` up in the frames before `summary`, whose reasons are `why`. To be called when one of them is another one. */
+  async look(element, summary, why) {
     const of = `${element.key} ${summary.index}`;
     if (of === this.#of) return;
     this.#of = of;
-    const ids = new Set(linesOf(element)), indices = [];
+    this.#lane = element.type === 'lane' ? element.id : null;
+    const ids = new Set(linesOf(element, why)), indices = [];
     for (let i = summary.index; i >= this.feed.first.index && indices.length < MOST_FRAMES && summary.time_s - this.feed.at(i).time_s <= BACK_S; --i) indices.push(i);
     const frames = await Promise.all(indices.map((index) => this.feed.frame(index)));
     if (of !== this.#of) return;  // another one is wanted by now
     this.detections = [];
     this.curve = [];
-    frames.forEach((frame, i) => frame?.why && this.#take(frame, ids, element.type === 'lane', summary.time_s - this.feed.at(indices[i]).time_s));
+    this.observed = [];
+    frames.forEach((frame, i) => frame?.why && this.#take(frame, ids, {index: indices[i], ago_s: summary.time_s - this.feed.at(indices[i]).time_s}));
     this.changed();
   }
 
-  #take({elements, why}, ids, several, ago_s) {
-    if (!several) for (const id of ids) if (why.lines?.[id]) this.curve.push([ago_s, why.lines[id].log_odds]);
+  #take({elements, why}, ids, {index, ago_s}) {
+    const known = this.#lane === null ? [...ids].map((id) => why.lines?.[id]) : [why.lanes?.[this.#lane]];
+    for (const one of known) if (one) this.curve.push({index, ago_s, value: one.log_odds});
+    if (why.detections?.some(({lines}) => lines.some((id) => ids.has(id)))) this.observed.push(ago_s);
     for (const {layer, key, shapes} of elements) {
       if (layer !== 'detections') continue;
       const {lines = []} = why.detections?.[Number(key.split('/')[1])] ?? {};
@@ -71,27 +75,35 @@ export class Evidence {
     pen.globalAlpha = 1;
   }
 
-  /** The curve as SVG, with the log odds that are needed to be published and confirmed. Null: there is none. */
-  picture({publish, confirm}) {
+  /** The curve as SVG, with the log odds that are needed and a mark at each frame of which a detection observes it. A click calls `go(index of a frame)`. Null: there is none. */
+  picture({publish, confirm, show_lane, hide_lane}, go) {
     if (this.curve.length < 2) return null;
-    const name = 'http://www.w3.org/2000/svg', width = 260, height = 64, svg = document.createElementNS(name, 'svg');
-    const values = this.curve.map(([, value]) => value), low = Math.min(0, ...values), high = Math.max(confirm, ...values) * 1.05;
+    const needed = this.#lane === null ? [['published', publish], ['confirmed', confirm]] : [['hidden', hide_lane], ['shown', show_lane]];
+    const name = 'http://www.w3.org/2000/svg', width = 260, height = 64, marks = 15, svg = document.createElementNS(name, 'svg');
+    const values = this.curve.map(({value}) => value), low = Math.min(0, ...values), high = Math.max(needed[1][1], ...values) * 1.05;
     const y = (value) => height - 3 - ((value - low) / (high - low)) * (height - 6), x = (ago_s) => width - 4 - (ago_s / BACK_S) * (width - 70);
-    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    svg.setAttribute('viewBox', `0 0 ${width} ${height + marks}`);
     const add = (tag, attributes, text) => {
       const node = document.createElementNS(name, tag);
       for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
       node.textContent = text ?? '';
       svg.append(node);
     };
-    for (const [title, value] of [['published', publish], ['confirmed', confirm]]) {
+    for (const [title, value] of needed) {
       add('line', {x1: 66, x2: width, y1: y(value), y2: y(value), class: 'needed'});
       add('text', {x: 0, y: y(value) + 3}, `${title} ${value.toFixed(1)}`);
     }
-    add('polyline', {points: this.curve.map(([ago_s, value]) => `${x(ago_s).toFixed(1)},${y(value).toFixed(1)}`).join(' '), class: 'curve'});
+    add('text', {x: 0, y: height + marks - 2}, 'detected');
+    for (const ago_s of this.observed) add('line', {x1: x(ago_s), x2: x(ago_s), y1: height + 2, y2: height + marks - 1, class: 'detected'});
+    add('polyline', {points: this.curve.map(({ago_s, value}) => `${x(ago_s).toFixed(1)},${y(value).toFixed(1)}`).join(' '), class: 'curve'});
+    svg.onclick = ({clientX}) => {
+      const {left, width: seen} = svg.getBoundingClientRect();
+      const distance = ({ago_s}) => Math.abs(x(ago_s) - ((clientX - left) / seen) * width);
+      go(this.curve.reduce((best, point) => (distance(point) < distance(best) ? point : best)).index);
+    };
     svg.setAttribute('class', 'evidence');
     svg.setAttribute('role', 'img');
-    svg.setAttribute('aria-label', 'Log odds of the last 3 s');
+    svg.setAttribute('aria-label', 'Log odds of the last 3 s; a click goes there');
     return svg;
   }
 }
