@@ -74,7 +74,7 @@ constexpr std::array<StyleSpec, kStyleCount> kStyles{
     line("truth", kTruth, kDarkTruth, 1.0),
     area("field_of_view", {0.35, 0.55, 0.75, 0.07}, {0.55, 0.75, 0.95, 0.07}),
     area("occlusion", {0.20, 0.20, 0.25, 0.16}, {0.00, 0.00, 0.00, 0.45}),
-    area("uncertainty", {0.90, 0.45, 0.05, 0.28}, {1.00, 0.65, 0.25, 0.32}),
+    area("uncertainty", {0.90, 0.45, 0.05, 0.20}, {1.00, 0.65, 0.25, 0.22}),
     dashed(line("range", kBox, kBox, 0.9), 5.0, 4.0),
     area("vehicle", kVehicle, kDarkVehicle),
     area("window", kWindow, kDarkWindow),

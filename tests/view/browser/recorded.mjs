@@ -391,12 +391,76 @@ async function opensNoFilesOfOthers(browser) {
   assert.deepEqual(await stop(viewer), [0, null]);
 }
 
+const OUTAGE_S = [10, 16];  // in which the network detects nothing
+
+/** Frames of a drive whose network fails for a while. */
+function withOutage(path, to) {
+  const lines = readFileSync(path, 'utf8').trim().split('\n').map((line) => JSON.parse(line));
+  for (const frame of lines) if (frame.t > OUTAGE_S[0] && frame.t < OUTAGE_S[1]) frame.detections = [];
+  writeFileSync(to, lines.map((frame) => `${JSON.stringify(frame)}\n`).join(''));
+}
+
+/** The walk of tools/view/README.md, click by click: from a lost own lane to the moment and the cause. */
+async function leadsToTheCauseInFiveClicks(browser) {
+  withOutage('straight.frames.jsonl', 'outage.frames.jsonl');
+  const {program: viewer, lines: [url]} = await start(laneloom, ['view', 'outage.frames.jsonl', '--port', '0'], 1);
+  const page = await openTab(browser, url);
+  await until(page, () => window.laneloom?.feed.complete && document.querySelectorAll('#worst button').length > 0);
+  const at_s = () => page.evaluate(() => window.laneloom.player.summary.time_s);
+  const isAt = (condition, ...values) => until(page, condition, ...values);
+  // 1. The worst moment: the view stays there, and the lane that was lost tells why.
+  const worst = await page.$('#worst li:first-child button');
+  assert.match(await worst.evaluate(({textContent}) => textContent), /no own lane for [0-9.]+ s$/);
+  await worst.click();
+  await isAt(() => document.body.dataset.mode === 'paused' && !window.laneloom.player.summary.quality[0].own_lane
+    && /On its (left|right): .*in the last 3\.0 s, 0 of 3[01] frames did\./s.test(document.querySelector('.why')?.textContent ?? ''));
+  const lost_s = await at_s();
+  assert.ok(lost_s > OUTAGE_S[0] + 2 && lost_s < OUTAGE_S[1], `the own lane is lost at ${lost_s} s`);
+  assert.match(await page.$eval('#selected', ({textContent}) => textContent), /^lane [0-9]+$/);
+  await screenshot(page, '_walk1');
+  // 2. A line that it lay on.
+  await page.click('.why .chip');
+  await isAt(() => /in view and missed/.test(document.querySelector('.why')?.textContent ?? '') && document.querySelector('.why .curve') && document.querySelector('#selected').textContent.startsWith('boundary') && window.laneloom.selection.evidence.curve[0]?.index === window.laneloom.player.summary.index);
+  await screenshot(page, '_walk2');
+  // 3. The left end of its curve, where its evidence falls already. 4. The last mark below it: the last frame of which a detection observes it.
+  const clickTheCurve = async (choice) => {
+    const before_s = await at_s();
+    const place = await page.evaluate((left) => {
+      const curve = document.querySelector('.why .curve'), {a, d, e, f} = curve.getScreenCTM();
+      const marks = [...document.querySelectorAll('.why .detected')].map((mark) => ({x: mark.x1.baseVal.value, y: mark.y1.baseVal.value}));
+      const {x, y} = (left ? [...curve.points] : marks).reduce((best, point) => ((left ? point.x < best.x : point.x > best.x) ? point : best));
+      return [a * x + e, d * y + f];
+    }, choice === 'left');
+    await page.mouse.click(...place);
+    await isAt((time_s) => {
+      const {player: {summary}, selection: {evidence: {curve}}} = window.laneloom;
+      return summary.time_s < time_s && curve[0]?.index === summary.index && document.querySelector('.why .curve');
+    }, before_s);
+  };
+  await clickTheCurve('left');
+  await clickTheCurve('last mark');
+  assert.equal((await at_s()).toFixed(1), OUTAGE_S[0].toFixed(1));
+  await screenshot(page, '_walk4');
+  // 5. A frame on: the moment at which the detections ended. What was clicked is observed no longer.
+  const detected = () => page.evaluate(() => window.laneloom.elements.filter(({layer}) => layer === 'detections').length);
+  assert.ok(await detected() > 0);
+  await page.click('[data-do="forward"]');
+  await isAt((before_s) => window.laneloom.player.summary.time_s > before_s + 0.05, OUTAGE_S[0]);
+  assert.equal(await detected(), 0);
+  await isAt(() => /No detection of this frame observes it/.test(document.querySelector('.why').textContent));
+  await screenshot(page, '_walk5');
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+  assert.deepEqual(await stop(viewer), [0, null]);
+}
+
 const browser = await launch();
 try {
   await showsOneMap(browser);
   await showsTheTruth(browser);
   await comparesTwo(browser);
   await showsOtherVehicles(browser);
+  await leadsToTheCauseInFiveClicks(browser);
   await opensFiles(browser);
   await opensNoFilesOfOthers(browser);
 } finally {

@@ -123,6 +123,12 @@ export class Painter {
     names.forEach((name, i) => this.write(pen, name, [camera.width / 2, 20 + 17 * i], {size: 13, colour: i ? tint : undefined}));
   }
 
+  /** Draws the left edge of a column. */
+  edge(pen, camera) {
+    pen.fillStyle = this.theme().faint;
+    pen.fillRect(0, 0, 1, camera.height);
+  }
+
   north(pen, camera) {
     const at = [camera.width - 40, 40], angle = camera.up - Math.PI / 2;
     const to = (length, turn) => [at[0] + length * Math.sin(angle + turn), at[1] - length * Math.cos(angle + turn)];

@@ -12,7 +12,7 @@ import {pictureOf} from './picture.js';
 import {Player} from './player.js';
 import {Pointer} from './pointer.js';
 import {Quality} from './quality.js';
-import {Selection} from './selection.js';
+import {Selection, absent} from './selection.js';
 import {applyState, copyLink, downloadPng, downloadSvg, remember, restore, saveRecording, stateOf} from './share.js';
 import {Timeline} from './timeline.js';
 
@@ -43,7 +43,7 @@ class App {
     this.banner = new Banner(this.feed, this.player);
     this.timeline = new Timeline(byId('timeline'), this.feed, this.player, info.names);
     this.layers = new Layers(byId('layers'), palette, this.painter, () => this.#changed());
-    const go = (summary) => this.player.seek(summary);
+    const go = (summary, lost) => this.#goTo(summary, lost);
     const when = (summary) => this.when(summary);
     this.events = new Events(byId('events'), {go, when, choice: byId('eventKinds')});
     this.quality = new Quality({table: byId('quality'), worst: byId('worst')}, {names: info.names, go, when});
@@ -120,6 +120,13 @@ class App {
     };
   }
 
+  /** Goes to a moment, and stays there. `lost` is the own lane that was lost there: it tells why. */
+  #goTo(summary, lost) {
+    this.player.pause();
+    this.player.seek(summary);
+    if (lost) this.selection.select(this.selection.find(lost, 'lane') ?? absent('lane', lost));
+  }
+
   // Drawing.
 
   #newFrame() {
@@ -150,7 +157,7 @@ class App {
       painter.tint = null;
       this.#mark(pen, (element) => panes.over || (element.pane ?? 0) === column);
       painter.names(pen, camera, panes.over ? panes.names : panes.names.slice(column, column + 1), tint);
-    });
+    }, () => painter.edge(pen, camera));
   }
 
   /** Draws the marks over the map in one column. `has` tells whether an element is in the column. */

@@ -89,7 +89,8 @@ export class Events {
     time.textContent = this.when(summary);
     button.append(time, text);
     button.dataset.kind = kind;
-    button.onclick = () => this.go(summary);
+    const [, lost] = /^own lane ([0-9]+) is lost$/.exec(text) ?? [];
+    button.onclick = () => this.go(summary, Number(lost));
     item.append(button);
     this.node.prepend(item);
   }

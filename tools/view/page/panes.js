@@ -28,8 +28,8 @@ export class Panes {
     return {elements: this.over ? this.lists.flat() : this.lists[column], pixel: [x - column * width, y]};
   }
 
-  /** Calls `draw(lists, first)` for each column, with the pen moved and confined to it. */
-  paint(pen, {width, height}, draw) {
+  /** Calls `draw(lists, first)` for each column, with the pen moved and confined to it, and `edge()` after all but the first. */
+  paint(pen, {width, height}, draw, edge) {
     if (this.columns === 1) return draw(this.lists, 0);
     this.lists.forEach((elements, column) => {
       pen.save();
@@ -38,6 +38,7 @@ export class Panes {
       pen.rect(0, 0, width, height);
       pen.clip();
       draw([elements], column);
+      if (column) edge();
       pen.restore();
     });
   }

@@ -111,21 +111,21 @@ export class Quality {
   }
 
   #fillWorst(feed) {
-    this.worst.replaceChildren(...worstMoments(feed, this.names.length ? this.names : ['map']).map(({summary, text}) => {
+    this.worst.replaceChildren(...worstMoments(feed, this.names.length ? this.names : ['map']).map(({summary, text, lost}) => {
       const button = document.createElement('button'), time = document.createElement('time'), item = document.createElement('li');
       time.textContent = this.when(summary);
       button.append(time, this.maps > 1 ? text : text.replace(/^.*?: /, ''));
-      button.onclick = () => this.go(summary);
+      button.onclick = () => this.go(summary, lost);
       item.append(button);
       return item;
     }));
   }
 }
 
-/** The longest times without an own lane. */
+/** The longest times without an own lane. `lost` is the lane before; of the first map alone, since reasons are. */
 function lostLanes(feed, map, name) {
   const found = [];
-  let begin = null;
+  let begin = null, lost = null;
   feed.summaries.forEach((summary, i) => {
     const quality = own(summary, map);
     if (!quality) return;
@@ -133,9 +133,10 @@ function lostLanes(feed, map, name) {
     if (!quality.own_lane) begin ??= summary;
     if (begin && ends) {
       const lasted_s = summary.time_s - begin.time_s;
-      found.push({summary: begin, badness: 1 + lasted_s, text: `${name}: no own lane for ${lasted_s.toFixed(1)} s`});
+      found.push({summary: begin, badness: 1 + lasted_s, lost: map ? null : lost, text: `${name}: no own lane for ${lasted_s.toFixed(1)} s`});
       begin = null;
     }
+    if (quality.own_lane) lost = quality.own_lane;
   });
   return found;
 }

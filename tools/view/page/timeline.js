@@ -11,8 +11,9 @@ function pointsOf(feed, figure, map, x) {
   let before = null;
   for (const summary of feed.summaries) {
     const value = figure.at(summary, map), time_s = (figure.time ?? ((s) => s.time_s))(summary, map);
-    if (before && !figure.time && isOutage(before, summary, longest_s)) points.push(null);
-    if (!figure.time) before = summary;
+    const isBroken = before && (figure.time ? time_s - before.time_s > longest_s : isOutage(before, summary, longest_s));
+    if (isBroken) points.push(null);
+    if (!figure.time || known(value)) before = figure.time ? {time_s} : summary;
     if (!known(value)) continue;
     const column = Math.round(x(time_s)), last = points.at(-1);
     if (last && last[0] === column) last[1] = Math.max(last[1], value);
