@@ -41,14 +41,13 @@ class Viewer {
                          store.finish("it is not read");
                        },
                        kMaxFileBytes};
-  view::WebServer server_{
-      {.patience_s = 0.2,
-       .max_file_bytes = kMaxFileBytes,
-       .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
-      [this](std::string_view target) { return desk_.answer(target); },
-      [this](std::string_view target, view::TemporaryFolder folder) {
-        return desk_.open(target, std::move(folder));
-      }};
+  view::WebServer server_{{.patience_s = 0.2,
+                           .max_file_bytes = kMaxFileBytes,
+                           .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
+                          [this](std::string_view target) { return desk_.answer(target); },
+                          [this](std::string_view target, view::TemporaryFolder folder) {
+                            return desk_.open(target, std::move(folder));
+                          }};
 };
 
 int connect_to(std::uint16_t port) {

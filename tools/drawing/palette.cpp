@@ -38,7 +38,7 @@ constexpr StyleSpec area(const char* name, const Colour& light, const Colour& da
   return {.name = name, .light = light, .dark = dark};
 }
 constexpr StyleSpec lane(const char* name, std::size_t i) {
-  return area(name, kLanes[i], kLanes[i].faded(1.2));
+  return area(name, kLanes[i], kLanes[i].faded(i == 0 ? 1.2 : 1.8));  // the own lane is strong already
 }
 constexpr StyleSpec arrow(StyleSpec spec, double head) {
   spec.head = head;

@@ -102,6 +102,7 @@ void add_objects(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_b
 
 void add_trails(const std::vector<trails::Trail>& trails, const LocalMap& map, Drawing& drawing) {
   std::vector<Element> elements;
+  elements.reserve(trails.size());
   std::map<ObjectName, std::size_t> count;
   for (const trails::Trail& trail : trails)
     elements.push_back(element_of(trail, count[{trail.session, trail.object}]++));

@@ -32,7 +32,8 @@ Traffic TrafficFollower::at(std::int64_t stamp_ns, const Point& vehicle) {
     Eigen::Isometry3d T_map_body;
     if (poses_.at(objects->stamp_ns, T_map_body) != session::PoseBuffer::Answer::found) continue;
     trails_.add(*objects, T_map_body);
-    seen_[objects->session_id] = {*std::move(objects), T_map_body};
+    SeenObjects& seen = seen_[objects->session_id];
+    seen = {*std::move(objects), T_map_body};
   }
   trails_.keep_around(vehicle);
   std::erase_if(
