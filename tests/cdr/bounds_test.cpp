@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+
 #include "cdr/convert.hpp"
 
 namespace laneloom::dds {
@@ -123,6 +130,51 @@ TEST(Bounds, MessagesOfWhatIsTooLargeAreValid) {
   msg::ServiceStatus status_message;
   EXPECT_EQ(to_msg(status, "map", status_message), 1U + 2U);
   EXPECT_EQ(status_message.sources().back().session_id(), 9U) << "the newest are left out";
+}
+
+// The IDL has numbers, which every generator of code knows, and this code has their names.
+TEST(Bounds, AreThoseOfTheIdl) {
+  const std::map<std::string, std::size_t> bounds{
+      {"Point", kMaxLength<Point>},
+      {"double", kMaxLength<double>},
+      {"MarkingType", kMaxLength<MarkingType>},
+      {"Area", kMaxLength<Polyline>},
+      {"Detection", kMaxLength<Detection>},
+      {"StateReason", kMaxLength<StateReason>},
+      {"FusedFrame", kMaxLength<FusedFrame>},
+      {"StyleRange", kMaxLength<StyleRange>},
+      {"Marking", kMaxLength<Marking>},
+      {"Range", kMaxLength<Stretch>},
+      {"Neighbour", kMaxLength<Neighbour>},
+      {"Border", kMaxLength<Border>},
+      {"Lane", kMaxLength<Lane>},
+      {"unsigned long long", kMaxLength<ElementId>},
+      {"Stopline", kMaxLength<Stopline>},
+      {"Linkage", kMaxLength<Linkage>},
+      {"WayStation", kMaxLength<WayStation>},
+      {"WayLane", kMaxLength<WayLane>},
+      {"DrivenPath", kMaxLength<DrivenPath>},
+      {"TrackedObject", kMaxLength<TrackedObject>},
+      {"LineageEvent", kMaxLength<LineageEvent>},
+      {"NamedValue", msg::MAX_VALUES},
+      {"Counter", msg::MAX_COUNTERS},
+      {"SourceStatus", msg::MAX_SOURCES},
+      {"Setting", msg::MAX_SETTINGS},
+  };
+  const std::regex sequence(R"(sequence<([\w ]+), (\w+)>\s+(\w+))");
+  std::size_t found = 0;
+  for (const auto& file : std::filesystem::directory_iterator(LANELOOM_IDL)) {
+    std::ostringstream text;
+    text << std::ifstream(file.path()).rdbuf();
+    const std::string idl = text.str();
+    for (auto at = std::sregex_iterator(idl.begin(), idl.end(), sequence); at != std::sregex_iterator();
+         ++at) {
+      if ((*at)[3] == "covariance") continue;  // a matrix
+      EXPECT_EQ((*at)[2], std::to_string(bounds.at((*at)[1]))) << file.path() << ": " << at->str();
+      ++found;
+    }
+  }
+  EXPECT_GT(found, bounds.size());
 }
 
 }  // namespace
