@@ -6,11 +6,12 @@ namespace laneloom::dds {
 namespace {
 
 /// A way without stations is sent where there is none.
-void take_way(const msg::Way& from, Intake& intake, std::optional<Way>& to) {
-  to.reset();
-  if (from.stations().empty()) return;
-  intake.take(from, to.emplace());
-  if (!to->is_line()) intake.refuse("wrong_size");
+std::optional<Way> way_of(const msg::Way& from, Intake& intake) {
+  if (from.stations().empty()) return std::nullopt;
+  Way way;
+  intake.take(from, way);
+  if (!way.is_line()) intake.refuse("wrong_size");
+  return way;
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ Refusal from_msg(const msg::LaneMap& from, const std::string& /*map_frame_id*/, 
   intake.take(from.lanes(), to.map.lanes);
   intake.take(from.stoplines(), to.map.stoplines);
   intake.take(from.linkages(), to.map.linkages);
-  take_way(from.way(), intake, to.map.way);
+  to.map.way = way_of(from.way(), intake);
   intake.take(from.driven_paths(), to.map.driven_paths);
   intake.take(from.lineage(), to.map.lineage);
   return intake.refusal();

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "road.hpp"
@@ -27,7 +28,7 @@ Keys keys(const Array& array, MarkerAction action) {
   return found;
 }
 
-const visualization_msgs::msg::dds_::Marker_& first(const Array& array, const std::string& ns) {
+const visualization_msgs::msg::dds_::Marker_& first(const Array& array, std::string_view ns) {
   return *std::ranges::find_if(array.markers(), [&](const auto& marker) { return marker.ns() == ns; });
 }
 

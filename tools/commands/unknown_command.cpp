@@ -22,7 +22,7 @@ std::size_t edits_between(const std::string& a, const std::string& b) {
       next.push_back(std::min({row[j] + (a[i] == b[j] ? 0 : 1), row[j + 1] + 1, next[j] + 1}));
     row = std::move(next);
   }
-  return row.back();
+  return row[b.size()];
 }
 
 std::string complaint(const CLI::App& app, const std::string& word) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -36,9 +37,9 @@ std::vector<double> fixed_array(const py::handle& value, const std::string& name
 
 /// An object of a class of the module.
 template <class T>
-const T& instance(const py::handle& value, const std::string& name) {
+const T& instance(const py::handle& value, std::string_view name) {
   if (!py::isinstance<T>(value))
-    refuse_type(name, std::string(py::str(py::type::of<T>().attr("__name__"))), value);
+    refuse_type(std::string(name), std::string(py::str(py::type::of<T>().attr("__name__"))), value);
   return py::cast<const T&>(value);
 }
 

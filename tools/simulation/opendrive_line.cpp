@@ -97,7 +97,7 @@ Geometry::Geometry(const pugi::xml_node& road, const pugi::xml_node& element)
     } else {
       // The step along u that is a metre along the curve, by the slope in its middle.
       const double half = 0.5 * kCurveStep_m / std::hypot(1.0, v_.slope(last.along));
-      steps_.push_back({last.along + kCurveStep_m / std::hypot(1.0, v_.slope(last.along + half)), {}});
+      steps_.push_back({.along = last.along + kCurveStep_m / std::hypot(1.0, v_.slope(last.along + half))});
     }
   }
 }

@@ -53,7 +53,7 @@ std::vector<EndBeside> ends_beside(const std::vector<Line>& lines, double distan
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (is_stopline(types[i])) continue;
     for (const End end : kEnds) {
-      const Point& point = place_of({i, end}, lines);
+      const Point point = place_of({i, end}, lines);
       for (const NearestStation& near : nearest.around(point, false)) {
         if (near.line == i || types[near.line] != types[i]) continue;
         std::optional<Course>& course = courses[near.line];
