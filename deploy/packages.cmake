@@ -34,7 +34,7 @@ set(CPACK_DEBIAN_LAB_PACKAGE_RECOMMENDS "laneloom, laneloomd")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME laneloom-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "IDL of the topics, and readers and writers of them for C++.")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfastcdr-dev, libfastrtps-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfastcdr-dev, lib${fast_dds}-dev")
 
 if(LANELOOM_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)

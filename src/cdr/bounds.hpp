@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "Common.h"
+#include "Common.hpp"
 #include "base/fields.hpp"
 
 namespace laneloom::dds {

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "Detections.h"
+#include "Detections.hpp"
 #include "base/fields.hpp"
 
 namespace laneloom::dds {

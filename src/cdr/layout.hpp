@@ -1,11 +1,11 @@
 #pragma once
 
-#include "Detections.h"
-#include "LaneMap.h"
-#include "Objects.h"
-#include "RoadMarkings.h"
-#include "ServiceStatus.h"
-#include "VehiclePose.h"
+#include "Detections.hpp"
+#include "LaneMap.hpp"
+#include "Objects.hpp"
+#include "RoadMarkings.hpp"
+#include "ServiceStatus.hpp"
+#include "VehiclePose.hpp"
 #include "cdr/cdr_scanner.hpp"
 
 /// The layout of each message of idl/ in CDR.

@@ -1,29 +1,33 @@
 #pragma once
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-
 #include <cstdint>
 #include <exception>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "cdr/fast_cdr.hpp"
 #include "cdr/layout.hpp"
 #include "cdr/protection.hpp"
 
 namespace laneloom::dds {
 
+/// Writes a generated message as it goes over the wire: XCDR1, lowest byte first.
 template <class Message>
-void serialise(const Message& from, std::vector<std::uint8_t>& to) {
+void write_cdr(const Message& from, std::vector<std::uint8_t>& to) {
   constexpr std::size_t kEncapsulationBytes = 4;
-  to.resize(kEncapsulationBytes + Message::getCdrSerializedSize(from));
+  to.resize(kEncapsulationBytes + bytes_to_write(from));
   eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(to.data()), to.size());
   eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS,
-                             eprosima::fastcdr::Cdr::DDS_CDR);
+                             eprosima::fastcdr::CdrVersion::XCDRv1);
   cdr.serialize_encapsulation();
-  from.serialize(cdr);
-  to.resize(cdr.getSerializedDataLength());
+  cdr << from;
+  to.resize(written_bytes(cdr));
+}
+
+template <class Message>
+void serialise(const Message& from, std::vector<std::uint8_t>& to) {
+  write_cdr(from, to);
   protect(to, kDataId<Message>);
 }
 
@@ -34,7 +38,8 @@ void read_cdr(std::span<const std::uint8_t> from, Read read) {
   // Fast CDR has no buffer type for reading alone.
   auto* bytes = reinterpret_cast<char*>(const_cast<std::uint8_t*>(from.data()));
   eprosima::fastcdr::FastBuffer buffer(bytes, from.size());
-  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN, eprosima::fastcdr::Cdr::DDS_CDR);
+  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN,
+                             eprosima::fastcdr::CdrVersion::XCDRv1);
   cdr.read_encapsulation();
   read(cdr);
 }
@@ -46,7 +51,7 @@ std::string_view deserialise(std::span<const std::uint8_t> from, Message& to) {
   if (const auto why = check_protection(from, kDataId<Message>); !why.empty()) return why;
   if (!well_formed<Message>(from)) return "malformed";
   try {
-    read_cdr(from, [&](eprosima::fastcdr::Cdr& cdr) { to.deserialize(cdr); });
+    read_cdr(from, [&](eprosima::fastcdr::Cdr& cdr) { cdr >> to; });
     return {};
   } catch (const std::exception&) {
     return "malformed";

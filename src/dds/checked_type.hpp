@@ -1,12 +1,11 @@
 #pragma once
 
-#include <fastdds/dds/topic/TopicDataType.hpp>
-#include <functional>
 #include <span>
 #include <string_view>
 
 #include "cdr/layout.hpp"
 #include "cdr/protection.hpp"
+#include "dds/generated_type.hpp"
 
 namespace laneloom::dds {
 
@@ -21,41 +20,34 @@ struct Sample {
 /// (which would terminate the process, or be thrown again at every later take) nor allocates as much as it
 /// claims to need. It arrives as a sample with a refusal, for the reader to count.
 template <class PubSubType>
-class CheckedType : public PubSubType {
+class CheckedType : public GeneratedType<PubSubType> {
  public:
   using Message = typename PubSubType::type;
-  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+  using typename GeneratedType<PubSubType>::Payload;
 
-  CheckedType() {
-    // Otherwise Fast DDS would announce types that it can not describe (the code was generated without
-    // -typeobject).
-    this->auto_fill_type_object(false);
-    this->auto_fill_type_information(false);
-  }
-
-  bool deserialize(Payload* payload, void* data) override {
+  bool read(Payload& payload, void* data) override {
     auto* sample = static_cast<Sample<Message>*>(data);
-    const std::span<const std::uint8_t> bytes(payload->data, payload->length);
+    const std::span<const std::uint8_t> bytes(payload.data, payload.length);
     sample->refusal = check_protection(bytes, kDataId<Message>);
     if (!sample->refusal.empty()) return true;
     try {
-      const bool whole = well_formed<Message>(bytes) && PubSubType::deserialize(payload, &sample->message);
+      const bool whole = well_formed<Message>(bytes) && this->read_message(payload, sample->message);
       if (!whole) sample->refusal = "malformed";
     } catch (...) {
       sample->refusal = "malformed";
     }
     return true;
   }
-  bool serialize(void* data, Payload* payload) override {
-    const bool whole = PubSubType::serialize(&static_cast<Sample<Message>*>(data)->message, payload);
-    if (whole) protect({payload->data, payload->length}, kDataId<Message>);
+  bool write(const void* data, Payload& payload) override {
+    const bool whole = this->write_message(static_cast<const Sample<Message>*>(data)->message, payload);
+    if (whole) protect({payload.data, payload.length}, kDataId<Message>);
     return whole;
   }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return PubSubType::getSerializedSizeProvider(&static_cast<Sample<Message>*>(data)->message);
+  std::uint32_t bytes(const void* data) override {
+    return this->bytes_of_message(static_cast<const Sample<Message>*>(data)->message);
   }
-  void* createData() override { return new Sample<Message>; }
-  void deleteData(void* data) override { delete static_cast<Sample<Message>*>(data); }
+  void* make_sample() override { return new Sample<Message>; }
+  void delete_sample(void* data) override { delete static_cast<Sample<Message>*>(data); }
 };
 
 }  // namespace laneloom::dds

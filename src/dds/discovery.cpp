@@ -1,12 +1,7 @@
 #include "laneloom/dds/discovery.hpp"
 
-#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
-#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 
 #include <map>
 #include <mutex>
@@ -14,6 +9,7 @@
 #include <stdexcept>
 
 #include "base/seconds.hpp"
+#include "dds/discovery_listener.hpp"
 #include "dds/guarded_transport.hpp"
 #include "dds/identity_check.hpp"
 #include "dds/qos.hpp"
@@ -23,16 +19,12 @@ namespace laneloom::dds {
 namespace {
 
 using namespace eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::DiscoveryProtocol_t;
-using eprosima::fastrtps::rtps::GUID_t;
-using eprosima::fastrtps::rtps::GuidPrefix_t;
-using eprosima::fastrtps::rtps::IPLocator;
-using eprosima::fastrtps::rtps::ParticipantDiscoveryInfo;
-using eprosima::fastrtps::rtps::ParticipantProxyData;
-using eprosima::fastrtps::rtps::ReaderDiscoveryInfo;
-using eprosima::fastrtps::rtps::WriterDiscoveryInfo;
+using eprosima::fastdds::rtps::DiscoveryProtocol;
+using eprosima::fastdds::rtps::GUID_t;
+using eprosima::fastdds::rtps::GuidPrefix_t;
+using eprosima::fastdds::rtps::IPLocator;
 
-std::optional<double> finite_seconds(const eprosima::fastrtps::Duration_t& duration) {
+std::optional<double> finite_seconds(const eprosima::fastdds::dds::Duration_t& duration) {
   if (duration.is_infinite()) return std::nullopt;
   return seconds(duration.to_ns());
 }
@@ -68,24 +60,25 @@ template <class Data>
 Endpoint to_plain(const Data& data, bool is_writer) {
   Endpoint endpoint;
   endpoint.is_writer = is_writer;
-  endpoint.topic = data.topicName().to_string();
-  endpoint.type = data.typeName().to_string();
-  endpoint.partitions = data.m_qos.m_partition.getNames();
-  endpoint.reliable = data.m_qos.m_reliability.kind == RELIABLE_RELIABILITY_QOS;
-  endpoint.durability = to_plain(data.m_qos.m_durability.kind);
-  endpoint.deadline_s = finite_seconds(data.m_qos.m_deadline.period);
-  endpoint.liveliness = to_plain(data.m_qos.m_liveliness.kind);
-  endpoint.lease_s = finite_seconds(data.m_qos.m_liveliness.lease_duration);
-  endpoint.exclusive = data.m_qos.m_ownership.kind == EXCLUSIVE_OWNERSHIP_QOS;
-  if (is_writer) endpoint.id = id_of(data.guid());
+  endpoint.topic = data.topic_name.to_string();
+  endpoint.type = data.type_name.to_string();
+  endpoint.partitions = data.partition.getNames();
+  endpoint.reliable = data.reliability.kind == RELIABLE_RELIABILITY_QOS;
+  endpoint.durability = to_plain(data.durability.kind);
+  endpoint.deadline_s = finite_seconds(data.deadline.period);
+  endpoint.liveliness = to_plain(data.liveliness.kind);
+  endpoint.lease_s = finite_seconds(data.liveliness.lease_duration);
+  endpoint.exclusive = data.ownership.kind == EXCLUSIVE_OWNERSHIP_QOS;
+  if (is_writer) endpoint.id = id_of(data.guid);
   return endpoint;
 }
 
-Peer to_plain(const ParticipantProxyData& data) {
+template <class Data>
+Peer to_plain(const Data& data) {
   std::ostringstream id;
-  id << data.m_guid.guidPrefix;
+  id << data.guid.guidPrefix;
   const auto& locators = data.default_locators.unicast;
-  return {id.str(), data.m_participantName.to_string(),
+  return {id.str(), data.participant_name.to_string(),
           locators.empty() ? std::string() : IPLocator::ip_to_string(locators[0])};
 }
 
@@ -94,14 +87,14 @@ Peer to_plain(const ParticipantProxyData& data) {
 DomainParticipantQos observer_qos(const DdsConfig& config, const std::string& name) {
   auto qos = participant_qos(config, name);
   auto& protocol = qos.wire_protocol().builtin.discovery_config.discoveryProtocol;
-  if (protocol == DiscoveryProtocol_t::CLIENT) protocol = DiscoveryProtocol_t::SUPER_CLIENT;
+  if (protocol == DiscoveryProtocol::CLIENT) protocol = DiscoveryProtocol::SUPER_CLIENT;
   guard_transports(qos, governance_protects_messages(config.security_directory));
   return qos;
 }
 
 }  // namespace
 
-class Discovery::Impl : public DomainParticipantListener {
+class Discovery::Impl : public DiscoveryListener<Discovery::Impl> {
  public:
   Impl(const DdsConfig& config, const std::string& name)
       : participant_(DomainParticipantFactory::get_instance()->create_participant(
@@ -136,36 +129,28 @@ class Discovery::Impl : public DomainParticipantListener {
     return result;
   }
 
-  void on_participant_discovery(DomainParticipant* /*participant*/,
-                                ParticipantDiscoveryInfo&& info) override {
-    const auto& prefix = info.info.m_guid.guidPrefix;
+  template <class Data>
+  void note_participant(const Data& data, bool is_there) {
+    const auto& prefix = data.guid.guidPrefix;
     const std::lock_guard lock(mutex_);
-    if (info.status == ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT ||
-        info.status == ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT) {
-      peers_.insert_or_assign(prefix, to_plain(info.info));
+    if (is_there) {
+      peers_.insert_or_assign(prefix, to_plain(data));
     } else {
       peers_.erase(prefix);
       std::erase_if(endpoints_, [&](const auto& entry) { return entry.first.guidPrefix == prefix; });
     }
   }
-  void on_publisher_discovery(DomainParticipant* /*participant*/, WriterDiscoveryInfo&& info) override {
-    note(info.info, true, info.status == WriterDiscoveryInfo::REMOVED_WRITER);
-  }
-  void on_subscriber_discovery(DomainParticipant* /*participant*/, ReaderDiscoveryInfo&& info) override {
-    note(info.info, false, info.status == ReaderDiscoveryInfo::REMOVED_READER);
-  }
-
- private:
   template <class Data>
-  void note(const Data& data, bool is_writer, bool removed) {
+  void note_endpoint(const Data& data, bool is_writer, bool is_there) {
     const std::lock_guard lock(mutex_);
-    if (removed) {
-      endpoints_.erase(data.guid());
+    if (is_there) {
+      endpoints_.insert_or_assign(data.guid, to_plain(data, is_writer));
     } else {
-      endpoints_.insert_or_assign(data.guid(), to_plain(data, is_writer));
+      endpoints_.erase(data.guid);
     }
   }
 
+ private:
   // Memory needs no bound: DDS itself keeps as much of every participant.
   mutable std::mutex mutex_;
   std::map<GuidPrefix_t, Peer> peers_;

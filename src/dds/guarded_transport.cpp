@@ -1,28 +1,19 @@
 #include "dds/guarded_transport.hpp"
 
 #include <arpa/inet.h>
-#include <fastdds/rtps/transport/ChainingTransport.h>
-#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
-#include <fastdds/rtps/transport/UDPTransportDescriptor.h>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 
 #include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
 
+#include "dds/fast_dds.hpp"
+
 namespace laneloom::dds {
 namespace {
 
 using namespace eprosima::fastdds::rtps;
 using eprosima::fastdds::dds::DomainParticipantQos;
-using eprosima::fastrtps::rtps::IPLocator;
-using eprosima::fastrtps::rtps::Locator_t;
-using eprosima::fastrtps::rtps::LocatorsIterator;
-using eprosima::fastrtps::rtps::octet;
-using eprosima::fastrtps::rtps::SenderResource;
 
 std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -46,7 +37,7 @@ class GuardedTransport : public ChainingTransport {
     return low_level_transport_->get_configuration();
   }
   // NOLINTNEXTLINE(readability-function-size): as Fast DDS calls it
-  bool send(SenderResource* sender, const octet* bytes, std::uint32_t size, LocatorsIterator* begin,
+  bool send(SenderResource* sender, SentBytes bytes, std::uint32_t size, LocatorsIterator* begin,
             LocatorsIterator* end, const std::chrono::steady_clock::time_point& timeout) override {
     return sender->send(bytes, size, begin, end, timeout);
   }
@@ -75,7 +66,7 @@ struct GuardedDescriptor : ChainingTransportDescriptor {
   std::shared_ptr<Door> door;
 };
 
-/// Makes the transports that Fast DDS 2.9 has by itself.
+/// Makes the transports that Fast DDS has by itself.
 void name_builtin_transports(DomainParticipantQos& qos) {
   auto& transport = qos.transport();
   if (!transport.use_builtin_transports) return;

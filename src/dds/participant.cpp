@@ -11,7 +11,7 @@
 namespace laneloom::dds {
 
 using namespace eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::DiscoveryProtocol_t;
+using eprosima::fastdds::rtps::DiscoveryProtocol;
 
 void check_files(const DdsConfig& config) { participant_qos(config, ""); }
 
@@ -28,7 +28,7 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presen
   auto qos = participant_qos(config, name);
   set_user_data(user_data, qos);
   if (presence == Presence::hidden)
-    qos.wire_protocol().builtin.discovery_config.discoveryProtocol = DiscoveryProtocol_t::NONE;
+    qos.wire_protocol().builtin.discovery_config.discoveryProtocol = DiscoveryProtocol::NONE;
   door_ = guard_transports(qos, governance_protects_messages(config.security_directory));
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
       static_cast<DomainId_t>(config.domain), qos);

@@ -1,8 +1,5 @@
 #include "dds/qos.hpp"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <algorithm>
@@ -14,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "dds/fast_dds.hpp"
 #include "laneloom/dds/participant.hpp"
 #include "laneloom/error.hpp"
 
@@ -21,11 +19,10 @@ namespace laneloom::dds {
 namespace {
 
 using namespace eprosima::fastdds::dds;
+using eprosima::fastdds::rtps::IPLocator;
 using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
 using eprosima::fastdds::rtps::UDPTransportDescriptor;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
-using eprosima::fastrtps::rtps::IPLocator;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 // With the kernel's default buffers, a map of 500 KB gets lost. The kernel may give less than this.
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20;
@@ -50,7 +47,7 @@ constexpr std::uint32_t kLargeDatagramBytes = 65500;
 // A frame of 12.6 MB is within the bounds of the IDL, and a newer one is worth more than an older one.
 constexpr int kUnfinishedFrames = 2;
 
-eprosima::fastrtps::Duration_t milliseconds(int value) {
+Duration_t milliseconds(int value) {
   return {value / 1000, static_cast<std::uint32_t>(value % 1000) * 1'000'000U};
 }
 
@@ -61,8 +58,8 @@ bool load_once(const std::string& file) {
   const std::lock_guard lock(mutex);
   if (loaded.contains(file)) return true;
   const auto result = DomainParticipantFactory::get_instance()->load_XML_profiles_file(file);
-  if (result == ReturnCode_t::RETCODE_OK) loaded.insert(file);
-  return result == ReturnCode_t::RETCODE_OK;
+  if (result == RETCODE_OK) loaded.insert(file);
+  return result == RETCODE_OK;
 }
 
 void load_profile(const DdsConfig& config, DomainParticipantQos& qos) {
@@ -75,7 +72,7 @@ void load_profile(const DdsConfig& config, DomainParticipantQos& qos) {
   }
   const auto found =
       DomainParticipantFactory::get_instance()->get_participant_qos_from_profile(config.profile_name, qos);
-  if (found != ReturnCode_t::RETCODE_OK) {
+  if (found != RETCODE_OK) {
     throw ConfigError("dds.profile_name: no participant \"" + config.profile_name + "\" in " +
                       config.profile_file);
   }
@@ -147,7 +144,7 @@ void set_common(TopicKind kind, Qos& qos) {
   qos.history().depth = depth(kind);
   // The types are bounded but rarely full: preallocation would take their largest size for every sample.
   // Memory that is not reused would be freed too early (take_all.hpp).
-  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
+  qos.endpoint().history_memory_policy = eprosima::fastdds::rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   qos.data_sharing().off();
   const bool from_service = kind == TopicKind::map || kind == TopicKind::status;
   qos.durability().kind = from_service ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
@@ -194,10 +191,9 @@ std::uint32_t largest_datagram(const DdsConfig& config) {
 std::vector<std::string> discovery_servers(const DdsConfig& config) {
   const DomainParticipantQos qos = participant_qos(config, "");
   std::vector<std::string> result;
-  for (const auto& server : qos.wire_protocol().builtin.discovery_config.m_DiscoveryServers)
-    for (const auto& locator : server.metatrafficUnicastLocatorList)
-      result.push_back(IPLocator::ip_to_string(locator) + ":" +
-                       std::to_string(IPLocator::getPhysicalPort(locator)));
+  for (const auto& locator : discovery_server_locators(qos))
+    result.push_back(IPLocator::ip_to_string(locator) + ":" +
+                     std::to_string(IPLocator::getPhysicalPort(locator)));
   return result;
 }
 
@@ -207,7 +203,7 @@ DataWriterQos writer_qos(TopicKind kind) {
   qos.reliability().kind = RELIABLE_RELIABILITY_QOS;
   qos.reliability().max_blocking_time = milliseconds(50);
   // A lost sample is repaired after this time; the default is 3 s.
-  qos.reliable_writer_qos().times.heartbeatPeriod = milliseconds(20);
+  heartbeat_period(qos) = milliseconds(20);
   qos.publish_mode().kind = SYNCHRONOUS_PUBLISH_MODE;
   return qos;
 }

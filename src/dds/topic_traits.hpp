@@ -4,12 +4,12 @@
 
 #include <string>
 
-#include "DetectionsPubSubTypes.h"
-#include "LaneMapPubSubTypes.h"
-#include "ObjectsPubSubTypes.h"
-#include "RoadMarkingsPubSubTypes.h"
-#include "ServiceStatusPubSubTypes.h"
-#include "VehiclePosePubSubTypes.h"
+#include "DetectionsPubSubTypes.hpp"
+#include "LaneMapPubSubTypes.hpp"
+#include "ObjectsPubSubTypes.hpp"
+#include "RoadMarkingsPubSubTypes.hpp"
+#include "ServiceStatusPubSubTypes.hpp"
+#include "VehiclePosePubSubTypes.hpp"
 #include "cdr/message_of.hpp"
 #include "dds/checked_type.hpp"
 #include "dds/qos.hpp"

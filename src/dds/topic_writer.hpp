@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "dds/fast_dds.hpp"
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
 
@@ -27,7 +28,10 @@ class TopicWriter {
   TopicWriter& operator=(const TopicWriter&) = delete;
 
   Participant::Impl& participant() const { return *participant_; }
-  bool write(void* sample) { return writer_->write(sample); }
+  bool write(void* sample) {
+    namespace dds = eprosima::fastdds::dds;
+    return writer_->write(sample, dds::HANDLE_NIL) == dds::RETCODE_OK;
+  }
   int matched() const {
     eprosima::fastdds::dds::PublicationMatchedStatus status;
     writer_->get_publication_matched_status(status);

@@ -6,14 +6,14 @@
 #include <iterator>
 #include <vector>
 
-#include "RmwDdsCommonHumblePubSubTypes.h"
-#include "RmwDdsCommonPubSubTypes.h"
+#include "RmwDdsCommonHumblePubSubTypes.hpp"
+#include "RmwDdsCommonPubSubTypes.hpp"
 #include "ros2/topic.hpp"
 
 namespace laneloom::ros2 {
 namespace {
 
-using eprosima::fastrtps::rtps::GUID_t;
+using eprosima::fastdds::rtps::GUID_t;
 
 constexpr const char* kTopic = "ros_discovery_info";  // has no prefix "rt/"
 constexpr const char* kType = "rmw_dds_common/msg/ParticipantEntitiesInfo";
@@ -23,8 +23,8 @@ Gid to_gid(const GUID_t& guid) {
   Gid gid;
   gid.data().fill(0);
   auto* const entity =
-      std::copy_n(guid.guidPrefix.value, eprosima::fastrtps::rtps::GuidPrefix_t::size, gid.data().begin());
-  std::copy_n(guid.entityId.value, eprosima::fastrtps::rtps::EntityId_t::size, entity);
+      std::copy_n(guid.guidPrefix.value, eprosima::fastdds::rtps::GuidPrefix_t::size, gid.data().begin());
+  std::copy_n(guid.entityId.value, eprosima::fastdds::rtps::EntityId_t::size, entity);
   return gid;
 }
 

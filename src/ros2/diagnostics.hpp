@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "DiagnosticMsgs.h"
+#include "DiagnosticMsgs.hpp"
 #include "laneloom/messages.hpp"
 
 namespace laneloom::ros2 {

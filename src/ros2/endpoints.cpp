@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "AutowareMaplessPlanningMsgsPubSubTypes.h"
-#include "DiagnosticMsgsPubSubTypes.h"
-#include "VisualizationMsgsPubSubTypes.h"
+#include "AutowareMaplessPlanningMsgsPubSubTypes.hpp"
+#include "DiagnosticMsgsPubSubTypes.hpp"
+#include "VisualizationMsgsPubSubTypes.hpp"
 #include "cdr/convert.hpp"
 #include "dds/topic_writer.hpp"
 #include "ros2/announcement.hpp"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "AutowarePerceptionMsgsPubSubTypes.h"
-#include "NavMsgsPubSubTypes.h"
+#include "AutowarePerceptionMsgsPubSubTypes.hpp"
+#include "NavMsgsPubSubTypes.hpp"
 #include "dds/checked_type.hpp"
 #include "dds/topic_reader.hpp"
 #include "ros2/names.hpp"
@@ -21,25 +21,31 @@ namespace laneloom::ros2 {
 /// The generated type support of a message of ROS, made safe as dds::CheckedType does. `is_whole` tells
 /// whether a payload can be such a message.
 template <class PubSubType, bool (*is_whole)(std::span<const std::uint8_t>)>
-class ScannedType : public PubSubType {
+class ScannedType : public dds::GeneratedType<PubSubType> {
  public:
   using Sample = dds::Sample<typename PubSubType::type>;
-  using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+  using Payload = typename dds::GeneratedType<PubSubType>::Payload;
 
-  bool deserialize(Payload* payload, void* data) override {
+  bool read(Payload& payload, void* data) override {
     auto* sample = static_cast<Sample*>(data);
     sample->refusal = {};
     try {
       const bool whole =
-          is_whole({payload->data, payload->length}) && PubSubType::deserialize(payload, &sample->message);
+          is_whole({payload.data, payload.length}) && this->read_message(payload, sample->message);
       if (!whole) sample->refusal = "malformed";
     } catch (...) {
       sample->refusal = "malformed";
     }
     return true;
   }
-  void* createData() override { return new Sample; }
-  void deleteData(void* data) override { delete static_cast<Sample*>(data); }
+  bool write(const void* data, Payload& payload) override {
+    return this->write_message(static_cast<const Sample*>(data)->message, payload);
+  }
+  std::uint32_t bytes(const void* data) override {
+    return this->bytes_of_message(static_cast<const Sample*>(data)->message);
+  }
+  void* make_sample() override { return new Sample; }
+  void delete_sample(void* data) override { delete static_cast<Sample*>(data); }
 };
 
 using OdometryType = ScannedType<nav_msgs::msg::dds_::Odometry_PubSubType, is_odometry>;

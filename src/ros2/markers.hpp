@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "VisualizationMsgs.h"
+#include "VisualizationMsgs.hpp"
 #include "laneloom/messages.hpp"
 
 namespace laneloom::ros2 {

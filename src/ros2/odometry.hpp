@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "NavMsgs.h"
+#include "NavMsgs.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::ros2 {

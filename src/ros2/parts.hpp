@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "GeometryMsgs.h"
-#include "StdMsgs.h"
+#include "GeometryMsgs.hpp"
+#include "StdMsgs.hpp"
 #include "laneloom/types.hpp"
 
 /// Parts that several messages of ROS share.

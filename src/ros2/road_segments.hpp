@@ -1,6 +1,6 @@
 #pragma once
 
-#include "AutowareMaplessPlanningMsgs.h"
+#include "AutowareMaplessPlanningMsgs.hpp"
 #include "laneloom/messages.hpp"
 
 namespace laneloom::ros2 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "VisualizationMsgs.h"
+#include "VisualizationMsgs.hpp"
 #include "laneloom/types.hpp"
 
 /// Shapes and colours of markers.

@@ -12,10 +12,7 @@ namespace laneloom::ros2 {
 template <class Type>
 dds::TopicDescription topic(const std::string& name, std::string_view ros_type, dds::TopicKind kind) {
   auto* type = new Type;
-  type->setName(dds_type(ros_type).c_str());
-  // ROS announces no description of its types either.
-  type->auto_fill_type_object(false);
-  type->auto_fill_type_information(false);
+  dds::announce_as(dds_type(ros_type), *type);
   return {name, kind, eprosima::fastdds::dds::TypeSupport(type), user_data(ros_type)};
 }
 

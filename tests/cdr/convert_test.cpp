@@ -75,7 +75,7 @@ TEST(Refuse, ObjectsWithNumbersOrClassesThatAreNone) {
   message.objects()[0].speed_mps(kNaN);
   EXPECT_EQ(from_msg(message, "map", objects), "not_finite");
   message = RandomMessages(1).objects();
-  message.objects()[0].kind(static_cast<msg::ObjectKind>(msg::OBJECT_PEDESTRIAN + 1));
+  message.objects()[0].kind(static_cast<msg::ObjectKind>(77));
   EXPECT_EQ(from_msg(message, "map", objects), "unknown_enum");
 }
 
@@ -209,7 +209,7 @@ TEST(Refuse, UnknownEnumerations) {
   message.detections()[0].type(static_cast<msg::MarkingType>(3));
   EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
   message = RandomMessages(3).detections();
-  message.detections()[0].style(static_cast<msg::MarkingStyle>(0xffffffff));
+  message.detections()[0].style(static_cast<msg::MarkingStyle>(-1));
   EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
   message = RandomMessages(3).detections();
   message.detected_types()[0] = static_cast<msg::MarkingType>(77);

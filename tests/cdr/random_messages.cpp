@@ -46,13 +46,13 @@ msg::Header RandomMessages::header() {
 msg::Marking RandomMessages::marking() {
   msg::Marking m;
   m.id(id());
-  m.type(one_of(msg::STOPLINE));
-  m.status(one_of(msg::STATUS_INFERRED));
+  m.type(one_of(msg::MarkingType::STOPLINE));
+  m.status(one_of(msg::ElementStatus::STATUS_INFERRED));
   m.points(polyline());
   m.styles(several(5, [&] {
     msg::StyleRange style;
     style.range(range());
-    style.style(one_of(msg::STYLE_DASHED));
+    style.style(one_of(msg::MarkingStyle::STYLE_DASHED));
     return style;
   }));
   m.lateral_stddev_m(numbers(m.points().size()));
@@ -90,13 +90,13 @@ msg::Lane RandomMessages::lane() {
   m.width_m(number());
   m.left_neighbours(several(3, [&] { return neighbour(); }));
   m.right_neighbours(several(3, [&] { return neighbour(); }));
-  m.direction(one_of(msg::DIRECTION_BOTH));
+  m.direction(one_of(msg::DrivingDirection::DIRECTION_BOTH));
   m.direction_probability(number());
   m.direction_evidence(evidence());
-  m.use(one_of(msg::USE_PARKING));
+  m.use(one_of(msg::LaneUse::USE_PARKING));
   m.use_probability(number());
   m.section(static_cast<std::uint32_t>(whole(1000)));
-  m.status(one_of(msg::STATUS_INFERRED));
+  m.status(one_of(msg::ElementStatus::STATUS_INFERRED));
   m.existence_probability(number());
   m.evidence(evidence());
   m.inferred_ranges(several(4, [&] { return range(); }));
@@ -115,8 +115,8 @@ msg::Linkage RandomMessages::linkage() {
   msg::Linkage m;
   m.from_lane(id());
   m.to_lane(id());
-  m.kind(one_of(msg::LINKAGE_TRAFFIC));
-  m.turn(one_of(msg::TURN_U));
+  m.kind(one_of(msg::LinkageKind::LINKAGE_TRAFFIC));
+  m.turn(one_of(msg::TurnKind::TURN_U));
   m.probability(number());
   m.evidence(evidence());
   m.path(polyline());
@@ -133,7 +133,7 @@ msg::WayStation RandomMessages::way_station() {
   m.right_m(number());
   m.width_m(number());
   m.lateral_stddev_m(number());
-  m.status(one_of(msg::STATUS_INFERRED));
+  m.status(one_of(msg::ElementStatus::STATUS_INFERRED));
   m.may_change_left(whole(2) == 1);
   m.may_change_right(whole(2) == 1);
   return m;
@@ -148,7 +148,7 @@ msg::Way RandomMessages::way() {
     msg::WayLane lane;
     lane.lane(id());
     lane.against(whole(2) == 1);
-    lane.entry(one_of(msg::TURN_U));
+    lane.entry(one_of(msg::TurnKind::TURN_U));
     lane.range(range());
     return lane;
   }));
@@ -161,7 +161,7 @@ msg::Detections RandomMessages::detections() {
   msg::Detections m;
   m.header(header());
   m.source(text("source").c_str());
-  m.detected_types(several(3, [&] { return one_of(msg::STOPLINE); }));
+  m.detected_types(several(3, [&] { return one_of(msg::MarkingType::STOPLINE); }));
   m.field_of_view(polyline());
   m.occluded_areas(several(4, [&] {
     msg::Area area;
@@ -170,8 +170,8 @@ msg::Detections RandomMessages::detections() {
   }));
   m.detections(several(6, [&] {
     msg::Detection detection;
-    detection.type(one_of(msg::STOPLINE));
-    detection.style(one_of(msg::STYLE_DASHED));
+    detection.type(one_of(msg::MarkingType::STOPLINE));
+    detection.style(one_of(msg::MarkingStyle::STYLE_DASHED));
     detection.confidence(number());
     detection.points(polyline());
     detection.stddev_m(numbers(detection.points().size()));
@@ -194,7 +194,7 @@ msg::Objects RandomMessages::objects() {
   m.objects(several(5, [&] {
     msg::TrackedObject object;
     object.id(id());
-    object.kind(one_of(msg::OBJECT_PEDESTRIAN));
+    object.kind(one_of(msg::ObjectKind::OBJECT_PEDESTRIAN));
     object.existence_probability(number());
     object.position(point());
     object.heading(point());
@@ -214,8 +214,8 @@ msg::LaneMap RandomMessages::lane_map() {
   m.map_id(id());
   m.age_s(number());
   m.lag_s(number());
-  m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_DRIVING_SIDE_CONTRADICTED); }));
+  m.state(one_of(msg::MapState::MAP_STALE));
+  m.reasons(several(3, [&] { return one_of(msg::StateReason::REASON_DRIVING_SIDE_CONTRADICTED); }));
   m.pose(pose());
   m.fused_frames(several(4, [&] {
     msg::FusedFrame frame;
@@ -240,8 +240,8 @@ msg::LaneMap RandomMessages::lane_map() {
   }));
   m.lineage(several(4, [&] {
     msg::LineageEvent event;
-    event.kind(one_of(msg::LINEAGE_RETIRED));
-    event.element(one_of(msg::ELEMENT_LANE));
+    event.kind(one_of(msg::LineageKind::LINEAGE_RETIRED));
+    event.element(one_of(msg::ElementKind::ELEMENT_LANE));
     event.id(id());
     event.other(id());
     return event;
@@ -267,8 +267,8 @@ msg::ServiceStatus RandomMessages::service_status() {
   };
   msg::ServiceStatus m;
   m.header(header());
-  m.state(one_of(msg::MAP_STALE));
-  m.reasons(several(3, [&] { return one_of(msg::REASON_DRIVING_SIDE_CONTRADICTED); }));
+  m.state(one_of(msg::MapState::MAP_STALE));
+  m.reasons(several(3, [&] { return one_of(msg::StateReason::REASON_DRIVING_SIDE_CONTRADICTED); }));
   m.uptime_s(number());
   m.detections_age_s(number());
   m.poses_age_s(number());

@@ -39,7 +39,7 @@ class RandomMessages {
   double age() { return static_cast<double>(whole(1'000'000'000'000)) / 1e9; }
   template <class Enum>
   Enum one_of(Enum last) {
-    return static_cast<Enum>(whole(last));
+    return static_cast<Enum>(whole(static_cast<std::uint64_t>(last)));
   }
   template <class Make>
   auto several(std::size_t at_most, Make make) {

@@ -1,6 +1,5 @@
 #include "dds/checked_type.hpp"
 
-#include <fastdds/rtps/common/SerializedPayload.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 namespace laneloom::dds {
 namespace {
 
-using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+using Payload = eprosima::fastdds::rtps::SerializedPayload_t;
 using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t kEncapsulation = 4;
 
@@ -31,8 +30,8 @@ class CheckedTypeTest : public ::testing::Test {
 
   Bytes bytes_of(const Message& message) {
     Sample<Message> sample{message};
-    Payload payload(type_.getSerializedSizeProvider(&sample)());
-    EXPECT_TRUE(type_.serialize(&sample, &payload));
+    Payload payload(type_.bytes(&sample));
+    EXPECT_TRUE(type_.write(&sample, payload));
     return {payload.data, payload.data + payload.length};
   }
   Sample<Message> read(const Bytes& bytes) {
@@ -40,7 +39,7 @@ class CheckedTypeTest : public ::testing::Test {
     if (!bytes.empty()) std::memcpy(payload.data, bytes.data(), bytes.size());
     payload.length = static_cast<std::uint32_t>(bytes.size());
     Sample<Message> sample;
-    EXPECT_TRUE(type_.deserialize(&payload, &sample));
+    EXPECT_TRUE(type_.read(payload, &sample));
     return sample;
   }
   Message random(unsigned seed) {

@@ -94,7 +94,7 @@ TEST(Discovery, ForgetsWhoLeaves) {
 
 TEST(Discovery, TypesHaveTheNamesThatTheTopicsTell) {
   const auto type_of = []<class T>(const T&) {
-    return std::string(typename TopicTraits<T>::Type().getName());
+    return topic_of<T, typename TopicTraits<T>::Type>().type.get_type_name();
   };
   EXPECT_EQ(type_of(DetectionFrame()), kDetectionsType);
   EXPECT_EQ(type_of(VehiclePose()), kVehiclePoseType);

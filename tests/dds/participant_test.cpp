@@ -2,16 +2,15 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <fastdds/dds/publisher/DataWriter.hpp>
 
 #include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <fstream>
 #include <mutex>
 
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
+#include "laneloom/dds/raw_writer.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
 #include "own_domain.hpp"
@@ -21,7 +20,6 @@ namespace laneloom::dds {
 namespace {
 
 using namespace std::chrono_literals;
-namespace fastdds = eprosima::fastdds::dds;
 
 /// The messages that came, for a test to wait for. Thread-safe.
 template <class T>
@@ -115,35 +113,6 @@ PublishedMap map_of(std::uint64_t sequence) {
   return map;
 }
 
-/// Writes bytes as they are, under the name of a type of ours.
-class RawType : public fastdds::TopicDataType {
- public:
-  explicit RawType(const char* name) {
-    setName(name);
-    m_typeSize = 1 << 16;
-    auto_fill_type_object(false);
-    auto_fill_type_information(false);
-  }
-  bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override {
-    const auto& bytes = *static_cast<std::vector<std::uint8_t>*>(data);
-    std::memcpy(payload->data, bytes.data(), bytes.size());
-    payload->length = static_cast<std::uint32_t>(bytes.size());
-    return true;
-  }
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* /*payload*/, void* /*data*/) override {
-    return false;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return
-        [data] { return static_cast<std::uint32_t>(static_cast<std::vector<std::uint8_t>*>(data)->size()); };
-  }
-  void* createData() override { return new std::vector<std::uint8_t>; }
-  void deleteData(void* data) override { delete static_cast<std::vector<std::uint8_t>*>(data); }
-  bool getKey(void* /*data*/, eprosima::fastrtps::rtps::InstanceHandle_t* /*handle*/, bool /*md5*/) override {
-    return false;
-  }
-};
-
 TEST(Participants, FramesArriveInOrderAndWhole) {
   Received<DetectionFrame> received;
   const Participant there(config_of("order"), "there"), here(config_of("order"), "here");
@@ -233,22 +202,15 @@ TEST(Participants, MalformedPayloadsAreCountedAndGoodOnesFollow) {
   const Participant there(config, "there"), here(config, "here");
   const Reader<DetectionFrame> reader(there, received.callbacks());
 
-  auto& impl = *here.impl();
-  auto* topic = impl.topic(kDetectionsTopic, fastdds::TypeSupport(new RawType("laneloom::msg::Detections")));
-  auto* raw = impl.publisher().create_datawriter(topic, writer_qos(TopicKind::detections));
-  ASSERT_NE(raw, nullptr);
-  fastdds::PublicationMatchedStatus status;
-  for (int i = 0; i < 2000 && status.current_count == 0; ++i) {
-    usleep(10'000);
-    raw->get_publication_matched_status(status);
-  }
+  RawWriter<DetectionFrame> raw(here);
+  ASSERT_TRUE(matched(raw));
   ASSERT_TRUE(matched(reader));
   std::vector<std::uint8_t> garbage(64, 0xff);
   garbage[0] = 0;
   garbage[1] = 1;
   std::vector<std::uint8_t> empty(4, 0);
-  ASSERT_TRUE(raw->write(&garbage));
-  ASSERT_TRUE(raw->write(&empty));
+  ASSERT_TRUE(raw.write(garbage));
+  ASSERT_TRUE(raw.write(empty));
   ASSERT_TRUE(received.wait_for_refusals(2));
   EXPECT_EQ(received.refused(), (std::vector<std::string>{"crc", "malformed"}));
 
@@ -258,7 +220,6 @@ TEST(Participants, MalformedPayloadsAreCountedAndGoodOnesFollow) {
   ASSERT_TRUE(writer.write(frame_of(9)));
   ASSERT_TRUE(received.wait_for_samples(1));
   EXPECT_EQ(received.samples()[0].sequence, 9U);
-  impl.publisher().delete_datawriter(raw);
 }
 
 TEST(Participants, ACallbackThatThrowsDoesNoHarm) {

@@ -1,7 +1,6 @@
 #include "dds/take_all.hpp"
 
 #include <arpa/inet.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -28,7 +27,7 @@ namespace laneloom::dds {
 namespace {
 
 namespace fast = eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::GUID_t;
+using eprosima::fastdds::rtps::GUID_t;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t kPartBytes = 100, kParts = 3;
@@ -174,7 +173,7 @@ class HalfSent : public testing::Test {
     sockaddr_in to{};
     to.sin_family = AF_INET;
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    to.sin_port = htons(eprosima::fastrtps::rtps::IPLocator::getPhysicalPort(*locators.begin()));
+    to.sin_port = htons(eprosima::fastdds::rtps::IPLocator::getPhysicalPort(*locators.begin()));
     const auto& bytes = datagram.bytes();
     const auto sent =
         sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);

@@ -44,7 +44,7 @@ TEST(Observer, SeesAReaderThatAsksForTooMuch) {
   const dds::Participant planner(config, "a planner");
   using Traits = dds::TopicTraits<PublishedMap>;
   auto qos = dds::reader_qos(Traits::kKind, eprosima::fastdds::dds::RELIABLE_RELIABILITY_QOS);
-  qos.deadline().period = eprosima::fastrtps::Duration_t(0, 100'000'000);
+  qos.deadline().period = eprosima::fastdds::dds::Duration_t(0, 100'000'000);
   auto* topic = planner.impl()->topic(Traits::kName, eprosima::fastdds::dds::TypeSupport(new Traits::Type));
   ASSERT_TRUE(planner.impl()->subscriber().create_datareader(topic, qos));
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "VisualizationMsgsPubSubTypes.h"
+#include "VisualizationMsgsPubSubTypes.hpp"
 #include "dds/topic_reader.hpp"
 #include "identities.hpp"
 #include "participants.hpp"

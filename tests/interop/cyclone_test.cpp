@@ -128,7 +128,7 @@ class Cyclone : public ::testing::Test {
 };
 
 bool has_a_lane(const json& map) {
-  constexpr auto kOk = static_cast<std::uint32_t>(msg::MAP_OK);
+  constexpr auto kOk = static_cast<std::uint32_t>(msg::MapState::MAP_OK);
   return map.at("state") == kOk && !map.at("lanes").empty() && !map.at("fused_frames").empty();
 }
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <thread>
 
-#include "DetectionsPubSubTypes.h"
-#include "VehiclePosePubSubTypes.h"
+#include "DetectionsPubSubTypes.hpp"
+#include "VehiclePosePubSubTypes.hpp"
 #include "cyclone.hpp"
 #include "end_to_end/participants.hpp"
 #include "end_to_end/process.hpp"
@@ -37,7 +37,7 @@ msg::Point point(double x, double y) {
 
 msg::Detection line(double y_m, double confidence, std::uint32_t points) {
   msg::Detection m;
-  m.type(msg::LANELINE);
+  m.type(msg::MarkingType::LANELINE);
   m.confidence(confidence);
   for (std::uint32_t i = 0; i < points; ++i) m.points().push_back(point(-5.0 + 30.0 * i / (points - 1), y_m));
   return m;
@@ -73,7 +73,7 @@ class StockFastDds {
   fast::DataWriter* writer(const char* topic, const char* type) {
     auto* made = participant_->create_topic(topic, type, fast::TOPIC_QOS_DEFAULT);
     auto qos = fast::DATAWRITER_QOS_DEFAULT;
-    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+    qos.endpoint().history_memory_policy = eprosima::fastdds::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
     return publisher_->create_datawriter(made, qos);
   }
   void run(const std::stop_token& stopped) {

@@ -18,14 +18,14 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 
-#include "DetectionsPubSubTypes.h"
-#include "VehiclePosePubSubTypes.h"
+#include "DetectionsPubSubTypes.hpp"
+#include "VehiclePosePubSubTypes.hpp"
+#include "dds/fast_dds.hpp"
 
 namespace {
 
 namespace fast = eprosima::fastdds::dds;
 namespace msg = laneloom::msg;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr std::int64_t kPeriod_ns = 100'000'000;
 constexpr std::size_t kPaddingPoints = 1000;
@@ -34,7 +34,7 @@ volatile std::sig_atomic_t told_to_end = 0;
 
 msg::Detections empty_frame() {
   msg::Detection padding;  // of a line that nobody trusts
-  padding.type(msg::LANELINE);
+  padding.type(msg::MarkingType::LANELINE);
   padding.confidence(0.05);
   padding.points().resize(kPaddingPoints);
   for (std::size_t i = 0; i < kPaddingPoints; ++i) padding.points()[i].x(0.01 * static_cast<double>(i));
@@ -42,7 +42,7 @@ msg::Detections empty_frame() {
   frame.source("stock_perception");
   frame.header().session_id(std::uint64_t{std::random_device()()} << 32U | 1U);
   frame.header().frame_id("base_link");
-  frame.detected_types().push_back(msg::STOPLINE);
+  frame.detected_types().push_back(msg::MarkingType::STOPLINE);
   frame.detections({padding});
   return frame;
 }
@@ -51,7 +51,7 @@ msg::Detections empty_frame() {
 std::int64_t newest_stamp_ns(fast::DataReader& poses, std::int64_t before) {
   msg::VehiclePose pose;
   fast::SampleInfo info;
-  while (poses.take_next_sample(&pose, &info) == ReturnCode_t::RETCODE_OK)
+  while (poses.take_next_sample(&pose, &info) == fast::RETCODE_OK)
     if (info.valid_data) before = pose.header().stamp_ns();
   return before;
 }
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   auto* poses = participant->create_topic("laneloom/v3/vehicle_pose", "laneloom::msg::VehiclePose",
                                           fast::TOPIC_QOS_DEFAULT);
   auto writer_qos = fast::DATAWRITER_QOS_DEFAULT;
-  writer_qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+  writer_qos.endpoint().history_memory_policy = eprosima::fastdds::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
   auto* writer = participant->create_publisher(publisher_qos)->create_datawriter(detections, writer_qos);
   auto* reader =
       participant->create_subscriber(subscriber_qos)->create_datareader(poses, fast::DATAREADER_QOS_DEFAULT);

@@ -21,10 +21,9 @@ template <class Enum>
 requires std::is_enum_v<Enum> json of(Enum value) { return static_cast<std::uint32_t>(value); }
 
 static json of(const Point& m) { return {{"x", m.x()}, {"y", m.y()}, {"z", m.z()}}; }
-template <std::size_t kBound>
-static json of(const eprosima::fastrtps::fixed_string<kBound>& text) {
-  return text.to_string();
-}
+template <class Text>
+requires requires(const Text& text) { text.to_string(); }
+static json of(const Text& text) { return text.to_string(); }
 
 template <class T>
 static json of(const std::vector<T>& list) {

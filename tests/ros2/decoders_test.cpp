@@ -152,7 +152,7 @@ TEST_F(Decoders, WriteAnOdometryThatIsRead) {
   const Bytes bytes = from_hex(run("--odometry"));
   ASSERT_TRUE(is_odometry(bytes));
   nav_msgs::msg::dds_::Odometry_ message;
-  dds::read_cdr(bytes, [&](eprosima::fastcdr::Cdr& cdr) { message.deserialize(cdr); });
+  dds::read_cdr(bytes, [&](eprosima::fastcdr::Cdr& cdr) { cdr >> message; });
   VehiclePose pose;
   EXPECT_EQ(from_ros(message, "map", pose), "");
   EXPECT_EQ(pose.stamp_ns, 1'700'000'000'250'000'000);

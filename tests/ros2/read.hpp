@@ -13,7 +13,7 @@ typename Type::Sample read(std::vector<std::uint8_t> bytes) {
   typename Type::Payload payload;
   payload.data = bytes.data();
   payload.length = payload.max_size = static_cast<std::uint32_t>(bytes.size());
-  type.deserialize(&payload, &sample);
+  type.read(payload, &sample);
   payload.data = nullptr;  // it is none of the payload's to free
   return sample;
 }

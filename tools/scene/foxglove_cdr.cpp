@@ -1,10 +1,8 @@
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "cdr/fast_cdr.hpp"
 #include "scene/foxglove.hpp"
 
 namespace laneloom::scene::foxglove {
@@ -17,7 +15,7 @@ constexpr std::uint32_t kNone = 0;  ///< the length of a list that is not used h
 /// Writes values one after the other, in the order of the IDL.
 class Writer {
  public:
-  Writer() : cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR) {
+  Writer() : cdr_(buffer_, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::CdrVersion::XCDRv1) {
     cdr_.serialize_encapsulation();
   }
 
@@ -56,7 +54,7 @@ class Writer {
 
   std::vector<std::uint8_t> bytes() {
     const auto* begin = reinterpret_cast<const std::uint8_t*>(buffer_.getBuffer());
-    return {begin, begin + cdr_.getSerializedDataLength()};
+    return {begin, begin + dds::written_bytes(cdr_)};
   }
 
  private:
