@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "temporary_folder.hpp"
 
@@ -74,19 +76,22 @@ TEST(Host, SharedMemoryThatNobodyHasMapped) {
   std::filesystem::create_directories(proc / "12");
   std::filesystem::create_directories(proc / "sys");
   for (const char* name :
-       {"fastrtps_aa", "fastrtps_aa_el", "fastrtps_port7411", "sem.fastrtps_port7411_mutex", "other"})
+       {"fastdds_bb", "fastdds_bb_el", "fastdds_port7411", "fastrtps_aa", "fastrtps_aa_el",
+        "fastrtps_port7411", "sem.fastdds_port7411_mutex", "sem.fastrtps_port7411_mutex", "other"})
     std::ofstream(shm / name) << "x";
   std::ofstream(proc / "12" / "maps") << "7f00-7f01 rw-s 00000000 00:1a 22 /dev/shm/fastrtps_aa\n"
+                                         "7f04-7f05 rw-s 00000000 00:1a 24 /dev/shm/fastdds_bb\n"
                                          "7f02-7f03 r-xp 00000000 00:1a 23 /usr/lib/libfastrtps.so\n";
   auto files = shared_memory_files(shm, proc);
   std::ranges::sort(files, {}, &SharedMemoryFile::name);
-  ASSERT_EQ(files.size(), 2U);
-  EXPECT_EQ(files[0].name, "fastrtps_aa");
-  EXPECT_TRUE(files[0].ours);
-  EXPECT_FALSE(files[0].stale);
-  EXPECT_EQ(files[1].name, "fastrtps_port7411");
-  EXPECT_TRUE(files[1].stale);
-  EXPECT_FALSE(files[1].owner.empty());
+  ASSERT_EQ(files.size(), 4U);
+  const std::vector<std::string> names{"fastdds_bb", "fastdds_port7411", "fastrtps_aa", "fastrtps_port7411"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(files[i].name, names[i]);
+    EXPECT_TRUE(files[i].ours);
+    EXPECT_EQ(files[i].stale, i % 2 == 1);
+    EXPECT_FALSE(files[i].owner.empty());
+  }
 
   EXPECT_THAT(shared_memory_files(temporary.file("missing"), proc), IsEmpty());
 }

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace laneloom::doctor {
@@ -22,7 +23,10 @@ constexpr int kPortsPerDomain = 250;
 constexpr int kFirstUnicast = 10;
 constexpr int kDomains = 233;
 
-constexpr std::string_view kPrefix = "fastrtps_";
+/// Whether a file has a name that Fast DDS 2 or 3 gives to shared memory.
+bool is_shared_memory(std::string_view name) {
+  return name.starts_with("fastrtps_") || name.starts_with("fastdds_");
+}
 
 namespace fs = std::filesystem;
 
@@ -58,8 +62,9 @@ struct Mappings {
 void add_mappings(std::istream& maps, Mappings& mappings) {
   for (std::string line; std::getline(maps, line);) {
     const auto slash = line.rfind('/');
-    if (slash == std::string::npos || line.compare(slash + 1, kPrefix.size(), kPrefix) != 0) continue;
-    mappings.files.insert(line.substr(slash + 1, line.find(' ', slash) - slash - 1));
+    if (slash == std::string::npos) continue;
+    const std::string name = line.substr(slash + 1, line.find(' ', slash) - slash - 1);
+    if (is_shared_memory(name)) mappings.files.insert(name);
   }
 }
 
@@ -145,7 +150,7 @@ std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const 
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename();
     const auto owner = owner_of(entry.path());
-    if (!owner || !name.starts_with(kPrefix) || name.ends_with("_el")) continue;
+    if (!owner || !is_shared_memory(name) || name.ends_with("_el")) continue;
     const bool ours = *owner == geteuid();
     files.push_back(
         {.name = name,
