@@ -28,16 +28,14 @@
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
-namespace eprosima::fastdds {
-namespace rtps {
+namespace eprosima::fastdds::rtps {
 using namespace fastrtps::rtps;
 using DiscoveryProtocol = DiscoveryProtocol_t;
-}  // namespace rtps
-namespace dds {
+}  // namespace eprosima::fastdds::rtps
+namespace eprosima::fastdds::dds {
 using fastrtps::Duration_t;
 inline constexpr auto RETCODE_OK = fastrtps::types::ReturnCode_t::RETCODE_OK;
-}  // namespace dds
-}  // namespace eprosima::fastdds
+}  // namespace eprosima::fastdds::dds
 #endif
 
 namespace laneloom::dds {

@@ -31,9 +31,9 @@ Traffic TrafficFollower::at(std::int64_t stamp_ns, const Point& vehicle) {
   while (auto objects = pending_.take_until(stamp_ns)) {
     Eigen::Isometry3d T_map_body;
     if (poses_.at(objects->stamp_ns, T_map_body) != session::PoseBuffer::Answer::found) continue;
-    trails_.add(*objects, T_map_body);
-    SeenObjects& seen = seen_[objects->session_id];
-    seen = {*std::move(objects), T_map_body};
+    const TrackedObjects now = in_body_frame(*std::move(objects), T_map_body);
+    trails_.add(now, T_map_body);
+    seen_[now.session_id] = {now, T_map_body};
   }
   trails_.keep_around(vehicle);
   std::erase_if(
