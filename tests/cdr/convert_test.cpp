@@ -209,7 +209,7 @@ TEST(Refuse, UnknownEnumerations) {
   message.detections()[0].type(static_cast<msg::MarkingType>(3));
   EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
   message = RandomMessages(3).detections();
-  message.detections()[0].style(static_cast<msg::MarkingStyle>(-1));
+  message.detections()[0].style(static_cast<msg::MarkingStyle>(77));
   EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
   message = RandomMessages(3).detections();
   message.detected_types()[0] = static_cast<msg::MarkingType>(77);

@@ -13,6 +13,7 @@
 #include "DetectionsPubSubTypes.hpp"
 #include "VehiclePosePubSubTypes.hpp"
 #include "cyclone.hpp"
+#include "dds/fast_dds.hpp"
 #include "end_to_end/participants.hpp"
 #include "end_to_end/process.hpp"
 #include "end_to_end/service.hpp"
