@@ -23,7 +23,7 @@ constexpr double kMinBlend_m = 12.0;
 constexpr double kBlend_s = 2.0;
 constexpr double kMaxSlope = 0.5;
 constexpr double kMinGap_m = 2.0;
-constexpr double kTangent_m = 2.0;
+constexpr double kTangent_m = 1.0;
 
 /// The previous plan, cut off behind the vehicle, and prolonged ahead of it if need be.
 Plan carried_on(const Eigen::Isometry3d& T_map_body, Plan plan) {
