@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "dds/fast_dds.hpp"
 #include "dds/identity_check.hpp"
 #include "dds/participant_impl.hpp"
 #include "dds/qos.hpp"

@@ -38,7 +38,7 @@ void scan_object(dds::CdrScanner& cdr) {
 /// The most probable class. Autoware numbers classes as laneloom does, and has more of them.
 ObjectKind kind_of(const std::vector<ObjectClassification_>& classes, dds::Intake& intake) {
   const auto likely = std::ranges::max_element(classes, {}, [&](const ObjectClassification_& each) {
-    return intake.number(double{each.probability()});
+    return intake.number(static_cast<double>(each.probability()));
   });
   if (likely == classes.end() || likely->label() > static_cast<std::uint8_t>(ObjectKind::pedestrian))
     return ObjectKind::unknown;
@@ -67,7 +67,7 @@ TrackedObject object_of(const TrackedObject_& from, dds::Intake& intake) {
   TrackedObject to;
   to.id = hash_of(from.object_id().uuid());
   to.kind = kind_of(from.classification(), intake);
-  to.existence_probability = intake.number(double{from.existence_probability()});
+  to.existence_probability = intake.number(static_cast<double>(from.existence_probability()));
   to.position = point_of(pose.pose().position(), intake) - 0.5 * intake.number(size.z()) * Point::UnitZ();
   to.heading = heading_of(kinematics, intake);
   if (!kinematics.is_stationary())
