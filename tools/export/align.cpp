@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/degree.hpp"
 #include "export/drive_stations.hpp"
-#include "mapping/geometry/levels.hpp"
 
 namespace laneloom::exports {
 namespace {
@@ -17,8 +17,7 @@ using Motion = Eigen::Vector4d;  ///< x, y, z in metres and yaw in radians, abou
 using State = Eigen::Matrix<double, 6, 1>;
 using Covariance = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-// What a drive may be off at first, and its drift. What changes from station to station.
+// Deviations of a drive's place and drift at first, and of what changes from station to station.
 const State kFirstStddev{{3.0, 3.0, 3.0, 1.0 * kDegree, 0.02, 3e-4}};
 const State kStepStddev{{0.02, 0.02, 0.05, 3e-4, 1e-3, 2e-5}};
 // A sample is met within this, and within kGateSigmas of what is doubted. The errors of a line's samples are
@@ -63,7 +62,7 @@ Motion motion(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, const 
   return by;
 }
 
-/// What leads from one estimate to another.
+/// The change from one estimate to another.
 State difference(const Estimate& from, const Estimate& to, const Point& about) {
   State by;
   by << motion(from.T_road_drive, to.T_road_drive, about), to.drift - from.drift;
@@ -132,10 +131,10 @@ bool Follower::is_lost(std::size_t k, const Estimate& estimate) const {
 std::optional<LineArchive::Place> Follower::meet(const DriveStation::Sample& sample,
                                                  const Eigen::Isometry3d& T, double gate_m) const {
   return road_.nearest(sample.type, T * sample.position, T.linear().topLeftCorner<2, 2>() * sample.along,
-                       gate_m, geometry::kLevel_m);
+                       gate_m);
 }
 
-/// How well samples lie on the road, and the number of those that do.
+/// A score of how well samples lie on the road, and the number of those that do.
 double Follower::score(const std::vector<const DriveStation::Sample*>& samples, const Eigen::Isometry3d& T,
                        double& met) const {
   double score = 0.0;

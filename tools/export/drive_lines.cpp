@@ -96,7 +96,6 @@ void DriveAccumulator::add(const LocalMap& map) {
     newest_ = map;
     return;
   }
-  if (drive_.poses.empty()) drive_.first_stamp_ns = map.stamp_ns;
   if (before_) keep_what_left(*before_, map);
   drive_.poses.push_back(map.T_map_body);
   before_ = map;

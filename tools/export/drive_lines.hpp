@@ -15,7 +15,6 @@ namespace laneloom::exports {
 struct DriveLines {
   std::vector<ArchivedPiece> pieces;     ///< in the order in which they left the map
   std::vector<Eigen::Isometry3d> poses;  ///< T_map_body, about every 2 m
-  std::int64_t first_stamp_ns = 0;
 };
 
 /// Collects the lines of a drive from its local maps, and the way that the vehicle drove. Each place is

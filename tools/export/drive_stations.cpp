@@ -1,5 +1,7 @@
 #include "export/drive_stations.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "laneloom/polyline.hpp"
@@ -10,20 +12,23 @@ namespace {
 
 constexpr double kSample_m = 2.0;  // between samples of a line
 
-void append_samples(const Marking& marking, std::vector<DriveStation::Sample>& samples) {
-  const MeasuredPolyline line(marking.points);
-  const std::vector<double> arcs_m = arc_lengths(marking.points);
-  const Polyline points = line.resample(kSample_m);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double arc_m = line.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
-    const double stddev_m = marking.lateral_stddev_m.empty()
-                                ? kUnknownStddev_m
-                                : markings::deviation_at(arcs_m, marking.lateral_stddev_m, arc_m);
-    samples.push_back({marking.type, points[i], line.direction(arc_m), stddev_m});
-  }
-}
-
 }  // namespace
+
+std::vector<DriveStation::Sample> samples_of(const Marking& line) {
+  const MeasuredPolyline course(line.points);
+  const std::vector<double> arcs_m = arc_lengths(line.points);
+  const Polyline points = course.resample(kSample_m);
+  std::vector<DriveStation::Sample> samples;
+  samples.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double arc_m = course.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    const double stddev_m = line.lateral_stddev_m.empty()
+                                ? kUnknownStddev_m
+                                : markings::deviation_at(arcs_m, line.lateral_stddev_m, arc_m);
+    samples.push_back({line.type, points[i], course.direction(arc_m), stddev_m});
+  }
+  return samples;
+}
 
 std::vector<DriveStation> stations_of(const DriveLines& drive) {
   std::vector<DriveStation> stations;
@@ -33,7 +38,8 @@ std::vector<DriveStation> stations_of(const DriveLines& drive) {
   for (std::size_t i = 0; i < drive.poses.size(); ++i) {
     const bool is_last = i + 1 == drive.poses.size();
     if (i > 0) driven_m += (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
-    for (; piece != drive.pieces.end() && piece->pose <= i; ++piece) append_samples(piece->marking, samples);
+    for (; piece != drive.pieces.end() && piece->pose <= i; ++piece)
+      std::ranges::move(samples_of(piece->marking), std::back_inserter(samples));
     if (!stations.empty() && !is_last && driven_m < stations.back().driven_m + kStation_m) continue;
     stations.push_back({drive.poses[i], driven_m, std::exchange(samples, {})});
   }

@@ -24,6 +24,9 @@ struct DriveStation {
   std::vector<Sample> samples;
 };
 
+/// Places along a line, every 2 m.
+std::vector<DriveStation::Sample> samples_of(const Marking& line);
+
 /// The stations of a drive, which has one pose or more: at its first pose, every kStation_m, and at its last.
 std::vector<DriveStation> stations_of(const DriveLines& drive);
 

@@ -176,9 +176,7 @@ void LineArchive::end_drive(const std::vector<Eigen::Isometry3d>& poses) {
   std::set<std::size_t> beside;
   for (const Eigen::Isometry3d& pose : poses) {
     places_.add(pose.translation(), drive_);
-    for (const double dx : {-DrivenPlaces::kReach_m, DrivenPlaces::kReach_m})
-      for (const double dy : {-DrivenPlaces::kReach_m, DrivenPlaces::kReach_m})
-        beside.merge(std::set(tiles_.near(pose.translation() + Point(dx, dy, 0))));
+    tiles_.add_within(DrivenPlaces::kReach_m, pose.translation(), beside);
   }
   for (const std::size_t k : beside)
     for (ArchivedVertex& vertex : lines_[k].vertices)
@@ -188,12 +186,11 @@ void LineArchive::end_drive(const std::vector<Eigen::Isometry3d>& poses) {
 }
 
 std::optional<LineArchive::Place> LineArchive::nearest(MarkingType type, const Point& point,
-                                                       const Eigen::Vector2d& along, double within_m,
-                                                       double height_m) const {
+                                                       const Eigen::Vector2d& along, double within_m) const {
   std::optional<Place> nearest;
   const auto consider = [&](const MeasuredPolyline& course, const auto& stddev_at) {
     const Projection foot = course.project(point, within_m);
-    if (!foot.inside || foot.distance_m >= within_m || std::abs(foot.foot.z() - point.z()) > height_m) return;
+    if (!foot.inside || foot.distance_m >= within_m || !geometry::same_level(foot.foot, point)) return;
     const Eigen::Vector2d direction = course.direction(foot);
     if (std::abs(direction.dot(along)) < kMinAlong) return;
     within_m = foot.distance_m;

@@ -43,9 +43,9 @@ class LineArchive {
     double stddev_m = 0.0;
   };
   /// The nearest place of a line of a type that runs along `along` (unit, either way), at most `within_m`
-  /// (up to LineTiles::kReach_m) away and `height_m` above or below.
+  /// (up to LineTiles::kReach_m) away, on its level.
   std::optional<Place> nearest(MarkingType type, const Point& point, const Eigen::Vector2d& along,
-                               double within_m, double height_m) const;
+                               double within_m) const;
 
   /// The markings, with ids from 1 on: first the lines of 2 m or more that are no longer in doubt, in the
   /// order in which they were first seen, and then the stoplines. What most of the drives past it did not see

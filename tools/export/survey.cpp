@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
+#include "base/degree.hpp"
 #include "export/align.hpp"
+#include "export/drive_stations.hpp"
 #include "export/driven_over.hpp"
 
 namespace laneloom::exports {
@@ -13,9 +16,6 @@ namespace {
 constexpr double kPlace_m = 4.0;
 constexpr int kHeadings = 8;
 constexpr int kEnoughWays = 3;  // more drives along one way tell nothing new of its lanes
-constexpr double kMet_m = 1.0;
-constexpr double kHeight_m = 2.0;
-constexpr double kSample_m = 2.0;
 
 Marking moved(Marking marking, const Eigen::Isometry3d& T) {
   for (Point& point : marking.points) point = T * point;
@@ -23,7 +23,7 @@ Marking moved(Marking marking, const Eigen::Isometry3d& T) {
 }
 
 std::array<int, 3> way_key(const Eigen::Isometry3d& pose) {
-  const double heading = std::atan2(pose(1, 0), pose(0, 0)) / (2.0 * 3.14159265358979323846);
+  const double heading = std::atan2(pose(1, 0), pose(0, 0)) / (2.0 * std::numbers::pi);
   return {static_cast<int>(std::floor(pose.translation().x() / kPlace_m)),
           static_cast<int>(std::floor(pose.translation().y() / kPlace_m)),
           static_cast<int>(std::floor((heading + 0.5) * kHeadings)) % kHeadings};
@@ -33,10 +33,8 @@ std::array<int, 3> way_key(const Eigen::Isometry3d& pose) {
 double met_share(const std::vector<ArchivedPiece>& pieces, const LineArchive& road) {
   std::size_t met = 0, all = 0;
   for (const ArchivedPiece& piece : pieces) {
-    const MeasuredPolyline line(piece.marking.points);
-    for (const Point& point : line.resample(kSample_m)) {
-      const Eigen::Vector2d along = line.direction(line.project(point));
-      met += road.nearest(piece.marking.type, point, along, kMet_m, kHeight_m) ? 1U : 0U;
+    for (const DriveStation::Sample& sample : samples_of(piece.marking)) {
+      met += road.nearest(sample.type, sample.position, sample.along, kSameLine_m) ? 1U : 0U;
       ++all;
     }
   }
@@ -52,7 +50,7 @@ Survey::Offset offset_of(const std::vector<Eigen::Isometry3d>& poses,
     offset.mean_m += offset_m / static_cast<double>(poses.size());
     offset.greatest_m = std::max(offset.greatest_m, offset_m);
     const double yaw = std::atan2(T_road_drive[i](1, 0), T_road_drive[i](0, 0));
-    offset.greatest_deg = std::max(offset.greatest_deg, std::abs(yaw) * 180.0 / 3.14159265358979323846);
+    offset.greatest_deg = std::max(offset.greatest_deg, std::abs(yaw) / kDegree);
   }
   return offset;
 }

@@ -24,7 +24,7 @@ struct SurveyedRoad {
 /// (driven_over.hpp). Memory grows with the road, not with the drives. Not thread-safe.
 class Survey {
  public:
-  /// How a drive was moved.
+  /// The way in which a drive was moved.
   struct Offset {
     double mean_m = 0.0, greatest_m = 0.0;  ///< horizontal, over the drive
     double greatest_deg = 0.0;
@@ -34,7 +34,7 @@ class Survey {
   /// Adds the next drive. Changes are told in the order in which drives are added.
   Offset add(DriveLines drive);
   SurveyedRoad road() const;
-  /// What the drives do not agree on (line_archive.hpp).
+  /// The places that the drives do not agree on (line_archive.hpp).
   std::vector<Change> changes() const { return archive_.changes(); }
 
  private:

@@ -5,8 +5,8 @@
 
 namespace laneloom::exports {
 
-/// What the drives past a place say of a line there: log odds, to a limit, so that a road that changed is
-/// believed after a few drives.
+/// The belief of the drives past a place in a line there: log odds, to a limit, so that a road that changed
+/// is believed after a few drives.
 struct Votes {
   double belief = kSeen;       ///< log odds that the line is there
   std::size_t last_drive = 0;  ///< the last one that saw it
