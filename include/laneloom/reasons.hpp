@@ -49,7 +49,7 @@ struct LineReason {
   std::vector<std::size_t> detections;               ///< indices of those that observed it in this frame
 };
 
-/// What was decided about a lane, and the terms of its evidence.
+/// The decision about a lane, and the terms of its evidence.
 struct LaneReason {
   enum class Verdict : std::uint8_t {
     shown,      ///< it is in the map

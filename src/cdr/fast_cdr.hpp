@@ -14,10 +14,10 @@ inline constexpr auto XCDRv1 = Cdr::DDS_CDR;
 }
 #endif
 
-/// What Fast CDR 1 (Debian 12) and 2 (Debian 13) name differently.
+/// Names that differ between Fast CDR 1 (Debian 12) and 2 (Debian 13).
 namespace laneloom::dds {
 
-/// How many bytes were written, with the encapsulation header.
+/// The number of bytes that were written, with the encapsulation header.
 inline std::size_t written_bytes(const eprosima::fastcdr::Cdr& cdr) {
 #if __has_include(<fastcdr/CdrSizeCalculator.hpp>)
   return cdr.get_serialized_data_length();
@@ -26,7 +26,7 @@ inline std::size_t written_bytes(const eprosima::fastcdr::Cdr& cdr) {
 #endif
 }
 
-/// How many bytes a generated message takes, without the encapsulation header.
+/// The number of bytes that a generated message takes, without the encapsulation header.
 template <class Message>
 std::size_t bytes_to_write(const Message& message) {
 #if __has_include(<fastcdr/CdrSizeCalculator.hpp>)

@@ -19,7 +19,7 @@
 namespace laneloom::dds {
 
 #if LANELOOM_FAST_DDS == 2
-/// What a participant says of itself, by the names of Fast DDS 3.
+/// The data that a participant announces of itself, by the names of Fast DDS 3.
 struct DiscoveredParticipant {
   explicit DiscoveredParticipant(const eprosima::fastdds::rtps::ParticipantProxyData& data)
       : guid(data.m_guid),
@@ -31,7 +31,7 @@ struct DiscoveredParticipant {
   const eprosima::fastdds::rtps::RemoteLocatorList& default_locators;
 };
 
-/// What a writer or a reader says of itself, by the names of Fast DDS 3.
+/// The data that a writer or a reader announces of itself, by the names of Fast DDS 3.
 struct DiscoveredEndpoint {
   template <class ProxyData>
   explicit DiscoveredEndpoint(const ProxyData& data)

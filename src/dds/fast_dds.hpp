@@ -40,7 +40,7 @@ inline constexpr auto RETCODE_OK = fastrtps::types::ReturnCode_t::RETCODE_OK;
 
 namespace laneloom::dds {
 
-/// What a transport is told to send.
+/// The bytes that a transport is told to send.
 #if LANELOOM_FAST_DDS == 3
 using SentBytes = const std::vector<eprosima::fastdds::rtps::NetworkBuffer>&;
 #else
@@ -66,7 +66,7 @@ inline auto& heartbeat_period(eprosima::fastdds::dds::DataWriterQos& qos) {
 #endif
 }
 
-/// Where the discovery servers are that a participant asks.
+/// The addresses of the discovery servers that a participant asks.
 inline std::vector<eprosima::fastdds::rtps::Locator_t> discovery_server_locators(
     const eprosima::fastdds::dds::DomainParticipantQos& qos) {
   const auto& servers = qos.wire_protocol().builtin.discovery_config.m_DiscoveryServers;

@@ -78,34 +78,31 @@ VehiclePose pose_of(const Eigen::Isometry3d& T_map_body, std::int64_t stamp_ns) 
           .orientation = Eigen::Quaterniond(T_map_body.rotation()).normalized()};
 }
 
-py::list read_frames(const py::object& file) {
+/// Reads a file to a list of pairs. `for_each` visits what is read, with its pose.
+template <class Pair, class ForEach>
+py::list read_pairs(const py::object& file, const ForEach& for_each) {
   const std::string name = existing_path(file, "path");
-  std::vector<SeenFrame> frames;
+  std::vector<Pair> all;
   evaluation::InputAccount account;
   {
     const py::gil_scoped_release others_run;
-    account = evaluation::for_each_frame(
-        name, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-          frames.push_back({frame, pose_of(T_map_body, frame.stamp_ns)});
-        });
+    account = for_each(
+        name,
+        [&](const auto& seen, const Eigen::Isometry3d& T_map_body) {
+          all.push_back({seen, pose_of(T_map_body, seen.stamp_ns)});
+        },
+        evaluation::InputReading{});
   }
   warn_of(name, account);
-  return pairs(std::move(frames));
+  return pairs(std::move(all));
+}
+
+py::list read_frames(const py::object& file) {
+  return read_pairs<SeenFrame>(file, evaluation::for_each_frame);
 }
 
 py::list read_objects(const py::object& file) {
-  const std::string name = existing_path(file, "path");
-  std::vector<SeenObjects> objects;
-  evaluation::InputAccount account;
-  {
-    const py::gil_scoped_release others_run;
-    account = evaluation::for_each_objects(
-        name, [&](const TrackedObjects& seen, const Eigen::Isometry3d& T_map_body) {
-          objects.push_back({seen, pose_of(T_map_body, seen.stamp_ns)});
-        });
-  }
-  warn_of(name, account);
-  return pairs(std::move(objects));
+  return read_pairs<SeenObjects>(file, evaluation::for_each_objects);
 }
 
 void write_recording(const std::string& file, const std::vector<SeenFrame>& seen,

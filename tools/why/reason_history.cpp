@@ -103,7 +103,7 @@ std::vector<std::string> ReasonHistory::of_lane(ElementId id) const {
   return text;
 }
 
-/// What is known of the lines on the left and right of a lane, but for those that are `told`.
+/// The reasons that are known of the lines on the left and right of a lane, but for those that are `told`.
 std::vector<std::string> ReasonHistory::lines_of_lane(ElementId id, const std::set<ElementId>& told) const {
   std::vector<std::string> text;
   const LaneReason* lane = newest(frames_, &FrameReasons::lanes, id).reason;

@@ -80,7 +80,8 @@ std::string direction_of(const LaneReason& lane) {
       lane.direction, fmt::join(terms, ", "));
 }
 
-/// What the frame said of the places of a lane that were known before. What it said of none is left out.
+/// The verdict of the frame on the places of a lane that were known before. A verdict on no place is left
+/// out.
 std::string frame_of(const LaneReason& lane) {
   std::vector<std::string> said;
   for (const auto& [places, what] :

@@ -16,7 +16,7 @@ struct Sightings {
 /// What the mapper decided of a line and by which terms, in sentences.
 std::vector<std::string> text_of(const LineReason& line, const FrameReasons& frame, const Sightings& lately);
 
-/// What the mapper decided of a lane and of its direction, and by which terms, in sentences.
+/// The mapper's decision about a lane and its direction, with the terms, in sentences.
 std::vector<std::string> text_of(const LaneReason& lane, const FrameReasons& frame);
 
 /// What became of a detection, in a sentence that names the rule's key of the configuration.

@@ -302,6 +302,22 @@ LaneReason* reason_of(ElementId id, FrameReasons* reasons) {
   return found == reasons->lanes.end() ? nullptr : &*found;
 }
 
+/// Log odds of a group's direction.
+struct GroupBelief {
+  double frame = 0.0;     ///< by this frame
+  double followed = 0.0;  ///< smoothed over frames
+};
+
+/// Notes the terms of a lane's direction, in the sense in which it is published.
+void explain(const Model& model, std::size_t group, double sense, const GroupBelief& belief,
+             LaneReason& reason) {
+  reason.by_drive = sense * model.drive[group];
+  reason.by_borders = sense * model.borders[group];
+  reason.by_trails = sense * model.trails[group];
+  reason.by_beside = sense * (belief.frame - model.evidence[group]);
+  reason.direction = sense * belief.followed;
+}
+
 }  // namespace
 
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
@@ -345,14 +361,8 @@ void find_directions(const DirectionConfig& config, const std::vector<DrivenStre
     }
     const bool turns = sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0;
     if (turns) against.push_back(lane.id);
-    if (LaneReason* reason = reason_of(lane.id, reasons)) {
-      const double along = turns ? -sense : sense;
-      reason->by_drive = along * model.drive[of];
-      reason->by_borders = along * model.borders[of];
-      reason->by_trails = along * model.trails[of];
-      reason->by_beside = along * (now[of] - model.evidence[of]);
-      reason->direction = along * belief[of];
-    }
+    if (LaneReason* reason = reason_of(lane.id, reasons))
+      explain(model, of, turns ? -sense : sense, {.frame = now[of], .followed = belief[of]}, *reason);
   }
   road.turn(against);
   for (Linkage& linkage : road.linkages)

@@ -74,10 +74,7 @@ class SideBySide {
     std::vector<SideBySideLanes> pairs;
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (const auto right = across(i, Side::right)) {
-        const Lane& lane = lanes_[i];
-        const bool in_middle = is_middle(lanes_on(i, Side::left) + 1, lanes_on(*right, Side::right) + 1) &&
-                               !goes_on(i, Side::left) && !goes_on(*right, Side::right);
-        pairs.push_back({i, *right, evidence_beside(lane, in_middle)});
+        pairs.push_back({i, *right, evidence_beside(lanes_[i], is_in_middle(i, *right))});
       } else if (lanes_[i].right_neighbours.empty()) {
         if (const auto median = median_right_of(i)) pairs.push_back(across_median(i, *median));
       }
@@ -111,19 +108,25 @@ class SideBySide {
                : std::nullopt;
   }
 
-  /// Number of lanes on a side of a lane, to the end of the road.
-  std::size_t lanes_on(std::size_t i, Side side) const {
+  /// The lanes on a side of a lane, to the end of the road.
+  struct Beside {
     std::size_t count = 0;
-    for (auto next = across(i, side); next && count < lanes_.size(); next = across(*next, side)) ++count;
-    return count;
+    std::size_t last = 0;  ///< the outermost one; the lane itself, if there is none
+  };
+  Beside beside(std::size_t i, Side side) const {
+    Beside lanes{.last = i};
+    for (auto next = across(i, side); next && lanes.count < lanes_.size(); next = across(*next, side))
+      lanes = {lanes.count + 1, *next};
+    return lanes;
   }
 
-  /// Whether the road may go on beyond the last lane on a side of a lane.
-  bool goes_on(std::size_t i, Side side) const {
-    std::size_t last = i, count = 0;
-    for (auto next = across(i, side); next && count < lanes_.size(); next = across(*next, side), ++count)
-      last = *next;
-    return goes_on_beyond(layout_, lanes_[last], side);
+  /// Whether the boundary on the right of a lane lies in the middle of the road. `right` is the lane
+  /// beyond.
+  bool is_in_middle(std::size_t left, std::size_t right) const {
+    const Beside on_left = beside(left, Side::left), on_right = beside(right, Side::right);
+    return is_middle(on_left.count + 1, on_right.count + 1) &&
+           !goes_on_beyond(layout_, lanes_[on_left.last], Side::left) &&
+           !goes_on_beyond(layout_, lanes_[on_right.last], Side::right);
   }
 
   /// The median on the right of a lane, up to the nearest lane beyond it. Empty: there is none.
