@@ -54,15 +54,8 @@ TEST(Odometry, IsRefusedForWhatIsWrong) {
 
 TEST(Odometry, OfAnyBytesIsReadOrRefused) {
   const auto bytes = bytes_of(odometry());
-  EXPECT_EQ(read<OdometryType>(bytes).refusal, "");
+  expect_only_whole<OdometryType>(bytes);
   EXPECT_EQ(read<OdometryType>(bytes).message.child_frame_id(), "base_link");
-  for (std::size_t size = 0; size < bytes.size(); ++size)
-    EXPECT_EQ(read<OdometryType>({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}).refusal,
-              "malformed")
-        << size;
-  auto longer = bytes;
-  longer.resize(bytes.size() + 4);
-  EXPECT_EQ(read<OdometryType>(longer).refusal, "malformed");
   auto huge = bytes;
   for (const std::size_t i : {12U, 13U, 14U, 15U}) huge.at(i) = 0xFF;  // the length of frame_id
   EXPECT_EQ(read<OdometryType>(huge).refusal, "malformed");

@@ -5,7 +5,7 @@
 
 #include "laneloom/mapper.hpp"
 #include "laneloom/reasons.hpp"
-#include "straight_road.hpp"
+#include "mapping/asking.hpp"
 
 namespace laneloom {
 namespace {
@@ -14,22 +14,12 @@ using Verdict = LaneReason::Verdict;
 
 constexpr std::int64_t kPeriod_ms = 100;
 
-class AskingForLanes : public StageObserver {
- public:
-  void update_begins() override {}
-  void stage_done(Stage) override {}
-  FrameReasons* reasons() override { return &now; }
-
-  FrameReasons now;
-};
-
 /// A drive on a straight road between two lines, whose frames can be emptied.
 class LaneDrive {
  public:
   const LocalMap& next(bool empty = false) {
     time_ms_ += kPeriod_ms;
-    DetectionFrame frame = frame_on_straight_road(time_ms_, kPeriod_ms);
-    frame.field_of_view = {{-5, -10, 0}, {40, -10, 0}, {40, 10, 0}, {-5, 10, 0}};
+    DetectionFrame frame = seen_on_straight_road(time_ms_, kPeriod_ms);
     if (empty) frame.detections.clear();
     return mapper_.update(frame, transform(pose_on_straight_road(time_ms_ - 40)), &asking_);
   }
@@ -42,7 +32,7 @@ class LaneDrive {
 
  private:
   Mapper mapper_{MapperConfig{}};
-  AskingForLanes asking_;
+  Asking asking_;
   std::int64_t time_ms_ = 1000;
 };
 

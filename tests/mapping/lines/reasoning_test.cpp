@@ -4,7 +4,7 @@
 
 #include "laneloom/mapper.hpp"
 #include "laneloom/reasons.hpp"
-#include "straight_road.hpp"
+#include "mapping/asking.hpp"
 
 namespace laneloom {
 namespace {
@@ -15,23 +15,13 @@ using testing::ElementsAre;
 
 constexpr std::int64_t kPeriod_ms = 100;
 
-class Asking : public StageObserver {
- public:
-  void update_begins() override {}
-  void stage_done(Stage) override {}
-  FrameReasons* reasons() override { return &now; }
-
-  FrameReasons now;
-};
-
 /// A drive on a straight road, whose frames can be changed.
 class AskedDrive {
  public:
   template <class Change>
   const LocalMap& next(StageObserver* observer, const Change& change) {
     time_ms_ += kPeriod_ms;
-    DetectionFrame frame = frame_on_straight_road(time_ms_, kPeriod_ms);
-    frame.field_of_view = {{-5, -10, 0}, {40, -10, 0}, {40, 10, 0}, {-5, 10, 0}};
+    DetectionFrame frame = seen_on_straight_road(time_ms_, kPeriod_ms);
     change(frame);
     return mapper_.update(frame, transform(pose_on_straight_road(time_ms_ - 40)), observer);
   }
