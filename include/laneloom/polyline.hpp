@@ -56,14 +56,18 @@ class MeasuredPolyline {
   /// Points every `step_m` (slightly less, so that both ends are met), at least two.
   Polyline resample(double step_m) const;
 
+  class Cursor;
+
  private:
+  static constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
   /// `after` is the first vertex beyond the arc length.
   Point at(double arc_m, std::size_t after) const;
   struct Nearest;
   void bound_blocks();
   void consider(std::size_t segment, const Point& point, Nearest& nearest) const;
   void consider_block(std::size_t block, const Point& point, Nearest& nearest) const;
-  void search_along_course(const Point& point, Nearest& nearest) const;
+  Projection project_from(std::size_t segment, const Point& point, double within_m) const;
+  void search_along_course(std::size_t segment, const Point& point, Nearest& nearest) const;
   void search_blocks(const Point& point, Nearest& nearest) const;
   Eigen::Vector2d segment_direction(std::size_t end) const;
 
@@ -74,6 +78,21 @@ class MeasuredPolyline {
   Eigen::AlignedBox2d bounds_;                         ///< along the course, and to the left of it
   double cosine_ = 1.0, sine_ = 0.0;         ///< of the largest angle between a segment and the course
   std::vector<Eigen::AlignedBox2d> blocks_;  ///< bounds of a few segments each, where the line turns far
+};
+
+/// Answers queries in a row about a polyline. Each search begins at the place that was asked about before, so
+/// neighbouring places are found at once. The answers are the polyline's own. It refers to the polyline.
+class MeasuredPolyline::Cursor {
+ public:
+  explicit Cursor(const MeasuredPolyline& line) : line_(line) {}
+
+  Point at(double arc_m);
+  Projection project(const Point& point, double within_m = std::numeric_limits<double>::infinity());
+
+ private:
+  const MeasuredPolyline& line_;
+  std::size_t after_ = 0;           ///< the first vertex beyond the arc length before
+  std::size_t segment_ = kUnknown;  ///< that held the foot before
 };
 
 /// The point at one end of a polyline, which must not be empty.

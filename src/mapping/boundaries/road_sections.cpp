@@ -39,8 +39,9 @@ std::optional<SideBySide> side_by_side(const Samples& a, const MeasuredPolyline&
   const double min_cosine = cos_degrees(config.max_angle_deg);
   double lateral_sum_m = 0.0, cosine_sum = 0.0;
   int count = 0;
+  MeasuredPolyline::Cursor along_b(b);
   for (std::size_t i = 0; i < a.points.size(); ++i) {
-    const Projection foot = b.project(a.points[i], config.max_distance_m);
+    const Projection foot = along_b.project(a.points[i], config.max_distance_m);
     if (!foot.inside || !geometry::same_level(foot.foot, a.points[i])) continue;
     const double cosine = a.directions[i].dot(b.direction(foot));
     if (std::abs(cosine) < min_cosine) continue;

@@ -110,7 +110,7 @@ Eigen::Vector2d MeasuredPolyline::direction(const Projection& foot) const {
 struct MeasuredPolyline::Nearest {
   double bound_m2 = 0.0;  ///< squared distance; a foot beyond it need not be considered
   double distance_m = std::numeric_limits<double>::infinity();
-  std::size_t segment = std::numeric_limits<std::size_t>::max();
+  std::size_t segment = kUnknown;
   double share = 0.0;  ///< of the segment; beyond 0..1 where the foot is at its end
 };
 
@@ -128,10 +128,10 @@ void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest
   nearest = {squared_bound_m2(distance_m), distance_m, segment, share};
 }
 
-/// Searches from the place of the point along the course to both sides. From each vertex on, the line stays
-/// within a cone about the course. Once that cone is further away than the nearest foot, so is the rest of
-/// the line.
-void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest) const {
+/// Searches from the place of the point along the course to both sides; `segment` is near that place, if it
+/// is known. From each vertex on, the line stays within a cone about the course. Once that cone is further
+/// away than the nearest foot, so is the rest of the line.
+void MeasuredPolyline::search_along_course(std::size_t segment, const Point& point, Nearest& nearest) const {
   const auto ahead = [&](const Point& vertex) { return course_.dot((point - vertex).head<2>()); };
   const auto is_past = [&](const Point& vertex, double sense) {
     const Eigen::Vector2d offset = (point - vertex).head<2>();
@@ -141,10 +141,13 @@ void MeasuredPolyline::search_along_course(const Point& point, Nearest& nearest)
     const double from_edge_m = aside_m * cosine_ - along_m * sine_;
     return from_edge_m > 0.0 && from_edge_m * from_edge_m > nearest.bound_m2;
   };
-  // Vertices mostly are evenly spaced.
   const std::size_t last = points_.size() - 2;
-  const double guess = ahead(points_.front()) / bounds_.sizes().x() * static_cast<double>(last);
-  auto middle = static_cast<std::size_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
+  std::size_t middle = segment;
+  if (segment == kUnknown) {
+    // Vertices mostly are evenly spaced.
+    const double guess = ahead(points_.front()) / bounds_.sizes().x() * static_cast<double>(last);
+    middle = static_cast<std::size_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
+  }
   while (middle < last && ahead(points_[middle + 1]) >= 0.0) ++middle;
   while (middle > 0 && ahead(points_[middle]) < 0.0) --middle;
   consider(middle, point, nearest);
@@ -177,6 +180,10 @@ void MeasuredPolyline::search_blocks(const Point& point, Nearest& nearest) const
 }
 
 Projection MeasuredPolyline::project(const Point& point, double within_m) const {
+  return project_from(kUnknown, point, within_m);
+}
+
+Projection MeasuredPolyline::project_from(std::size_t segment, const Point& point, double within_m) const {
   Projection result;
   result.distance_m = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d offset = (point - points_.front()).head<2>();
@@ -188,7 +195,7 @@ Projection MeasuredPolyline::project(const Point& point, double within_m) const 
     result.distance_m = horizontal_distance(point, result.foot);
     return result;
   }
-  cosine_ > kMinAlongCourse ? search_along_course(point, nearest) : search_blocks(point, nearest);
+  cosine_ > kMinAlongCourse ? search_along_course(segment, point, nearest) : search_blocks(point, nearest);
   if (nearest.distance_m > within_m) return result;
   const auto& [bound, distance_m, i, share] = nearest;
   const double clamped = std::clamp(share, 0.0, 1.0);
@@ -221,13 +228,23 @@ Polyline MeasuredPolyline::resample(double step_m) const {
   const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length() / step_m)));
   Polyline out;
   out.reserve(steps + 1);
-  std::size_t after = 0;
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const double arc_m = length() * static_cast<double>(i) / static_cast<double>(steps);
-    while (after < arc_.size() && arc_[after] <= arc_m) ++after;
-    out.push_back(at(arc_m, after));
-  }
+  Cursor cursor(*this);
+  for (std::size_t i = 0; i <= steps; ++i)
+    out.push_back(cursor.at(length() * static_cast<double>(i) / static_cast<double>(steps)));
   return out;
+}
+
+Point MeasuredPolyline::Cursor::at(double arc_m) {
+  const std::vector<double>& arc = line_.arc_;
+  while (after_ < arc.size() && arc[after_] <= arc_m) ++after_;
+  while (after_ > 0 && arc[after_ - 1] > arc_m) --after_;
+  return line_.at(arc_m, after_);
+}
+
+Projection MeasuredPolyline::Cursor::project(const Point& point, double within_m) {
+  const Projection foot = line_.project_from(segment_, point, within_m);
+  if (foot.distance_m <= within_m) segment_ = foot.segment;
+  return foot;
 }
 
 Eigen::Vector2d end_direction(const Polyline& line, End end, double reach_m) {

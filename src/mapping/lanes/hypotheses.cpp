@@ -104,14 +104,13 @@ class Collection {
   std::map<std::pair<Room, std::size_t>, std::vector<Hypothesis>> by_place_;
 };
 
-Candidate candidate_at(const Hypothesis& hypothesis, std::size_t i, const std::vector<RoadCut>& cuts) {
+Candidate candidate_at(const Hypothesis& hypothesis, std::size_t i, const RoadCuts& cuts) {
   const std::size_t own = cuts[hypothesis.first + i].own;
   return {
       .room = hypothesis.room, .left = is_open(hypothesis.room) ? own : hypothesis.marks[i], .right = own};
 }
 
-double taper_at(const Hypothesis& hypothesis, std::size_t i, const std::vector<RoadCut>& cuts,
-                double step_m) {
+double taper_at(const Hypothesis& hypothesis, std::size_t i, const RoadCuts& cuts, double step_m) {
   if (is_open(hypothesis.room)) return 0.0;
   const std::size_t from = i < kTaperReach ? 0 : i - kTaperReach;
   const std::size_t to = std::min(i + kTaperReach, hypothesis.marks.size() - 1);
@@ -132,14 +131,14 @@ const Mark* across(const RoadCut& cut, const Candidate& candidate) {
 }
 
 /// Whether each place of a hypothesis lies in a gore. Two lanes fit into none.
-std::vector<bool> gore_places(const Hypothesis& hypothesis, const std::vector<RoadCut>& cuts) {
+std::vector<bool> gore_places(const Hypothesis& hypothesis, const RoadCuts& cuts) {
   if (hypothesis.room == Room::divided) return std::vector<bool>(hypothesis.marks.size());
   const auto may_be_crossed = [](const Mark* mark) {
     return mark != nullptr && !mark->is_edge && mark->dashed >= 0.0;
   };
   std::vector<PlaceBetween> places;
   for (std::size_t i = 0; i < hypothesis.marks.size(); ++i) {
-    const RoadCut& cut = cuts[hypothesis.first + i];
+    const RoadCut cut = cuts[hypothesis.first + i];
     const Candidate candidate = candidate_at(hypothesis, i, cuts);
     places.push_back(
         {.along_m = cut.self().arc_m,
@@ -151,10 +150,10 @@ std::vector<bool> gore_places(const Hypothesis& hypothesis, const std::vector<Ro
 
 /// How near along the cut boundary a line parts it from another boundary: from 1 to 0 per cross-section. A
 /// line does so that rather is there than not.
-std::vector<double> parted_from(std::size_t other, const std::vector<RoadCut>& cuts, double step_m) {
+std::vector<double> parted_from(std::size_t other, const RoadCuts& cuts, double step_m) {
   std::vector<double> parted(cuts.size(), 0.0);
   for (std::size_t c = 0; c < cuts.size(); ++c) {
-    const std::vector<Mark>& marks = cuts[c].marks;
+    const std::span<const Mark> marks = cuts[c].marks;
     const auto at =
         static_cast<std::size_t>(std::ranges::find(marks, other, &Mark::boundary) - marks.begin());
     if (at == marks.size()) continue;
@@ -174,7 +173,7 @@ std::vector<double> parted_from(std::size_t other, const std::vector<RoadCut>& c
 /// What is asked of the cross-sections along a boundary, for each other boundary once.
 class PartedFrom {
  public:
-  PartedFrom(const std::vector<RoadCut>& cuts, double step_m) : cuts_(cuts), step_m_(step_m) {}
+  PartedFrom(const RoadCuts& cuts, double step_m) : cuts_(cuts), step_m_(step_m) {}
   double at(std::size_t cut, const Mark* other) {
     if (other == nullptr) return 0.0;
     const auto [known, is_new] = known_.try_emplace(other->boundary);
@@ -183,7 +182,7 @@ class PartedFrom {
   }
 
  private:
-  const std::vector<RoadCut>& cuts_;
+  const RoadCuts& cuts_;
   double step_m_;
   std::map<std::size_t, std::vector<double>> known_;
 };
@@ -205,7 +204,7 @@ void add_on_left(const RoadCut& cut, std::size_t at, const LaneConfig& config, C
 }
 
 /// Gives hypotheses their log odds.
-std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const std::vector<RoadCut>& cuts,
+std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& cuts,
                                 const boundaries::SectionGraph& road, Poses driven,
                                 const LaneConfig& config) {
   if (found.empty()) return found;
@@ -221,7 +220,7 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const std::vector
     });
     const std::vector<bool> gore = gore_places(one, cuts);
     for (std::size_t i = 0; i < one.marks.size(); ++i) {
-      const RoadCut& cut = cuts[one.first + i];
+      const RoadCut cut = cuts[one.first + i];
       Candidate candidate = candidate_at(one, i, cuts);
       candidate.driven = is_driven;
       candidate.gore = gore[i];
@@ -237,12 +236,12 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const std::vector
 
 }  // namespace
 
-std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
+std::vector<Hypothesis> hypotheses(std::size_t boundary, const RoadCuts& cuts,
                                    const boundaries::SectionGraph& road, Poses driven,
                                    const LaneConfig& config) {
   Collection collection(boundary, false);
   for (std::size_t c = 0; c < cuts.size(); ++c) {
-    const RoadCut& cut = cuts[c];
+    const RoadCut cut = cuts[c];
     add_on_left(cut, c, config, collection,
                 [&](const Mark& mark) { return !mark.opposed || mark.boundary > boundary; });
     for (const Room room : {Room::open_left, Room::open_right})
@@ -253,7 +252,7 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadC
   return weighed(collection.take(), cuts, road, driven, config);
 }
 
-std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const std::vector<RoadCut>& cuts,
+std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const RoadCuts& cuts,
                                            const boundaries::SectionGraph& road, Poses driven,
                                            const LaneConfig& config) {
   Collection collection(boundary, true);

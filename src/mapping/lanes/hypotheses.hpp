@@ -31,13 +31,13 @@ using KnownBorders = std::set<std::array<ElementId, 2>>;
 
 /// The hypotheses about the lanes on the left of a boundary, and about an open lane on its right. `cuts` are
 /// its cross-sections. Lanes with unseen borders are left out as the configuration says.
-std::vector<Hypothesis> hypotheses(std::size_t boundary, const std::vector<RoadCut>& cuts,
+std::vector<Hypothesis> hypotheses(std::size_t boundary, const RoadCuts& cuts,
                                    const boundaries::SectionGraph& road, Poses driven,
                                    const LaneConfig& config);
 
 /// The hypotheses about the lanes between a boundary and opposed ones, where each lies on the right of the
 /// other: about those that no boundary has on its left. `cuts` are reversed.
-std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const std::vector<RoadCut>& cuts,
+std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const RoadCuts& cuts,
                                            const boundaries::SectionGraph& road, Poses driven,
                                            const LaneConfig& config);
 

@@ -30,8 +30,8 @@ class Choice {
       for (const std::size_t i : road.sections[s].boundaries) section_of_[i] = s;
     for (std::size_t i = 0; i < road.boundaries.size(); ++i) {
       cuts_.push_back(cut_along(i, road, config));
-      against_.push_back(reversed(cuts_.back()));
       for (Hypothesis& one : hypotheses(i, cuts_.back(), road, driven, config)) consider(std::move(one));
+      against_.push_back(cuts_.back().has_opposed() ? reversed(cuts_.back()) : RoadCuts());
       for (Hypothesis& one : hypotheses_against(i, against_.back(), road, driven, config))
         consider(std::move(one));
     }
@@ -72,7 +72,7 @@ class Choice {
     Polyline middle;
     for (std::size_t i = 0; i <= one.log_odds.size(); ++i) {
       if (i < one.log_odds.size() && one.log_odds[i] < kLeastDoubted) {
-        const RoadCut& cut = cut_of(one, i);
+        const RoadCut cut = cut_of(one, i);
         middle.push_back(0.5 * (cut.self().point + cut.marks[one.marks[i]].point));
       } else {
         if (middle.size() > 1)
@@ -99,7 +99,7 @@ class Choice {
 
   const boundaries::LaneBoundary& left(const Hypothesis& one) const { return road_.boundaries[one.other]; }
   const boundaries::LaneBoundary& right(const Hypothesis& one) const { return road_.boundaries[one.base]; }
-  const RoadCut& cut_of(const Hypothesis& one, std::size_t i) const {
+  RoadCut cut_of(const Hypothesis& one, std::size_t i) const {
     return (one.reversed ? against_ : cuts_)[one.base][one.first + i];
   }
   /// Whether the border on the left runs against the hypothesis.
@@ -112,7 +112,7 @@ class Choice {
 
   /// Whether the border is an edge, or a line that is painted along one, where the hypothesis begins.
   bool is_kerb(const Hypothesis& one, Side border) const {
-    const RoadCut& cut = cut_of(one, 0);
+    const RoadCut cut = cut_of(one, 0);
     return lanes::is_kerb(cut, border == Side::left ? one.marks.front() : cut.own, border);
   }
 
@@ -121,7 +121,7 @@ class Choice {
     const double left_m = left(one).course.length(), right_m = right(one).course.length();
     const bool opposed = is_opposed(one);
     for (std::size_t i = 0; i < one.marks.size(); ++i) {
-      const RoadCut& cut = cut_of(one, i);
+      const RoadCut cut = cut_of(one, i);
       const Mark &self = cut.self(), &other = cut.marks[one.marks[i]];
       CrossSection section{.left_arc_m = opposed ? left_m - other.arc_m : other.arc_m,
                            .right_arc_m = one.reversed ? right_m - self.arc_m : self.arc_m,
@@ -236,9 +236,9 @@ class Choice {
   const geometry::MapBox& box_;
   const KnownBorders& known_;
   const LaneConfig& config_;
-  std::vector<std::uint32_t> section_of_;      ///< by boundary
-  std::vector<std::vector<RoadCut>> cuts_;     ///< by boundary
-  std::vector<std::vector<RoadCut>> against_;  ///< likewise, reversed
+  std::vector<std::uint32_t> section_of_;  ///< by boundary
+  std::vector<RoadCuts> cuts_;             ///< by boundary
+  std::vector<RoadCuts> against_;          ///< likewise, reversed; none where no boundary runs against it
   std::vector<Waiting> waiting_;
   TakenSpace taken_;
   std::vector<Lane> lanes_;

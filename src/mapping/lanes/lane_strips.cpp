@@ -52,9 +52,10 @@ class Matching {
   void consider(const Strip& strip, std::size_t its_index) {
     if (!strip.box.intersects(box_)) return;
     const double reach_m = std::max(kSameLane_m, 0.5 * strip.lane.width_m);
+    MeasuredPolyline::Cursor along(strip.center);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
       if (!strip.box.contains(centers_[i])) continue;
-      const Projection foot = strip.center.project(centers_[i], reach_m);
+      const Projection foot = along.project(centers_[i], reach_m);
       if (!foot.inside || !geometry::same_level(foot.foot, centers_[i])) continue;
       const double cosine = direction(i).dot(strip.center.direction(foot));
       if (std::abs(cosine) < kMinAlong) continue;
@@ -73,9 +74,10 @@ class Matching {
 
   void deny(const DeniedStretch& stretch) {
     const MeasuredPolyline middle(stretch.middle);
+    MeasuredPolyline::Cursor along(middle);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
       if (!between(stations_[i], stretch.borders)) continue;
-      const Projection foot = middle.project(centers_[i], kSameLane_m);
+      const Projection foot = along.project(centers_[i], kSameLane_m);
       if (foot.inside && foot.distance_m < kSameLane_m) matches_[i].is_denied = true;
     }
   }
@@ -128,10 +130,11 @@ Strip::Strip(const Lane& found, const std::vector<Fork>& forks)
       arc_m(arc_lengths(center.points())),
       box(box_around(found.centerline, found.width_m)) {
   const MeasuredPolyline left(found.left), right(found.right);
+  MeasuredPolyline::Cursor along_left(left), along_right(right);
   stations.reserve(arc_m.size());
   for (std::size_t i = 0; i < arc_m.size(); ++i) {
     const Point& middle = center.points()[i];
-    stations.push_back({.border = {left.project(middle).foot, right.project(middle).foot},
+    stations.push_back({.border = {along_left.project(middle).foot, along_right.project(middle).foot},
                         .boundary = {boundary(Side::left), boundary(Side::right)},
                         .probability = found.existence_probability,
                         .status = is_inferred_at(found, arc_m[i]) ? ElementStatus::inferred : found.status,

@@ -135,7 +135,7 @@ class Surroundings {
   }
 
  private:
-  const std::vector<Mark>& marks_;
+  std::span<const Mark> marks_;
   std::size_t left_, right_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/reproducible.hpp"
@@ -24,66 +25,110 @@ double log_odds(const Marking& marking) {
   return geometry::reproducible::log(p / (1.0 - p));
 }
 
-/// The curvature of a line about an arc length, without sign. 0 at its ends.
-double bend_at(const MeasuredPolyline& line, double arc_m) {
-  const Eigen::Vector2d before = line.chord(arc_m - kBend_m, arc_m),
-                        behind = line.chord(arc_m, arc_m + kBend_m);
-  return std::abs(cross(before, behind)) / kBend_m;
-}
+/// A boundary that cross-sections meet.
+class MetBoundary {
+ public:
+  MetBoundary(std::size_t index, const boundaries::LaneBoundary& boundary)
+      : boundary_(boundary),
+        mark_{.boundary = index, .is_edge = boundary.is_edge()},
+        along_(boundary.course) {
+    mark_.log_odds = log_odds(boundary.marking);
+  }
 
-Mark mark_at(std::size_t index, double arc_m, const Point& point, const boundaries::LaneBoundary& boundary) {
-  Mark mark{.boundary = index, .arc_m = arc_m, .point = point, .is_edge = boundary.is_edge()};
-  mark.log_odds = log_odds(boundary.marking);
-  if (!mark.is_edge)
-    mark.dashed =
-        markings::dashed_excess_m(boundary.marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) /
-        (2.0 * kStyleReach_m);
-  return mark;
-}
+  Mark at(double arc_m, const Point& point) const {
+    Mark mark = mark_;
+    mark.arc_m = arc_m;
+    mark.point = point;
+    if (!mark.is_edge)
+      mark.dashed =
+          markings::dashed_excess_m(boundary_.marking, {arc_m - kStyleReach_m, arc_m + kStyleReach_m}) /
+          (2.0 * kStyleReach_m);
+    return mark;
+  }
+  /// The mark in the cross-section through a point that lies no further away than `reach_m`. Empty: there is
+  /// none.
+  std::optional<Mark> beside(const Point& point, const Eigen::Vector2d& ahead, double reach_m) {
+    const Projection foot = along_.project(point, reach_m);
+    if (!foot.inside || foot.distance_m >= reach_m || !geometry::same_level(foot.foot, point))
+      return std::nullopt;
+    const double along = boundary_.course.direction(foot).dot(ahead);
+    if (std::abs(along) < kAlongside) return std::nullopt;
+    Mark mark = at(foot.arc_m, foot.foot);
+    mark.lateral_m = std::copysign(foot.distance_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
+    mark.opposed = along < 0.0;
+    return mark;
+  }
+  bool is_edge() const { return mark_.is_edge; }
+
+ private:
+  const boundaries::LaneBoundary& boundary_;
+  Mark mark_;  ///< what is the same everywhere
+  MeasuredPolyline::Cursor along_;
+};
+
+/// Unit direction from one point to another; zero if they are one point.
+Eigen::Vector2d heading(const Point& from, const Point& to) { return (to - from).head<2>().normalized(); }
 
 }  // namespace
 
-std::vector<RoadCut> reversed(const std::vector<RoadCut>& cuts) {
-  std::vector<RoadCut> turned(cuts.rbegin(), cuts.rend());
-  for (RoadCut& cut : turned) {
-    std::ranges::reverse(cut.marks);
-    cut.own = cut.marks.size() - 1 - cut.own;
-    cut.ahead = -cut.ahead;
-    for (Mark& mark : cut.marks) {
+void RoadCuts::add(const RoadCut& cut) {
+  rows_.push_back({.cut = cut, .begin = marks_.size(), .count = cut.marks.size()});
+  rows_.back().cut.marks = {};
+  marks_.insert(marks_.end(), cut.marks.begin(), cut.marks.end());
+}
+
+RoadCut RoadCuts::operator[](std::size_t i) const {
+  RoadCut cut = rows_[i].cut;
+  cut.marks = std::span(marks_).subspan(rows_[i].begin, rows_[i].count);
+  return cut;
+}
+
+bool RoadCuts::has_opposed() const { return std::ranges::any_of(marks_, &Mark::opposed); }
+
+RoadCuts reversed(const RoadCuts& cuts) {
+  RoadCuts turned;
+  std::vector<Mark> marks;
+  for (std::size_t i = cuts.size(); i-- > 0;) {
+    RoadCut cut = cuts[i];
+    const std::size_t boundary = cut.self().boundary;
+    marks.assign(cut.marks.rbegin(), cut.marks.rend());
+    for (Mark& mark : marks) {
       mark.lateral_m = -mark.lateral_m;
-      if (mark.boundary != cut.self().boundary) mark.opposed = !mark.opposed;
+      if (mark.boundary != boundary) mark.opposed = !mark.opposed;
     }
+    cut.own = marks.size() - 1 - cut.own;
+    cut.ahead = -cut.ahead;
+    cut.marks = marks;
+    turned.add(cut);
   }
   return turned;
 }
 
-std::vector<RoadCut> cut_along(std::size_t boundary, const boundaries::SectionGraph& road,
-                               const LaneConfig& config) {
-  const boundaries::LaneBoundary& base = road.boundaries[boundary];
-  const Polyline points = base.course.resample(config.step_m);
-  std::vector<RoadCut> cuts(points.size());
+RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, const LaneConfig& config) {
+  const MeasuredPolyline& course = road.boundaries[boundary].course;
+  const MetBoundary base(boundary, road.boundaries[boundary]);
+  std::vector<MetBoundary> others;
+  others.reserve(road.beside[boundary].size());
+  for (const boundaries::SideBySide& beside : road.beside[boundary])
+    others.emplace_back(beside.other, road.boundaries[beside.other]);
+  MeasuredPolyline::Cursor behind(course), ahead(course), far_behind(course), far_ahead(course);
+  const Polyline points = course.resample(config.step_m);
+  RoadCuts cuts;
+  std::vector<Mark> marks;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double arc_m =
-        base.course.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
-    RoadCut& cut = cuts[i];
-    cut.ahead = base.course.chord(arc_m - kDirection_m, arc_m + kDirection_m);
-    cut.bend = bend_at(base.course, arc_m);
-    cut.marks.push_back(mark_at(boundary, arc_m, points[i], base));
-    for (const boundaries::SideBySide& beside : road.beside[boundary]) {
-      const boundaries::LaneBoundary& other = road.boundaries[beside.other];
-      const double reach_m = base.is_edge() && other.is_edge() ? kStreetReach_m : kCutReach_m;
-      const Projection foot = other.course.project(points[i], reach_m);
-      if (!foot.inside || foot.distance_m >= reach_m || !geometry::same_level(foot.foot, points[i])) continue;
-      const double along = other.course.direction(foot).dot(cut.ahead);
-      if (std::abs(along) < kAlongside) continue;
-      Mark mark = mark_at(beside.other, foot.arc_m, foot.foot, other);
-      mark.lateral_m = std::copysign(foot.distance_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
-      mark.opposed = along < 0.0;
-      cut.marks.push_back(mark);
-    }
-    std::ranges::stable_sort(cut.marks, {}, &Mark::lateral_m);
-    cut.own =
-        static_cast<std::size_t>(std::ranges::find(cut.marks, boundary, &Mark::boundary) - cut.marks.begin());
+    const double arc_m = course.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    RoadCut cut{.ahead = heading(behind.at(arc_m - kDirection_m), ahead.at(arc_m + kDirection_m))};
+    const Eigen::Vector2d from = heading(far_behind.at(arc_m - kBend_m), points[i]),
+                          to = heading(points[i], far_ahead.at(arc_m + kBend_m));
+    cut.bend = std::abs(cross(from, to)) / kBend_m;
+    marks = {base.at(arc_m, points[i])};
+    for (MetBoundary& other : others)
+      if (const auto mark = other.beside(points[i], cut.ahead,
+                                         base.is_edge() && other.is_edge() ? kStreetReach_m : kCutReach_m))
+        marks.insert(std::ranges::upper_bound(marks, mark->lateral_m, {}, &Mark::lateral_m), *mark);
+    cut.own = static_cast<std::size_t>(std::ranges::find(marks, boundary, &Mark::boundary) - marks.begin());
+    cut.marks = marks;
+    cuts.add(cut);
   }
   return cuts;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -21,9 +22,9 @@ struct Mark {
   double dashed = 0.0;          ///< -1: solid; 1: dashed; 0: unknown, or an edge
 };
 
-/// A cross-section through a place of one boundary.
+/// A cross-section through a place of one boundary. It refers to the marks.
 struct RoadCut {
-  std::vector<Mark> marks;                           ///< from right to left, as that boundary runs
+  std::span<const Mark> marks;                       ///< from right to left, as that boundary runs
   std::size_t own = 0;                               ///< that boundary among them
   Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();  ///< as it runs
   double bend = 0.0;                                 ///< its curvature, 1/m, without sign
@@ -31,15 +32,33 @@ struct RoadCut {
   const Mark& self() const { return marks[own]; }
 };
 
+/// Cross-sections in a row, with their marks.
+class RoadCuts {
+ public:
+  /// Adds a cross-section. Its marks are copied.
+  void add(const RoadCut& cut);
+  std::size_t size() const { return rows_.size(); }
+  RoadCut operator[](std::size_t i) const;
+  /// Whether a boundary runs against the one that is cut.
+  bool has_opposed() const;
+
+ private:
+  struct Row {
+    RoadCut cut;                       ///< without its marks
+    std::size_t begin = 0, count = 0;  ///< of its marks
+  };
+  std::vector<Row> rows_;
+  std::vector<Mark> marks_;
+};
+
 /// The same cross-sections along the boundary as it runs the other way. Arc lengths stay.
-std::vector<RoadCut> reversed(const std::vector<RoadCut>& cuts);
+RoadCuts reversed(const RoadCuts& cuts);
 
 /// Greatest distance between two marks of a cross-section, and between two edges, which may be a street's.
 inline constexpr double kCutReach_m = 14.0, kStreetReach_m = 16.5;
 
 /// Cross-sections of the road along a boundary, LaneConfig::step_m apart, from its begin to its end. They
 /// show the boundaries beside it.
-std::vector<RoadCut> cut_along(std::size_t boundary, const boundaries::SectionGraph& road,
-                               const LaneConfig& config);
+RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, const LaneConfig& config);
 
 }  // namespace laneloom::lanes
