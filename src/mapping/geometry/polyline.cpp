@@ -292,9 +292,15 @@ bool segments_intersect(const Point& a, const Point& b, const Point& c, const Po
 }  // namespace
 
 bool intersect(const Polyline& a, const Polyline& b, double max_height_m) {
-  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+  Eigen::AlignedBox2d all_of_b;
+  for (const Point& point : b) all_of_b.extend(point.head<2>());
+  for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+    const Eigen::AlignedBox2d segment =
+        Eigen::AlignedBox2d(a[i].head<2>(), a[i].head<2>()).extend(a[i + 1].head<2>());
+    if (!segment.intersects(all_of_b)) continue;
     for (std::size_t j = 0; j + 1 < b.size(); ++j)
       if (segments_intersect(a[i], a[i + 1], b[j], b[j + 1], max_height_m)) return true;
+  }
   return false;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "mapping/geometry/levels.hpp"
@@ -104,23 +105,6 @@ class Collection {
   std::map<std::pair<Room, std::size_t>, std::vector<Hypothesis>> by_place_;
 };
 
-Candidate candidate_at(const Hypothesis& hypothesis, std::size_t i, const RoadCuts& cuts) {
-  const std::size_t own = cuts[hypothesis.first + i].own;
-  return {
-      .room = hypothesis.room, .left = is_open(hypothesis.room) ? own : hypothesis.marks[i], .right = own};
-}
-
-double taper_at(const Hypothesis& hypothesis, std::size_t i, const RoadCuts& cuts, double step_m) {
-  if (is_open(hypothesis.room)) return 0.0;
-  const std::size_t from = i < kTaperReach ? 0 : i - kTaperReach;
-  const std::size_t to = std::min(i + kTaperReach, hypothesis.marks.size() - 1);
-  if (from == to) return 0.0;
-  const auto width = [&](std::size_t k) {
-    return width_m(cuts[hypothesis.first + k], candidate_at(hypothesis, k, cuts));
-  };
-  return std::abs(width(to) - width(from)) / (step_m * static_cast<double>(to - from));
-}
-
 /// The mark on the other side of the room of a candidate. Null: an open lane's room has none.
 const Mark* across(const RoadCut& cut, const Candidate& candidate) {
   if (candidate.room == Room::open_left)
@@ -130,22 +114,47 @@ const Mark* across(const RoadCut& cut, const Candidate& candidate) {
   return &cut.marks[candidate.left];
 }
 
-/// Whether each place of a hypothesis lies in a gore. Two lanes fit into none.
-std::vector<bool> gore_places(const Hypothesis& hypothesis, const RoadCuts& cuts) {
-  if (hypothesis.room == Room::divided) return std::vector<bool>(hypothesis.marks.size());
+/// A place of a hypothesis.
+struct Place {
+  RoadCut cut;
+  Candidate candidate;
+  double width_m = 0.0;
+  const Mark* across = nullptr;  ///< see across()
+};
+
+std::vector<Place> places_of(const Hypothesis& hypothesis, const RoadCuts& cuts) {
+  std::vector<Place> places;
+  places.reserve(hypothesis.marks.size());
+  for (std::size_t i = 0; i < hypothesis.marks.size(); ++i) {
+    Place place{.cut = cuts[hypothesis.first + i], .candidate = {.room = hypothesis.room}};
+    place.candidate.right = place.cut.own;
+    place.candidate.left = is_open(hypothesis.room) ? place.cut.own : hypothesis.marks[i];
+    place.width_m = width_m(place.cut, place.candidate);
+    place.across = across(place.cut, place.candidate);
+    places.push_back(place);
+  }
+  return places;
+}
+
+double taper_at(std::span<const Place> places, std::size_t i, double step_m) {
+  const std::size_t from = i < kTaperReach ? 0 : i - kTaperReach;
+  const std::size_t to = std::min(i + kTaperReach, places.size() - 1);
+  if (from == to) return 0.0;
+  return std::abs(places[to].width_m - places[from].width_m) / (step_m * static_cast<double>(to - from));
+}
+
+/// Whether each place lies in a gore.
+std::vector<bool> gore_places(std::span<const Place> places) {
   const auto may_be_crossed = [](const Mark* mark) {
     return mark != nullptr && !mark->is_edge && mark->dashed >= 0.0;
   };
-  std::vector<PlaceBetween> places;
-  for (std::size_t i = 0; i < hypothesis.marks.size(); ++i) {
-    const RoadCut cut = cuts[hypothesis.first + i];
-    const Candidate candidate = candidate_at(hypothesis, i, cuts);
-    places.push_back(
-        {.along_m = cut.self().arc_m,
-         .width_m = width_m(cut, candidate),
-         .may_be_crossed = may_be_crossed(&cut.self()) || may_be_crossed(across(cut, candidate))});
-  }
-  return in_gore(places);
+  std::vector<PlaceBetween> between;
+  between.reserve(places.size());
+  for (const Place& place : places)
+    between.push_back({.along_m = place.cut.self().arc_m,
+                       .width_m = place.width_m,
+                       .may_be_crossed = may_be_crossed(&place.cut.self()) || may_be_crossed(place.across)});
+  return in_gore(between);
 }
 
 /// How near along the cut boundary a line parts it from another boundary: from 1 to 0 per cross-section. A
@@ -176,15 +185,19 @@ class PartedFrom {
   PartedFrom(const RoadCuts& cuts, double step_m) : cuts_(cuts), step_m_(step_m) {}
   double at(std::size_t cut, const Mark* other) {
     if (other == nullptr) return 0.0;
-    const auto [known, is_new] = known_.try_emplace(other->boundary);
-    if (is_new) known->second = parted_from(other->boundary, cuts_, step_m_);
-    return known->second[cut];
+    if (last_ == known_.end() || last_->first != other->boundary) {
+      bool is_new = false;
+      std::tie(last_, is_new) = known_.try_emplace(other->boundary);
+      if (is_new) last_->second = parted_from(other->boundary, cuts_, step_m_);
+    }
+    return last_->second[cut];
   }
 
  private:
   const RoadCuts& cuts_;
   double step_m_;
   std::map<std::size_t, std::vector<double>> known_;
+  std::map<std::size_t, std::vector<double>>::iterator last_ = known_.end();
 };
 
 /// Adds the candidates between the cut boundary and those on its left that are wanted: of two opposed
@@ -218,14 +231,17 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
       return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
                                : vehicle.is_left_up_to(road.boundaries[one.other].course);
     });
-    const std::vector<bool> gore = gore_places(one, cuts);
-    for (std::size_t i = 0; i < one.marks.size(); ++i) {
-      const RoadCut cut = cuts[one.first + i];
-      Candidate candidate = candidate_at(one, i, cuts);
+    std::vector<Place> places = places_of(one, cuts);
+    // Two lanes fit into no gore.
+    const std::vector<bool> gore =
+        one.room == Room::divided ? std::vector<bool>(places.size()) : gore_places(places);
+    one.log_odds.reserve(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      auto& [cut, candidate, width, opposite] = places[i];
       candidate.driven = is_driven;
       candidate.gore = gore[i];
-      candidate.parted = parted.at(one.first + i, across(cut, candidate));
-      candidate.taper = taper_at(one, i, cuts, step_m);
+      candidate.parted = parted.at(one.first + i, opposite);
+      candidate.taper = is_open(one.room) ? 0.0 : taper_at(places, i, step_m);
       const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
       one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
                              (outer ? kOuterOfTwo : 0.0));

@@ -29,6 +29,18 @@ Turn turn_onto(const DirectedLane& from, const DirectedLane& to) {
                                 -end_direction(to.centerline(), End::front));
 }
 
+bool may_lie_in(const Lane& lane, const Point& place) {
+  return lanes::box_around(lane.centerline, 0.5 * lane.width_m).contains(place);
+}
+
+/// The foot of a place that lies in a lane, on its centerline.
+std::optional<Projection> foot_on(const MeasuredPolyline& centerline, const Lane& lane, const Point& place) {
+  const Projection foot = centerline.project(place);
+  const bool inside =
+      foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::same_level(foot.foot, place);
+  return inside ? std::optional(foot) : std::nullopt;
+}
+
 }  // namespace
 
 Polyline DirectedLane::centerline() const { return walked(lane->centerline, against); }
@@ -50,18 +62,16 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to) {
 }
 
 std::optional<Projection> foot_in(const Lane& lane, const Point& place) {
-  if (!lanes::box_around(lane.centerline, 0.5 * lane.width_m).contains(place)) return std::nullopt;
-  const Projection foot = MeasuredPolyline(lane.centerline).project(place);
-  const bool inside =
-      foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::same_level(foot.foot, place);
-  return inside ? std::optional(foot) : std::nullopt;
+  return may_lie_in(lane, place) ? foot_on(MeasuredPolyline(lane.centerline), lane, place) : std::nullopt;
 }
 
 double ego_alignment(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
-  const auto foot = foot_in(lane, T_map_body.translation());
+  if (!may_lie_in(lane, T_map_body.translation())) return 0.0;
+  const MeasuredPolyline line(lane.centerline);
+  const auto foot = foot_on(line, lane, T_map_body.translation());
   if (!foot) return 0.0;
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
-  const double along = MeasuredPolyline(lane.centerline).direction(foot->arc_m).dot(heading);
+  const double along = line.direction(foot->arc_m).dot(heading);
   return std::abs(along) < kMinAlongLane * heading.norm() ? 0.0 : along / heading.norm();
 }
 

@@ -50,6 +50,7 @@ void leave_out_short(std::vector<Border>& borders) {
 class ShownStations {
  public:
   ShownStations(const LaneTrack& track, const boundaries::Boundaries& boundaries) : boundaries_(boundaries) {
+    stations_.reserve(track.stations.size());
     for (const LaneStation& station : track.stations) {
       if (!station.shown) continue;
       LaneStation laid = station;
@@ -58,6 +59,7 @@ class ShownStations {
       if (!stations_.empty() && !lies_ahead(stations_.back(), laid)) continue;
       stations_.push_back(laid);
     }
+    centers_.reserve(stations_.size());
     for (const LaneStation& station : stations_) centers_.push_back(station.center());
     arcs_m_ = arc_lengths(centers_);
     if (is_empty()) return;
@@ -72,6 +74,7 @@ class ShownStations {
     for (const Side side : kSides) {
       lane.borders(side) = borders(side);
       Polyline& line = side == Side::left ? lane.left : lane.right;
+      line.reserve(stations_.size());
       for (const LaneStation& station : stations_) line.push_back(station.border[index(side)]);
       line = MeasuredPolyline(line).points();
     }

@@ -9,8 +9,6 @@
 namespace laneloom::lines {
 namespace {
 
-// A flood of false detections must not make frames slow.
-constexpr std::size_t kRoomForLines = 256, kRoomForStations = 20000;
 constexpr double kStandingShare = 0.3;  // least share of a view's evidence, while a station is not confirmed
 
 // The mean belief in a line's detections adds this much per unit to the log odds that the line exists. All
@@ -167,38 +165,12 @@ std::vector<Line> living_pieces(Line& line, const geometry::MapBox& range, const
   return pieces;
 }
 
-bool are_too_many(const std::vector<Line>& lines) {
-  std::size_t stations = 0;
-  for (const Line& line : lines) stations += line.stations.size();
-  return lines.size() > kRoomForLines || stations > kRoomForStations;
-}
-
-/// Keeps as many lines as the limits allow: those that are believed most, and of equals the first ones.
-/// Returns how many are forgotten.
-std::size_t forget_least_believed(std::vector<Line>& lines) {
-  if (!are_too_many(lines)) return 0;
-  std::vector<std::pair<double, std::size_t>> by_disbelief;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    by_disbelief.emplace_back(-existence(lines[i].stations, lines[i].beliefs), i);
-  std::ranges::sort(by_disbelief);
-  std::vector<bool> kept(lines.size(), false);
-  std::size_t count = 0, stations = 0;
-  for (const auto& [disbelief, i] : by_disbelief) {
-    if (count == kRoomForLines || stations + lines[i].stations.size() > kRoomForStations) continue;
-    kept[i] = true;
-    ++count;
-    stations += lines[i].stations.size();
-  }
-  std::size_t index = 0;
-  return std::erase_if(lines, [&](const Line&) { return !kept[index++]; });
-}
-
 }  // namespace
 
-Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, std::vector<Line>& lines,
-                   markings::IdSource& ids) {
+std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const FusionConfig& config,
+                                            std::vector<Line>& lines, markings::IdSource& ids) {
   std::vector<Line> kept, cut_off;
-  Pruned pruned;
+  std::vector<markings::Relative> relatives;
   for (Line& line : lines) {
     std::vector<Line> pieces = living_pieces(line, range, config);
     if (pieces.empty()) continue;
@@ -207,15 +179,14 @@ Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, st
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece) {
       if (piece == longest) continue;
       piece->id = ids.next();
-      pruned.pieces.push_back({piece->id, line.id});
+      relatives.push_back({piece->id, line.id});
       cut_off.push_back(std::move(*piece));
     }
     kept.push_back(std::move(*longest));
   }
   lines = std::move(kept);
   std::ranges::move(cut_off, std::back_inserter(lines));
-  pruned.forgotten = forget_least_believed(lines);
-  return pruned;
+  return relatives;
 }
 
 }  // namespace laneloom::lines

@@ -69,16 +69,10 @@ void credit_observed(const View& view, const Association& association, const Fus
 void discount_unobserved(const View& view, const geometry::MapBox& range, const FusionConfig& config,
                          DetectionModel& model, std::vector<Line>& lines);
 
-/// The result of prune_lines().
-struct Pruned {
-  std::vector<markings::Relative> pieces;  ///< each with the line that it was cut off from
-  std::size_t forgotten = 0;               ///< lines beyond the limits
-};
-
 /// Removes stations that have lost their evidence or left the range. A line that loses stations in between is
-/// split; its longest piece keeps the id. There is room for 256 lines with 20000 stations together: of more,
-/// the lines of the least evidence are forgotten.
-Pruned prune_lines(const geometry::MapBox& range, const FusionConfig& config, std::vector<Line>& lines,
-                   markings::IdSource& ids);
+/// split; its longest piece keeps the id. Returns the other pieces, each with the line that it was cut off
+/// from.
+std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const FusionConfig& config,
+                                            std::vector<Line>& lines, markings::IdSource& ids);
 
 }  // namespace laneloom::lines

@@ -12,6 +12,7 @@
 #include "mapping/lines/line_joining.hpp"
 #include "mapping/lines/line_merging.hpp"
 #include "mapping/lines/line_publishing.hpp"
+#include "mapping/lines/line_room.hpp"
 #include "mapping/lines/reasoning.hpp"
 #include "mapping/markings/dashes.hpp"
 
@@ -76,11 +77,10 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
     reasons.born(line, association.detections);
     lines_.push_back(std::move(line));
   }
+  forgotten_ = keep_within_room(lines_);
   std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
   if (view.is_independent()) join(fusion, relatives);
-  const Pruned pruned = prune_lines(scene.box, fusion, lines_, ids);
-  std::ranges::copy(pruned.pieces, std::back_inserter(relatives));
-  forgotten_ = pruned.forgotten;
+  std::ranges::copy(prune_lines(scene.box, fusion, lines_, ids), std::back_inserter(relatives));
   log.done(Stage::line_set);
 
   markings::FusedMarkings fused{publish_lines(lines_, doubles_, config), joints_, std::move(relatives)};

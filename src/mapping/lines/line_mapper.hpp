@@ -32,7 +32,7 @@ class LineMapper {
 
   const std::vector<Line>& lines() const { return lines_; }
   const Networks& networks() const { return networks_; }
-  /// Number of lines that the last frame was too much for: there is no room for more, see prune_lines().
+  /// Number of lines that there was no room for in the last frame, see keep_within_room().
   std::size_t forgotten() const { return forgotten_; }
 
   template <class Archive>

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMemory = 20000.0;   // views; those of neighbouring stations are nearly the same
 constexpr double kPriorViews = 50.0;  // weight of the configured deviation, in views
 constexpr double kPriorGain = 100.0;  // evidence that speaks against any suspicion, in squared deviations
-constexpr double kMinStddev_m = 0.02, kMaxStddev_m = 1.0;
+constexpr double kMinLearned_m = 0.02, kMaxLearned_m = 1.0;
 constexpr double kOutlier = 3.0;  // deviations; a larger error counts as this
 
 /// A range between two nodes: the nearer node, and the share of the way to the next one.
@@ -67,7 +67,7 @@ double NetworkModel::stddev_m(double range_m) const {
   const auto [node, share] = between(range_m);
   const auto variance_m2 = [this](std::size_t i) { return squares_m2_[i] / views_[i]; };
   const double here_m2 = (1.0 - share) * variance_m2(node) + share * variance_m2(node + 1);
-  return std::clamp(std::sqrt(here_m2), kMinStddev_m, kMaxStddev_m);
+  return std::clamp(std::sqrt(here_m2), kMinLearned_m, kMaxLearned_m);
 }
 
 void NetworkModel::learn(const FarView& view, double near_m) {

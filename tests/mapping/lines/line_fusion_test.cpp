@@ -37,7 +37,7 @@ class LineFusion : public ::testing::Test {
       line.id = ids_.next();
       lines_.push_back(std::move(line));
     }
-    std::ranges::copy(prune_lines(range_, config_, lines_, ids_).pieces, std::back_inserter(cut_off_));
+    std::ranges::copy(prune_lines(range_, config_, lines_, ids_), std::back_inserter(cut_off_));
   }
 
   Association associated(const std::vector<markings::ObservedMarking>& markings) {
@@ -197,31 +197,6 @@ TEST_F(LineFusion, ALineIsExtendedRoundASharpTip) {
   EXPECT_GT(lines_[0].stations.size(), 30U);
   EXPECT_NEAR(lines_[0].stations.back().position.x(), 5.0, 1.0);
   EXPECT_NEAR(lines_[0].stations.back().position.y(), 3.0, 0.3);
-}
-
-TEST_F(LineFusion, NoMoreThan256LinesAreKept) {
-  std::vector<Polyline> ghosts;
-  for (int i = 0; i < 300; ++i) {
-    const double x = -20.0 + 4.0 * (i % 15), y = -19.0 + 2.0 * (i / 15);
-    ghosts.push_back(straight({x, y, 0}, {x + 3.0, y, 0}));
-  }
-  see({straight({-20, 19.7, 0}, {20, 19.7, 0})});
-  see({straight({-20, 19.7, 0}, {20, 19.7, 0})});
-  const ElementId believed = lines_.at(0).id;
-  see(ghosts);
-  EXPECT_EQ(lines_.size(), 256U) << "all but one are believed alike";
-  EXPECT_EQ(std::ranges::count(lines_, believed, &Line::id), 1);
-}
-
-TEST_F(LineFusion, NoMoreThan20000StationsAreKept) {
-  for (ElementId id = 1; id <= 60; ++id)
-    lines_.push_back(test::line(id, straight({-20, 0, 0}, {20, 0, 0}, 500)));
-  lines_.back().stations.front().log_odds = 1.0;
-  const Pruned pruned = prune_lines(range_, config_, lines_, ids_);
-  EXPECT_EQ(pruned.forgotten, 20U);
-  EXPECT_EQ(lines_.size(), 40U);
-  EXPECT_EQ(lines_.front().id, 1U);
-  EXPECT_EQ(lines_.back().id, 60U) << "is believed most";
 }
 
 TEST_F(LineFusion, WhereTheNetworkHardlySeesALineAMissSaysLittle) {
