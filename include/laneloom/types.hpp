@@ -56,12 +56,11 @@ struct LocalMap {
   std::int64_t stamp_ns = 0;                                     ///< of the newest fused frame; 0: none yet
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< at the stamp
   std::vector<Marking> markings;                                 ///< the fused markings, of all types
-  std::vector<Marking> boundaries;  ///< boundaries of lanes: lanelines, roadedges, and inferred ones
-  std::vector<Stopline> stoplines;  ///< with the lanes that they end
-  std::vector<Lane> lanes;          ///< in ascending order of ids
-  std::vector<Linkage> linkages;    ///< between these lanes, by ascending ids
-  std::optional<Way>
-      way;  ///< straight on from the pose; empty: the vehicle is neither in a lane nor on a passage
+  std::vector<Marking> boundaries;       ///< boundaries of lanes: lanelines, roadedges, and inferred ones
+  std::vector<Stopline> stoplines;       ///< with the lanes that they end
+  std::vector<Lane> lanes;               ///< in ascending order of ids
+  std::vector<Linkage> linkages;         ///< between these lanes, by ascending ids
+  std::optional<Way> way;                ///< straight on from the pose; empty: no way is known
   std::vector<DrivenPath> driven_paths;  ///< where no lane is known
   std::vector<LineageEvent> lineage;     ///< since the frame before
 };

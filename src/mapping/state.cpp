@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "mapping/geometry/reproducible.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -14,18 +16,28 @@ void move(const Eigen::Isometry3d& motion, lanes::LaneTrack& track) {
   move(motion, track.begin);
 }
 
-/// Moves what the next map takes from the map before: the pose of a frame that comes late, and the
-/// centerlines by which lanes are recognised.
+void move(const Eigen::Isometry3d& motion, Way& way) {
+  for (WayStation& station : way.stations) {
+    const Eigen::Vector2d ahead = motion.linear().topLeftCorner<2, 2>() * station.direction();
+    station.heading_rad = geometry::reproducible::atan2(ahead.y(), ahead.x());
+    move(motion, station.point);
+  }
+}
+
+/// Moves what the next map takes from the map before: the pose of a frame that comes late, the centerlines by
+/// which lanes are recognised, and the way.
 void move(const Eigen::Isometry3d& motion, LocalMap& map) {
   map.T_map_body = motion * map.T_map_body;
   for (Lane& lane : map.lanes)
     for (Point& point : lane.centerline) move(motion, point);
+  if (map.way) move(motion, *map.way);
 }
 
 }  // namespace
 
 void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& config) {
   trails = {};
+  move(motion, map);
   lines::LineMapper* const lines = fusion.lines();
   if (lines == nullptr) {
     fusion = Fusion(config);
@@ -39,7 +51,6 @@ void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& co
   std::vector<lanes::LaneTrack> tracks = lane_tracks.all();
   for (lanes::LaneTrack& track : tracks) move(motion, track);
   lane_tracks = lanes::LaneTracks(std::move(tracks));
-  move(motion, map);
 }
 
 }  // namespace laneloom

@@ -178,7 +178,7 @@ TEST(Planner, JoinsALaneAheadOfItButNoPassage) {
   const Bicycle vehicle{.rear_axle = {-8.0, 0.0}, .speed_mps = 5.0};
   map.linkages = {link(4, 3, Linkage::Turn::straight)};
   const Plan plan = plan_on(map, vehicle);
-  EXPECT_EQ(plan.support_at({0, 0, 0}), Support::guessed);
+  EXPECT_LT(distance(plan, {0, 0, 0}), 0.3);
   EXPECT_EQ(plan.support_at({20, 0, 0}), Support::mapped);
 }
 

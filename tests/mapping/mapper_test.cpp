@@ -265,6 +265,19 @@ TEST(MapperState, DamagedBytesAreRefused) {
   EXPECT_EQ(drive.mapper.save(), saved) << "the mapper is as it was";
 }
 
+TEST_P(EitherMapper, TheWayMovesWithPosesThatJump) {
+  const MapperConfig config{.method = GetParam() == "voxels" ? FusionMethod::voxels : FusionMethod::lines};
+  MapperState state(config);
+  state.map.way.emplace().stations = {{.point = {1, 0, 0}}, {.point = {2, 0, 0}}};
+  const Eigen::Isometry3d motion = test::at(5, 3, 0.5);
+  state.follow(motion, config);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const WayStation& station = state.map.way->stations[i];
+    EXPECT_NEAR((station.point - motion * Point(1.0 + static_cast<double>(i), 0, 0)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(station.heading_rad, 0.5, 1e-12);
+  }
+}
+
 TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
   Drive drive(GetParam());
   drive.steps(100);

@@ -71,8 +71,8 @@ std::optional<Entry> find_entry(const LaneGraph& graph, const Plan& earlier, con
     place.rotate(Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ()));
     auto way = way_ahead(graph, place, wish, earlier.way ? &*earlier.way : nullptr,
                          {.reach_m = kHorizon_m, .step_m = kStep_m});
-    const bool joins_passage = way && ahead_m > 0.0 && way->stations.front().lane == kNoElement;
-    if (!way || joins_passage) continue;
+    // A way without lanes is what is left of the way before.
+    if (!way || way->lanes.empty() || (ahead_m > 0.0 && way->stations.front().lane == kNoElement)) continue;
     if (!is_oncoming(graph, *way)) return Entry{std::move(*way), ahead_m};
     if (!oncoming) oncoming = Entry{std::move(*way), ahead_m};
   }

@@ -191,7 +191,7 @@ void bind_map(py::module_& module) {
       .def_property_readonly("linkages", items_of(&LocalMap::linkages))
       .def_property_readonly(
           "way", [](const LocalMap& m) { return m.way ? py::cast(*m.way) : py::none(); },
-          "None: the vehicle is in no lane.")
+          "None: no way is known.")
       .def_property_readonly("driven_paths", items_of(&LocalMap::driven_paths))
       .def_property_readonly("markings", items_of(&LocalMap::markings),
                              "The fused markings of all types; empty in a map that was read from a file.")

@@ -6,6 +6,7 @@
 
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/geometry/reproducible.hpp"
+#include "mapping/lanes/lane_ahead.hpp"
 #include "mapping/lanes/lane_measures.hpp"
 #include "mapping/lanes/way_course.hpp"
 
@@ -13,6 +14,8 @@ namespace laneloom {
 namespace {
 
 constexpr double kMinLength_m = 1.0;
+constexpr double kMaxBeside_m = 1.75;  // of the vehicle from a way that it is still on
+constexpr double kMinAlong = 0.7;      // cosine between its heading and that way
 
 /// A place between two stations: the first one, and the share of the step to the second.
 struct Between {
@@ -111,6 +114,31 @@ void add_stations(const LaneGraph& graph, const lanes::Course& course, const lan
   }
 }
 
+bool leads_into(const Way& way, const DirectedLane& lane) {
+  return std::ranges::any_of(
+      way.lanes, [&](const WayLane& one) { return one.id == lane.lane->id && one.against == lane.against; });
+}
+
+/// What lies ahead of the vehicle on the way before, of which the map has no lanes any more. Empty: the
+/// vehicle is not on it, or it ends here.
+std::optional<Way> rest_of(const Way& before, const Eigen::Isometry3d& T_map_body) {
+  const WayPlace place = before.to_way(T_map_body.translation());
+  const double from_m = std::floor(std::max(place.s_m, 0.0) / before.step_m) * before.step_m;
+  const double rest_m = before.length() - from_m;
+  if (std::abs(place.d_m) > kMaxBeside_m || place.s_m < -before.step_m || rest_m < before.step_m)
+    return std::nullopt;
+  const auto first = static_cast<std::size_t>(from_m / before.step_m + 0.5);
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
+  if (before.stations[first].direction().dot(heading) < kMinAlong * heading.norm()) return std::nullopt;
+  Way way{.wish = before.wish, .step_m = before.step_m, .known_m = rest_m};
+  for (std::size_t i = first; i < before.stations.size(); ++i)
+    way.stations.push_back({.point = before.stations[i].point,
+                            .heading_rad = before.stations[i].heading_rad,
+                            .curvature_per_m = before.stations[i].curvature_per_m,
+                            .status = ElementStatus::inferred});
+  return way;
+}
+
 }  // namespace
 
 Eigen::Vector2d WayStation::direction() const {
@@ -139,9 +167,15 @@ Point Way::to_map(const WayPlace& place) const {
 
 std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body, WayWish wish,
                              const Way* before, const WayOptions& options) {
-  const bool stays = before != nullptr && before->wish == wish;
-  const auto course = lanes::course_of(graph, T_map_body, {wish, stays ? before : nullptr}, options.reach_m);
-  if (!course || course->places.size() < 2) return std::nullopt;
+  const Way* const kept = before != nullptr && before->wish == wish ? before : nullptr;
+  auto course = lanes::course_of(graph, T_map_body, {wish, kept}, options.reach_m);
+  if (!course) {
+    auto rest = kept != nullptr ? rest_of(*kept, T_map_body) : std::nullopt;
+    const DirectedLane ahead = lanes::lane_ahead(graph, T_map_body);
+    if (ahead.lane == nullptr || (rest && !leads_into(*kept, ahead))) return rest;
+    course = lanes::course_into(graph, ahead, T_map_body, {wish, kept}, options.reach_m);
+  }
+  if (course->places.size() < 2) return std::nullopt;
   const lanes::WayLine line(course->places);
   const double from_m = std::max(0.0, line.foot(T_map_body.translation()));
   Way way{.wish = wish, .step_m = options.step_m, .change = course->change};

@@ -19,4 +19,8 @@ struct Course {
 std::optional<Course> course_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
                                 const RouteWish& wish, double reach_m);
 
+/// Likewise for a vehicle that is in no lane, into one that begins ahead of it.
+Course course_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
+                   const RouteWish& wish, double reach_m);
+
 }  // namespace laneloom::lanes

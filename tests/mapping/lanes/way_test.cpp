@@ -332,6 +332,74 @@ TEST(Way, GoesOnAlongThePassageThatTheVehicleIsOn) {
   EXPECT_EQ(way.confirmed_m, 0.0);
 }
 
+TEST(Way, LeadsIntoALaneThatBeginsAheadOfAVehicleInNone) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {12, 0.5, 0}, {60, 0.5, 0})};
+  const Way way = way_on(map, test::at(0));
+  ASSERT_THAT(ids(way), ElementsAre(1));
+  EXPECT_EQ(way.lanes.front().entry, Turn::straight);
+  EXPECT_NEAR(way.lanes.front().range.from_m, 12.0, 1.0);
+  EXPECT_NEAR(way.known_m, 60.0, 0.5);
+  EXPECT_EQ(way.confirmed_m, 0.0);
+  EXPECT_LT(way.stations.front().point.norm(), 0.1);
+  EXPECT_EQ(way.stations.front().lane, kNoElement);
+  EXPECT_EQ(way.stations.front().status, ElementStatus::inferred);
+  EXPECT_EQ(way.stations.back().status, ElementStatus::confirmed);
+  EXPECT_NEAR(way.to_way({30, 0.5, 0}).d_m, 0.0, 0.05);
+  const Way next = way_on(map, test::at(1), WayWish::straight, &way);
+  EXPECT_THAT(ids(next), ElementsAre(1)) << "and goes on to";
+}
+
+TEST(Way, LeadsIntoNoLaneAheadThatIsFarOrAsideOrAcrossOrOncomingOrBehindAnEdge) {
+  const auto leads_into = [](const Lane& lane, std::vector<Marking> boundaries = {}) {
+    LocalMap map;
+    map.lanes = {lane};
+    map.boundaries = std::move(boundaries);
+    return way_ahead(LaneGraph(map), test::at(0), WayWish::straight).has_value();
+  };
+  EXPECT_TRUE(leads_into(road_lane(1, {12, 0, 0}, {60, 0, 0})));
+  EXPECT_TRUE(leads_into(road_lane(1, {60, 0, 0}, {12, 0, 0}))) << "walked against its points";
+  EXPECT_FALSE(leads_into(road_lane(1, {22, 0, 0}, {60, 0, 0}))) << "far";
+  EXPECT_FALSE(leads_into(road_lane(1, {12, 2.4, 0}, {60, 2.4, 0}))) << "aside";
+  EXPECT_FALSE(leads_into(road_lane(1, {12, 0, 0}, {40, 28, 0}))) << "across";
+  Lane oncoming = road_lane(1, {12, 0, 0}, {60, 0, 0});
+  oncoming.direction = Lane::Direction::against_centerline;
+  EXPECT_FALSE(leads_into(oncoming));
+  Lane shoulder = road_lane(1, {12, 0, 0}, {60, 0, 0});
+  shoulder.use = Lane::Use::shoulder;
+  EXPECT_FALSE(leads_into(shoulder));
+  const Marking across = test::marking(7, {{6, -4, 0}, {6, 4, 0}}, MarkingType::roadedge);
+  EXPECT_FALSE(leads_into(road_lane(1, {12, 0, 0}, {60, 0, 0}), {across})) << "behind an edge";
+}
+
+TEST(Way, GoesOnWhereTheMapHasLostTheLanesOfTheWayBefore) {
+  const LocalMap map = fork(), nothing;
+  const Way before = way_on(map, test::at(18), WayWish::left);
+  ASSERT_THAT(ids(before), ElementsAre(1, 3));
+  const Eigen::Isometry3d within = test::at(28.5, 3.5, 0.8);
+  const Way rest = way_on(nothing, within, WayWish::left, &before);
+  ASSERT_GE(rest.stations.size(), 20U);
+  EXPECT_THAT(ids(rest), ElementsAre());
+  EXPECT_EQ(rest.confirmed_m, 0.0);
+  EXPECT_EQ(rest.known_m, rest.length());
+  EXPECT_LT((rest.stations.front().point - within.translation()).norm(), 1.5);
+  const std::size_t shed = before.stations.size() - rest.stations.size();
+  for (std::size_t i = 0; i < rest.stations.size(); ++i) {
+    EXPECT_EQ(rest.stations[i].point, before.stations[i + shed].point) << "it does not move";
+    EXPECT_EQ(rest.stations[i].status, ElementStatus::inferred);
+    EXPECT_EQ(rest.stations[i].lane, kNoElement);
+  }
+  const auto has_way = [&](const Eigen::Isometry3d& at, WayWish wish) {
+    return way_ahead(LaneGraph(nothing), at, wish, &before).has_value();
+  };
+  EXPECT_TRUE(has_way(within, WayWish::left));
+  EXPECT_FALSE(has_way(within, WayWish::straight)) << "another wish";
+  EXPECT_FALSE(has_way(test::at(28.5, 6.5, 0.8), WayWish::left)) << "beside it";
+  EXPECT_FALSE(has_way(test::at(28.5, 3.5, -2.3), WayWish::left)) << "against it";
+  EXPECT_FALSE(has_way(test::at(200, 0, 0), WayWish::left)) << "beyond it";
+  EXPECT_THAT(ids(way_on(map, within, WayWish::left, &rest)), ElementsAre(3)) << "the lanes are back";
+}
+
 TEST(Way, EndsWhereTheMapEnds) {
   LocalMap map;
   map.lanes = {road_lane(1, {0, 0, 0}, {50, 0, 0})};

@@ -1,0 +1,56 @@
+#include "mapping/lanes/lane_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mapping/geometry/levels.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+constexpr double kMaxAhead_m = 20.0;
+constexpr double kMaxAside_m = 1.75, kMaxSlope = 0.15;  // of the begin, from the line straight ahead
+constexpr double kMinAlong = 0.9;                       // cosine between the vehicle's heading and the lane
+constexpr double kPerMetreAhead = 0.1;                  // by which a lane fits worse, in metres aside
+
+/// How badly the begin of a lane fits, in metres aside. Infinite: the lane does not begin straight ahead.
+double misfit_m(const DirectedLane& lane, const Eigen::Isometry3d& T_map_body) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const Polyline line = lane.centerline();
+  const Point vehicle = T_map_body.translation();
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>().normalized();
+  const Eigen::Vector2d to_begin = (line.front() - vehicle).head<2>();
+  const double ahead_m = heading.dot(to_begin), aside_m = std::abs(cross(heading, to_begin));
+  const bool is_ahead = ahead_m > 0.0 && ahead_m < kMaxAhead_m && geometry::same_level(line.front(), vehicle);
+  if (!is_ahead || aside_m > std::min(kMaxAside_m, 0.5 + kMaxSlope * ahead_m)) return kNone;
+  if (-end_direction(line, End::front).dot(heading) < kMinAlong) return kNone;
+  return aside_m + kPerMetreAhead * ahead_m;
+}
+
+bool is_behind_edge(const Point& begin, const Point& vehicle, const LocalMap& map) {
+  return std::ranges::any_of(map.boundaries, [&](const Marking& boundary) {
+    return boundary.type == MarkingType::roadedge &&
+           intersect({vehicle, begin}, boundary.points, geometry::kLevel_m);
+  });
+}
+
+}  // namespace
+
+DirectedLane lane_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body) {
+  DirectedLane best;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Lane& lane : graph.map().lanes)
+    for (const bool against : {false, true}) {
+      const DirectedLane directed{&lane, against};
+      const double misfit = misfit_m(directed, T_map_body);
+      if (misfit >= least_m || !lane.is_drivable() || directed.oncoming()) continue;
+      const Point& begin = against ? lane.centerline.back() : lane.centerline.front();
+      if (is_behind_edge(begin, T_map_body.translation(), graph.map())) continue;
+      best = directed;
+      least_m = misfit;
+    }
+  return best;
+}
+
+}  // namespace laneloom::lanes
