@@ -14,6 +14,8 @@ namespace laneloom::recording {
 namespace {
 
 constexpr std::string_view kForeignTopic = "not a topic of laneloom";
+constexpr std::string_view kOtherVersion = "another version of the topics";
+constexpr std::string_view kTopicsOfAnyVersion = "laneloom/v";
 /// The prefix of types for viewers alone. Their topics are made from laneloom's, so that passing over them
 /// loses nothing.
 constexpr std::string_view kViewersTypes = "foxglove::";
@@ -104,12 +106,12 @@ class RecordingReader::Impl {
 
   template <class Take, class T, class... Others>
   static std::string_view take_if_of(const McapMessage& message, const Take& take) {
-    if (message.channel->topic == topic_of<T>().name) {
+    if (topic_of<T>().is_called(message.channel->topic)) {
       const auto reason = refusal<T>(message);
       return reason.empty() ? take(std::in_place_type<T>) : reason;
     }
     if constexpr (sizeof...(Others) > 0) return take_if_of<Take, Others...>(message, take);
-    return kForeignTopic;
+    return message.channel->topic.starts_with(kTopicsOfAnyVersion) ? kOtherVersion : kForeignTopic;
   }
 
   std::string map_frame_id_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/messages.hpp"
 #include "laneloom/objects.hpp"
@@ -24,6 +26,12 @@ struct RecordedTopic {
   const char* name;
   const char* type;
   const char* idl;
+  std::string_view name_in_v2 =
+      {};  ///< in version 2 of the topics, if its type was the same; empty: it was not
+
+  bool is_called(std::string_view topic) const {
+    return topic == name || (!name_in_v2.empty() && topic == name_in_v2);
+  }
 };
 
 /// The metadata of a recording, and its keys: see Origin.
@@ -37,11 +45,11 @@ template <class T>
 RecordedTopic topic_of();
 template <>
 inline RecordedTopic topic_of<DetectionFrame>() {
-  return {dds::kDetectionsTopic, dds::kDetectionsType, kDetectionsIdl};
+  return {dds::kDetectionsTopic, dds::kDetectionsType, kDetectionsIdl, "laneloom/v2/detections"};
 }
 template <>
 inline RecordedTopic topic_of<VehiclePose>() {
-  return {dds::kVehiclePoseTopic, dds::kVehiclePoseType, kVehiclePoseIdl};
+  return {dds::kVehiclePoseTopic, dds::kVehiclePoseType, kVehiclePoseIdl, "laneloom/v2/vehicle_pose"};
 }
 template <>
 inline RecordedTopic topic_of<TrackedObjects>() {

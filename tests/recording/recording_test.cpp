@@ -296,6 +296,32 @@ TEST(Recording, OthersTopicsAndTypesArePassedOver) {
   EXPECT_EQ(reader.refused()["laneloom/v3/vehicle_pose: unknown encoding"], 1U);
 }
 
+TEST(Recording, InputsOfVersion2AreReadAndItsMapsAreCounted) {
+  const TemporaryFolder folder;
+  const auto channel = [](const char* topic, const char* type) {
+    return McapChannel{topic, "cdr", std::make_shared<McapSchema>(McapSchema{type, "omgidl", ""})};
+  };
+  Bytes pose, frame;
+  dds::to_cdr(pose_at(1), kMapFrame, pose);
+  dds::to_cdr(plain<DetectionFrame>(random_message<DetectionFrame>(1)), kMapFrame, frame);
+  {
+    McapWriter writer(folder.file("r.mcap"), Compression::none, 1000);
+    const auto poses = writer.add_channel(channel("laneloom/v2/vehicle_pose", dds::kVehiclePoseType));
+    const auto frames = writer.add_channel(channel("laneloom/v2/detections", dds::kDetectionsType));
+    const auto maps = writer.add_channel(channel("laneloom/v2/lane_map", dds::kLaneMapType));
+    writer.write(poses, 1, 1, 1, pose);
+    writer.write(frames, 2, 1, 1, frame);
+    writer.write(maps, 3, 1, 1, frame);
+    writer.close();
+  }
+  RecordingReader reader(folder.file("r.mcap"));
+  EXPECT_TRUE(std::holds_alternative<VehiclePose>(reader.next().value().message));
+  EXPECT_TRUE(std::holds_alternative<DetectionFrame>(reader.next().value().message));
+  EXPECT_FALSE(reader.next());
+  EXPECT_EQ(reader.refused()["laneloom/v2/lane_map: another version of the topics"], 1U);
+  EXPECT_EQ(reader.refused().values().size(), 1U);
+}
+
 TEST(Recording, LogTimesWhoseDifferencesOverflowAreRefused) {
   const TemporaryFolder folder;
   Bytes pose;
