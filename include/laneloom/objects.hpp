@@ -53,4 +53,24 @@ inline TrackedObjects in_body_frame(TrackedObjects objects, const Eigen::Isometr
   return objects;
 }
 
+/// The same objects in the map frame. T_map_body is the vehicle's pose at their stamp.
+inline TrackedObjects in_map_frame(TrackedObjects objects, const Eigen::Isometry3d& T_map_body) {
+  if (objects.in_map_frame) return objects;
+  for (TrackedObject& object : objects.objects) {
+    object.position = T_map_body * object.position;
+    object.heading = T_map_body.linear() * object.heading;
+  }
+  objects.in_map_frame = true;
+  return objects;
+}
+
+/// Objects in the map frame at another stamp: each goes on along its heading with its speed.
+inline TrackedObjects moved_to(std::int64_t stamp_ns, TrackedObjects objects) {
+  const double since_s = static_cast<double>(stamp_ns - objects.stamp_ns) * 1e-9;
+  for (TrackedObject& object : objects.objects)
+    object.position += object.speed_mps * since_s * object.heading;
+  objects.stamp_ns = stamp_ns;
+  return objects;
+}
+
 }  // namespace laneloom

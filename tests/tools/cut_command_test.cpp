@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "io/json_lines.hpp"
+#include "recording/recording.hpp"
 #include "tools/commands.hpp"
 
 namespace laneloom {
@@ -64,6 +66,51 @@ TEST_F(CutCommand, ObjectsOfOthersAreATopic) {
   ASSERT_EQ(run({"cut", file("t.frames.jsonl"), "--out", file("t.mcap")}), 0) << output();
   ASSERT_EQ(run({"cut", file("t.mcap"), "--topic", "objects", "--out", file("objects.mcap")}), 0) << output();
   EXPECT_THAT(output(), HasSubstr("20 messages"));
+}
+
+TEST_F(CutCommand, ObjectsOfARecordingAreInItsLines) {
+  ASSERT_EQ(run({"simulate", "--scenario", "town", "--traffic", "usual", "--duration", "2", "--frames",
+                 file("t.frames.jsonl")}),
+            0);
+  ASSERT_EQ(run({"cut", file("t.frames.jsonl"), "--out", file("t.mcap")}), 0) << output();
+  ASSERT_EQ(run({"cut", file("t.mcap"), "--out", file("back.frames.jsonl")}), 0) << output();
+  io::JsonLinesReader whole(file("t.frames.jsonl")), back(file("back.frames.jsonl"));
+  while (const auto expected = whole.next_frame()) {
+    const auto got = back.next_frame();
+    ASSERT_TRUE(got && got->objects && expected->objects);
+    ASSERT_EQ(got->objects->objects.size(), expected->objects->objects.size());
+    for (std::size_t i = 0; i < got->objects->objects.size(); ++i) {
+      EXPECT_EQ(got->objects->objects[i].id, expected->objects->objects[i].id);
+      EXPECT_TRUE(got->objects->objects[i].position.isApprox(expected->objects->objects[i].position, 1e-9));
+    }
+  }
+}
+
+TEST_F(CutCommand, ObjectsBetweenFramesGoOnToTheNextOne) {
+  {
+    recording::RecordingWriter writer(file("drive.mcap"));
+    const auto at = [](int tenths) { return std::int64_t{1'000'000'000} + tenths * 100'000'000; };
+    for (int i = 0; i <= 4; ++i)  // the vehicle drives 1 m from pose to pose
+      writer.write(VehiclePose{.stamp_ns = at(i), .position = Point(i, 0, 0)}, at(i));
+    for (const int i : {0, 1})  // a car ahead goes with 20 m/s
+      writer.write(TrackedObjects{.stamp_ns = at(i),
+                                  .objects = {{.id = 7,
+                                               .position = Point(30, 2, 0),
+                                               .heading = Point::UnitX(),
+                                               .speed_mps = 20}}},
+                   at(4));
+    for (const int i : {2, 3})
+      writer.write(DetectionFrame{.stamp_ns = at(i), .sequence = static_cast<std::uint64_t>(i)}, at(4));
+    writer.close();
+  }
+  ASSERT_EQ(run({"cut", file("drive.mcap"), "--out", file("drive.frames.jsonl")}), 0) << output();
+  io::JsonLinesReader lines(file("drive.frames.jsonl"));
+  const auto first = lines.next_frame(), second = lines.next_frame();
+  ASSERT_TRUE(first && second && first->objects);
+  ASSERT_EQ(first->objects->objects.size(), 1u) << "the newest alone";
+  EXPECT_TRUE(first->objects->objects[0].position.isApprox(Point(31, 2, 0)))
+      << "by 2 m, and the vehicle by 1 m";
+  EXPECT_FALSE(second->objects) << "each is told once";
 }
 
 TEST_F(CutCommand, ARecordingBecomesLinesAndLinesARecording) {

@@ -3,19 +3,23 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
+#include "evaluation/inputs.hpp"
 #include "io/json_lines.hpp"
+#include "laneloom/objects.hpp"
 #include "replay/message_source.hpp"
 #include "support/progress_bar.hpp"
 
@@ -95,7 +99,48 @@ void cut_lines(const CutOptions& options, Part& part) {
   warn_of(options.drive, left_out);
 }
 
-/// Writes the frames of a recording with their poses, or else its maps.
+/// The objects of a recording, which lines tell at the stamps of frames.
+class ObjectsOfFrames {
+ public:
+  explicit ObjectsOfFrames(const std::string& recording) {
+    support::ProgressBar bar;
+    evaluation::for_each_objects(recording,
+                                 [&](const TrackedObjects& seen, const Eigen::Isometry3d& T_map_body) {
+                                   seen_.push_back(in_map_frame(seen, T_map_body));
+                                 },
+                                 {.on_step = [&](double share) { bar.step(share); }});
+  }
+
+  /// The newest since the last call, moved on to this stamp. Stamps must ascend.
+  std::optional<TrackedObjects> at(std::int64_t stamp_ns) {
+    std::optional<TrackedObjects> newest;
+    while (!seen_.empty() && seen_.front().stamp_ns <= stamp_ns) {
+      newest = std::move(seen_.front());
+      seen_.pop_front();
+    }
+    return newest ? std::optional(moved_to(stamp_ns, *std::move(newest))) : std::nullopt;
+  }
+
+ private:
+  std::deque<TrackedObjects> seen_;  ///< in the map frame; stamps ascend
+};
+
+/// Writes the frames of a recording with their poses and objects.
+void cut_frames(const CutOptions& options, Part& part, io::JsonLinesWriter& out) {
+  ObjectsOfFrames objects(options.drive);
+  for_each_frame(options.drive, options.strict,
+                 [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+                   std::optional<TrackedObjects> seen = objects.at(frame.stamp_ns);
+                   if (!part.holds(frame.stamp_ns)) return;
+                   out.write(io::FrameRecord{frame,
+                                             {.stamp_ns = frame.stamp_ns,
+                                              .position = T_map_body.translation(),
+                                              .orientation = Eigen::Quaterniond(T_map_body.linear())},
+                                             std::move(seen)});
+                 });
+}
+
+/// Writes the frames of a recording, or else its maps.
 void cut_to_lines(const CutOptions& options, Part& part) {
   io::JsonLinesWriter out(options.out);
   const bool maps = options.topics == std::vector<std::string>{"lane_map"};
@@ -107,14 +152,7 @@ void cut_to_lines(const CutOptions& options, Part& part) {
       if (part.holds(map.stamp_ns)) out.write(map);
     });
   else
-    for_each_frame(options.drive, options.strict,
-                   [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-                     if (!part.holds(frame.stamp_ns)) return;
-                     out.write(io::FrameRecord{frame,
-                                               {.stamp_ns = frame.stamp_ns,
-                                                .position = T_map_body.translation(),
-                                                .orientation = Eigen::Quaterniond(T_map_body.linear())}});
-                   });
+    cut_frames(options, part, out);
   out.close();
 }
 

@@ -19,12 +19,7 @@ RecordedTraffic::RecordedTraffic(std::vector<TrackedObjects> objects, const Driv
     : seen_(std::move(objects)) {
   for (TrackedObjects& seen : seen_) {
     seen.stamp_ns -= start_ns;
-    const Eigen::Isometry3d T_map_body = transform(drive.pose_at(seconds(seen.stamp_ns)));
-    for (TrackedObject& object : seen.objects) {
-      object.position = T_map_body * object.position;
-      object.heading = T_map_body.linear() * object.heading;
-    }
-    seen.in_map_frame = true;
+    seen = in_map_frame(std::move(seen), transform(drive.pose_at(seconds(seen.stamp_ns))));
   }
 }
 
@@ -32,11 +27,8 @@ TrackedObjects RecordedTraffic::observe(const VehiclePose& pose, double drive_s)
   const std::int64_t now_ns = std::llround(drive_s * 1e9);
   const auto next = std::ranges::upper_bound(seen_, now_ns, {}, &TrackedObjects::stamp_ns);
   TrackedObjects now{.objects = {}, .in_map_frame = true};
-  if (next != seen_.begin() && seconds(now_ns - std::prev(next)->stamp_ns) <= kRemembered_s) {
-    now = *std::prev(next);
-    const double since_s = seconds(now_ns - now.stamp_ns);
-    for (TrackedObject& object : now.objects) object.position += object.speed_mps * since_s * object.heading;
-  }
+  if (next != seen_.begin() && seconds(now_ns - std::prev(next)->stamp_ns) <= kRemembered_s)
+    now = moved_to(now_ns, *std::prev(next));
   now.stamp_ns = pose.stamp_ns;
   now.sequence = ++sequence_;
   now.session_id = 1;
