@@ -14,6 +14,7 @@ namespace laneloom::imports {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// Runs the real `laneloom import` on a made-up Argoverse 2 log of half a second.
 class ImportCommand : public testing::Test {
@@ -128,6 +129,34 @@ TEST_F(ImportCommand, AnOpenpilotLogBecomesARecording) {
     frames += std::holds_alternative<DetectionFrame>(message->message);
   EXPECT_EQ(frames, 1u);
   EXPECT_TRUE(reader.refused().values().empty());
+}
+
+TEST_F(ImportCommand, ClassesOfJsonLinesBecomeTheTypesThatAreSaid) {
+  std::string lines;
+  for (const std::string t : {"1", "1.1"})
+    lines += R"({"t":)" + t + R"(,"pose":[0,0,0,0,0,0,1],"detections":[)" +
+             R"({"type":"kerb","score":0.9,"points":[[0,2,0],[30,2,0]]},)" +
+             R"({"type":"arrow","score":0.9,"points":[[5,0,0],[8,0,0]]}]})" + "\n";
+  write("drive.frames.jsonl", lines);
+  const std::vector<std::string> classes{"--class", "kerb=roadedge", "--class", "arrow=none"};
+  const auto import = [&](const std::string& in, const std::string& out) {
+    std::vector<std::string> words{"frames", file(in), "--out", file(out)};
+    words.insert(words.end(), classes.begin(), classes.end());
+    return run(words);
+  };
+  ASSERT_EQ(import("drive.frames.jsonl", "drive.mcap"), 0) << output();
+  EXPECT_THAT(output(), Not(HasSubstr("left out")));
+  recording::RecordingReader reader(file("drive.mcap"));
+  std::vector<MarkingType> types;
+  while (const auto message = reader.next())
+    if (const auto* frame = std::get_if<DetectionFrame>(&message->message))
+      for (const Detection& detection : frame->detections) types.push_back(detection.type);
+  EXPECT_EQ(types, std::vector(2, MarkingType::roadedge));
+
+  EXPECT_EQ(import("drive.mcap", "again.mcap"), 1);
+  EXPECT_THAT(output(), HasSubstr("drive.mcap: a recording has laneloom's types; --class needs JSON lines"));
+  EXPECT_EQ(run({"openpilot", "--log", "x", "--out", "y", "--class", "kerb=roadedge"}), 64);
+  EXPECT_THAT(output(), HasSubstr("kerb=roadedge: the lists of lines are laneLines, roadEdges"));
 }
 
 TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {

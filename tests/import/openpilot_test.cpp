@@ -42,7 +42,7 @@ class Openpilot : public testing::Test {
   OpenpilotDrive read_text(const std::string& text, bool strict = false) {
     std::ofstream(folder_.file("rlog.jsonl")) << text;
     left_out_ = LeftOut(strict);
-    return read_openpilot(folder_.file("rlog.jsonl"), left_out_);
+    return read_openpilot(folder_.file("rlog.jsonl"), {left_out_, classes_});
   }
   std::string left_out() const { return left_out_.summary(); }
   /// What a strict reader says.
@@ -62,6 +62,9 @@ class Openpilot : public testing::Test {
  private:
   TemporaryFolder folder_;
   LeftOut left_out_;
+
+ protected:
+  Classes classes_ = openpilot_classes();
 };
 
 TEST_F(Openpilot, LinesAndEdgesWithTheirProbabilitiesAndDeviations) {
@@ -78,6 +81,15 @@ TEST_F(Openpilot, LinesAndEdgesWithTheirProbabilitiesAndDeviations) {
   EXPECT_EQ(detections[1].type, MarkingType::roadedge);
   EXPECT_EQ(detections[1].confidence, 0.5);
   EXPECT_EQ(detections[2].confidence, 0.0);
+}
+
+TEST_F(Openpilot, ListsBecomeTheTypesThatAreSaid) {
+  classes_["roadEdges"] = std::nullopt;
+  classes_["laneLines"] = MarkingType::roadedge;
+  const OpenpilotDrive drive = read({model(100), pose(1, 0, 0), pose(200, 0, 0)});
+  ASSERT_EQ(drive.frames.at(0).detections.size(), 1u);
+  EXPECT_EQ(drive.frames[0].detections[0].type, MarkingType::roadedge);
+  EXPECT_THAT(drive.frames[0].detected_types, ElementsAre(MarkingType::roadedge));
 }
 
 TEST_F(Openpilot, PosesAreTheSumOfTheVelocities) {
@@ -203,7 +215,7 @@ TEST_F(Openpilot, FilesOfAnotherKindAreNamed) {
   EXPECT_THAT(complaint(""), HasSubstr("rlog.jsonl: is empty"));
   EXPECT_THAT(error_of([&] {
                 LeftOut left_out;
-                read_openpilot("/no/such/log", left_out);
+                read_openpilot("/no/such/log", {left_out});
               }),
               HasSubstr("/no/such/log: cannot be read"));
 }

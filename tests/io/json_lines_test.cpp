@@ -99,6 +99,33 @@ TEST(FrameJson, OfAnObjectOnlyIdAndPositionMustBeThere) {
     EXPECT_THROW(frame_from_json(line(object)), std::runtime_error) << object;
 }
 
+TEST(FrameJson, ClassesOfOthersBecomeTheTypesThatAreSaid) {
+  const auto line = [](const std::string& type) {
+    return R"({"type":")" + type + R"(","score":0.5,"points":[[0,0,0],[1,0,0]]})";
+  };
+  const auto read = [](const std::string& lines, LeftOut& left_out) {
+    const std::string frame =
+        R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detected_types":["kerb","arrow"],"detections":[)" + lines + "]}";
+    return frame_from_json(frame, {.left_out = left_out,
+                                   .conventions = {.classes = {{"kerb", MarkingType::roadedge},
+                                                               {"roadedge", MarkingType::laneline},
+                                                               {"arrow", std::nullopt}}}})
+        .frame;
+  };
+  LeftOut left_out;
+  const DetectionFrame frame = read(
+      line("arrow") + "," + line("kerb") + "," + line("roadedge") + "," + line("stopline") + "," + line("x"),
+      left_out);
+  std::vector<MarkingType> types;
+  for (const Detection& detection : frame.detections) types.push_back(detection.type);
+  EXPECT_EQ(types, (std::vector{MarkingType::roadedge, MarkingType::laneline, MarkingType::stopline}))
+      << "no class is taken twice";
+  EXPECT_EQ(frame.detected_types, std::vector{MarkingType::roadedge});
+  EXPECT_EQ(left_out.summary(),
+            "1 x detections[].type: must be one of laneline, roadedge, stopline (first: .detections[4])");
+  EXPECT_TRUE(read(line("arrow"), left_out).detections.empty()) << "such a frame saw nothing";
+}
+
 TEST(FrameJson, TheOptionalKeysMayBeAbsent) {
   const FrameRecord read = frame_from_json(
       R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[{"type":"laneline","score":0.5,"points":[[0,0,0],[1,0,0]]}]})");
@@ -321,7 +348,7 @@ TEST(JsonLines, ADetectionThatIsWrongDoesNotLoseItsFrame) {
 
   LeftOut strict(/*strict=*/true);
   EXPECT_THROW(JsonLinesReader(path).next_frame(strict), std::runtime_error);
-  JsonLinesReader any(path, /*any_confidence=*/true);
+  JsonLinesReader any(path, FrameConventions{.any_confidence = true});
   EXPECT_EQ(any.next_frame(strict)->frame.detections[0].confidence, 80.0);
 }
 

@@ -47,7 +47,8 @@ bool is_sound(const check::Findings& found) { return std::ranges::all_of(found, 
 
 void check(const CheckOptions& options) {
   const Config config = config::resolve_config(options.config, {});
-  const auto source = replay::open_messages(options.drive, config.dds.map_frame_id, {.any_confidence = true});
+  const auto source = replay::open_messages(options.drive, config.dds.map_frame_id,
+                                            {.conventions = {.any_confidence = true}});
   const check::Findings found = findings(check::read_drive(*source), config);
   warn_of(options.drive, source->refused(), source->cut_off());
   warn_of(options.drive, source->left_out());
@@ -66,7 +67,8 @@ void check(const CheckOptions& options) {
 
 std::string why_poor(const std::string& path, const Config& config) {
   if (path == io::kStandard) return {};  // standard input was read
-  const auto source = replay::open_messages(path, config.dds.map_frame_id, {.any_confidence = true});
+  const auto source =
+      replay::open_messages(path, config.dds.map_frame_id, {.conventions = {.any_confidence = true}});
   check::Findings found = findings(check::read_drive(*source), config);
   std::erase_if(found, &check::Finding::advice);
   return found.empty() ? "" : "laneloom: " + path + ": `laneloom check` finds:\n" + list_of(found);

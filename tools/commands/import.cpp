@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "commands/check_drive.hpp"
+#include "commands/class_option.hpp"
 #include "commands/commands.hpp"
 #include "commands/import_frames.hpp"
 #include "commands/import_scene.hpp"
@@ -21,7 +20,6 @@
 #include "import/maptr.hpp"
 #include "import/openpilot.hpp"
 #include "import/streammapnet.hpp"
-#include "laneloom/element_names.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/argoverse2_objects.hpp"
 #include "simulation/road.hpp"
@@ -85,27 +83,6 @@ void add_drive(CLI::App& command, ResultsOptions& options) {
   add_axes(command, options.axes)->needs(poses);
 }
 
-/// Adds --class NAME=TYPE.
-void add_classes(CLI::App& command, imports::Classes& classes) {
-  const auto set = [&classes](const std::vector<std::string>& words) {
-    for (const std::string& word : words) {
-      const std::size_t equals = word.rfind('=');
-      const std::string type = equals == std::string::npos ? "" : word.substr(equals + 1);
-      const auto* const known = std::ranges::find(kTypeNames, type);
-      if (equals == 0 || (known == kTypeNames.end() && type != "none"))
-        throw CLI::ValidationError("--class", word + ": needs NAME=laneline, roadedge, stopline or none");
-      std::optional<MarkingType>& becomes = classes[word.substr(0, equals)];
-      becomes.reset();
-      if (type != "none") becomes = static_cast<MarkingType>(known - kTypeNames.begin());
-    }
-  };
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--class", set,
-          "Type that lines of a class become: laneline, roadedge, stopline or none; once for each class")
-      ->type_name("NAME=TYPE");
-}
-
 void add_results(CLI::App& app, const std::string& name, const std::string& whose, const std::string& file,
                  ReadResults read) {
   CLI::App* command = app.add_subcommand(name, "Detections of " + whose + ", and the poses of a drive");
@@ -121,12 +98,13 @@ void add_results(CLI::App& app, const std::string& name, const std::string& whos
 
 struct OpenpilotOptions {
   std::string log, out;
+  imports::Classes classes = imports::openpilot_classes();
   bool strict = false;
 };
 
 void import_openpilot(const OpenpilotOptions& options) {
   imports::OpenpilotDrive drive = read_and_warn(options.log, options.strict, [&](LeftOut& left_out) {
-    return imports::read_openpilot(options.log, left_out);
+    return imports::read_openpilot(options.log, {left_out, options.classes});
   });
   const std::size_t without_pose = imports::drop_frames_without_pose(drive.frames, drive.poses);
   if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");
@@ -142,6 +120,10 @@ void add_openpilot(CLI::App& app) {
       app.add_subcommand("openpilot", "Lane lines, road edges and odometry of an openpilot log");
   const auto options = std::make_shared<OpenpilotOptions>();
   command->add_option("--log", options->log, "The log as JSON, one event a line (.jsonl)")->required();
+  add_classes(*command, options->classes)->check([](const std::string& word) {
+    const bool is_list = imports::openpilot_classes().contains(word.substr(0, word.rfind('=')));
+    return is_list ? "" : word + ": the lists of lines are " + imports::names_of(imports::openpilot_classes());
+  });
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
   add_strict(*command, options->strict);
   command->footer(

@@ -13,6 +13,7 @@
 
 #include "check/correction.hpp"
 #include "check/drive.hpp"
+#include "commands/class_option.hpp"
 #include "commands/options.hpp"
 #include "commands/warn_of.hpp"
 #include "import/drive_recording.hpp"
@@ -29,8 +30,18 @@ const std::map<std::string, ConfidenceScale> kConfidenceScales{{"share", Confide
 struct ImportFramesOptions {
   std::string drive, out;
   check::Correction correction;
+  io::Classes classes;
   bool strict = false;
 };
+
+/// Opens a drive whose lines may be of other classes.
+std::unique_ptr<replay::MessageSource> open_drive(const ImportFramesOptions& options) {
+  if (!options.classes.empty() && recording::is_recording(options.drive))
+    throw std::runtime_error(options.drive + ": a recording has laneloom's types; --class needs JSON lines");
+  return replay::open_messages(
+      options.drive, "map",
+      {.strict = options.strict, .conventions = {.any_confidence = true, .classes = options.classes}});
+}
 
 /// All frames, corrected, in the order of their stamps.
 std::vector<DetectionFrame> corrected_frames(const check::Drive& drive, const check::PoseTrack& poses,
@@ -49,8 +60,7 @@ std::vector<DetectionFrame> corrected_frames(const check::Drive& drive, const ch
 }
 
 void import_frames(const ImportFramesOptions& options) {
-  const auto source =
-      replay::open_messages(options.drive, "map", {.strict = options.strict, .any_confidence = true});
+  const auto source = open_drive(options);
   const check::Drive drive = check::read_drive(*source);
   warn_of(options.drive, source->refused(), source->cut_off());
   warn_of(options.drive, source->left_out());
@@ -115,6 +125,7 @@ void add_import_frames(CLI::App& import) {
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
   add_points(*command, options->correction);
   add_poses(*command, options->correction);
+  add_classes(*command, options->classes);
   add_strict(*command, options->strict);
   command->callback([options] { import_frames(*options); });
 }

@@ -10,11 +10,17 @@
 #include "session/gate.hpp"
 
 namespace laneloom::imports {
-namespace {
 
 using nlohmann::json;
 
-/// The types that the lines of some classes become.
+const Classes& usual_classes() {
+  static const Classes classes{{"divider", MarkingType::laneline},
+                               {"boundary", MarkingType::roadedge},
+                               {"ped_crossing", std::nullopt},
+                               {"centerline", std::nullopt}};
+  return classes;
+}
+
 std::vector<MarkingType> types_of(const Classes& classes) {
   std::set<MarkingType> types;
   for (const auto& [name, type] : classes)
@@ -26,16 +32,6 @@ std::string names_of(const Classes& classes) {
   std::string names;
   for (const auto& [name, type] : classes) names += (names.empty() ? "" : ", ") + name;
   return names;
-}
-
-}  // namespace
-
-const Classes& usual_classes() {
-  static const Classes classes{{"divider", MarkingType::laneline},
-                               {"boundary", MarkingType::roadedge},
-                               {"ped_crossing", std::nullopt},
-                               {"centerline", std::nullopt}};
-  return classes;
 }
 
 double confidence(const json& value) {

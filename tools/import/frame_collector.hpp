@@ -13,13 +13,13 @@
 
 #include "base/left_out.hpp"
 #include "import/drive_log.hpp"
+#include "io/json_lines.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::imports {
 
-/// The type of marking that the lines of each class of a network become. None: they are counted, and left
-/// out.
-using Classes = std::map<std::string, std::optional<MarkingType>>;
+/// Lines of a class that becomes none are counted, and left out.
+using io::Classes;
 
 /// The classes of MapTR and those after it: a divider is a laneline and a boundary a roadedge; ped_crossing
 /// and centerline are left out.
@@ -81,6 +81,12 @@ class FrameCollector {
   std::set<std::int64_t> stamps_;
   std::string place_;  ///< of the sample
 };
+
+/// The types that the lines of some classes become, each once.
+std::vector<MarkingType> types_of(const Classes& classes);
+
+/// The names of the classes, with commas between them.
+std::string names_of(const Classes& classes);
 
 /// A number from 0 to 1. Throws JsonError.
 double confidence(const nlohmann::json& value);

@@ -43,7 +43,6 @@ Polyline points(const json& line) {
 
 /// A kind of lines in modelV2.
 struct LinesOfModel {
-  MarkingType type;
   std::string lines, confidences, deviations;  ///< keys
   double (*confidence)(const json& value);
 };
@@ -52,14 +51,13 @@ double edge_confidence(const json& deviation_m) {
   return std::clamp(1.0 - io::number(deviation_m), 0.0, 1.0);
 }
 
-const LinesOfModel kLaneLines{MarkingType::laneline, "laneLines", "laneLineProbs", "laneLineStds",
-                              confidence};
-const LinesOfModel kRoadEdges{MarkingType::roadedge, "roadEdges", "roadEdgeStds", "roadEdgeStds",
-                              edge_confidence};
+const LinesOfModel kLaneLines{"laneLines", "laneLineProbs", "laneLineStds", confidence};
+const LinesOfModel kRoadEdges{"roadEdges", "roadEdgeStds", "roadEdgeStds", edge_confidence};
 
 class LogReader {
  public:
-  explicit LogReader(LeftOut& left_out) : left_out_(left_out) {}
+  explicit LogReader(const OpenpilotReading& reading)
+      : left_out_(reading.left_out), classes_(reading.classes), types_(types_of(reading.classes)) {}
 
   /// Takes an event, which is at `place`.
   void read(const json& event, const std::string& place) {
@@ -103,7 +101,7 @@ class LogReader {
     }
     DetectionFrame frame{.stamp_ns = io::required(model, "timestampEof", long_integer),
                          .source = "openpilot",
-                         .detected_types = {MarkingType::laneline, MarkingType::roadedge}};
+                         .detected_types = types_};
     // Before its lines, so that those of a frame that is given twice are not counted again.
     if (frames_.contains(frame.stamp_ns)) throw io::JsonError("timestampEof", "a second frame of this stamp");
     add_lines(model, kLaneLines, place, frame);
@@ -116,6 +114,8 @@ class LogReader {
 
   void add_lines(const json& model, const LinesOfModel& kind, const std::string& place,
                  DetectionFrame& frame) {
+    const std::optional<MarkingType> type = classes_.at(kind.lines);
+    if (!type) return;
     const json& lines = *io::required(model, kind.lines.c_str(), io::array);
     const json& confidences = *io::required(model, kind.confidences.c_str(), io::array);
     const json& deviations = *io::required(model, kind.deviations.c_str(), io::array);
@@ -125,7 +125,7 @@ class LogReader {
         if (i >= confidences.size()) throw io::JsonError("has no value in " + kind.confidences);
         if (i >= deviations.size()) throw io::JsonError("has no value in " + kind.deviations);
         Detection line{
-            .type = kind.type, .confidence = kind.confidence(confidences[i]), .points = points(lines[i])};
+            .type = *type, .confidence = kind.confidence(confidences[i]), .points = points(lines[i])};
         line.stddev_m.assign(line.points.size(), io::number(deviations[i]));
         check_line(line);
         frame.detections.push_back(std::move(line));
@@ -140,6 +140,8 @@ class LogReader {
   }
 
   LeftOut& left_out_;
+  const Classes& classes_;
+  std::vector<MarkingType> types_;  ///< of the classes
   OpenpilotDrive drive_;
   std::map<std::int64_t, DetectionFrame> frames_;  ///< by stamp, as logs are not in its order
   OpenpilotOdometry odometry_;
@@ -178,11 +180,17 @@ void read_lines(const std::filesystem::path& path, LogReader& log, LeftOut& left
 
 }  // namespace
 
-OpenpilotDrive read_openpilot(const std::filesystem::path& path, LeftOut& left_out) {
+const Classes& openpilot_classes() {
+  static const Classes classes{{kLaneLines.lines, MarkingType::laneline},
+                               {kRoadEdges.lines, MarkingType::roadedge}};
+  return classes;
+}
+
+OpenpilotDrive read_openpilot(const std::filesystem::path& path, const OpenpilotReading& reading) {
   if (const std::string kind = io::file_kind(path); !kind.empty())
     throw std::runtime_error(path.string() + ": " + kind + "; " + kNeeded);
-  LogReader log(left_out);
-  read_lines(path, log, left_out);
+  LogReader log(reading);
+  read_lines(path, log, reading.left_out);
   try {
     return std::move(log).finish();
   } catch (const std::runtime_error& error) {

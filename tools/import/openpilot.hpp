@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/left_out.hpp"
+#include "import/frame_collector.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::imports {
@@ -15,6 +16,15 @@ struct OpenpilotDrive {
   std::vector<VehiclePose> poses;      ///< stamps ascend
   std::size_t invalid_frames = 0;      ///< number that openpilot marks as not valid; they are left out
   std::size_t invalid_poses = 0;       ///< likewise
+};
+
+/// The lists of lines in a log, and what they become.
+const Classes& openpilot_classes();
+
+/// How a log is read. What it refers to must live as long as the reading.
+struct OpenpilotReading {
+  LeftOut& left_out;
+  const Classes& classes = openpilot_classes();  ///< has a type, or none, for each list
 };
 
 /// Reads a log of openpilot as JSON, one event per line. Cap'n Proto's own tool makes it from the log and
@@ -44,6 +54,6 @@ struct OpenpilotDrive {
 ///
 /// Throws std::runtime_error naming the file if it is no such log, and if no frame or fewer than two poses
 /// are left; also of the first wrong value, naming line and key, if `left_out` is strict.
-OpenpilotDrive read_openpilot(const std::filesystem::path& path, LeftOut& left_out);
+OpenpilotDrive read_openpilot(const std::filesystem::path& path, const OpenpilotReading& reading);
 
 }  // namespace laneloom::imports

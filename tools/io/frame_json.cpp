@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "io/element_json.hpp"
 #include "io/json_lines.hpp"
@@ -34,14 +35,43 @@ Detection detection(const json& value, bool any_confidence) {
   return out;
 }
 
+/// Makes a class's name that of its type. False: lines of that class are left out.
+bool take_class(json& name_of_class, const Classes& classes) {
+  const auto found =
+      name_of_class.is_string() ? classes.find(name_of_class.get<std::string>()) : classes.end();
+  if (found == classes.end()) return true;
+  if (found->second) name_of_class = name(*found->second);
+  return found->second.has_value();
+}
+
+/// The same of a detection.
+bool take_class_of(json& detection, const Classes& classes) {
+  return classes.empty() || !detection.is_object() || !detection.contains("type") ||
+         take_class(detection["type"], classes);
+}
+
 /// The detections that can be read. Throws JsonError if there are some, and none can be.
-std::vector<Detection> detections(const json& items, const FrameReading& reading) {
+std::vector<Detection> detections(json items, const FrameReading& reading) {
   std::vector<Detection> out;
+  std::size_t unused = 0;
   for (std::size_t i = 0; i < items.size(); ++i)
-    take_or_leave_out(reading.left_out, reading.place + ".", "detections[" + std::to_string(i) + "]",
-                      [&] { out.push_back(detection(items[i], reading.any_confidence)); });
-  if (out.empty() && !items.empty()) throw JsonError("detections", "none of them can be read");
+    if (take_class_of(items[i], reading.conventions.classes))
+      take_or_leave_out(reading.left_out, reading.place + ".", "detections[" + std::to_string(i) + "]",
+                        [&] { out.push_back(detection(items[i], reading.conventions.any_confidence)); });
+    else
+      ++unused;
+  if (out.empty() && unused < items.size()) throw JsonError("detections", "none of them can be read");
   return out;
+}
+
+/// The types that the network can detect.
+std::vector<MarkingType> detected_types(const json& items, const Classes& classes) {
+  std::vector<MarkingType> types;
+  list(items, [&](json name_of_class) {
+    if (take_class(name_of_class, classes)) types.push_back(marking_type(name_of_class));
+    return true;
+  });
+  return types;
 }
 
 }  // namespace
@@ -90,19 +120,20 @@ FrameRecord frame_from_json(std::string_view text) {
 }
 
 FrameRecord frame_from_json(std::string_view text, const FrameReading& reading) {
-  const json object = parse_json(text);
+  json object = parse_json(text);
   FrameRecord record;
   DetectionFrame& frame = record.frame;
   frame.stamp_ns = read_stamp_ns(object);
   if (frame.stamp_ns < 0 || required(object, "t", number) < 0.0) throw JsonError("t", "must be 0 or above");
   if (frame.stamp_ns == 0) frame.stamp_ns = 1;  // a stamp of 0 would say that there is none
   record.pose = read_pose(object);
-  frame.detections = detections(*required(object, "detections", array), reading);
+  required(object, "detections", array);
+  frame.detections = detections(std::move(object["detections"]), reading);
   frame.sequence = optional(object, "sequence", count).value_or(0);
   frame.session_id = optional(object, "session_id", count).value_or(0);
   frame.source = optional(object, "source", io::text).value_or("");
   frame.field_of_view = optional(object, "field_of_view", polyline).value_or(Polyline{});
-  const auto types = [](const json& items) { return list(items, marking_type); };
+  const auto types = [&](const json& items) { return detected_types(items, reading.conventions.classes); };
   frame.detected_types = optional(object, "detected_types", types).value_or(std::vector<MarkingType>{});
   const auto areas = [](const json& items) { return list(items, polyline); };
   frame.occluded_areas = optional(object, "occluded_areas", areas).value_or(std::vector<Polyline>{});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "io/json_fields.hpp"
 #include "io/stamp_and_pose.hpp"
@@ -14,8 +15,8 @@ constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
 
 }  // namespace
 
-JsonLinesReader::JsonLinesReader(const std::filesystem::path& path, bool any_confidence)
-    : path_(path), any_confidence_(any_confidence), buffer_(std::cin.rdbuf()) {
+JsonLinesReader::JsonLinesReader(const std::filesystem::path& path, FrameConventions conventions)
+    : path_(path), conventions_(std::move(conventions)), buffer_(std::cin.rdbuf()) {
   if (path == kStandard) return;
   file_.open(path);
   buffer_ = file_.rdbuf();
@@ -37,7 +38,7 @@ std::optional<FrameRecord> JsonLinesReader::next_frame() {
 
 std::optional<FrameRecord> JsonLinesReader::next_frame(LeftOut& left_out) {
   return next(left_out, [&](const std::string& place) {
-    return frame_from_json(line_, {left_out, place, any_confidence_});
+    return frame_from_json(line_, {left_out, place, conventions_});
   });
 }
 

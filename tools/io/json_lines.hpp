@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -74,11 +75,20 @@ struct FrameRecord {
 std::string to_json_line(const FrameRecord& record);
 std::string to_json_line(const LocalMap& map);
 
+/// The type of marking that lines of each class become. None: they are left out.
+using Classes = std::map<std::string, std::optional<MarkingType>>;
+
+/// What differs in frames of others.
+struct FrameConventions {
+  bool any_confidence = false;  ///< confidences may be on another scale than 0..1
+  Classes classes{};            ///< what `type` may be beside laneloom's types
+};
+
 /// How a frame is read.
 struct FrameReading {
-  LeftOut& left_out;            ///< detections that are wrong are left out, unless that is strict
-  std::string place{};          ///< of the frame, where something is left out
-  bool any_confidence = false;  ///< confidences may be on another scale than 0..1
+  LeftOut& left_out;               ///< detections that are wrong are left out, unless that is strict
+  std::string place{};             ///< of the frame, where something is left out
+  FrameConventions conventions{};  ///< of the frame
 };
 
 /// All throw std::runtime_error naming the key if `text` is not such a line. It is not checked whether ids
@@ -97,7 +107,7 @@ struct StampedLine {
 class JsonLinesReader {
  public:
   /// Throws std::runtime_error where the file cannot be read.
-  explicit JsonLinesReader(const std::filesystem::path& path, bool any_confidence = false);
+  explicit JsonLinesReader(const std::filesystem::path& path, FrameConventions conventions = {});
 
   /// The content of the next line. None: the end. Both throw std::runtime_error naming file, line number and
   /// key; reading may go on with the line after.
@@ -119,7 +129,7 @@ class JsonLinesReader {
   std::runtime_error error(const std::string& complaint) const;
 
   std::filesystem::path path_;
-  bool any_confidence_;
+  FrameConventions conventions_;
   std::ifstream file_;
   std::streambuf* buffer_;  ///< of the file or of standard input
   std::uintmax_t size_ = 0;

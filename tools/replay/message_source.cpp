@@ -57,7 +57,7 @@ class JsonLinesMessages : public MessageSource {
  public:
   JsonLinesMessages(const std::string& path, std::string map_frame_id, const MessageReading& reading)
       : path_(path),
-        reader_(path, reading.any_confidence),
+        reader_(path, reading.conventions),
         map_frame_id_(std::move(map_frame_id)),
         left_out_(reading.strict) {}
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/left_out.hpp"
+#include "io/json_lines.hpp"
 #include "recording/recording.hpp"
 
 namespace laneloom::replay {
@@ -35,8 +36,8 @@ class MessageSource {
 
 /// How messages are read.
 struct MessageReading {
-  bool strict = false;          ///< the first thing that is wrong is an error
-  bool any_confidence = false;  ///< confidences may be on another scale than 0..1
+  bool strict = false;                 ///< the first thing that is wrong is an error
+  io::FrameConventions conventions{};  ///< of JSON lines; a recording has laneloom's
 };
 
 /// Opens a recording (MCAP), or frames with their poses as JSON lines (io/json_lines.hpp); the first bytes
