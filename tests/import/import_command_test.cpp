@@ -159,6 +159,23 @@ TEST_F(ImportCommand, ClassesOfJsonLinesBecomeTheTypesThatAreSaid) {
   EXPECT_THAT(output(), HasSubstr("kerb=roadedge: the lists of lines are laneLines, roadEdges"));
 }
 
+TEST_F(ImportCommand, ATerminalShowsABar) {
+  write("submission.json", R"({"results": {"1250000000": {"vectors": [], "scores": [], "labels": []}}})");
+  write("frames.jsonl", R"({"t":1,"pose":[0,0,0,0,0,0,1],"detections":[]})");
+  ASSERT_EQ(run({"frames", file("frames.jsonl"), "--out", file("frames.mcap")}), 0) << output();
+  int number = 0;
+  for (const std::string& words :
+       {"maptr --results " + file("results.json") + " --argoverse2 " + file("log"),
+        "maptracker --results " + file("submission.json") + " --argoverse2 " + file("log"),
+        "openpilot --log " + file("frames.jsonl"), "frames " + file("frames.jsonl"),
+        "scene " + file("frames.mcap"), "argoverse2 " + file("log")}) {
+    const std::string out = file(std::to_string(++number) + ".mcap");
+    const std::string command = std::string(LANELOOM_COMMAND) + " import " + words + " --out " + out;
+    support::ChildProcess({"/usr/bin/script", "-qec", command, "/dev/null"}, file("output")).wait();
+    EXPECT_THAT(output(), HasSubstr("#] 100 %")) << words;
+  }
+}
+
 TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {
   const std::string line = R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2],[30,NaN]]})";
   write("results.json",

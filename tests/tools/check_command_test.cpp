@@ -51,6 +51,13 @@ TEST_F(CheckCommand, ASoundDriveIsSound) {
   EXPECT_TRUE(json::parse(output()).at("findings").empty()) << output();
 }
 
+TEST_F(CheckCommand, ATerminalShowsABar) {
+  const std::string command = std::string(LANELOOM_COMMAND) + " check " + file("drive.frames.jsonl");
+  EXPECT_EQ(support::ChildProcess({"/usr/bin/script", "-qec", command, "/dev/null"}, file("output")).wait(),
+            0);
+  EXPECT_THAT(output(), HasSubstr(" left"));
+}
+
 TEST_F(CheckCommand, AnOffsetThatIsLearnedMovesThePoints) {
   spoil([](io::FrameRecord& record) {
     record.frame.source = "front";

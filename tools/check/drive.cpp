@@ -14,12 +14,13 @@ constexpr std::int64_t kLongestGap_ns = 2'000'000'000;
 
 }  // namespace
 
-Drive read_drive(replay::MessageSource& source) {
+Drive read_drive(replay::MessageSource& source, const std::function<void(double share)>& on_step) {
   Drive drive;
   while (std::optional<recording::RecordedMessage> message = source.next_input()) {
     if (const auto* pose = std::get_if<VehiclePose>(&message->message)) drive.poses.push_back(*pose);
     if (auto* frame = std::get_if<DetectionFrame>(&message->message))
       drive.frames[frame->source].push_back(std::move(*frame));
+    on_step(source.progress());
   }
   return drive;
 }

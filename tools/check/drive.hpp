@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,8 +19,11 @@ struct Drive {
   std::map<std::string, std::vector<DetectionFrame>> frames;  ///< by source, in the order of the file
 };
 
-/// Reads all detections and poses.
-Drive read_drive(replay::MessageSource& source);
+/// Reads all detections and poses. Calls on_step() for each message with the share of the file that was read,
+/// 0..1.
+Drive read_drive(
+    replay::MessageSource& source,
+    const std::function<void(double share)>& on_step = [](double /*share*/) {});
 
 /// Poses by their stamps. Not changed after it is made, so that several threads may read it.
 class PoseTrack {

@@ -10,6 +10,7 @@
 #include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
+#include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "io/printable.hpp"
@@ -49,7 +50,7 @@ void check(const CheckOptions& options) {
   const Config config = config::resolve_config(options.config, {});
   const auto source = replay::open_messages(options.drive, config.dds.map_frame_id,
                                             {.conventions = {.any_confidence = true}});
-  const check::Findings found = findings(check::read_drive(*source), config);
+  const check::Findings found = findings(read_inputs(*source), config);
   warn_of(options.drive, source->refused(), source->cut_off());
   warn_of(options.drive, source->left_out());
   const auto json = [&] {
@@ -69,7 +70,7 @@ std::string why_poor(const std::string& path, const Config& config) {
   if (path == io::kStandard) return {};  // standard input was read
   const auto source =
       replay::open_messages(path, config.dds.map_frame_id, {.conventions = {.any_confidence = true}});
-  check::Findings found = findings(check::read_drive(*source), config);
+  check::Findings found = findings(read_inputs(*source), config);
   std::erase_if(found, &check::Finding::advice);
   return found.empty() ? "" : "laneloom: " + path + ": `laneloom check` finds:\n" + list_of(found);
 }

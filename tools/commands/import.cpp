@@ -23,6 +23,7 @@
 #include "simulation/argoverse2.hpp"
 #include "simulation/argoverse2_objects.hpp"
 #include "simulation/road.hpp"
+#include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -50,7 +51,8 @@ void import_results(const ResultsOptions& options, ReadResults read) {
   const imports::DriveLog drive =
       read_and_warn(source, options.strict, [&](LeftOut& left_out) { return load_drive(options, left_out); });
   imports::ImportedFrames imported = read_and_warn(options.results, options.strict, [&](LeftOut& left_out) {
-    return read(options.results, {drive, left_out, options.classes});
+    support::ProgressBar bar;
+    return read(options.results, {drive, left_out, options.classes, [&](double share) { bar.step(share); }});
   });
   const std::size_t without_pose = imports::drop_frames_without_pose(imported.frames, drive.poses);
   if (imported.frames.empty())
@@ -104,7 +106,9 @@ struct OpenpilotOptions {
 
 void import_openpilot(const OpenpilotOptions& options) {
   imports::OpenpilotDrive drive = read_and_warn(options.log, options.strict, [&](LeftOut& left_out) {
-    return imports::read_openpilot(options.log, {left_out, options.classes});
+    support::ProgressBar bar;
+    return imports::read_openpilot(options.log,
+                                   {left_out, options.classes, [&](double share) { bar.step(share); }});
   });
   const std::size_t without_pose = imports::drop_frames_without_pose(drive.frames, drive.poses);
   if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");
@@ -122,7 +126,8 @@ void add_openpilot(CLI::App& app) {
   command->add_option("--log", options->log, "The log as JSON, one event a line (.jsonl)")->required();
   add_classes(*command, options->classes)->check([](const std::string& word) {
     const bool is_list = imports::openpilot_classes().contains(word.substr(0, word.rfind('=')));
-    return is_list ? "" : word + ": the lists of lines are " + imports::names_of(imports::openpilot_classes());
+    return is_list ? ""
+                   : word + ": the lists of lines are " + imports::names_of(imports::openpilot_classes());
   });
   command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
   add_strict(*command, options->strict);
@@ -151,12 +156,16 @@ void import_argoverse2(const LogOptions& options) {
   const auto logs = read_and_warn(options.directory, options.strict, [&](LeftOut& left_out) {
     return simulation::argoverse2_logs(options.directory, left_out);
   });
+  support::ProgressBar bar;
+  std::size_t done = 0;
   for (const auto& log : logs) {
+    bar.clear();
     read_and_warn(log.string(), options.strict, [&](LeftOut& left_out) {
       import_log(log, file_of_log(options.out, options.directory, log, ".mcap"),
                  file_of_log(options.truth, options.directory, log, ".truth.json"), left_out);
       return true;
     });
+    bar.step(static_cast<double>(++done) / static_cast<double>(logs.size()));
   }
 }
 

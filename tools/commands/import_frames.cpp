@@ -15,6 +15,7 @@
 #include "check/drive.hpp"
 #include "commands/class_option.hpp"
 #include "commands/options.hpp"
+#include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
 #include "import/drive_recording.hpp"
 
@@ -61,7 +62,7 @@ std::vector<DetectionFrame> corrected_frames(const check::Drive& drive, const ch
 
 void import_frames(const ImportFramesOptions& options) {
   const auto source = open_drive(options);
-  const check::Drive drive = check::read_drive(*source);
+  const check::Drive drive = read_inputs(*source);
   warn_of(options.drive, source->refused(), source->cut_off());
   warn_of(options.drive, source->left_out());
   const check::PoseTrack track(drive.poses);

@@ -7,6 +7,7 @@
 #include "commands/import_scene.hpp"
 #include "commands/warn_of.hpp"
 #include "scene/scene_recording.hpp"
+#include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -17,8 +18,12 @@ struct ImportSceneOptions {
 };
 
 void import_scene(const ImportSceneOptions& options) {
-  const scene::SceneRecordingReport report = scene::add_scene(options.in, options.out, options.map_frame_id);
+  support::ProgressBar bar;
+  const scene::SceneRecordingReport report =
+      scene::add_scene(options.in, options.out, options.map_frame_id, [&](double share) { bar.step(share); });
+  bar.clear();
   warn_of(options.in, report.refused, report.cut_off);
+  warn_of(options.in, report.left_out);
   fmt::print("{}: {} messages, {} of scenes\n", options.out, report.messages + report.scenes, report.scenes);
 }
 

@@ -36,7 +36,7 @@ void keep_offsets(const Config& config, NetworkProfiles& networks) {
 /// Adds the lateral offsets that `laneloom check` finds.
 void add_offsets(const LearnOptions& options, const Config& config, NetworkProfiles& networks) {
   const auto source = replay::open_messages(options.in, config.dds.map_frame_id);
-  for (const auto& [name, left_m] : check::sensor_offsets(check::read_drive(*source), config.mapper))
+  for (const auto& [name, left_m] : check::sensor_offsets(read_inputs(*source), config.mapper))
     networks[name].insert_or_assign(session::kSensorLeft, LearnedValue{left_m, 1.0});
 }
 

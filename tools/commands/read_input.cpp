@@ -39,6 +39,11 @@ void for_each_input(const std::string& path, const Config& config, bool strict,
   warn_of(path, source->left_out());
 }
 
+check::Drive read_inputs(replay::MessageSource& source) {
+  support::ProgressBar bar;
+  return check::read_drive(source, [&](double share) { bar.step(share); });
+}
+
 void replay_input(const std::string& path, const Config& config, bool strict, replay::Replay& replay) {
   for_each_input(path, config, strict,
                  [&](recording::RecordedMessage&& message) { replay.add(std::move(message)); });

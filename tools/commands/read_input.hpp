@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "check/drive.hpp"
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 #include "replay/message_source.hpp"
@@ -17,6 +18,9 @@ namespace laneloom::commands {
 /// Calls `visit` for all detections and poses of a drive, as open_messages() reads them.
 void for_each_input(const std::string& path, const Config& config, bool strict,
                     const std::function<void(recording::RecordedMessage&&)>& visit);
+
+/// Reads all detections and poses of an open drive, and warns of nothing.
+check::Drive read_inputs(replay::MessageSource& source);
 
 /// Replays all detections and poses of a drive.
 void replay_input(const std::string& path, const Config& config, bool strict, replay::Replay& replay);

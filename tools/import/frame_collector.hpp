@@ -30,6 +30,8 @@ struct ResultsReading {
   const DriveLog& drive;
   LeftOut& left_out;
   const Classes& classes = usual_classes();
+  /// Is called for each sample with the share of the file that was read, 0..1.
+  std::function<void(double share)> on_step = [](double /*share*/) {};
 };
 
 /// Results of a network as detections of one drive.

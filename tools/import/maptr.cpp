@@ -39,9 +39,10 @@ ImportedFrames read_maptr(const std::filesystem::path& path, const ResultsReadin
   FrameCollector frames(reading, "maptr");
   std::size_t number = 0;
   return std::move(frames).collect(path, [&] {
-    io::for_each_json_element(path, "results", [&](const json& result) {
+    const auto take = [&](const json& result) {
       frames.add_sample("results[" + std::to_string(number++) + "]", [&] { read_sample(result, frames); });
-    });
+    };
+    io::for_each_json_element(path, "results", take, reading.on_step);
   });
 }
 

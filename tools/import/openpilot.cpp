@@ -12,6 +12,7 @@
 #include "import/openpilot_odometry.hpp"
 #include "io/file_kind.hpp"
 #include "io/json_fields.hpp"
+#include "io/share_read.hpp"
 #include "session/gate.hpp"
 
 namespace laneloom::imports {
@@ -162,18 +163,20 @@ void read_line(const std::string& line, bool is_last, const std::string& place, 
   io::take_or_leave_out(left_out, place, "", [&] { log.read(event, place); });
 }
 
-void read_lines(const std::filesystem::path& path, LogReader& log, LeftOut& left_out) {
+void read_lines(const std::filesystem::path& path, LogReader& log, const OpenpilotReading& reading) {
   std::ifstream in(path);
   if (!in) throw std::runtime_error(path.string() + ": cannot be read");
+  const io::ShareRead share(in, path);
   std::size_t number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
-      read_line(line, in.eof(), "line " + std::to_string(number), log, left_out);
+      read_line(line, in.eof(), "line " + std::to_string(number), log, reading.left_out);
     } catch (const io::JsonError& error) {
       throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": " + error.what());
     }
+    reading.on_step(share.now());
   }
   if (in.bad()) throw std::runtime_error(path.string() + ": cannot be read");
 }
@@ -190,7 +193,7 @@ OpenpilotDrive read_openpilot(const std::filesystem::path& path, const Openpilot
   if (const std::string kind = io::file_kind(path); !kind.empty())
     throw std::runtime_error(path.string() + ": " + kind + "; " + kNeeded);
   LogReader log(reading);
-  read_lines(path, log, reading.left_out);
+  read_lines(path, log, reading);
   try {
     return std::move(log).finish();
   } catch (const std::runtime_error& error) {

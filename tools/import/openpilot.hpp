@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "base/left_out.hpp"
@@ -25,6 +26,8 @@ const Classes& openpilot_classes();
 struct OpenpilotReading {
   LeftOut& left_out;
   const Classes& classes = openpilot_classes();  ///< has a type, or none, for each list
+  /// Is called for each event with the share of the file that was read, 0..1.
+  std::function<void(double share)> on_step = [](double /*share*/) {};
 };
 
 /// Reads a log of openpilot as JSON, one event per line. Cap'n Proto's own tool makes it from the log and

@@ -48,9 +48,10 @@ ImportedFrames read_streammapnet(const std::filesystem::path& path, StreamNetwor
   const char* const source = network == StreamNetwork::streammapnet ? "streammapnet" : "maptracker";
   FrameCollector frames(reading, source, T_drive_points(reading.drive, network));
   return std::move(frames).collect(path, [&] {
-    io::for_each_json_member(path, "results", [&](const std::string& token, const json& sample) {
+    const auto take = [&](const std::string& token, const json& sample) {
       frames.add_sample("results." + token, [&] { read_sample(token, sample, frames); });
-    });
+    };
+    io::for_each_json_member(path, "results", take, reading.on_step);
   });
 }
 

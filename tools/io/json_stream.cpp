@@ -6,6 +6,7 @@
 
 #include "io/json_fields.hpp"
 #include "io/json_not_finite.hpp"
+#include "io/share_read.hpp"
 
 namespace laneloom::io {
 namespace {
@@ -78,12 +79,17 @@ class ElementVisitor {
 };
 
 void for_each_element(const std::filesystem::path& path, const std::string& key, Container container,
-                      const Visit& visit) {
+                      const Visit& visit, const std::function<void(double share)>& on_step) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");
+  const ShareRead share(file, path);
   NotFiniteQuoter quoter(*file.rdbuf());
   std::istream in(&quoter);
-  ElementVisitor visitor(key, container, visit);
+  const Visit visit_and_tell = [&](const std::string& name, const json& value) {
+    visit(name, value);
+    on_step(share.now());
+  };
+  ElementVisitor visitor(key, container, visit_and_tell);
   try {
     const json rest = json::parse(
         in, [&](int depth, Event event, const json& value) { return visitor(depth, event, value); });
@@ -98,14 +104,17 @@ void for_each_element(const std::filesystem::path& path, const std::string& key,
 }  // namespace
 
 void for_each_json_element(const std::filesystem::path& path, const std::string& key,
-                           const std::function<void(const json&)>& visit) {
-  for_each_element(path, key, Container::array,
-                   [&](const std::string& /*name*/, const json& value) { visit(value); });
+                           const std::function<void(const json&)>& visit,
+                           const std::function<void(double share)>& on_step) {
+  for_each_element(
+      path, key, Container::array, [&](const std::string& /*name*/, const json& value) { visit(value); },
+      on_step);
 }
 
 void for_each_json_member(const std::filesystem::path& path, const std::string& key,
-                          const std::function<void(const std::string&, const json&)>& visit) {
-  for_each_element(path, key, Container::object, visit);
+                          const std::function<void(const std::string&, const json&)>& visit,
+                          const std::function<void(double share)>& on_step) {
+  for_each_element(path, key, Container::object, visit, on_step);
 }
 
 }  // namespace laneloom::io

@@ -24,13 +24,18 @@ class DamagedJson : public std::runtime_error {
 /// array need not fit into memory. The array is the whole file, or with a `key` the root object's member of
 /// that name. NaN and Infinity are read as texts. Throws std::runtime_error naming the file if it cannot be
 /// read or has no such array, and DamagedJson if it is not JSON. Adds file and index of the element to a
-/// JsonError that visit() throws.
-void for_each_json_element(const std::filesystem::path& path, const std::string& key,
-                           const std::function<void(const nlohmann::json&)>& visit);
+/// JsonError that visit() throws. Calls on_step() after each element with the share of the file that was
+/// read, 0..1.
+void for_each_json_element(
+    const std::filesystem::path& path, const std::string& key,
+    const std::function<void(const nlohmann::json&)>& visit,
+    const std::function<void(double share)>& on_step = [](double /*share*/) {});
 
 /// Does the same for an object, which is the root object's member `key`: calls visit(name, value) for its
 /// members.
-void for_each_json_member(const std::filesystem::path& path, const std::string& key,
-                          const std::function<void(const std::string&, const nlohmann::json&)>& visit);
+void for_each_json_member(
+    const std::filesystem::path& path, const std::string& key,
+    const std::function<void(const std::string&, const nlohmann::json&)>& visit,
+    const std::function<void(double share)>& on_step = [](double /*share*/) {});
 
 }  // namespace laneloom::io
