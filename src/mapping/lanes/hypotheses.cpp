@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "mapping/geometry/levels.hpp"
@@ -26,7 +25,7 @@ constexpr double kBeyondEnd_m =
 constexpr double kAsDriven = 0.9;  // cosine between its heading and the boundary
 constexpr double kDrivenFrom = 0.2,
                  kDrivenTo = 0.8;             // places of the vehicle in a lane, as shares of its width
-constexpr double kUnseen_m = 30.0;            // along the road, up to where a line goes on unseen
+constexpr double kUnseen_m = 15.0;            // along the road, up to where a line goes on unseen
 constexpr double kBegin = 4.0;                // log odds that it takes for a lane to begin, or to end
 constexpr double kLeast = -4.0, kMost = 4.0;  // log odds that a single place can say
 constexpr double kOuterOfTwo =
@@ -179,27 +178,6 @@ std::vector<double> parted_from(std::size_t other, const RoadCuts& cuts, double 
   return parted;
 }
 
-/// What is asked of the cross-sections along a boundary, for each other boundary once.
-class PartedFrom {
- public:
-  PartedFrom(const RoadCuts& cuts, double step_m) : cuts_(cuts), step_m_(step_m) {}
-  double at(std::size_t cut, const Mark* other) {
-    if (other == nullptr) return 0.0;
-    if (last_ == known_.end() || last_->first != other->boundary) {
-      bool is_new = false;
-      std::tie(last_, is_new) = known_.try_emplace(other->boundary);
-      if (is_new) last_->second = parted_from(other->boundary, cuts_, step_m_);
-    }
-    return last_->second[cut];
-  }
-
- private:
-  const RoadCuts& cuts_;
-  double step_m_;
-  std::map<std::size_t, std::vector<double>> known_;
-  std::map<std::size_t, std::vector<double>>::iterator last_ = known_.end();
-};
-
 /// Adds the candidates between the cut boundary and those on its left that are wanted: of two opposed
 /// boundaries, the older one is the one that is cut.
 template <class IsWanted>
@@ -225,7 +203,6 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
   const double step_m = base.length() / static_cast<double>(std::max<std::size_t>(cuts.size() - 1, 1));
   std::vector<VehicleBeside> vehicles;
   for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(base, found.front().reversed, pose);
-  PartedFrom parted(cuts, step_m);
   for (Hypothesis& one : found) {
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
       return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
@@ -235,12 +212,14 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
     // Two lanes fit into no gore.
     const std::vector<bool> gore =
         one.room == Room::divided ? std::vector<bool>(places.size()) : gore_places(places);
+    const std::vector<double> parted =
+        one.room == Room::between ? parted_from(one.other, cuts, step_m) : std::vector<double>(cuts.size());
     one.log_odds.reserve(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       auto& [cut, candidate, width, opposite] = places[i];
       candidate.driven = is_driven;
       candidate.gore = gore[i];
-      candidate.parted = parted.at(one.first + i, opposite);
+      candidate.parted = parted[one.first + i];
       candidate.taper = is_open(one.room) ? 0.0 : taper_at(places, i, step_m);
       const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
       one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +

@@ -47,7 +47,6 @@ constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within th
 constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
 constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
 constexpr double kUnseenLine = -6.00;  // a line parts the marks not far along the road, which goes on unseen
-constexpr double kUnseenLineOpen = 2.50;  // likewise the room
 constexpr double kBend = -7.82;           // curvature, 1/m
 constexpr double kBendOpen = -18.67;      // likewise, where the other border is unseen
 constexpr double kDrivenOpen = 2.40;      // the vehicle drives in the lane, whose other border is unseen
@@ -145,7 +144,6 @@ double of_open_lane(const RoadCut& cut, double room_m, const Candidate& candidat
   const Side other = candidate.room == Room::open_left ? Side::right : Side::left;
   double sum =
       on_curve(kOpen, room_m) + kSurer * bounded(mark.log_odds) + kBendOpen * std::min(cut.bend, kMostBend);
-  sum += kUnseenLineOpen * candidate.parted;
   if (candidate.driven)
     sum += kDrivenOpen;
   else if (candidate.gore)
