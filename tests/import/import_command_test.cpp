@@ -273,6 +273,21 @@ TEST_F(ImportCommand, ADirectoryOfLogsGivesAFileEach) {
   EXPECT_THAT(output(), HasSubstr("data/val/a: is a second log of this name"));
 }
 
+TEST_F(ImportCommand, ALogInSeveralSplitsIsTakenOnce) {
+  const std::vector<std::vector<std::string>> layouts{
+      {"train", "val"}, {"val", "test"}, {"test", "train"}, {"train", "val", "test"}, {"a/val", "b/val"}};
+  for (std::size_t i = 0; i < layouts.size(); ++i) {
+    const std::string data = "data" + std::to_string(i), out = "out" + std::to_string(i);
+    for (const std::string& split : layouts[i]) {
+      std::filesystem::create_directories(file(data + "/" + split));
+      std::filesystem::copy(file("log"), file(data + "/" + split + "/log"));
+    }
+    ASSERT_EQ(run({"argoverse2", file(data), "--out", file(out)}), 0) << output();
+    EXPECT_THAT(output(), HasSubstr(std::to_string(layouts[i].size() - 1) + " x a second log of this name"));
+    EXPECT_TRUE(std::filesystem::exists(file(out + "/log.mcap")));
+  }
+}
+
 TEST_F(ImportCommand, WrongUseAndInputAreNamed) {
   const std::vector<std::string> drive{"--argoverse2", file("log"), "--out", file("drive.mcap")};
   const auto maptr = [&](const std::string& results) {

@@ -144,6 +144,20 @@ TEST_F(MapTr, WhatIsWrongIsLeftOutAndTheRestComes) {
               HasSubstr("results[0].vectors[0].pts[1]: must be finite"));
 }
 
+TEST_F(MapTr, AValueThatIsNoNumberLosesItsLineAlone) {
+  for (const std::string value : {"NaN", "-NaN", "Infinity", "-Infinity", "null", R"("NaN")"})
+    for (const std::string& line :
+         {vector("divider", "[[" + value + ",2],[3,4]]"), vector("divider", "[[1,2],[3," + value + "]]"),
+          vector("divider", "[[1,2,0],[3,4," + value + "]]"), vector("divider", "[[1,2],[3,4]]", value)}) {
+      const ImportedFrames imported = read(sample("drive_1", line + "," + vector("divider")) + "," +
+                                           sample("drive_2", vector("boundary")));
+      ASSERT_EQ(imported.frames.size(), 2u) << line;
+      EXPECT_EQ(imported.frames[0].detections.size(), 1u) << line;
+      EXPECT_EQ(imported.frames[1].detections.size(), 1u) << line;
+      EXPECT_THAT(left_out(), HasSubstr("(first: results[0].vectors[0])")) << line;
+    }
+}
+
 TEST_F(MapTr, AFileThatIsCutOffIsReadUpToThere) {
   const std::string cut = R"({"results":[)" + sample("drive_1", vector("divider")) + "," +
                           sample("drive_2", vector("divider")).substr(0, 50);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numbers>
 
@@ -193,6 +194,48 @@ TEST_F(Openpilot, ALastLineThatIsCutOffIsNamed) {
   EXPECT_EQ(read_text(whole + model(150)).frames.size(), 2u) << "a last line without its end";
   EXPECT_EQ(left_out(), "");
   EXPECT_THAT(error_of([&] { read_text(whole + "{", true); }), HasSubstr(":4: is not JSON"));
+}
+
+TEST_F(Openpilot, ALogMayBeCutOffAnywhere) {
+  const std::string whole = fmt::format("{}\n{}\n{}\n", pose(1, 0, 1), pose(200, 0, 1), model(100));
+  const std::string last = model(150);
+  for (std::size_t size = 1; size < last.size(); ++size) {
+    EXPECT_EQ(read_text(whole + last.substr(0, size)).frames.size(), 1u) << size;
+    EXPECT_EQ(left_out(), "1 x the last line is cut off (first: line 4)") << size;
+  }
+}
+
+TEST_F(Openpilot, EveryEventMayComeTwice) {
+  const std::vector<std::string> log{pose(1, 0, 1), model(100), pose(200, 0, 1), model(300), pose(400, 0, 1)};
+  const auto same_drive = [&](std::vector<std::string> events, std::size_t begin, std::size_t end) {
+    const auto from = log.begin();
+    events.insert(events.end(), from + static_cast<std::ptrdiff_t>(begin),
+                  from + static_cast<std::ptrdiff_t>(end));
+    const OpenpilotDrive drive = read(events);
+    EXPECT_EQ(drive.frames.size(), 2u);
+    EXPECT_EQ(drive.poses.size(), 3u);
+    EXPECT_THAT(left_out(), HasSubstr("of this stamp"));
+  };
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    SCOPED_TRACE(i);
+    same_drive(log, i, i + 1);
+    same_drive(log, 0, i + 1);  // segments that overlap
+  }
+}
+
+TEST_F(Openpilot, LinesMayBeMoreThanTheirProbabilities) {
+  for (std::size_t lines = 1; lines <= 6; ++lines)
+    for (std::size_t sure = 0; sure <= 4; ++sure) {
+      const std::vector<std::string> all(lines, kLine);
+      const std::vector<std::string> probabilities(sure, "0.75"), deviations(sure, "0.25");
+      std::string frame = model(100, fmt::format("{}", fmt::join(all, ",")),
+                                fmt::format("[{}]", fmt::join(probabilities, ",")));
+      frame.replace(frame.find("[0.25]"), 6, fmt::format("[{}]", fmt::join(deviations, ",")));
+      const OpenpilotDrive drive = read({pose(1, 0, 1), frame, pose(200, 0, 1)});
+      EXPECT_EQ(drive.frames.at(0).detections.size(), std::min(lines, sure) + 2u)
+          << lines << " lines, " << sure << " probabilities, and two road edges";
+      EXPECT_EQ(left_out().empty(), lines <= sure);
+    }
 }
 
 TEST_F(Openpilot, LinesWithoutAProbabilityAreLeftOut) {

@@ -21,10 +21,11 @@ struct Drawn {
 
 constexpr MarkingType kEdge = MarkingType::roadedge;
 
-/// The map after 6 s along x at 8 m/s.
-LocalMap driven(const std::vector<Drawn>& lines, const MapperConfig& config = {}) {
+/// The maps of 6 s along x at 8 m/s. An island is a closed road edge in the map frame.
+std::vector<LocalMap> maps_of(const std::vector<Drawn>& lines, const MapperConfig& config = {},
+                              const Polyline& island = {}) {
   Mapper mapper(config);
-  LocalMap map;
+  std::vector<LocalMap> maps;
   for (std::int64_t i = 1; i <= 60; ++i) {
     Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
     T_map_body.translation().x() = 0.8 * static_cast<double>(i);
@@ -34,9 +35,18 @@ LocalMap driven(const std::vector<Drawn>& lines, const MapperConfig& config = {}
       for (double x = -5.0; x <= 30.0; x += 1.0) detection.points.emplace_back(x, line.left_m, 0.0);
       frame.detections.push_back(detection);
     }
-    map = mapper.update(frame, T_map_body);
+    if (!island.empty()) {
+      frame.detections.push_back({.type = kEdge, .confidence = 0.9});
+      for (const Point& point : island)
+        frame.detections.back().points.push_back(T_map_body.inverse() * point);
+    }
+    maps.push_back(mapper.update(frame, T_map_body));
   }
-  return map;
+  return maps;
+}
+
+LocalMap driven(const std::vector<Drawn>& lines, const MapperConfig& config = {}) {
+  return maps_of(lines, config).back();
 }
 
 /// The lane at a lateral place beside the vehicle. Null: there is none.
@@ -69,6 +79,30 @@ TEST(RoadKinds, ALaneLiesBesideASingleKerb) {
       const LocalMap map = driven({{kEdge, side * aside_m}});
       EXPECT_THAT(map.lanes, SizeIs(1));
       EXPECT_NE(lane_at(map, 0.0), nullptr);
+    }
+}
+
+/// Islands, bays and bollards of both hands, as data sets give their kerbs.
+TEST(RoadKinds, AClosedKerbBesideTheLaneIsAnEdge) {
+  const std::vector<Polyline> outlines{
+      {{0, 0, 0}, {14, 0, 0}, {14, 2, 0}, {0, 2, 0}, {0, 0, 0}},                              // narrow
+      {{0, 0, 0}, {25, 0, 0}, {25, 1.5, 0}, {0, 1.5, 0}, {0, 0, 0}},                          // long
+      {{0, 0, 0}, {9, 0, 0}, {9, 4, 0}, {0, 4, 0}, {0, 0, 0}},                                // wide
+      {{0, 0, 0}, {16, 0, 0}, {8, 4, 0}, {0, 0, 0}},                                          // triangle
+      {{0, 0, 0}, {3, -1, 0}, {12, -1, 0}, {15, 0, 0}, {12, 1, 0}, {3, 1, 0}, {0, 0, 0}},     // with tips
+      {{0, 0, 0}, {2, 2.5, 0}, {12, 2.5, 0}, {14, 0, 0}, {14, 4, 0}, {0, 4, 0}, {0, 0, 0}}};  // bay
+  for (std::size_t kind = 0; kind < outlines.size(); ++kind)
+    for (const double side : {-1.0, 1.0}) {
+      SCOPED_TRACE(testing::Message() << "outline " << kind << ", side " << side);
+      Polyline island;
+      for (const Point& point : outlines[kind])
+        island.emplace_back(25.0 + point.x(), side * (4.0 + point.y()), 0.0);
+      const std::vector<LocalMap> maps =
+          maps_of({{MarkingType::laneline, 1.75}, {MarkingType::laneline, -1.75}}, {}, island);
+      for (std::size_t i = 4; i < 20; ++i) {
+        const auto is_kerb = [](const Marking& boundary) { return boundary.type == kEdge; };
+        EXPECT_TRUE(std::ranges::any_of(maps[i].boundaries, is_kerb)) << "frame " << i + 1;
+      }
     }
 }
 

@@ -195,6 +195,29 @@ TEST_F(MadeUpMap, DeletedElementsArePassedOver) {
   EXPECT_EQ(road.lanes[0].left.front(), Point(0.0, 0.0, 7.0)) << "in local coordinates";
 }
 
+TEST_F(MadeUpMap, OneElementThatIsMissingLosesOneLane) {
+  for (const std::string element : {"node id='1'", "node id='3'", "node id='4'", "node id='6'", "way id='11'",
+                                    "way id='12'", "way id='13'", "way id='14'"}) {
+    std::string map = two_lanes();
+    const std::size_t at = map.find("<" + element);
+    const std::string end = "</" + element.substr(0, element.find(' ')) + ">";
+    map.erase(at, map.find(end, at) + end.size() - at);
+    EXPECT_EQ(load_rest(map + "</osm>").lanes.size(), 1u) << element;
+    EXPECT_NE(left_out.summary().find("a relation that has no way"), std::string::npos) << element;
+  }
+}
+
+TEST_F(MadeUpMap, OneElementThatAnEditorDeletedLosesOneLane) {
+  for (const std::string mark : {"action='delete'", "visible='false'", "action='delete' visible='false'"})
+    for (const std::string element : {"relation id='21'", "relation id='22'", "way id='11'", "way id='14'",
+                                      "node id='1'", "node id='6'"}) {
+      std::string map = two_lanes();
+      map.insert(map.find("<" + element) + 1 + element.size(), " " + mark);
+      EXPECT_EQ(load_rest(map + "</osm>").lanes.size(), 1u) << element << " " << mark;
+      EXPECT_EQ(left_out.empty(), element.starts_with("relation")) << "what hangs on it is told";
+    }
+}
+
 TEST_F(MadeUpMap, AFileThatIsCutOffIsReadUpToThere) {
   const std::string cut = two_lanes() + "<relation id='30'><member type='w";
   EXPECT_EQ(load_rest(cut).lanes.size(), 2u);
