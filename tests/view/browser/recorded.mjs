@@ -411,7 +411,7 @@ async function leadsToTheCauseInFiveClicks(browser) {
   const isAt = (condition, ...values) => until(page, condition, ...values);
   // 1. The worst moment: the view stays there, and the lane that was lost tells why. The list is sorted anew until all is read.
   await isAt(() => window.laneloom?.feed.complete && /no own lane for [0-9.]+ s$/.test(document.querySelector('#worst li:first-child button')?.textContent ?? ''));
-  await page.click('#worst li:first-child button');
+  await page.$eval('#worst li:first-child button', (button) => button.click()); // in one step, as the list may be drawn anew
   await isAt(() => document.body.dataset.mode === 'paused' && !window.laneloom.player.summary.quality[0].own_lane
     && /On its (left|right): .*in the last 3\.0 s, 0 of 3[01] frames did\./s.test(document.querySelector('.why')?.textContent ?? ''));
   const lost_s = await at_s();
