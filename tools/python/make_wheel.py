@@ -22,7 +22,7 @@ Generator: laneloom
 Root-Is-Purelib: false
 Tag: {tag}
 """
-EPOCH = (1980, 1, 1, 0, 0, 0)  # the same package gives the same wheel
+EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 def tag() -> str:
@@ -35,8 +35,8 @@ def record_line(name: str, content: bytes) -> str:
     return f"{name},sha256={digest},{len(content)}\n"
 
 
-def main() -> None:
-    package, version, out = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
+def pack(package: pathlib.Path, version: str, out: pathlib.Path) -> pathlib.Path:
+    """Writes the wheel. The same package gives the same bytes."""
     info = f"laneloom-{version}.dist-info"
     files = {f"laneloom/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
     files[f"{info}/METADATA"] = METADATA.format(version=version).encode()
@@ -51,8 +51,8 @@ def main() -> None:
             entry.external_attr = 0o644 << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, content)
-    print(wheel)
+    return wheel
 
 
 if __name__ == "__main__":
-    main()
+    print(pack(pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])))
