@@ -286,7 +286,7 @@ async function showsOtherVehicles(browser) {
     const {elements, selection} = window.laneloom, told = new Set(elements.filter(({type}) => type === 'told direction').map(({key}) => Number(key.split('/')[1])));
     selection.select(elements.find(({type, properties}) => type === 'trail' && told.has(properties.drove?.[0].lane)));
   });
-  await page.click('[data-key="drove"] .chip');
+  await page.$eval('[data-key="drove"] .chip', (chip) => chip.click()); // in one step, as the panel may be drawn anew
   await until(page, () => /^lane /.test(document.getElementById('selected').textContent) && document.querySelector('[data-key="direction_evidence"]'));
   assert.ok(await page.$eval('[data-key="direction_evidence"]', ({textContent}) => textContent.includes('traffic')));
   await page.click('[data-layer="traffic"]');
@@ -419,7 +419,7 @@ async function leadsToTheCauseInFiveClicks(browser) {
   assert.match(await page.$eval('#selected', ({textContent}) => textContent), /^lane [0-9]+$/);
   await screenshot(page, '_walk1');
   // 2. A line that it lay on.
-  await page.click('.why .chip');
+  await page.$eval('.why .chip', (chip) => chip.click());
   await isAt(() => /in view and missed/.test(document.querySelector('.why')?.textContent ?? '') && document.querySelector('.why .curve') && document.querySelector('#selected').textContent.startsWith('boundary') && window.laneloom.selection.evidence.curve[0]?.index === window.laneloom.player.summary.index);
   await screenshot(page, '_walk2');
   // 3. The left end of its curve, where its evidence falls already. 4. The last mark below it: the last frame of which a detection observes it.
