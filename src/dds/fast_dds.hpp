@@ -3,6 +3,7 @@
 #include <fastdds/dds/core/policy/QosPolicies.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/SampleState.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include <string>
@@ -57,6 +58,15 @@ inline void announce_as(const std::string& name, eprosima::fastdds::dds::TopicDa
   type.auto_fill_type_information(false);
 #endif
 }
+
+/// Which samples of its list a reader takes (take_all.hpp).
+#if LANELOOM_FAST_DDS == 3
+inline constexpr eprosima::fastdds::dds::SampleStateMask kTakenSamples =
+    eprosima::fastdds::dds::NOT_READ_SAMPLE_STATE;
+#else
+inline constexpr eprosima::fastdds::dds::SampleStateMask kTakenSamples =
+    eprosima::fastdds::dds::ANY_SAMPLE_STATE;
+#endif
 
 inline auto& heartbeat_period(eprosima::fastdds::dds::DataWriterQos& qos) {
 #if LANELOOM_FAST_DDS == 3

@@ -15,25 +15,21 @@ namespace laneloom::dds {
 /// - take_next_sample() skips what was read, and ends the process when an entry that it takes equals one that
 ///   it skipped (an assertion in DataReaderHistory::remove_change_sub). take() of any state skips only what
 ///   must wait for earlier samples of its writer, as do all its equals: the first of equals is taken first.
-/// - With Fast DDS 3.1, take() returns such an entry, but leaves it in the list until a sample has no room
-///   there. So each take() asks for one sample more than there are such entries.
+/// - Fast DDS 3.1 leaves such an entry in the list even when take() has returned it, until a new sample has
+/// no
+///   room there: take() of any state would return the first such entry for ever. take() marks the entry as
+///   read, though, and here only what was not read is taken (kTakenSamples).
 /// - The memory must stay allocated: not with the policy DYNAMIC_RESERVE_MEMORY_MODE (qos.cpp).
 template <class Sample, class HandOn>
 void take_all(eprosima::fastdds::dds::DataReader& reader, HandOn hand_on) {
-  int room = 1;
-  while (true) {
-    eprosima::fastdds::dds::LoanableSequence<Sample> samples(room);
-    eprosima::fastdds::dds::SampleInfoSeq infos(room);
-    if (reader.take(samples, infos) != eprosima::fastdds::dds::RETCODE_OK) return;
-    int given_up = 0;
-    for (int i = 0; i < infos.length(); ++i) {
-      if (infos[i].sample_identity.writer_guid() == eprosima::fastdds::rtps::c_Guid_Unknown)
-        ++given_up;
-      else
-        hand_on(samples[i], infos[i]);
-    }
-    if (infos.length() < room) return;
-    room = given_up + 1;
+  using eprosima::fastdds::dds::LENGTH_UNLIMITED;
+  eprosima::fastdds::dds::LoanableSequence<Sample> samples(1);
+  eprosima::fastdds::dds::SampleInfoSeq infos(1);
+  while (reader.take(samples, infos, LENGTH_UNLIMITED, kTakenSamples) == eprosima::fastdds::dds::RETCODE_OK) {
+    const bool given_up = infos[0].sample_identity.writer_guid() == eprosima::fastdds::rtps::c_Guid_Unknown;
+    if (!given_up) hand_on(samples[0], infos[0]);
+    samples.length(0);
+    infos.length(0);
   }
 }
 
