@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "GeometryMsgs.h"
-#include "StdMsgs.h"
+#include "GeometryMsgs.hpp"
+#include "StdMsgs.hpp"
 #include "cdr/cdr_scanner.hpp"
 #include "cdr/intake.hpp"
 #include "laneloom/types.hpp"

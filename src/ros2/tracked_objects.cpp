@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Common.h"
+#include "Common.hpp"
 #include "ros2/input_parts.hpp"
 #include "ros2/names.hpp"
 

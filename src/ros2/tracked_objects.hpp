@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "AutowarePerceptionMsgs.h"
+#include "AutowarePerceptionMsgs.hpp"
 #include "laneloom/objects.hpp"
 
 namespace laneloom::ros2 {

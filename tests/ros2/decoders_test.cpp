@@ -166,7 +166,7 @@ TEST_F(Decoders, WriteTrackedObjectsThatAreRead) {
   const Bytes bytes = from_hex(run("--objects"));
   ASSERT_TRUE(is_tracked_objects(bytes));
   autoware_perception_msgs::msg::dds_::TrackedObjects_ message;
-  dds::read_cdr(bytes, [&](eprosima::fastcdr::Cdr& cdr) { message.deserialize(cdr); });
+  dds::read_cdr(bytes, [&](eprosima::fastcdr::Cdr& cdr) { cdr >> message; });
   TrackedObjects objects;
   EXPECT_EQ(from_ros(message, "map", objects), "");
   EXPECT_EQ(objects.stamp_ns, 1'700'000'000'250'000'000);
