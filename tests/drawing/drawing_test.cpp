@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
@@ -15,10 +17,10 @@
 namespace laneloom::drawing {
 namespace {
 
-const Element& element(const Drawing& drawing, const std::string& key) {
+const Element& element(const Drawing& drawing, std::string_view key) {
   const auto& all = drawing.elements();
   const auto found = std::ranges::find(all, key, &Element::key);
-  if (found == all.end()) throw std::runtime_error("no element " + key);
+  if (found == all.end()) throw std::runtime_error("no element " + std::string(key));
   return *found;
 }
 

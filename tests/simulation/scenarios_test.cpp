@@ -19,7 +19,7 @@ std::size_t count(const Road& road, MarkingType type, MarkingStyle style) {
                     [&](const RoadMarking& m) { return m.type == type && m.style == style; }));
 }
 
-const RoadLane& lane_at(const Road& road, const Point& point) {
+RoadLane lane_at(const Road& road, const Point& point) {
   const auto found = std::find_if(road.lanes.begin(), road.lanes.end(), [&](const RoadLane& lane) {
     const Projection foot = MeasuredPolyline(lane.centerline).project(point);
     return foot.inside && foot.distance_m < 1.0 && !lane.in_intersection;
@@ -109,7 +109,7 @@ TEST(CountryRoad, HasNothingButALineBetweenItsDirectionsFurtherOn) {
   EXPECT_EQ(count(road, MarkingType::roadedge, MarkingStyle::solid), 2U);
   for (const RoadMarking& marking : road.markings)
     EXPECT_NEAR(length(marking.points), marking.type == MarkingType::roadedge ? 60.0 : 287.1, 0.1);
-  const RoadLane& ahead = lane_at(road, {100.0, -1.75, 0.0});
+  const RoadLane ahead = lane_at(road, {100.0, -1.75, 0.0});
   EXPECT_NE(ahead.left_marking, kNoElement);
   EXPECT_EQ(ahead.right_marking, kNoElement);
 }
@@ -144,10 +144,10 @@ TEST(Split, TheLaneOpensAtTwoAndAHalfMetresAndItsDashesBeginWithTheTaper) {
                                    [](const RoadMarking& m) { return m.style == MarkingStyle::dashed; });
   EXPECT_NEAR(dashed->points.front().x(), 80.0, 1e-6);
   EXPECT_NEAR(dashed->points.back().x(), 200.0, 1e-6);
-  const RoadLane& added = lane_at(road, {150.0, -5.25, 0.0});
+  const RoadLane added = lane_at(road, {150.0, -5.25, 0.0});
   EXPECT_NEAR((added.left.front() - added.right.front()).norm(), 2.5, 0.12);  // to the metre along the road
-  const RoadLane& before = lane_at(road, {90.0, -1.75, 0.0});
-  const RoadLane& through = lane_at(road, {150.0, -1.75, 0.0});
+  const RoadLane before = lane_at(road, {90.0, -1.75, 0.0});
+  const RoadLane through = lane_at(road, {150.0, -1.75, 0.0});
   EXPECT_EQ(std::set<ElementId>(before.successors.begin(), before.successors.end()),
             (std::set<ElementId>{through.id, added.id}));
   ASSERT_EQ(added.successors.size(), 1u);
@@ -158,8 +158,8 @@ TEST(Split, TheLaneOpensAtTwoAndAHalfMetresAndItsDashesBeginWithTheTaper) {
 
 TEST(Merge, TwoLanesLeadIntoOne) {
   const Road road = make_scenario("merge");
-  const RoadLane& through = lane_at(road, {150.0, -1.75, 0.0});
-  const RoadLane& ending = lane_at(road, {150.0, -5.25, 0.0});
+  const RoadLane through = lane_at(road, {150.0, -1.75, 0.0});
+  const RoadLane ending = lane_at(road, {150.0, -5.25, 0.0});
   EXPECT_EQ(through.successors, ending.successors);
   EXPECT_EQ(through.successors.size(), 1u);
   const auto ramp = std::find_if(road.lanes.begin(), road.lanes.end(), [&](const RoadLane& lane) {

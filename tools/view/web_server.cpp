@@ -111,8 +111,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     upload_.reset();
     if (error == asio::error::operation_aborted) return;  // it was closed
     if (error == beast::error::timeout || error == http::error::partial_message) return end();
-    static const auto& kOfHttp = make_error_code(http::error::body_limit).category();
-    if (error) return refuse(error.category() == kOfHttp ? status_of(error) : 507);  // else the disk is full
+    const bool of_http = error.category() == make_error_code(http::error::body_limit).category();
+    if (error) return refuse(of_http ? status_of(error) : 507);  // else the disk is full
     answer(hub_.take_file(target, std::move(folder)), keep_alive);
   }
 
