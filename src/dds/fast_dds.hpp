@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fastdds/dds/core/policy/QosPolicies.hpp>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/SampleState.hpp>
@@ -73,6 +74,16 @@ inline auto& heartbeat_period(eprosima::fastdds::dds::DataWriterQos& qos) {
   return qos.reliable_writer_qos().times.heartbeat_period;
 #else
   return qos.reliable_writer_qos().times.heartbeatPeriod;
+#endif
+}
+
+/// Lets participants that are made after this one's end use interfaces that came up since. Fast DDS 3 looks
+/// for interfaces when a program starts, and when a participant gets settings, even the same; Fast DDS 2 does
+/// when a participant is made. Not for a new participant: clients of a discovery server often do not match
+/// then.
+inline void look_for_interfaces([[maybe_unused]] eprosima::fastdds::dds::DomainParticipant& ending) {
+#if LANELOOM_FAST_DDS == 3
+  ending.set_qos(ending.get_qos());
 #endif
 }
 

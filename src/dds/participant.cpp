@@ -50,6 +50,7 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presen
 Participant::Impl::~Impl() { close(); }
 
 void Participant::Impl::close() {
+  look_for_interfaces(*participant_);
   participant_->delete_contained_entities();
   DomainParticipantFactory::get_instance()->delete_participant(participant_);
 }
