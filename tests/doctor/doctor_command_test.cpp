@@ -57,7 +57,7 @@ class DoctorBehindAServer : public Doctor {
  protected:
   void SetUp() override {
     if (access(kServer, X_OK) != 0) GTEST_SKIP() << "there is no discovery server (fastdds-tools)";
-    std::string profile = content(LANELOOM_PROFILES "/discovery_server.xml");
+    std::string profile = content(LANELOOM_PROFILES "/" SERVER_PROFILE ".xml");
     const auto replace = [&](const std::string& from, const std::string& to) {
       for (auto at = profile.find(from); at != std::string::npos; at = profile.find(from, at + to.size()))
         profile.replace(at, from.size(), to);
@@ -66,7 +66,7 @@ class DoctorBehindAServer : public Doctor {
     replace("11811", port_);
     std::ofstream(file("profile.xml")) << profile;
     std::ofstream(file("config.yaml"))
-        << "dds:\n  profile_file: " << file("profile.xml") << "\n  profile_name: discovery_server\n";
+        << "dds:\n  profile_file: " << file("profile.xml") << "\n  profile_name: " SERVER_PROFILE "\n";
   }
   std::vector<std::string> server() const { return {kServer, "-i", "0", "-l", "127.0.0.1", "-p", port_}; }
   std::vector<std::string> configured(std::vector<std::string> words) const {
@@ -74,7 +74,7 @@ class DoctorBehindAServer : public Doctor {
     return words;
   }
   std::vector<std::string> profiled(std::vector<std::string> words) const {
-    words.insert(words.end(), {"--profile-file", file("profile.xml"), "--profile-name", "discovery_server"});
+    words.insert(words.end(), {"--profile-file", file("profile.xml"), "--profile-name", SERVER_PROFILE});
     return words;
   }
 
