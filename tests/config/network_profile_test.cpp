@@ -3,9 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "temporary_folder.hpp"
 
 namespace laneloom::config {
 namespace {
@@ -14,8 +15,6 @@ using testing::EndsWith;
 
 class NetworkProfileFile : public ::testing::Test {
  protected:
-  ~NetworkProfileFile() override { std::filesystem::remove(path_); }
-
   NetworkProfiles load(const std::string& text) {
     std::ofstream(path_) << text;
     return load_network_profiles(path_);
@@ -29,7 +28,8 @@ class NetworkProfileFile : public ::testing::Test {
     return "none";
   }
 
-  std::filesystem::path path_ = testing::TempDir() + "network_profile_test.yaml";
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_.file("profile.yaml");
 };
 
 TEST_F(NetworkProfileFile, ReadsBackWhatItWrote) {
