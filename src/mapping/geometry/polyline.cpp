@@ -242,7 +242,7 @@ Point MeasuredPolyline::Cursor::at(double arc_m) {
 }
 
 Projection MeasuredPolyline::Cursor::project(const Point& point, double within_m) {
-  const Projection foot = line_.project_from(segment_, point, within_m);
+  Projection foot = line_.project_from(segment_, point, within_m);
   if (foot.distance_m <= within_m) segment_ = foot.segment;
   return foot;
 }

@@ -127,7 +127,7 @@ std::optional<Way> rest_of(const Way& before, const Eigen::Isometry3d& T_map_bod
   const double rest_m = before.length() - from_m;
   if (std::abs(place.d_m) > kMaxBeside_m || place.s_m < -before.step_m || rest_m < before.step_m)
     return std::nullopt;
-  const auto first = static_cast<std::size_t>(from_m / before.step_m + 0.5);
+  const auto first = static_cast<std::size_t>(std::lround(from_m / before.step_m));
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
   if (before.stations[first].direction().dot(heading) < kMinAlong * heading.norm()) return std::nullopt;
   Way way{.wish = before.wish, .step_m = before.step_m, .known_m = rest_m};

@@ -161,7 +161,7 @@ std::optional<Course> course_of(const LaneGraph& graph, const Eigen::Isometry3d&
 
 Course course_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
                    const RouteWish& wish, double reach_m) {
-  const Route route = route_into(graph, lane, T_map_body, wish, kBehind_m, reach_m + kBeyond_m);
+  const Route route = route_into(graph, lane, T_map_body, wish, {-kBehind_m, reach_m + kBeyond_m});
   return {.pieces = route.pieces, .places = sampled(route), .change = {}};
 }
 

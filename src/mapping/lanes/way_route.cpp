@@ -243,12 +243,12 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
 }
 
 Route route_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
-                 const RouteWish& wish, double behind_m, double ahead_m) {
+                 const RouteWish& wish, const Stretch& range) {
   Route route;
   RouteBuilder builder(route);
-  builder.append({T_map_body * Point(-behind_m, 0.0, 0.0), T_map_body.translation()}, {.lane = {}});
+  builder.append({T_map_body * Point(range.from_m, 0.0, 0.0), T_map_body.translation()}, {.lane = {}});
   append(builder, {.to = lane, .path = {}, .turn = Turn::straight});
-  for (const Passage& passage : passages_ahead(graph, {.lane = lane}, wish, ahead_m))
+  for (const Passage& passage : passages_ahead(graph, {.lane = lane}, wish, range.to_m))
     append(builder, passage);
   return route;
 }

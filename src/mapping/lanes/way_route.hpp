@@ -57,9 +57,9 @@ std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry
 Route route_through(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish, double behind_m,
                     double ahead_m);
 
-/// The route from `behind_m` behind the vehicle, straight ahead and into a lane that begins there, and on to
-/// `ahead_m` ahead of the vehicle.
+/// The route of a vehicle that is in no lane, straight ahead and into a lane that begins there. `range` is
+/// from behind the vehicle (negative) to ahead of it.
 Route route_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
-                 const RouteWish& wish, double behind_m, double ahead_m);
+                 const RouteWish& wish, const Stretch& range);
 
 }  // namespace laneloom::lanes

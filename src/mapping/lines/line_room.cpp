@@ -33,6 +33,7 @@ std::vector<std::size_t> by_belief(const std::vector<Line>& lines) {
     disbelief.emplace_back(-existence(lines[i].stations, lines[i].beliefs), i);
   std::ranges::sort(disbelief);
   std::vector<std::size_t> order;
+  order.reserve(lines.size());
   for (const auto& [_, i] : disbelief) order.push_back(i);
   return order;
 }
@@ -44,8 +45,7 @@ std::vector<bool> crowded_out(const std::vector<Line>& lines, const std::vector<
     for (const Station& station : lines[order[rank]].stations)
       all.push_back(in_place(station.position, rank));
   std::ranges::sort(all);
-  const auto repeated = std::ranges::unique(all);
-  all.erase(repeated.begin(), repeated.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   std::vector<bool> out(order.size());
   std::size_t better = 0;  // lines in the same place
   for (std::size_t i = 1; i < all.size(); ++i) {
