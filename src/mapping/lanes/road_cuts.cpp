@@ -17,6 +17,7 @@ constexpr double kStyleReach_m = 15.0;  // either way; shorter patches of anothe
 constexpr double kAlongside = 0.8;      // cosine between boundaries of one road
 constexpr double kConfirmed = 3.0;      // log odds of a boundary whose probability is not estimated
 constexpr double kSurest = 0.999;       // probability of a boundary
+constexpr std::size_t kMostBeside = 24;
 
 double log_odds(const Marking& marking) {
   if (marking.existence_probability < 0.0)
@@ -66,6 +67,19 @@ class MetBoundary {
   MeasuredPolyline::Cursor along_;
 };
 
+/// The boundaries beside one, of many the nearest. A cross-section of a crowd of lines need not show all.
+std::vector<MetBoundary> boundaries_beside(std::size_t boundary, const boundaries::SectionGraph& road) {
+  std::vector<boundaries::SideBySide> beside = road.beside[boundary];
+  if (beside.size() > kMostBeside) {
+    std::ranges::stable_sort(beside, {}, [](const auto& other) { return std::abs(other.lateral_m); });
+    beside.resize(kMostBeside);
+  }
+  std::vector<MetBoundary> met;
+  met.reserve(beside.size());
+  for (const boundaries::SideBySide& one : beside) met.emplace_back(one.other, road.boundaries[one.other]);
+  return met;
+}
+
 /// Unit direction from one point to another; zero if they are one point.
 Eigen::Vector2d heading(const Point& from, const Point& to) { return (to - from).head<2>().normalized(); }
 
@@ -107,10 +121,7 @@ RoadCuts reversed(const RoadCuts& cuts) {
 RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, const LaneConfig& config) {
   const MeasuredPolyline& course = road.boundaries[boundary].course;
   const MetBoundary base(boundary, road.boundaries[boundary]);
-  std::vector<MetBoundary> others;
-  others.reserve(road.beside[boundary].size());
-  for (const boundaries::SideBySide& beside : road.beside[boundary])
-    others.emplace_back(beside.other, road.boundaries[beside.other]);
+  std::vector<MetBoundary> others = boundaries_beside(boundary, road);
   MeasuredPolyline::Cursor behind(course), ahead(course), far_behind(course), far_ahead(course);
   const Polyline points = course.resample(config.step_m);
   RoadCuts cuts;
