@@ -47,10 +47,10 @@ constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within th
 constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
 constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
 constexpr double kUnseenLine = -6.00;  // a line parts the marks not far along the road, which goes on unseen
-constexpr double kBend = -7.82;           // curvature, 1/m
-constexpr double kBendOpen = -18.67;      // likewise, where the other border is unseen
-constexpr double kDrivenOpen = 2.40;      // the vehicle drives in the lane, whose other border is unseen
-constexpr double kDashedOpen = 1.31;      // dashed share of the line
+constexpr double kBend = -7.82;        // curvature, 1/m
+constexpr double kBendOpen = -18.67;   // likewise, where the other border is unseen
+constexpr double kDrivenOpen = 2.40;   // the vehicle drives in the lane, whose other border is unseen
+constexpr double kDashedOpen = 1.31;   // dashed share of the line
 constexpr double kAlongEdgeOpen = -1.58;  // an edge lies along the line, on its other side
 constexpr double kEdgeOfLanes = -1.51;    // lines near an edge, which rather has its lane on their side
 
