@@ -15,10 +15,9 @@ namespace laneloom::dds {
 /// - take_next_sample() skips what was read, and ends the process when an entry that it takes equals one that
 ///   it skipped (an assertion in DataReaderHistory::remove_change_sub). take() of any state skips only what
 ///   must wait for earlier samples of its writer, as do all its equals: the first of equals is taken first.
-/// - Fast DDS 3.1 leaves such an entry in the list even when take() has returned it, until a new sample has
-/// no
-///   room there: take() of any state would return the first such entry for ever. take() marks the entry as
-///   read, though, and here only what was not read is taken (kTakenSamples).
+/// - Fast DDS 3.1 leaves such an entry in the list even when take() has returned it, until the list has no
+///   room for a new sample. take() of any state would return the first such entry for ever. take() marks the
+///   entry as read, though, and here only what was not read is taken (kTakenSamples).
 /// - The memory must stay allocated: not with the policy DYNAMIC_RESERVE_MEMORY_MODE (qos.cpp).
 template <class Sample, class HandOn>
 void take_all(eprosima::fastdds::dds::DataReader& reader, HandOn hand_on) {

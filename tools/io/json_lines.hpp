@@ -78,7 +78,7 @@ std::string to_json_line(const LocalMap& map);
 /// The type of marking that lines of each class become. None: they are left out.
 using Classes = std::map<std::string, std::optional<MarkingType>>;
 
-/// What differs in frames of others.
+/// Conventions by which frames of others may differ from laneloom's.
 struct FrameConventions {
   bool any_confidence = false;  ///< confidences may be on another scale than 0..1
   Classes classes{};            ///< what `type` may be beside laneloom's types
