@@ -14,17 +14,24 @@ constexpr double kMaxAside_m = 1.75, kMaxSlope = 0.15;  // of the begin, from th
 constexpr double kMinAlong = 0.9;                       // cosine between the vehicle's heading and the lane
 constexpr double kPerMetreAhead = 0.1;                  // by which a lane fits worse, in metres aside
 
-/// How badly the begin of a lane fits, in metres aside. Infinite: the lane does not begin straight ahead.
+/// The end of a lane at which it is entered.
+End begin_of(const DirectedLane& lane) { return lane.against ? End::back : End::front; }
+
+const Point& begin_point(const DirectedLane& lane) {
+  return end_point(lane.lane->centerline, begin_of(lane));
+}
+
+/// The misfit of the begin of a lane, in metres aside. Infinite: the lane does not begin straight ahead.
 double misfit_m(const DirectedLane& lane, const Eigen::Isometry3d& T_map_body) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const Polyline line = lane.centerline();
+  const Point& begin = begin_point(lane);
   const Point vehicle = T_map_body.translation();
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>().normalized();
-  const Eigen::Vector2d to_begin = (line.front() - vehicle).head<2>();
+  const Eigen::Vector2d to_begin = (begin - vehicle).head<2>();
   const double ahead_m = heading.dot(to_begin), aside_m = std::abs(cross(heading, to_begin));
-  const bool is_ahead = ahead_m > 0.0 && ahead_m < kMaxAhead_m && geometry::same_level(line.front(), vehicle);
+  const bool is_ahead = ahead_m > 0.0 && ahead_m < kMaxAhead_m && geometry::same_level(begin, vehicle);
   if (!is_ahead || aside_m > std::min(kMaxAside_m, 0.5 + kMaxSlope * ahead_m)) return kNone;
-  if (-end_direction(line, End::front).dot(heading) < kMinAlong) return kNone;
+  if (-end_direction(lane.lane->centerline, begin_of(lane)).dot(heading) < kMinAlong) return kNone;
   return aside_m + kPerMetreAhead * ahead_m;
 }
 
@@ -45,8 +52,7 @@ DirectedLane lane_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_b
       const DirectedLane directed{&lane, against};
       const double misfit = misfit_m(directed, T_map_body);
       if (misfit >= least_m || !lane.is_drivable() || directed.oncoming()) continue;
-      const Point& begin = against ? lane.centerline.back() : lane.centerline.front();
-      if (is_behind_edge(begin, T_map_body.translation(), graph.map())) continue;
+      if (is_behind_edge(begin_point(directed), T_map_body.translation(), graph.map())) continue;
       best = directed;
       least_m = misfit;
     }

@@ -14,8 +14,6 @@ namespace laneloom {
 namespace {
 
 constexpr double kMinLength_m = 1.0;
-constexpr double kMaxBeside_m = 1.75;  // of the vehicle from a way that it is still on
-constexpr double kMinAlong = 0.7;      // cosine between its heading and that way
 
 /// A place between two stations: the first one, and the share of the step to the second.
 struct Between {
@@ -114,22 +112,18 @@ void add_stations(const LaneGraph& graph, const lanes::Course& course, const lan
   }
 }
 
-bool leads_into(const Way& way, const DirectedLane& lane) {
-  return std::ranges::any_of(
-      way.lanes, [&](const WayLane& one) { return one.id == lane.lane->id && one.against == lane.against; });
-}
-
-/// What lies ahead of the vehicle on the way before, of which the map has no lanes any more. Empty: the
-/// vehicle is not on it, or it ends here.
+/// The rest of the way before, ahead of the vehicle, as a way without lanes: the map has lost them. Empty:
+/// the vehicle is not on that way, or the way ends here.
 std::optional<Way> rest_of(const Way& before, const Eigen::Isometry3d& T_map_body) {
   const WayPlace place = before.to_way(T_map_body.translation());
   const double from_m = std::floor(std::max(place.s_m, 0.0) / before.step_m) * before.step_m;
   const double rest_m = before.length() - from_m;
-  if (std::abs(place.d_m) > kMaxBeside_m || place.s_m < -before.step_m || rest_m < before.step_m)
+  if (std::abs(place.d_m) > lanes::kMaxBesidePath_m || place.s_m < -before.step_m || rest_m < before.step_m)
     return std::nullopt;
   const auto first = static_cast<std::size_t>(std::lround(from_m / before.step_m));
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
-  if (before.stations[first].direction().dot(heading) < kMinAlong * heading.norm()) return std::nullopt;
+  if (before.stations[first].direction().dot(heading) < lanes::kMinAlongPath * heading.norm())
+    return std::nullopt;
   Way way{.wish = before.wish, .step_m = before.step_m, .known_m = rest_m};
   for (std::size_t i = first; i < before.stations.size(); ++i)
     way.stations.push_back({.point = before.stations[i].point,
@@ -172,7 +166,7 @@ std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_
   if (!course) {
     auto rest = kept != nullptr ? rest_of(*kept, T_map_body) : std::nullopt;
     const DirectedLane ahead = lanes::lane_ahead(graph, T_map_body);
-    if (ahead.lane == nullptr || (rest && !leads_into(*kept, ahead))) return rest;
+    if (ahead.lane == nullptr || (rest && lanes::find(kept, ahead) == nullptr)) return rest;
     course = lanes::course_into(graph, ahead, T_map_body, {wish, kept}, options.reach_m);
   }
   if (course->places.size() < 2) return std::nullopt;

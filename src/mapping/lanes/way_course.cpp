@@ -28,10 +28,13 @@ RouteStart start_beside(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
   return {{&lane, against}, against ? line.length() - foot.arc_m : foot.arc_m};
 }
 
+Course course_along(const Route& route) {
+  return {.pieces = route.pieces, .places = sampled(route), .change = {}};
+}
+
 Course course_from(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish, double behind_m,
                    double ahead_m) {
-  const Route route = route_through(graph, start, wish, behind_m, ahead_m);
-  return {.pieces = route.pieces, .places = sampled(route), .change = {}};
+  return course_along(route_through(graph, start, wish, behind_m, ahead_m));
 }
 
 Polyline points_of(const Course& course) {
@@ -161,8 +164,7 @@ std::optional<Course> course_of(const LaneGraph& graph, const Eigen::Isometry3d&
 
 Course course_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
                    const RouteWish& wish, double reach_m) {
-  const Route route = route_into(graph, lane, T_map_body, wish, {-kBehind_m, reach_m + kBeyond_m});
-  return {.pieces = route.pieces, .places = sampled(route), .change = {}};
+  return course_along(route_into(graph, lane, T_map_body, wish, {-kBehind_m, reach_m + kBeyond_m}));
 }
 
 }  // namespace laneloom::lanes

@@ -19,7 +19,7 @@ struct Course {
 std::optional<Course> course_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
                                 const RouteWish& wish, double reach_m);
 
-/// Likewise for a vehicle that is in no lane, into one that begins ahead of it.
+/// The course into a lane that begins ahead, for a vehicle that is in no lane.
 Course course_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
                    const RouteWish& wish, double reach_m);
 

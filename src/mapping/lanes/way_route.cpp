@@ -11,17 +11,8 @@ namespace {
 
 using Turn = Linkage::Turn;
 
-constexpr double kMaxBesidePath_m = 1.75;
-constexpr double kMinAlongPath = 0.7;  // cosine
-constexpr double kMinGap_m = 3.0;      // a longer one is bridged by a bend, a shorter one by smoothing
+constexpr double kMinGap_m = 3.0;  // a longer one is bridged by a bend, a shorter one by smoothing
 constexpr double kBendStep_m = 1.0;
-
-const WayLane* find(const Way* way, const DirectedLane& lane) {
-  if (way == nullptr) return nullptr;
-  const auto found = std::ranges::find_if(
-      way->lanes, [&](const WayLane& one) { return one.id == lane.lane->id && one.against == lane.against; });
-  return found == way->lanes.end() ? nullptr : &*found;
-}
 
 Turn turn_of(WayWish wish) {
   if (wish == WayWish::left) return Turn::left;
@@ -217,6 +208,13 @@ bool is_kept(const LaneGraph& graph, const RouteStart& start, const Way* before)
 }
 
 }  // namespace
+
+const WayLane* find(const Way* way, const DirectedLane& lane) {
+  if (way == nullptr) return nullptr;
+  const auto found = std::ranges::find_if(
+      way->lanes, [&](const WayLane& one) { return one.id == lane.lane->id && one.against == lane.against; });
+  return found == way->lanes.end() ? nullptr : &*found;
+}
 
 std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
                                    const RouteWish& wish) {

@@ -49,6 +49,13 @@ struct RouteWish {
   const Way* before = nullptr;  ///< with the same wish; null: there is none
 };
 
+/// The greatest distance of a vehicle from a line that it drives on without a lane, and the least cosine
+/// between its heading and that line.
+inline constexpr double kMaxBesidePath_m = 1.75, kMinAlongPath = 0.7;
+
+/// The lane of a way, walked in the same sense. Null: the way does not lead through it, or is null.
+const WayLane* find(const Way* way, const DirectedLane& lane);
+
 /// The place of the vehicle: in a lane, or else on a passage. Empty: in neither.
 std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
                                    const RouteWish& wish);
@@ -57,7 +64,7 @@ std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry
 Route route_through(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish, double behind_m,
                     double ahead_m);
 
-/// The route of a vehicle that is in no lane, straight ahead and into a lane that begins there. `range` is
+/// The route straight ahead and into a lane that begins there, for a vehicle that is in no lane. `range` is
 /// from behind the vehicle (negative) to ahead of it.
 Route route_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
                  const RouteWish& wish, const Stretch& range);
