@@ -161,11 +161,12 @@ std::vector<bool> gore_places(std::span<const Place> places) {
 std::vector<double> parted_from(std::size_t other, const RoadCuts& cuts, double step_m) {
   std::vector<double> parted(cuts.size(), 0.0);
   for (std::size_t c = 0; c < cuts.size(); ++c) {
-    const std::span<const Mark> marks = cuts[c].marks;
+    const RoadCut cut = cuts[c];
+    const std::span<const Mark> marks = cut.marks;
     const auto at =
         static_cast<std::size_t>(std::ranges::find(marks, other, &Mark::boundary) - marks.begin());
     if (at == marks.size()) continue;
-    const auto [right, left] = std::minmax(at, cuts[c].own);
+    const auto [right, left] = std::minmax(at, cut.own);
     for (std::size_t i = right + 1; i < left; ++i) {
       const double aside_m =
           std::min(marks[i].lateral_m - marks[right].lateral_m, marks[left].lateral_m - marks[i].lateral_m);
