@@ -53,6 +53,15 @@ class GuardedTransport : public ChainingTransport {
       door_->probe().add_port(address_of(local), IPLocator::getPhysicalPort(local));
     return ChainingTransport::OpenInputChannel(local, receiver, max_bytes);
   }
+  /// Sends to each reader at its own address. To readers that share an address of multicast, Fast DDS would
+  /// send there, and some submessages to their own addresses nevertheless. It has not opened those: an
+  /// assertion of its statistics then ends the process.
+  void select_locators(LocatorSelector& selector) const override {
+    for (auto* reader : selector.transport_starts())
+      if (std::ranges::any_of(reader->unicast, [&](const auto& own) { return IsLocatorSupported(own); }))
+        reader->multicast.clear();
+    ChainingTransport::select_locators(selector);
+  }
 
  private:
   std::shared_ptr<Door> door_;

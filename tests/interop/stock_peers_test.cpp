@@ -3,7 +3,10 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <ostream>
@@ -11,6 +14,7 @@
 #include <thread>
 
 #include "DetectionsPubSubTypes.hpp"
+#include "ServiceStatusPubSubTypes.hpp"
 #include "VehiclePosePubSubTypes.hpp"
 #include "cyclone.hpp"
 #include "dds/fast_dds.hpp"
@@ -175,6 +179,57 @@ std::vector<Peer> peers() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, StockPeer, testing::ValuesIn(peers()), name_of);
+
+/// A reader of the status, on a participant of Fast DDS as it comes, that is reached at a port of its own and
+/// at an address of multicast. Nodes of ROS 2 on Cyclone DDS have such readers.
+class MulticastReader {
+ public:
+  MulticastReader(const DdsConfig& config, std::uint32_t number) {
+    auto* factory = fast::DomainParticipantFactory::get_instance();
+    participant_ =
+        factory->create_participant(static_cast<std::uint32_t>(config.domain), fast::PARTICIPANT_QOS_DEFAULT);
+    fast::TypeSupport(new msg::ServiceStatusPubSubType).register_type(participant_);
+    auto* topic = participant_->create_topic("laneloom/v3/status", "laneloom::msg::ServiceStatus",
+                                             fast::TOPIC_QOS_DEFAULT);
+    auto in_vehicle = fast::SUBSCRIBER_QOS_DEFAULT;
+    in_vehicle.partition().push_back(config.vehicle_id.c_str());
+    auto qos = fast::DATAREADER_QOS_DEFAULT;
+    qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
+    qos.endpoint().history_memory_policy = eprosima::fastdds::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+    // Behind the ports that participants of the domain take.
+    const std::uint32_t free_port = 7400 + 250 * static_cast<std::uint32_t>(config.domain) + 240;
+    qos.endpoint().unicast_locator_list.push_back(address({127, 0, 0, 1}, free_port + number));
+    qos.endpoint().multicast_locator_list.push_back(address({239, 255, 0, 1}, free_port));
+    reader_ = participant_->create_subscriber(in_vehicle)->create_datareader(topic, qos);
+  }
+  ~MulticastReader() {
+    participant_->delete_contained_entities();
+    fast::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+  MulticastReader(const MulticastReader&) = delete;
+  MulticastReader& operator=(const MulticastReader&) = delete;
+
+  bool hears_the_service() { return reader_->wait_for_unread_message({30, 0}); }
+
+ private:
+  static eprosima::fastdds::rtps::Locator_t address(const std::array<unsigned char, 4>& ip,
+                                                    std::uint32_t port) {
+    eprosima::fastdds::rtps::Locator_t locator(LOCATOR_KIND_UDPv4, port);
+    eprosima::fastdds::rtps::IPLocator::setIPv4(locator, ip[0], ip[1], ip[2], ip[3]);
+    return locator;
+  }
+
+  fast::DomainParticipant* participant_ = nullptr;
+  fast::DataReader* reader_ = nullptr;
+};
+
+TEST(ReadersWithOneAddressOfMulticast, DoNotEndTheService) {
+  const DdsConfig config = private_config("multicast");
+  const Process service(command(config));
+  MulticastReader first(config, 1), second(config, 2);
+  EXPECT_TRUE(first.hears_the_service()) << service.errors();
+  EXPECT_TRUE(second.hears_the_service()) << service.errors();
+}
 
 }  // namespace
 }  // namespace laneloom
