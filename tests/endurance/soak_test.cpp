@@ -16,6 +16,7 @@ namespace laneloom::endurance {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -101,6 +102,26 @@ TEST(Soak, HasAnotherVendorsPerceptionAmongItsActors) {
   spec.fleet.perceptions = {STOCK_PERCEPTION};
   const auto result = soak_with(spec, 3);
   EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_TRUE(result.passed());
+}
+
+TEST(Soak, FailsWhereNothingOfTheStrangerIsRefused) {
+  const io::WorkFolder folder;
+  SoakSpec spec = healthy();
+  spec.fleet.stranger = {folder.file("shy")};
+  write_script(spec.fleet.stranger.front(), "trap 'exit 0' TERM; while :; do sleep 0.1; done");
+  const auto result = soak_with(spec, 0);
+  EXPECT_THAT(result.failures, ElementsAre("nothing of the stranger was refused"));
+  EXPECT_FALSE(result.passed());
+}
+
+TEST(Soak, HasAStrangerAmongItsActors) {
+  SoakSpec spec = healthy();
+  spec.fleet.perceptions = {STOCK_PERCEPTION};
+  spec.fleet.stranger = {STRANGER, LANELOOM_CAPTURES "/laneloom.pcap", LANELOOM_CAPTURES "/fast_dds.pcap"};
+  const auto result = soak_with(spec, 3);
+  EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_GT(result.refused_datagrams, 0U);
   EXPECT_TRUE(result.passed());
 }
 

@@ -35,8 +35,8 @@ void print(const endurance::SoakResult& result) {
                account.published, account.fused, account.refused, account.dropped, account.pending,
                account.lost, account.unexplained());
   }
-  fmt::print("\n{} maps, {} missed, {} contract violations\n", result.maps.received, result.maps.missed,
-             result.maps.violations.size());
+  fmt::print("\n{} maps, {} missed, {} contract violations; {} datagrams refused\n", result.maps.received,
+             result.maps.missed, result.maps.violations.size(), result.refused_datagrams);
   for (const auto& violation : result.maps.violations) fmt::print("violation: {}\n", violation);
   for (const auto& failure : result.failures) fmt::print("{}\n", failure);
   fmt::print("{}\n", result.passed() ? "passed" : "FAILED");
@@ -60,9 +60,10 @@ void run(SoakOptions& options) {
 }  // namespace
 
 void add_soak(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("soak",
-                                         "Runs publisher, service, planner and other perceptions under "
-                                         "random faults, and accounts for every frame");
+  CLI::App* command =
+      app.add_subcommand("soak",
+                         "Runs publisher, service, planner, other perceptions and a stranger under "
+                         "random faults, and accounts for every frame");
   const auto options = std::make_shared<SoakOptions>();
   command->add_option("--minutes", options->minutes, "Minutes to run")
       ->check(within(1e-3, 1e6))
@@ -70,6 +71,10 @@ void add_soak(CLI::App& app) {
   command->add_option("--seed", options->spec.seed, "Seed of the faults")->capture_default_str();
   command->add_option("--perception", options->perceptions,
                       "One more perception, run as PROGRAM DOMAIN VEHICLE_ID FILE (tests/interop has two)");
+  command->add_option(
+      "--stranger", options->spec.fleet.stranger,
+      "A program that sends damaged datagrams to the service, and the captures that it makes them "
+      "of (tests/end_to_end has it, tests/dds/captures those)");
   command->add_option("--recovery", options->recovery_s, "Longest wait of the planner for a map, in seconds")
       ->check(positive_seconds())
       ->capture_default_str();

@@ -21,6 +21,7 @@ Fleet::Fleet(Spec spec) : spec_(std::move(spec)) {
 std::vector<Fleet::Member> Fleet::members() const {
   std::vector<Member> result{kService, kPublisher, kPlanner};
   for (const auto& program : spec_.perceptions) result.push_back(program.filename());
+  if (!spec_.stranger.empty()) result.emplace_back(kStranger);
   return result;
 }
 
@@ -33,9 +34,17 @@ std::vector<std::string> Fleet::perception(const std::filesystem::path& program)
   return {program, std::to_string(spec_.dds.domain), spec_.dds.vehicle_id, new_log()};
 }
 
+std::vector<std::string> Fleet::stranger() const {
+  std::vector<std::string> command{spec_.stranger.front(),           "--only", "laneloomd",
+                                   std::to_string(spec_.dds.domain), "0",      "1"};
+  command.insert(command.end(), spec_.stranger.begin() + 1, spec_.stranger.end());
+  return command;
+}
+
 std::vector<std::string> Fleet::command_of(const Member& member) {
   for (const auto& program : spec_.perceptions)
     if (program.filename() == member) return perception(program);
+  if (member == kStranger) return stranger();
   std::vector<std::string> command;
   if (member == kPublisher) {
     command = {spec_.command, "publish", "--scenario", spec_.scenario, "--noise",

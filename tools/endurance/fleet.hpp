@@ -16,8 +16,8 @@
 
 namespace laneloom::endurance {
 
-/// The processes of one vehicle: a publisher, a service, a planner, and further perceptions. Each start of a
-/// process is a session of its own.
+/// The processes of one vehicle: a publisher, a service, a planner, further perceptions, and a stranger. Each
+/// start of a process is a session of its own.
 class Fleet {
  public:
   struct Spec {
@@ -30,15 +30,20 @@ class Fleet {
     /// gives its frames the stamps of poses and the program's name as their source, and writes to FILE as a
     /// PublicationLogWriter does.
     std::vector<std::filesystem::path> perceptions;
+    /// The program of someone who sends damaged datagrams to the service, in the names of the others, and the
+    /// captures of datagrams that he makes them of. He is run as PROGRAM --only laneloomd DOMAIN 0 SEED
+    /// CAPTURE... Empty: there is nobody.
+    std::vector<std::string> stranger;
   };
   /// Starts all processes. Throws std::runtime_error if one cannot be started.
   explicit Fleet(Spec spec);
 
-  /// The name of a process: one of the three below, or that of a perception's program.
+  /// The name of a process: one of those below, or that of a perception's program.
   using Member = std::string;
   static constexpr const char* kPublisher = "publisher";
   static constexpr const char* kService = "service";
   static constexpr const char* kPlanner = "planner";
+  static constexpr const char* kStranger = "stranger";
   std::vector<Member> members() const;
   void signal(const Member& member, int number);
   /// Kills a process, as a crash would end it, and starts it again.
@@ -48,7 +53,7 @@ class Fleet {
   std::string restart(const Member& member);
   /// Ends a process as an operator does. Returns likewise.
   std::string stop(const Member& member);
-  /// Ends all processes that publish detections. Returns the problems, in words.
+  /// Ends all processes that publish detections, and the stranger. Returns the problems, in words.
   std::vector<std::string> stop_perceptions();
   /// Starts the processes again that have ended by themselves. Returns their names.
   std::vector<Member> restart_ended();
@@ -63,6 +68,7 @@ class Fleet {
   void start(const Member& member);
   std::vector<std::string> command_of(const Member& member);
   std::vector<std::string> perception(const std::filesystem::path& program);
+  std::vector<std::string> stranger() const;
   const std::string& new_log();
   std::string output_of(const Member& member) const { return folder_.file(member.c_str()); }
 

@@ -91,6 +91,15 @@ std::vector<std::string> never_fused(const Fleet::Spec& fleet,
   return result;
 }
 
+/// How many datagrams the services refused.
+std::uint64_t refused_datagrams(const std::map<std::uint64_t, Watch::Session>& sessions) {
+  std::uint64_t result = 0;
+  for (const auto& [id, session] : sessions)
+    for (const auto& [counter, count] : session.last.counters)
+      if (counter.starts_with("datagrams_refused_")) result += count;
+  return result;
+}
+
 }  // namespace
 
 bool SoakResult::passed() const {
@@ -129,6 +138,9 @@ SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
   const auto sessions = watch.sessions();
   for (const std::string& name : never_fused(spec.fleet, sessions))
     result.failures.push_back(fmt::format("no frame of the {} was fused", name));
+  result.refused_datagrams = refused_datagrams(sessions);
+  if (!spec.fleet.stranger.empty() && result.refused_datagrams == 0)
+    result.failures.emplace_back("nothing of the stranger was refused");
   for (const auto& [id, session] : sessions) {
     result.accounts.emplace(id, account_of(session.last, session.sources, publications));
   }

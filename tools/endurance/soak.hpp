@@ -35,7 +35,8 @@ struct SoakResult {
   std::map<std::uint64_t, Account> accounts;  ///< by session of the service
   Watch::Maps maps;
   std::map<std::string, FaultCount> faults;
-  std::vector<std::string> failures;  ///< of recovery, and of processes that ended by themselves or badly
+  std::uint64_t refused_datagrams = 0;  ///< by all services
+  std::vector<std::string> failures;    ///< of recovery, and of processes that ended by themselves or badly
 
   bool passed() const;
 };
