@@ -38,7 +38,7 @@ TEST_P(Captures, NothingIsRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Captures,
-                         ::testing::Values("laneloom", "fast_dds", "cyclone", "ros", "secured"),
+                         ::testing::Values("laneloom", "fast_dds", "cyclone", "ros", "ros_nodes", "secured"),
                          [](const auto& file) { return file.param; });
 
 TEST(Captures, SecuredParticipantsProtectWhatTheyMust) {
