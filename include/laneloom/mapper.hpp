@@ -30,8 +30,9 @@ class Mapper {
   Mapper& operator=(Mapper&&) noexcept;
 
   /// Fuses one frame, seen from T_map_body, and rebuilds the local map about the newest pose so far. A frame
-  /// may be older than the one before it. All values must be finite; this is not checked here. `observer` may
-  /// be null.
+  /// may be older than the one before it. While the vehicle stands, the method `lines` fuses a frame each
+  /// second; the map keeps up with the poses of the others. All values must be finite; this is not checked
+  /// here. `observer` may be null.
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 
@@ -52,7 +53,7 @@ class Mapper {
 
   /// Number of lines that the last update forgot because there was no room: a mapper keeps at most 256 lines
   /// with 20000 places together. The lines of the least evidence go. 0 with the voxel method.
-  std::size_t lines_forgotten() const;
+  std::size_t lines_forgotten() const { return lines_forgotten_; }
   /// Number of detections of the last update that were left out because they zigzag (PreprocessConfig).
   std::size_t detections_zigzagging() const { return detections_zigzagging_; }
   /// Whether the poses had jumped at the last update: by a step that no vehicle makes, and that the
@@ -81,7 +82,7 @@ class Mapper {
   MapperConfig config_;
   SdMap sd_map_;
   std::unique_ptr<MapperState> state_;
-  std::size_t detections_zigzagging_ = 0;
+  std::size_t detections_zigzagging_ = 0, lines_forgotten_ = 0;
   bool poses_jumped_ = false;
 };
 

@@ -14,6 +14,7 @@ namespace laneloom {
 struct DetectionFate {
   /// The rule that decided.
   enum class Rule : std::uint8_t {
+    repeats,   ///< not looked at: the vehicle stands, and saw the same a moment ago
     zigzag,    ///< dropped: it zigzags, or has fewer than two points
     unsure,    ///< dropped: its confidence is too low
     observes,  ///< it observes lines that were there before
@@ -86,6 +87,7 @@ struct LaneReason {
 
 struct FrameReasons {
   std::int64_t stamp_ns = 0;
+  bool repeats = false;                   ///< the vehicle stands: what was decided in the frame before holds
   double publish = 0.0, confirm = 0.0;    ///< log odds that are needed
   std::vector<DetectionFate> detections;  ///< of each detection of the frame
   std::vector<LineReason> lines;  ///< of all lines that are followed, and of those that ended in this frame

@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "laneloom/reasons.hpp"
@@ -99,6 +100,29 @@ LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, 
   return map;
 }
 
+/// Makes the own way anew, the way before continued.
+void lead_on(const markings::StageLog& log, const std::optional<Way>& before, LocalMap& map) {
+  map.way = log.done(
+      Stage::way, way_ahead(LaneGraph(map), map.T_map_body, WayWish::straight, before ? &*before : nullptr));
+}
+
+/// Takes no more than the pose of a frame that tells next to nothing new.
+void see_again(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
+               const markings::StageLog& log, MapperState& state) {
+  if (FrameReasons* const reasons = log.reasons())
+    *reasons = {.stamp_ns = frame.stamp_ns,
+                .repeats = true,
+                .detections{frame.detections.size(), {.rule = DetectionFate::Rule::repeats}}};
+  LocalMap& map = state.map;
+  map.lineage.clear();
+  if (frame.stamp_ns >= map.stamp_ns) {
+    map.stamp_ns = frame.stamp_ns;
+    map.T_map_body = T_map_body;
+  }
+  state.trails.keep_around(map.T_map_body.translation());
+  lead_on(log, map.way, map);
+}
+
 }  // namespace
 
 const char* name(Stage stage) {
@@ -122,15 +146,21 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   const markings::StageLog log(observer);
   MapperState& state = *state_;
   const Eigen::Isometry3d seen_from = follow_poses(frame, T_map_body);
-  const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
-  state.trails.keep_around(scene.T_map_body().translation());
   markings::ObservedFrame observed{
       frame, seen_from,
       log.done(Stage::preprocess,
                markings::preprocess(frame, seen_from, config_.preprocess))};  // paper, III-A
   detections_zigzagging_ = frame.detections.size() - observed.markings.size();
+  lines_forgotten_ = 0;
+  if (!poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
+    see_again(frame, seen_from, log, state);
+    return state.map;
+  }
+  const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
+  state.trails.keep_around(scene.T_map_body().translation());
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
+  if (const lines::LineMapper* lines = state.fusion.lines()) lines_forgotten_ = lines->forgotten();
   lanes::LaneLayout layout = lanes_of(fused, scene, config_, log, state);
   topology::RoadGraph road =
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
@@ -146,8 +176,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   meet_at_joints(road);
   LocalMap map =
       log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));
-  map.way = log.done(Stage::way, way_ahead(LaneGraph(map), map.T_map_body, WayWish::straight,
-                                           state.map.way ? &*state.map.way : nullptr));
+  lead_on(log, state.map.way, map);
   state.map = std::move(map);
   return state.map;
 }
@@ -178,11 +207,6 @@ std::vector<std::pair<std::string, double>> Mapper::learned(const std::string& s
   if (network == nullptr) return values;
   for (const auto& [name, learned] : network->profile()) values.emplace_back(name, learned.value);
   return values;
-}
-
-std::size_t Mapper::lines_forgotten() const {
-  const lines::LineMapper* lines = state_->fusion.lines();
-  return lines != nullptr ? lines->forgotten() : 0;
 }
 
 bool Mapper::driving_side_contradicted() const {

@@ -35,6 +35,11 @@ class Fusion {  // NOLINT(bugprone-exception-escape)
                       method_);
   }
 
+  /// Whether a frame from this pose tells next to nothing after those before.
+  bool has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const {
+    return lines() != nullptr && lines()->has_seen(frame, T_map_body);
+  }
+
   /// The state of the method `lines` or `voxels`. Null: the mapper uses the other method.
   const lines::LineMapper* lines() const { return std::get_if<lines::LineMapper>(&method_); }
   lines::LineMapper* lines() { return std::get_if<lines::LineMapper>(&method_); }

@@ -278,6 +278,64 @@ TEST_P(EitherMapper, TheWayMovesWithPosesThatJump) {
   }
 }
 
+/// Lets the vehicle stand for some frames. Returns the number of the first one after which the map has
+/// `lines` markings. 0: there is none.
+int stand(int frames, const std::vector<Detection>& detections, std::size_t lines, Drive& drive) {
+  int first = 0;
+  for (int i = 1; i <= frames; ++i) {
+    const LocalMap& map =
+        drive.mapper.update(frame_at(drive.x, detections, ++drive.number), test::at(drive.x));
+    if (first == 0 && map.markings.size() == lines) first = i;
+  }
+  return first;
+}
+
+TEST(LineMapper, AStandingVehicleSeesWhatIsNewAndWhatIsGoneWithinSeconds) {
+  Drive drive;
+  drive.steps(40);
+  stand(100, road(), 0, drive);
+  auto with_new_line = road();
+  with_new_line.push_back(
+      test::detection(MarkingType::laneline, straight({drive.x + 5, 9, 0.1}, {drive.x + 20, 9, 0.1})));
+  const std::size_t known = drive.mapper.map().markings.size();
+  const int shown = stand(100, with_new_line, known + 1, drive);
+  EXPECT_GT(shown, 0);
+  EXPECT_LE(shown, 60);
+  const int gone = stand(100, road(), known, drive);
+  EXPECT_GT(gone, 0);
+  EXPECT_LE(gone, 80);
+}
+
+TEST(LineMapper, TheMapOfAStandingVehicleKeepsUpWithItsPoses) {
+  Drive drive;
+  drive.steps(40);
+  stand(50, road(), 0, drive);
+  const LocalMap before = drive.mapper.map();
+  const LocalMap& map = drive.mapper.update(frame_at(drive.x, {}, ++drive.number), test::at(drive.x + 0.05));
+  EXPECT_EQ(map.stamp_ns, before.stamp_ns + 100'000'000);
+  EXPECT_EQ(map.T_map_body.translation().x(), drive.x + 0.05);
+  EXPECT_TRUE(map.lineage.empty());
+  ASSERT_TRUE(map.way);
+  EXPECT_EQ(map.markings.size(), before.markings.size());
+  drive.mapper.update(frame_at(drive.x, {}, drive.number - 1), test::at(drive.x));
+  EXPECT_EQ(map.stamp_ns, before.stamp_ns + 100'000'000) << "a late frame sets no pose";
+  EXPECT_EQ(map.T_map_body.translation().x(), drive.x + 0.05);
+}
+
+TEST(LineMapper, StandingIsTheSameToTheLastBitAfterALoad) {
+  Drive one, two;
+  one.steps(40);
+  stand(33, road(), 0, one);
+  two.mapper.load(one.mapper.save());
+  two.x = one.x;
+  two.number = one.number;
+  for (int i = 0; i < 30; ++i) {
+    stand(1, road(), 0, one);
+    stand(1, road(), 0, two);
+    EXPECT_EQ(one.mapper.save(), two.mapper.save());
+  }
+}
+
 TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
   Drive drive(GetParam());
   drive.steps(100);

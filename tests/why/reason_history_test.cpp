@@ -106,6 +106,16 @@ TEST(ReasonHistory, ALaneHasItsTermsThoseOfItsDirectionAndItsLines) {
   EXPECT_THAT(history.of_lane(21), testing::Not(testing::Contains(HasSubstr("traffic"))));
 }
 
+TEST(ReasonHistory, WhileTheVehicleStandsTheReasonsOfTheFrameBeforeHold) {
+  ReasonHistory history;
+  add({.stamp_ns = 1, .publish = 0.5, .lines = {line_of(LineReason::Verdict::weak)}}, history);
+  add({.stamp_ns = 2, .repeats = true, .detections = {{.rule = DetectionFate::Rule::repeats}}}, history);
+  const nlohmann::json all = history.to_json({.stamp_ns = 2});
+  EXPECT_EQ(all["publish"], 0.5);
+  EXPECT_TRUE(all["lines"].contains("7"));
+  EXPECT_THAT(history.of_detection(0), HasSubstr("the vehicle stands"));
+}
+
 TEST(ReasonHistory, ALineThatEndedIsKnownForTenSeconds) {
   ReasonHistory history;
   add({.stamp_ns = 1'000'000'000, .lines = {line_of(LineReason::Verdict::lost)}}, history);

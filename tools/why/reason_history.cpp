@@ -59,6 +59,11 @@ void ReasonHistory::update_begins() { now_ = {}; }
 
 void ReasonHistory::stage_done(Stage stage) {
   if (stage != Stage::way || now_.stamp_ns == 0) return;
+  if (now_.repeats && !frames_.empty()) {
+    frames_.back().stamp_ns = now_.stamp_ns;
+    frames_.back().detections = std::move(now_.detections);
+    return;
+  }
   frames_.push_back(std::move(now_));
   while (seconds(frames_.back().stamp_ns - frames_.front().stamp_ns) > kRemembered_s) frames_.pop_front();
 }

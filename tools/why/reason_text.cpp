@@ -99,6 +99,8 @@ std::string lines_of(const DetectionFate& detection) {
 
 std::string fate_of(const DetectionFate& detection) {
   switch (detection.rule) {
+    case Rule::repeats:
+      return "not looked at: the vehicle stands, and saw the same a moment ago";
     case Rule::zigzag:
       return "dropped: it zigzags, or has fewer than two points (mapper.preprocess.zigzag_angle_deg)";
     case Rule::unsure:

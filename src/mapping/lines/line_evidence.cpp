@@ -9,8 +9,6 @@
 namespace laneloom::lines {
 namespace {
 
-constexpr double kStandingShare = 0.3;  // least share of a view's evidence, while a station is not confirmed
-
 // The mean belief in a line's detections adds this much per unit to the log odds that the line exists. All
 // detections of a line have a share of their variance in common, so that many say little more than some.
 constexpr double kPerBelief = 3.5, kCommonShare = 0.3;
@@ -44,8 +42,8 @@ bool Outline::contains(const Point& point) const {
   return bounds_.contains(Eigen::Vector2d(point.head<2>())) && lines::contains(*polygon_, point);
 }
 
-View::View(const Eigen::Isometry3d& transform, const DetectionFrame& of, double weight)
-    : T_body_map(transform), frame(&of), news(weight), field_of_view_(of.field_of_view) {
+View::View(const Eigen::Isometry3d& transform, const DetectionFrame& of, double weight, double least)
+    : T_body_map(transform), frame(&of), news(weight), least_news(least), field_of_view_(of.field_of_view) {
   for (const Polyline& area : of.occluded_areas) occluded_areas_.emplace_back(area);
 }
 
@@ -85,7 +83,7 @@ double standing_limit(const FusionConfig& config) {
 }
 
 /// Raises the stations that the match observed.
-void credit_stations(const LineMatch& match, double log_odds, double news, const FusionConfig& config,
+void credit_stations(const LineMatch& match, double log_odds, const View& view, const FusionConfig& config,
                      Line& line) {
   const auto [lowest, highest] =
       std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });
@@ -95,8 +93,9 @@ void credit_stations(const LineMatch& match, double log_odds, double news, const
   for (std::size_t k = begin; k <= end; ++k) {
     Station& station = line.stations[k];
     if (station.sight != Sight::observed) continue;
-    const double standing = std::min(station.log_odds + kStandingShare * log_odds, standing_limit(config));
-    station.log_odds = std::max(std::min(station.log_odds + news * log_odds, config.max_log_odds), standing);
+    const double standing = std::min(station.log_odds + view.least_news * log_odds, standing_limit(config));
+    station.log_odds =
+        std::max(std::min(station.log_odds + view.news * log_odds, config.max_log_odds), standing);
   }
 }
 
@@ -112,7 +111,7 @@ void credit_observed(const View& view, const Association& association, const Fus
     const SampledDetection& detection = association.detections[match.detection];
     Line& line = lines[match.line];
     line.last_seen_ns = std::max(line.last_seen_ns, view.frame->stamp_ns);
-    credit_stations(match, hit(detection.belief, config), view.news, config, line);
+    credit_stations(match, hit(detection.belief, config), view, config, line);
     if (config.learn && view.is_independent() && is_established(line, config))
       model.learn_confidence(detection.confidence);
     add_belief(detection.belief, view.news, model, line);
@@ -134,7 +133,7 @@ void discount_unobserved(const View& view, const geometry::MapBox& range, const 
       if (seen || !could_see) continue;
       if (in_view) station.sight = Sight::missed;
       const bool confirmed = station.log_odds >= config.confirm_log_odds;
-      const double news = confirmed ? view.news : std::max(view.news, kStandingShare);
+      const double news = confirmed ? view.news : std::max(view.news, view.least_news);
       station.log_odds +=
           news * config.miss_log_odds * geometry::reproducible::log(1.0 - model.rate(type, place));
     }

@@ -28,12 +28,14 @@ class Outline {
 
 /// The view of a frame on the map.
 struct View {
-  /// `transform` is T_body_map, and `weight` is the news. The frame must outlive the view.
-  View(const Eigen::Isometry3d& transform, const DetectionFrame& of, double weight = 1.0);
+  /// `transform` is T_body_map, `weight` is the news, and `least` the least news. The frame must outlive the
+  /// view.
+  View(const Eigen::Isometry3d& transform, const DetectionFrame& of, double weight = 1.0, double least = 0.0);
 
   Eigen::Isometry3d T_body_map;
   const DetectionFrame* frame;  ///< the frame that sees
-  double news;  ///< 0..1; 1 is an independent view. Evidence counts by independent views, not by frames
+  double news;        ///< 0..1; 1 is an independent view. Evidence counts by independent views, not by frames
+  double least_news;  ///< at a place that is not confirmed yet
 
   bool is_independent() const { return news >= 1.0; }
   /// Whether the network detects markings of `type`.

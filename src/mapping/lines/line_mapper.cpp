@@ -23,7 +23,7 @@ Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
   return {.T_map_body = observed.T_map_body,
           .stamp_ns = observed.frame.stamp_ns,
           .source = static_cast<std::uint32_t>(source),
-          .news = network.standpoint.news(observed.T_map_body.translation()),
+          .news = network.standpoint.news(observed.T_map_body.translation(), observed.frame.stamp_ns),
           .pitch_gain = network.lateral.pitch_gain(),
           .alignment_gain = network.lateral.alignment_gain()};
 }
@@ -64,7 +64,7 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
   log.done(Stage::association);
 
   fuse_matches(association, from, fusion, networks_, lines_);
-  const View view(observed.T_map_body.inverse(), observed.frame, from.news);
+  const View view(observed.T_map_body.inverse(), observed.frame, from.news, network.standpoint.least_news());
   credit_observed(view, association, fusion, network.detection, lines_);
   discount_unobserved(view, scene.box, fusion, network.detection, lines_);
   reasons.updated(lines_, fusion);
@@ -114,6 +114,11 @@ void LineMapper::join(const FusionConfig& config, std::vector<markings::Relative
       rename(markings::end_id(gone, opposite(gone_end)), markings::end_id(stays, end), *ends);
     }
   }
+}
+
+bool LineMapper::has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const {
+  const Network* network = networks_.find(frame.source);
+  return network != nullptr && network->standpoint.has_seen(T_map_body.translation(), frame.stamp_ns);
 }
 
 void LineMapper::reset() {

@@ -25,6 +25,9 @@ class LineMapper {
                                const MapperConfig& config, markings::IdSource& ids,
                                const markings::StageLog& log);
 
+  /// Whether a frame from this pose tells next to nothing after those before, see Standpoint.
+  bool has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const;
+
   /// Forgets everything except what was learned of the networks.
   void reset();
   /// Moves all lines, and the places that they were seen from, map frame.

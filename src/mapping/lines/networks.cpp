@@ -1,8 +1,10 @@
 #include "mapping/lines/networks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "base/seconds.hpp"
 #include "laneloom/error.hpp"
 #include "laneloom/limits.hpp"
 
@@ -10,11 +12,23 @@ namespace laneloom::lines {
 namespace {
 
 constexpr double kNewPlace_m = 0.3;
+constexpr double kViewsInARow = 20.0;  // from one place; then the views pause
+constexpr double kPause_s = 0.95;      // a second, less what frames jitter
+constexpr double kLeastNews = 0.3;     // of a view right after another one; after a pause it is a whole one
 
 }  // namespace
 
-double Standpoint::news(const Point& origin) {
-  if (views_ > 0.0 && (origin - place_).head<2>().norm() < kNewPlace_m) {
+bool Standpoint::stands(const Point& origin) const {
+  return views_ > 0.0 && (origin - place_).head<2>().norm() < kNewPlace_m;
+}
+
+bool Standpoint::has_seen(const Point& origin, std::int64_t stamp_ns) const {
+  return views_ >= kViewsInARow && stands(origin) && std::abs(seconds(stamp_ns - last_view_ns_)) < kPause_s;
+}
+
+double Standpoint::news(const Point& origin, std::int64_t stamp_ns) {
+  last_view_ns_ = stamp_ns;
+  if (stands(origin)) {
     views_ += 1.0;
     return 1.0 / (views_ * views_);
   }
@@ -22,6 +36,8 @@ double Standpoint::news(const Point& origin) {
   views_ = 1.0;
   return 1.0;
 }
+
+double Standpoint::least_news() const { return views_ > kViewsInARow ? 1.0 : kLeastNews; }
 
 NetworkProfile Network::profile() const {
   NetworkProfile profile = lateral.profile();

@@ -13,22 +13,29 @@
 namespace laneloom::lines {
 
 /// Tells how much of a frame is news. Views from one place err alike. All views from where the vehicle stands
-/// together count less than two.
+/// together count less than two. After two seconds of them, a view each second is enough.
 class Standpoint {
  public:
-  /// The weight of a view from `origin`, 0..1. 1 is an independent view.
-  double news(const Point& origin);
+  /// Whether a view from `origin` need not be taken: it tells next to nothing after those before.
+  bool has_seen(const Point& origin, std::int64_t stamp_ns) const;
+  /// Takes a view from `origin`. Returns its weight, 0..1. 1 is an independent view.
+  double news(const Point& origin, std::int64_t stamp_ns);
+  /// The least weight of the view that was taken last, at a place that is not confirmed yet.
+  double least_news() const;
   /// Moves the place with the map.
   void move(const Eigen::Isometry3d& motion) { place_ = motion * place_; }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(place_, views_);
+    archive(place_, views_, last_view_ns_);
   }
 
  private:
+  bool stands(const Point& origin) const;
+
   Point place_ = Point::Zero();
-  double views_ = 0.0;  ///< number of views from that place
+  double views_ = 0.0;             ///< number of views that were taken from that place
+  std::int64_t last_view_ns_ = 0;  ///< stamp of the newest of these
 };
 
 /// A source of detections, with the models of its network.

@@ -10,13 +10,31 @@ namespace {
 TEST(Standpoint, ViewsFromOnePlaceAreTogetherLessThanTwo) {
   Standpoint standpoint;
   double sum = 0.0;
-  for (int i = 0; i < 1000; ++i) sum += standpoint.news({5, 5, 0});
+  for (int i = 0; i < 1000; ++i) sum += standpoint.news({5, 5, 0}, i);
   EXPECT_LT(sum, 2.0);
 }
 
 TEST(Standpoint, EveryNewPlaceIsAnIndependentView) {
   Standpoint standpoint;
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(standpoint.news({0.5 * i, 0, 0}), 1.0);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(standpoint.news({0.5 * i, 0, 0}, i), 1.0);
+}
+
+TEST(Standpoint, AfterTwoSecondsFromOnePlaceAViewASecondIsTaken) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  Standpoint standpoint;
+  std::vector<int> taken;
+  int at = 0;
+  for (; at < 60; ++at) {
+    if (standpoint.has_seen({0.1, 0, 0}, at * kSecond / 10)) continue;
+    standpoint.news({0.1, 0, 0}, at * kSecond / 10);
+    taken.push_back(at);
+    EXPECT_EQ(standpoint.least_news(), at < 20 ? 0.3 : 1.0);
+  }
+  EXPECT_EQ(taken.size(), 24U);
+  EXPECT_EQ(taken.back(), 59);
+  EXPECT_TRUE(standpoint.has_seen({0.1, 0, 0}, 6 * kSecond));
+  EXPECT_FALSE(standpoint.has_seen({0.5, 0, 0}, 6 * kSecond)) << "the vehicle has moved";
+  EXPECT_FALSE(standpoint.has_seen({0.1, 0, 0}, kSecond)) << "the clock was set back";
 }
 
 TEST(Networks, EachSourceHasItsOwn) {
