@@ -17,7 +17,7 @@ constexpr double kStyleReach_m = 15.0;  // either way; shorter patches of anothe
 constexpr double kAlongside = 0.8;      // cosine between boundaries of one road
 constexpr double kConfirmed = 3.0;      // log odds of a boundary whose probability is not estimated
 constexpr double kSurest = 0.999;       // probability of a boundary
-constexpr std::size_t kMostBeside = 24;
+constexpr std::size_t kMostBeside = 12;
 
 double log_odds(const Marking& marking) {
   if (marking.existence_probability < 0.0)
