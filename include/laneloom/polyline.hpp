@@ -67,13 +67,16 @@ class MeasuredPolyline {
   void consider(std::size_t segment, const Point& point, Nearest& nearest) const;
   void consider_block(std::size_t block, const Point& point, Nearest& nearest) const;
   Projection project_from(std::size_t segment, const Point& point, double within_m) const;
-  void search_along_course(std::size_t segment, const Point& point, Nearest& nearest) const;
+  void search_along_course(std::size_t segment, const Eigen::Vector2d& place, const Point& point,
+                           Nearest& nearest) const;
   void search_blocks(const Point& point, Nearest& nearest) const;
   Eigen::Vector2d segment_direction(std::size_t end) const;
+  Eigen::Vector2d in_course(const Point& point) const;
 
   Polyline points_;
   std::vector<double> arc_;
   // The search for a foot is narrowed by these. Their frame is the first point and the course.
+  std::vector<Eigen::Vector2d> in_course_;             ///< the points
   Eigen::Vector2d course_ = Eigen::Vector2d::UnitX();  ///< from the first point to the last
   Eigen::AlignedBox2d bounds_;                         ///< along the course, and to the left of it
   double cosine_ = 1.0, sine_ = 0.0;         ///< of the largest angle between a segment and the course

@@ -50,10 +50,11 @@ MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
   }
   const Eigen::Vector2d chord = (points_.back() - points_.front()).head<2>();
   if (chord.norm() > kCoincident_m) course_ = chord.normalized();
-  bounds_.extend(Eigen::Vector2d(0.0, 0.0));
+  in_course_.resize(points_.size(), Eigen::Vector2d::Zero());
+  bounds_.extend(in_course_.front());
   for (std::size_t i = 1; i < points_.size(); ++i) {
-    const Eigen::Vector2d offset = (points_[i] - points_.front()).head<2>();
-    bounds_.extend(Eigen::Vector2d(course_.dot(offset), cross(course_, offset)));
+    in_course_[i] = in_course(points_[i]);
+    bounds_.extend(in_course_[i]);
     const double along_m = course_.dot((points_[i] - points_[i - 1]).head<2>());
     const double step_m = arc_[i] - arc_[i - 1];
     if (along_m < cosine_ * step_m) cosine_ = along_m / step_m;
@@ -69,6 +70,12 @@ void MeasuredPolyline::bound_blocks() {
     Eigen::AlignedBox2d& block = blocks_[i / kBlock];
     block.extend(points_[i].head<2>()).extend(points_[i + 1].head<2>());
   }
+}
+
+/// The place of a point, seen from the first point: along the course, and to the left of it.
+Eigen::Vector2d MeasuredPolyline::in_course(const Point& point) const {
+  const Eigen::Vector2d offset = (point - points_.front()).head<2>();
+  return {course_.dot(offset), cross(course_, offset)};
 }
 
 Point MeasuredPolyline::at(double arc_m) const {
@@ -128,14 +135,15 @@ void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest
   nearest = {squared_bound_m2(distance_m), distance_m, segment, share};
 }
 
-/// Searches from the place of the point along the course to both sides; `segment` is near that place, if it
-/// is known. From each vertex on, the line stays within a cone about the course. Once that cone is further
-/// away than the nearest foot, so is the rest of the line.
-void MeasuredPolyline::search_along_course(std::size_t segment, const Point& point, Nearest& nearest) const {
-  const auto ahead = [&](const Point& vertex) { return course_.dot((point - vertex).head<2>()); };
-  const auto is_past = [&](const Point& vertex, double sense) {
-    const Eigen::Vector2d offset = (point - vertex).head<2>();
-    const double along_m = sense * course_.dot(offset), aside_m = std::abs(cross(course_, offset));
+/// `place` is that of the point, in the course. Searches from there along the course to both sides; `segment`
+/// is near that place, if it is known. From each vertex on, the line stays within a cone about the course.
+/// Once that cone is further away than the nearest foot, so is the rest of the line.
+void MeasuredPolyline::search_along_course(std::size_t segment, const Eigen::Vector2d& place,
+                                           const Point& point, Nearest& nearest) const {
+  const auto ahead_m = [&](std::size_t vertex) { return place.x() - in_course_[vertex].x(); };
+  const auto is_past = [&](std::size_t vertex, double sense) {
+    const Eigen::Vector2d offset = place - in_course_[vertex];
+    const double along_m = sense * offset.x(), aside_m = std::abs(offset.y());
     const double along_edge_m = along_m * cosine_ + aside_m * sine_;
     if (along_edge_m <= 0.0) return offset.squaredNorm() > nearest.bound_m2;
     const double from_edge_m = aside_m * cosine_ - along_m * sine_;
@@ -145,14 +153,14 @@ void MeasuredPolyline::search_along_course(std::size_t segment, const Point& poi
   std::size_t middle = segment;
   if (segment == kUnknown) {
     // Vertices mostly are evenly spaced.
-    const double guess = ahead(points_.front()) / bounds_.sizes().x() * static_cast<double>(last);
+    const double guess = place.x() / bounds_.sizes().x() * static_cast<double>(last);
     middle = static_cast<std::size_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
   }
-  while (middle < last && ahead(points_[middle + 1]) >= 0.0) ++middle;
-  while (middle > 0 && ahead(points_[middle]) < 0.0) --middle;
+  while (middle < last && ahead_m(middle + 1) >= 0.0) ++middle;
+  while (middle > 0 && ahead_m(middle) < 0.0) --middle;
   consider(middle, point, nearest);
-  for (std::size_t i = middle + 1; i <= last && !is_past(points_[i], 1.0); ++i) consider(i, point, nearest);
-  for (std::size_t i = middle; i > 0 && !is_past(points_[i], -1.0); --i) consider(i - 1, point, nearest);
+  for (std::size_t i = middle + 1; i <= last && !is_past(i, 1.0); ++i) consider(i, point, nearest);
+  for (std::size_t i = middle; i > 0 && !is_past(i, -1.0); --i) consider(i - 1, point, nearest);
 }
 
 void MeasuredPolyline::consider_block(std::size_t block, const Point& point, Nearest& nearest) const {
@@ -186,16 +194,16 @@ Projection MeasuredPolyline::project(const Point& point, double within_m) const 
 Projection MeasuredPolyline::project_from(std::size_t segment, const Point& point, double within_m) const {
   Projection result;
   result.distance_m = std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d offset = (point - points_.front()).head<2>();
   Nearest nearest{.bound_m2 = squared_bound_m2(within_m)};
-  const Eigen::Vector2d place(course_.dot(offset), cross(course_, offset));
+  const Eigen::Vector2d place = in_course(point);
   if (bounds_.squaredExteriorDistance(place) > nearest.bound_m2) return result;
   if (points_.size() == 1) {
     result.foot = points_.front();
     result.distance_m = horizontal_distance(point, result.foot);
     return result;
   }
-  cosine_ > kMinAlongCourse ? search_along_course(segment, point, nearest) : search_blocks(point, nearest);
+  cosine_ > kMinAlongCourse ? search_along_course(segment, place, point, nearest)
+                            : search_blocks(point, nearest);
   if (nearest.distance_m > within_m) return result;
   const auto& [bound, distance_m, i, share] = nearest;
   const double clamped = std::clamp(share, 0.0, 1.0);
