@@ -20,6 +20,7 @@
 #include "mapping/state.hpp"
 #include "mapping/state_bytes.hpp"
 #include "mapping/topology/directions.hpp"
+#include "mapping/topology/driven_paths.hpp"
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/topology/intersections.hpp"
 #include "mapping/topology/linkages.hpp"
@@ -62,13 +63,13 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
                                            log.reasons()));
 }
 
-/// Sets the directions of lanes, by the trails of others too.
-void tell_directions(DirectionConfig config, FrameReasons* reasons, MapperState& state,
-                     topology::RoadGraph& road) {
-  const std::vector<topology::DrivenStretch> driven =
-      topology::driven_stretches(state.trails.all(), road.lanes);
+/// Sets the directions of lanes, by the trails of others too. `driven` are the stretches of these.
+void tell_directions(const geometry::Scene& scene, DirectionConfig config,
+                     const std::vector<topology::DrivenStretch>& driven, FrameReasons* reasons,
+                     MapperState& state, topology::RoadGraph& road) {
   state.side.observe(road, driven, state.lane_tracks, state.trails.all());
-  if (state.side.contradicts(config.driving_side)) config.driving_side = DrivingSide::unknown;
+  state.side.observe_passing(scene.T_map_body(), state.trails.all());
+  config.driving_side = state.side.corrected(config.driving_side);
   topology::find_directions(config, driven, state.lane_tracks, road, reasons);
 }
 
@@ -79,6 +80,21 @@ void rename(const std::map<ElementId, ElementId>& renamed, FrameReasons* reasons
     if (const auto found = renamed.find(lane.id); found != renamed.end()) lane.id = found->second;
   for (const auto& [former, now] : renamed)
     reasons->lanes.push_back({.id = former, .verdict = LaneReason::Verdict::replaced, .other = now});
+}
+
+/// The paths of others where the road has no lane, with the ids that they had before.
+std::vector<DrivenPath> paths_beside(const topology::RoadGraph& road,
+                                     const std::vector<topology::DrivenStretch>& driven,
+                                     const geometry::Scene& scene, const LaneConfig& config,
+                                     MapperState& state) {
+  std::vector<DrivenPath> paths = topology::driven_paths(state.trails.all(), driven, road, scene.box);
+  std::vector<const Polyline*> lines;
+  for (const DrivenPath& path : paths) lines.push_back(&path.points);
+  const std::vector<lanes::KnownLine> known = state.driven_paths.identify(lines, scene, state.ids);
+  for (std::size_t i = 0; i < paths.size(); ++i) paths[i].id = known[i].id;
+  state.driven_paths.forget(scene, config.id_memory_frames);
+  std::ranges::sort(paths, {}, &DrivenPath::id);
+  return paths;
 }
 
 /// The map of a frame, but for the way. `state` is that of the map before; its membership is set to that of
@@ -166,7 +182,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
                                state.lane_tracks);
-  tell_directions(config_.direction, log.reasons(), state, road);
+  const auto driven = topology::driven_stretches(state.trails.all(), road.lanes);
+  tell_directions(scene, config_.direction, driven, log.reasons(), state, road);
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
   const auto renamed = state.lane_tracks.publish(road.lanes, state.ids);
@@ -174,8 +191,10 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   rename(renamed, log.reasons());
   state.ego_track.forget(renamed);
   meet_at_joints(road);
+  std::vector<DrivenPath> paths = paths_beside(road, driven, scene, config_.lane, state);
   LocalMap map =
       log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));
+  map.driven_paths = std::move(paths);
   lead_on(log, state.map.way, map);
   state.map = std::move(map);
   return state.map;

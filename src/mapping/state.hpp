@@ -8,6 +8,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/lanes/inferred_memory.hpp"
+#include "mapping/lanes/known_lines.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/lines/line_mapper.hpp"
@@ -68,6 +69,7 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   lanes::LaneTracks lane_tracks;
   topology::EgoTrack ego_track;
   trails::Trails trails;
+  lanes::KnownLines driven_paths;
   topology::ObservedSide side;
   Membership published;  ///< membership in the last map
   markings::IdSource ids;
@@ -80,7 +82,8 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, fusion, inferred, lane_tracks, ego_track, trails, side, published, ids, pose_jumps, map);
+    archive(frame, fusion, inferred, lane_tracks, ego_track, trails, driven_paths, side, published, ids,
+            pose_jumps, map);
   }
 };
 

@@ -64,6 +64,9 @@ TEST(DrawingJson, ElementsTellWhatIsKnownOfThem) {
     "from": 21, "to": 22, "kind": "ego_track", "turn": "left", "probability": 1.0, "evidence": []})"));
   EXPECT_EQ(element(drawing, "way")["properties"], json::parse(R"({
     "length_m": 1.5, "confirmed_m": 1.0, "width_m": 3.5, "lanes": [21]})"));
+  EXPECT_EQ(element(drawing, "driven path/31")["properties"], json::parse(R"({
+    "length_m": 5.0, "probability": 0.85, "lateral_stddev_m": 0.6})"));
+  EXPECT_EQ(element(drawing, "driven path/31")["shapes"][0]["line"], json({20.0, 0.0, 24.0, 3.0}));
   EXPECT_EQ(element(drawing, "stoplines/13")["properties"]["lanes"], json({21}));
   EXPECT_EQ(element(drawing, "stoplines/13")["properties"]["heading"], json({1.0, 0.0}));
 }

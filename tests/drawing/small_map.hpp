@@ -53,6 +53,8 @@ inline LocalMap small_map() {
   stopline.lanes = {21};
   stopline.heading = Point::UnitX();
   map.markings = map.boundaries;
+  map.driven_paths = {
+      {.id = 31, .points = {{20, 0, 0}, {24, 3, 0}}, .lateral_stddev_m = 0.6, .probability = 0.85}};
   map.way =
       Way{.stations = {{.point = {1, 0, 0}, .lane = 21, .width_m = 3.5}, {.point = {2, 0, 0}, .lane = 21}},
           .lanes = {{.id = 21}},

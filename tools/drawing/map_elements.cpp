@@ -76,6 +76,22 @@ void add_way(const Way& way, Drawing& drawing) {
                .shapes = {{std::move(line), Style::way}}});
 }
 
+void add_driven_path(const DrivenPath& path, Drawing& drawing) {
+  if (!drawable(path.points)) return;
+  const Point along = (path.points.back() - path.points[path.points.size() - 2]).normalized();
+  const double opacity = opacity_of(path.probability);
+  drawing.add({.layer = Layer::traffic,
+               .key = "driven path/" + std::to_string(path.id),
+               .id = path.id,
+               .type = "driven path",
+               .status = {},
+               .properties = {{"length_m", rounded(length(path.points))},
+                              {"probability", rounded(path.probability)},
+                              {"lateral_stddev_m", rounded(path.lateral_stddev_m)}},
+               .shapes = {{DrawnLine{path.points}, Style::driven, opacity},
+                          {DrawnArrow{path.points.back(), along}, Style::driven, opacity}}});
+}
+
 void add_map(const LocalMap& map, Drawing& drawing) {
   drawing.stamp_ns = map.stamp_ns;
   drawing.T_map_body = map.T_map_body;
@@ -85,6 +101,7 @@ void add_map(const LocalMap& map, Drawing& drawing) {
   add_stoplines(map, drawing);
   add_linkages(map, drawing);
   if (map.way) add_way(*map.way, drawing);
+  for (const DrivenPath& path : map.driven_paths) add_driven_path(path, drawing);
 }
 
 void add_markings(const LocalMap& map, Drawing& drawing) {

@@ -7,7 +7,8 @@
 /// drawing.
 namespace laneloom::drawing {
 
-/// Adds lanes, boundaries, stoplines, linkages and the own way. Takes over the map's stamp, pose and lineage.
+/// Adds lanes, boundaries, stoplines, linkages, the own way and where others drove. Takes over the map's
+/// stamp, pose and lineage.
 void add_map(const LocalMap& map, Drawing& drawing);
 
 /// Adds the fused markings, before they are joined to boundaries.
@@ -23,6 +24,7 @@ void add_linkages(const LocalMap& map, Drawing& drawing);
 void add_boundaries(const LocalMap& map, Drawing& drawing);
 void add_stoplines(const LocalMap& map, Drawing& drawing);
 void add_way(const Way& way, Drawing& drawing);
+void add_driven_path(const DrivenPath& path, Drawing& drawing);
 
 /// The line to draw for a linkage: out of the end of one lane's centerline and into the beginning of the
 /// other's. Linkages follow the order of the points, also if traffic runs against it.

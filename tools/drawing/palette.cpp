@@ -80,6 +80,7 @@ constexpr std::array<StyleSpec, kStyleCount> kStyles{
     area("window", kWindow, kDarkWindow),
     area("object", kObject, kDarkObject),
     arrow(line("trail", kTrail, kDarkTrail, 1.2), 8.0),
+    arrow(line("driven", kTrail, kDarkTrail, 3.0), 11.0),
     arrow(line("told", kObject, kDarkObject, 0.0), 15.0),
     id()};
 
@@ -119,9 +120,9 @@ constexpr std::array kLegend{LegendEntry{Style::laneline_solid, "solid line"},
                              LegendEntry{Style::linkage, "linkage"},
                              LegendEntry{Style::truth, "ground truth"},
                              LegendEntry{Style::range, "map range"}};
-constexpr std::array kTrafficLegend{LegendEntry{Style::object, "other vehicle"},
-                                    LegendEntry{Style::trail, "its trail"},
-                                    LegendEntry{Style::told, "told by trails"}};
+constexpr std::array kTrafficLegend{
+    LegendEntry{Style::object, "other vehicle"}, LegendEntry{Style::trail, "its trail"},
+    LegendEntry{Style::driven, "driven, no lane"}, LegendEntry{Style::told, "told by trails"}};
 
 Style of_role(Style first, LaneRole role) {
   return static_cast<Style>(static_cast<std::size_t>(first) + static_cast<std::size_t>(role));

@@ -44,10 +44,11 @@ enum class Style : std::uint8_t {
   window,  ///< of the vehicle
   object,  ///< another vehicle, or what else a tracker follows
   trail,   ///< the way that another vehicle drove
+  driven,  ///< where others drove and no lane is
   told,    ///< arrows of a lane whose direction was told by trails
   id
 };
-inline constexpr std::size_t kStyleCount = 31;
+inline constexpr std::size_t kStyleCount = 32;
 
 /// A group of elements that can be shown or hidden together. Layers are painted in this order; the first lies
 /// lowest.

@@ -7,7 +7,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
-#include "mapping/geometry/point_grid.hpp"
+#include "mapping/topology/line_places.hpp"
 #include "mapping/topology/side_by_side.hpp"
 
 namespace laneloom::topology {
@@ -15,30 +15,17 @@ namespace {
 
 constexpr double kMaxLateral_m = 1.2;       // beside the middle of a lane
 constexpr double kCosMaxAngle = 0.8660254;  // 30 degrees
-constexpr double kStep_m = 1.0;             // between the places of a lane that are searched
-constexpr double kReach_m = 0.6;            // along the lane, from such a place
 constexpr double kMaxGap_m = 10.0;          // between two points of a trail within one lane
+
+// An oncoming vehicle passes the own one within these.
+constexpr double kAbreast_m = 5.0;                           // ahead or behind
+constexpr double kMinPassing_m = 2.0, kMaxPassing_m = 12.0;  // aside
+constexpr double kCosOncoming = -0.94;                       // 20 degrees from the opposite heading
+constexpr double kMoving_m = 0.1;                            // of the vehicle, since the frame before
 
 constexpr double kKnownSense = 2.0;  // log odds from which on the own drive tells the direction of a lane
 constexpr int kBelieved = 2;         // trails that must tell the driving side
 constexpr int kMaxTold = 4;          // trails that are remembered, so that a country's border is noticed
-
-/// A place in the middle of a lane.
-struct LanePlace {
-  Point position = Point::Zero();
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< of the lane
-  std::size_t lane = 0;
-};
-
-geometry::PointGrid<LanePlace> places_of(const std::vector<Lane>& lanes) {
-  std::vector<LanePlace> places;
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const Polyline line = MeasuredPolyline(lanes[i].centerline).resample(kStep_m);
-    for (std::size_t k = 0; k + 1 < line.size(); ++k)
-      places.push_back({0.5 * (line[k] + line[k + 1]), (line[k + 1] - line[k]).head<2>().normalized(), i});
-  }
-  return {std::move(places), 2.0 * kMaxLateral_m};
-}
 
 /// The lane that a vehicle drives in at a place. `along` is positive if it drives along the lane's points.
 struct Driven {
@@ -46,18 +33,14 @@ struct Driven {
   double along = 0.0;
 };
 
-std::optional<Driven> lane_at(const geometry::PointGrid<LanePlace>& places, const Point& point,
-                              const Eigen::Vector2d& direction) {
+std::optional<Driven> lane_at(const LinePlaces& lanes, const Point& point, const Eigen::Vector2d& direction) {
   std::optional<Driven> nearest;
   double nearest_m = kMaxLateral_m;
-  places.around(point, kMaxLateral_m + kStep_m, [&](const LanePlace& place) {
-    const Eigen::Vector2d offset = (point - place.position).head<2>();
-    const double lateral_m = std::abs(cross(place.direction, offset));
+  lanes.beside(point, kMaxLateral_m, [&](const LinePlace& place, double lateral_m) {
     const double along = place.direction.dot(direction);
-    if (lateral_m > nearest_m || std::abs(place.direction.dot(offset)) > kReach_m) return;
-    if (std::abs(along) < kCosMaxAngle || !geometry::same_level(point, place.position)) return;
+    if (lateral_m > nearest_m || std::abs(along) < kCosMaxAngle) return;
     nearest_m = lateral_m;
-    nearest = Driven{place.lane, along};
+    nearest = Driven{place.line, along};
   });
   return nearest;
 }
@@ -76,13 +59,28 @@ std::vector<double> senses(const std::vector<Lane>& lanes, const std::vector<Dri
   return sense;
 }
 
+/// Whether an oncoming vehicle passes the own one: 1 on its left, as right-hand traffic does; -1 on its
+/// right; 0: it does not.
+int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
+  if (trail.points.size() < 2 || length(trail.points) < kMinDriven_m) return 0;
+  if (!geometry::same_level(trail.position, T_map_body.translation())) return 0;
+  const Eigen::Vector2d ahead = T_map_body.linear().col(0).head<2>().normalized();
+  const Eigen::Vector2d offset = (trail.position - T_map_body.translation()).head<2>();
+  const double aside_m = cross(ahead, offset);
+  if (std::abs(ahead.dot(offset)) > kAbreast_m || trail.heading.dot(ahead) > kCosOncoming) return 0;
+  if (std::abs(aside_m) < kMinPassing_m || std::abs(aside_m) > kMaxPassing_m) return 0;
+  return aside_m > 0.0 ? 1 : -1;
+}
+
 }  // namespace
 
 std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& trails,
                                             const std::vector<Lane>& lanes) {
   std::vector<DrivenStretch> driven;
   if (trails.empty() || lanes.empty()) return driven;
-  const geometry::PointGrid<LanePlace> places = places_of(lanes);
+  std::vector<const Polyline*> lines;
+  for (const Lane& lane : lanes) lines.push_back(&lane.centerline);
+  const LinePlaces places(lines, kMaxLateral_m);
   for (std::size_t i = 0; i < trails.size(); ++i) {
     const Polyline& points = trails[i].points;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
@@ -97,10 +95,9 @@ std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& tr
       const double along_m = std::copysign(step_m, lane->along);
       const bool goes_on = !driven.empty() && driven.back().trail == i && driven.back().lane == lane->lane &&
                            driven.back().along_m * along_m > 0.0;
-      if (goes_on)
-        driven.back().along_m += along_m;
-      else
-        driven.push_back({i, lane->lane, along_m});
+      if (!goes_on) driven.push_back({.trail = i, .lane = lane->lane, .first = k});
+      driven.back().along_m += along_m;
+      driven.back().last = k + 1;
     }
   }
   return driven;
@@ -121,13 +118,33 @@ void ObservedSide::observe(const RoadGraph& road, const std::vector<DrivenStretc
     if (trail.told_side || told[stretch.lane] == 0 || std::abs(stretch.along_m) < kMinDriven_m) continue;
     if (stretch.along_m * sense[stretch.lane] < 0.0) continue;
     trail.told_side = true;
-    right_ = std::clamp(right_ + told[stretch.lane], -kMaxTold, kMaxTold);
+    tell(told[stretch.lane]);
   }
 }
+
+void ObservedSide::observe_passing(const Eigen::Isometry3d& T_map_body, std::vector<trails::Trail>& trails) {
+  const Point place = T_map_body.translation();
+  const bool moves = (place - place_).head<2>().norm() >= kMoving_m;
+  place_ = place;
+  if (!moves) return;
+  for (trails::Trail& trail : trails) {
+    const int side = trail.told_side ? 0 : passing(trail, T_map_body);
+    if (side == 0) continue;
+    trail.told_side = true;
+    tell(side);
+  }
+}
+
+void ObservedSide::tell(int side) { right_ = std::clamp(right_ + side, -kMaxTold, kMaxTold); }
 
 bool ObservedSide::contradicts(DrivingSide driving_side) const {
   if (driving_side == DrivingSide::unknown) return false;
   return (driving_side == DrivingSide::right ? -right_ : right_) >= kBelieved;
+}
+
+DrivingSide ObservedSide::corrected(DrivingSide driving_side) const {
+  if (!contradicts(driving_side)) return driving_side;
+  return driving_side == DrivingSide::right ? DrivingSide::left : DrivingSide::right;
 }
 
 }  // namespace laneloom::topology

@@ -13,7 +13,8 @@ namespace laneloom::topology {
 /// A stretch that one trail has in one lane. Both are told by their indices.
 struct DrivenStretch {
   std::size_t trail = 0, lane = 0;
-  double along_m = 0.0;  ///< negative: against the points of the lane
+  double along_m = 0.0;             ///< negative: against the points of the lane
+  std::size_t first = 0, last = 0;  ///< points of the trail at which it begins and ends
 };
 
 /// The stretches of all trails within lanes: at most 1.2 m beside the middle, at most 30 degrees across it,
@@ -31,17 +32,24 @@ class ObservedSide {
   /// one the other way in the next lane of the same road.
   void observe(const RoadGraph& road, const std::vector<DrivenStretch>& driven,
                const lanes::LaneTracks& tracks, std::vector<trails::Trail>& trails);
+  /// Takes what oncoming vehicles tell that pass the own one while it moves, whatever lanes are known.
+  void observe_passing(const Eigen::Isometry3d& T_map_body, std::vector<trails::Trail>& trails);
   /// Whether traffic keeps to the other side than `driving_side`. Two vehicles more have told so than have
   /// told the contrary.
   bool contradicts(DrivingSide driving_side) const;
+  /// The side on which traffic keeps: the other one where it contradicts `driving_side`.
+  DrivingSide corrected(DrivingSide driving_side) const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(right_);
+    archive(right_, place_);
   }
 
  private:
-  int right_ = 0;  ///< number of trails that told "right", less those that told "left"; limited
+  void tell(int side);
+
+  int right_ = 0;                ///< number of trails that told "right", less those that told "left"; limited
+  Point place_ = Point::Zero();  ///< of the vehicle in the frame before
 };
 
 }  // namespace laneloom::topology

@@ -127,5 +127,56 @@ TEST_F(Side, ACountrysBorderIsNoticed) {
   EXPECT_TRUE(side_.contradicts(DrivingSide::right));
 }
 
+/// The vehicle drives along x, a metre from frame to frame, and meets others there.
+class Passing : public ::testing::Test {
+ protected:
+  /// Vehicles that passed the own one at so many metres on its left, and go on straight towards it.
+  void meet(int vehicles, double left_m, const Eigen::Vector2d& heading = {-1, 0}, double z = 0.0) {
+    std::vector<trails::Trail> trails;
+    for (int i = 0; i < vehicles; ++i) {
+      trails.push_back(trail(driven({30, left_m, z}, {1, left_m, z})));
+      trails.back().position = {1, left_m, z};
+      trails.back().heading = heading;
+    }
+    side_.observe_passing(test::at(0), trails);
+    for (const double x : {moved_m_, 2.0 * moved_m_}) side_.observe_passing(test::at(x), trails);
+    side_.observe_passing(test::at(-100), trails);
+  }
+  DrivingSide told_for(DrivingSide configured) const { return side_.corrected(configured); }
+
+  double moved_m_ = 1.0;
+  ObservedSide side_;
+};
+
+TEST_F(Passing, OnTheRightTellsLeftHandTraffic) {
+  meet(1, -3.5);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right) << "one vehicle, which tells it once";
+  meet(1, -10.0);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::left);
+  EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::left);
+  EXPECT_EQ(told_for(DrivingSide::unknown), DrivingSide::unknown);
+}
+
+TEST_F(Passing, OnTheLeftTellsRightHandTraffic) {
+  meet(2, 3.5);
+  EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::right);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+}
+
+TEST_F(Passing, IsNotTurningNorFarAsideNorOnABridge) {
+  meet(4, -15.0);
+  meet(4, -1.0);
+  meet(4, -3.5, Eigen::Vector2d(-1, 1).normalized());
+  meet(4, -3.5, {1, 0});
+  meet(4, -3.5, {-1, 0}, 6.0);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+}
+
+TEST_F(Passing, AVehicleThatStandsIsPassedOnAnySide) {
+  moved_m_ = 0.0;
+  meet(4, -3.5);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+}
+
 }  // namespace
 }  // namespace laneloom::topology

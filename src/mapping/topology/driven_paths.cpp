@@ -1,0 +1,105 @@
+#include "mapping/topology/driven_paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/lanes/smooth_line.hpp"
+#include "mapping/topology/line_places.hpp"
+
+namespace laneloom::topology {
+namespace {
+
+constexpr double kBeside_m = 2.6;         // from a lane or a path, up to where a trail tells nothing new
+constexpr double kCosAlong = 0.70710678;  // 45 degrees
+constexpr double kMaxGap_m = 10.0;        // between two points of a path
+constexpr double kMinTrail_m = 20.0;      // a shorter trail may be a ghost's
+constexpr double kMinLength_m = 8.0;      // of a path
+constexpr double kStep_m = 1.0;           // between its points
+constexpr double kDriverStddev_m = 0.6;   // drivers keep off the middle
+constexpr double kOneTrail = 0.85;        // probability of a path that one vehicle drove
+
+/// The courses on which traffic is known to run.
+class KnownCourses {
+ public:
+  explicit KnownCourses(const RoadGraph& road) : lanes_(road.lanes.size()) {
+    std::vector<const Polyline*> lines;
+    for (const Lane& lane : road.lanes) lines.push_back(&lane.centerline);
+    for (const Linkage& linkage : road.linkages)
+      if (linkage.path.size() >= 2) lines.push_back(&linkage.path);
+    courses_.emplace_back(lines, kBeside_m);
+  }
+
+  /// Whether traffic is known to run past a point in a direction. Beside a lane, either direction is known.
+  bool contains(const Point& point, const Eigen::Vector2d& direction) const {
+    bool found = false;
+    for (const LinePlaces& courses : courses_) {
+      const bool is_road = &courses == &courses_.front();
+      courses.beside(point, kBeside_m, [&](const LinePlace& place, double) {
+        const double along = place.direction.dot(direction);
+        found = found || (is_road && place.line < lanes_ ? std::abs(along) : along) > kCosAlong;
+      });
+    }
+    return found;
+  }
+
+  void add(const Polyline& path) { courses_.emplace_back(std::vector{&path}, kBeside_m); }
+
+ private:
+  std::size_t lanes_;
+  std::vector<LinePlaces> courses_;  ///< of the road first; its lanes come before the paths of its linkages
+};
+
+/// The stretches of a trail within the box that lie on no known course. `driven` are those within lanes.
+std::vector<Polyline> new_stretches(const Polyline& trail, std::span<const DrivenStretch> driven,
+                                    const KnownCourses& known, const geometry::MapBox& box) {
+  const auto is_in_lane = [&](std::size_t k) {
+    return std::ranges::any_of(
+        driven, [&](const DrivenStretch& stretch) { return stretch.first <= k && k <= stretch.last; });
+  };
+  std::vector<Polyline> stretches(1);
+  for (std::size_t k = 0; k < trail.size(); ++k) {
+    const Point& from = trail[k == 0 ? 0 : k - 1];
+    const Point& to = trail[std::min(k + 2, trail.size() - 1)];
+    Polyline& last = stretches.back();
+    const bool follows = last.empty() || (trail[k] - last.back()).head<2>().norm() <= kMaxGap_m;
+    const bool is_new = !is_in_lane(k) && box.shows(trail[k]) &&
+                        !known.contains(trail[k], (to - from).head<2>().normalized());
+    if (!last.empty() && (!follows || !is_new)) stretches.emplace_back();
+    if (is_new) stretches.back().push_back(trail[k]);
+  }
+  return stretches;
+}
+
+/// The path along places that a tracker told, each with an error of its own.
+Polyline path_along(const Polyline& places) {
+  const Polyline points = MeasuredPolyline(places).resample(kStep_m);
+  return lanes::smooth_line(points, std::vector<double>(points.size(), 1.0));
+}
+
+}  // namespace
+
+std::vector<DrivenPath> driven_paths(const std::vector<trails::Trail>& trails,
+                                     const std::vector<DrivenStretch>& driven, const RoadGraph& road,
+                                     const geometry::MapBox& box) {
+  std::vector<DrivenPath> paths;
+  if (trails.empty()) return paths;
+  KnownCourses known(road);
+  for (std::size_t i = 0; i < trails.size(); ++i) {
+    const Polyline& trail = trails[i].points;
+    if (trail.size() < 2 || length(trail) < kMinTrail_m) continue;
+    const auto of_trail = std::ranges::equal_range(driven, i, {}, &DrivenStretch::trail);
+    for (const Polyline& stretch : new_stretches(trail, of_trail, known, box)) {
+      if (stretch.size() < 2 || length(stretch) < kMinLength_m) continue;
+      DrivenPath path{
+          .points = path_along(stretch), .lateral_stddev_m = kDriverStddev_m, .probability = kOneTrail};
+      known.add(path.points);
+      paths.push_back(std::move(path));
+    }
+  }
+  return paths;
+}
+
+}  // namespace laneloom::topology
