@@ -17,10 +17,6 @@ constexpr double kPerMetreAhead = 0.1;                  // by which a lane fits 
 /// The end of a lane at which it is entered.
 End begin_of(const DirectedLane& lane) { return lane.against ? End::back : End::front; }
 
-const Point& begin_point(const DirectedLane& lane) {
-  return end_point(lane.lane->centerline, begin_of(lane));
-}
-
 /// The misfit of the begin of a lane, in metres aside. Infinite: the lane does not begin straight ahead.
 double misfit_m(const DirectedLane& lane, const Eigen::Isometry3d& T_map_body) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -31,7 +27,7 @@ double misfit_m(const DirectedLane& lane, const Eigen::Isometry3d& T_map_body) {
   const double ahead_m = heading.dot(to_begin), aside_m = std::abs(cross(heading, to_begin));
   const bool is_ahead = ahead_m > 0.0 && ahead_m < kMaxAhead_m && geometry::same_level(begin, vehicle);
   if (!is_ahead || aside_m > std::min(kMaxAside_m, 0.5 + kMaxSlope * ahead_m)) return kNone;
-  if (-end_direction(lane.lane->centerline, begin_of(lane)).dot(heading) < kMinAlong) return kNone;
+  if (begin_direction(lane).dot(heading) < kMinAlong) return kNone;
   return aside_m + kPerMetreAhead * ahead_m;
 }
 
@@ -43,6 +39,14 @@ bool is_behind_edge(const Point& begin, const Point& vehicle, const LocalMap& ma
 }
 
 }  // namespace
+
+const Point& begin_point(const DirectedLane& lane) {
+  return end_point(lane.lane->centerline, begin_of(lane));
+}
+
+Eigen::Vector2d begin_direction(const DirectedLane& lane) {
+  return -end_direction(lane.lane->centerline, begin_of(lane));
+}
 
 DirectedLane lane_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body) {
   DirectedLane best;

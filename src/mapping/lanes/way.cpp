@@ -166,8 +166,11 @@ std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_
   if (!course) {
     auto rest = kept != nullptr ? rest_of(*kept, T_map_body) : std::nullopt;
     const DirectedLane ahead = lanes::lane_ahead(graph, T_map_body);
-    if (ahead.lane == nullptr || (rest && lanes::find(kept, ahead) == nullptr)) return rest;
-    course = lanes::course_into(graph, ahead, T_map_body, {wish, kept}, options.reach_m);
+    if (ahead.lane != nullptr && (!rest || lanes::find(kept, ahead) != nullptr))
+      course = lanes::course_into(graph, ahead, T_map_body, {wish, kept}, options.reach_m);
+    else if (rest)
+      course = lanes::course_beyond(graph, *rest, options.reach_m);
+    if (!course) return rest;
   }
   if (course->places.size() < 2) return std::nullopt;
   const lanes::WayLine line(course->places);

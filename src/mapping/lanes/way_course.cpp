@@ -167,4 +167,9 @@ Course course_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen
   return course_along(route_into(graph, lane, T_map_body, wish, {-kBehind_m, reach_m + kBeyond_m}));
 }
 
+std::optional<Course> course_beyond(const LaneGraph& graph, const Way& rest, double reach_m) {
+  const auto route = route_beyond(graph, rest, reach_m + kBeyond_m);
+  return route ? std::optional(course_along(*route)) : std::nullopt;
+}
+
 }  // namespace laneloom::lanes

@@ -5,6 +5,7 @@
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/smooth_step.hpp"
+#include "mapping/lanes/way_driven.hpp"
 
 namespace laneloom::lanes {
 namespace {
@@ -134,6 +135,24 @@ void append(RouteBuilder& builder, const Passage& passage) {
   builder.append(passage.to.centerline(), {passage.to, passage.turn});
 }
 
+/// Goes on where others drove, if the route ends before it reaches `to_m`, and through the lanes behind.
+/// Returns false where nobody did.
+bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double to_m, const Route& route,
+                   RouteBuilder& builder) {
+  if (route.points.size() < 2 || route.points.back().along_m >= to_m) return false;
+  Polyline line;
+  for (const RoutePoint& point : route.points) line.push_back(point.point);
+  DrivenPassage driven = driven_on(graph, line.back(), end_direction(line, End::back), turn);
+  if (driven.path.size() < 2) return false;
+  builder.append(driven.path, {.lane = {}, .entry = turn});
+  if (driven.to.lane == nullptr) return true;
+  append(builder, {.to = driven.to, .path = {}, .turn = turn});
+  const double left_m = to_m - route.points.back().along_m + length(driven.to.lane->centerline);
+  for (const Passage& passage : passages_ahead(graph, {.lane = driven.to}, {.before = before}, left_m))
+    append(builder, passage);
+  return true;
+}
+
 /// The lanes and paths behind the start, furthest first, until `behind_m` are reached.
 void append_behind(const LaneGraph& graph, const RouteStart& start, double behind_m, RouteBuilder& builder) {
   const DirectedLane back{start.lane.lane, !start.lane.against};
@@ -235,8 +254,12 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
   const double from_m = std::max(0.0, start.arc_m - behind_m);
   builder.append(from_m < own.length() ? own.slice({from_m, own.length()}) : own.points(),
                  {.lane = start.lane}, from_m < own.length() ? from_m : 0.0);
-  for (const Passage& passage : passages_ahead(graph, start, wish, start.arc_m + ahead_m))
+  Turn wished = turn_of(wish.wish);
+  for (const Passage& passage : passages_ahead(graph, start, wish, start.arc_m + ahead_m)) {
     append(builder, passage);
+    if (passage.turn == wished) wished = Turn::straight;
+  }
+  append_driven(graph, wish.before, wished, behind_m + ahead_m, route, builder);
   return route;
 }
 
@@ -248,6 +271,16 @@ Route route_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::
   append(builder, {.to = lane, .path = {}, .turn = Turn::straight});
   for (const Passage& passage : passages_ahead(graph, {.lane = lane}, wish, range.to_m))
     append(builder, passage);
+  return route;
+}
+
+std::optional<Route> route_beyond(const LaneGraph& graph, const Way& rest, double ahead_m) {
+  Route route;
+  RouteBuilder builder(route);
+  Polyline line;
+  for (const WayStation& station : rest.stations) line.push_back(station.point);
+  builder.append(line, {.lane = {}});
+  if (!append_driven(graph, &rest, Turn::straight, ahead_m, route, builder)) return std::nullopt;
   return route;
 }
 

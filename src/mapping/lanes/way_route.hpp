@@ -69,4 +69,8 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
 Route route_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
                  const RouteWish& wish, const Stretch& range);
 
+/// The rest of a way that leads through no lane, and what others drove from its end on. Empty: nobody drove
+/// on.
+std::optional<Route> route_beyond(const LaneGraph& graph, const Way& rest, double ahead_m);
+
 }  // namespace laneloom::lanes

@@ -1,0 +1,87 @@
+#include "mapping/lanes/way_driven.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "mapping/geometry/levels.hpp"
+#include "mapping/lanes/lane_ahead.hpp"
+
+namespace laneloom::lanes {
+namespace {
+
+using Turn = Linkage::Turn;
+
+constexpr double kMaxAside_m = 1.75;  // of the path, from the end; of a lane's begin, from the path
+constexpr double kMaxAhead_m = 10.0;  // from the end to the begin of the path
+constexpr double kMinAlong = 0.9;     // cosine between the path and what it goes on with
+constexpr double kLeastOn_m = 5.0;    // of what the path leads on
+constexpr double kStraight = 0.7071;  // cosine of the greatest angle of a way straight on
+constexpr double kEndChord_m = 5.0;   // over which the direction at the end of a path is measured
+
+/// The turn along a path, from a direction on.
+Turn turn_along(const Polyline& path, const Eigen::Vector2d& ahead) {
+  const MeasuredPolyline line(path);
+  const Eigen::Vector2d end = line.chord(line.length() - kEndChord_m, line.length());
+  if (end.dot(ahead) > kStraight) return Turn::straight;
+  return cross(ahead, end) > 0.0 ? Turn::left : Turn::right;
+}
+
+/// What a path leads on from a place, with its distance aside. Empty: it does not pass there.
+struct Onward {
+  Polyline path;
+  double aside_m = 0.0;
+};
+
+std::optional<Onward> onward(const Polyline& points, const Point& end, const Eigen::Vector2d& ahead) {
+  const MeasuredPolyline line(points);
+  const Projection foot = line.project(end);
+  const Eigen::Vector2d gap = (foot.foot - end).head<2>();
+  const double aside_m = std::abs(cross(ahead, gap)), ahead_m = ahead.dot(gap);
+  const bool begins_ahead = foot.arc_m == 0.0 && ahead_m > 0.0 && ahead_m < kMaxAhead_m;
+  if (aside_m > kMaxAside_m || !(foot.inside || begins_ahead) || !geometry::same_level(foot.foot, end) ||
+      line.direction(foot).dot(ahead) < kMinAlong || line.length() - foot.arc_m < kLeastOn_m)
+    return std::nullopt;
+  return Onward{line.slice({foot.arc_m, line.length()}), aside_m};
+}
+
+/// The first lane that begins on a path, and where.
+struct Entered {
+  DirectedLane lane;
+  double arc_m = std::numeric_limits<double>::infinity();
+};
+
+Entered first_entered(const LaneGraph& graph, const MeasuredPolyline& path) {
+  Entered first;
+  for (const Lane& lane : graph.map().lanes)
+    for (const bool against : {false, true}) {
+      const DirectedLane directed{&lane, against};
+      if (!lane.is_drivable() || directed.oncoming()) continue;
+      const Point& begin = begin_point(directed);
+      const Projection foot = path.project(begin, kMaxAside_m);
+      if (!foot.inside || foot.distance_m > kMaxAside_m || foot.arc_m >= first.arc_m) continue;
+      if (foot.arc_m < kLeastOn_m || !geometry::same_level(foot.foot, begin)) continue;
+      if (path.direction(foot).dot(begin_direction(directed)) < kMinAlong) continue;
+      first = {directed, foot.arc_m};
+    }
+  return first;
+}
+
+}  // namespace
+
+DrivenPassage driven_on(const LaneGraph& graph, const Point& end, const Eigen::Vector2d& ahead, Turn turn) {
+  std::optional<Onward> nearest;
+  for (const DrivenPath& driven : graph.map().driven_paths) {
+    auto found = onward(driven.points, end, ahead);
+    if (!found || turn_along(found->path, ahead) != turn) continue;
+    if (!nearest || found->aside_m < nearest->aside_m) nearest = std::move(found);
+  }
+  if (!nearest) return {};
+  const MeasuredPolyline path(nearest->path);
+  const Entered entered = first_entered(graph, path);
+  if (entered.lane.lane == nullptr) return {std::move(nearest->path), {}};
+  return {path.slice({0.0, entered.arc_m}), entered.lane};
+}
+
+}  // namespace laneloom::lanes
