@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace laneloom::evaluation {
 namespace {
 
@@ -88,6 +90,26 @@ TEST(LaneMetres, AreSummed) {
   EXPECT_EQ(sum.published_m(), 2.0 * all_m);
   EXPECT_EQ(sum.of(LaneClass::straddling), all_m);
   EXPECT_EQ(sum.told_right_m, all_m);
+}
+
+LaneMetres driven(double y_m, bool east) {
+  Polyline points = along_x(y_m);
+  if (!east) std::ranges::reverse(points);
+  LaneMetresMeter meter(two_lanes(), {.forward_min_m = 0, .forward_max_m = 20, .side_max_m = 30});
+  meter.add({.driven_paths = {{.id = 1, .points = points, .probability = 0.8}}});
+  return meter.metres();
+}
+
+TEST(DrivenMetres, AreNearALaneWhoseTrafficRunsThatWay) {
+  const LaneMetres there = driven(-1.0, true);
+  EXPECT_NEAR(there.driven_m, 20.0, 0.5);
+  EXPECT_EQ(there.driven_near_m, there.driven_m);
+  EXPECT_NEAR(there.driven_belief_m, 0.8 * there.driven_m, 1e-9);
+  EXPECT_EQ(driven(-0.5, true).driven_near_m, 0.0);
+  EXPECT_EQ(driven(-0.5, true).driven_there_m, there.driven_m);
+  EXPECT_EQ(driven(-4.0, true).driven_there_m, 0.0);
+  EXPECT_EQ(driven(-1.0, false).driven_there_m, 0.0) << "against the traffic";
+  EXPECT_EQ(there.published_m(), 0.0) << "no lane";
 }
 
 }  // namespace

@@ -41,8 +41,13 @@ std::string lane_metres_table(const LaneMetres& metres) {
   for (const NamedClass& one : kLaneClasses)
     table += percent_row(one.title, metres.of(one.lane_class), published_m);
   const double right_m = metres.of(LaneClass::right);
-  return table + percent_row("directions, of right metres: told", metres.told_m, right_m) +
-         percent_row("  told rightly, of those told", metres.told_right_m, metres.told_m);
+  table += percent_row("directions, of right metres: told", metres.told_m, right_m) +
+           percent_row("  told rightly, of those told", metres.told_right_m, metres.told_m);
+  if (metres.driven_m == 0.0) return table;
+  return table + fmt::format("Driven paths, % of {:.0f} m\n", metres.driven_m) +
+         percent_row("less than 0.9 m from the middle of a lane", metres.driven_near_m, metres.driven_m) +
+         percent_row("less than 1.5 m", metres.driven_there_m, metres.driven_m) +
+         percent_row("  by their probabilities", metres.driven_belief_m, metres.driven_m);
 }
 
 nlohmann::json lane_metres_json(const LaneMetres& metres) {
@@ -51,6 +56,11 @@ nlohmann::json lane_metres_json(const LaneMetres& metres) {
                       {"directions",
                        {{"precision", share_json(metres.told_right_m, metres.told_m)},
                         {"recall", share_json(metres.told_right_m, right_m)}}}};
+  if (metres.driven_m > 0.0)
+    json["driven_paths"] = {{"metres", metres.driven_m},
+                            {"near", share_json(metres.driven_near_m, metres.driven_m)},
+                            {"there", share_json(metres.driven_there_m, metres.driven_m)},
+                            {"probability", share_json(metres.driven_belief_m, metres.driven_m)}};
   for (const NamedClass& one : kLaneClasses)
     json[one.name] = share_json(metres.of(one.lane_class), published_m);
   return json;

@@ -16,6 +16,8 @@ constexpr double kStep_m = 0.5;
 constexpr double kTruthStep_m = 0.2;  // so that distances are wrong by 1 cm at most
 constexpr double kStraddling_m = 1.0;
 constexpr double kBesideEdge_m = 3.0;
+constexpr double kNear_m = 0.9, kThere_m = 1.5;  // from a driven path to the middle of a lane
+constexpr double kAlong = 0.7071;                // 45 degrees
 
 /// In the middle of the lane; 0: the truth does not give its borders.
 double width_of(const simulation::RoadLane& lane) {
@@ -33,6 +35,10 @@ LaneMetres& LaneMetres::operator+=(const LaneMetres& other) {
   for (std::size_t i = 0; i < kLaneClassCount; ++i) by_class_m[i] += other.by_class_m[i];
   told_m += other.told_m;
   told_right_m += other.told_right_m;
+  driven_m += other.driven_m;
+  driven_near_m += other.driven_near_m;
+  driven_there_m += other.driven_there_m;
+  driven_belief_m += other.driven_belief_m;
   return *this;
 }
 
@@ -85,6 +91,19 @@ void LaneMetresMeter::add_sample(const Point& point, const Eigen::Vector2d& dire
   if (runs_with_traffic) metres_.told_right_m += kStep_m;
 }
 
+void LaneMetresMeter::add_driven(const Point& point, const Eigen::Vector2d& direction, double probability) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  truth_.around(point, kThere_m, [&](const Sample& sample) {
+    if (sample.of != Of::lane || !geometry::same_level(sample.position, point)) return;
+    if (sample.direction.dot(direction) < kAlong) return;
+    nearest_m = std::min(nearest_m, (sample.position - point).head<2>().norm());
+  });
+  metres_.driven_m += kStep_m;
+  metres_.driven_belief_m += probability * kStep_m;
+  if (nearest_m < kNear_m) metres_.driven_near_m += kStep_m;
+  if (nearest_m < kThere_m) metres_.driven_there_m += kStep_m;
+}
+
 void LaneMetresMeter::add(const LocalMap& map) {
   const Eigen::Isometry3d T_body_map = map.T_map_body.inverse();
   for (const Lane& lane : map.lanes) {
@@ -93,6 +112,12 @@ void LaneMetresMeter::add(const LocalMap& map) {
     for (double arc_m = 0.5 * kStep_m; arc_m < line.length(); arc_m += kStep_m)
       if (in_range(T_body_map * line.at(arc_m), range_))
         add_sample(line.at(arc_m), line.direction(arc_m), lane.direction);
+  }
+  for (const DrivenPath& path : map.driven_paths) {
+    const MeasuredPolyline line(path.points);
+    for (double arc_m = 0.5 * kStep_m; arc_m < line.length(); arc_m += kStep_m)
+      if (in_range(T_body_map * line.at(arc_m), range_))
+        add_driven(line.at(arc_m), line.direction(arc_m), path.probability);
   }
 }
 
