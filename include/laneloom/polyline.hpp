@@ -17,6 +17,9 @@ std::vector<double> arc_lengths(const Polyline& line);
 /// Horizontal length, in metres. 0 for an empty polyline.
 double length(const Polyline& line);
 
+/// Leaves out the vertices that repeat their predecessor (horizontally).
+void drop_repeats(Polyline& line);
+
 /// The foot of a point on a polyline.
 struct Projection {
   double arc_m = 0.0;       ///< arc length of the foot

@@ -36,6 +36,13 @@ double length(const Polyline& line) {
   return sum;
 }
 
+void drop_repeats(Polyline& line) {
+  const auto repeats = [](const Point& a, const Point& b) {
+    return horizontal_distance(a, b) <= kCoincident_m;
+  };
+  line.erase(std::unique(line.begin(), line.end(), repeats), line.end());
+}
+
 MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
   assert(!points.empty());
   points_.reserve(points.size());

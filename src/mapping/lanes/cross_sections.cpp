@@ -65,7 +65,7 @@ Lane make_lane(std::span<const CrossSection> run, const LaneBorder& left, const 
     lane.right.push_back(section.right);
     lane.centerline.push_back(center);
   }
-  lane.left = MeasuredPolyline(lane.left).points();
+  drop_repeats(lane.left);
   lane.width_m = width_sum_m / static_cast<double>(run.size());
   lane.left_borders = {
       border_of(left, {run.front().left_arc_m, run.back().left_arc_m}, length(lane.centerline))};

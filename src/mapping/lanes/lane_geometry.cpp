@@ -48,7 +48,7 @@ Polyline turning_path(const Lane& from, const Lane& to, const Corner& corner) {
     path.push_back(s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d);
   }
   path.push_back(end);
-  path = MeasuredPolyline(path).points();
+  drop_repeats(path);
   const double length_m = length(path);
   const std::vector<double> arc_m = arc_lengths(path);
   for (std::size_t i = 0; i < path.size(); ++i)

@@ -76,7 +76,7 @@ class ShownStations {
       Polyline& line = side == Side::left ? lane.left : lane.right;
       line.reserve(stations_.size());
       for (const LaneStation& station : stations_) line.push_back(station.border[index(side)]);
-      line = MeasuredPolyline(line).points();
+      drop_repeats(line);
     }
     lane.centerline = centerline_;
     rate(lane);

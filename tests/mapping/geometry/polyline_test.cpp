@@ -29,6 +29,14 @@ TEST(MeasuredPolyline, InterpolatesAndClamps) {
   EXPECT_EQ(line.at(9.0), Point(3, 4, 2));
 }
 
+TEST(Polyline, RepeatedVerticesAreDropped) {
+  Polyline line{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 0, 5}, {1, 1e-10, 5}, {2, 0, 0}};
+  const MeasuredPolyline measured(line);
+  drop_repeats(line);
+  EXPECT_EQ(line, measured.points());
+  EXPECT_EQ(line, (Polyline{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+}
+
 TEST(MeasuredPolyline, LeavesOutRepeatedVertices) {
   const MeasuredPolyline line({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 5}});
   EXPECT_EQ(line.points().size(), 2U);
