@@ -83,12 +83,15 @@ bool is_parted(const RoadCut& cut, std::size_t left, double least_aside_m) {
 /// Collects the candidates of cross-sections to hypotheses.
 class Collection {
  public:
-  Collection(std::size_t base, bool reversed) : base_(base), reversed_(reversed) {}
+  Collection(std::size_t base, bool reversed, std::size_t cuts)
+      : base_(base), reversed_(reversed), cuts_(cuts) {}
 
   void add(std::size_t cut, Room room, std::size_t other, std::size_t mark) {
     std::vector<Hypothesis>& all = by_place_[{room, other}];
-    if (all.empty() || all.back().first + all.back().marks.size() != cut)
+    if (all.empty() || all.back().first + all.back().marks.size() != cut) {
       all.push_back({.room = room, .base = base_, .reversed = reversed_, .other = other, .first = cut});
+      all.back().marks.reserve(cuts_ - cut);
+    }
     all.back().marks.push_back(mark);
   }
 
@@ -101,6 +104,7 @@ class Collection {
  private:
   std::size_t base_;
   bool reversed_;
+  std::size_t cuts_;  ///< their number
   std::map<std::pair<Room, std::size_t>, std::vector<Hypothesis>> by_place_;
 };
 
@@ -235,7 +239,7 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
 std::vector<Hypothesis> hypotheses(std::size_t boundary, const RoadCuts& cuts,
                                    const boundaries::SectionGraph& road, Poses driven,
                                    const LaneConfig& config) {
-  Collection collection(boundary, false);
+  Collection collection(boundary, false, cuts.size());
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     const RoadCut cut = cuts[c];
     add_on_left(cut, c, config, collection,
@@ -251,7 +255,7 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const RoadCuts& cuts,
 std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const RoadCuts& cuts,
                                            const boundaries::SectionGraph& road, Poses driven,
                                            const LaneConfig& config) {
-  Collection collection(boundary, true);
+  Collection collection(boundary, true, cuts.size());
   for (std::size_t c = 0; c < cuts.size(); ++c)
     add_on_left(cuts[c], c, config, collection,
                 [&](const Mark& mark) { return !mark.opposed && mark.boundary > boundary; });

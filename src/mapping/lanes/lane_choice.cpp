@@ -120,6 +120,7 @@ class Choice {
     std::vector<CrossSection> sections;
     const double left_m = left(one).course.length(), right_m = right(one).course.length();
     const bool opposed = is_opposed(one);
+    sections.reserve(one.marks.size());
     for (std::size_t i = 0; i < one.marks.size(); ++i) {
       const RoadCut cut = cut_of(one, i);
       const Mark &self = cut.self(), &other = cut.marks[one.marks[i]];
@@ -185,6 +186,7 @@ class Choice {
       taken_.beside(inner(one, Side::left))
           .push_back(left_border(one).own({part.front().left_arc_m, part.back().left_arc_m}));
     Polyline middle;
+    middle.reserve(part.size());
     double width_m = 0.0;
     for (const CrossSection& section : part) {
       middle.push_back(section.middle());

@@ -125,14 +125,16 @@ RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, c
   MeasuredPolyline::Cursor behind(course), ahead(course), far_behind(course), far_ahead(course);
   const Polyline points = course.resample(config.step_m);
   RoadCuts cuts;
+  cuts.reserve(points.size(), others.size() + 1);
   std::vector<Mark> marks;
+  marks.reserve(others.size() + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double arc_m = course.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
     RoadCut cut{.ahead = heading(behind.at(arc_m - kDirection_m), ahead.at(arc_m + kDirection_m))};
     const Eigen::Vector2d from = heading(far_behind.at(arc_m - kBend_m), points[i]),
                           to = heading(points[i], far_ahead.at(arc_m + kBend_m));
     cut.bend = std::abs(cross(from, to)) / kBend_m;
-    marks = {base.at(arc_m, points[i])};
+    marks.assign(1, base.at(arc_m, points[i]));
     for (MetBoundary& other : others)
       if (const auto mark = other.beside(points[i], cut.ahead,
                                          base.is_edge() && other.is_edge() ? kStreetReach_m : kCutReach_m))

@@ -35,6 +35,11 @@ struct RoadCut {
 /// Cross-sections in a row, with their marks.
 class RoadCuts {
  public:
+  /// Makes room for so many cross-sections, with so many marks each.
+  void reserve(std::size_t cuts, std::size_t marks) {
+    rows_.reserve(cuts);
+    marks_.reserve(cuts * marks);
+  }
   /// Adds a cross-section. Its marks are copied.
   void add(const RoadCut& cut);
   std::size_t size() const { return rows_.size(); }
