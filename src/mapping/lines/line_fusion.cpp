@@ -23,6 +23,7 @@ class Observations {
   /// Gathers the observations by matched samples. Stations that are observed already are left out; the others
   /// are marked as observed.
   void gather(const std::vector<SampleMatch>& samples) {
+    all_.reserve(samples.size() + 1);  // samples are no further apart than stations
     for (std::size_t i = 1; i < samples.size(); ++i) {
       const SampleMatch &a = samples[i - 1], &b = samples[i];
       if (!is_seen_through(a, b)) continue;

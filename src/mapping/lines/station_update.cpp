@@ -25,6 +25,7 @@ std::size_t ring(double range_m) {
 
 void weigh(const NetworkModel& network, const Point& origin, std::vector<SampledDetection>& detections) {
   for (SampledDetection& detection : detections) {
+    detection.stddev_m.reserve(detection.samples.size());
     if (detection.stddev_m.empty())
       for (const Point& sample : detection.samples)
         detection.stddev_m.push_back(network.stddev_m(distance(sample, origin)));
