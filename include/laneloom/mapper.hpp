@@ -30,9 +30,9 @@ class Mapper {
   Mapper& operator=(Mapper&&) noexcept;
 
   /// Fuses one frame, seen from T_map_body, and rebuilds the local map about the newest pose so far. A frame
-  /// may be older than the one before it. While the vehicle stands, the method `lines` fuses a frame each
-  /// second; the map keeps up with the poses of the others. All values must be finite; this is not checked
-  /// here. `observer` may be null.
+  /// may be older than the one before it. While the vehicle stands and no other one drives, the method
+  /// `lines` fuses a frame each second; the map keeps up with the poses of the others. All values must be
+  /// finite; this is not checked here. `observer` may be null.
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 

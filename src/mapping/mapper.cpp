@@ -168,7 +168,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
                markings::preprocess(frame, seen_from, config_.preprocess))};  // paper, III-A
   detections_zigzagging_ = frame.detections.size() - observed.markings.size();
   lines_forgotten_ = 0;
-  if (!poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
+  if (!state.trails.take_growth() && !poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
     see_again(frame, seen_from, log, state);
     return state.map;
   }

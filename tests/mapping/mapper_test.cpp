@@ -306,6 +306,34 @@ TEST(LineMapper, AStandingVehicleSeesWhatIsNewAndWhatIsGoneWithinSeconds) {
   EXPECT_LE(gone, 80);
 }
 
+TEST(LineMapper, AStandingVehicleFusesEachFrameWhileAnotherOneDrives) {
+  Drive drive;
+  drive.steps(40);
+  stand(55, road(), 0, drive);
+  const LocalMap& map = drive.mapper.map();
+  const auto sees_now = [&] {
+    return std::ranges::count(map.markings, map.stamp_ns, &Marking::last_seen_ns) > 0;
+  };
+  TrackedObject car{
+      .id = 1, .kind = ObjectKind::car, .position = {5, 5.25, 0}, .heading = {-1, 0, 0}, .speed_mps = 10};
+  for (int i = 0; i < 5; ++i) {
+    car.position.x() -= 1.1;
+    drive.mapper.add({.stamp_ns = map.stamp_ns + 100'000'000, .session_id = 1, .objects = {car}},
+                     test::at(drive.x));
+    stand(1, road(), 0, drive);
+    EXPECT_TRUE(sees_now()) << i;
+  }
+  car.speed_mps = 0.0;
+  int fused = 0;
+  for (int i = 0; i < 8; ++i) {
+    drive.mapper.add({.stamp_ns = map.stamp_ns + 100'000'000, .session_id = 1, .objects = {car}},
+                     test::at(drive.x));
+    stand(1, road(), 0, drive);
+    fused += sees_now() ? 1 : 0;
+  }
+  EXPECT_LE(fused, 1) << "nothing moves";
+}
+
 TEST(LineMapper, TheMapOfAStandingVehicleKeepsUpWithItsPoses) {
   Drive drive;
   drive.steps(40);

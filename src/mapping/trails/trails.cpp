@@ -80,6 +80,7 @@ void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_b
     const bool far = trail.points.empty() || (now.position - trail.points.back()).head<2>().norm() >= kStep_m;
     if (now.speed_mps <= kMoving_mps || !far) continue;
     trail.points.push_back(now.position);
+    grown_ = true;
     if (trail.points.size() > kMaxPoints) trail.points.erase(trail.points.begin());
   }
   if (trails_.size() > kMaxTrails)

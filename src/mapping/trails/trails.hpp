@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "laneloom/objects.hpp"
@@ -40,18 +41,22 @@ class Trails {
   /// Forgets what lies further from the vehicle than it will be of use.
   void keep_around(const Point& vehicle);
 
+  /// Whether a vehicle has left a trail since this was asked last.
+  bool take_growth() { return std::exchange(grown_, false); }
+
   const std::vector<Trail>& all() const { return trails_; }  ///< as they began
   std::vector<Trail>& all() { return trails_; }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(trails_);
+    archive(trails_, grown_);
   }
 
  private:
   Trail& trail_of(const Trail& observed);
 
   std::vector<Trail> trails_;
+  bool grown_ = false;
 };
 
 }  // namespace laneloom::trails
