@@ -63,14 +63,14 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
                                            log.reasons()));
 }
 
-/// Sets the directions of lanes, by the trails of others too. `driven` are the stretches of these.
-void tell_directions(const geometry::Scene& scene, DirectionConfig config,
-                     const std::vector<topology::DrivenStretch>& driven, FrameReasons* reasons,
-                     MapperState& state, topology::RoadGraph& road) {
+/// The configuration with the driving side that traffic keeps to. `driven` are the stretches of trails.
+DirectionConfig with_observed_side(DirectionConfig config, const geometry::Scene& scene,
+                                   const topology::RoadGraph& road,
+                                   const std::vector<topology::DrivenStretch>& driven, MapperState& state) {
   state.side.observe(road, driven, state.lane_tracks, state.trails.all());
   state.side.observe_passing(scene.T_map_body(), state.trails.all());
   config.driving_side = state.side.corrected(config.driving_side);
-  topology::find_directions(config, driven, state.lane_tracks, road, reasons);
+  return config;
 }
 
 /// Renames the lanes that have another id now, because they run the other way.
@@ -82,6 +82,14 @@ void rename(const std::map<ElementId, ElementId>& renamed, FrameReasons* reasons
     reasons->lanes.push_back({.id = former, .verdict = LaneReason::Verdict::replaced, .other = now});
 }
 
+/// Gives lanes that run the other way now another id.
+void name_lanes(FrameReasons* reasons, MapperState& state, topology::RoadGraph& road) {
+  const auto renamed = state.lane_tracks.publish(road.lanes, state.ids);
+  road.rename(renamed);
+  rename(renamed, reasons);
+  state.ego_track.forget(renamed);
+}
+
 /// The paths of others where the road has no lane, with the ids that they had before.
 std::vector<DrivenPath> paths_beside(const topology::RoadGraph& road,
                                      const std::vector<topology::DrivenStretch>& driven,
@@ -89,6 +97,7 @@ std::vector<DrivenPath> paths_beside(const topology::RoadGraph& road,
                                      MapperState& state) {
   std::vector<DrivenPath> paths = topology::driven_paths(state.trails.all(), driven, road, scene.box);
   std::vector<const Polyline*> lines;
+  lines.reserve(paths.size());
   for (const DrivenPath& path : paths) lines.push_back(&path.points);
   const std::vector<lanes::KnownLine> known = state.driven_paths.identify(lines, scene, state.ids);
   for (std::size_t i = 0; i < paths.size(); ++i) paths[i].id = known[i].id;
@@ -183,13 +192,11 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
                                state.lane_tracks);
   const auto driven = topology::driven_stretches(state.trails.all(), road.lanes);
-  tell_directions(scene, config_.direction, driven, log.reasons(), state, road);
+  topology::find_directions(with_observed_side(config_.direction, scene, road, driven, state), driven,
+                            state.lane_tracks, road, log.reasons());
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
-  const auto renamed = state.lane_tracks.publish(road.lanes, state.ids);
-  road.rename(renamed);
-  rename(renamed, log.reasons());
-  state.ego_track.forget(renamed);
+  name_lanes(log.reasons(), state, road);
   meet_at_joints(road);
   std::vector<DrivenPath> paths = paths_beside(road, driven, scene, config_.lane, state);
   LocalMap map =

@@ -65,6 +65,8 @@ class RouteBuilder {
  public:
   explicit RouteBuilder(Route& route) : route_(route) {}
 
+  const Route& route() const { return route_; }
+
   /// Appends what lies ahead of the end. Arc lengths on the line begin with `arc_m`.
   void append(const Polyline& line, const RoutePiece& piece, double arc_m = 0.0) {
     const MeasuredPolyline measured(line);
@@ -137,8 +139,8 @@ void append(RouteBuilder& builder, const Passage& passage) {
 
 /// Goes on where others drove, if the route ends before it reaches `to_m`, and through the lanes behind.
 /// Returns false where nobody did.
-bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double to_m, const Route& route,
-                   RouteBuilder& builder) {
+bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double to_m, RouteBuilder& builder) {
+  const Route& route = builder.route();
   if (route.points.size() < 2 || route.points.back().along_m >= to_m) return false;
   Polyline line;
   for (const RoutePoint& point : route.points) line.push_back(point.point);
@@ -259,7 +261,7 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
     append(builder, passage);
     if (passage.turn == wished) wished = Turn::straight;
   }
-  append_driven(graph, wish.before, wished, behind_m + ahead_m, route, builder);
+  append_driven(graph, wish.before, wished, behind_m + ahead_m, builder);
   return route;
 }
 
@@ -280,7 +282,7 @@ std::optional<Route> route_beyond(const LaneGraph& graph, const Way& rest, doubl
   Polyline line;
   for (const WayStation& station : rest.stations) line.push_back(station.point);
   builder.append(line, {.lane = {}});
-  if (!append_driven(graph, &rest, Turn::straight, ahead_m, route, builder)) return std::nullopt;
+  if (!append_driven(graph, &rest, Turn::straight, ahead_m, builder)) return std::nullopt;
   return route;
 }
 

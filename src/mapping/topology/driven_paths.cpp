@@ -26,6 +26,7 @@ class KnownCourses {
  public:
   explicit KnownCourses(const RoadGraph& road) : lanes_(road.lanes.size()) {
     std::vector<const Polyline*> lines;
+    lines.reserve(road.lanes.size() + road.linkages.size());
     for (const Lane& lane : road.lanes) lines.push_back(&lane.centerline);
     for (const Linkage& linkage : road.linkages)
       if (linkage.path.size() >= 2) lines.push_back(&linkage.path);
@@ -90,8 +91,9 @@ std::vector<DrivenPath> driven_paths(const std::vector<trails::Trail>& trails,
   for (std::size_t i = 0; i < trails.size(); ++i) {
     const Polyline& trail = trails[i].points;
     if (trail.size() < 2 || length(trail) < kMinTrail_m) continue;
-    const auto of_trail = std::ranges::equal_range(driven, i, {}, &DrivenStretch::trail);
-    for (const Polyline& stretch : new_stretches(trail, of_trail, known, box)) {
+    const auto first = std::ranges::lower_bound(driven, i, {}, &DrivenStretch::trail);
+    const auto last = std::ranges::upper_bound(driven, i, {}, &DrivenStretch::trail);
+    for (const Polyline& stretch : new_stretches(trail, {first, last}, known, box)) {
       if (stretch.size() < 2 || length(stretch) < kMinLength_m) continue;
       DrivenPath path{
           .points = path_along(stretch), .lateral_stddev_m = kDriverStddev_m, .probability = kOneTrail};

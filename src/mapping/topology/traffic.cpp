@@ -79,6 +79,7 @@ std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& tr
   std::vector<DrivenStretch> driven;
   if (trails.empty() || lanes.empty()) return driven;
   std::vector<const Polyline*> lines;
+  lines.reserve(lanes.size());
   for (const Lane& lane : lanes) lines.push_back(&lane.centerline);
   const LinePlaces places(lines, kMaxLateral_m);
   for (std::size_t i = 0; i < trails.size(); ++i) {
