@@ -3,7 +3,6 @@
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -23,17 +22,12 @@ class Door {
   /// datagrams_refused_<reason>, for the reasons that occurred.
   Counters refused() const;
   SelfProbe& probe() { return probe_; }
-  /// From now on, the participant is announced. It must listen by then: whoever hears its first announcement
-  /// answers at once, and not again for a while.
-  void announce() { announced_ = true; }
-  bool is_announced() const { return announced_; }
 
  private:
   SelfProbe probe_;
   mutable std::mutex mutex_;
   RtpsGuard guard_;
   std::array<std::uint64_t, kDatagramRefusals.size()> refused_{};
-  std::atomic<bool> announced_ = false;
 };
 
 /// Puts a guard in front of each UDP transport, also in front of that which Fast DDS would make by itself.

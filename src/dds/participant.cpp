@@ -34,8 +34,6 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presen
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
       static_cast<DomainId_t>(config.domain), qos);
   if (!participant_) refuse("participant in domain " + std::to_string(config.domain));
-  // Fast DDS itself announces it before it listens.
-  door_->announce();
 
   PublisherQos publisher_qos = PUBLISHER_QOS_DEFAULT;
   if (!config.vehicle_id.empty()) publisher_qos.partition().push_back(config.vehicle_id.c_str());

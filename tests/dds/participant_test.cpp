@@ -10,7 +10,6 @@
 
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
-#include "end_to_end/eavesdropper.hpp"
 #include "laneloom/dds/raw_writer.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
@@ -112,15 +111,6 @@ PublishedMap map_of(std::uint64_t sequence) {
   map.frame_id = "map";
   map.map.boundaries.push_back(Marking{.id = 7, .points = {{0, 0, 0}, {1, 2, 3}}});
   return map;
-}
-
-TEST(Announcement, ComesOnceTheParticipantListens) {
-  Eavesdropper eavesdropper(own_domain());
-  DdsConfig config;
-  config.domain = own_domain();
-  const Participant participant(config, "newcomer");
-  // Fast DDS by itself sends the first one before. Who answers it at once would not be heard.
-  EXPECT_TRUE(eavesdropper.participants().empty());
 }
 
 TEST(Participants, FramesArriveInOrderAndWhole) {
