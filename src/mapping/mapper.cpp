@@ -68,7 +68,7 @@ DirectionConfig with_observed_side(DirectionConfig config, const geometry::Scene
                                    const topology::RoadGraph& road,
                                    const std::vector<topology::DrivenStretch>& driven, MapperState& state) {
   state.side.observe(road, driven, state.lane_tracks, state.trails.all());
-  state.side.observe_passing(scene.T_map_body(), state.trails.all());
+  state.side.observe_passing(state.map.T_map_body.translation(), scene.T_map_body(), state.trails.all());
   config.driving_side = state.side.corrected(config.driving_side);
   return config;
 }
@@ -99,7 +99,7 @@ std::vector<DrivenPath> paths_beside(const topology::RoadGraph& road,
   std::vector<const Polyline*> lines;
   lines.reserve(paths.size());
   for (const DrivenPath& path : paths) lines.push_back(&path.points);
-  const std::vector<lanes::KnownLine> known = state.driven_paths.identify(lines, scene, state.ids);
+  const std::vector<lanes::LineIdentity> known = state.driven_paths.identify(lines, scene, state.ids);
   for (std::size_t i = 0; i < paths.size(); ++i) paths[i].id = known[i].id;
   state.driven_paths.forget(scene, config.id_memory_frames);
   std::ranges::sort(paths, {}, &DrivenPath::id);
@@ -177,7 +177,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
                markings::preprocess(frame, seen_from, config_.preprocess))};  // paper, III-A
   detections_zigzagging_ = frame.detections.size() - observed.markings.size();
   lines_forgotten_ = 0;
-  if (!state.trails.take_growth() && !poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
+  const bool others_drove = state.trails.take_growth();
+  if (!others_drove && !poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
     see_again(frame, seen_from, log, state);
     return state.map;
   }

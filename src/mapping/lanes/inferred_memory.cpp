@@ -12,7 +12,7 @@ void InferredMemory::identify(const std::vector<Marking*>& inferred, const geome
   std::vector<const Polyline*> lines;
   lines.reserve(inferred.size());
   for (const Marking* marking : inferred) lines.push_back(&marking->points);
-  const std::vector<KnownLine> known = known_.identify(lines, scene, ids);
+  const std::vector<LineIdentity> known = known_.identify(lines, scene, ids);
   for (std::size_t i = 0; i < inferred.size(); ++i) {
     inferred[i]->id = known[i].id;
     inferred[i]->first_seen_ns = known[i].first_seen_ns;

@@ -59,14 +59,14 @@ Recognition recognised(const std::vector<const Polyline*>& found, const std::vec
 
 }  // namespace
 
-std::vector<KnownLine> KnownLines::identify(const std::vector<const Polyline*>& found,
-                                            const geometry::Scene& scene, markings::IdSource& ids) {
+std::vector<LineIdentity> KnownLines::identify(const std::vector<const Polyline*>& found,
+                                               const geometry::Scene& scene, markings::IdSource& ids) {
   const Recognition recognition = recognised(found, lines_, scene.frame);
-  std::vector<KnownLine> identified;
+  std::vector<LineIdentity> identified;
   identified.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto same = recognition[i];
-    if (!same) lines_.push_back({.id = ids.next(), .first_seen_ns = scene.stamp_ns, .points = {}});
+    if (!same) lines_.push_back({{.id = ids.next(), .first_seen_ns = scene.stamp_ns}, {}});
     KnownLine& known = same ? lines_[*same] : lines_.back();
     known.points = *found[i];
     known.last_frame = scene.frame;

@@ -9,10 +9,14 @@
 
 namespace laneloom::lanes {
 
-/// A line that was published, kept to recognise it in later frames.
-struct KnownLine {
+/// What a line is known as.
+struct LineIdentity {
   ElementId id = kNoElement;
   std::int64_t first_seen_ns = 0;
+};
+
+/// A line that was published, kept to recognise it in later frames.
+struct KnownLine : LineIdentity {
   Polyline points;               ///< map frame, as it was last found
   std::uint64_t last_frame = 0;  ///< number of the frame that last found it
 
@@ -25,10 +29,10 @@ struct KnownLine {
 /// Recognises lines that are found anew in every frame.
 class KnownLines {
  public:
-  /// Per found line, the known line that it covers most of, or else a new one. A known line that was
-  /// recognised in the same frame is left out.
-  std::vector<KnownLine> identify(const std::vector<const Polyline*>& found, const geometry::Scene& scene,
-                                  markings::IdSource& ids);
+  /// Per found line, the identity of the known line that it covers most of, or else a new one. A known line
+  /// that was recognised in the same frame is left out.
+  std::vector<LineIdentity> identify(const std::vector<const Polyline*>& found, const geometry::Scene& scene,
+                                     markings::IdSource& ids);
   /// Forgets the lines that were not found for longer than `memory_frames`.
   void forget(const geometry::Scene& scene, int memory_frames);
 

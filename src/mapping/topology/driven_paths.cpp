@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kBeside_m = 2.6;         // from a lane or a path, up to where a trail tells nothing new
 constexpr double kCosAlong = 0.70710678;  // 45 degrees
-constexpr double kMaxGap_m = 10.0;        // between two points of a path
 constexpr double kMinTrail_m = 20.0;      // a shorter trail may be a ghost's
 constexpr double kMinLength_m = 8.0;      // of a path
 constexpr double kStep_m = 1.0;           // between its points
@@ -62,12 +61,10 @@ std::vector<Polyline> new_stretches(const Polyline& trail, std::span<const Drive
   };
   std::vector<Polyline> stretches(1);
   for (std::size_t k = 0; k < trail.size(); ++k) {
-    const Point& from = trail[k == 0 ? 0 : k - 1];
-    const Point& to = trail[std::min(k + 2, trail.size() - 1)];
     Polyline& last = stretches.back();
-    const bool follows = last.empty() || (trail[k] - last.back()).head<2>().norm() <= kMaxGap_m;
-    const bool is_new = !is_in_lane(k) && box.shows(trail[k]) &&
-                        !known.contains(trail[k], (to - from).head<2>().normalized());
+    const bool follows = last.empty() || (trail[k] - last.back()).head<2>().norm() <= trails::kMaxGap_m;
+    const bool is_new =
+        !is_in_lane(k) && box.shows(trail[k]) && !known.contains(trail[k], trails::direction_at(trail, k));
     if (!last.empty() && (!follows || !is_new)) stretches.emplace_back();
     if (is_new) stretches.back().push_back(trail[k]);
   }

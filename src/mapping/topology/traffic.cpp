@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kMaxLateral_m = 1.2;       // beside the middle of a lane
 constexpr double kCosMaxAngle = 0.8660254;  // 30 degrees
-constexpr double kMaxGap_m = 10.0;          // between two points of a trail within one lane
 
 // An oncoming vehicle passes the own one within these.
 constexpr double kAbreast_m = 5.0;                           // ahead or behind
@@ -62,13 +61,13 @@ std::vector<double> senses(const std::vector<Lane>& lanes, const std::vector<Dri
 /// Whether an oncoming vehicle passes the own one: 1 on its left, as right-hand traffic does; -1 on its
 /// right; 0: it does not.
 int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
-  if (trail.points.size() < 2 || length(trail.points) < kMinDriven_m) return 0;
-  if (!geometry::same_level(trail.position, T_map_body.translation())) return 0;
   const Eigen::Vector2d ahead = T_map_body.linear().col(0).head<2>().normalized();
   const Eigen::Vector2d offset = (trail.position - T_map_body.translation()).head<2>();
   const double aside_m = cross(ahead, offset);
   if (std::abs(ahead.dot(offset)) > kAbreast_m || trail.heading.dot(ahead) > kCosOncoming) return 0;
   if (std::abs(aside_m) < kMinPassing_m || std::abs(aside_m) > kMaxPassing_m) return 0;
+  if (!geometry::same_level(trail.position, T_map_body.translation())) return 0;
+  if (trail.points.size() < 2 || length(trail.points) < kMinDriven_m) return 0;
   return aside_m > 0.0 ? 1 : -1;
 }
 
@@ -86,12 +85,8 @@ std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& tr
     const Polyline& points = trails[i].points;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       const double step_m = (points[k + 1] - points[k]).head<2>().norm();
-      if (step_m > kMaxGap_m) continue;
-      // A chord over three steps is surer than one step, beside which a tracker's noise is large.
-      const Point& from = points[k == 0 ? 0 : k - 1];
-      const Point& to = points[std::min(k + 2, points.size() - 1)];
-      const auto lane =
-          lane_at(places, 0.5 * (points[k] + points[k + 1]), (to - from).head<2>().normalized());
+      if (step_m > trails::kMaxGap_m) continue;
+      const auto lane = lane_at(places, 0.5 * (points[k] + points[k + 1]), trails::direction_at(points, k));
       if (!lane) continue;
       const double along_m = std::copysign(step_m, lane->along);
       const bool goes_on = !driven.empty() && driven.back().trail == i && driven.back().lane == lane->lane &&
@@ -123,11 +118,9 @@ void ObservedSide::observe(const RoadGraph& road, const std::vector<DrivenStretc
   }
 }
 
-void ObservedSide::observe_passing(const Eigen::Isometry3d& T_map_body, std::vector<trails::Trail>& trails) {
-  const Point place = T_map_body.translation();
-  const bool moves = (place - place_).head<2>().norm() >= kMoving_m;
-  place_ = place;
-  if (!moves) return;
+void ObservedSide::observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
+                                   std::vector<trails::Trail>& trails) {
+  if ((T_map_body.translation() - before).head<2>().norm() < kMoving_m) return;
   for (trails::Trail& trail : trails) {
     const int side = trail.told_side ? 0 : passing(trail, T_map_body);
     if (side == 0) continue;

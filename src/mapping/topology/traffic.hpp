@@ -33,7 +33,9 @@ class ObservedSide {
   void observe(const RoadGraph& road, const std::vector<DrivenStretch>& driven,
                const lanes::LaneTracks& tracks, std::vector<trails::Trail>& trails);
   /// Takes what oncoming vehicles tell that pass the own one while it moves, whatever lanes are known.
-  void observe_passing(const Eigen::Isometry3d& T_map_body, std::vector<trails::Trail>& trails);
+  /// `before` is the place of the own vehicle in the frame before, map frame.
+  void observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
+                       std::vector<trails::Trail>& trails);
   /// Whether traffic keeps to the other side than `driving_side`. Two vehicles more have told so than have
   /// told the contrary.
   bool contradicts(DrivingSide driving_side) const;
@@ -42,14 +44,13 @@ class ObservedSide {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(right_, place_);
+    archive(right_);
   }
 
  private:
   void tell(int side);
 
-  int right_ = 0;                ///< number of trails that told "right", less those that told "left"; limited
-  Point place_ = Point::Zero();  ///< of the vehicle in the frame before
+  int right_ = 0;  ///< number of trails that told "right", less those that told "left"; limited
 };
 
 }  // namespace laneloom::topology

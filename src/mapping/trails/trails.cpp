@@ -58,6 +58,12 @@ bool goes_on(const Trail& trail, const Trail& observed) {
 
 }  // namespace
 
+Eigen::Vector2d direction_at(const Polyline& points, std::size_t k) {
+  const Point& from = points[k == 0 ? 0 : k - 1];
+  const Point& to = points[std::min(k + 2, points.size() - 1)];
+  return (to - from).head<2>().normalized();
+}
+
 void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
   std::vector<Trail> observed;
   for (const TrackedObject& object : objects.objects) {

@@ -29,6 +29,13 @@ struct Trail {
   }
 };
 
+/// Two points of a trail that are further apart do not follow one another.
+inline constexpr double kMaxGap_m = 10.0;
+
+/// The direction of a trail at one of its two points or more, of unit length. A chord over three steps is
+/// surer than one step, beside which a tracker's noise is large.
+Eigen::Vector2d direction_at(const Polyline& points, std::size_t k);
+
 /// Follows the vehicles that a tracker tells of. A vehicle leaves a trail where it drives forwards. A vehicle
 /// that stands, reverses, or whose heading is not known leaves none, and neither do cyclists and pedestrians.
 ///

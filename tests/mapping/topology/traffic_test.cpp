@@ -138,9 +138,11 @@ class Passing : public ::testing::Test {
       trails.back().position = {1, left_m, z};
       trails.back().heading = heading;
     }
-    side_.observe_passing(test::at(0), trails);
-    for (const double x : {moved_m_, 2.0 * moved_m_}) side_.observe_passing(test::at(x), trails);
-    side_.observe_passing(test::at(-100), trails);
+    double before_m = 0.0;
+    for (const double x : {0.0, moved_m_, 2.0 * moved_m_, -100.0}) {
+      side_.observe_passing({before_m, 0, 0}, test::at(x), trails);
+      before_m = x;
+    }
   }
   DrivingSide told_for(DrivingSide configured) const { return side_.corrected(configured); }
 
