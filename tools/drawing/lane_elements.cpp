@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "drawing/map_elements.hpp"
 #include "drawing/marking_shapes.hpp"
@@ -13,6 +14,7 @@ namespace {
 constexpr double kArrowSpacing_m = 9.0;
 constexpr double kLinkageReach_m = 3.5;  ///< length of a linkage's arrow within either lane
 constexpr double kCenterlineOpacity = 0.6;
+constexpr double kPathOpacity = 0.85;      ///< of a linkage
 constexpr double kUnknownDirection = 0.6;  ///< opacity of a lane whose driving direction is not known
 constexpr double kHatchSpacing_m = 1.5;    ///< along an inferred stretch
 
@@ -78,15 +80,15 @@ Element element_of(const Lane& lane, const LocalMap& map, ElementId own) {
 }
 
 Element element_of(const Linkage& linkage, const Polyline& path) {
-  const Point along = (path.back() - path[path.size() - 2]).normalized();
-  return {
-      .layer = Layer::linkages,
-      .key = key_of(Layer::linkages, linkage.from) + "-" + std::to_string(linkage.to),
-      .id = kNoElement,
-      .type = "linkage",
-      .status = {},
-      .properties = properties_of(linkage),
-      .shapes = {{DrawnLine{path}, Style::linkage, 0.85}, {DrawnArrow{path.back(), along}, Style::linkage}}};
+  std::vector<Shape> shapes = arrow_along(path, Style::linkage);
+  shapes.front().opacity = kPathOpacity;
+  return {.layer = Layer::linkages,
+          .key = key_of(Layer::linkages, linkage.from) + "-" + std::to_string(linkage.to),
+          .id = kNoElement,
+          .type = "linkage",
+          .status = {},
+          .properties = properties_of(linkage),
+          .shapes = std::move(shapes)};
 }
 
 }  // namespace

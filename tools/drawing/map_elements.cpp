@@ -78,8 +78,6 @@ void add_way(const Way& way, Drawing& drawing) {
 
 void add_driven_path(const DrivenPath& path, Drawing& drawing) {
   if (!drawable(path.points)) return;
-  const Point along = (path.points.back() - path.points[path.points.size() - 2]).normalized();
-  const double opacity = opacity_of(path.probability);
   drawing.add({.layer = Layer::traffic,
                .key = "driven path/" + std::to_string(path.id),
                .id = path.id,
@@ -88,8 +86,7 @@ void add_driven_path(const DrivenPath& path, Drawing& drawing) {
                .properties = {{"length_m", rounded(length(path.points))},
                               {"probability", rounded(path.probability)},
                               {"lateral_stddev_m", rounded(path.lateral_stddev_m)}},
-               .shapes = {{DrawnLine{path.points}, Style::driven, opacity},
-                          {DrawnArrow{path.points.back(), along}, Style::driven, opacity}}});
+               .shapes = arrow_along(path.points, Style::driven, opacity_of(path.probability))});
 }
 
 void add_map(const LocalMap& map, Drawing& drawing) {

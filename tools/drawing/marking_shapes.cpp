@@ -24,6 +24,11 @@ std::vector<Shape> marking_shapes(const Marking& marking, double opacity) {
   return shapes;
 }
 
+std::vector<Shape> arrow_along(const Polyline& line, Style style, double opacity) {
+  const Point along = (line.back() - line[line.size() - 2]).normalized();
+  return {{DrawnLine{line}, style, opacity}, {DrawnArrow{line.back(), along}, style, opacity}};
+}
+
 double opacity_of(double existence_probability) {
   return existence_probability < 0.0 ? 1.0 : 0.3 + 0.7 * existence_probability;
 }

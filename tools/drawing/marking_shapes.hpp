@@ -14,6 +14,9 @@ bool drawable(const Polyline& line);
 /// The shapes of a marking: one line for each stretch of a style.
 std::vector<Shape> marking_shapes(const Marking& marking, double opacity);
 
+/// The shapes of a drawable line that ends with an arrow.
+std::vector<Shape> arrow_along(const Polyline& line, Style style, double opacity = 1.0);
+
 /// The opacity for an existence probability: the surer the more opaque. A probability that was not estimated
 /// (-1) is opaque.
 double opacity_of(double existence_probability);

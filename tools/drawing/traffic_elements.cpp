@@ -63,8 +63,7 @@ Element element_of(const trails::Trail& trail, std::size_t number) {
                   .shapes = {}};
   if (!drawable(points)) return element;
   element.properties["length_m"] = rounded(length(points));
-  const Point along = (points.back() - points[points.size() - 2]).normalized();
-  element.shapes = {{DrawnLine{points}, Style::trail}, {DrawnArrow{points.back(), along}, Style::trail}};
+  element.shapes = arrow_along(points, Style::trail);
   return element;
 }
 
