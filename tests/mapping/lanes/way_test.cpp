@@ -1,80 +1,25 @@
-#include "laneloom/way.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
-#include "mapping/shapes.hpp"
+#include "mapping/lanes/ways.hpp"
 
 namespace laneloom::lanes {
 namespace {
 
+using test::ids;
+using test::largest_curvature_per_m;
+using test::largest_kink_deg;
+using test::link;
+using test::points;
+using test::road_lane;
+using test::shifted;
 using test::straight;
+using test::way_on;
 using ::testing::ElementsAre;
 using Turn = Linkage::Turn;
-
-Polyline shifted(const Polyline& line, double left_m) {
-  Polyline out;
-  const MeasuredPolyline measured(line);
-  for (const double arc_m : arc_lengths(line)) {
-    const Eigen::Vector2d along = measured.chord(arc_m - 0.5, arc_m + 0.5);
-    out.emplace_back(measured.at(arc_m) + left_m * Point(-along.y(), along.x(), 0.0));
-  }
-  return out;
-}
-
-/// A lane, 3.5 m wide, between borders of its own.
-Lane road_lane(ElementId id, const Polyline& centerline) {
-  Lane lane = test::lane(id, centerline);
-  lane.left = shifted(centerline, 1.75);
-  lane.right = shifted(centerline, -1.75);
-  return lane;
-}
-
-Lane road_lane(ElementId id, const Point& from, const Point& to) {
-  return road_lane(id, straight(from, to, 1 + static_cast<int>((to - from).norm())));
-}
-
-Linkage link(ElementId from, ElementId to, Turn turn = Turn::straight, Polyline path = {}) {
-  return {.from = from, .to = to, .turn = turn, .probability = 0.5, .path = std::move(path)};
-}
-
-Way way_on(const LocalMap& map, const Eigen::Isometry3d& T_map_body, WayWish wish = WayWish::straight,
-           const Way* before = nullptr) {
-  return way_ahead(LaneGraph(map), T_map_body, wish, before).value_or(Way{});
-}
-
-std::vector<ElementId> ids(const Way& way) {
-  std::vector<ElementId> result;
-  for (const WayLane& one : way.lanes) result.push_back(one.id);
-  return result;
-}
-
-Polyline points(const Way& way) {
-  Polyline line;
-  for (const WayStation& station : way.stations) line.push_back(station.point);
-  return line;
-}
-
-/// The largest angle between directions `within_m` apart, in degrees.
-double largest_kink_deg(const Way& way, double within_m) {
-  double largest = 0.0;
-  const auto apart = static_cast<std::size_t>(within_m / way.step_m);
-  for (std::size_t i = 0; i + apart < way.stations.size(); ++i)
-    largest =
-        std::max(largest, std::abs(cross(way.stations[i].direction(), way.stations[i + apart].direction())));
-  return std::asin(largest) * 180.0 / std::numbers::pi;
-}
-
-double largest_curvature_per_m(const Way& way) {
-  double largest = 0.0;
-  for (const WayStation& station : way.stations)
-    largest = std::max(largest, std::abs(station.curvature_per_m));
-  return largest;
-}
 
 /// Lane 1 leads east into lane 2 (straight on), 3 (left) and 4 (right), each behind a path.
 LocalMap fork() {
@@ -412,62 +357,6 @@ TEST(Way, EndsWhereTheMapEnds) {
   EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(49.8), WayWish::straight)) << "nothing is left";
   EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(20, 5), WayWish::straight)) << "beside";
   EXPECT_FALSE(way_ahead(LaneGraph(LocalMap{}), test::at(0), WayWish::straight));
-}
-
-/// Lane 1 leads east and ends at x = 20; lane 2 begins at x = 45. Somebody drove from one into the other.
-LocalMap driven_on() {
-  LocalMap map;
-  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {45, 1, 0}, {120, 1, 0})};
-  map.driven_paths = {{.id = 9, .points = straight({12, 0.5, 0}, {50, 1, 0}, 40)}};
-  return map;
-}
-
-TEST(Way, GoesOnWhereOthersDrove) {
-  LocalMap map = driven_on();
-  const Way way = way_on(map, test::at(5));
-  EXPECT_NEAR(way.known_m, 60.0, 0.1);
-  EXPECT_THAT(ids(way), ElementsAre(1, 2));
-  EXPECT_EQ(way.stations[25].status, ElementStatus::inferred) << "between the lanes";
-  EXPECT_EQ(way.stations[25].lane, kNoElement);
-  EXPECT_LT(largest_kink_deg(way, 4.0), 6.0);
-  for (const WayStation& station : way.stations) EXPECT_NEAR(station.point.y(), 0.5, 0.8);
-  map.lanes[1].direction = Lane::Direction::against_centerline;
-  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1)) << "not into an oncoming lane";
-  EXPECT_NEAR(way_on(map, test::at(5)).known_m, 45.0, 1.0) << "to where they were seen last";
-}
-
-TEST(Way, FollowsNoneWhoTurnOffUnlessThatIsTheWish) {
-  LocalMap map = driven_on();
-  Polyline left = straight({12, 0.5, 0}, {25, 0.5, 0}, 14);
-  for (const Point& point : test::arc({25, 10.5, 0}, 10.0, -90.0, 0.0)) left.push_back(point);
-  map.driven_paths = {{.id = 9, .points = left}};
-  EXPECT_NEAR(way_on(map, test::at(5)).known_m, 15.0, 0.1);
-  const Way turned = way_on(map, test::at(5), WayWish::left);
-  EXPECT_NEAR(turned.stations.back().point.y(), 10.5, 1.0);
-  EXPECT_NEAR(way_on(map, test::at(5), WayWish::right).known_m, 15.0, 0.1);
-}
-
-TEST(Way, FollowsNoneBesideItsEndNorAgainstIt) {
-  LocalMap map = driven_on();
-  for (const Polyline& other :
-       {straight({12, 2.5, 0}, {50, 2.5, 0}, 40), straight({50, 0, 0}, {12, 0, 0}, 40),
-        straight({32, 0, 0}, {60, 0, 0}, 30), straight({12, 0, 6}, {50, 0, 6}, 40)}) {
-    map.driven_paths = {{.id = 9, .points = other}};
-    EXPECT_NEAR(way_on(map, test::at(5)).known_m, 15.0, 0.1);
-  }
-}
-
-TEST(Way, WithoutALaneGoesOnWhereOthersDrove) {
-  LocalMap map = driven_on();
-  map.lanes.pop_back();
-  const Way before = way_on(map, test::at(5));
-  map.lanes.clear();
-  map.driven_paths[0].points = straight({12, 0.5, 0}, {90, 1, 0}, 80);
-  const Way way = way_on(map, test::at(30, 0.8), WayWish::straight, &before);
-  EXPECT_NEAR(way.known_m, 60.0, 0.5);
-  EXPECT_TRUE(way.lanes.empty());
-  map.driven_paths.clear();
-  EXPECT_LT(way_on(map, test::at(30, 0.8), WayWish::straight, &before).known_m, 21.0);
 }
 
 TEST(Way, CoordinatesGoThereAndBack) {
