@@ -17,9 +17,9 @@ struct WayOptions {
 
 /// The way ahead of the vehicle. `before` is the way before, or null. While the wish stays, the way keeps to
 /// the lanes of the way before where lanes fork or overlap, as long as the map has them and they fit the wish
-/// as well as others do. A vehicle that is neither in a lane nor on a passage goes on along the way before;
-/// off that way, it goes into a lane that begins straight ahead, at most 20 m away. Empty: none of these
-/// leads on.
+/// as well as others do. Where the lanes end, the way goes on along a driven path that runs on as the wish
+/// says. A vehicle that is neither in a lane nor on a passage goes on along the way before; off that way, it
+/// goes into a lane that begins straight ahead, at most 20 m away. Empty: none of these leads on.
 std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body, WayWish wish,
                              const Way* before = nullptr, const WayOptions& options = {});
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::uint64_t kAtOnce = 100;
 constexpr std::chrono::milliseconds kPause{5};
-// Beside everything else a busy host has no time for more, and a flood is no damage.
+// A busy host has no time for more beside everything else. The stranger is to damage, not to flood.
 constexpr std::chrono::milliseconds kPauseOfOneTarget{50};
 constexpr std::ptrdiff_t kPrefixAt = 8;
 constexpr std::uint8_t kInfoDestination = 0x0e;

@@ -6,8 +6,9 @@
 
 namespace laneloom::lanes {
 
-/// Where a lane begins, as it is walked, and how it runs there.
+/// The point at which a lane begins, as it is walked.
 const Point& begin_point(const DirectedLane& lane);
+/// The direction of a lane there, of unit length.
 Eigen::Vector2d begin_direction(const DirectedLane& lane);
 
 /// The lane that begins straight ahead of a vehicle which is in none, at most 20 m away. Lanes that are known

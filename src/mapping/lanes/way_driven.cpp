@@ -28,12 +28,13 @@ Turn turn_along(const Polyline& path, const Eigen::Vector2d& ahead) {
   return cross(ahead, end) > 0.0 ? Turn::left : Turn::right;
 }
 
-/// What a path leads on from a place, with its distance aside. Empty: it does not pass there.
+/// The part of a path beyond a place.
 struct Onward {
   Polyline path;
-  double aside_m = 0.0;
+  double aside_m = 0.0;  ///< of the path, from the place
 };
 
+/// `ahead` is the direction at the place `end`. Empty: the path does not pass there.
 std::optional<Onward> onward(const Polyline& points, const Point& end, const Eigen::Vector2d& ahead) {
   const MeasuredPolyline line(points);
   const Projection foot = line.project(end);
@@ -46,10 +47,10 @@ std::optional<Onward> onward(const Polyline& points, const Point& end, const Eig
   return Onward{line.slice({foot.arc_m, line.length()}), aside_m};
 }
 
-/// The first lane that begins on a path, and where.
+/// The first lane that begins on a path.
 struct Entered {
   DirectedLane lane;
-  double arc_m = std::numeric_limits<double>::infinity();
+  double arc_m = std::numeric_limits<double>::infinity();  ///< on the path
 };
 
 Entered first_entered(const LaneGraph& graph, const MeasuredPolyline& path) {

@@ -2,7 +2,7 @@
 
 #include "laneloom/lane_graph.hpp"
 
-/// Where others drove on from the end of what is known.
+/// Ways go on along the paths of others.
 namespace laneloom::lanes {
 
 /// A path that others drove, from a place on, up to the lane that it leads into.
@@ -11,8 +11,8 @@ struct DrivenPassage {
   DirectedLane to;  ///< no lane: the path leads into none that is known
 };
 
-/// The way that others took from the end of a lane or a passage with a turn. `ahead` is its direction there,
-/// of unit length.
+/// Others drove on from the end of a lane or of a passage, with the wished turn. `ahead` is the direction at
+/// that end, of unit length.
 DrivenPassage driven_on(const LaneGraph& graph, const Point& end, const Eigen::Vector2d& ahead,
                         Linkage::Turn turn);
 
