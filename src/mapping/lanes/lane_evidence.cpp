@@ -14,6 +14,7 @@ constexpr double kMissed = 0.1;         // of a frame that does not find the lan
 constexpr double kDenied = 0.25;        // of a frame that shows the borders, and says that no lane lies there
 constexpr double kTaken = 0.8;          // of a frame that finds another lane in its place
 constexpr double kParting = 0.5;        // of a frame in which one lane ends and another one begins
+constexpr double kBridged_m = 8.0;      // a longer stretch that is not believed parts a lane
 constexpr double kCorrection_m = 20.0;  // over which a correction of what was found reaches what was not
 
 /// What a later frame that finds a lane says.
@@ -89,6 +90,12 @@ void observe_changes(const std::vector<Strip>& strips, const std::vector<Match>&
 }
 
 }  // namespace
+
+bool is_to_show(const LaneStation& station) { return station.log_odds >= (station.shown ? kHidden : kShown); }
+
+bool is_bridged(std::size_t hidden, const LaneConfig& config) {
+  return static_cast<double>(hidden) * config.step_m <= kBridged_m;
+}
 
 double first_evidence(ElementStatus status) {
   if (status == ElementStatus::inferred) return 0.0;

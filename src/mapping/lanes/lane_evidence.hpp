@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -23,6 +24,12 @@ inline constexpr double kMostParted = 3.0;
 inline constexpr double kPassing = 0.3;
 /// On both sides of a parting, the lanes are at least that long.
 inline constexpr double kAside_m = 5.0;
+
+/// Whether the evidence shows a station, or lets it be shown on.
+bool is_to_show(const LaneStation& station);
+
+/// Whether so many hidden stations between shown ones are shown. More of them part a lane.
+bool is_bridged(std::size_t hidden, const LaneConfig& config);
 
 /// What the first frame that finds a lane says.
 double first_evidence(ElementStatus status);

@@ -89,12 +89,19 @@ class Growth {
     for (std::size_t t = 0; t < tracks_.size(); ++t)
       present.push_back({TrackEnd{t, End::front}, TrackEnd{t, End::back}});
     for (Extension& extension : extensions_) {
-      const TrackEnd from = present[extension.from.track][index(extension.from.end)];
+      TrackEnd from = present[extension.from.track][index(extension.from.end)];
+      if (!extension.to) {
+        extend(std::move(extension.stations), from);
+        continue;
+      }
+      TrackEnd to = present[extension.to->track][index(extension.to->end)];
+      if (last_station(to).shown && !last_station(from).shown) {
+        std::swap(from, to);
+        std::ranges::reverse(extension.stations);
+      }
       extend(std::move(extension.stations), from);
-      if (!extension.to) continue;
-      const TrackEnd to = present[extension.to->track][index(extension.to->end)];
-      if (to.track == from.track) continue;
-      const bool keeps_from = tracks_[from.track].id < tracks_[to.track].id;
+      if (to.track == from.track || are_apart(from, to)) continue;
+      const bool keeps_from = rank(from) < rank(to);
       const TrackEnd kept = keeps_from ? from : to, gone = keeps_from ? to : from;
       join(kept, gone);
       for (auto& ends : present)
@@ -178,8 +185,7 @@ class Growth {
   /// Adds stations outwards from an end. What continues a lane that is shown is shown.
   void extend(std::vector<LaneStation> stations, const TrackEnd& from) {
     if (stations.empty()) return;
-    std::vector<LaneStation>& to = tracks_[from.track].stations;
-    const LaneStation& last = from.end == End::back ? to.back() : to.front();
+    const LaneStation& last = last_station(from);
     const auto across = [](const LaneStation& station) -> Eigen::Vector2d {
       return (station.border[1] - station.border[0]).head<2>();
     };
@@ -201,6 +207,35 @@ class Growth {
     } else {
       std::ranges::move(stations, std::back_inserter(to));
     }
+  }
+
+  /// Of two tracks that are joined, the one of the lower rank keeps its id: one that the last map showed.
+  std::pair<bool, ElementId> rank(const TrackEnd& end) const {
+    const LaneTrack& track = tracks_[end.track];
+    return {track.published == 0, track.id};
+  }
+
+  const LaneStation& last_station(const TrackEnd& end) const {
+    const std::vector<LaneStation>& stations = tracks_[end.track].stations;
+    return end.end == End::front ? stations.front() : stations.back();
+  }
+
+  /// Whether so much is hidden between what two tracks show that they would be parted as soon as they were
+  /// joined.
+  bool are_apart(const TrackEnd& a, const TrackEnd& b) const {
+    const auto at_a = hidden_at(a), at_b = hidden_at(b);
+    return at_a && at_b && !is_bridged(*at_a + *at_b, config_);
+  }
+
+  /// The number of stations from an end to the first one that will be shown. Empty: none will.
+  std::optional<std::size_t> hidden_at(const TrackEnd& end) const {
+    const std::vector<LaneStation>& stations = tracks_[end.track].stations;
+    const auto count = [](auto begin, auto last) -> std::optional<std::size_t> {
+      const auto shown = std::find_if(begin, last, is_to_show);
+      return shown == last ? std::nullopt : std::optional(static_cast<std::size_t>(shown - begin));
+    };
+    return end.end == End::front ? count(stations.begin(), stations.end())
+                                 : count(stations.rbegin(), stations.rend());
   }
 
   void join(const TrackEnd& kept, const TrackEnd& gone) {

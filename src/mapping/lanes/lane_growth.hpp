@@ -9,9 +9,10 @@
 
 namespace laneloom::lanes {
 
-/// Lets tracks grow along the strips of a frame. A strip that runs on beyond the end of a track extends it; a
-/// strip from the end of one to the end of another joins them, and the older one keeps its id; what no track
-/// covers is a new track. Where a strip shows two tracks in one place, the weaker one is forgotten.
+/// Lets tracks grow along the strips of a frame. A strip that runs on beyond the end of a track extends it. A
+/// strip from the end of one track to the end of another one joins them, and the older one that was shown
+/// keeps its id; two whose shown parts are far apart wait until what lies between them is shown. What no
+/// track covers is a new track. Where a strip shows two tracks in one place, the weaker one is forgotten.
 /// `matches` are those of each track.
 void grow(const std::vector<Strip>& strips, const std::vector<std::vector<Match>>& matches,
           const LaneConfig& config, markings::IdSource& ids, std::vector<LaneTrack>& tracks);

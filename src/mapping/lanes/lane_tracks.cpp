@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kMinSpacing = 0.4;   // of stations, as a share of LaneConfig::step_m
 constexpr std::size_t kLookedAt = 8;  // every so many stations tell how the road runs
-constexpr double kBridged_m = 8.0;    // a longer stretch that is not believed parts a lane
 
 /// Leaves out stations that do not lie ahead of the one before.
 void put_in_row(const LaneConfig& config, std::vector<LaneStation>& stations) {
@@ -35,18 +34,13 @@ void put_in_row(const LaneConfig& config, std::vector<LaneStation>& stations) {
 
 /// Shows and hides the stations of a track. Short stretches between shown ones are shown.
 void show(const LaneConfig& config, std::vector<LaneStation>& stations) {
-  for (LaneStation& station : stations)
-    station.shown = station.log_odds >= (station.shown ? kHidden : kShown);
-  const auto most = static_cast<std::size_t>(kBridged_m / config.step_m);
-  std::size_t hidden = most + 1;  // since the last one that is shown
+  for (LaneStation& station : stations) station.shown = is_to_show(station);
+  std::size_t last = stations.size();  // that is shown
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    if (!stations[i].shown) {
-      ++hidden;
-      continue;
-    }
-    if (hidden <= most)
-      for (std::size_t k = i - hidden; k < i; ++k) stations[k].shown = true;
-    hidden = 0;
+    if (!stations[i].shown) continue;
+    if (last < i && is_bridged(i - last - 1, config))
+      for (std::size_t k = last + 1; k < i; ++k) stations[k].shown = true;
+    last = i;
   }
 }
 

@@ -238,6 +238,28 @@ TEST_F(Tracks, TwoLanesInOnePlaceBecomeOne) {
   EXPECT_THAT(ids(), ElementsAre(100));
 }
 
+TEST_F(Tracks, LanesKeepTheirIdsWhileALongStretchBetweenThemIsHidden) {
+  frame({{-25, 25}});
+  const auto end_m = [&] { return lanes_.front().centerline.back().x(); };
+  for (int i = 0; i < 100 && end_m() > 10.0; ++i) frame({{-25, 5}});
+  ASSERT_LT(end_m(), 10.0);
+  frame({{-25, 5}, {28, 50}});
+  ASSERT_THAT(ids(), ElementsAre(100, 101));
+  frame({{-25, 50}});
+  EXPECT_THAT(ids(), ElementsAre(100, 101)) << "what lies between them is not shown yet";
+  for (int i = 0; i < 5; ++i) frame({{-25, 50}});
+  EXPECT_THAT(ids(), ElementsAre(100));
+  EXPECT_NEAR(length(lanes_[0].centerline), 75.0, 1.0);
+}
+
+TEST_F(Tracks, TheLaneThatWasShownKeepsItsIdWhereAHiddenOneJoinsIt) {
+  frame({{.from_m = 0, .to_m = 20, .status = ElementStatus::inferred}});
+  frame({{25, 50}});
+  ASSERT_THAT(ids(), ElementsAre(101));
+  frame({{0, 50}});
+  EXPECT_THAT(ids(), ElementsAre(101));
+}
+
 TEST_F(Tracks, EndWithTheBox) {
   frame({{-30, 30}});
   LaneLayout nothing{.boundaries = boundaries_};
