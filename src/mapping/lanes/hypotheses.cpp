@@ -46,13 +46,17 @@ class VehicleBeside {
                  std::abs(ahead_.dot(heading)) > kAsDriven * heading.norm();
   }
 
-  /// Whether the vehicle drives between the boundary and another one on its left.
-  bool is_left_up_to(const MeasuredPolyline& other) const {
+  /// Whether the vehicle drives in a lane, or in one of two, between the boundary and another one on its
+  /// left.
+  bool is_left_up_to(const MeasuredPolyline& other, Room room) const {
     if (!is_beside_) return false;
     const Projection foot = other.project(vehicle_, kStreetReach_m);
     if (foot.distance_m >= kStreetReach_m) return false;
     const double sense = other.direction(foot).dot(ahead_) > 0.0 ? 1.0 : -1.0;
-    return is_within(foot_.lateral_m, foot_.lateral_m - sense * foot.lateral_m);
+    const double width_m = foot_.lateral_m - sense * foot.lateral_m;
+    if (room == Room::between) return is_within(foot_.lateral_m, width_m);
+    const double half_m = 0.5 * width_m;
+    return is_within(foot_.lateral_m, half_m) || is_within(foot_.lateral_m - half_m, half_m);
   }
   bool is_in_open(Room room, double width_m) const {
     return is_beside_ && is_within(room == Room::open_left ? foot_.lateral_m : -foot_.lateral_m, width_m);
@@ -211,7 +215,7 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
   for (Hypothesis& one : found) {
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
       return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
-                               : vehicle.is_left_up_to(road.boundaries[one.other].course);
+                               : vehicle.is_left_up_to(road.boundaries[one.other].course, one.room);
     });
     std::vector<Place> places = places_of(one, cuts);
     // Two lanes fit into no gore.

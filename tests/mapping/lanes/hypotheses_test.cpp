@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "mapping/shapes.hpp"
+
 namespace laneloom::lanes {
 namespace {
 
@@ -40,6 +42,28 @@ TEST(BestRuns, BridgeWhatCostsLessThanToBeginAnew) {
 TEST(BestRuns, NeverLieWhereAnotherLaneIs) {
   EXPECT_THAT(best_runs(places({{10, 1}, {1, -1e6}, {10, 1}})),
               testing::ElementsAre(Runs(0, 10), Runs(11, 21)));
+}
+
+/// What a place of a street of 7 m says of a lane, or of two, where a vehicle drives that far from the right.
+double log_odds_of(Room room, double vehicle_y) {
+  boundaries::Boundaries edges;
+  for (const double y : {0.0, 7.0})
+    edges.insert(
+        {test::boundary(y > 0.0 ? 2 : 1, test::straight({0, y, 0}, {20, y, 0}, 21), MarkingType::roadedge)});
+  const auto road = boundaries::road_sections(std::move(edges), test::at(5), SectionConfig{});
+  const Eigen::Isometry3d vehicle = test::at(10, vehicle_y);
+  for (const Hypothesis& one : hypotheses(0, cut_along(0, road, {}), road, {&vehicle, 1}, {}))
+    if (one.room == room) return one.log_odds.at(10);
+  ADD_FAILURE() << "no hypothesis";
+  return 0.0;
+}
+
+TEST(Hypotheses, OfTwoLanesTheVehicleDrivesInOne) {
+  const double not_driven = log_odds_of(Room::divided, 100.0);
+  EXPECT_GT(log_odds_of(Room::divided, 1.75), not_driven);
+  EXPECT_GT(log_odds_of(Room::divided, 5.25), not_driven);
+  EXPECT_EQ(log_odds_of(Room::divided, 3.5), not_driven) << "it drives where they would meet";
+  EXPECT_GT(log_odds_of(Room::between, 3.5), log_odds_of(Room::between, 100.0));
 }
 
 }  // namespace
