@@ -69,4 +69,18 @@ DetectionFrame corrected(DetectionFrame frame, const Correction& correction,
   return frame;
 }
 
+TrackedObjects corrected(TrackedObjects objects, Correction correction, const Eigen::Isometry3d& T_map_body) {
+  correction.points_in_map = correction.points_in_map || objects.in_map_frame;
+  const Eigen::Affine3d T_body_points = body_from_points(correction, T_map_body);
+  for (TrackedObject& object : objects.objects) {
+    object.position = T_body_points * object.position;
+    object.heading = (T_body_points.linear() * object.heading).normalized();
+    object.speed_mps *= correction.point_scale;
+    for (double* length_m : {&object.position_stddev_m, &object.length_m, &object.width_m})
+      if (*length_m >= 0.0) *length_m *= correction.point_scale;
+  }
+  objects.in_map_frame = false;
+  return objects;
+}
+
 }  // namespace laneloom::check

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
 namespace laneloom::check {
@@ -35,5 +36,9 @@ Eigen::Affine3d body_from_points(const Correction& correction, const Eigen::Isom
 /// A frame as it is meant, with all of its points in the body frame.
 DetectionFrame corrected(DetectionFrame frame, const Correction& correction,
                          const Eigen::Isometry3d& T_map_body);
+
+/// Objects as they are meant, in the body frame. They are in the frame and the unit of the points. Those
+/// that are said to be in the map frame are taken from there.
+TrackedObjects corrected(TrackedObjects objects, Correction correction, const Eigen::Isometry3d& T_map_body);
 
 }  // namespace laneloom::check

@@ -20,6 +20,8 @@ Drive read_drive(replay::MessageSource& source, const std::function<void(double 
     if (const auto* pose = std::get_if<VehiclePose>(&message->message)) drive.poses.push_back(*pose);
     if (auto* frame = std::get_if<DetectionFrame>(&message->message))
       drive.frames[frame->source].push_back(std::move(*frame));
+    if (auto* objects = std::get_if<TrackedObjects>(&message->message))
+      drive.objects.push_back(std::move(*objects));
     on_step(source.progress());
   }
   return drive;

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -44,36 +45,43 @@ std::unique_ptr<replay::MessageSource> open_drive(const ImportFramesOptions& opt
       {.strict = options.strict, .conventions = {.any_confidence = true, .classes = options.classes}});
 }
 
-/// All frames, corrected, in the order of their stamps.
-std::vector<DetectionFrame> corrected_frames(const check::Drive& drive, const check::PoseTrack& poses,
-                                             const check::Correction& correction, std::size_t& without_pose) {
+/// Corrects messages, and puts them in the order of their stamps. Those without poses around them are left
+/// out. Returns how many.
+template <class Message>
+std::size_t correct(std::vector<Message>& messages, const check::PoseTrack& poses,
+                    const check::Correction& correction) {
+  const std::size_t without_pose = std::erase_if(
+      messages, [&](const Message& message) { return !poses.at(message.stamp_ns, correction); });
+  for (Message& message : messages) {
+    const Eigen::Isometry3d pose = *poses.at(message.stamp_ns, correction);
+    message = corrected(std::move(message), correction, pose);
+  }
+  std::ranges::stable_sort(messages, {}, &Message::stamp_ns);
+  return without_pose;
+}
+
+std::vector<DetectionFrame> frames_of_all_sources(check::Drive& drive) {
   std::vector<DetectionFrame> frames;
-  for (const auto& [source, of_source] : drive.frames)
-    for (const DetectionFrame& frame : of_source) {
-      const auto pose = poses.at(frame.stamp_ns, correction);
-      if (pose || !correction.points_in_map)
-        frames.push_back(corrected(frame, correction, pose.value_or(Eigen::Isometry3d::Identity())));
-      else
-        ++without_pose;
-    }
-  std::ranges::stable_sort(frames, {}, &DetectionFrame::stamp_ns);
+  for (auto& [source, of_source] : drive.frames) std::ranges::move(of_source, std::back_inserter(frames));
   return frames;
 }
 
 void import_frames(const ImportFramesOptions& options) {
   const auto source = open_drive(options);
-  const check::Drive drive = read_inputs(*source);
+  check::Drive drive = read_inputs(*source);
   warn_of(options.drive, source->refused(), source->cut_off());
   warn_of(options.drive, source->left_out());
   const check::PoseTrack track(drive.poses);
   std::vector<VehiclePose> poses = track.poses();
   for (VehiclePose& pose : poses) pose = corrected(pose, options.correction);
-  std::size_t without_pose = 0;
-  std::vector<DetectionFrame> frames = corrected_frames(drive, track, options.correction, without_pose);
+  std::vector<DetectionFrame> frames = frames_of_all_sources(drive);
+  std::size_t without_pose = correct(frames, track, options.correction);
+  correct(drive.objects, track, options.correction);
   without_pose += imports::drop_frames_without_pose(frames, poses);
   if (frames.empty()) throw std::runtime_error(options.drive + ": no frame is within the poses");
-  imports::write_drive(options.out, poses, frames);
-  fmt::print("{}: {} frames, {} poses\n", options.out, frames.size(), poses.size());
+  imports::write_drive(options.out, poses, frames, drive.objects);
+  fmt::print("{}: {} frames, {} poses, {} messages of objects\n", options.out, frames.size(), poses.size(),
+             drive.objects.size());
   if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
 }
 
