@@ -6,6 +6,7 @@
 
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
+#include "drawing/traffic_elements.hpp"
 #include "io/json_lines.hpp"
 #include "laneloom/element_names.hpp"
 #include "recording/recording.hpp"
@@ -62,8 +63,8 @@ class SceneRecording : public ::testing::Test {
   void SetUp() override {
     if (!std::filesystem::exists(std::string(INDEPENDENT_FOLDER) + "/node_modules/@mcap/core"))
       GTEST_SKIP() << "the npm registry could not be reached (see the test independent_install)";
-    laneloom({"simulate", "--scenario", "town", "--noise", "inhouse", "--duration", "12", "--frames",
-              file("drive.frames.jsonl")});
+    laneloom({"simulate", "--scenario", "town", "--traffic", "usual", "--noise", "inhouse", "--duration",
+              "12", "--frames", file("drive.frames.jsonl")});
     laneloom({"replay", "--in", file("drive.frames.jsonl"), "--out", file("maps.mcap")});
     write_drive();
     laneloom({"import", "scene", "--in", file("drive.mcap"), "--out", file("scene.mcap")});
@@ -94,6 +95,7 @@ class SceneRecording : public ::testing::Test {
     while (const auto record = frames.next_frame()) {
       const std::int64_t time_ns = record->frame.stamp_ns;
       out.write(record->frame, time_ns);
+      out.write(*record->objects, time_ns);
       out.write(record->pose, time_ns + 1);
       expect(*record, time_ns + 1, expected);
       if (const auto map = maps.find(time_ns); map != maps.end()) {
@@ -112,12 +114,17 @@ class SceneRecording : public ::testing::Test {
                {"translation", to_json({record.pose.position})[0]},
                {"rotation", {q.x(), q.y(), q.z(), q.w()}}}
        << '\n';
-    drawing::Drawing drawing;
-    add_detections(record.frame, T_map_body, drawing);
-    add_view(record.frame, T_map_body, drawing);
+    drawing::Drawing detections, objects;
+    add_detections(record.frame, T_map_body, detections);
+    add_view(record.frame, T_map_body, detections);
+    add_objects(*record.objects, T_map_body, objects);
     to << json{{"topic", "/laneloom/scene/detections"},
                {"log_time", std::to_string(time_ns)},
-               {"entities", entities_json(drawing, "map")}}
+               {"entities", entities_json(detections, "map")}}
+       << '\n'
+       << json{{"topic", "/laneloom/scene/objects"},
+               {"log_time", std::to_string(time_ns)},
+               {"entities", entities_json(objects, "map")}}
        << '\n';
   }
   static void expect(const PublishedMap& published, std::int64_t time_ns, std::ostream& to) {
@@ -143,7 +150,7 @@ class SceneRecording : public ::testing::Test {
 
 TEST_F(SceneRecording, IndependentReadersFindTheDrawingList) {
   EXPECT_EQ(compare(), 0) << output();
-  EXPECT_THAT(output(), testing::HasSubstr("480 messages"));
+  EXPECT_THAT(output(), testing::HasSubstr("600 messages"));
 }
 
 // The comparison itself: one coordinate that differs is found.
@@ -169,7 +176,7 @@ TEST_F(SceneRecording, TheRestIsTheSameByteForByte) {
     EXPECT_EQ(found->bytes, wanted->bytes);
     ++count;
   }
-  EXPECT_EQ(count, 360U);
+  EXPECT_EQ(count, 480U);
   EXPECT_FALSE(after.next_raw());
   EXPECT_TRUE(after.refused().values().empty());
 }
@@ -182,7 +189,7 @@ TEST_F(SceneRecording, TheLayoutShowsTopicsThatThereAre) {
     EXPECT_THAT(scene_topics(), testing::Contains(testing::Field(&recording::ExtraTopic::name, topic)));
     shown += settings["visible"] == true ? 1U : 0U;
   }
-  EXPECT_EQ(shown, 2U);
+  EXPECT_EQ(shown, 3U);
   EXPECT_EQ(panel["followTf"], "body");
 }
 

@@ -86,6 +86,21 @@ TEST(SceneEntities, PointsAreRelativeToAnOriginNearby) {
   EXPECT_LT((point - map.boundaries[0].points.front()).head<2>().norm(), 1e-6);
 }
 
+TEST(SceneMaker, ObjectsWaitForThePoseAtTheirStampInEitherFrame) {
+  const VehiclePose pose{.stamp_ns = 10, .position = Point(100, 0, 0)};
+  const TrackedObject car{.id = 7, .kind = ObjectKind::car, .position = {20, 0, 0}, .heading = {1, 0, 0}};
+  TrackedObject in_map = car;
+  in_map.position.x() = 120.0;
+  SceneMaker body("map"), map("map");
+  EXPECT_THAT(body.take(TrackedObjects{.stamp_ns = 10, .objects = {car}}, 1), IsEmpty());
+  EXPECT_THAT(map.take(TrackedObjects{.stamp_ns = 10, .objects = {in_map}, .in_map_frame = true}, 1),
+              IsEmpty());
+  const std::vector<SceneMessage> of_body = body.take(pose, 2), of_map = map.take(pose, 2);
+  ASSERT_EQ(of_body.size(), 2U) << "its transform, and the objects";
+  EXPECT_EQ(of_body[1].topic, SceneTopic::objects);
+  EXPECT_EQ(of_body[1].bytes, of_map.at(1).bytes);
+}
+
 TEST(SceneMaker, MessagesThatAreNoneChangeNothing) {
   SceneMaker maker("map");
   for (std::size_t topic = 0; topic < std::variant_size_v<recording::AnyMessage>; ++topic) {

@@ -4,6 +4,7 @@
 
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
+#include "drawing/traffic_elements.hpp"
 #include "laneloom/dds/cdr.hpp"
 #include "scene/scene_entities.hpp"
 
@@ -26,6 +27,15 @@ drawing::Drawing ids_of(const LocalMap& map) {
   return drawing;
 }
 
+void add_seen(const DetectionFrame& frame, drawing::Drawing& drawing) {
+  add_detections(frame, drawing.T_map_body, drawing);
+  add_view(frame, drawing.T_map_body, drawing);
+}
+
+void add_seen(const TrackedObjects& objects, drawing::Drawing& drawing) {
+  add_objects(in_body_frame(objects, drawing.T_map_body), drawing.T_map_body, drawing);
+}
+
 }  // namespace
 
 const std::vector<recording::ExtraTopic>& scene_topics() {
@@ -33,6 +43,7 @@ const std::vector<recording::ExtraTopic>& scene_topics() {
   static const std::vector<recording::ExtraTopic> topics{
       {"/laneloom/scene", foxglove::kSceneUpdateType, foxglove::kIdl},
       {"/laneloom/scene/detections", foxglove::kSceneUpdateType, foxglove::kIdl},
+      {"/laneloom/scene/objects", foxglove::kSceneUpdateType, foxglove::kIdl},
       {"/laneloom/scene/ids", foxglove::kSceneUpdateType, foxglove::kIdl},
       {"/tf", foxglove::kFrameTransformType, foxglove::kIdl}};
   return topics;
@@ -53,6 +64,7 @@ std::vector<SceneMessage> SceneMaker::take(const recording::RawMessage& message)
   if (message.topic == recording::AnyMessage(PublishedMap{}).index()) take_as<PublishedMap>(message, out);
   if (message.topic == recording::AnyMessage(VehiclePose{}).index()) take_as<VehiclePose>(message, out);
   if (message.topic == recording::AnyMessage(DetectionFrame{}).index()) take_as<DetectionFrame>(message, out);
+  if (message.topic == recording::AnyMessage(TrackedObjects{}).index()) take_as<TrackedObjects>(message, out);
   return out;
 }
 
@@ -61,6 +73,7 @@ std::vector<SceneMessage> SceneMaker::take(const recording::AnyMessage& message,
   if (const auto* map = std::get_if<PublishedMap>(&message)) draw(*map, log_time_ns, out);
   if (const auto* pose = std::get_if<VehiclePose>(&message)) draw(*pose, log_time_ns, out);
   if (const auto* frame = std::get_if<DetectionFrame>(&message)) draw(*frame, log_time_ns, out);
+  if (const auto* objects = std::get_if<TrackedObjects>(&message)) draw(*objects, log_time_ns, out);
   return out;
 }
 
@@ -91,29 +104,38 @@ void SceneMaker::draw(const VehiclePose& pose, std::int64_t time_ns, std::vector
   poses_.add(pose);
   to.push_back({SceneTopic::transforms, foxglove::to_cdr(foxglove::FrameTransform{
                                             time_ns, map_frame_id_, kBodyFrame, transform(pose)})});
-  draw_located_frames(time_ns, to);
+  draw_waiting(detections_, time_ns, to);
+  draw_waiting(objects_, time_ns, to);
 }
 
 void SceneMaker::draw(const DetectionFrame& frame, std::int64_t time_ns, std::vector<SceneMessage>& to) {
-  waiting_.push_back(frame);
-  if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
-  draw_located_frames(time_ns, to);
+  wait_in(detections_, frame, time_ns, to);
 }
 
-void SceneMaker::draw_located_frames(std::int64_t time_ns, std::vector<SceneMessage>& to) {
-  while (!waiting_.empty()) {
-    const DetectionFrame& frame = waiting_.front();
+void SceneMaker::draw(const TrackedObjects& objects, std::int64_t time_ns, std::vector<SceneMessage>& to) {
+  wait_in(objects_, objects, time_ns, to);
+}
+
+template <class T>
+void SceneMaker::wait_in(Located<T>& located, const T& message, std::int64_t time_ns,
+                         std::vector<SceneMessage>& to) {
+  located.waiting.push_back(message);
+  if (located.waiting.size() > kMaxWaiting) located.waiting.pop_front();
+  draw_waiting(located, time_ns, to);
+}
+
+template <class T>
+void SceneMaker::draw_waiting(Located<T>& located, std::int64_t time_ns, std::vector<SceneMessage>& to) {
+  for (; !located.waiting.empty(); located.waiting.pop_front()) {
     drawing::Drawing drawing;
-    const session::PoseBuffer::Answer answer = poses_.at(frame.stamp_ns, drawing.T_map_body);
+    const session::PoseBuffer::Answer answer =
+        poses_.at(located.waiting.front().stamp_ns, drawing.T_map_body);
     if (answer == session::PoseBuffer::Answer::not_yet) return;
-    if (answer == session::PoseBuffer::Answer::found) {
-      add_detections(frame, drawing.T_map_body, drawing);
-      add_view(frame, drawing.T_map_body, drawing);
-      std::vector<foxglove::SceneEntity> entities;
-      append_entities(drawing, {map_frame_id_}, entities);
-      to.push_back(message_of(SceneTopic::detections, detections_.update(std::move(entities), time_ns)));
-    }
-    waiting_.pop_front();
+    if (answer == session::PoseBuffer::Answer::never) continue;
+    add_seen(located.waiting.front(), drawing);
+    std::vector<foxglove::SceneEntity> entities;
+    append_entities(drawing, {map_frame_id_}, entities);
+    to.push_back(message_of(located.topic, located.scene.update(std::move(entities), time_ns)));
   }
 }
 

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "laneloom/messages.hpp"
+#include "laneloom/objects.hpp"
 #include "recording/recording.hpp"
 #include "scene/foxglove.hpp"
 #include "session/pose_buffer.hpp"
 
 namespace laneloom::scene {
 
-enum class SceneTopic : std::uint8_t { map, detections, ids, transforms };
+enum class SceneTopic : std::uint8_t { map, detections, objects, ids, transforms };
 
 /// The topics that a recording or a server has to announce, in the order of SceneTopic.
 const std::vector<recording::ExtraTopic>& scene_topics();
@@ -43,26 +44,39 @@ class SceneMaker {
   explicit SceneMaker(std::string map_frame_id) : map_frame_id_(std::move(map_frame_id)) {}
 
   /// Takes a message, in the order of log times, and returns the scenes that it changes. A message that is
-  /// refused, or of which nothing is drawn, changes none. Detections are drawn when the pose at their stamp
-  /// is known.
+  /// refused, or of which nothing is drawn, changes none. Detections and objects are drawn when the pose at
+  /// their stamp is known.
   std::vector<SceneMessage> take(const recording::RawMessage& message);
   /// Does the same with a message that was not refused.
   std::vector<SceneMessage> take(const recording::AnyMessage& message, std::int64_t log_time_ns);
 
  private:
+  /// The scene of messages that wait for the pose at their stamp.
+  template <class T>
+  struct Located {
+    SceneTopic topic;
+    SceneStream scene = {};
+    std::deque<T> waiting = {};
+  };
+
   template <class T>
   void take_as(const recording::RawMessage& message, std::vector<SceneMessage>& to);
   void draw(const PublishedMap& published, std::int64_t time_ns, std::vector<SceneMessage>& to);
   void draw(const VehiclePose& pose, std::int64_t time_ns, std::vector<SceneMessage>& to);
   void draw(const DetectionFrame& frame, std::int64_t time_ns, std::vector<SceneMessage>& to);
-  void draw_located_frames(std::int64_t time_ns, std::vector<SceneMessage>& to);
+  void draw(const TrackedObjects& objects, std::int64_t time_ns, std::vector<SceneMessage>& to);
+  template <class T>
+  void wait_in(Located<T>& located, const T& message, std::int64_t time_ns, std::vector<SceneMessage>& to);
+  template <class T>
+  void draw_waiting(Located<T>& located, std::int64_t time_ns, std::vector<SceneMessage>& to);
 
   std::string map_frame_id_;
-  SceneStream map_, detections_, ids_;
+  SceneStream map_, ids_;
   session::PoseBuffer poses_{SyncConfig{}};
   std::uint64_t pose_session_ = 0;
   std::int64_t newest_pose_ns_ = 0;
-  std::deque<DetectionFrame> waiting_;  ///< frames that wait for the pose at their stamp
+  Located<DetectionFrame> detections_{SceneTopic::detections};
+  Located<TrackedObjects> objects_{SceneTopic::objects};
 };
 
 }  // namespace laneloom::scene
