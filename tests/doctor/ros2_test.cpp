@@ -74,6 +74,29 @@ TEST(Ros2, ObjectsAreOptional) {
   EXPECT_THAT(ids(ros_findings(seen)), IsEmpty());
 }
 
+TEST(Ros2, TheServiceTellsHowOftenNodesWrite) {
+  Observed seen = with_nodes();
+  seen.detections = seen.poses = {};
+  seen.sources.clear();
+  const auto found_at = [&](std::uint64_t detections, std::uint64_t poses, std::uint64_t objects) {
+    ServiceStatus& last = seen.services[0].last;
+    last.published_ns = seen.services[0].first.published_ns + 2'000'000'000;
+    last.counters = {
+        {"detections_received", detections}, {"poses_received", poses}, {"objects_received", objects}};
+    return ids(stream_findings(seen));
+  };
+  EXPECT_THAT(found_at(7, 39, 0), IsEmpty()) << "nobody writes objects";
+  EXPECT_THAT(found_at(6, 38, 0), ElementsAre("detections_slow", "poses_slow"));
+  seen.endpoints.push_back(node(true, "rt/perception/objects", kObjects));
+  seen.services[0].last.configuration.emplace_back("ros2.objects_topic", "/perception/objects");
+  EXPECT_THAT(found_at(8, 40, 4), IsEmpty());
+  EXPECT_THAT(found_at(8, 40, 2), ElementsAre("objects_slow"));
+  EXPECT_EQ(stream_findings(seen)[0].found, "1.0 objects come in a second; it should be 2 at least.");
+  EXPECT_THAT(found_at(8, 40, 0), ElementsAre("objects_slow"));
+  seen.services[0].first.published_ns += 1'500'000'000;
+  EXPECT_THAT(ids(stream_findings(seen)), IsEmpty()) << "too early to tell";
+}
+
 TEST(Ros2, NotEnabled) {
   Observed seen = with_nodes();
   seen.services[0].last.configuration[0].second = "false";

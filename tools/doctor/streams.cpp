@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/seconds.hpp"
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
+#include "doctor/ros2.hpp"
 #include "laneloom/dds/topics.hpp"
+#include "status/report.hpp"
 
 namespace laneloom::doctor {
 namespace {
@@ -46,18 +49,40 @@ void judge_numbers(const Stream& stream, Findings& found) {
                    "Count sequence_number up by one with each message."});
 }
 
+Finding slow(std::string_view input, const std::string& what, double rate_hz, double min_hz) {
+  return {fmt::format("{}_slow", input),
+          fmt::format("{:.1f} {} come in a second; it should be {} at least.", rate_hz, what, min_hz),
+          "Frames are only mapped between two poses at most sync.max_pose_gap_s apart; without "
+          "new ones, the map gets stale.",
+          "See whether their writer is overloaded, or the network loses them (counters *_lost)."};
+}
+
 void judge_slow(const Stream& stream, double min_hz, Findings& found) {
   const InputObserved& observed = *stream.messages;
   if (observed.messages == 0 || observed.window_s < kMinWindow_s) return;
   // The window ends between two messages, so that one message more must not decide.
   const double messages = static_cast<double>(observed.messages);
-  if ((messages + 1.0) / observed.window_s >= min_hz) return;
-  found.push_back({fmt::format("{}_slow", stream.input),
-                   fmt::format("{:.1f} {} come in a second; it should be {} at least.",
-                               (messages - 1.0) / observed.window_s, stream.what, min_hz),
-                   "Frames are only mapped between two poses at most sync.max_pose_gap_s apart; without "
-                   "new ones, the map gets stale.",
-                   "See whether their writer is overloaded, or the network loses them (counters *_lost)."});
+  if ((messages + 1.0) / observed.window_s < min_hz)
+    found.push_back(slow(stream.input, stream.what, (messages - 1.0) / observed.window_s, min_hz));
+}
+
+/// Judges the rates of what nodes of ROS 2 write. The service counts these messages, and the doctor does not
+/// read them.
+void judge_counted(const Observed& seen, Findings& found) {
+  if (seen.services.empty()) return;
+  const ServiceObserved& service = seen.services.back();
+  const double window_s = seconds(service.last.published_ns) - seconds(service.first.published_ns);
+  if (window_s < kMinWindow_s) return;
+  const auto rises = status::rises(service.last, service.first);
+  const auto judge = [&](const std::string& input, const InputObserved& own, double min_hz) {
+    const auto rise = rises.find(input + "_received");
+    const double messages = rise == rises.end() ? 0.0 : static_cast<double>(rise->second);
+    if (own.messages == 0 && (messages + 1.0) / window_s < min_hz)
+      found.push_back(slow(input, input, messages / window_s, min_hz));
+  };
+  if (ros_writes_detections(seen)) judge("detections", seen.detections, kMinDetections_hz);
+  if (ros_writes_poses(seen)) judge("poses", seen.poses, kMinPoses_hz);
+  if (ros_writes_objects(seen)) judge("objects", seen.objects, kMinObjects_hz);
 }
 
 void judge_fast(const InputObserved& frames, Findings& found) {
@@ -188,6 +213,7 @@ Findings stream_findings(const Observed& seen) {
   judge_detections(seen, found);
   judge_poses(seen, found);
   judge_objects(seen, found);
+  judge_counted(seen, found);
   judge_datagrams(seen, found);
   for (const Stream& stream : detections(seen)) judge_sensor_clock(stream, seen.poses, found);
   judge_host_clocks(seen, found);
