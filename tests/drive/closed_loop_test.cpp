@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "simulation/scenarios.hpp"
 
@@ -74,6 +77,26 @@ TEST(ClosedLoop, TheSameSeedGivesTheSameDrive) {
   };
   EXPECT_EQ(drive(1), drive(1));
   EXPECT_NE(drive(1), drive(2));
+}
+
+TEST(ClosedLoop, TheMapHearsOfTheTraffic) {
+  const simulation::Road road = simulation::make_scenario("street");
+  const auto is_told_by_traffic = [](const Lane& lane) {
+    return overlap(lane.direction_evidence, Evidence::traffic);
+  };
+  const auto lanes_told = [&](std::optional<simulation::TrafficProfile> traffic) {
+    LocalMapService service{Config{}};
+    ClosedLoop loop(road, {.traffic = std::move(traffic)}, service);
+    std::ptrdiff_t told = 0;
+    for (int second = 1; second <= 20; ++second) {
+      run(loop, second);
+      told +=
+          std::ranges::count_if(service.newest(std::llround(loop.time_s() * 1e9)).lanes, is_told_by_traffic);
+    }
+    return told;
+  };
+  EXPECT_EQ(lanes_told(std::nullopt), 0);
+  EXPECT_GT(lanes_told(simulation::traffic_profile("exact")), 0);
 }
 
 // Else a drive of so many kilometres would never end.

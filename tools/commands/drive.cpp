@@ -44,8 +44,11 @@ bool is_over(const DriveOptions& options, const drive::ClosedLoop& loop) {
 }
 
 drive::ClosedLoopSpec loop_spec(const experiment::DriveSpec& drive, const DriveOptions& options) {
-  return {
-      .noise = drive.noise, .seed = drive.seed, .speed_mps = options.roads.speed_mps, .drift = drive.drift};
+  return {.noise = drive.noise,
+          .seed = drive.seed,
+          .speed_mps = options.roads.speed_mps,
+          .drift = drive.drift,
+          .traffic = drive.traffic};
 }
 
 Config read_config(const DriveOptions& options) {
@@ -128,6 +131,7 @@ void add_drive(CLI::App& app) {
       ->check(within(1.0, 40.0))
       ->capture_default_str();
   add_noise(*command, options->noise);
+  add_traffic(*command, options->roads.traffic);
   auto* duration = command->add_option("--duration", options->duration_s, "Simulated seconds per drive")
                        ->check(positive_seconds())
                        ->capture_default_str();

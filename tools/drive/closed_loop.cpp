@@ -44,6 +44,7 @@ ClosedLoop::ClosedLoop(const simulation::Road& road, ClosedLoopSpec spec, MapSer
       navigator_(road, lanes_),
       perception_(road, spec_.noise, simulation::SensorView{}, spec_.seed),
       network_(spec_.seed) {
+  if (spec_.traffic) traffic_.emplace(road_, *spec_.traffic, spec_.seed);
   restart(navigator_.at_begin());
 }
 
@@ -101,6 +102,11 @@ void ClosedLoop::sense() {
     DetectionFrame frame = perception_.observe(pose);
     frame.session_id = spec_.session_id;
     network_.put(std::move(frame), now_ns());
+    if (traffic_) {
+      TrackedObjects objects = traffic_->observe(pose);
+      objects.session_id = spec_.session_id;
+      service_.send(objects);
+    }
   }
   while (const std::optional<DetectionFrame> frame = network_.take(now_ns())) service_.send(*frame, now_ns());
 }

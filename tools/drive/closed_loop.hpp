@@ -11,6 +11,7 @@
 #include "simulation/noise_profile.hpp"
 #include "simulation/odometry.hpp"
 #include "simulation/perception.hpp"
+#include "simulation/traffic.hpp"
 
 namespace laneloom::drive {
 
@@ -18,9 +19,10 @@ namespace laneloom::drive {
 struct ClosedLoopSpec {
   simulation::NoiseProfile noise;
   std::uint64_t seed = 1;
-  double speed_mps = 10.0;       ///< greatest speed
-  double drift = 0.0;            ///< of the odometry, as a share of the distance driven
-  std::int64_t start_ns = 1;     ///< of the sensor clock
+  double speed_mps = 10.0;  ///< greatest speed
+  double drift = 0.0;       ///< of the odometry, as a share of the distance driven
+  std::optional<simulation::TrafficProfile> traffic = {};  ///< none: there is no tracker
+  std::int64_t start_ns = 1;                               ///< of the sensor clock
   std::uint64_t session_id = 1;  ///< of the first start; each restart has the next id
 };
 
@@ -71,6 +73,7 @@ class ClosedLoop {
   Navigator navigator_;
   simulation::Perception perception_;
   simulation::NetworkDelay<DetectionFrame> network_;
+  std::optional<simulation::Traffic> traffic_;
   std::int64_t steps_ = 0;
   // Since the last restart.
   Bicycle vehicle_;                                           ///< the true state

@@ -8,6 +8,7 @@ DdsMapService::DdsMapService(const DdsConfig& dds)
     : participant_(dds, "laneloom-lab drive"),
       detections_(participant_),
       poses_(participant_),
+      objects_(participant_),
       maps_(participant_, {.sample = [this](PublishedMap&& map) { take(std::move(map)); },
                            .refused = {},
                            .matched = {},

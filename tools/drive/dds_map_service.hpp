@@ -20,6 +20,7 @@ class DdsMapService : public MapService {
 
   void send(const VehiclePose& pose) override { poses_.write(pose); }
   void send(const DetectionFrame& frame, std::int64_t) override { detections_.write(frame); }
+  void send(const TrackedObjects& objects) override { objects_.write(objects); }
   const LocalMap& newest(std::int64_t) override;
 
  private:
@@ -33,6 +34,7 @@ class DdsMapService : public MapService {
   dds::Participant participant_;
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
+  dds::Writer<TrackedObjects> objects_;
   dds::Reader<PublishedMap> maps_;  // last: its callbacks end first
 };
 
