@@ -112,8 +112,10 @@ void check_live(const ReplayResult& result) {
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error)) return true;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(a, error);
-  return !error && whole == std::filesystem::weakly_canonical(b, error);
+  const auto whole = [&error](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+  };
+  return whole(a) == whole(b) && !error;
 }
 
 /// Refuses to write a file that is read, or one that is written already.
