@@ -5,9 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "commands.hpp"
 #include "own_domain.hpp"
-#include "support/child_process.hpp"
-#include "temporary_folder.hpp"
 
 namespace laneloom::bench {
 namespace {
@@ -15,25 +14,18 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Runs the real `laneloom-lab bench`.
-class BenchCommand : public testing::Test {
+class BenchCommand : public Commands {
  protected:
-  int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {LANELOOM_LAB, "bench"});
-    return support::ChildProcess(arguments, file_).wait();
-  }
-  std::string output() const { return content(file_); }
+  int run(const std::string& words) const override { return run_lab("bench " + words); }
 
   /// A program that reports this, wherever it is asked to.
   void make_peer(const std::string& report) {
-    std::ofstream(peer_) << "#!/bin/sh\nwhile [ \"$1\" != --report ]; do shift; done\necho '" << report
-                         << "' > \"$2\"\n";
-    std::filesystem::permissions(peer_, std::filesystem::perms::owner_all);
+    std::ofstream(file("peer")) << "#!/bin/sh\nwhile [ \"$1\" != --report ]; do shift; done\necho '" << report
+                                << "' > \"$2\"\n";
+    std::filesystem::permissions(file("peer"), std::filesystem::perms::owner_all);
   }
 
-  const TemporaryFolder folder_;
-  const std::string file_ = folder_.file("output"), peer_ = folder_.file("peer");
-  const std::vector<std::string> short_drive_{"--scenario", "straight", "--duration", "1", "--json"};
+  const std::string short_drive_ = "--scenario straight --duration 1 --json";
 };
 
 void expect_times(const json& ms, const std::string& what) {
@@ -43,7 +35,7 @@ void expect_times(const json& ms, const std::string& what) {
 }
 
 TEST_F(BenchCommand, TimesStagesAndCountsMemory) {
-  ASSERT_EQ(run(short_drive_), 0) << output();
+  ASSERT_TRUE(done(short_drive_));
   const json result = json::parse(output());
   EXPECT_EQ(result.at("frames"), 10);
   for (const char* stage : {"preprocess", "association", "polylines", "lanes", "total"})
@@ -59,9 +51,7 @@ TEST_F(BenchCommand, HoldsThePeersOwnTimesAgainstOurs) {
   make_peer(
       R"({"frames": 10, "peak_rss_mb": 12.5, "ms": {"fuse": {"mean": 3, "p50": 3, "p99": 3, "max": 3},
           "total": {"mean": 40, "p50": 39, "p99": 90, "max": 95}}})");
-  std::vector<std::string> words = short_drive_;
-  words.insert(words.end(), {"--peer", peer_});
-  ASSERT_EQ(run(words), 0) << output();
+  ASSERT_TRUE(done(short_drive_ + " --peer ./peer"));
   const json result = json::parse(output()), &peer = result.at("peer"), &ours = result.at("ms").at("total");
   EXPECT_EQ(peer.at("peak_rss_mb"), 12.5);
   EXPECT_EQ(peer.at("ms").at("fuse").at("p99"), 3.0);
@@ -73,18 +63,13 @@ TEST_F(BenchCommand, APeerWithoutAWholeReportIsNamed) {
   for (const char* report : {"no json", R"({"frames": 10, "peak_rss_mb": 1, "ms": {}})",
                              R"({"frames": 9, "peak_rss_mb": 1, "ms": {}})"}) {
     make_peer(report);
-    std::vector<std::string> words = short_drive_;
-    words.insert(words.end(), {"--peer", peer_});
-    EXPECT_EQ(run(words), 1) << report;
-    EXPECT_THAT(output(), HasSubstr(peer_));
+    EXPECT_EQ(run(short_drive_ + " --peer ./peer"), 1) << report;
+    EXPECT_THAT(output(), HasSubstr("./peer"));
   }
 }
 
 TEST_F(BenchCommand, ScalesByDetectionsRangeTimeAndVehicles) {
-  std::vector<std::string> words = short_drive_;
-  words.insert(words.begin(), "scale");
-  words.insert(words.end(), {"--minutes", "3"});
-  ASSERT_EQ(run(words), 0) << output();
+  ASSERT_TRUE(done("scale " + short_drive_ + " --minutes 3"));
   const json result = json::parse(output());
   EXPECT_EQ(result.at("detections").size(), 5U);
   EXPECT_EQ(result.at("detections").back().at("factor"), 16);
@@ -103,10 +88,8 @@ TEST_F(BenchCommand, ScalesByDetectionsRangeTimeAndVehicles) {
 TEST_F(BenchCommand, TimesTheMapsOfARealService) {
   const std::string domain = std::to_string(own_domain());
   for (const char* transport : {"udp", "udp+shm"}) {
-    ASSERT_EQ(run({"latency", "--scenario", "straight", "--duration", "3", "--domain", domain, "--transport",
-                   transport, "--load", "--viewers", "2", "--json"}),
-              0)
-        << output();
+    ASSERT_TRUE(done("latency --scenario straight --duration 3 --domain " + domain + " --transport " +
+                     transport + " --load --viewers 2 --json"));
     const json result = json::parse(output());
     EXPECT_EQ(result.at("transport"), transport);
     EXPECT_GE(result.at("busy_threads"), 1);
@@ -126,34 +109,30 @@ TEST_F(BenchCommand, TimesTheMapsOfARealService) {
 }
 
 TEST_F(BenchCommand, PrintsTables) {
-  ASSERT_EQ(run({"--scenario", "straight", "--duration", "1"}), 0) << output();
+  ASSERT_TRUE(done("--scenario straight --duration 1"));
   EXPECT_THAT(output(), HasSubstr("association"));
   EXPECT_THAT(output(), HasSubstr("allocations per frame"));
 }
 
 TEST_F(BenchCommand, WrongInputIsNamed) {
-  EXPECT_NE(run({"--scenario", "nowhere"}), 0);
-  EXPECT_NE(run({"--duration", "0"}), 0);
-  EXPECT_NE(run({"--peer", "/nowhere/peer"}), 0);
-  EXPECT_NE(run({"latency", "--transport", "pigeon"}), 0);
-  EXPECT_NE(run({"scale", "--minutes", "0"}), 0);
+  EXPECT_NE(run("--scenario nowhere"), 0);
+  EXPECT_NE(run("--duration 0"), 0);
+  EXPECT_NE(run("--peer /nowhere/peer"), 0);
+  EXPECT_NE(run("latency --transport pigeon"), 0);
+  EXPECT_NE(run("scale --minutes 0"), 0);
 }
 
 TEST_F(BenchCommand, OptionsBeforeASubcommandAreRefused) {
-  for (const char* what : {"latency", "scale"}) {
-    for (const std::vector<std::string>& option :
-         {std::vector<std::string>{"--json"}, {"--seed", "3"}, {"--duration", "1"}}) {
-      std::vector<std::string> words = option;
-      words.emplace_back(what);
-      words.insert(words.end(), {"--scenario", "straight", "--duration", "0.1"});
-      EXPECT_GT(run(words), 1) << what << " " << option.front();
-      EXPECT_THAT(output(), HasSubstr(option.front()));
+  for (const std::string what : {"latency", "scale"}) {
+    for (const std::string option : {"--json", "--seed 3", "--duration 1"}) {
+      EXPECT_GT(run(option + " " + what + " --scenario straight --duration 0.1"), 1) << what << option;
+      EXPECT_THAT(output(), HasSubstr(option.substr(0, option.find(' '))));
     }
   }
 }
 
 TEST_F(BenchCommand, MicroBenchmarksHaveEveryStage) {
-  ASSERT_EQ(support::ChildProcess({LANELOOM_MICROBENCH, "--benchmark_list_tests"}, file_).wait(), 0);
+  ASSERT_EQ(shell("'" LANELOOM_MICROBENCH "' --benchmark_list_tests"), 0);
   for (const char* one : {"lines/association", "lines/linkages", "voxels/clustering", "map_to_cdr"})
     EXPECT_THAT(output(), HasSubstr(one));
 }

@@ -6,49 +6,34 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "commands.hpp"
 #include "laneloom/polyline.hpp"
 #include "simulation/lanelet2.hpp"
 #include "simulation/opendrive.hpp"
-#include "support/child_process.hpp"
-#include "temporary_folder.hpp"
 
 namespace laneloom::exports {
 namespace {
 
 using testing::HasSubstr;
 
-/// Runs the real `laneloom`.
-class ExportCommand : public testing::Test {
+class ExportCommand : public Commands {
  protected:
-  std::string file(const std::string& name) const { return folder_.file(name); }
-  int run(const std::vector<std::string>& arguments) {
-    std::vector<std::string> command{LANELOOM_COMMAND};
-    command.insert(command.end(), arguments.begin(), arguments.end());
-    return support::ChildProcess(command, file("output")).wait();
-  }
-  std::string output() const { return content(file("output")); }
   void simulate(const std::string& scenario) {
-    ASSERT_EQ(
-        run({"simulate", "--scenario", scenario, "--frames", file("drive.frames.jsonl"), "--duration", "20"}),
-        0)
-        << output();
+    ASSERT_TRUE(done("simulate --scenario " + scenario + " --frames drive.frames.jsonl --duration 20"));
   }
-
- private:
-  TemporaryFolder folder_;
 };
 
 TEST_F(ExportCommand, FramesRecordingsAndMapsGiveTheSameMap) {
   simulate("intersection");
   const auto exported = [&](const std::string& in) {
-    EXPECT_EQ(run({"export", "--in", file(in), "--lanelet2", file("map.osm")}), 0) << output();
-    return content(file("map.osm"));
+    EXPECT_TRUE(done("export --in " + in + " --lanelet2 map.osm"));
+    return text("map.osm");
   };
   const std::string of_frames = exported("drive.frames.jsonl");
   EXPECT_THAT(output(), HasSubstr("made of the detections"));
   EXPECT_GT(simulation::load_lanelet2(file("map.osm")).lanes.size(), 8u);
   for (const std::string maps : {"maps.mcap", "maps.jsonl"}) {
-    ASSERT_EQ(run({"replay", "--in", file("drive.frames.jsonl"), "--out", file(maps)}), 0) << output();
+    ASSERT_TRUE(done("replay --in drive.frames.jsonl --out " + maps));
     const std::string of_maps = exported(maps);
     EXPECT_THAT(output(), HasSubstr("maps read"));
     EXPECT_TRUE(maps != "maps.mcap" || of_maps == of_frames);
@@ -73,10 +58,7 @@ std::size_t successors_of(const simulation::Road& road) {
 TEST_F(ExportCommand, OpenDriveHasTheLanesAndMarksOfLanelet2) {
   for (const std::string scenario : {"town", "exit"}) {
     simulate(scenario);
-    ASSERT_EQ(run({"export", file("drive.frames.jsonl"), "--lanelet2", file("map.osm"), "--opendrive",
-                   file("map.xodr")}),
-              0)
-        << output();
+    ASSERT_TRUE(done("export drive.frames.jsonl --lanelet2 map.osm --opendrive map.xodr"));
     LeftOut nothing(/*strict=*/true);
     const simulation::Road osm = simulation::load_lanelet2(file("map.osm"));
     const simulation::Road xodr = simulation::load_opendrive(file("map.xodr"), 10.0, nothing);
@@ -101,41 +83,29 @@ TEST_F(ExportCommand, OpenDriveHasTheLanesAndMarksOfLanelet2) {
 
 TEST_F(ExportCommand, OsmiumFindsEveryReference) {
   simulate("intersection");
-  ASSERT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--lanelet2", file("map.osm")}), 0)
-      << output();
-  EXPECT_EQ(
-      support::ChildProcess({"/usr/bin/osmium", "check-refs", "-r", file("map.osm")}, file("output")).wait(),
-      0)
-      << output();
+  ASSERT_TRUE(done("export --in drive.frames.jsonl --lanelet2 map.osm"));
+  EXPECT_EQ(shell("osmium check-refs -r map.osm"), 0) << output();
   EXPECT_THAT(output(), HasSubstr("Ways      in relations missing: 0"));
 }
 
 TEST_F(ExportCommand, PlainLanelet2HasStopLinesAsWaysOnly) {
   simulate("intersection");
   for (const bool plain : {false, true}) {
-    std::vector<std::string> arguments{"export", "--in", file("drive.frames.jsonl"), "--lanelet2",
-                                       file("map.osm")};
-    if (plain) arguments.emplace_back("--plain");
-    ASSERT_EQ(run(arguments), 0) << output();
-    EXPECT_EQ(content(file("map.osm")).find("regulatory_element") == std::string::npos, plain);
-    EXPECT_THAT(content(file("map.osm")), HasSubstr("stop_line"));
+    ASSERT_TRUE(
+        done(std::string("export drive.frames.jsonl --lanelet2 map.osm") + (plain ? " --plain" : "")));
+    EXPECT_EQ(text("map.osm").find("regulatory_element") == std::string::npos, plain);
+    EXPECT_THAT(text("map.osm"), HasSubstr("stop_line"));
   }
 }
 
 TEST_F(ExportCommand, GeoJsonNeedsAnOrigin) {
   simulate("straight");
-  EXPECT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--geojson", file("map.json")}), 64);
+  EXPECT_EQ(run("export --in drive.frames.jsonl --geojson map.json"), 64);
   EXPECT_THAT(output(), HasSubstr("--origin"));
-  EXPECT_EQ(
-      run({"export", "--in", file("drive.frames.jsonl"), "--geojson", file("map.json"), "--origin", "91,0"}),
-      64);
+  EXPECT_EQ(run("export --in drive.frames.jsonl --geojson map.json --origin 91,0"), 64);
   EXPECT_THAT(output(), HasSubstr("LAT,LON"));
-  ASSERT_EQ(run({"export", "--in", file("drive.frames.jsonl"), "--geojson", file("map.json"), "--origin",
-                 "48.137,11.575"}),
-            0)
-      << output();
-  std::ifstream in(file("map.json"));
-  EXPECT_FALSE(nlohmann::json::parse(in).at("features").empty());
+  ASSERT_TRUE(done("export --in drive.frames.jsonl --geojson map.json --origin 48.137,11.575"));
+  EXPECT_FALSE(json_of("map.json").at("features").empty());
 }
 
 /// Moves the poses of a file of frames.
@@ -152,23 +122,21 @@ void move_poses(const std::string& path, double by_m) {
 
 TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {
   simulate("intersection");
-  std::vector<std::string> command{"export", file("drive.frames.jsonl")};
-  ASSERT_EQ(run({"export", file("drive.frames.jsonl"), "--lanelet2", file("one.osm")}), 0) << output();
+  ASSERT_TRUE(done("export drive.frames.jsonl --lanelet2 one.osm"));
   for (const std::string seed : {"2", "3"}) {
-    const std::string frames = file(seed + ".frames.jsonl");
-    ASSERT_EQ(run({"simulate", "--scenario", "intersection", "--seed", seed, "--frames", frames, "--duration",
-                   "20"}),
-              0);
-    move_poses(frames, 1.0);
-    command.push_back(frames);
+    const std::string frames = seed + ".frames.jsonl";
+    ASSERT_TRUE(
+        done("simulate --scenario intersection --seed " + seed + " --frames " + frames + " --duration 20"));
+    move_poses(file(frames), 1.0);
   }
   std::ofstream(file("broken.jsonl")) << "nothing\n";
-  command.insert(command.end(),
-                 {file("broken.jsonl"), "--lanelet2", file("all.osm"), "--report", file("report.json")});
-  ASSERT_EQ(run(command), 0) << output();
+  const std::string command =
+      "export drive.frames.jsonl 2.frames.jsonl 3.frames.jsonl broken.jsonl --lanelet2 all.osm "
+      "--report report.json";
+  ASSERT_TRUE(done(command));
   EXPECT_THAT(output(), HasSubstr("broken.jsonl"));
   EXPECT_THAT(output(), HasSubstr("left out"));
-  const nlohmann::json report = nlohmann::json::parse(content(file("report.json")));
+  const nlohmann::json report = json_of("report.json");
   ASSERT_EQ(report.at("drives").size(), 3u);
   for (const std::size_t drive : {1U, 2U}) {
     EXPECT_NEAR(report["drives"][drive].at("mean_m").get<double>(), 1.41, 0.3);
@@ -177,23 +145,22 @@ TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {
   const std::size_t of_one = simulation::load_lanelet2(file("one.osm")).lanes.size();
   EXPECT_LT(simulation::load_lanelet2(file("all.osm")).lanes.size(), of_one + of_one / 2)
       << "nothing is there twice";
-  command.emplace_back("--strict");
-  EXPECT_EQ(run(command), 1);
+  EXPECT_EQ(run(command + " --strict"), 1);
 }
 
 TEST_F(ExportCommand, WrongUseAndInputAreNamed) {
-  EXPECT_EQ(run({"export", "--in", file("x.mcap")}), 64) << "nothing to write";
-  EXPECT_EQ(run({"export", "--in", file("missing.mcap"), "--lanelet2", file("map.osm")}), 1);
+  EXPECT_EQ(run("export --in x.mcap"), 64) << "nothing to write";
+  EXPECT_EQ(run("export --in missing.mcap --lanelet2 map.osm"), 1);
   EXPECT_THAT(output(), HasSubstr("missing.mcap"));
   std::ofstream(file("broken.jsonl")) << "{\"instances\": 7}\n";
-  EXPECT_EQ(run({"export", "--in", file("broken.jsonl"), "--lanelet2", file("map.osm")}), 1);
+  EXPECT_EQ(run("export --in broken.jsonl --lanelet2 map.osm"), 1);
   EXPECT_THAT(output(), HasSubstr("broken.jsonl"));
   std::ofstream(file("empty.jsonl")) << "";
-  EXPECT_EQ(run({"export", "--in", file("empty.jsonl"), "--lanelet2", file("map.osm")}), 1);
+  EXPECT_EQ(run("export --in empty.jsonl --lanelet2 map.osm"), 1);
   EXPECT_THAT(output(), HasSubstr("empty.jsonl: is empty"));
-  EXPECT_EQ(run({"export", "--in", file("empty.jsonl"), "--lanelet2", file("empty.jsonl")}), 1);
+  EXPECT_EQ(run("export --in empty.jsonl --lanelet2 empty.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("written over"));
-  EXPECT_FALSE(std::filesystem::exists(file("map.osm")));
+  EXPECT_FALSE(exists("map.osm"));
 }
 
 }  // namespace

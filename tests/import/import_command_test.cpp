@@ -5,11 +5,10 @@
 #include <variant>
 
 #include "base/degree.hpp"
+#include "commands.hpp"
 #include "io/feather_writer.hpp"
 #include "recording/recording.hpp"
 #include "simulation/road.hpp"
-#include "support/child_process.hpp"
-#include "temporary_folder.hpp"
 
 namespace laneloom::imports {
 namespace {
@@ -18,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Runs the real `laneloom import` on a made-up Argoverse 2 log of half a second.
-class ImportCommand : public testing::Test {
+class ImportCommand : public Commands {
  protected:
   void SetUp() override {
     std::filesystem::create_directories(file("log"));
@@ -34,40 +33,37 @@ class ImportCommand : public testing::Test {
         R"({"sample_token":"log_1100000000","vectors":[]},{"sample_token":"log_1600000000","vectors":[]},)"
         R"({"sample_token":"another_1","vectors":[]}]})");
   }
-  void write(const std::string& name, const std::string& content) {
-    std::ofstream(folder_.file(name)) << content;
-  }
-  std::string file(const std::string& name) const { return folder_.file(name); }
-  int run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {LANELOOM_COMMAND, "import"});
-    return support::ChildProcess(arguments, file("output")).wait();
-  }
-  std::string output() const { return content(file("output")); }
+  void write(const std::string& name, const std::string& content) { std::ofstream(file(name)) << content; }
+  int run(const std::string& words) const override { return Commands::run("import " + words); }
 
- private:
-  TemporaryFolder folder_;
+  template <class Message>
+  std::vector<Message> messages(const std::string& recording) const {
+    recording::RecordingReader reader(file(recording));
+    std::vector<Message> messages;
+    while (const auto message = reader.next())
+      if (const auto* one = std::get_if<Message>(&message->message)) messages.push_back(*one);
+    EXPECT_TRUE(reader.refused().values().empty());
+    return messages;
+  }
+  std::vector<MarkingType> types(const std::string& recording) const {
+    std::vector<MarkingType> types;
+    for (const DetectionFrame& frame : messages<DetectionFrame>(recording))
+      for (const Detection& detection : frame.detections) types.push_back(detection.type);
+    return types;
+  }
 };
 
 TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
-  ASSERT_EQ(run({"maptr", "--results", file("results.json"), "--argoverse2", file("log"), "--out",
-                 file("drive.mcap")}),
-            0)
-      << output();
+  ASSERT_TRUE(done("maptr --results results.json --argoverse2 log --out drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("log: 2 frames, 6 poses"));
   EXPECT_THAT(output(), HasSubstr("1 lines of class ped_crossing"));
   EXPECT_THAT(output(), HasSubstr("1 frames without poses"));
   EXPECT_THAT(output(), HasSubstr("1 frames of other drives"));
 
-  recording::RecordingReader reader(file("drive.mcap"));
-  std::vector<std::int64_t> pose_stamps;
-  std::vector<DetectionFrame> frames;
-  while (const auto message = reader.next()) {
-    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) pose_stamps.push_back(pose->stamp_ns);
-    if (const auto* frame = std::get_if<DetectionFrame>(&message->message)) frames.push_back(*frame);
-  }
-  EXPECT_TRUE(reader.refused().values().empty());
-  ASSERT_EQ(pose_stamps.size(), 6u);
-  EXPECT_EQ(pose_stamps.back(), 1'500'000'000);
+  const auto poses = messages<VehiclePose>("drive.mcap");
+  ASSERT_EQ(poses.size(), 6u);
+  EXPECT_EQ(poses.back().stamp_ns, 1'500'000'000);
+  const auto frames = messages<DetectionFrame>("drive.mcap");
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[1].stamp_ns, 1'250'000'000);
   ASSERT_EQ(frames[1].detections.size(), 1u);
@@ -75,21 +71,13 @@ TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
 }
 
 TEST_F(ImportCommand, ClassesBecomeTheTypesThatAreSaid) {
-  ASSERT_EQ(run({"maptr", "--results", file("results.json"), "--argoverse2", file("log"), "--class",
-                 "ped_crossing=stopline", "--class", "divider=none", "--out", file("drive.mcap")}),
-            0)
-      << output();
+  ASSERT_TRUE(
+      done("maptr --results results.json --argoverse2 log --class ped_crossing=stopline --class divider=none "
+           "--out drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("1 lines of class divider"));
-  recording::RecordingReader reader(file("drive.mcap"));
-  std::vector<MarkingType> types;
-  while (const auto message = reader.next())
-    if (const auto* frame = std::get_if<DetectionFrame>(&message->message))
-      for (const Detection& detection : frame->detections) types.push_back(detection.type);
-  EXPECT_EQ(types, std::vector{MarkingType::stopline});
+  EXPECT_EQ(types("drive.mcap"), std::vector{MarkingType::stopline});
   for (const std::string wrong : {"divider", "divider=kerb", "=none"}) {
-    EXPECT_EQ(run({"maptr", "--results", file("results.json"), "--argoverse2", file("log"), "--class", wrong,
-                   "--out", file("x.mcap")}),
-              64);
+    EXPECT_EQ(run("maptr --results results.json --argoverse2 log --class " + wrong + " --out x.mcap"), 64);
     EXPECT_THAT(output(), HasSubstr("needs NAME=laneline, roadedge, stopline or none"));
   }
 }
@@ -101,10 +89,7 @@ TEST_F(ImportCommand, StreamMapNetAndMapTrackerNameSamplesByStamp) {
       R"("1900000000": {"vectors": [], "scores": [], "labels": []}}})");
   for (const std::string network : {"streammapnet", "maptracker"}) {
     const std::string recording = file(network + ".mcap");
-    ASSERT_EQ(run({network, "--results", file("submission_vector.json"), "--argoverse2", file("log"), "--out",
-                   recording}),
-              0)
-        << output();
+    ASSERT_TRUE(done(network + " --results submission_vector.json --argoverse2 log --out " + recording));
     EXPECT_THAT(output(), HasSubstr("log: 1 frames, 6 poses"));
     EXPECT_THAT(output(), HasSubstr("1 frames of other drives"));
   }
@@ -122,14 +107,9 @@ TEST_F(ImportCommand, AnOpenpilotLogBecomesARecording) {
         pose(1'000'000'000) + pose(1'100'000'000) +
             R"({"logMonoTime":"2","modelV2":{"timestampEof":"1050000000","laneLines":[)" + line +
             R"(],"laneLineProbs":[0.9],"laneLineStds":[0.1],"roadEdges":[],"roadEdgeStds":[]}})" + "\n");
-  ASSERT_EQ(run({"openpilot", "--log", file("rlog.jsonl"), "--out", file("drive.mcap")}), 0) << output();
+  ASSERT_TRUE(done("openpilot --log rlog.jsonl --out drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("1 frames, 2 poses"));
-  recording::RecordingReader reader(file("drive.mcap"));
-  std::size_t frames = 0;
-  while (const auto message = reader.next())
-    frames += std::holds_alternative<DetectionFrame>(message->message);
-  EXPECT_EQ(frames, 1u);
-  EXPECT_TRUE(reader.refused().values().empty());
+  EXPECT_EQ(messages<DetectionFrame>("drive.mcap").size(), 1u);
 }
 
 TEST_F(ImportCommand, ClassesOfJsonLinesBecomeTheTypesThatAreSaid) {
@@ -139,24 +119,14 @@ TEST_F(ImportCommand, ClassesOfJsonLinesBecomeTheTypesThatAreSaid) {
              R"({"type":"kerb","score":0.9,"points":[[0,2,0],[30,2,0]]},)" +
              R"({"type":"arrow","score":0.9,"points":[[5,0,0],[8,0,0]]}]})" + "\n";
   write("drive.frames.jsonl", lines);
-  const std::vector<std::string> classes{"--class", "kerb=roadedge", "--class", "arrow=none"};
-  const auto import = [&](const std::string& in, const std::string& out) {
-    std::vector<std::string> words{"frames", file(in), "--out", file(out)};
-    words.insert(words.end(), classes.begin(), classes.end());
-    return run(words);
-  };
-  ASSERT_EQ(import("drive.frames.jsonl", "drive.mcap"), 0) << output();
+  const std::string classes = " --class kerb=roadedge --class arrow=none";
+  ASSERT_TRUE(done("frames drive.frames.jsonl --out drive.mcap" + classes));
   EXPECT_THAT(output(), Not(HasSubstr("left out")));
-  recording::RecordingReader reader(file("drive.mcap"));
-  std::vector<MarkingType> types;
-  while (const auto message = reader.next())
-    if (const auto* frame = std::get_if<DetectionFrame>(&message->message))
-      for (const Detection& detection : frame->detections) types.push_back(detection.type);
-  EXPECT_EQ(types, std::vector(2, MarkingType::roadedge));
+  EXPECT_EQ(types("drive.mcap"), std::vector(2, MarkingType::roadedge));
 
-  EXPECT_EQ(import("drive.mcap", "again.mcap"), 1);
+  EXPECT_EQ(run("frames drive.mcap --out again.mcap" + classes), 1);
   EXPECT_THAT(output(), HasSubstr("drive.mcap: a recording has laneloom's types; --class needs JSON lines"));
-  EXPECT_EQ(run({"openpilot", "--log", "x", "--out", "y", "--class", "kerb=roadedge"}), 64);
+  EXPECT_EQ(run("openpilot --log x --out y --class kerb=roadedge"), 64);
   EXPECT_THAT(output(), HasSubstr("kerb=roadedge: the lists of lines are laneLines, roadEdges"));
 }
 
@@ -217,16 +187,14 @@ TEST_F(ImportCommand, ObjectsInTheMapFrameAreTakenToTheBodyFrame) {
 TEST_F(ImportCommand, ATerminalShowsABar) {
   write("submission.json", R"({"results": {"1250000000": {"vectors": [], "scores": [], "labels": []}}})");
   write("frames.jsonl", R"({"t":1,"pose":[0,0,0,0,0,0,1],"detections":[]})");
-  ASSERT_EQ(run({"frames", file("frames.jsonl"), "--out", file("frames.mcap")}), 0) << output();
+  ASSERT_TRUE(done("frames frames.jsonl --out frames.mcap"));
   int number = 0;
-  for (const std::string& words :
-       {"maptr --results " + file("results.json") + " --argoverse2 " + file("log"),
-        "maptracker --results " + file("submission.json") + " --argoverse2 " + file("log"),
-        "openpilot --log " + file("frames.jsonl"), "frames " + file("frames.jsonl"),
-        "scene " + file("frames.mcap"), "argoverse2 " + file("log")}) {
-    const std::string out = file(std::to_string(++number) + ".mcap");
-    const std::string command = std::string(LANELOOM_COMMAND) + " import " + words + " --out " + out;
-    support::ChildProcess({"/usr/bin/script", "-qec", command, "/dev/null"}, file("output")).wait();
+  for (const std::string words :
+       {"maptr --results results.json --argoverse2 log",
+        "maptracker --results submission.json --argoverse2 log", "openpilot --log frames.jsonl",
+        "frames frames.jsonl", "scene frames.mcap", "argoverse2 log"}) {
+    const std::string out = std::to_string(++number) + ".mcap";
+    shell("script -qec 'laneloom import " + words + " --out " + out + "' /dev/null");
     EXPECT_THAT(output(), HasSubstr("#] 100 %")) << words;
   }
 }
@@ -235,14 +203,11 @@ TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {
   const std::string line = R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2],[30,NaN]]})";
   write("results.json",
         R"({"results":[{"sample_token":"log_1250000000","vectors":[)" + line + "," + line + "]}]}");
-  const std::vector<std::string> maptr{"maptr",     "--results", file("results.json"), "--argoverse2",
-                                       file("log"), "--out",     file("drive.mcap")};
-  std::vector<std::string> strict = maptr;
-  strict.push_back("--strict");
-  EXPECT_EQ(run(strict), 1);
+  const std::string maptr = "maptr --results results.json --argoverse2 log --out drive.mcap";
+  EXPECT_EQ(run(maptr + " --strict"), 1);
   EXPECT_THAT(output(), HasSubstr("results.json: results[0].vectors[0].pts[1]: must be finite"));
-  EXPECT_FALSE(std::filesystem::exists(file("drive.mcap")));
-  EXPECT_EQ(run(maptr), 0) << output();
+  EXPECT_FALSE(exists("drive.mcap"));
+  EXPECT_TRUE(done(maptr));
   EXPECT_THAT(output(), HasSubstr("results.json: left out: 2 x vectors[].pts[]: must be finite (first: "
                                   "results[0].vectors[0])\n"));
 }
@@ -257,8 +222,7 @@ TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
         R"("left_lane_boundary":)" +
             border(1.75) + R"(,"left_lane_mark_type":"DASHED_WHITE","right_lane_boundary":)" + border(-1.75) +
             R"(,"right_lane_mark_type":"SOLID_WHITE"}},"drivable_areas":{}})");
-  ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("poses.mcap"), "--truth", file("truth.json")}), 0)
-      << output();
+  ASSERT_TRUE(done("argoverse2 log --out poses.mcap --truth truth.json"));
 
   const simulation::Road truth = simulation::load_truth(file("truth.json"));
   ASSERT_EQ(truth.markings.size(), 2u);
@@ -275,9 +239,9 @@ TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   while (reader.next()) ++poses;
   EXPECT_EQ(poses, 6u);
 
-  EXPECT_EQ(run({"argoverse2", file("log"), "--out", file("poses.mcap")}), 1) << "it exists";
-  EXPECT_NE(run({"argoverse2", file("log")}), 0);
-  EXPECT_EQ(run({"argoverse2", file("nowhere"), "--truth", file("x.json")}), 1);
+  EXPECT_EQ(run("argoverse2 log --out poses.mcap"), 1) << "it exists";
+  EXPECT_NE(run("argoverse2 log"), 0);
+  EXPECT_EQ(run("argoverse2 nowhere --truth x.json"), 1);
   EXPECT_THAT(output(), HasSubstr("nowhere"));
 }
 
@@ -286,7 +250,7 @@ TEST_F(ImportCommand, TheObjectsOfALogComeBesideItsPoses) {
   for (const int sweep : {0, 1, 2, 3, 4, 5})
     rows.push_back({1'000'000'000 + sweep * 100'000'000, "a", "REGULAR_VEHICLE", 20.0});
   write_bytes(file("log/annotations.feather"), FeatherWriter(annotation_columns(rows)).write());
-  ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("drive.mcap")}), 0) << output();
+  ASSERT_TRUE(done("argoverse2 log --out drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("6 poses, 6 sweeps with objects"));
   recording::RecordingReader reader(file("drive.mcap"));
   std::vector<std::int64_t> poses_ns, objects_ns;
@@ -304,11 +268,11 @@ TEST_F(ImportCommand, TheObjectsOfALogComeBesideItsPoses) {
 
   rows.back().length_m = -1.0;
   write_bytes(file("log/annotations.feather"), FeatherWriter(annotation_columns(rows)).write());
-  ASSERT_EQ(run({"argoverse2", file("log"), "--out", file("rest.mcap")}), 0) << output();
+  ASSERT_TRUE(done("argoverse2 log --out rest.mcap"));
   EXPECT_THAT(output(),
               HasSubstr("left out: 1 x a size of 0 or more is expected (first: annotations.feather: row 5)"));
-  EXPECT_EQ(run({"argoverse2", file("log"), "--out", file("strict.mcap"), "--strict"}), 1);
-  EXPECT_FALSE(std::filesystem::exists(file("strict.mcap")));
+  EXPECT_EQ(run("argoverse2 log --out strict.mcap --strict"), 1);
+  EXPECT_FALSE(exists("strict.mcap"));
 }
 
 TEST_F(ImportCommand, ADirectoryOfLogsGivesAFileEach) {
@@ -316,15 +280,15 @@ TEST_F(ImportCommand, ADirectoryOfLogsGivesAFileEach) {
     std::filesystem::create_directories(file("data/val/" + log));
     std::filesystem::copy(file("log/city_SE3_egovehicle.csv"), file("data/val/" + log));
   }
-  ASSERT_EQ(run({"argoverse2", file("data"), "--out", file("poses")}), 0) << output();
-  EXPECT_TRUE(std::filesystem::exists(file("poses/a.mcap")));
-  EXPECT_TRUE(std::filesystem::exists(file("poses/b.mcap")));
+  ASSERT_TRUE(done("argoverse2 data --out poses"));
+  EXPECT_TRUE(exists("poses/a.mcap"));
+  EXPECT_TRUE(exists("poses/b.mcap"));
 
   std::filesystem::copy(file("data/val"), file("data/test"), std::filesystem::copy_options::recursive);
-  ASSERT_EQ(run({"argoverse2", file("data"), "--out", file("again")}), 0) << output();
-  EXPECT_TRUE(std::filesystem::exists(file("again/b.mcap")));
+  ASSERT_TRUE(done("argoverse2 data --out again"));
+  EXPECT_TRUE(exists("again/b.mcap"));
   EXPECT_THAT(output(), HasSubstr("data: left out: 2 x a second log of this name (first: val/a)"));
-  EXPECT_EQ(run({"argoverse2", file("data"), "--out", file("strict"), "--strict"}), 1);
+  EXPECT_EQ(run("argoverse2 data --out strict --strict"), 1);
   EXPECT_THAT(output(), HasSubstr("data/val/a: is a second log of this name"));
 }
 
@@ -337,28 +301,23 @@ TEST_F(ImportCommand, ALogInSeveralSplitsIsTakenOnce) {
       std::filesystem::create_directories(file(data + "/" + split));
       std::filesystem::copy(file("log"), file(data + "/" + split + "/log"));
     }
-    ASSERT_EQ(run({"argoverse2", file(data), "--out", file(out)}), 0) << output();
+    ASSERT_TRUE(done("argoverse2 " + data + " --out " + out));
     EXPECT_THAT(output(), HasSubstr(std::to_string(layouts[i].size() - 1) + " x a second log of this name"));
-    EXPECT_TRUE(std::filesystem::exists(file(out + "/log.mcap")));
+    EXPECT_TRUE(exists(out + "/log.mcap"));
   }
 }
 
 TEST_F(ImportCommand, WrongUseAndInputAreNamed) {
-  const std::vector<std::string> drive{"--argoverse2", file("log"), "--out", file("drive.mcap")};
-  const auto maptr = [&](const std::string& results) {
-    std::vector<std::string> arguments{"maptr", "--results", file(results)};
-    arguments.insert(arguments.end(), drive.begin(), drive.end());
-    return run(arguments);
-  };
-  EXPECT_EQ(maptr("missing.json"), 1);
+  const std::string maptr = "maptr --argoverse2 log --out drive.mcap --results ";
+  EXPECT_EQ(run(maptr + "missing.json"), 1);
   EXPECT_THAT(output(), HasSubstr("missing.json: cannot be read"));
   write("late.json", R"({"results":[{"sample_token":"log_1600000000","vectors":[]}]})");
-  EXPECT_EQ(maptr("late.json"), 1);
+  EXPECT_EQ(run(maptr + "late.json"), 1);
   EXPECT_THAT(output(), HasSubstr("no sample is within the poses"));
-  EXPECT_FALSE(std::filesystem::exists(file("drive.mcap")));
-  EXPECT_NE(run({"maptr", "--results", file("results.json"), "--nuscenes", file("log"), "--out", "x"}), 0);
+  EXPECT_FALSE(exists("drive.mcap"));
+  EXPECT_NE(run("maptr --results results.json --nuscenes log --out x"), 0);
   EXPECT_THAT(output(), HasSubstr("--scene"));
-  EXPECT_NE(run({}), 0);
+  EXPECT_NE(run(""), 0);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "commands.hpp"
 #include "io/json_lines.hpp"
-#include "tools/commands.hpp"
 
 namespace laneloom {
 namespace {
@@ -19,10 +19,7 @@ using testing::HasSubstr;
 class CheckCommand : public Commands {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run({"simulate", "--scenario", "curve", "--noise", "inhouse", "--frames",
-                   file("drive.frames.jsonl")}),
-              0)
-        << output();
+    ASSERT_TRUE(done("simulate --scenario curve --noise inhouse --frames drive.frames.jsonl"));
   }
 
   /// Writes the drive anew.
@@ -45,16 +42,14 @@ class CheckCommand : public Commands {
 };
 
 TEST_F(CheckCommand, ASoundDriveIsSound) {
-  EXPECT_EQ(run({"check", file("drive.frames.jsonl")}), 0) << output();
+  EXPECT_TRUE(done("check drive.frames.jsonl"));
   EXPECT_THAT(output(), HasSubstr("nothing wrong was found"));
-  EXPECT_EQ(run({"check", "--json", file("drive.frames.jsonl")}), 0);
+  EXPECT_TRUE(done("check --json drive.frames.jsonl"));
   EXPECT_TRUE(json::parse(output()).at("findings").empty()) << output();
 }
 
 TEST_F(CheckCommand, ATerminalShowsABar) {
-  const std::string command = std::string(LANELOOM_COMMAND) + " check " + file("drive.frames.jsonl");
-  EXPECT_EQ(support::ChildProcess({"/usr/bin/script", "-qec", command, "/dev/null"}, file("output")).wait(),
-            0);
+  EXPECT_EQ(shell("script -qec 'laneloom check drive.frames.jsonl' /dev/null"), 0);
   EXPECT_THAT(output(), HasSubstr(" left"));
 }
 
@@ -64,14 +59,11 @@ TEST_F(CheckCommand, AnOffsetThatIsLearnedMovesThePoints) {
     for (Detection& detection : record.frame.detections)
       for (Point& point : detection.points) point.y() -= 0.6;
   });
-  ASSERT_EQ(run({"learn", "--sensor-left", file("spoilt.frames.jsonl"), "--out", file("network.yaml")}), 0)
-      << output();
-  EXPECT_THAT(content(file("network.yaml")), HasSubstr("sensor_left_m"));
+  ASSERT_TRUE(done("learn --sensor-left spoilt.frames.jsonl --out network.yaml"));
+  EXPECT_THAT(text("network.yaml"), HasSubstr("sensor_left_m"));
   std::ofstream(file("c.yaml")) << "mapper: {fusion: {profile_file: '" << file("network.yaml") << "'}}";
-  const auto own_middle_m = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words{"replay", file("spoilt.frames.jsonl"), "--out", file("maps.jsonl")};
-    words.insert(words.end(), more.begin(), more.end());
-    EXPECT_EQ(run(words), 0) << output();
+  const auto own_middle_m = [&](const std::string& options) {
+    EXPECT_TRUE(done("replay spoilt.frames.jsonl --out maps.jsonl " + options));
     io::JsonLinesReader maps(file("maps.jsonl"));
     std::vector<double> middles_m;
     while (const auto map = maps.next_map())
@@ -80,40 +72,32 @@ TEST_F(CheckCommand, AnOffsetThatIsLearnedMovesThePoints) {
     std::ranges::sort(middles_m);
     return middles_m.at(middles_m.size() / 2);
   };
-  EXPECT_NEAR(own_middle_m({}), -0.6, 0.15);
-  EXPECT_NEAR(own_middle_m({"--config", file("c.yaml")}), 0.0, 0.15);
+  EXPECT_NEAR(own_middle_m(""), -0.6, 0.15);
+  EXPECT_NEAR(own_middle_m("--config c.yaml"), 0.0, 0.15);
   // What was learned with an offset keeps it.
-  ASSERT_EQ(
-      run({"learn", file("spoilt.frames.jsonl"), "--config", file("c.yaml"), "--out", file("again.yaml")}), 0)
-      << output();
-  EXPECT_THAT(content(file("again.yaml")), HasSubstr("sensor_left_m"));
+  ASSERT_TRUE(done("learn spoilt.frames.jsonl --config c.yaml --out again.yaml"));
+  EXPECT_THAT(text("again.yaml"), HasSubstr("sensor_left_m"));
 }
 
 TEST_F(CheckCommand, TheRemedyMendsTheDrive) {
   mirror();
-  EXPECT_EQ(run({"check", "--json", file("spoilt.frames.jsonl")}), 2) << output();
+  EXPECT_EQ(run("check --json spoilt.frames.jsonl"), 2) << output();
   const json finding = json::parse(output()).at("findings").at(0);
   EXPECT_EQ(finding.at("id"), "axes");
   EXPECT_THAT(finding.at("remedy"), HasSubstr("laneloom import frames --axes forward-right"));
 
-  ASSERT_EQ(run({"import", "frames", file("spoilt.frames.jsonl"), "--axes", "forward-right", "--out",
-                 file("mended.mcap")}),
-            0)
-      << output();
-  EXPECT_EQ(run({"check", file("mended.mcap")}), 0) << output();
+  ASSERT_TRUE(done("import frames spoilt.frames.jsonl --axes forward-right --out mended.mcap"));
+  EXPECT_TRUE(done("check mended.mcap"));
 }
 
 TEST_F(CheckCommand, ConfidencesOfAnotherScaleAreMended) {
   spoil([](io::FrameRecord& record) {
     for (Detection& detection : record.frame.detections) detection.confidence *= 100.0;
   });
-  EXPECT_EQ(run({"check", file("spoilt.frames.jsonl")}), 2) << output();
+  EXPECT_EQ(run("check spoilt.frames.jsonl"), 2) << output();
   EXPECT_THAT(output(), HasSubstr("--confidence percent"));
-  ASSERT_EQ(run({"import", "frames", file("spoilt.frames.jsonl"), "--confidence", "percent", "--out",
-                 file("mended.mcap")}),
-            0)
-      << output();
-  EXPECT_EQ(run({"check", file("mended.mcap")}), 0) << output();
+  ASSERT_TRUE(done("import frames spoilt.frames.jsonl --confidence percent --out mended.mcap"));
+  EXPECT_TRUE(done("check mended.mcap"));
 }
 
 TEST_F(CheckCommand, PointsInTheMapFrameGetBackIntoTheBodyFrame) {
@@ -122,11 +106,8 @@ TEST_F(CheckCommand, PointsInTheMapFrameGetBackIntoTheBodyFrame) {
     for (Detection& detection : record.frame.detections)
       for (Point& point : detection.points) point = T_map_body * point;
   });
-  ASSERT_EQ(
-      run({"import", "frames", file("spoilt.frames.jsonl"), "--points-in-map", "--out", file("mended.mcap")}),
-      0)
-      << output();
-  EXPECT_EQ(run({"check", file("mended.mcap")}), 0) << output();
+  ASSERT_TRUE(done("import frames spoilt.frames.jsonl --points-in-map --out mended.mcap"));
+  EXPECT_TRUE(done("check mended.mcap"));
 }
 
 TEST_F(CheckCommand, ReplayAndRatingTellWhyLittleCameOfIt) {
@@ -134,21 +115,19 @@ TEST_F(CheckCommand, ReplayAndRatingTellWhyLittleCameOfIt) {
     for (Detection& detection : record.frame.detections)
       for (Point& point : detection.points) point *= 1000.0;
   });
-  EXPECT_EQ(run({"replay", "--in", file("spoilt.frames.jsonl")}), 0);
+  EXPECT_TRUE(done("replay --in spoilt.frames.jsonl"));
   EXPECT_THAT(output(), HasSubstr("--point-scale 0.001"));
-  EXPECT_EQ(run({"evaluate", "--later", "--in", file("spoilt.frames.jsonl")}), 1);
+  EXPECT_EQ(run("evaluate --later --in spoilt.frames.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("--point-scale 0.001"));
 
-  EXPECT_EQ(run({"replay", "--in", file("drive.frames.jsonl")}), 0);
+  EXPECT_TRUE(done("replay --in drive.frames.jsonl"));
   EXPECT_THAT(output(), testing::Not(HasSubstr("laneloom check")));
 }
 
 TEST_F(CheckCommand, WrongUseIsTold) {
-  EXPECT_EQ(run({"check", file("none.mcap")}), 1);
+  EXPECT_EQ(run("check none.mcap"), 1);
   EXPECT_THAT(output(), HasSubstr("none.mcap"));
-  EXPECT_EQ(
-      run({"import", "frames", file("drive.frames.jsonl"), "--axes", "north-west", "--out", file("x.mcap")}),
-      64);
+  EXPECT_EQ(run("import frames drive.frames.jsonl --axes north-west --out x.mcap"), 64);
   EXPECT_THAT(output(), HasSubstr("north"));
 }
 

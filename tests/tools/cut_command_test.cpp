@@ -5,9 +5,9 @@
 #include <fstream>
 #include <string>
 
+#include "commands.hpp"
 #include "io/json_lines.hpp"
 #include "recording/recording.hpp"
-#include "tools/commands.hpp"
 
 namespace laneloom {
 namespace {
@@ -25,16 +25,15 @@ class CutCommand : public Commands {
   void SetUp() override { simulate("none", "in.frames.jsonl"); }
 
   json info(const std::string& name) const {
-    EXPECT_EQ(run({"info", "--json", file(name)}), 0) << output();
+    EXPECT_TRUE(done("info --json " + name));
     return json::parse(output());
   }
 };
 
 TEST_F(CutCommand, LinesKeepTheirTextAndTheTimeIsHalfOpen) {
-  const std::string whole = content(file("in.frames.jsonl"));
-  ASSERT_EQ(run({"cut", file("in.frames.jsonl"), "--from", "2", "--to", "3.5", "--out", file("a.jsonl")}), 0)
-      << output();
-  const std::string part = content(file("a.jsonl"));
+  const std::string whole = text("in.frames.jsonl");
+  ASSERT_TRUE(done("cut in.frames.jsonl --from 2 --to 3.5 --out a.jsonl"));
+  const std::string part = text("a.jsonl");
   EXPECT_EQ(lines_of(part), 15u);
   EXPECT_THAT(whole, HasSubstr(part));
   EXPECT_EQ(json::parse(part.substr(0, part.find('\n'))).at("stamp_ns"), 2'100'000'000)
@@ -42,16 +41,14 @@ TEST_F(CutCommand, LinesKeepTheirTextAndTheTimeIsHalfOpen) {
 }
 
 TEST_F(CutCommand, AllPartsTogetherAreTheDrive) {
-  ASSERT_EQ(run({"cut", file("in.frames.jsonl"), "--to", "4", "--out", file("a.jsonl")}), 0) << output();
-  ASSERT_EQ(run({"cut", file("in.frames.jsonl"), "--from", "4", "--out", file("b.jsonl")}), 0) << output();
-  EXPECT_EQ(content(file("a.jsonl")) + content(file("b.jsonl")), content(file("in.frames.jsonl")));
+  ASSERT_TRUE(done("cut in.frames.jsonl --to 4 --out a.jsonl"));
+  ASSERT_TRUE(done("cut in.frames.jsonl --from 4 --out b.jsonl"));
+  EXPECT_EQ(text("a.jsonl") + text("b.jsonl"), text("in.frames.jsonl"));
 }
 
 TEST_F(CutCommand, OfARecordingTopicsAndTimeAreKeptWithTheConfiguration) {
-  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--out", file("maps.mcap")}), 0) << output();
-  ASSERT_EQ(run({"cut", file("maps.mcap"), "--topic", "lane_map", "--to", "5", "--out", file("part.mcap")}),
-            0)
-      << output();
+  ASSERT_TRUE(done("replay in.frames.jsonl --out maps.mcap"));
+  ASSERT_TRUE(done("cut maps.mcap --topic lane_map --to 5 --out part.mcap"));
   const json whole = info("maps.mcap"), part = info("part.mcap");
   ASSERT_EQ(part.at("topics").size(), 1u);
   EXPECT_EQ(part.at("topics").begin()->at("messages"), 50);
@@ -60,20 +57,16 @@ TEST_F(CutCommand, OfARecordingTopicsAndTimeAreKeptWithTheConfiguration) {
 }
 
 TEST_F(CutCommand, ObjectsOfOthersAreATopic) {
-  ASSERT_EQ(run({"simulate", "--scenario", "town", "--traffic", "usual", "--duration", "2", "--frames",
-                 file("t.frames.jsonl")}),
-            0);
-  ASSERT_EQ(run({"cut", file("t.frames.jsonl"), "--out", file("t.mcap")}), 0) << output();
-  ASSERT_EQ(run({"cut", file("t.mcap"), "--topic", "objects", "--out", file("objects.mcap")}), 0) << output();
+  ASSERT_TRUE(done("simulate --scenario town --traffic usual --duration 2 --frames t.frames.jsonl"));
+  ASSERT_TRUE(done("cut t.frames.jsonl --out t.mcap"));
+  ASSERT_TRUE(done("cut t.mcap --topic objects --out objects.mcap"));
   EXPECT_THAT(output(), HasSubstr("20 messages"));
 }
 
 TEST_F(CutCommand, ObjectsOfARecordingAreInItsLines) {
-  ASSERT_EQ(run({"simulate", "--scenario", "town", "--traffic", "usual", "--duration", "2", "--frames",
-                 file("t.frames.jsonl")}),
-            0);
-  ASSERT_EQ(run({"cut", file("t.frames.jsonl"), "--out", file("t.mcap")}), 0) << output();
-  ASSERT_EQ(run({"cut", file("t.mcap"), "--out", file("back.frames.jsonl")}), 0) << output();
+  ASSERT_TRUE(done("simulate --scenario town --traffic usual --duration 2 --frames t.frames.jsonl"));
+  ASSERT_TRUE(done("cut t.frames.jsonl --out t.mcap"));
+  ASSERT_TRUE(done("cut t.mcap --out back.frames.jsonl"));
   io::JsonLinesReader whole(file("t.frames.jsonl")), back(file("back.frames.jsonl"));
   while (const auto expected = whole.next_frame()) {
     const auto got = back.next_frame();
@@ -103,7 +96,7 @@ TEST_F(CutCommand, ObjectsBetweenFramesGoOnToTheNextOne) {
       writer.write(DetectionFrame{.stamp_ns = at(i), .sequence = static_cast<std::uint64_t>(i)}, at(4));
     writer.close();
   }
-  ASSERT_EQ(run({"cut", file("drive.mcap"), "--out", file("drive.frames.jsonl")}), 0) << output();
+  ASSERT_TRUE(done("cut drive.mcap --out drive.frames.jsonl"));
   io::JsonLinesReader lines(file("drive.frames.jsonl"));
   const auto first = lines.next_frame(), second = lines.next_frame();
   ASSERT_TRUE(first && second && first->objects);
@@ -114,77 +107,68 @@ TEST_F(CutCommand, ObjectsBetweenFramesGoOnToTheNextOne) {
 }
 
 TEST_F(CutCommand, ARecordingBecomesLinesAndLinesARecording) {
-  ASSERT_EQ(run({"cut", file("in.frames.jsonl"), "--out", file("drive.mcap")}), 0) << output();
-  ASSERT_EQ(run({"cut", file("drive.mcap"), "--out", file("back.frames.jsonl")}), 0) << output();
-  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--report", file("a.json")}), 0) << output();
-  ASSERT_EQ(run({"replay", file("back.frames.jsonl"), "--report", file("b.json")}), 0) << output();
-  EXPECT_EQ(json::parse(content(file("a.json"))).at("frames"),
-            json::parse(content(file("b.json"))).at("frames"));
-  EXPECT_EQ(lines_of(content(file("back.frames.jsonl"))), 80u);
+  ASSERT_TRUE(done("cut in.frames.jsonl --out drive.mcap"));
+  ASSERT_TRUE(done("cut drive.mcap --out back.frames.jsonl"));
+  ASSERT_TRUE(done("replay in.frames.jsonl --report a.json"));
+  ASSERT_TRUE(done("replay back.frames.jsonl --report b.json"));
+  EXPECT_EQ(json_of("a.json").at("frames"), json_of("b.json").at("frames"));
+  EXPECT_EQ(lines_of(text("back.frames.jsonl")), 80u);
 
-  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--out", file("maps.mcap")}), 0) << output();
-  ASSERT_EQ(run({"cut", file("maps.mcap"), "--topic", "lane_map", "--out", file("maps.jsonl")}), 0)
-      << output();
-  EXPECT_THAT(content(file("maps.jsonl")), HasSubstr("\"lanes\""));
+  ASSERT_TRUE(done("replay in.frames.jsonl --out maps.mcap"));
+  ASSERT_TRUE(done("cut maps.mcap --topic lane_map --out maps.jsonl"));
+  EXPECT_THAT(text("maps.jsonl"), HasSubstr("\"lanes\""));
 }
 
 TEST_F(CutCommand, APartWithNothingInItIsAnError) {
-  EXPECT_EQ(run({"cut", file("in.frames.jsonl"), "--from", "100", "--out", file("a.jsonl")}), 1);
+  EXPECT_EQ(run("cut in.frames.jsonl --from 100 --out a.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("nothing of it is in that part"));
-  EXPECT_EQ(run({"cut", file("in.frames.jsonl"), "--from", "3", "--to", "2", "--out", file("a.jsonl")}), 64);
-  EXPECT_EQ(run({"cut", file("in.frames.jsonl"), "--topic", "status", "--out", file("a.jsonl")}), 1);
+  EXPECT_EQ(run("cut in.frames.jsonl --from 3 --to 2 --out a.jsonl"), 64);
+  EXPECT_EQ(run("cut in.frames.jsonl --topic status --out a.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("JSON lines have no topics"));
-  const std::string whole = content(file("in.frames.jsonl"));
-  EXPECT_EQ(run({"cut", file("in.frames.jsonl"), "--out", file("in.frames.jsonl")}), 1);
-  EXPECT_EQ(content(file("in.frames.jsonl")), whole);
+  const std::string whole = text("in.frames.jsonl");
+  EXPECT_EQ(run("cut in.frames.jsonl --out in.frames.jsonl"), 1);
+  EXPECT_EQ(text("in.frames.jsonl"), whole);
 }
 
 TEST_F(CutCommand, WhatIsNoLineIsLeftOutOrRefused) {
-  std::ofstream(file("bad.jsonl")) << "nonsense\n" << content(file("in.frames.jsonl"));
-  EXPECT_EQ(run({"cut", file("bad.jsonl"), "--out", file("a.jsonl")}), 0);
+  std::ofstream(file("bad.jsonl")) << "nonsense\n" << text("in.frames.jsonl");
+  EXPECT_TRUE(done("cut bad.jsonl --out a.jsonl"));
   EXPECT_THAT(output(), HasSubstr("left out: 1 x is not JSON (first: line 1)"));
-  EXPECT_EQ(content(file("a.jsonl")), content(file("in.frames.jsonl")));
-  EXPECT_EQ(run({"cut", "--strict", file("bad.jsonl"), "--out", file("a.jsonl")}), 1);
+  EXPECT_EQ(text("a.jsonl"), text("in.frames.jsonl"));
+  EXPECT_EQ(run("cut --strict bad.jsonl --out a.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("bad.jsonl:1: is not JSON"));
 }
 
 TEST_F(CutCommand, CommandsAreJoinedByPipes) {
-  const std::string command = LANELOOM_COMMAND;
-  const std::string chain = command + " cut " + file("in.frames.jsonl") + " --from 1 --out - | " + command +
-                            " replay - --out - 2>" + file("report") + " | " + command +
-                            " cut - --to 3 --out " + file("maps.jsonl");
-  ASSERT_EQ(support::ChildProcess({"/bin/bash", "-o", "pipefail", "-c", chain}, file("output")).wait(), 0)
-      << output() << content(file("report"));
-  EXPECT_EQ(lines_of(content(file("maps.jsonl"))), 30u);
-  EXPECT_THAT(content(file("report")), HasSubstr("hash")) << "the report went to standard error";
+  ASSERT_EQ(shell("laneloom cut in.frames.jsonl --from 1 --out - | laneloom replay - --out - 2>report | "
+                  "laneloom cut - --to 3 --out maps.jsonl"),
+            0)
+      << output() << text("report");
+  EXPECT_EQ(lines_of(text("maps.jsonl")), 30u);
+  EXPECT_THAT(text("report"), HasSubstr("hash")) << "the report went to standard error";
 }
 
 TEST_F(CutCommand, StandardOutputIsOneFileAtMost) {
-  EXPECT_EQ(run({"simulate", "--scenario", "straight", "--frames", "-", "--truth", "-"}), 64);
+  EXPECT_EQ(run("simulate --scenario straight --frames - --truth -"), 64);
   EXPECT_THAT(output(), HasSubstr("standard output is another file already"));
 }
 
 TEST_F(CutCommand, StrictCommandsFailAtTheFirstThingThatIsWrong) {
-  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--out", file("maps.jsonl")}), 0) << output();
+  ASSERT_TRUE(done("replay in.frames.jsonl --out maps.jsonl"));
   for (const std::string name : {"in.frames.jsonl", "maps.jsonl"}) {
-    const std::string whole = content(file(name));
+    const std::string whole = text(name);
     std::ofstream(file("bad." + name)) << whole << "{\"t\": 9}\n";
   }
-  const std::vector<std::vector<std::string>> commands{
-      {"evaluate", "--later", "--in", file("bad.in.frames.jsonl")},
-      {"evaluate", "--truth", file("truth.json"), "--frames", file("bad.in.frames.jsonl")},
-      {"evaluate", "--truth", file("truth.json"), "--map", file("bad.maps.jsonl")},
-      {"export", file("bad.in.frames.jsonl"), "--lanelet2", file("a.osm")},
-      {"export", file("bad.maps.jsonl"), "--lanelet2", file("b.osm")},
-      {"render", "--frames", file("bad.in.frames.jsonl"), "--at", "1", "--out", file("a.svg")},
-      {"render", "--map", file("bad.maps.jsonl"), "--at", "1", "--out", file("b.svg")},
-      {"learn", file("bad.in.frames.jsonl"), "--out", file("profile.yaml")}};
-  for (std::vector<std::string> command : commands) {
-    EXPECT_EQ(run(command), 0) << command[0] << output();
-    EXPECT_THAT(output(), HasSubstr("left out: 1 x ")) << command[0];
-    command.emplace_back("--strict");
-    EXPECT_EQ(run(command), 1) << command[0] << output();
-    EXPECT_THAT(output(), HasSubstr("jsonl:81: ")) << command[0];
+  for (const std::string command :
+       {"evaluate --later --in bad.in.frames.jsonl",
+        "evaluate --truth truth.json --frames bad.in.frames.jsonl",
+        "evaluate --truth truth.json --map bad.maps.jsonl", "export bad.in.frames.jsonl --lanelet2 a.osm",
+        "export bad.maps.jsonl --lanelet2 b.osm", "render --frames bad.in.frames.jsonl --at 1 --out a.svg",
+        "render --map bad.maps.jsonl --at 1 --out b.svg", "learn bad.in.frames.jsonl --out profile.yaml"}) {
+    EXPECT_TRUE(done(command));
+    EXPECT_THAT(output(), HasSubstr("left out: 1 x ")) << command;
+    EXPECT_EQ(run(command + " --strict"), 1) << command << output();
+    EXPECT_THAT(output(), HasSubstr("jsonl:81: ")) << command;
     EXPECT_THAT(output(), Not(HasSubstr("\r"))) << "a bar is for terminals";
   }
 }

@@ -6,11 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "commands.hpp"
 #include "io/json_lines.hpp"
 #include "recording/recording.hpp"
 #include "simulation/road.hpp"
-#include "support/child_process.hpp"
-#include "temporary_folder.hpp"
 
 namespace laneloom {
 namespace {
@@ -19,9 +18,11 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr std::int64_t kStep_ns = 100'000'000;
+const std::string kByTruth = "evaluate --truth truth.json --json score.json ";
+const std::string kLater = "evaluate --later --json score.json ";
 
 /// One laneline straight ahead at y = 2, driven along at 10 m/s; recordings of ten moments.
-class EvaluateRecordings : public testing::Test {
+class EvaluateRecordings : public Commands {
  protected:
   void SetUp() override {
     simulation::Road road;
@@ -54,17 +55,7 @@ class EvaluateRecordings : public testing::Test {
     return published;
   }
 
-  std::string file(const std::string& name) const { return folder_.file(name); }
-  int evaluate(std::vector<std::string> inputs) {
-    inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--truth", file("truth.json"), "--json",
-                                   file("score.json")});
-    return support::ChildProcess(inputs, file("output")).wait();
-  }
-  json score(const std::string& who) const { return json::parse(content(file("score.json"))).at(who); }
-  std::string output() const { return content(file("output")); }
-
- private:
-  TemporaryFolder folder_;
+  json score(const std::string& who) const { return json_of("score.json").at(who); }
 };
 
 TEST_F(EvaluateRecordings, FramesAreSeenFromThePoseAtTheirStamp) {
@@ -82,7 +73,7 @@ TEST_F(EvaluateRecordings, FramesAreSeenFromThePoseAtTheirStamp) {
     out.close();
   }
   std::filesystem::rename(file("drive.mcap"), file("drive.jsonl"));  // its name is of no account
-  ASSERT_EQ(evaluate({"--frames", file("drive.jsonl")}), 0) << output();
+  ASSERT_TRUE(done(kByTruth + "--frames drive.jsonl"));
   const json raw = score("raw");
   EXPECT_EQ(raw.at("frames"), 9) << "the last one has no pose behind it";
   EXPECT_EQ(raw.at("laneline").at("precision"), 1.0);
@@ -103,7 +94,7 @@ TEST_F(EvaluateRecordings, OfMapsOfOneStampTheLastCountsAndOfNoStampNone) {
     out.write(degenerate, 6);
     out.close();
   }
-  ASSERT_EQ(evaluate({"--map", file("maps.mcap")}), 0) << output();
+  ASSERT_TRUE(done(kByTruth + "--map maps.mcap"));
   const json fused = score("fused");
   EXPECT_EQ(fused.at("frames"), 3);
   EXPECT_EQ(fused.at("laneline").at("precision"), 1.0);
@@ -126,7 +117,7 @@ TEST_F(EvaluateRecordings, JsonLinesAreReadAsRecordingsAre) {
   write(stamp_ns(1), 3.0);  // of before
   maps.close();
   frames.close();
-  ASSERT_EQ(evaluate({"--map", file("maps.jsonl"), "--frames", file("frames.jsonl")}), 0) << output();
+  ASSERT_TRUE(done(kByTruth + "--map maps.jsonl --frames frames.jsonl"));
   for (const char* who : {"raw", "fused"}) {
     EXPECT_EQ(score(who).at("frames"), 3) << who;
     EXPECT_EQ(score(who).at("laneline").at("matched"), 3) << who;
@@ -146,7 +137,7 @@ TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
     }
     out.close();
   }
-  ASSERT_EQ(evaluate({"--frames", file("drive.mcap")}), 0) << output();
+  ASSERT_TRUE(done(kByTruth + "--frames drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("5 of 10 frames compared"));
   EXPECT_THAT(output(),
               HasSubstr("drive.mcap: 1 messages passed over: laneloom/v3/vehicle_pose: not_finite"));
@@ -154,7 +145,7 @@ TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
   auto bytes = bytes_of(file("drive.mcap"));
   bytes.resize(bytes.size() / 2);
   write_bytes(file("cut.mcap"), bytes);
-  evaluate({"--frames", file("cut.mcap")});
+  run(kByTruth + "--frames cut.mcap");
   EXPECT_THAT(output(), HasSubstr("cut.mcap: the recording is cut off"));
 }
 
@@ -165,10 +156,10 @@ TEST_F(EvaluateRecordings, NothingToCompareIsAFailure) {
     out.close();
   }
   std::ofstream(file("empty.jsonl")) << "\n";
-  EXPECT_EQ(evaluate({"--frames", file("drive.mcap")}), 1);
+  EXPECT_EQ(run(kByTruth + "--frames drive.mcap"), 1);
   EXPECT_THAT(output(), HasSubstr("drive.mcap: of 3 frames"));
-  EXPECT_EQ(evaluate({"--map", file("drive.mcap")}), 1);
-  EXPECT_EQ(evaluate({"--map", file("empty.jsonl")}), 1);
+  EXPECT_EQ(run(kByTruth + "--map drive.mcap"), 1);
+  EXPECT_EQ(run(kByTruth + "--map empty.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("none can be compared"));
 }
 
@@ -178,7 +169,7 @@ TEST_F(EvaluateRecordings, FiguresOverRangeAndPicturesOfThem) {
     for (int i = 0; i < 3; ++i) out.write(map(stamp_ns(i), 0.2), stamp_ns(i));
     out.close();
   }
-  ASSERT_EQ(evaluate({"--map", file("maps.mcap"), "--plots", file("plots/new")}), 0) << output();
+  ASSERT_TRUE(done(kByTruth + "--map maps.mcap --plots plots/new"));
   const json fused = score("fused");
   ASSERT_EQ(fused.at("range").at(0).at("from_m"), -5.0);
   for (const json& bin : fused.at("range")) {
@@ -191,10 +182,10 @@ TEST_F(EvaluateRecordings, FiguresOverRangeAndPicturesOfThem) {
   EXPECT_TRUE(errors.at("stopline").at("0-10").at("p50_m").is_null());
   EXPECT_THAT(output(), HasSubstr("0.200"));
   for (const char* picture : {"over_time.svg", "over_range.svg"})
-    EXPECT_THAT(content(file("plots/new/") + picture), HasSubstr("</svg>"));
-  EXPECT_EQ(content(file("plots/new/over_time.png")).substr(1, 3), "PNG");
-  EXPECT_EQ(content(file("plots/new/over_range.png")).substr(1, 3), "PNG");
-  EXPECT_EQ(evaluate({"--map", file("maps.mcap"), "--plots", file("maps.mcap")}), 1) << "no folder";
+    EXPECT_THAT(text(std::string("plots/new/") + picture), HasSubstr("</svg>"));
+  EXPECT_EQ(text("plots/new/over_time.png").substr(1, 3), "PNG");
+  EXPECT_EQ(text("plots/new/over_range.png").substr(1, 3), "PNG");
+  EXPECT_EQ(run(kByTruth + "--map maps.mcap --plots maps.mcap"), 1) << "no folder";
 }
 
 TEST_F(EvaluateRecordings, ADamagedRecordingIsNamed) {
@@ -206,9 +197,9 @@ TEST_F(EvaluateRecordings, ADamagedRecordingIsNamed) {
   auto bytes = bytes_of(file("maps.mcap"));
   bytes.at(bytes.size() / 3) ^= 0xFF;
   write_bytes(file("damaged.mcap"), bytes);
-  EXPECT_EQ(evaluate({"--map", file("damaged.mcap")}), 0) << "what is whole is rated";
+  EXPECT_TRUE(done(kByTruth + "--map damaged.mcap")) << "what is whole is rated";
   EXPECT_THAT(output(), HasSubstr("damaged.mcap: left out: "));
-  EXPECT_EQ(evaluate({"--map", file("missing.mcap")}), 1);
+  EXPECT_EQ(run(kByTruth + "--map missing.mcap"), 1);
   EXPECT_THAT(output(), HasSubstr("missing.mcap: cannot be read"));
 }
 
@@ -226,16 +217,12 @@ class EvaluateLater : public EvaluateRecordings {
     }
     out.close();
   }
-  int later(std::vector<std::string> inputs) const {
-    inputs.insert(inputs.begin(), {LANELOOM_COMMAND, "evaluate", "--later", "--json", file("score.json")});
-    return support::ChildProcess(inputs, file("output")).wait();
-  }
   json at_20_m() const { return score("laneline").at("20"); }
 };
 
 TEST_F(EvaluateLater, MapsADriveAndRatesItByWhatIsSeenLater) {
   record(kMoments);
-  ASSERT_EQ(later({"--in", file("drive.mcap")}), 0) << output();
+  ASSERT_TRUE(done(kLater + "--in drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("3 frames rated"));
   EXPECT_EQ(at_20_m().at("seen_later"), 3);
   EXPECT_EQ(at_20_m().at("single").at("recall"), 1.0);
@@ -245,7 +232,7 @@ TEST_F(EvaluateLater, MapsADriveAndRatesItByWhatIsSeenLater) {
 
 TEST_F(EvaluateLater, RatesTheMapsOfARecording) {
   record(kMoments);
-  ASSERT_EQ(later({"--frames", file("drive.mcap"), "--map", file("drive.mcap")}), 0) << output();
+  ASSERT_TRUE(done(kLater + "--frames drive.mcap --map drive.mcap"));
   EXPECT_NEAR(at_20_m().at("map").at("lateral_rms_m"), 0.1, 1e-6);
   EXPECT_THAT(output(), HasSubstr("What the planner takes, from 27 maps"));
   EXPECT_EQ(score("planner").at("own_lane"), 0.0);
@@ -253,15 +240,15 @@ TEST_F(EvaluateLater, RatesTheMapsOfARecording) {
 
 TEST_F(EvaluateLater, SaysWhenADriveIsTooShort) {
   record(30);
-  EXPECT_EQ(later({"--in", file("drive.mcap")}), 1);
+  EXPECT_EQ(run(kLater + "--in drive.mcap"), 1);
   EXPECT_THAT(output(), HasSubstr("drive.mcap: too short to be rated"));
 }
 
 TEST_F(EvaluateLater, NeedsADriveOrMaps) {
   record(kMoments);
-  EXPECT_EQ(later({"--frames", file("drive.mcap")}), 64);
+  EXPECT_EQ(run(kLater + "--frames drive.mcap"), 64);
   EXPECT_THAT(output(), HasSubstr("--later: --in, or --frames and --map"));
-  EXPECT_EQ(later({"--in", file("drive.mcap"), "--truth", file("truth.json")}), 64);
+  EXPECT_EQ(run(kLater + "--in drive.mcap --truth truth.json"), 64);
 }
 
 }  // namespace

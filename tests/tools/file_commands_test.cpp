@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "commands.hpp"
 #include "io/feather_writer.hpp"
 #include "io/json_lines.hpp"
 #include "recording/recording.hpp"
-#include "tools/commands.hpp"
 
 // The commands that read and write files, as processes.
 namespace laneloom {
@@ -31,11 +31,8 @@ void record(const std::string& frames, const std::string& recording) {
 
 TEST_F(Commands, DetectionsWithoutNoiseScorePerfectly) {
   simulate("none", "in.frames.jsonl");
-  ASSERT_EQ(run({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--json",
-                 file("score.json")}),
-            0)
-      << output();
-  const json score = json::parse(content(file("score.json"))).at("raw");
+  ASSERT_TRUE(done("evaluate --truth truth.json --frames in.frames.jsonl --json score.json"));
+  const json score = json_of("score.json").at("raw");
   EXPECT_EQ(score.at("frames"), 80);
   EXPECT_GT(score.at("total").at("truth"), 80);
   EXPECT_EQ(score.at("total").at("precision"), 1.0);
@@ -51,15 +48,12 @@ TEST_F(Commands, EveryLogInADirectoryIsSimulated) {
     std::ofstream(file("data/val/" + log + "/map/log_map_archive_x.json"))
         << R"({"lane_segments":{},"drivable_areas":{}})";
   }
-  ASSERT_EQ(
-      run({"simulate", "--argoverse2", file("data"), "--frames", file("frames"), "--truth", file("truth")}),
-      0)
-      << output();
+  ASSERT_TRUE(done("simulate --argoverse2 data --frames frames --truth truth"));
   for (const std::string log : {"log_a", "log_b"}) {
-    EXPECT_GT(content(file("frames/" + log + ".frames.jsonl")).size(), 100u);
-    EXPECT_THAT(content(file("truth/" + log + ".truth.json")), HasSubstr(log));
+    EXPECT_GT(text("frames/" + log + ".frames.jsonl").size(), 100u);
+    EXPECT_THAT(text("truth/" + log + ".truth.json"), HasSubstr(log));
   }
-  EXPECT_EQ(run({"publish", "--argoverse2", file("data"), "--duration", "1"}), 1);
+  EXPECT_EQ(run("publish --argoverse2 data --duration 1"), 1);
   EXPECT_THAT(output(), HasSubstr("holds 2 logs; name one"));
 }
 
@@ -68,16 +62,15 @@ TEST_F(Commands, TheTrafficOfALogIsSimulatedAsItWasRecorded) {
   write_bytes(file("log/city_SE3_egovehicle.feather"),
               FeatherWriter(pose_columns(1'000'000'000, 11)).write());
   std::ofstream(file("log/log_map_archive_x.json")) << R"({"lane_segments":{},"drivable_areas":{}})";
-  const std::vector<std::string> recorded{"simulate", "--argoverse2", file("log"),    "--traffic",
-                                          "recorded", "--frames",     file("a.jsonl")};
-  ASSERT_EQ(run(recorded), 0) << output();
+  const std::string recorded = "simulate --argoverse2 log --traffic recorded --frames a.jsonl";
+  ASSERT_TRUE(done(recorded));
   EXPECT_FALSE(io::JsonLinesReader(file("a.jsonl")).next_frame()->objects) << "it has no annotations";
 
   std::vector<AnnotationRow> rows;
   for (const int sweep : {4, 5, 6})
     rows.push_back({1'000'000'000 + sweep * 100'000'000 - 30'000'000, "a", "TRUCK", 20.0});
   write_bytes(file("log/annotations.feather"), FeatherWriter(annotation_columns(rows)).write());
-  ASSERT_EQ(run(recorded), 0) << output();
+  ASSERT_TRUE(done(recorded));
   io::JsonLinesReader frames(file("a.jsonl"));
   std::vector<std::size_t> counts;
   while (const auto record = frames.next_frame()) {
@@ -90,21 +83,19 @@ TEST_F(Commands, TheTrafficOfALogIsSimulatedAsItWasRecorded) {
   }
   EXPECT_EQ(counts, (std::vector<std::size_t>{0, 0, 0, 1, 1, 1, 1, 0, 0, 0}));
 
-  EXPECT_EQ(run({"simulate", "--scenario", "straight", "--traffic", "recorded", "--frames", file("b")}), 1);
+  EXPECT_EQ(run("simulate --scenario straight --traffic recorded --frames b"), 1);
   EXPECT_THAT(output(), HasSubstr("only a log (--argoverse2) has recorded traffic"));
 }
 
 TEST_F(Commands, FusedMapsAreEvaluatedAtTheStampsThatDetectionsHaveToo) {
   simulate("none", "in.frames.jsonl");
-  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
-  std::string shorter = content(file("map.jsonl"));
+  ASSERT_TRUE(done("replay --in in.frames.jsonl --out map.jsonl"));
+  std::string shorter = text("map.jsonl");
   shorter.erase(0, shorter.find('\n') + 1);
   std::ofstream(file("shorter.jsonl")) << shorter;
-  ASSERT_EQ(run({"evaluate", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--map",
-                 file("shorter.jsonl"), "--json", file("score.json")}),
-            0)
-      << output();
-  const json score = json::parse(content(file("score.json")));
+  ASSERT_TRUE(
+      done("evaluate --truth truth.json --frames in.frames.jsonl --map shorter.jsonl --json score.json"));
+  const json score = json_of("score.json");
   EXPECT_EQ(score.at("raw").at("frames"), 79);
   EXPECT_EQ(score.at("fused").at("frames"), 79);
   EXPECT_GT(score.at("fused").at("lane").at("matched"), 0);
@@ -112,35 +103,27 @@ TEST_F(Commands, FusedMapsAreEvaluatedAtTheStampsThatDetectionsHaveToo) {
 
 TEST_F(Commands, RenderDrawsEveryInput) {
   simulate("none", "in.frames.jsonl");
-  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
-  ASSERT_EQ(run({"render", "--truth", file("truth.json"), "--frames", file("in.frames.jsonl"), "--map",
-                 file("map.jsonl"), "--sequence", "2", "--out", file("map.png")}),
-            0)
-      << output();
-  EXPECT_EQ(content(file("map.png")).substr(1, 3), "PNG");
-  ASSERT_EQ(run({"render", "--truth", file("truth.json"), "--at", "3", "--out", file("truth.svg")}), 0)
-      << output();
-  EXPECT_THAT(content(file("truth.svg")), HasSubstr("</svg>"));
+  ASSERT_TRUE(done("replay --in in.frames.jsonl --out map.jsonl"));
+  ASSERT_TRUE(
+      done("render --truth truth.json --frames in.frames.jsonl --map map.jsonl --sequence 2 --out map.png"));
+  EXPECT_EQ(text("map.png").substr(1, 3), "PNG");
+  ASSERT_TRUE(done("render --truth truth.json --at 3 --out truth.svg"));
+  EXPECT_THAT(text("truth.svg"), HasSubstr("</svg>"));
 }
 
 TEST_F(Commands, EveryCommandTakesRecordingsAndLines) {
   simulate("none", "in.frames.jsonl");
-  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.jsonl")}), 0) << output();
-  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("map.mcap")}), 0) << output();
+  ASSERT_TRUE(done("replay --in in.frames.jsonl --out map.jsonl"));
+  ASSERT_TRUE(done("replay --in in.frames.jsonl --out map.mcap"));
   record(file("in.frames.jsonl"), file("in.mcap"));
   std::vector<std::string> pictures;
-  for (const char* const frames : {"in.frames.jsonl", "in.mcap"}) {
-    for (const char* const map : {"map.jsonl", "map.mcap"}) {
-      ASSERT_EQ(
-          run({"render", "--frames", file(frames), "--map", file(map), "--at", "3", "--out", file("x.svg")}),
-          0)
-          << output();
-      pictures.push_back(content(file("x.svg")));
-      ASSERT_EQ(
-          run({"evaluate", "--truth", file("truth.json"), "--frames", file(frames), "--map", file(map)}), 0)
-          << output();
+  for (const std::string frames : {"in.frames.jsonl", "in.mcap"}) {
+    for (const std::string map : {"map.jsonl", "map.mcap"}) {
+      ASSERT_TRUE(done("render --frames " + frames + " --map " + map + " --at 3 --out x.svg"));
+      pictures.push_back(text("x.svg"));
+      ASSERT_TRUE(done("evaluate --truth truth.json --frames " + frames + " --map " + map));
     }
-    ASSERT_EQ(run({"replay", "--in", file(frames)}), 0) << output();
+    ASSERT_TRUE(done("replay --in " + frames));
   }
   EXPECT_THAT(pictures, testing::Each(pictures.front()));
 }
@@ -154,44 +137,35 @@ TEST_F(Commands, NarrowLanesThatTheConfigurationFindsAreRated) {
       << R"(<roadMark sOffset="0" type="solid"/></lane></center><right><lane id="-1" )" << lane
       << R"(<lane id="-2" )" << lane << "</right></laneSection></lanes></road></OpenDRIVE>";
   std::ofstream(file("yard.yaml")) << "mapper: {lane: {min_width_m: 1.2, assumed_width_m: 1.5}}";
-  ASSERT_EQ(run({"simulate", "--opendrive", file("yard.xodr"), "--speed", "8", "--frames",
-                 file("in.frames.jsonl"), "--truth", file("truth.json")}),
-            0)
-      << output();
-  const auto rate = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> replay{"replay", file("in.frames.jsonl"), "--out", file("map.jsonl")};
-    replay.insert(replay.end(), more.begin(), more.end());
-    EXPECT_EQ(run(replay), 0) << output();
-    EXPECT_EQ(run({"evaluate", "--truth", file("truth.json"), "--map", file("map.jsonl"), "--json", "-"}), 0);
+  ASSERT_TRUE(done("simulate --opendrive yard.xodr --speed 8 --frames in.frames.jsonl --truth truth.json"));
+  const auto rate = [&](const std::string& options) {
+    EXPECT_TRUE(done("replay in.frames.jsonl --out map.jsonl " + options));
+    EXPECT_TRUE(done("evaluate --truth truth.json --map map.jsonl --json -"));
     return json::parse(output().substr(output().find("\n{\n"))).at("fused").at("lane");
   };
-  const json narrow = rate({"--config", file("yard.yaml")});
+  const json narrow = rate("--config yard.yaml");
   EXPECT_GT(narrow.at("recall"), 0.9);
   EXPECT_GT(narrow.at("precision"), 0.9);
-  EXPECT_EQ(rate({}).at("matched"), 0) << "lanes are wider by default";
-  ASSERT_EQ(run({"evaluate", "--later", file("in.frames.jsonl"), "--config", file("yard.yaml")}), 0)
-      << output();
+  EXPECT_EQ(rate("").at("matched"), 0) << "lanes are wider by default";
+  ASSERT_TRUE(done("evaluate --later in.frames.jsonl --config yard.yaml"));
   EXPECT_THAT(output(), HasSubstr("own lane in 100.0 % of the frames, width 5/50/95 % 1.50/1.50/1.50 m"));
 }
 
 TEST_F(Commands, ADriveIsMappedAndRatedByItsTruthAtOnce) {
-  ASSERT_EQ(run({"simulate", "--scenario", "split", "--noise", "inhouse", "--duration", "6", "--frames",
-                 file("a.frames.jsonl"), "--truth", file("truth.json")}),
-            0);
-  ASSERT_EQ(run({"replay", file("a.frames.jsonl"), "--out", file("map.jsonl")}), 0);
-  const auto figures = [&](std::vector<std::string> inputs) {
-    inputs.insert(inputs.begin(),
-                  {"evaluate", "--truth", file("truth.json"), "--json", file("figures.json")});
-    EXPECT_EQ(run(inputs), 0) << output();
-    return json::parse(content(file("figures.json")));
+  ASSERT_TRUE(done(
+      "simulate --scenario split --noise inhouse --duration 6 --frames a.frames.jsonl --truth truth.json"));
+  ASSERT_TRUE(done("replay a.frames.jsonl --out map.jsonl"));
+  const auto figures = [&](const std::string& inputs) {
+    EXPECT_TRUE(done("evaluate --truth truth.json --json figures.json " + inputs));
+    return json_of("figures.json");
   };
-  const json at_once = figures({file("a.frames.jsonl")});
-  EXPECT_EQ(at_once, figures({"--frames", file("a.frames.jsonl"), "--map", file("map.jsonl")}));
+  const json at_once = figures("a.frames.jsonl");
+  EXPECT_EQ(at_once, figures("--frames a.frames.jsonl --map map.jsonl"));
   EXPECT_GT(at_once.at("fused").at("total").at("f1"), 0.5);
 }
 
 TEST_F(Commands, PublishListsItsRoads) {
-  EXPECT_EQ(run({"publish", "--list"}), 0);
+  EXPECT_TRUE(done("publish --list"));
   EXPECT_THAT(output(), HasSubstr("town"));
 }
 

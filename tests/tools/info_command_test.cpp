@@ -3,9 +3,9 @@
 
 #include <fstream>
 
+#include "commands.hpp"
 #include "config/config_file.hpp"
 #include "recording/recording.hpp"
-#include "tools/commands.hpp"
 
 namespace laneloom {
 namespace {
@@ -15,9 +15,9 @@ using testing::HasSubstr;
 
 TEST_F(Commands, InfoTellsWhatIsInADrive) {
   simulate("none", "in.frames.jsonl");
-  EXPECT_EQ(run({"info", file("in.frames.jsonl")}), 0) << output();
+  EXPECT_TRUE(done("info in.frames.jsonl"));
   EXPECT_THAT(output(), HasSubstr("laneloom/v"));
-  ASSERT_EQ(run({"info", "--json", file("in.frames.jsonl")}), 0);
+  ASSERT_TRUE(done("info --json in.frames.jsonl"));
   const json info = json::parse(output());
   EXPECT_EQ(info.at("version"), "") << "JSON lines do not tell";
   ASSERT_EQ(info.at("topics").size(), 2u);
@@ -31,18 +31,14 @@ TEST_F(Commands, InfoTellsWhatIsInADrive) {
 TEST_F(Commands, ARecordingOfMapsCarriesTheConfigurationThatMadeThem) {
   simulate("none", "in.frames.jsonl");
   std::ofstream(file("mine.yaml")) << "mapper: {lane: {min_width_m: 1.7}}\n";
-  ASSERT_EQ(run({"replay", file("in.frames.jsonl"), "--config", file("mine.yaml"), "--out", file("a.mcap")}),
-            0)
-      << output();
-  ASSERT_EQ(run({"info", "--json", file("a.mcap")}), 0);
+  ASSERT_TRUE(done("replay in.frames.jsonl --config mine.yaml --out a.mcap"));
+  ASSERT_TRUE(done("info --json a.mcap"));
   EXPECT_NE(json::parse(output()).at("version"), "");
 
-  ASSERT_EQ(run({"info", "--configuration", file("a.mcap")}), 0);
+  ASSERT_TRUE(done("info --configuration a.mcap"));
   std::ofstream(file("theirs.yaml")) << output();
-  ASSERT_EQ(
-      run({"replay", file("in.frames.jsonl"), "--config", file("theirs.yaml"), "--out", file("b.mcap")}), 0)
-      << output();
-  EXPECT_EQ(content(file("a.mcap")), content(file("b.mcap")));
+  ASSERT_TRUE(done("replay in.frames.jsonl --config theirs.yaml --out b.mcap"));
+  EXPECT_EQ(text("a.mcap"), text("b.mcap"));
 }
 
 TEST_F(Commands, ARecordingOfAServiceTellsTheConfigurationOfTheService) {
@@ -54,14 +50,14 @@ TEST_F(Commands, ARecordingOfAServiceTellsTheConfigurationOfTheService) {
   recording::RecordingWriter out(file("live.mcap"));
   out.write(ServiceStatus{.published_ns = 5, .configuration = config::settings(config)}, 5);
   out.close();
-  ASSERT_EQ(run({"info", "--configuration", file("live.mcap")}), 0);
+  ASSERT_TRUE(done("info --configuration live.mcap"));
   std::ofstream(file("theirs.yaml")) << output();
   EXPECT_EQ(config::config_hash(config::load_config(file("theirs.yaml"))), config::config_hash(config));
 
   recording::RecordingWriter other(file("other.mcap"));
   other.write(ServiceStatus{.published_ns = 5, .configuration = {{"mapper.unheard_of", "1"}}}, 5);
   other.close();
-  ASSERT_EQ(run({"info", "--configuration", file("other.mcap")}), 0);
+  ASSERT_TRUE(done("info --configuration other.mcap"));
   EXPECT_EQ(output(), "");
 }
 

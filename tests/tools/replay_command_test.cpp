@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "commands.hpp"
 #include "recording/recording.hpp"
-#include "tools/commands.hpp"
 
 // `laneloom replay`, as a process.
 namespace laneloom {
@@ -21,14 +21,11 @@ using testing::HasSubstr;
 
 TEST_F(Commands, ReplayGivesTheSameMapsAgain) {
   simulate("inhouse", "in.frames.jsonl");
-  for (const char* out : {"a.jsonl", "b.jsonl"})
-    ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file(out), "--preset", "av2",
-                   "--report", file("report.json")}),
-              0)
-        << output();
-  EXPECT_GT(content(file("a.jsonl")).size(), 10'000u);
-  EXPECT_EQ(content(file("a.jsonl")), content(file("b.jsonl")));
-  const json report = json::parse(content(file("report.json")));
+  for (const std::string out : {"a.jsonl", "b.jsonl"})
+    ASSERT_TRUE(done("replay --in in.frames.jsonl --out " + out + " --preset av2 --report report.json"));
+  EXPECT_GT(text("a.jsonl").size(), 10'000u);
+  EXPECT_EQ(text("a.jsonl"), text("b.jsonl"));
+  const json report = json_of("report.json");
   EXPECT_EQ(report.at("frames"), 80);
   EXPECT_GT(report.at("ms").at("total").at("mean"), 0.0);
   EXPECT_TRUE(report.at("ms").contains("association"));
@@ -36,37 +33,34 @@ TEST_F(Commands, ReplayGivesTheSameMapsAgain) {
 
   // Nor does the mathematical library's variant change them, which the processor selects.
   setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX2_Usable,-FMA,-FMA_Usable,-FMA4,-ERMS", 1);
-  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--preset", "av2"}), 0) << output();
+  ASSERT_TRUE(done("replay --in in.frames.jsonl --preset av2"));
   unsetenv("GLIBC_TUNABLES");
   EXPECT_THAT(output(), HasSubstr(report.at("hash")));
 }
 
 TEST_F(Commands, LearnWritesAProfileThatAReplayStartsWith) {
   simulate("inhouse", "in.frames.jsonl");
-  ASSERT_EQ(run({"learn", "--in", file("in.frames.jsonl"), "--out", file("network.yaml")}), 0) << output();
+  ASSERT_TRUE(done("learn --in in.frames.jsonl --out network.yaml"));
   EXPECT_THAT(output(), HasSubstr("lateral standard deviation"));
-  const auto replay = [&](const std::string& fusion, const char* report) {
+  const auto replay = [&](const std::string& fusion) {
     std::ofstream(file("c.yaml")) << "mapper: {fusion: {" << fusion << "}}";
-    EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", file("c.yaml"), "--report",
-                   file(report)}),
-              0)
-        << output();
-    return json::parse(content(file(report))).at("hash");
+    EXPECT_TRUE(done("replay --in in.frames.jsonl --config c.yaml --report r.json"));
+    return json_of("r.json").at("hash");
   };
-  const json nothing = replay("", "r.json");
-  EXPECT_NE(replay("profile_file: '" + file("network.yaml") + "'", "r.json"), nothing);
-  EXPECT_EQ(replay("profile_file: ''", "r.json"), nothing);
+  const json nothing = replay("");
+  EXPECT_NE(replay("profile_file: '" + file("network.yaml") + "'"), nothing);
+  EXPECT_EQ(replay("profile_file: ''"), nothing);
 
   std::ofstream(file("network.yaml")) << "front: {stddev: {value: 1, weight: 1}}";
-  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", file("c.yaml")}), 0);
+  EXPECT_TRUE(done("replay --in in.frames.jsonl --config c.yaml"));
   std::ofstream(file("c.yaml")) << "mapper: {fusion: {profile_file: '" << file("network.yaml") << "'}}";
-  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", file("c.yaml")}), 1);
+  EXPECT_EQ(run("replay --in in.frames.jsonl --config c.yaml"), 1);
   EXPECT_THAT(output(), HasSubstr("network.yaml: front.stddev is not a value that is learned of a network"));
 }
 
 TEST_F(Commands, ReplayWritesRecordingsToo) {
   simulate("inhouse", "in.frames.jsonl");
-  ASSERT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--out", file("maps.mcap")}), 0) << output();
+  ASSERT_TRUE(done("replay --in in.frames.jsonl --out maps.mcap"));
   recording::RecordingReader reader(file("maps.mcap"));
   std::size_t maps = 0, markings = 0;
   while (const auto message = reader.next()) {
@@ -79,71 +73,53 @@ TEST_F(Commands, ReplayWritesRecordingsToo) {
 
 TEST_F(Commands, ReplayComparesConfigurations) {
   simulate("inhouse", "in.frames.jsonl");
-  ASSERT_EQ(
-      run({"replay", "--in", file("in.frames.jsonl"), "--config", LANELOOM_CONFIG_DIR "/laneloom.yaml",
-           "--config", LANELOOM_CONFIG_DIR "/paper.yaml", "--config", LANELOOM_CONFIG_DIR "/laneloom.yaml",
-           "--truth", file("truth.json"), "--report", file("report.json")}),
-      0)
-      << output();
+  ASSERT_TRUE(
+      done("replay in.frames.jsonl --config $CONFIG/laneloom.yaml --config $CONFIG/paper.yaml "
+           "--config $CONFIG/laneloom.yaml --truth truth.json --report report.json"));
   EXPECT_THAT(output(), HasSubstr("others"));
   EXPECT_THAT(output(), HasSubstr("the same"));
-  const json results = json::parse(content(file("report.json"))).at("configurations");
+  const json results = json_of("report.json").at("configurations");
   ASSERT_EQ(results.size(), 3U);
   EXPECT_EQ(results[0].at("hash"), results[2].at("hash"));
   EXPECT_NE(results[0].at("hash"), results[1].at("hash"));
-  EXPECT_NE(run({"replay", "--in", file("in.frames.jsonl"), "--config", LANELOOM_CONFIG_DIR "/laneloom.yaml",
-                 "--out", file("a"), "--out", file("b")}),
-            0);
+  EXPECT_NE(run("replay in.frames.jsonl --config $CONFIG/laneloom.yaml --out a --out b"), 0);
 }
 
 TEST_F(Commands, ReplayWritesNothingOverItsInputOrAnotherOutput) {
   simulate("none", "in.frames.jsonl");
   std::filesystem::create_symlink(file("in.frames.jsonl"), file("link.jsonl"));
-  const std::string before = content(file("in.frames.jsonl"));
+  const std::string before = text("in.frames.jsonl");
   for (const std::string out : {"in.frames.jsonl", "link.jsonl", "./in.frames.jsonl"}) {
-    for (const char* option : {"--out", "--report"}) {
-      EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), option, file(out)}), 1) << out;
+    for (const std::string option : {"--out", "--report"}) {
+      EXPECT_EQ(run("replay --in in.frames.jsonl " + option + " " + out), 1) << out;
       EXPECT_THAT(output(), HasSubstr(out + ": is the input"));
     }
   }
-  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--truth", file("truth.json"), "--out",
-                 file("truth.json")}),
-            1);
-  EXPECT_EQ(content(file("in.frames.jsonl")), before);
+  EXPECT_EQ(run("replay --in in.frames.jsonl --truth truth.json --out truth.json"), 1);
+  EXPECT_EQ(text("in.frames.jsonl"), before);
 
-  const std::string config = LANELOOM_CONFIG_DIR "/laneloom.yaml";
-  EXPECT_EQ(run({"replay", "--in", file("in.frames.jsonl"), "--config", config, "--config", config, "--out",
-                 file("a.jsonl"), "--out", file("./a.jsonl")}),
-            1);
+  const std::string configs = "--config $CONFIG/laneloom.yaml --config $CONFIG/laneloom.yaml ";
+  EXPECT_EQ(run("replay in.frames.jsonl " + configs + "--out a.jsonl --out ./a.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("twice"));
-  EXPECT_FALSE(std::filesystem::exists(file("a.jsonl")));
+  EXPECT_FALSE(exists("a.jsonl"));
 }
 
 TEST_F(Commands, ReplayRefusesOptionsThatWouldBeOfNoAccount) {
   simulate("none", "in.frames.jsonl");
-  const auto replay = [&](std::vector<std::string> words) {
-    words.insert(words.begin(),
-                 {"replay", "--in", file("in.frames.jsonl"), "--publish", "--speed-up", "100"});
-    return run(words);
-  };
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"--verify"},
-                                                {"--out", file("a")},
-                                                {"--config", LANELOOM_CONFIG_DIR "/laneloom.yaml"},
-                                                {"--truth", file("truth.json")},
-                                                {"--report", file("r.json")},
-                                                {"--range", "-5,30,-15,15"},
-                                                {"--preset", "av2"}}) {
-    EXPECT_GT(replay(words), 1) << words.front();
-    EXPECT_THAT(output(), HasSubstr(words.front()));
+  for (const std::string option :
+       {"--verify", "--out a", "--config $CONFIG/laneloom.yaml", "--truth truth.json", "--report r.json",
+        "--range -5,30,-15,15", "--preset av2"}) {
+    EXPECT_GT(run("replay in.frames.jsonl --publish --speed-up 100 " + option), 1) << option;
+    EXPECT_THAT(output(), HasSubstr(option.substr(0, option.find(' '))));
   }
-  EXPECT_GT(run({"replay", "--in", file("in.frames.jsonl"), "--domain", "7"}), 1);
-  EXPECT_GT(run({"replay", "--in", file("in.frames.jsonl"), "--compression", "lz4"}), 1);
+  EXPECT_GT(run("replay --in in.frames.jsonl --domain 7"), 1);
+  EXPECT_GT(run("replay --in in.frames.jsonl --compression lz4"), 1);
 }
 
 TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
   const auto advice = [&](const std::string& lines) {
     std::ofstream(file("in.jsonl")) << lines;
-    EXPECT_EQ(run({"replay", "--in", file("in.jsonl")}), 0) << output();
+    EXPECT_TRUE(done("replay --in in.jsonl"));
     return output();
   };
   /// Frames every 2 m, each with a line that no vehicle drives along.
@@ -157,7 +133,7 @@ TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
   };
   EXPECT_THAT(advice("\n"), HasSubstr("no map came of it: the input has no detections"));
   std::ofstream(file("empty.jsonl")).close();
-  EXPECT_EQ(run({"replay", "--in", file("empty.jsonl")}), 1);
+  EXPECT_EQ(run("replay --in empty.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("is empty; a recording (MCAP) or frames"));
   EXPECT_THAT(advice(R"({"t":5e9,"pose":[0,0,0,0,0,0,1],"detections":[]})"),
               HasSubstr("all poses were refused, most of them as 'stamp'"));
@@ -168,7 +144,7 @@ TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
   EXPECT_THAT(advice(drive(20, 0.9)),
               HasSubstr("no map has a lane: a lane needs a line or an edge on both sides"));
   simulate("none", "good.jsonl");
-  EXPECT_EQ(run({"replay", "--in", file("good.jsonl")}), 0);
+  EXPECT_TRUE(done("replay --in good.jsonl"));
   EXPECT_THAT(output(), testing::Not(HasSubstr("no map")));
 }
 
@@ -184,19 +160,18 @@ TEST_F(Commands, ADriveThatBeginsAtTimeZeroLosesNoFrame) {
     out << frame.dump() << '\n';
   }
   out.close();
-  ASSERT_EQ(run({"replay", "--in", file("zero.jsonl"), "--report", file("report.json")}), 0) << output();
-  EXPECT_EQ(json::parse(content(file("report.json"))).at("frames"), 80);
+  ASSERT_TRUE(done("replay --in zero.jsonl --report report.json"));
+  EXPECT_EQ(json_of("report.json").at("frames"), 80);
   EXPECT_THAT(output(), testing::Not(HasSubstr("refused")));
 }
 
 TEST_F(Commands, ReplayOfADriveThatBeginsAgainClearsTheMap) {
   simulate("none", "in.frames.jsonl");
-  const std::string frames = content(file("in.frames.jsonl"));
+  const std::string frames = text("in.frames.jsonl");
   std::ofstream(file("twice.frames.jsonl")) << frames << frames;
-  ASSERT_EQ(run({"replay", "--in", file("twice.frames.jsonl"), "--report", file("report.json")}), 0)
-      << output();
+  ASSERT_TRUE(done("replay --in twice.frames.jsonl --report report.json"));
   EXPECT_THAT(output(), HasSubstr("map_resets "));
-  const json counters = json::parse(content(file("report.json"))).at("counters");
+  const json counters = json_of("report.json").at("counters");
   std::uint64_t frames_seen = 0;
   for (const auto& [name, count] : counters.items()) {
     if (name == "frames_fused" || name.starts_with("detections_refused"))
