@@ -130,32 +130,21 @@ TEST_F(ImportCommand, ClassesOfJsonLinesBecomeTheTypesThatAreSaid) {
   EXPECT_THAT(output(), HasSubstr("kerb=roadedge: the lists of lines are laneLines, roadEdges"));
 }
 
-/// The objects of a recording, each with its message.
-std::vector<std::pair<TrackedObjects, TrackedObject>> objects_in(const std::string& recording) {
-  std::vector<std::pair<TrackedObjects, TrackedObject>> found;
-  recording::RecordingReader reader(recording);
-  while (const auto message = reader.next())
-    if (const auto* objects = std::get_if<TrackedObjects>(&message->message))
-      for (const TrackedObject& object : objects->objects) found.emplace_back(*objects, object);
-  return found;
-}
-
 TEST_F(ImportCommand, ObjectsKeepToTheFrameAndTheUnitOfThePoints) {
   std::string lines;
   for (const std::string t : {"1.1", "1"})
     lines += R"({"t":)" + t + R"(,"pose":[5,0,0,0,0,0,1],"detections":[],"objects":[{"id":7,"kind":"car",)" +
              R"("position":[-2000,30000,0],"heading":[0,1,0],"speed":8000,"width":1800}]})" + "\n";
   write("drive.frames.jsonl", lines);
-  ASSERT_EQ(run({"frames", file("drive.frames.jsonl"), "--axes", "right-forward", "--point-scale", "0.001",
-                 "--out", file("drive.mcap")}),
-            0)
-      << output();
+  ASSERT_TRUE(done("frames drive.frames.jsonl --axes right-forward --point-scale 0.001 --out drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("2 frames, 2 poses, 2 messages of objects"));
-  const auto found = objects_in(file("drive.mcap"));
+  const auto found = messages<TrackedObjects>("drive.mcap");
   ASSERT_EQ(found.size(), 2U);
-  EXPECT_LT(found[0].first.stamp_ns, found[1].first.stamp_ns);
-  for (const auto& [message, object] : found) {
+  EXPECT_LT(found[0].stamp_ns, found[1].stamp_ns);
+  for (const TrackedObjects& message : found) {
     EXPECT_FALSE(message.in_map_frame);
+    ASSERT_EQ(message.objects.size(), 1U);
+    const TrackedObject& object = message.objects.front();
     EXPECT_TRUE(object.position.isApprox(Point(30, 2, 0))) << object.position.transpose();
     EXPECT_TRUE(object.heading.isApprox(Point(1, 0, 0))) << object.heading.transpose();
     EXPECT_DOUBLE_EQ(object.speed_mps, 8.0);
@@ -176,12 +165,14 @@ TEST_F(ImportCommand, ObjectsInTheMapFrameAreTakenToTheBodyFrame) {
               stamp_ns);
   }
   out.close();
-  ASSERT_EQ(run({"frames", file("map_frame.mcap"), "--out", file("drive.mcap")}), 0) << output();
-  const auto found = objects_in(file("drive.mcap"));
+  ASSERT_TRUE(done("frames map_frame.mcap --out drive.mcap"));
+  const auto found = messages<TrackedObjects>("drive.mcap");
   ASSERT_EQ(found.size(), 1U) << "the other ones have no poses around them";
-  EXPECT_FALSE(found[0].first.in_map_frame);
-  EXPECT_TRUE(found[0].second.position.isApprox(Point(10, 0, 0))) << found[0].second.position.transpose();
-  EXPECT_TRUE(found[0].second.heading.isApprox(Point(1, 0, 0))) << found[0].second.heading.transpose();
+  EXPECT_FALSE(found[0].in_map_frame);
+  ASSERT_EQ(found[0].objects.size(), 1U);
+  const TrackedObject& object = found[0].objects.front();
+  EXPECT_TRUE(object.position.isApprox(Point(10, 0, 0))) << object.position.transpose();
+  EXPECT_TRUE(object.heading.isApprox(Point(1, 0, 0))) << object.heading.transpose();
 }
 
 TEST_F(ImportCommand, ATerminalShowsABar) {
