@@ -72,6 +72,15 @@ TEST(RoadKinds, AStreetFromKerbToKerbHasOneLaneOrTwoAtAnyWidth) {
   }
 }
 
+TEST(RoadKinds, AStreetHasTwoLanesWhereverTheVehicleDrives) {
+  for (const double width_m : {6.4, 9.0, 12.0, 15.6})
+    for (double share = 0.15; share < 0.86; share += 0.1) {
+      SCOPED_TRACE(testing::Message() << width_m << " m, " << share);
+      const double from_right_m = share * width_m;
+      EXPECT_THAT(driven({{kEdge, width_m - from_right_m}, {kEdge, -from_right_m}}).lanes, SizeIs(2));
+    }
+}
+
 TEST(RoadKinds, ALaneLiesBesideASingleKerb) {
   for (const double side : {-1.0, 1.0})
     for (double aside_m = 1.0; aside_m <= 2.6; aside_m += 0.2) {

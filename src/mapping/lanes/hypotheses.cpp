@@ -23,8 +23,7 @@ constexpr std::size_t kTaperReach = 3;                  // cross-sections either
 constexpr double kBeyondEnd_m =
     10.0;                          // up to here before or behind a boundary, the vehicle counts as beside it
 constexpr double kAsDriven = 0.9;  // cosine between its heading and the boundary
-constexpr double kDrivenFrom = 0.2,
-                 kDrivenTo = 0.8;             // places of the vehicle in a lane, as shares of its width
+constexpr double kDrivenFrom = 0.2;           // of a lane's width, from its borders to the vehicle
 constexpr double kUnseen_m = 15.0;            // along the road, up to where a line goes on unseen
 constexpr double kBegin = 4.0;                // log odds that it takes for a lane to begin, or to end
 constexpr double kLeast = -4.0, kMost = 4.0;  // log odds that a single place can say
@@ -54,17 +53,17 @@ class VehicleBeside {
     if (foot.distance_m >= kStreetReach_m) return false;
     const double sense = other.direction(foot).dot(ahead_) > 0.0 ? 1.0 : -1.0;
     const double width_m = foot_.lateral_m - sense * foot.lateral_m;
-    if (room == Room::between) return is_within(foot_.lateral_m, width_m);
-    const double half_m = 0.5 * width_m;
-    return is_within(foot_.lateral_m, half_m) || is_within(foot_.lateral_m - half_m, half_m);
+    const double margin = room == Room::between ? kDrivenFrom : 0.5 * kDrivenFrom;
+    return is_within(foot_.lateral_m, width_m, margin);
   }
   bool is_in_open(Room room, double width_m) const {
-    return is_beside_ && is_within(room == Room::open_left ? foot_.lateral_m : -foot_.lateral_m, width_m);
+    return is_beside_ &&
+           is_within(room == Room::open_left ? foot_.lateral_m : -foot_.lateral_m, width_m, kDrivenFrom);
   }
 
  private:
-  static bool is_within(double lateral_m, double width_m) {
-    return width_m > 0.0 && lateral_m > kDrivenFrom * width_m && lateral_m < kDrivenTo * width_m;
+  static bool is_within(double lateral_m, double width_m, double margin) {
+    return width_m > 0.0 && std::min(lateral_m, width_m - lateral_m) > margin * width_m;
   }
 
   Point vehicle_;

@@ -58,12 +58,14 @@ double log_odds_of(Room room, double vehicle_y) {
   return 0.0;
 }
 
-TEST(Hypotheses, OfTwoLanesTheVehicleDrivesInOne) {
-  const double not_driven = log_odds_of(Room::divided, 100.0);
-  EXPECT_GT(log_odds_of(Room::divided, 1.75), not_driven);
-  EXPECT_GT(log_odds_of(Room::divided, 5.25), not_driven);
-  EXPECT_EQ(log_odds_of(Room::divided, 3.5), not_driven) << "it drives where they would meet";
-  EXPECT_GT(log_odds_of(Room::between, 3.5), log_odds_of(Room::between, 100.0));
+TEST(Hypotheses, TheVehicleDrivesInOneOfTwoLanesNearerToTheirBorderThanInASingleOne) {
+  const double two = log_odds_of(Room::divided, 100.0), one = log_odds_of(Room::between, 100.0);
+  EXPECT_GT(log_odds_of(Room::divided, 1.0), two);
+  EXPECT_GT(log_odds_of(Room::divided, 6.0), two);
+  EXPECT_GT(log_odds_of(Room::divided, 3.5), two) << "drivers keep near the middle of an unmarked street";
+  EXPECT_EQ(log_odds_of(Room::divided, 0.5), two);
+  EXPECT_EQ(log_odds_of(Room::between, 1.0), one);
+  EXPECT_GT(log_odds_of(Room::between, 3.5), one);
 }
 
 }  // namespace
