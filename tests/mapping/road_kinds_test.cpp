@@ -81,6 +81,40 @@ TEST(RoadKinds, AStreetHasTwoLanesWhereverTheVehicleDrives) {
     }
 }
 
+TEST(RoadKinds, OneLaneLiesBetweenPaintedLinesUpToSixMetresApart) {
+  for (const MarkingStyle style : {MarkingStyle::solid, MarkingStyle::dashed})
+    for (double width_m = 2.6; width_m <= 6.05; width_m += 0.2) {
+      SCOPED_TRACE(width_m);
+      const LocalMap map =
+          driven({{.left_m = 0.5 * width_m, .style = style}, {.left_m = -0.5 * width_m, .style = style}});
+      ASSERT_NE(lane_at(map, 0.0), nullptr);
+      EXPECT_NEAR(lane_at(map, 0.0)->width_m, width_m, 0.1);
+    }
+}
+
+/// The lanes beside the vehicle, from right to left: where each begins and ends across the road.
+std::vector<std::pair<double, double>> lanes_across(const LocalMap& map) {
+  std::vector<std::pair<double, double>> across;
+  for (const Lane& lane : map.lanes) {
+    const Projection left = MeasuredPolyline(lane.left).project(map.T_map_body.translation()),
+                     right = MeasuredPolyline(lane.right).project(map.T_map_body.translation());
+    if (left.inside && right.inside) across.push_back(std::minmax({left.foot.y(), right.foot.y()}));
+  }
+  std::ranges::sort(across);
+  return across;
+}
+
+TEST(RoadKinds, GuessesBesideDashedLinesDoNotOverlap) {
+  for (double width_m = 5.0; width_m <= 9.0; width_m += 0.2) {
+    SCOPED_TRACE(width_m);
+    const auto across = lanes_across(driven({{.left_m = 0.5 * width_m, .style = MarkingStyle::dashed},
+                                             {.left_m = -0.5 * width_m, .style = MarkingStyle::dashed}}));
+    ASSERT_GE(across.size(), 3U);
+    for (std::size_t i = 1; i < across.size(); ++i)
+      EXPECT_LT(across[i - 1].second - across[i].first, 0.2);
+  }
+}
+
 TEST(RoadKinds, ALaneLiesBesideASingleKerb) {
   for (const double side : {-1.0, 1.0})
     for (double aside_m = 1.0; aside_m <= 2.6; aside_m += 0.2) {

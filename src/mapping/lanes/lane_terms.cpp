@@ -15,8 +15,8 @@ struct Knot {
 };
 
 // Width of a lane.
-constexpr std::array kBetweenLines{Knot{1.2, -3.0}, Knot{2.1, -0.8}, Knot{2.8, 2.2},
-                                   Knot{3.5, 4.9},  Knot{4.5, 2.2},  Knot{6.0, -2.8}};
+constexpr std::array kBetweenLines{Knot{1.2, -3.0}, Knot{2.1, -0.8}, Knot{2.8, 2.2}, Knot{3.5, 4.9},
+                                   Knot{4.5, 2.2},  Knot{6.0, 0.0},  Knot{6.6, -2.8}};
 constexpr std::array kBesideEdge{Knot{1.2, -1.6}, Knot{2.1, -0.9}, Knot{2.8, 1.9}, Knot{3.5, 4.0},
                                  Knot{5.0, 1.6},  Knot{6.0, 1.0},  Knot{7.0, -2.5}};
 constexpr std::array kBetweenEdges{Knot{2.0, -2.2}, Knot{2.7, -0.9}, Knot{3.5, 1.8},
