@@ -104,6 +104,7 @@ class ShownStations {
       border = foot.foot;
     } else {
       boundary = kNoElement;
+      station.status = ElementStatus::inferred;
     }
   }
 

@@ -178,6 +178,7 @@ TEST_F(Tracks, ABorderWhoseBoundaryIsGoneIsUnseen) {
   ASSERT_THAT(ids(), ElementsAre(100));
   EXPECT_EQ(lanes_[0].left_borders.front().boundary, kNoElement);
   EXPECT_EQ(lanes_[0].right_borders.front().boundary, 2U);
+  EXPECT_EQ(lanes_[0].status, ElementStatus::inferred);
   EXPECT_NEAR(lanes_[0].width_m, 3.5, 1e-9);
 }
 
