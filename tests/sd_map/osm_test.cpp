@@ -75,6 +75,15 @@ TEST_F(OsmFile, ReadsTurnRestrictions) {
   EXPECT_EQ(read(kNodes + kMain + side("road") + no_left).verdict(from_west_, to_north_), Verdict::forbidden);
 }
 
+TEST_F(OsmFile, AForbiddenAboutTurnForbidsNothingElse) {
+  const std::string no_u_turn = R"(<relation id="7">
+      <tag k="type" v="restriction"/><tag k="restriction" v="no_u_turn"/>
+      <member type="way" role="from" ref="10"/><member type="node" role="via" ref="5"/>
+      <member type="way" role="to" ref="10"/></relation>)";
+  const Polyline to_east = straight({10, -2, 0}, {30, -2, 0});
+  EXPECT_EQ(read(kNodes + kMain + side("road") + no_u_turn).verdict(from_west_, to_east), Verdict::connected);
+}
+
 TEST_F(OsmFile, LeavesOutPathsAndWhatLiesOutsideOfTheExtract) {
   EXPECT_EQ(read(kNodes + kMain + side("footway")).verdict(from_west_, to_north_), Verdict::unknown);
   const std::string cut =
