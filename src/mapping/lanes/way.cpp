@@ -161,7 +161,7 @@ Point Way::to_map(const WayPlace& place) const {
 
 std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body, WayWish wish,
                              const Way* before, const WayOptions& options) {
-  const Way* const kept = before != nullptr && before->wish == wish ? before : nullptr;
+  const Way* const kept = before != nullptr && before->is_line() && before->wish == wish ? before : nullptr;
   auto course = lanes::course_of(graph, T_map_body, {wish, kept}, options.reach_m);
   if (!course) {
     auto rest = kept != nullptr ? rest_of(*kept, T_map_body) : std::nullopt;

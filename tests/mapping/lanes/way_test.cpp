@@ -317,6 +317,11 @@ TEST(Way, LeadsIntoNoLaneAheadThatIsFarOrAsideOrAcrossOrOncomingOrBehindAnEdge) 
   EXPECT_FALSE(leads_into(road_lane(1, {12, 0, 0}, {60, 0, 0}), {across})) << "behind an edge";
 }
 
+TEST(Way, AWayBeforeWithoutStationsIsNone) {
+  const Way before;
+  EXPECT_FALSE(way_ahead(LaneGraph(LocalMap{}), test::at(18), WayWish::straight, &before).has_value());
+}
+
 TEST(Way, GoesOnWhereTheMapHasLostTheLanesOfTheWayBefore) {
   const LocalMap map = fork(), nothing;
   const Way before = way_on(map, test::at(18), WayWish::left);
