@@ -67,7 +67,7 @@ std::vector<Join> possible_joins(const std::vector<ObservedMarking>& markings) {
 }
 
 ObservedMarking joined(const std::vector<Link>& chain, std::vector<ObservedMarking>& markings) {
-  ObservedMarking line{.type = MarkingType::laneline};
+  ObservedMarking line{.type = MarkingType::laneline, .number = markings[chain.front().line].number};
   double doubt = 1.0, sum = 0.0;
   std::size_t dashes = 0;
   bool has_stddev = true;

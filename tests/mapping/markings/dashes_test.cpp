@@ -33,6 +33,14 @@ TEST(JoinDashes, MakesOneDashedLineOfARow) {
   EXPECT_DOUBLE_EQ(lines[0].belief, 1.0 - 0.5 * 0.5 * 0.5);
 }
 
+TEST(JoinDashes, ARowHasTheNumberOfItsFirstDash) {
+  std::vector<ObservedMarking> dashes = row(1.8, 3);
+  for (std::size_t i = 0; i < dashes.size(); ++i) dashes[i].number = 4 + i;
+  const auto lines = join_dashes(std::move(dashes));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].number, 4U);
+}
+
 TEST(JoinDashes, ARowHasTheMeanConfidenceOfItsDashes) {
   auto dashes = row(1.8, 2);
   dashes[0].confidence = 0.4;
