@@ -130,6 +130,7 @@ Gate::Verdict Gate::begin_anew(const StreamPoint& point) {
 std::string_view defect(const DetectionFrame& frame, const GateConfig& config) {
   if (!plausible_stamp(frame.stamp_ns)) return "stamp";
   if (!within(frame.field_of_view, config.max_coordinate_m)) return "coordinate";
+  if (!frame.field_of_view.empty() && frame.field_of_view.size() < 3) return "too_few_points";
   for (const auto& area : frame.occluded_areas) {
     if (!within(area, config.max_coordinate_m)) return "coordinate";
   }

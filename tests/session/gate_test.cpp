@@ -144,6 +144,8 @@ TEST(Defect, OfFrames) {
     EXPECT_EQ(with([&](auto& f) { f.detections[0].points[1][axis] = nan; }), "coordinate") << axis;
   }
   EXPECT_EQ(with([&](auto& f) { f.field_of_view = {{0, nan, 0}}; }), "coordinate");
+  EXPECT_EQ(with([](auto& f) { f.field_of_view = {{0, -9, 0}, {60, 9, 0}}; }), "too_few_points");
+  EXPECT_EQ(with([](auto& f) { f.field_of_view = {{0, -9, 0}, {60, 9, 0}, {0, 9, 0}}; }), "");
   EXPECT_EQ(with([&](auto& f) { f.occluded_areas = {{{0, nan, 0}}}; }), "coordinate");
   EXPECT_EQ(with([&](auto& f) { f.detections[0].confidence = nan; }), "confidence");
   EXPECT_EQ(with([](auto& f) { f.detections[0].confidence = 1.1; }), "confidence");
