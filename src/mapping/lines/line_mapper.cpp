@@ -125,6 +125,7 @@ void LineMapper::reset() {
   Networks networks = std::move(networks_);
   *this = {};
   networks_ = std::move(networks);
+  networks_.forget_places();
 }
 
 void LineMapper::move(const Eigen::Isometry3d& motion) {

@@ -22,11 +22,16 @@ bool Standpoint::stands(const Point& origin) const {
   return views_ > 0.0 && (origin - place_).head<2>().norm() < kNewPlace_m;
 }
 
+bool Standpoint::follows(std::int64_t stamp_ns) const {
+  return std::abs(seconds(stamp_ns - last_view_ns_)) < kPause_s;
+}
+
 bool Standpoint::has_seen(const Point& origin, std::int64_t stamp_ns) const {
-  return views_ >= kViewsInARow && stands(origin) && std::abs(seconds(stamp_ns - last_view_ns_)) < kPause_s;
+  return views_ >= kViewsInARow && stands(origin) && follows(stamp_ns);
 }
 
 double Standpoint::news(const Point& origin, std::int64_t stamp_ns) {
+  paused_ = views_ > 0.0 && !follows(stamp_ns);
   last_view_ns_ = stamp_ns;
   if (stands(origin)) {
     views_ += 1.0;
@@ -37,7 +42,7 @@ double Standpoint::news(const Point& origin, std::int64_t stamp_ns) {
   return 1.0;
 }
 
-double Standpoint::least_news() const { return views_ > kViewsInARow ? 1.0 : kLeastNews; }
+double Standpoint::least_news() const { return paused_ ? 1.0 : kLeastNews; }
 
 NetworkProfile Network::profile() const {
   NetworkProfile profile = lateral.profile();

@@ -27,15 +27,17 @@ class Standpoint {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(place_, views_, last_view_ns_);
+    archive(place_, views_, last_view_ns_, paused_);
   }
 
  private:
   bool stands(const Point& origin) const;
+  bool follows(std::int64_t stamp_ns) const;  ///< within a second
 
   Point place_ = Point::Zero();
   double views_ = 0.0;             ///< number of views that were taken from that place
   std::int64_t last_view_ns_ = 0;  ///< stamp of the newest of these
+  bool paused_ = false;            ///< before that one, no view was taken for a second
 };
 
 /// A source of detections, with the models of its network.
@@ -64,6 +66,10 @@ class Networks {
   /// Null: nothing is known of that source.
   const Network* find(const std::string& source) const;
   const std::vector<Network>& all() const { return networks_; }
+  /// Forgets where the sources saw from, for a map that begins anew.
+  void forget_places() {
+    for (Network& network : networks_) network.standpoint = {};
+  }
   /// Moves the places that the sources saw from, map frame.
   void move(const Eigen::Isometry3d& motion) {
     for (Network& network : networks_) network.standpoint.move(motion);

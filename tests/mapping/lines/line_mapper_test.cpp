@@ -210,6 +210,14 @@ TEST(LineMapper, AfterAResetTheNetworkThatIsHeardIsStillKnown) {
   EXPECT_TRUE(mapper.learned("a").empty());
 }
 
+TEST(LineMapper, AfterAResetEachFrameOfAStandingCarCountsAgain) {
+  Drive drive;
+  for (int i = 1; i < 60; ++i) drive.mapper.update(frame_at(drive.x, road(), i), test::at(drive.x));
+  drive.mapper.reset();
+  for (int i = 60; i < 80; ++i) drive.mapper.update(frame_at(drive.x, road(), i), test::at(drive.x));
+  EXPECT_EQ(drive.mapper.map().boundaries.size(), 3U);
+}
+
 TEST(LineMapper, ANetworkThatTakesThePlaceOfAForgottenOneIsNotTaughtByItsViews) {
   const auto learned_by_the_ninth = [](double first_errs_m) {
     Mapper mapper{MapperConfig{}};

@@ -37,6 +37,16 @@ TEST(Standpoint, AfterTwoSecondsFromOnePlaceAViewASecondIsTaken) {
   EXPECT_FALSE(standpoint.has_seen({0.1, 0, 0}, kSecond)) << "the clock was set back";
 }
 
+TEST(Standpoint, AViewRightAfterAnotherOneTellsLittleForHoweverLongTheVehicleStands) {
+  Standpoint standpoint;
+  for (int i = 0; i < 60; ++i) {
+    standpoint.news({5, 5, 0}, std::int64_t{i} * 100'000'000);
+    EXPECT_EQ(standpoint.least_news(), 0.3) << i;
+  }
+  standpoint.news({5, 5, 0}, 7'000'000'000);
+  EXPECT_EQ(standpoint.least_news(), 1.0);
+}
+
 TEST(Networks, EachSourceHasItsOwn) {
   Networks networks;
   const auto front = networks.number("front", 1, {}), rear = networks.number("rear", 2, {});
