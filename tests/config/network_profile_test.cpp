@@ -7,6 +7,7 @@
 #include <string>
 
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::config {
 namespace {
@@ -20,12 +21,7 @@ class NetworkProfileFile : public ::testing::Test {
     return load_network_profiles(path_);
   }
   std::string error_of(const std::string& text) {
-    try {
-      load(text);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "none";
+    return thrown_by<ConfigError>([&] { load(text); });
   }
 
   const TemporaryFolder folder_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "simulation/scenarios.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::drive {
 namespace {
@@ -110,12 +111,9 @@ TEST(ClosedLoop, ARoadTooShortToDriveOnIsAnError) {
       simulation::Drive::recorded({{.stamp_ns = 0}, {.stamp_ns = 1'000'000'000, .position = {1.2, 0, 0}}});
   LocalMapService service{Config{}};
   ClosedLoop loop(road, {.noise = simulation::noise_profile("none")}, service);
-  try {
-    run(loop, 100.0);
-    FAIL() << loop.score().road_ends << " ends of the road in " << loop.driven_m() << " m";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "stub: on this road the vehicle cannot drive a metre from any start");
-  }
+  EXPECT_EQ(thrown_by([&] { run(loop, 100.0); }),
+            "stub: on this road the vehicle cannot drive a metre from any start")
+      << loop.score().road_ends << " ends of the road in " << loop.driven_m() << " m";
 }
 
 /// A map that slips to the left, by up to 2 m.

@@ -12,6 +12,7 @@
 #include "experiment/results_table.hpp"
 #include "io/work_folder.hpp"
 #include "simulation/scenarios.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::experiment {
 namespace {
@@ -118,12 +119,7 @@ TEST(Experiment, APeerThatFailsIsNamed) {
   experiment.drives = {spec("straight", "none", 1.0)};
   for (const char* program : {"/bin/false", "/nowhere/peer"}) {
     experiment.peer = Peer{program, "inhouse"};
-    try {
-      run(experiment);
-      FAIL() << program;
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(program), std::string::npos);
-    }
+    EXPECT_THAT(thrown_by([&] { run(experiment); }), testing::HasSubstr(program)) << program;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "io/axes.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::imports {
 namespace {
@@ -21,12 +22,7 @@ class DriveLogs : public testing::Test {
   std::string file(const std::string& name) const { return folder_.file(name); }
   template <typename Load>
   static std::string error(const Load& load) {
-    try {
-      load();
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_by([&] { load(); });
   }
 
   LeftOut strict_{true};

@@ -8,6 +8,7 @@
 
 #include "sampled_drive.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::imports {
 namespace {
@@ -37,12 +38,7 @@ class MapTr : public testing::Test {
   std::string left_out() const { return left_out_.summary(); }
   /// What a strict reader says.
   std::string error(const std::string& text) {
-    try {
-      read_text(text, drive(), true);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_by([&] { read_text(text, drive(), true); });
   }
   void use(Classes classes) { classes_ = std::move(classes); }
   std::string sample_error(const std::string& samples) { return error(R"({"results":[)" + samples + "]}"); }

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::imports {
 namespace {
@@ -48,16 +49,11 @@ class Openpilot : public testing::Test {
   std::string left_out() const { return left_out_.summary(); }
   /// What a strict reader says.
   std::string error(const std::vector<std::string>& events) {
-    return error_of([&] { read(events, true); });
+    return thrown_by([&] { read(events, true); });
   }
   template <typename Read>
   static std::string error_of(Read read) {
-    try {
-      read();
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_by([&] { read(); });
   }
 
  private:
@@ -193,7 +189,7 @@ TEST_F(Openpilot, ALastLineThatIsCutOffIsNamed) {
   EXPECT_EQ(left_out(), "1 x the last line is cut off (first: line 4)");
   EXPECT_EQ(read_text(whole + model(150)).frames.size(), 2u) << "a last line without its end";
   EXPECT_EQ(left_out(), "");
-  EXPECT_THAT(error_of([&] { read_text(whole + "{", true); }), HasSubstr(":4: is not JSON"));
+  EXPECT_THAT(thrown_by([&] { read_text(whole + "{", true); }), HasSubstr(":4: is not JSON"));
 }
 
 TEST_F(Openpilot, ALogMayBeCutOffAnywhere) {
@@ -247,7 +243,7 @@ TEST_F(Openpilot, LinesWithoutAProbabilityAreLeftOut) {
 }
 
 TEST_F(Openpilot, FilesOfAnotherKindAreNamed) {
-  const auto complaint = [&](const std::string& text) { return error_of([&] { read_text(text); }); };
+  const auto complaint = [&](const std::string& text) { return thrown_by([&] { read_text(text); }); };
   const std::string qlog = R"({"logMonoTime": "7", "drivingModelData": {"frameId": 1}})";
   EXPECT_THAT(complaint(qlog),
               HasSubstr("is a qlog: it has drivingModelData, and no modelV2; the rlog is needed"));
@@ -256,7 +252,7 @@ TEST_F(Openpilot, FilesOfAnotherKindAreNamed) {
   EXPECT_THAT(complaint("\x28\xb5\x2f\xfd..."), HasSubstr("is compressed with zstd; the rlog is needed"));
   EXPECT_THAT(complaint(std::string(40, '\0')), HasSubstr("is binary"));
   EXPECT_THAT(complaint(""), HasSubstr("rlog.jsonl: is empty"));
-  EXPECT_THAT(error_of([&] {
+  EXPECT_THAT(thrown_by([&] {
                 LeftOut left_out;
                 read_openpilot("/no/such/log", {left_out});
               }),

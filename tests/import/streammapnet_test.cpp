@@ -8,6 +8,7 @@
 
 #include "sampled_drive.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::imports {
 namespace {
@@ -30,12 +31,7 @@ class StreamMapNet : public testing::Test {
   std::string left_out() const { return left_out_.summary(); }
   /// What a strict reader says.
   std::string error(const std::string& samples) {
-    try {
-      read(samples, drive(-0.3), StreamNetwork::streammapnet, true);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_by([&] { read(samples, drive(-0.3), StreamNetwork::streammapnet, true); });
   }
 
  private:

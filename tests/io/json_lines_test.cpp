@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::io {
 namespace {
@@ -135,12 +136,7 @@ TEST(FrameJson, TheOptionalKeysMayBeAbsent) {
 }
 
 std::string complaint(const std::string& line) {
-  try {
-    frame_from_json(line);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return thrown_by([&] { frame_from_json(line); });
 }
 
 std::string frame_with(const std::string& detections, const std::string& pose = "[0,0,0,0,0,0,1]",
@@ -286,12 +282,7 @@ TEST(MapJson, TakesMapsOfOthersWithSuccessorsOnly) {
 std::string map_complaint(const std::string& from, const std::string& to) {
   std::string line = to_json_line(full_map());
   line.replace(line.find(from), from.size(), to);
-  try {
-    map_from_json(line);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return thrown_by([&] { map_from_json(line); });
 }
 
 TEST(MapJson, WhatIsWrongIsNamed) {
@@ -321,12 +312,7 @@ TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {
   }
   JsonLinesReader reader(path);
   EXPECT_TRUE(reader.next_frame());
-  try {
-    reader.next_frame();
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), path.string() + ":3: pose: is missing");
-  }
+  EXPECT_EQ(thrown_by([&] { reader.next_frame(); }), path.string() + ":3: pose: is missing");
   EXPECT_TRUE(reader.next_frame()) << "a last line without an end";
   EXPECT_FALSE(reader.next_frame());
 }

@@ -9,6 +9,7 @@
 #include "milliseconds.hpp"
 #include "replay/message_source.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::replay {
 namespace {
@@ -159,12 +160,8 @@ TEST(Replay, FilesOfAnotherKindAreNamed) {
        {std::pair("SQLite format 3", "is a database of SQLite"),
         std::pair("#ROSBAG V2.0", "is a bag of ROS 1"), std::pair("", "is empty")}) {
     std::ofstream(path) << begin;
-    try {
-      open_messages(path, "map");
-      FAIL() << kind;
-    } catch (const std::runtime_error& error) {
-      EXPECT_EQ(std::string(error.what()).find(path + ": " + kind), 0U) << error.what();
-    }
+    EXPECT_THAT(thrown_by([&] { open_messages(path, "map"); }), testing::StartsWith(path + ": " + kind))
+        << kind;
   }
 }
 

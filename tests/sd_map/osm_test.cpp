@@ -9,6 +9,7 @@
 #include "recording/allocations.hpp"
 #include "sd_map/osm.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::sd_map {
 namespace {
@@ -37,12 +38,7 @@ class OsmFile : public ::testing::Test {
     return load_sd_map(config_);
   }
   std::string complaint(const std::string& elements) {
-    try {
-      read(elements);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_by([&] { read(elements); });
   }
 
   const TemporaryFolder folder_;

@@ -14,6 +14,7 @@
 #include "simulation/argoverse2.hpp"
 #include "simulation/recorded_traffic.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::simulation {
 namespace {
@@ -40,12 +41,7 @@ class AnnotatedLog : public testing::Test {
     return argoverse2_objects(folder_.path(), argoverse2_poses(folder_.path(), left_out_), left_out_);
   }
   std::string error() {
-    try {
-      objects();
-    } catch (const std::exception& e) {
-      return e.what();
-    }
-    return "";
+    return thrown_by<std::exception>([&] { objects(); });
   }
 
   LeftOut left_out_;

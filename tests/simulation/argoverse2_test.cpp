@@ -13,6 +13,7 @@
 #include "laneloom/polyline.hpp"
 #include "road_checks.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::simulation {
 namespace {
@@ -146,12 +147,7 @@ class MadeUpLog : public testing::Test {
   }
 
   std::string error() {
-    try {
-      load_argoverse2(directory);
-    } catch (const std::exception& e) {
-      return e.what();
-    }
-    return "";
+    return thrown_by<std::exception>([&] { load_argoverse2(directory); });
   }
 
   const std::string kColumns = "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n";

@@ -9,6 +9,7 @@
 #include "laneloom/polyline.hpp"
 #include "road_checks.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::simulation {
 namespace {
@@ -78,12 +79,7 @@ class MadeUpMap : public testing::Test {
     return load_lanelet2(path, 10.0, left_out);
   }
   std::string error(const std::string& content) {
-    try {
-      load(content);
-    } catch (const std::exception& e) {
-      return e.what();
-    }
-    return "";
+    return thrown_by<std::exception>([&] { load(content); });
   }
 
   static std::string tag(const std::string& k, const std::string& v) {

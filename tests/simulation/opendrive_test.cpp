@@ -11,6 +11,7 @@
 #include "road_checks.hpp"
 #include "simulation/lanelet2.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::simulation {
 namespace {
@@ -46,12 +47,7 @@ class OpenDrive : public testing::Test {
     return road.lanes.at(0).left.back() - Point(10.0, 20.0, 0.0);
   }
   std::string error(const std::string& roads) {
-    try {
-      load(roads);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_by([&] { load(roads); });
   }
   std::string left_out() const { return left_out_.summary(); }
 

@@ -7,6 +7,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "simulation/scenarios.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::simulation {
 namespace {
@@ -202,12 +203,8 @@ TEST(Noise, EveryKindOfErrorHappens) {
 }
 
 TEST(NoiseProfile, AnUnknownNameNamesTheKnownOnes) {
-  try {
-    noise_profile("loud");
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("inhouse"), std::string::npos);
-  }
+  EXPECT_THAT(thrown_by<std::invalid_argument>([&] { noise_profile("loud"); }),
+              testing::HasSubstr("inhouse"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "road_checks.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::simulation {
 namespace {
@@ -237,12 +238,8 @@ TEST(Town, IsALongClosedLoop) {
 }
 
 TEST(Scenario, AnUnknownNameNamesTheKnownOnes) {
-  try {
-    make_scenario("moon");
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("overpass"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(thrown_by<std::invalid_argument>([&] { make_scenario("moon"); }),
+              testing::HasSubstr("overpass"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "simulation/road.hpp"
 #include "simulation/scenarios.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::simulation {
 namespace {
@@ -29,12 +30,7 @@ class TruthFile : public testing::Test {
     const std::size_t at = content.find(from);
     if (at == std::string::npos) return "not in the file";
     std::ofstream(path) << content.replace(at, from.size(), to);
-    try {
-      load_truth(path);
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return "no error";
+    return thrown_by([&] { load_truth(path); });
   }
 
   const TemporaryFolder folder;

@@ -14,6 +14,7 @@
 #include "mapping/state_bytes.hpp"
 #include "snapshot/snapshot_writer.hpp"
 #include "temporary_folder.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::snapshot {
 namespace {
@@ -35,12 +36,7 @@ class SnapshotFileTest : public ::testing::Test {
   Snapshot read(const SnapshotStamp& now) const { return read_snapshot(file_, now, 5.0, MapperConfig{}); }
   /// Why it is not read; empty: it is.
   std::string refusal(const SnapshotStamp& now) const {
-    try {
-      read(now);
-      return {};
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
+    return thrown_by([&] { read(now); });
   }
   std::string bytes() const {
     std::ostringstream bytes;
