@@ -25,6 +25,8 @@ void add_learn(CLI::App& app);
 void add_record(CLI::App& app);
 void add_export(CLI::App& app);
 void add_import(CLI::App& app);
+void add_import_frames(CLI::App& import);  ///< below `import`, as the next
+void add_import_scene(CLI::App& import);
 void add_view(CLI::App& app);
 
 }  // namespace laneloom::commands

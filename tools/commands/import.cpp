@@ -10,8 +10,6 @@
 #include "commands/check_drive.hpp"
 #include "commands/class_option.hpp"
 #include "commands/commands.hpp"
-#include "commands/import_frames.hpp"
-#include "commands/import_scene.hpp"
 #include "commands/log_files.hpp"
 #include "commands/options.hpp"
 #include "commands/warn_of.hpp"

@@ -1,4 +1,4 @@
-#include "commands/import_frames.hpp"
+#include "commands/commands.hpp"
 
 #include <fmt/format.h>
 

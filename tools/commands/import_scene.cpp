@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "commands/import_scene.hpp"
+#include "commands/commands.hpp"
 #include "commands/warn_of.hpp"
 #include "scene/scene_recording.hpp"
 #include "support/progress_bar.hpp"

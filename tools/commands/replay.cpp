@@ -12,7 +12,6 @@
 #include "commands/exit_codes.hpp"
 #include "commands/explain.hpp"
 #include "commands/options.hpp"
-#include "commands/replay_advice.hpp"
 #include "commands/replay_report.hpp"
 #include "commands/score_table.hpp"
 #include "commands/stop_signal.hpp"

@@ -1,14 +1,25 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "evaluation/evaluation.hpp"
+#include "laneloom/config.hpp"
+#include "recording/recording.hpp"
 #include "replay/replay.hpp"
 #include "support/stage_timer.hpp"
 
 namespace laneloom::commands {
+
+/// The input of a replay, in numbers.
+struct ReplayInput {
+  std::uint64_t poses = 0, frames = 0, detections = 0;
+  double best_confidence = 0.0;
+
+  void add(const recording::AnyMessage& message);
+};
 
 /// The result of the replay with one configuration.
 struct ReplayResult {
@@ -27,6 +38,10 @@ struct ReplayResult {
   void add(const LocalMap& map);
   void add_live(const recording::AnyMessage& message);
 };
+
+/// If a replay gave no map, no marking or no lane, a text that says so and gives a likely reason. Otherwise
+/// empty.
+std::string advice_on(const ReplayInput& input, const ReplayResult& result, const MapperConfig& config);
 
 void print_result(const ReplayResult& result);
 /// Prints results side by side.
