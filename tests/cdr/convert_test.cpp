@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
+#include <string>
 
 #include "cdr/random_messages.hpp"
 
@@ -20,6 +22,21 @@ Message through_plain(const Message& message, const std::string& map_frame_id) {
   Message result;
   EXPECT_EQ(to_msg(plain, map_frame_id, result), 0U);
   return result;
+}
+
+/// Why a good message is refused once it is changed. Empty: it is taken.
+std::string refusal_of_detections(unsigned seed, const std::function<void(msg::Detections&)>& change) {
+  auto message = RandomMessages(seed).detections();
+  change(message);
+  DetectionFrame frame;
+  return std::string(from_msg(std::move(message), "map", frame));
+}
+std::string refusal_of_a_pose(const std::function<void(msg::VehiclePose&)>& change) {
+  auto message = RandomMessages(5).vehicle_pose();
+  message.header().frame_id("map");
+  change(message);
+  VehiclePose pose;
+  return std::string(from_msg(message, "map", pose));
 }
 
 TEST(Convert, DetectionsSurvive) {
@@ -183,37 +200,24 @@ TEST(Refuse, AgesThatReachBeyondAllTime) {
 }
 
 TEST(Refuse, NumbersThatAreNotFinite) {
-  DetectionFrame frame;
   for (const double bad : {kNaN, std::numeric_limits<double>::infinity()}) {
-    auto message = RandomMessages(2).detections();
-    message.detections()[0].points()[0].y(bad);
-    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
-    message = RandomMessages(2).detections();
-    message.detections()[0].confidence(bad);
-    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
-    message = RandomMessages(2).detections();
-    message.detections()[0].stddev_m()[0] = bad;
-    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
-    message = RandomMessages(2).detections();
-    message.occluded_areas()[0].outline()[0].z(bad);
-    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
-    message = RandomMessages(2).detections();
-    message.field_of_view()[0].x(bad);
-    EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "not_finite");
+    const auto refusal = [](const auto& change) { return refusal_of_detections(2, change); };
+    EXPECT_EQ(refusal([&](auto& m) { m.detections()[0].points()[0].y(bad); }), "not_finite");
+    EXPECT_EQ(refusal([&](auto& m) { m.detections()[0].confidence(bad); }), "not_finite");
+    EXPECT_EQ(refusal([&](auto& m) { m.detections()[0].stddev_m()[0] = bad; }), "not_finite");
+    EXPECT_EQ(refusal([&](auto& m) { m.occluded_areas()[0].outline()[0].z(bad); }), "not_finite");
+    EXPECT_EQ(refusal([&](auto& m) { m.field_of_view()[0].x(bad); }), "not_finite");
   }
 }
 
 TEST(Refuse, UnknownEnumerations) {
-  DetectionFrame frame;
-  auto message = RandomMessages(3).detections();
-  message.detections()[0].type(static_cast<msg::MarkingType>(3));
-  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
-  message = RandomMessages(3).detections();
-  message.detections()[0].style(static_cast<msg::MarkingStyle>(77));
-  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
-  message = RandomMessages(3).detections();
-  message.detected_types()[0] = static_cast<msg::MarkingType>(77);
-  EXPECT_EQ(from_msg(msg::Detections(message), "map", frame), "unknown_enum");
+  const auto refusal = [](const auto& change) { return refusal_of_detections(3, change); };
+  EXPECT_EQ(refusal([](auto& m) { m.detections()[0].type(static_cast<msg::MarkingType>(3)); }),
+            "unknown_enum");
+  EXPECT_EQ(refusal([](auto& m) { m.detections()[0].style(static_cast<msg::MarkingStyle>(77)); }),
+            "unknown_enum");
+  EXPECT_EQ(refusal([](auto& m) { m.detected_types()[0] = static_cast<msg::MarkingType>(77); }),
+            "unknown_enum");
 }
 
 TEST(Refuse, DeviationsThatMatchNoPoints) {
@@ -273,31 +277,14 @@ TEST(Convert, ASourceWhoseNameIsCutIsCounted) {
 }
 
 TEST(Refuse, PosesThatAreNone) {
-  VehiclePose pose;
-  const auto good = [] {
-    auto message = RandomMessages(5).vehicle_pose();
-    message.header().frame_id("map");
-    return message;
-  };
-  auto message = good();
-  EXPECT_EQ(from_msg(message, "map", pose), "");
-  message.pose().orientation().w(0.9);
-  EXPECT_EQ(from_msg(message, "map", pose), "not_a_rotation");
-  message = good();
-  message.pose().orientation({});
-  EXPECT_EQ(from_msg(message, "map", pose), "not_a_rotation");
-  message = good();
-  message.pose().orientation().x(kNaN);
-  EXPECT_EQ(from_msg(message, "map", pose), "not_finite");
-  message = good();
-  message.pose().position().x(kNaN);
-  EXPECT_EQ(from_msg(message, "map", pose), "not_finite");
-  message = good();
-  message.header().frame_id("odom");
-  EXPECT_EQ(from_msg(message, "map", pose), "wrong_frame");
-  message = good();
-  message.covariance().pop_back();
-  EXPECT_EQ(from_msg(message, "map", pose), "wrong_size");
+  const auto refusal = refusal_of_a_pose;
+  EXPECT_EQ(refusal([](auto& /*good*/) {}), "");
+  EXPECT_EQ(refusal([](auto& m) { m.pose().orientation().w(0.9); }), "not_a_rotation");
+  EXPECT_EQ(refusal([](auto& m) { m.pose().orientation({}); }), "not_a_rotation");
+  EXPECT_EQ(refusal([](auto& m) { m.pose().orientation().x(kNaN); }), "not_finite");
+  EXPECT_EQ(refusal([](auto& m) { m.pose().position().x(kNaN); }), "not_finite");
+  EXPECT_EQ(refusal([](auto& m) { m.header().frame_id("odom"); }), "wrong_frame");
+  EXPECT_EQ(refusal([](auto& m) { m.covariance().pop_back(); }), "wrong_size");
 }
 
 TEST(Convert, AnOrientationIsNormalised) {
