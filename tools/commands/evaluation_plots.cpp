@@ -1,5 +1,3 @@
-#include "commands/evaluation_plots.hpp"
-
 #include <array>
 #include <limits>
 #include <stdexcept>
@@ -7,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "commands/evaluation_tables.hpp"
 #include "render/plot.hpp"
 
 namespace laneloom::commands {

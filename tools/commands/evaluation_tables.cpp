@@ -3,31 +3,21 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "commands/lane_metres_table.hpp"
-#include "commands/steadiness_table.hpp"
+#include "evaluation/figure.hpp"
 #include "laneloom/element_names.hpp"
 
 namespace laneloom::commands {
 namespace {
+
+using evaluation::cell, evaluation::null_or, evaluation::when;
 
 constexpr std::array kKinds{evaluation::LineKind::laneline, evaluation::LineKind::roadedge,
                             evaluation::LineKind::stopline, evaluation::LineKind::lane};
 
 bool has_stability(const evaluation::Stability& stability) { return stability.driven_past_m > 0.0; }
 
-std::string cell(std::optional<double> value, int decimals, int width) {
-  return value ? fmt::format("{:>{}.{}f}", *value, width, decimals) : fmt::format("{:>{}}", "-", width);
-}
-
-std::optional<double> when(bool known, double value) { return known ? std::optional(value) : std::nullopt; }
-
-nlohmann::json null_or(std::optional<double> value) {
-  return value ? nlohmann::json(*value) : nlohmann::json();
-}
-
-std::optional<double> switches_per_km(const evaluation::Stability& stability) {
+evaluation::Figure switches_per_km(const evaluation::Stability& stability) {
   return when(stability.has_ids, stability.id_switches_per_km());
 }
 
@@ -40,7 +30,7 @@ std::string stability_table(const std::vector<NamedEvaluation>& evaluations) {
       const evaluation::Stability& of = evaluation.stability().of(kind);
       if (!has_stability(of)) continue;
       const bool jitter = of.jitter_m.count() > 0;
-      const std::optional<double> switches = switches_per_km(of);
+      const evaluation::Figure switches = switches_per_km(of);
       table += fmt::format("{:<10} {:<6} {} {} {} {} {} {} {:>9.0f}\n", name(kind), who,
                            cell(when(jitter, of.jitter_m.quantile(0.5)), 4, 10),
                            cell(when(jitter, of.jitter_m.quantile(0.95)), 4, 10),

@@ -1,13 +1,15 @@
-#include "commands/lane_metres_table.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "commands/evaluation_tables.hpp"
+#include "evaluation/figure.hpp"
+
 namespace laneloom::commands {
 namespace {
 
+using evaluation::cell, evaluation::null_or, evaluation::share;
 using evaluation::LaneClass, evaluation::LaneMetres;
 
 struct NamedClass {
@@ -24,12 +26,7 @@ constexpr std::array kLaneClasses{
 static_assert(kLaneClasses.size() == evaluation::kLaneClassCount);
 
 std::string percent_row(const char* what, double part_m, double whole_m) {
-  return fmt::format("{:<46} {}\n", what,
-                     whole_m > 0.0 ? fmt::format("{:.1f}", 100.0 * part_m / whole_m) : "-");
-}
-
-nlohmann::json share_json(double part_m, double whole_m) {
-  return whole_m > 0.0 ? nlohmann::json(part_m / whole_m) : nlohmann::json();
+  return fmt::format("{:<46} {}\n", what, cell(share(part_m, whole_m), 1, 0, 100.0));
 }
 
 }  // namespace
@@ -54,15 +51,15 @@ nlohmann::json lane_metres_json(const LaneMetres& metres) {
   const double published_m = metres.published_m(), right_m = metres.of(LaneClass::right);
   nlohmann::json json{{"published_m", published_m},
                       {"directions",
-                       {{"precision", share_json(metres.told_right_m, metres.told_m)},
-                        {"recall", share_json(metres.told_right_m, right_m)}}}};
+                       {{"precision", null_or(share(metres.told_right_m, metres.told_m))},
+                        {"recall", null_or(share(metres.told_right_m, right_m))}}}};
   if (metres.driven_m > 0.0)
     json["driven_paths"] = {{"metres", metres.driven_m},
-                            {"near", share_json(metres.driven_near_m, metres.driven_m)},
-                            {"there", share_json(metres.driven_there_m, metres.driven_m)},
-                            {"probability", share_json(metres.driven_belief_m, metres.driven_m)}};
+                            {"near", null_or(share(metres.driven_near_m, metres.driven_m))},
+                            {"there", null_or(share(metres.driven_there_m, metres.driven_m))},
+                            {"probability", null_or(share(metres.driven_belief_m, metres.driven_m))}};
   for (const NamedClass& one : kLaneClasses)
-    json[one.name] = share_json(metres.of(one.lane_class), published_m);
+    json[one.name] = null_or(share(metres.of(one.lane_class), published_m));
   return json;
 }
 

@@ -1,39 +1,32 @@
-#include "commands/later_table.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 
+#include "commands/evaluation_tables.hpp"
+#include "evaluation/figure.hpp"
 #include "evaluation/kind_lines.hpp"
 
 namespace laneloom::commands {
 namespace {
 
-using Figure = std::optional<double>;
-
-Figure share(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
+using evaluation::Figure, evaluation::null_or, evaluation::share;
 
 Figure ratio(Figure of, Figure to) { return of && to && *to > 0.0 ? Figure(*of / *to) : std::nullopt; }
 
 using Figures = evaluation::LaterScore::Figures;
 
-std::string cell(Figure figure, int width, int decimals, double unit = 1.0) {
-  return figure ? fmt::format(" {:>{}.{}f}", *figure * unit, width, decimals)
-                : fmt::format(" {:>{}}", "-", width);
+std::string column(Figure figure, int width, int decimals, double unit = 1.0) {
+  return " " + evaluation::cell(figure, decimals, width, unit);
 }
 
 std::string row(MarkingType type, double distance_m, const evaluation::LaterScore& score) {
   const Figures single = score.figures(score.single), map = score.figures(score.map);
   return fmt::format("{:<9}{:>3.0f} m{:>7}", name(evaluation::line_kind(type)), distance_m,
                      score.seen_later) +
-         cell(single.precision, 8, 1, 100) + cell(map.precision, 6, 1, 100) + cell(single.recall, 8, 1, 100) +
-         cell(map.recall, 6, 1, 100) + cell(single.rms_m, 8, 3) + cell(map.rms_m, 6, 3) +
-         cell(ratio(map.rms_m, single.rms_m), 5, 2) + cell(single.p95_m, 8, 3) + cell(map.p95_m, 6, 3) +
-         cell(ratio(map.p95_m, single.p95_m), 5, 2) + "\n";
+         column(single.precision, 8, 1, 100) + column(map.precision, 6, 1, 100) +
+         column(single.recall, 8, 1, 100) + column(map.recall, 6, 1, 100) + column(single.rms_m, 8, 3) +
+         column(map.rms_m, 6, 3) + column(ratio(map.rms_m, single.rms_m), 5, 2) + column(single.p95_m, 8, 3) +
+         column(map.p95_m, 6, 3) + column(ratio(map.p95_m, single.p95_m), 5, 2) + "\n";
 }
 
 Figure id_changes_per_km(const evaluation::LaterMeter& meter) {
@@ -51,8 +44,6 @@ std::string own_lane_line(const evaluation::LaterMeter& meter) {
                         *id_changes_per_km(meter));
   return line + fmt::format("; {:.1f} lanes a frame\n", *share(meter.lanes(), meter.frames()));
 }
-
-nlohmann::json null_or(Figure figure) { return figure ? nlohmann::json(*figure) : nlohmann::json(); }
 
 nlohmann::json figures_json(const Figures& of) {
   return {{"precision", null_or(of.precision)},
@@ -74,7 +65,7 @@ nlohmann::json score_json(const evaluation::LaterScore& score) {
 nlohmann::json own_lane_json(const evaluation::LaterMeter& meter) {
   const evaluation::OwnLaneScore& own = meter.own_lane();
   const auto width = [&](double part) {
-    return own.frames > 0 ? nlohmann::json(own.widths_m.quantile(part)) : nlohmann::json();
+    return null_or(evaluation::when(own.frames > 0, own.widths_m.quantile(part)));
   };
   return {{"share", null_or(share(own.frames, meter.frames()))},
           {"width_p5_m", width(0.05)},

@@ -1,9 +1,10 @@
-#include "commands/profile_tables.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "commands/evaluation_tables.hpp"
+#include "evaluation/figure.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -38,7 +39,7 @@ nlohmann::json bands_json(const Bands& bands) {
 
 nlohmann::json bin_json(int bin, const evaluation::SampleScore& score) {
   const auto when = [](std::size_t samples, double value) {
-    return samples > 0 ? nlohmann::json(value) : nlohmann::json();
+    return evaluation::null_or(evaluation::when(samples > 0, value));
   };
   return {{"from_m", bin * evaluation::kRangeBin_m},
           {"to_m", (bin + 1) * evaluation::kRangeBin_m},

@@ -9,11 +9,11 @@
 
 #include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
+#include "commands/evaluation_tables.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/explain.hpp"
 #include "commands/options.hpp"
 #include "commands/replay_report.hpp"
-#include "commands/score_table.hpp"
 #include "commands/stop_signal.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"

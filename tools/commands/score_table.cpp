@@ -1,8 +1,8 @@
-#include "commands/score_table.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+
+#include "commands/evaluation_tables.hpp"
 
 namespace laneloom::commands {
 namespace {

@@ -1,65 +1,50 @@
-#include "commands/steadiness_table.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
+
+#include "commands/evaluation_tables.hpp"
+#include "evaluation/figure.hpp"
 
 namespace laneloom::commands {
 namespace {
 
-using evaluation::Steadiness;
-using Figure = std::optional<double>;
-
-Figure share(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
-
-Figure quantile(const Distribution& of, double share) {
-  return of.count() > 0 ? Figure(of.quantile(share)) : std::nullopt;
-}
+using evaluation::cell, evaluation::null_or, evaluation::quantile, evaluation::share;
+using evaluation::Figure, evaluation::Steadiness;
 
 Figure per_second(const Steadiness& of, std::size_t events) {
-  return of.duration_s > 0.0 ? Figure(of.per_second(events)) : std::nullopt;
+  return evaluation::when(of.duration_s > 0.0, of.per_second(events));
 }
 
 Figure changes_per_km(const Steadiness& of) {
-  return of.driven_m > 0.0 ? Figure(of.own_changes_per_km()) : std::nullopt;
-}
-
-std::string cell(Figure figure, int decimals = 2, double unit = 1.0) {
-  return figure ? fmt::format("{:.{}f}", *figure * unit, decimals) : "-";
+  return evaluation::when(of.driven_m > 0.0, of.own_changes_per_km());
 }
 
 std::string row(const std::string& what, const std::string& figures) {
   return fmt::format("{:<46} {}\n", what, figures);
 }
 
-nlohmann::json null_or(Figure figure) { return figure ? nlohmann::json(*figure) : nlohmann::json(); }
-
 std::string lane_rows(const Steadiness& of) {
-  return row("lanes in a map", cell(share(of.lanes, of.maps))) +
-         row("lanes blink /s", cell(per_second(of, of.blinks))) +
-         row("  short lives % of those that went", cell(share(of.short_lives, of.ended), 1, 100)) +
-         row("centerlines turn round /s", cell(per_second(of, of.turned))) +
-         row("directions doubted /s", cell(per_second(of, of.doubted))) +
-         row("own lane %", cell(share(of.own_lanes, of.own_wanted), 1, 100)) +
-         row("own lane's id changes /km", cell(changes_per_km(of)));
+  return row("lanes in a map", cell(share(of.lanes, of.maps), 2)) +
+         row("lanes blink /s", cell(per_second(of, of.blinks), 2)) +
+         row("  short lives % of those that went", cell(share(of.short_lives, of.ended), 1, 0, 100)) +
+         row("centerlines turn round /s", cell(per_second(of, of.turned), 2)) +
+         row("directions doubted /s", cell(per_second(of, of.doubted), 2)) +
+         row("own lane %", cell(share(of.own_lanes, of.own_wanted), 1, 0, 100)) +
+         row("own lane's id changes /km", cell(changes_per_km(of), 2));
 }
 
 std::string way_rows(const Steadiness& of) {
   std::string rows = row("way reaches [m] p5 p50",
                          cell(quantile(of.reach_m, 0.05), 1) + " " + cell(quantile(of.reach_m, 0.5), 1)) +
-                     row("gap at its joints [m] p95", cell(quantile(of.gap_m, 0.95))) +
-                     row("step at its joints [m] p95", cell(quantile(of.step_m, 0.95))) +
+                     row("gap at its joints [m] p95", cell(quantile(of.gap_m, 0.95), 2)) +
+                     row("step at its joints [m] p95", cell(quantile(of.step_m, 0.95), 2)) +
                      row("kink [deg] p99", cell(quantile(of.kink_deg, 0.99), 1));
   std::string jumps;
-  for (const Distribution& jump_m : of.jump_m) jumps += cell(quantile(jump_m, 0.99)) + " ";
+  for (const Distribution& jump_m : of.jump_m) jumps += cell(quantile(jump_m, 0.99), 2) + " ";
   jumps.pop_back();
   rows += row("jump 0, 10, 20 m ahead [m] p99", jumps);
   if (of.true_ways > 0)
-    rows += row("way right over 10 m %", cell(share(of.right_ways, of.true_ways), 1, 100));
+    rows += row("way right over 10 m %", cell(share(of.right_ways, of.true_ways), 1, 0, 100));
   return rows;
 }
 

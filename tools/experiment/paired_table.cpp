@@ -4,35 +4,32 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
+
+#include "evaluation/figure.hpp"
 
 namespace laneloom::experiment {
 namespace {
 
-using evaluation::Measures;
-using Value = std::optional<double>;
+using evaluation::Measures, evaluation::quantile, evaluation::share, evaluation::when;
+using Value = evaluation::Figure;
 
 struct Figure {
   const char* name;
   Value (*of)(const Measures&);
 };
 
-Value percent(double part, double whole) { return whole > 0.0 ? Value(100.0 * part / whole) : std::nullopt; }
-
-Value percent(std::size_t part, std::size_t whole) {
-  return percent(static_cast<double>(part), static_cast<double>(whole));
+template <class Amount>
+Value percent(Amount part, Amount whole) {
+  const Value value = share(part, whole);
+  return value ? Value(100.0 * *value) : value;
 }
 
 Value f1_percent(const evaluation::Score& score) {
-  return score.predictions + score.truths > 0 ? Value(100.0 * score.f1()) : std::nullopt;
+  return when(score.predictions + score.truths > 0, 100.0 * score.f1());
 }
 
 Value per_second(const Measures& m, std::size_t events) {
-  return m.steadiness.duration_s > 0.0 ? Value(m.steadiness.per_second(events)) : std::nullopt;
-}
-
-Value quantile(const Distribution& of, double share) {
-  return of.count() > 0 ? Value(of.quantile(share)) : std::nullopt;
+  return when(m.steadiness.duration_s > 0.0, m.steadiness.per_second(events));
 }
 
 constexpr std::array kFigures{
@@ -52,18 +49,14 @@ constexpr std::array kFigures{
            }},
     Figure{"lanes ECE",
            [](const Measures& m) {
-             return m.lanes.has_confidences() ? Value(m.lanes.expected_calibration_error()) : std::nullopt;
+             return when(m.lanes.has_confidences(), m.lanes.expected_calibration_error());
            }},
     Figure{
         "linkages P %",
         [](const Measures& m) { return percent(m.topology.linkages.right, m.topology.linkages.published); }},
     Figure{"linkages R %",
            [](const Measures& m) { return percent(m.topology.linkages.found, m.topology.linkages.truths); }},
-    Figure{"lanes in a map",
-           [](const Measures& m) {
-             const Value lanes_percent = percent(m.steadiness.lanes, m.steadiness.maps);
-             return lanes_percent ? Value(*lanes_percent / 100.0) : std::nullopt;
-           }},
+    Figure{"lanes in a map", [](const Measures& m) { return share(m.steadiness.lanes, m.steadiness.maps); }},
     Figure{"blinks /s", [](const Measures& m) { return per_second(m, m.steadiness.blinks); }},
     Figure{"short lives %",
            [](const Measures& m) { return percent(m.steadiness.short_lives, m.steadiness.ended); }},
@@ -75,7 +68,7 @@ constexpr std::array kFigures{
            [](const Measures& m) { return percent(m.steadiness.right_ways, m.steadiness.true_ways); }},
     Figure{"own ids /km",
            [](const Measures& m) {
-             return m.steadiness.driven_m > 0.0 ? Value(m.steadiness.own_changes_per_km()) : std::nullopt;
+             return when(m.steadiness.driven_m > 0.0, m.steadiness.own_changes_per_km());
            }},
     Figure{"reach p5 m", [](const Measures& m) { return quantile(m.steadiness.reach_m, 0.05); }},
     Figure{"reach p50 m", [](const Measures& m) { return quantile(m.steadiness.reach_m, 0.5); }},
@@ -118,7 +111,7 @@ std::string row(const std::vector<DriveResults>& results, std::size_t configs, c
   for (const DriveResults& drive : results)
     if (const Value value = figure.of(drive.at(1).measures)) first.add(*value);
   std::string row =
-      fmt::format("| {} | {} |", figure.name, first.count() > 0 ? fmt::format("{:.2f}", first.mean()) : "-");
+      fmt::format("| {} | {} |", figure.name, evaluation::cell(when(first.count() > 0, first.mean()), 2));
   for (std::size_t subject = 2; subject <= configs; ++subject)
     row += fmt::format(" {} |", cell(mean_difference(differences(results, subject, figure))));
   return row + "\n";

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "evaluation/figure.hpp"
+
 namespace laneloom::experiment {
 namespace {
 
 std::string number(bool known, double value, int decimals) {
-  return known ? fmt::format("{:.{}f}", value, decimals) : "-";
+  return evaluation::cell(evaluation::when(known, value), decimals);
 }
 
 std::string precision(const evaluation::Score& score, int decimals) {
