@@ -24,12 +24,10 @@
 namespace laneloom::commands {
 namespace {
 
-struct EvaluateOptions {
+struct EvaluateOptions : LaterInputs {
   bool later = false;
-  std::string in, config, truth, frames, map, json, plots;
+  std::string truth, json, plots;
   RangeConfig range;
-  double min_confidence = PreprocessConfig{}.min_confidence;
-  bool strict = false;
 };
 
 using Stamps = std::set<std::int64_t>;
@@ -138,12 +136,7 @@ Mapped evaluate_mapped(const EvaluateOptions& options, const simulation::Road& t
 }
 
 LaterRating later_rating(const EvaluateOptions& options) {
-  LaterRating rating = evaluate_later({.in = options.in,
-                                       .config = options.config,
-                                       .frames = options.frames,
-                                       .map = options.map,
-                                       .min_confidence = options.min_confidence,
-                                       .strict = options.strict});
+  LaterRating rating = evaluate_later(options);
   const std::string& drive = options.in.empty() ? options.frames : options.in;
   fmt::print(stderr, "{}", why_poor(drive, config::resolve_config(options.config, {})));
   require_rated(rating.later, drive);

@@ -4,6 +4,7 @@
 
 #include "evaluation/later.hpp"
 #include "evaluation/steadiness.hpp"
+#include "laneloom/config.hpp"
 
 namespace laneloom::commands {
 
@@ -12,8 +13,8 @@ namespace laneloom::commands {
 struct LaterInputs {
   std::string in, config;
   std::string frames, map;
-  double min_confidence = 0.0;
-  bool strict = false;  ///< the first thing that is wrong is an error
+  double min_confidence = PreprocessConfig{}.min_confidence;  ///< of the single detections that count
+  bool strict = false;                                        ///< the first thing that is wrong is an error
 };
 
 /// How accurate the maps of a drive are, and how steady for a planner.
