@@ -45,7 +45,7 @@ class Viewer {
                            .max_file_bytes = kMaxFileBytes,
                            .foxglove_topics = {{"/tf", "Transform", "struct Transform {};"}}},
                           [this](std::string_view target) { return desk_.answer(target); },
-                          [this](std::string_view target, view::TemporaryFolder folder) {
+                          [this](std::string_view target, io::WorkFolder folder) {
                             return desk_.open(target, std::move(folder));
                           }};
 };

@@ -15,9 +15,9 @@ using nlohmann::json;
 /// A desk whose files say their frame, and are read until a stop is requested.
 class Desk : public testing::Test {
  protected:
-  static TemporaryFolder put(const std::string& content) {
-    TemporaryFolder folder;
-    std::ofstream(folder.path(WebServer::kFileName)) << content;
+  static io::WorkFolder put(const std::string& content) {
+    io::WorkFolder folder;
+    std::ofstream(folder.file(WebServer::kFileName)) << content;
     return folder;
   }
 

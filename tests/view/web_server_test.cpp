@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "client.hpp"
+#include "thrown_by.hpp"
 
 namespace laneloom::view {
 namespace {
@@ -100,8 +101,8 @@ class FileServer : public Server {
   void start(WebServerConfig config = {}) {
     config.max_file_bytes = 100'000;
     server_ =
-        std::make_unique<WebServer>(config, echo, [this](std::string_view target, TemporaryFolder folder) {
-          const std::filesystem::path path = folder.path(WebServer::kFileName);
+        std::make_unique<WebServer>(config, echo, [this](std::string_view target, io::WorkFolder folder) {
+          const std::filesystem::path path = folder.file(WebServer::kFileName);
           std::ifstream file(path);
           std::stringstream content;
           content << file.rdbuf();
@@ -304,12 +305,8 @@ TEST_F(Server, ConnectionsThatSayNothingGiveWay) {
 
 TEST_F(Server, SaysWhereItCannotListen) {
   start();
-  try {
-    const WebServer second({.port = server_->port()}, echo);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cannot listen on 127.0.0.1, port "));
-  }
+  EXPECT_THAT(thrown_by([&] { const WebServer second({.port = server_->port()}, echo); }),
+              HasSubstr("cannot listen on 127.0.0.1, port "));
   EXPECT_THROW(WebServer({.address = "no address"}, echo), std::runtime_error);
 }
 

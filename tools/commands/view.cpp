@@ -54,7 +54,7 @@ view::FileDesk::Loader file_loader(const RangeConfig& range) {
 
 view::WebServer serve(const ViewOptions& options, view::FileDesk& desk) {
   return {options.server, [&desk](std::string_view target) { return desk.answer(target); },
-          [&desk](std::string_view target, view::TemporaryFolder folder) {
+          [&desk](std::string_view target, io::WorkFolder folder) {
             return desk.open(target, std::move(folder));
           }};
 }

@@ -9,8 +9,8 @@
 
 #include "base/seconds.hpp"
 #include "config/config_file.hpp"
+#include "io/work_folder.hpp"
 #include "laneloom/dds/cdr.hpp"
-#include "view/temporary_folder.hpp"
 
 namespace laneloom::view {
 namespace {
@@ -64,11 +64,10 @@ void BlackBox::add(const recording::AnyMessage& message, std::int64_t time_ns) {
 
 std::string BlackBox::mcap() const {
   const std::lock_guard lock(mutex_);
-  const TemporaryFolder folder;
-  const std::filesystem::path path = folder.path("last.mcap");
+  const io::WorkFolder folder;
+  const std::string path = folder.file("last.mcap");
   recording::RecordingWriter writer(
-      path.string(),
-      {.map_frame_id = map_frame_id_, .configuration = status_ ? configuration_of(*status_) : ""});
+      path, {.map_frame_id = map_frame_id_, .configuration = status_ ? configuration_of(*status_) : ""});
   const auto write = [&](const std::vector<Entry>& entries, const std::string& messages) {
     std::size_t begin = 0;
     for (const Entry& entry : entries) {

@@ -26,14 +26,14 @@ bool is_plain(std::string_view name) {
 }  // namespace
 
 struct FileDesk::Opened {
-  Opened(const Site::Content& content, TemporaryFolder&& in, const Loader& load)
+  Opened(const Site::Content& content, io::WorkFolder&& in, const Loader& load)
       : folder(std::move(in)),
         site(content, store),
-        loader([this, load, file = folder.path(content.title)](const std::stop_token& stop) {
+        loader([this, load, file = folder.file(content.title)](const std::stop_token& stop) {
           load(file, store, stop);
         }) {}
 
-  TemporaryFolder folder;
+  io::WorkFolder folder;
   FrameStore store;
   Site site;
   std::jthread loader;  ///< ends before all that it uses
@@ -51,12 +51,12 @@ WebAnswer FileDesk::answer(std::string_view target) const {
   return {410, "text/plain", "the file is open no longer\n"};
 }
 
-WebAnswer FileDesk::open(std::string_view target, TemporaryFolder folder) {
+WebAnswer FileDesk::open(std::string_view target, io::WorkFolder folder) {
   const std::string name(Target(target).value("name"));
   if (!is_plain(name))
     return {400, "text/plain", "the file's name must be of letters, digits, '.', '_' and '-'\n"};
   std::error_code failure;
-  std::filesystem::rename(folder.path(WebServer::kFileName), folder.path(name), failure);
+  std::filesystem::rename(folder.file(WebServer::kFileName), folder.file(name), failure);
   if (failure) return {500, "text/plain", failure.message() + "\n"};
   opened_.reset();
   opened_ = std::make_unique<Opened>(Site::Content{.title = name, .max_file_bytes = max_file_bytes_},

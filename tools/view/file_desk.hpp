@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <string_view>
 
+#include "io/work_folder.hpp"
 #include "view/frame_store.hpp"
 #include "view/site.hpp"
-#include "view/temporary_folder.hpp"
 #include "view/web_server.hpp"
 
 namespace laneloom::view {
@@ -32,7 +32,7 @@ class FileDesk {
   WebAnswer answer(std::string_view target) const;
   /// Opens a file as `name=…` of the target, in place of the one before. Answers with {"view": N}. The file
   /// is removed when it is shown no longer.
-  WebAnswer open(std::string_view target, TemporaryFolder folder);
+  WebAnswer open(std::string_view target, io::WorkFolder folder);
 
  private:
   struct Opened;

@@ -31,14 +31,14 @@ struct Upload {
   Upload(Hub& server, http::request_parser<http::empty_body>&& header)
       : hub(server), parser(std::move(header)) {
     hub.takes_file = true;
-    parser.get().body().open(folder.path(WebServer::kFileName).c_str(), beast::file_mode::write_new, failure);
+    parser.get().body().open(folder.file(WebServer::kFileName).c_str(), beast::file_mode::write_new, failure);
   }
   Upload(const Upload&) = delete;
   Upload& operator=(const Upload&) = delete;
   ~Upload() { hub.takes_file = false; }
 
   Hub& hub;
-  TemporaryFolder folder;
+  io::WorkFolder folder;
   FileParser parser;
   error_code failure;  ///< of the folder's file
 };
@@ -107,7 +107,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const std::string target(view_of(upload_->parser.get().target()));
     const bool keep_alive = upload_->parser.get().keep_alive();
     upload_->parser.get().body().close();
-    TemporaryFolder folder = std::move(upload_->folder);
+    io::WorkFolder folder = std::move(upload_->folder);
     upload_.reset();
     if (error == asio::error::operation_aborted) return;  // it was closed
     if (error == beast::error::timeout || error == http::error::partial_message) return end();

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/work_folder.hpp"
 #include "recording/recording.hpp"
-#include "view/temporary_folder.hpp"
 
 namespace laneloom::view {
 
@@ -48,7 +48,7 @@ class WebServer {
   using Handler = std::function<WebAnswer(std::string_view target)>;
 
   /// Takes a file that a page has put, `kFileName` in `folder`. Likewise.
-  using FileTaker = std::function<WebAnswer(std::string_view target, TemporaryFolder folder)>;
+  using FileTaker = std::function<WebAnswer(std::string_view target, io::WorkFolder folder)>;
 
   static constexpr const char* kFilePath = "/open";
   static constexpr const char* kFileName = "file";
