@@ -24,7 +24,7 @@ const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",
                                           "tertiary", "unclassified", "residential", "living_street",
                                           "service",  "road"};
 constexpr double kMaxDistance_m = 1e6;  // from the origin; further away the projection has no meaning
-constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;  // in memory a file takes a few times as much
+constexpr std::uintmax_t kMaxFileBytes = 128U << 20U;  // in memory a file takes five to eight times as much
 constexpr double kMaxStreets_m = 2e7;  // all streets; a few bytes can name streets that take all memory
 
 [[noreturn]] void refuse(const pugi::xml_node& element, const std::string& complaint) {
@@ -116,7 +116,7 @@ void check_file(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error("is not a readable file");
   if (std::filesystem::file_size(file, error) > kMaxFileBytes)
-    throw std::runtime_error("is larger than 512 MB");
+    throw std::runtime_error("is larger than 128 MB");
 }
 
 SdMap read(const std::string& file, const SdMapConfig& config) {

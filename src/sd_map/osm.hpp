@@ -8,7 +8,7 @@ namespace laneloom::sd_map {
 
 /// Reads an OpenStreetMap extract (XML): its highways for motor vehicles, one-way streets and turn
 /// restrictions, with the map frame's origin as configured: x east, y north. An empty file name gives an
-/// empty map. Throws ConfigError if the file cannot be read, is larger than 512 MB, or holds no street or
+/// empty map. Throws ConfigError if the file cannot be read, is larger than 128 MB, or holds no street or
 /// more than 20000 km of them. The error names the file and, if possible, the element.
 SdMap load_sd_map(const SdMapConfig& config);
 
