@@ -92,6 +92,7 @@ void name_builtin_transports(DomainParticipantQos& qos) {
 }  // namespace
 
 bool Door::lets_in(std::span<const std::uint8_t> datagram) {
+  if (probe_.is_question(datagram)) return true;
   const std::lock_guard lock(mutex_);
   const auto refusal = guard_.check(datagram, now_ns());
   if (refusal) ++refused_[static_cast<std::size_t>(*refusal)];

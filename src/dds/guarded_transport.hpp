@@ -18,6 +18,7 @@ namespace laneloom::dds {
 class Door {
  public:
   explicit Door(bool wants_protection) : guard_(wants_protection) {}
+  /// Whether the guard lets it in, or it is a question of the probe: that comes in the clear.
   bool lets_in(std::span<const std::uint8_t> datagram);
   /// datagrams_refused_<reason>, for the reasons that occurred.
   Counters refused() const;

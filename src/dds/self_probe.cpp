@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+
+#include "base/random_id.hpp"
 
 namespace laneloom::dds {
 namespace {
@@ -24,10 +25,16 @@ void append_entity(Bytes& bytes, const std::array<std::uint8_t, 3>& key, std::ui
   append(bytes, {key[0], key[1], key[2], kind});
 }
 
+void append_number(Bytes& bytes, std::uint64_t number) {
+  for (unsigned shift = 0; shift < 64; shift += 8)
+    bytes.push_back(static_cast<std::uint8_t>(number >> shift));
+}
+
 /// A heartbeat and an acknowledgement of nobody to all endpoints of discovery. Each of them takes its lock to
-/// find that it does not know the other, and the participant takes its own.
+/// find that it does not know the other, and the participant takes its own. Nobody can guess their sender.
 Bytes make_question() {
-  Bytes result{'R', 'T', 'P', 'S', 2, 3, 0, 0, 'l', 'a', 'n', 'e', 'l', 'o', 'o', 'm', 0, 0, 0, 0};
+  Bytes result{'R', 'T', 'P', 'S', 2, 3, 0, 0, 'l', 'a', 'n', 'e'};
+  append_number(result, random_id());
   for (const auto& key : kDiscovery) {
     append(result, {kHeartbeatKind, kLowestByteFirst, 28, 0});
     append_entity(result, key, kReader);
@@ -44,7 +51,8 @@ Bytes make_question() {
 
 }  // namespace
 
-SelfProbe::SelfProbe() : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
+SelfProbe::SelfProbe()
+    : question_(make_question()), socket_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {}
 
 SelfProbe::~SelfProbe() {
   if (socket_ >= 0) close(socket_);
@@ -65,15 +73,18 @@ void SelfProbe::note_taken(std::uint16_t port) {
 }
 
 int SelfProbe::ask() {
-  static const Bytes kQuestion = make_question();
   const std::lock_guard lock(mutex_);
   int worst = 0;
   for (auto& [number, port] : ports_) {
     if (port.has_taken) worst = std::max(worst, port.unanswered++);
-    sendto(socket_, kQuestion.data(), kQuestion.size(), 0, reinterpret_cast<const sockaddr*>(&port.address),
+    sendto(socket_, question_.data(), question_.size(), 0, reinterpret_cast<const sockaddr*>(&port.address),
            sizeof port.address);
   }
   return worst;
+}
+
+bool SelfProbe::is_question(std::span<const std::uint8_t> datagram) const {
+  return std::ranges::equal(datagram, question_);
 }
 
 }  // namespace laneloom::dds

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <span>
+#include <vector>
 
 namespace laneloom::dds {
 
@@ -25,6 +27,9 @@ class SelfProbe {
   /// Sends a datagram to each port. Returns how many of these in a row one of the ports has not taken, in the
   /// worst case. A port that has never taken one does not count: there may be no way to it.
   int ask();
+  /// Whether these are the bytes of this probe's datagrams. They hold a random number and stay on this host,
+  /// so that nobody else can send them.
+  bool is_question(std::span<const std::uint8_t> datagram) const;
 
  private:
   struct Port {
@@ -33,6 +38,7 @@ class SelfProbe {
     int unanswered = 0;
   };
 
+  const std::vector<std::uint8_t> question_;
   std::mutex mutex_;
   std::map<std::uint16_t, Port> ports_;
   int socket_;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "dds/guarded_transport.hpp"
 #include "dds/rtps_guard.hpp"
 
 // What a service does that hears nothing any more is tried in tests/end_to_end/process_faults_test.cpp.
@@ -61,14 +62,43 @@ TEST(SelfProbe, CountsWhatAPortDoesNotTake) {
   EXPECT_EQ(probe.ask(), 1) << "the other one has not taken the last question";
 }
 
-TEST(SelfProbe, ItsQuestionsComeThroughTheGuard) {
+std::vector<std::uint8_t> question_of(SelfProbe& probe) {
   const OpenPort port;
-  SelfProbe probe;
   probe.add_port({htonl(INADDR_LOOPBACK)}, port.number());
   probe.ask();
-  const auto question = port.next();
+  return port.next();
+}
+
+TEST(SelfProbe, ItsQuestionsAreSound) {
+  SelfProbe probe;
+  const auto question = question_of(probe);
   ASSERT_FALSE(question.empty());
   EXPECT_FALSE(RtpsGuard().check(question, 1));
+}
+
+TEST(SelfProbe, ItsQuestionsComeThroughTheDoorOfItsParticipantOnly) {
+  for (const bool wants_protection : {false, true}) {
+    Door door(wants_protection), other(wants_protection);
+    const auto question = question_of(door.probe());
+    ASSERT_FALSE(question.empty());
+    EXPECT_TRUE(door.lets_in(question));
+    EXPECT_TRUE(door.refused().values().empty());
+    EXPECT_EQ(other.lets_in(question), !wants_protection) << "to the other one it is a stranger's";
+  }
+}
+
+TEST(SelfProbe, WhatResemblesItsQuestionsIsRefusedWhereAllMustBeProtected) {
+  Door door(true);
+  const auto question = question_of(door.probe());
+  ASSERT_FALSE(question.empty());
+  auto longer = question;
+  longer.push_back(0);
+  EXPECT_FALSE(door.lets_in(longer));
+  for (std::size_t i = 0; i < question.size(); ++i) {
+    auto changed = question;
+    changed[i] ^= 1U;
+    EXPECT_FALSE(door.lets_in(changed)) << "byte " << i;
+  }
 }
 
 }  // namespace
