@@ -1,6 +1,7 @@
 #include "validate.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "config/config_file.hpp"
@@ -101,6 +102,28 @@ std::optional<Problem> find_wrong_name(const Ros2Config& ros2) {
   return std::nullopt;
 }
 
+/// The name with its namespace, and a leading '/'.
+std::string full_name(const Ros2Config& ros2, const std::string& name) {
+  if (name.starts_with('/')) return name;
+  const std::string& outer = ros2.ros_namespace;
+  const std::string below_outer = outer.empty() ? name : outer + "/" + name;
+  return below_outer.starts_with('/') ? below_outer : "/" + below_outer;
+}
+
+/// Finds a topic of ROS 2 with the name of another one: each has a type of its own.
+std::optional<Problem> find_equal_names(const Ros2Config& ros2) {
+  std::set<std::string> taken;
+  for (const auto* fixed : {"laneloom/detections", "laneloom/lane_map", "laneloom/markers", "/diagnostics"})
+    taken.insert(full_name(ros2, fixed));
+  const auto problem = [&](const char* key, const std::string& name) -> std::optional<Problem> {
+    if (taken.insert(full_name(ros2, name)).second) return std::nullopt;
+    return Problem{std::string("ros2.") + key, "\"" + name + "\" is the name of another topic of the service"};
+  };
+  if (auto found = problem("odometry_topic", ros2.odometry_topic)) return found;
+  if (auto found = problem("objects_topic", ros2.objects_topic)) return found;
+  return problem("road_segments_topic", ros2.road_segments_topic);
+}
+
 std::optional<Problem> find_contradiction(const Config& c) {
   const auto& mapper = c.mapper;
   if (mapper.range.forward_min_m >= mapper.range.forward_max_m) {
@@ -135,7 +158,8 @@ std::optional<Problem> find_contradiction(const Config& c) {
   if (c.dds.profile_file.empty() != c.dds.profile_name.empty()) {
     return Problem{"dds.profile_file", "profile_file and profile_name are given together or not at all"};
   }
-  return find_wrong_name(c.ros2);
+  if (auto problem = find_wrong_name(c.ros2)) return problem;
+  return find_equal_names(c.ros2);
 }
 
 }  // namespace

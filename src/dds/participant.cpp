@@ -8,6 +8,7 @@
 #include "dds/identity_check.hpp"
 #include "dds/participant_impl.hpp"
 #include "dds/qos.hpp"
+#include "laneloom/error.hpp"
 
 namespace laneloom::dds {
 
@@ -56,7 +57,11 @@ void Participant::Impl::close() {
 }
 
 Topic* Participant::Impl::topic(const std::string& name, const TypeSupport& type) {
-  if (auto* known = dynamic_cast<Topic*>(participant_->lookup_topicdescription(name))) return known;
+  if (auto* known = dynamic_cast<Topic*>(participant_->lookup_topicdescription(name))) {
+    if (known->get_type_name() == type.get_type_name()) return known;
+    throw ConfigError("topic " + name + " cannot have two types: " + known->get_type_name() + " and " +
+                      type.get_type_name());
+  }
   participant_->register_type(type);
   auto* topic = participant_->create_topic(name, type.get_type_name(), TOPIC_QOS_DEFAULT);
   if (!topic) refuse("topic " + name);

@@ -22,7 +22,8 @@ class Participant::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  /// The topic of this name. It is made at its first use. Throws as Participant().
+  /// The topic of this name. It is made at its first use. Throws as Participant(), and ConfigError if it has
+  /// another type.
   eprosima::fastdds::dds::Topic* topic(const std::string& name,
                                        const eprosima::fastdds::dds::TypeSupport& type);
 

@@ -168,6 +168,26 @@ TEST_F(ConfigFile, ANameThatRos2RefusesIsNamedWithItsLine) {
   EXPECT_THAT(error_of("ros2:\n  distro: foxy\n"), HasSubstr("\"foxy\" is none of humble|jazzy"));
 }
 
+TEST_F(ConfigFile, TwoTopicsOfRos2WithOneNameAreRefused) {
+  EXPECT_EQ(error_of("ros2:\n  odometry_topic: odom\n  objects_topic: odom\n"),
+            ":3: ros2.objects_topic: \"odom\" is the name of another topic of the service");
+  for (const std::string ros_namespace : {"", "car_1", "/car_1"}) {
+    const std::string inner = ros_namespace.empty() ? "/" : "/car_1/";
+    const auto begin = "ros2:\n  namespace: '" + ros_namespace + "'\n  ";
+    EXPECT_THAT(error_of(begin + "odometry_topic: x\n  road_segments_topic: " + inner + "x\n"),
+                StartsWith(":4: ros2.road_segments_topic"));
+    for (const std::string key : {"odometry_topic", "objects_topic", "road_segments_topic"})
+      for (const std::string name : {"laneloom/detections", "laneloom/lane_map", "laneloom/markers"}) {
+        EXPECT_THAT(error_of(begin + key + ": " + name + "\n"), StartsWith(":3: ros2." + key)) << name;
+        EXPECT_THAT(error_of(begin + key + ": " + inner + name + "\n"), StartsWith(":3: ros2." + key))
+            << name;
+      }
+    EXPECT_THAT(error_of(begin + "objects_topic: /diagnostics\n"), StartsWith(":3: ros2.objects_topic"));
+  }
+  EXPECT_EQ(error_of("ros2:\n  namespace: car_1\n  objects_topic: /odom\n"), "no error");
+  EXPECT_EQ(error_of("ros2:\n  namespace: car_1\n  objects_topic: diagnostics\n"), "no error");
+}
+
 TEST_F(ConfigFile, BadYamlIsNamedWithItsLine) {
   EXPECT_THAT(error_of("sync:\n  max_wait_s: [1\n"), ::testing::MatchesRegex(":[0-9]+: bad YAML: .*"));
   EXPECT_THAT(error_of("sync:\n\tmax_wait_s: 1\n"), HasSubstr("bad YAML"));

@@ -239,6 +239,15 @@ TEST(Participants, ACallbackThatThrowsDoesNoHarm) {
   EXPECT_TRUE(received.wait_for_samples(2));
 }
 
+TEST(Participants, ATopicHasOneType) {
+  Participant::Impl here(config_of("type"), "here", Participant::Presence::hidden);
+  const auto detections = topic_of<DetectionFrame, TopicTraits<DetectionFrame>::Type>().type;
+  const auto map = topic_of<PublishedMap, TopicTraits<PublishedMap>::Type>().type;
+  auto* const topic = here.topic("x", detections);
+  EXPECT_EQ(here.topic("x", detections), topic);
+  EXPECT_THROW(here.topic("x", map), ConfigError);
+}
+
 TEST(Participants, ABadProfileStopsTheStart) {
   auto config = config_of("profile");
   config.profile_name = "mine";
