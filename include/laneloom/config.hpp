@@ -228,7 +228,7 @@ struct GateConfig {
 /// The service process: its rate, the limits beyond which it warns of its map, its log, and what it keeps for
 /// a restart.
 struct ServiceConfig {
-  double tick_rate_hz = 10.0;       ///< how often the map is published; at least 5
+  double tick_rate_hz = 10.0;       ///< how often the map is published; at least 8
   double stale_after_s = 0.4;       ///< without a fused frame, the map is STALE
   double degraded_after_s = 0.25;   ///< without detections or poses, it is DEGRADED
   double stale_lag_s = 1.0;         ///< by stamps, fused frames that are older than the poses make it STALE

@@ -348,9 +348,10 @@ void visit(auto& v, Is<GateConfig> auto& c) {
 void visit(auto& v, Is<ServiceConfig> auto& c) {
   auto& [tick_rate_hz, stale_after_s, degraded_after_s, stale_lag_s, degraded_lag_s, status_period_s,
          log_level, snapshot_file, snapshot_period_s, snapshot_max_age_s] = c;
-  // Two maps are at most as far apart as their deadline (250 ms, src/dds/qos.cpp) allows.
-  v.number("tick_rate_hz", tick_rate_hz, {"Hz", 5, 100},
-           "How often the map is published. Below 5 Hz the service would miss the deadline that it offers.");
+  // Two ticks are at most two periods apart (src/core/phase_lock.cpp), and two maps no further than their
+  // deadline allows (250 ms, src/dds/qos.cpp).
+  v.number("tick_rate_hz", tick_rate_hz, {"Hz", 8, 100},
+           "How often the map is published. Below 8 Hz the service would miss the deadline that it offers.");
   v.number("stale_after_s", stale_after_s, {"s", 0.05, 60},
            "The map is STALE when no frame was fused for this long.");
   v.number("degraded_after_s", degraded_after_s, {"s", 0.05, 60},

@@ -149,7 +149,7 @@ void set_common(TopicKind kind, Qos& qos) {
   const bool from_service = kind == TopicKind::map || kind == TopicKind::status;
   qos.durability().kind = from_service ? TRANSIENT_LOCAL_DURABILITY_QOS : VOLATILE_DURABILITY_QOS;
   if (kind == TopicKind::map) {
-    // Longer than the period of the slowest service.tick_rate_hz (5 Hz).
+    // Two periods of the slowest service.tick_rate_hz (8 Hz): two ticks are no further apart.
     qos.deadline().period = milliseconds(250);
     // Automatic liveliness would be asserted by a thread of Fast DDS while the executor hangs.
     qos.liveliness().kind = MANUAL_BY_TOPIC_LIVELINESS_QOS;

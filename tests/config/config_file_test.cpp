@@ -106,9 +106,9 @@ TEST_F(ConfigFile, AWrongTypeIsNamedWithItsLine) {
 }
 
 TEST_F(ConfigFile, AValueOutOfRangeIsNamedWithItsLine) {
-  EXPECT_EQ(error_of("service:\n\n  tick_rate_hz: 0\n"), ":3: service.tick_rate_hz: 0 is not in 5 .. 100");
-  // Slower than the map's deadline and lease.
-  EXPECT_EQ(error_of("service:\n  tick_rate_hz: 4.9\n"), ":2: service.tick_rate_hz: 4.9 is not in 5 .. 100");
+  EXPECT_EQ(error_of("service:\n\n  tick_rate_hz: 0\n"), ":3: service.tick_rate_hz: 0 is not in 8 .. 100");
+  // Two periods are longer than the map's deadline.
+  EXPECT_EQ(error_of("service:\n  tick_rate_hz: 7.9\n"), ":2: service.tick_rate_hz: 7.9 is not in 8 .. 100");
   EXPECT_THAT(error_of("service:\n  tick_rate_hz: .nan\n"),
               HasSubstr(":2: service.tick_rate_hz: nan is not in"));
   EXPECT_THAT(error_of("service:\n  tick_rate_hz: .inf\n"),

@@ -92,7 +92,7 @@ TEST(Laneloomd, TheMapTurnsStaleWhenDetectionsStopAndSaysWhy) {
 TEST(Laneloomd, ALateJoinerGetsTheNewestMapAtOnce) {
   // At so few maps a second, the first that a joiner gets is often one that another has had for long, if any
   // is kept for it.
-  const TemporaryFile file("slow.yaml", "service:\n  tick_rate_hz: 5\n");
+  const TemporaryFile file("slow.yaml", "service:\n  tick_rate_hz: 8\n");
   const auto config = private_config();
   const Process service(command(config, {"--config", file.path}));
   Listener<PublishedMap> first(config);

@@ -52,7 +52,7 @@ TEST(Reload, AnInvalidFileIsRefusedAndTheServiceGoesOn) {
   ASSERT_TRUE(maps.wait_for(is_published));
   const auto log = service.errors();
   EXPECT_NE(log.find("error event=configuration_refused reason=\"" + file.path +
-                     ":3: service.tick_rate_hz: 1000 is not in 5 .. 100\""),
+                     ":3: service.tick_rate_hz: 1000 is not in 8 .. 100\""),
             std::string::npos)
       << log;
   EXPECT_EQ(log.find("event=changed"), std::string::npos) << log;
