@@ -96,7 +96,7 @@ struct ServiceStatus {
   TimeSummary tick_delay;            ///< from a tick's deadline to its start
   std::uint32_t pending_frames = 0;  ///< number of frames that wait for their pose
   std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< since the start: name, count
-  std::vector<SourceStatus> sources;  ///< the newest sessions, in the order of their beginning
+  std::vector<SourceStatus> sources;  ///< the sessions heard last, in the order of their beginning
   std::string version;                ///< of laneloom
   std::string config_hash;            ///< tells configurations apart
   /// Every key of the configuration, and its value as in the file.

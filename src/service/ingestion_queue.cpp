@@ -42,7 +42,7 @@ bool IngestionQueue::enqueue(DetectionFrame&& frame, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
   count_frame();
   state_.newest_frame_ns = arrival_ns;
-  note_source(frame);
+  note_source(frame, arrival_ns);
   if (!refusal.empty()) {
     state_.counters.add("detections_refused_" + std::string(refusal));
     return false;
@@ -107,20 +107,28 @@ void IngestionQueue::drop_oldest_of_most() {
   state_.counters.add("frames_dropped_queue_full");
 }
 
-void IngestionQueue::note_source(const DetectionFrame& frame) {
+void IngestionQueue::note_source(const DetectionFrame& frame, std::int64_t arrival_ns) {
   auto& sources = state_.sources;
   const auto known = std::find_if(sources.begin(), sources.end(), [&](const SourceStatus& source) {
     return source.session_id == frame.session_id && source.source == frame.source;
   });
   if (known == sources.end()) {
-    if (sources.size() == kMaxSources) sources.erase(sources.begin());
+    if (sources.size() == kMaxSources) forget_a_source();
     sources.push_back({frame.source, frame.session_id, frame.sequence, frame.sequence, 1});
+    heard_ns_.push_back(arrival_ns);
   } else {
+    heard_ns_[static_cast<std::size_t>(known - sources.begin())] = arrival_ns;
     // The first frame to arrive may have overtaken one that was lost and sent again.
     known->first_sequence = std::min(known->first_sequence, frame.sequence);
     known->last_sequence = std::max(known->last_sequence, frame.sequence);
     ++known->frames;
   }
+}
+
+void IngestionQueue::forget_a_source() {
+  const auto silent = std::ranges::min_element(heard_ns_);
+  state_.sources.erase(state_.sources.begin() + (silent - heard_ns_.begin()));
+  heard_ns_.erase(silent);
 }
 
 void IngestionQueue::count_frame() {

@@ -63,7 +63,9 @@ class IngestionQueue {
   bool enqueue(VehiclePose&& pose, std::int64_t arrival_ns);
   bool note_ready(std::size_t frames, std::int64_t arrival_ns);
   void drop_oldest_of_most();
-  void note_source(const DetectionFrame& frame);
+  void note_source(const DetectionFrame& frame, std::int64_t arrival_ns);
+  /// Forgets the one that has been silent for the longest time.
+  void forget_a_source();
   void count_frame();
   void count_pose();
   void count_objects();
@@ -86,7 +88,8 @@ class IngestionQueue {
   std::uint64_t frames_lost_ = 0;
   std::uint64_t poses_lost_ = 0;
   std::uint64_t objects_lost_ = 0;
-  core::Arrivals state_;  ///< without messages, which are in the queues
+  core::Arrivals state_;                ///< without messages, which are in the queues
+  std::vector<std::int64_t> heard_ns_;  ///< arrival of the newest frame of each of its sources
 };
 
 }  // namespace laneloom::service

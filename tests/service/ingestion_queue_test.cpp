@@ -183,6 +183,27 @@ TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
   EXPECT_EQ(queue.take().sources.front().session_id, 14U);
 }
 
+TEST(IngestionQueue, KeepsTheSourcesThatWereHeardLast) {
+  IngestionQueue queue(capacities(2, 2));
+  const auto push = [&](const std::string& source, std::uint64_t session, std::int64_t arrival_ns) {
+    auto of_source = frame(1);
+    of_source.source = source;
+    of_source.session_id = session;
+    queue.push(std::move(of_source), arrival_ns);
+  };
+  push("silent", 1, 0);
+  push("steady", 1, 1);
+  for (std::uint64_t session = 10; session < 50; ++session) {
+    push("restarts", session, static_cast<std::int64_t>(2 * session));
+    push("steady", 1, static_cast<std::int64_t>(2 * session + 1));
+  }
+  const auto sources = queue.take().sources;
+  ASSERT_EQ(sources.size(), 16U);
+  EXPECT_EQ(sources.front().source, "steady");
+  EXPECT_EQ(sources.front().frames, 41U);
+  EXPECT_EQ(sources[1].session_id, 35U) << "of the one that restarts, the newest 15 are left";
+}
+
 TEST(IngestionQueue, CountsWhatNeverCame) {
   IngestionQueue queue(capacities(2, 2));
   queue.number_detections({1}, 7);
