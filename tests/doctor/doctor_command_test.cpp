@@ -10,7 +10,7 @@ using testing::Value;
 
 class Doctor : public Processes {
  protected:
-  std::vector<std::string> doctor() const { return command({LANELOOM_COMMAND, "doctor", "--json"}); }
+  const std::string doctor_ = "doctor --json" + here_;
 
   std::vector<std::string> ids() const {
     const nlohmann::json report = json();
@@ -25,29 +25,29 @@ class Doctor : public Processes {
     return {};
   }
   /// Until the finding says `text`.
-  bool run_until_found(const std::vector<std::string>& words, const std::string& id,
+  bool run_until_found(const std::string& words, const std::string& id,
                        const testing::Matcher<std::string>& text = Not(testing::IsEmpty())) const {
     return run_until(words, [&](int code) { return code == 2 && Value(found(id), text); });
   }
 };
 
 TEST_F(Doctor, FindsNothingWhereNothingIsWrong) {
-  const support::ChildProcess running(service(), file("service.log"));
-  const support::ChildProcess publishing(command(publisher()), file("publish.log"));
-  EXPECT_TRUE(run_until(doctor(), [](int code) { return code == 0; })) << output();
+  const support::ChildProcess running = start(service_, "service.log");
+  const support::ChildProcess publishing = start(publisher_ + here_, "publish.log");
+  EXPECT_TRUE(run_until(doctor_, [](int code) { return code == 0; })) << output();
   EXPECT_TRUE(json().at("findings").empty());
   EXPECT_EQ(json().at("participants").size(), 2U);
-  EXPECT_TRUE(run_until(command({LANELOOM_COMMAND, "doctor"}), [](int code) { return code == 0; }));
+  EXPECT_TRUE(run_until("doctor" + here_, [](int code) { return code == 0; }));
   EXPECT_THAT(output(), HasSubstr("Nothing wrong was found."));
 }
 
 TEST_F(Doctor, FindsAWrongPartition) {
-  const support::ChildProcess running(service(), file("service.log"));
-  const support::ChildProcess publishing(command(publisher(), domain_, "other"), file("publish.log"));
+  const support::ChildProcess running = start(service_, "service.log");
+  const support::ChildProcess publishing = start(publisher_ + of(domain_, "other"), "publish.log");
   const auto partition = AllOf(HasSubstr("\"laneloom publish\""),
                                HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\""));
   const auto others = testing::IsSupersetOf({"no_detections", "no_poses", "state_no_detections"});
-  EXPECT_TRUE(run_until(doctor(), [&](int code) {
+  EXPECT_TRUE(run_until(doctor_, [&](int code) {
     return code == 2 && Value(found("wrong_partition"), partition) && Value(ids(), others);
   })) << output();
 }
@@ -68,50 +68,43 @@ class DoctorBehindAServer : public Doctor {
     std::ofstream(file("config.yaml"))
         << "dds:\n  profile_file: " << file("profile.xml") << "\n  profile_name: " SERVER_PROFILE "\n";
   }
-  std::vector<std::string> server() const { return {kServer, "-i", "0", "-l", "127.0.0.1", "-p", port_}; }
-  std::vector<std::string> configured(std::vector<std::string> words) const {
-    words.insert(words.end(), {"--config", file("config.yaml")});
-    return words;
-  }
-  std::vector<std::string> profiled(std::vector<std::string> words) const {
-    words.insert(words.end(), {"--profile-file", file("profile.xml"), "--profile-name", SERVER_PROFILE});
-    return words;
-  }
 
   static constexpr const char* kServer = "/usr/bin/fast-discovery-server";
   const std::string port_ = std::to_string(20000 + getpid() % 10000);
+  const std::string server_ = kServer + (" -i 0 -l 127.0.0.1 -p " + port_);
+  const std::string configured_ = " --config config.yaml";
 };
 
 TEST_F(DoctorBehindAServer, SeesEverybody) {
-  const support::ChildProcess serving(server(), file("server.log"));
-  const support::ChildProcess running(configured(service()), file("service.log"));
-  const support::ChildProcess publishing(command(profiled(publisher()), domain_, "other"),
-                                         file("publish.log"));
-  EXPECT_TRUE(run_until_found(configured(doctor()), "wrong_partition",
+  const support::ChildProcess serving = start(server_, "server.log");
+  const support::ChildProcess running = start(service_ + configured_, "service.log");
+  const support::ChildProcess publishing =
+      start(publisher_ + of(domain_, "other") + "--profile-file profile.xml --profile-name " SERVER_PROFILE,
+            "publish.log");
+  EXPECT_TRUE(run_until_found(doctor_ + configured_, "wrong_partition",
                               HasSubstr("in the partition \"other\", not \"" + vehicle_ + "\"")))
       << output();
 }
 
 TEST_F(DoctorBehindAServer, FindsThatTheServerDoesNotAnswer) {
-  EXPECT_EQ(run(configured(doctor())), 2);
+  EXPECT_EQ(run(doctor_ + configured_), 2);
   EXPECT_THAT(ids(), ElementsAre("no_discovery_server"));
   EXPECT_THAT(found("no_discovery_server"), HasSubstr("127.0.0.1:" + port_));
-  const support::ChildProcess serving(server(), file("server.log"));
-  EXPECT_TRUE(run_until_found(configured(doctor()), "no_service")) << output();
+  const support::ChildProcess serving = start(server_, "server.log");
+  EXPECT_TRUE(run_until_found(doctor_ + configured_, "no_service")) << output();
 }
 
 TEST_F(Doctor, FindsAServiceOfAnotherVehicle) {
-  const support::ChildProcess running(service(), file("service.log"));
-  EXPECT_TRUE(run_until_found(command({LANELOOM_COMMAND, "doctor", "--json"}, domain_, "other"), "no_service",
+  const support::ChildProcess running = start(service_, "service.log");
+  EXPECT_TRUE(run_until_found("doctor --json" + of(domain_, "other"), "no_service",
                               HasSubstr("services in the partition \"" + vehicle_ + "\"")))
       << output();
 }
 
 TEST_F(Doctor, FindsAWrongDomain) {
-  const support::ChildProcess running(service(), file("service.log"));
+  const support::ChildProcess running = start(service_, "service.log");
   const DomainLease empty;
-  const auto words =
-      command({LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"}, empty.number(), vehicle_);
+  const std::string words = "doctor --json --duration 1" + of(empty.number(), vehicle_);
   EXPECT_TRUE(run_until(words, [&](int code) {
     return code == 2 && found("empty_domain").find(" " + std::to_string(domain_)) != std::string::npos;
   })) << output();
@@ -119,38 +112,36 @@ TEST_F(Doctor, FindsAWrongDomain) {
 }
 
 TEST_F(Doctor, FindsTwoServicesAndWhatTheySay) {
-  const support::ChildProcess one(service(), file("one.log"));
-  const support::ChildProcess other(service(), file("other.log"));
-  ASSERT_TRUE(run_until_found(doctor(), "two_services")) << output();
-  EXPECT_TRUE(run_until_found(doctor(), "state_another_service")) << output();
+  const support::ChildProcess one = start(service_, "one.log");
+  const support::ChildProcess other = start(service_, "other.log");
+  ASSERT_TRUE(run_until_found(doctor_, "two_services")) << output();
+  EXPECT_TRUE(run_until_found(doctor_, "state_another_service")) << output();
 }
 
 TEST_F(Doctor, FindsAServiceThatIsStopped) {
-  const support::ChildProcess running(service(), file("service.log"));
-  ASSERT_TRUE(run_until_found(doctor(), "state_no_detections")) << output();
+  const support::ChildProcess running = start(service_, "service.log");
+  ASSERT_TRUE(run_until_found(doctor_, "state_no_detections")) << output();
   running.signal(SIGSTOP);
-  EXPECT_TRUE(run_until_found(doctor(), "service_stopped")) << output();
+  EXPECT_TRUE(run_until_found(doctor_, "service_stopped")) << output();
   EXPECT_THAT(found("service_stopped"), HasSubstr(std::to_string(running.id())));
 }
 
 TEST_F(Doctor, FindsPosesInAnotherFrame) {
   std::ofstream(file("config.yaml")) << "dds:\n  map_frame_id: utm\n";
-  auto words = service();
-  words.insert(words.end(), {"--config", file("config.yaml")});
-  const support::ChildProcess running(words, file("service.log"));
-  const support::ChildProcess publishing(command(publisher()), file("publish.log"));
-  ASSERT_TRUE(run_until_found(doctor(), "poses_refused_wrong_frame")) << output();
+  const support::ChildProcess running = start(service_ + "--config config.yaml", "service.log");
+  const support::ChildProcess publishing = start(publisher_ + here_, "publish.log");
+  ASSERT_TRUE(run_until_found(doctor_, "poses_refused_wrong_frame")) << output();
   EXPECT_THAT(found("poses_refused_wrong_frame"), HasSubstr("The service refused"));
 }
 
 TEST_F(Doctor, FindsAWrongConfiguration) {
   std::ofstream(file("config.yaml")) << "dds:\n  domain: 1\n  vehicle: ego\n";
-  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 2);
+  EXPECT_EQ(run("doctor --json --config config.yaml"), 2);
   EXPECT_THAT(ids(), ElementsAre("configuration"));
-  EXPECT_THAT(found("configuration"), HasSubstr(file("config.yaml") + ":3: dds.vehicle"));
+  EXPECT_THAT(found("configuration"), HasSubstr("config.yaml:3: dds.vehicle"));
 
   std::ofstream(file("config.yaml")) << "dds:\n  profile_file: /nowhere.xml\n  profile_name: mine\n";
-  EXPECT_EQ(run({LANELOOM_COMMAND, "doctor", "--json", "--config", file("config.yaml")}), 2);
+  EXPECT_EQ(run("doctor --json --config config.yaml"), 2);
   EXPECT_THAT(ids(), ElementsAre("participant"));
   EXPECT_THAT(found("participant"), HasSubstr("/nowhere.xml"));
 }
@@ -158,12 +149,9 @@ TEST_F(Doctor, FindsAWrongConfiguration) {
 TEST_F(Doctor, OptionsOverrideTheConfigurationWhereverTheyStand) {
   std::ofstream(file("config.yaml")) << "dds:\n  domain: 99\n  vehicle_id: of_the_file\n";
   const std::string domain = std::to_string(domain_);
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--domain", domain, "--config", file("config.yaml")},
-        std::vector<std::string>{"--config", file("config.yaml"), "--domain", domain}}) {
-    std::vector<std::string> all{LANELOOM_COMMAND, "doctor", "--json", "--duration", "1"};
-    all.insert(all.end(), words.begin(), words.end());
-    run(all);
+  for (const std::string& options :
+       {"--domain " + domain + " --config config.yaml", "--config config.yaml --domain " + domain}) {
+    run("doctor --json --duration 1 " + options);
     EXPECT_EQ(json().at("domain"), domain_);
     EXPECT_EQ(json().at("vehicle_id"), "of_the_file");
   }

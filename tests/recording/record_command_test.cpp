@@ -6,16 +6,15 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <numeric>
+#include <optional>
 
+#include "commands.hpp"
 #include "file_size_limit.hpp"
 #include "laneloom/dds/topics.hpp"
 #include "own_domain.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/recording.hpp"
-#include "support/child_process.hpp"
-#include "temporary_folder.hpp"
 
 // `laneloom record` beside the service and its test publisher, as processes of their own over DDS.
 namespace laneloom::recording {
@@ -23,25 +22,16 @@ namespace {
 
 using testing::HasSubstr;
 
-std::vector<std::string> with_dds(std::vector<std::string> words) {
-  const std::string domain = std::to_string(own_domain());
-  words.insert(words.end(), {"--domain", domain, "--vehicle-id", "record" + std::to_string(getpid())});
-  return words;
-}
-
-class RecordCommand : public ::testing::Test {
+class RecordCommand : public Commands {
  protected:
   void start_vehicle() {
-    service_ = std::make_unique<support::ChildProcess>(with_dds({LANELOOM_SERVICE}), file("service.log"));
-    publisher_ = std::make_unique<support::ChildProcess>(
-        with_dds({LANELOOM_COMMAND, "publish", "--scenario", "straight", "--loop"}), file("publish.log"));
+    service_.emplace(in_folder("exec laneloomd" + dds_), file("service.log"));
+    publisher_.emplace(in_folder("exec laneloom publish --scenario straight --loop" + dds_),
+                       file("publish.log"));
   }
-  support::ChildProcess record(std::vector<std::string> options) {
-    options.insert(options.begin(), {LANELOOM_COMMAND, "record"});
-    return support::ChildProcess(with_dds(options), file("record.log"));
+  support::ChildProcess record(const std::string& options) const {
+    return start("laneloom record " + options + dds_, "output");
   }
-  std::string output() const { return content(file("record.log")); }
-  std::string file(const std::string& name) const { return folder_.file(name); }
 
   /// Until `condition` is met, or half a minute has gone.
   template <class Condition>
@@ -80,13 +70,14 @@ class RecordCommand : public ::testing::Test {
            });
   }
 
-  TemporaryFolder folder_;
-  std::unique_ptr<support::ChildProcess> service_, publisher_;
+  const std::string dds_ =
+      " --domain " + std::to_string(own_domain()) + " --vehicle-id record" + std::to_string(getpid());
+  std::optional<support::ChildProcess> service_, publisher_;
 };
 
 TEST_F(RecordCommand, EveryTopicIsRecorded) {
   start_vehicle();
-  support::ChildProcess recorder = record({"--out", file("drive.mcap")});
+  support::ChildProcess recorder = record("--out drive.mcap");
   ASSERT_TRUE(wait_for_every_topic("drive.mcap")) << output();
   recorder.signal(SIGTERM);
   EXPECT_EQ(recorder.wait(), 0) << output();
@@ -113,21 +104,26 @@ TEST_F(RecordCommand, EveryTopicIsRecorded) {
 
 TEST_F(RecordCommand, ScenesAreMadeOfWhatIsRecorded) {
   start_vehicle();
-  support::ChildProcess recorder = record({"--out", file("drive.mcap"), "--scene"});
+  support::ChildProcess recorder = record("--out drive.mcap --scene");
+  const auto counts_of_topics = [&] {
+    std::map<std::string, int> counts;
+    McapReader reader(file("drive.mcap"));
+    while (const auto message = reader.next()) ++counts[message->channel->topic];
+    return counts;
+  };
   ASSERT_TRUE(wait_for_every_topic("drive.mcap")) << output();
+  // A frame is drawn once its pose has come.
+  ASSERT_TRUE(wait_for([&] { return counts_of_topics()["/laneloom/scene/detections"] > 0; }));
   recorder.signal(SIGTERM);
   EXPECT_EQ(recorder.wait(), 0) << output();
-  std::map<std::string, int> counts;
-  McapReader reader(file("drive.mcap"));
-  while (const auto message = reader.next()) ++counts[message->channel->topic];
+  auto counts = counts_of_topics();
   EXPECT_EQ(counts["/laneloom/scene"], counts[dds::kLaneMapTopic]);
   EXPECT_EQ(counts["/tf"], counts[dds::kVehiclePoseTopic]);
-  EXPECT_GT(counts["/laneloom/scene/detections"], 0);
 }
 
 TEST_F(RecordCommand, AKilledRecorderLeavesAReadableFile) {
   start_vehicle();
-  support::ChildProcess recorder = record({"--out", file("drive.mcap"), "--compression", "lz4"});
+  support::ChildProcess recorder = record("--out drive.mcap --compression lz4");
   ASSERT_TRUE(wait_for_every_topic("drive.mcap")) << output();
   recorder.signal(SIGKILL);
   EXPECT_EQ(recorder.wait(), -SIGKILL);
@@ -137,7 +133,7 @@ TEST_F(RecordCommand, AKilledRecorderLeavesAReadableFile) {
 
 TEST_F(RecordCommand, FilesRollOver) {
   start_vehicle();
-  support::ChildProcess recorder = record({"--out", file("drive"), "--max-duration", "1"});
+  support::ChildProcess recorder = record("--out drive --max-duration 1");
   ASSERT_TRUE(grows_to("drive_0003.mcap", 1)) << output();
   recorder.signal(SIGINT);
   EXPECT_EQ(recorder.wait(), 0) << output();
@@ -148,23 +144,23 @@ TEST_F(RecordCommand, FilesRollOver) {
     poses += counts[1];
   }
   EXPECT_GT(poses, 0);
-  EXPECT_FALSE(std::filesystem::exists(file("drive.mcap")));
+  EXPECT_FALSE(exists("drive.mcap"));
 }
 
 TEST_F(RecordCommand, AFullDiskEndsTheRecordingWithAnError) {
   start_vehicle();
   const FileSizeLimit limit(150'000);
-  support::ChildProcess recorder = record({"--out", file("drive.mcap")});
+  support::ChildProcess recorder = record("--out drive.mcap");
   EXPECT_EQ(recorder.wait(), 1);
-  EXPECT_THAT(output(), HasSubstr(file("drive.mcap") + ": File too large"));
+  EXPECT_THAT(output(), HasSubstr("drive.mcap: File too large"));
   EXPECT_GT(counts_of("drive.mcap", true)[1], 0);
 }
 
 TEST_F(RecordCommand, EndsByItselfAndTellsIfNobodyWasThere) {
-  EXPECT_EQ(record({"--out", folder_.path(), "--duration", "0.3"}).wait(), 3);
+  EXPECT_EQ(record("--out . --duration 0.3").wait(), 3);
   EXPECT_THAT(output(), HasSubstr("nobody was heard in domain"));
   int recordings = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+  for (const auto& entry : std::filesystem::directory_iterator(file(""))) {
     if (entry.path().extension() != ".mcap") continue;
     ++recordings;
     EXPECT_THAT(entry.path().filename().string(), testing::StartsWith("laneloom_2"));
@@ -174,13 +170,13 @@ TEST_F(RecordCommand, EndsByItselfAndTellsIfNobodyWasThere) {
 
 TEST_F(RecordCommand, WrongOptionsAreRefused) {
   write_bytes(file("mine.mcap"), {1, 2, 3});
-  EXPECT_EQ(record({"--out", file("mine.mcap")}).wait(), 1);
+  EXPECT_EQ(record("--out mine.mcap").wait(), 1);
   EXPECT_THAT(output(), HasSubstr("mine.mcap: File exists"));
   EXPECT_EQ(bytes_of(file("mine.mcap")).size(), 3U);
-  EXPECT_EQ(record({"--out", file("missing/drive.mcap")}).wait(), 1);
+  EXPECT_EQ(record("--out missing/drive.mcap").wait(), 1);
   EXPECT_THAT(output(), HasSubstr("missing/drive.mcap: No such file"));
-  EXPECT_NE(record({"--compression", "rar"}).wait(), 0);
-  EXPECT_NE(record({"--max-size", "-1"}).wait(), 0);
+  EXPECT_NE(record("--compression rar").wait(), 0);
+  EXPECT_NE(record("--max-size -1").wait(), 0);
 }
 
 }  // namespace

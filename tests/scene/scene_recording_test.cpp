@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "commands.hpp"
 #include "drawing/frame_elements.hpp"
 #include "drawing/map_elements.hpp"
 #include "drawing/traffic_elements.hpp"
@@ -11,8 +12,6 @@
 #include "laneloom/element_names.hpp"
 #include "recording/recording.hpp"
 #include "scene/scene_recording.hpp"
-#include "support/child_process.hpp"
-#include "temporary_folder.hpp"
 
 // A drive through the town as a recording with scenes, and what npm's readers find in it.
 namespace laneloom::scene {
@@ -58,30 +57,20 @@ json entities_json(const drawing::Drawing& drawing, const std::string& frame) {
   return out;
 }
 
-class SceneRecording : public ::testing::Test {
+class SceneRecording : public Commands {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(std::string(INDEPENDENT_FOLDER) + "/node_modules/@mcap/core"))
       GTEST_SKIP() << "the npm registry could not be reached (see the test independent_install)";
-    laneloom({"simulate", "--scenario", "town", "--traffic", "usual", "--noise", "inhouse", "--duration",
-              "12", "--frames", file("drive.frames.jsonl")});
-    laneloom({"replay", "--in", file("drive.frames.jsonl"), "--out", file("maps.mcap")});
+    ASSERT_TRUE(
+        done("simulate --scenario town --traffic usual --noise inhouse --duration 12 --frames "
+             "drive.frames.jsonl"));
+    ASSERT_TRUE(done("replay drive.frames.jsonl --out maps.mcap"));
     write_drive();
-    laneloom({"import", "scene", "--in", file("drive.mcap"), "--out", file("scene.mcap")});
+    ASSERT_TRUE(done("import scene --in drive.mcap --out scene.mcap"));
   }
 
-  std::string file(const std::string& name) const { return folder_.file(name); }
-  void laneloom(std::vector<std::string> words) {
-    words.insert(words.begin(), LANELOOM_COMMAND);
-    ASSERT_EQ(support::ChildProcess(words, file("log")).wait(), 0) << content(file("log"));
-  }
-  int compare() {
-    return support::ChildProcess({"/usr/bin/env", "node", std::string(INDEPENDENT_FOLDER) + "/scene.mjs",
-                                  file("scene.mcap"), file("expected.jsonl")},
-                                 file("log"))
-        .wait();
-  }
-  std::string output() const { return content(file("log")).substr(0, 4000); }
+  int compare() { return shell("node '" INDEPENDENT_FOLDER "/scene.mjs' scene.mcap expected.jsonl"); }
 
   /// Frames, poses and maps as one recording, and what has to be drawn of it.
   void write_drive() {
@@ -144,8 +133,6 @@ class SceneRecording : public ::testing::Test {
                {"entities", entities_json(ids, published.frame_id)}}
        << '\n';
   }
-
-  const TemporaryFolder folder_;
 };
 
 TEST_F(SceneRecording, IndependentReadersFindTheDrawingList) {
@@ -155,12 +142,12 @@ TEST_F(SceneRecording, IndependentReadersFindTheDrawingList) {
 
 // The comparison itself: one coordinate that differs is found.
 TEST_F(SceneRecording, IndependentReadersFindAPointThatDiffers) {
-  std::string text = content(file("expected.jsonl"));
-  const auto at = text.rfind(R"("form":"area","points":[[)");
+  std::string expected = text("expected.jsonl");
+  const auto at = expected.rfind(R"("form":"area","points":[[)");
   ASSERT_NE(at, std::string::npos);
-  text.insert(text.find("[[", at) + 2, text[text.find("[[", at) + 2] == '-' ? "-9" : "9");
-  if (const auto twice = text.find("-9-", at); twice != std::string::npos) text.erase(twice + 2, 1);
-  std::ofstream(file("expected.jsonl")) << text;
+  expected.insert(expected.find("[[", at) + 2, expected[expected.find("[[", at) + 2] == '-' ? "-9" : "9");
+  if (const auto twice = expected.find("-9-", at); twice != std::string::npos) expected.erase(twice + 2, 1);
+  std::ofstream(file("expected.jsonl")) << expected;
   EXPECT_NE(compare(), 0);
   EXPECT_THAT(output(), testing::HasSubstr("AssertionError"));
 }
