@@ -27,7 +27,7 @@ in_addr address_of(const Locator_t& local) {
                                   : inet_addr(IPLocator::toIPv4string(local).c_str())};
 }
 
-/// Hands on what is sent, and of what is received what the door lets in.
+/// Hands on what is sent, but no announcement too early, and of what is received what the door lets in.
 class GuardedTransport : public ChainingTransport {
  public:
   GuardedTransport(const ChainingTransportDescriptor& descriptor, std::shared_ptr<Door> door)
@@ -39,6 +39,8 @@ class GuardedTransport : public ChainingTransport {
   // NOLINTNEXTLINE(readability-function-size): as Fast DDS calls it
   bool send(SenderResource* sender, SentBytes bytes, std::uint32_t size, LocatorsIterator* begin,
             LocatorsIterator* end, const std::chrono::steady_clock::time_point& timeout) override {
+    const bool to_everyone = *begin != *end && IPLocator::isMulticast(**begin);
+    if (to_everyone && door_->holds_announcements()) return true;
     return sender->send(bytes, size, begin, end, timeout);
   }
   void receive(TransportReceiverInterface* receiver, const octet* bytes, std::uint32_t size,

@@ -3,6 +3,7 @@
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -23,12 +24,18 @@ class Door {
   /// datagrams_refused_<reason>, for the reasons that occurred.
   Counters refused() const;
   SelfProbe& probe() { return probe_; }
+  /// Until release_announcements(), the participant is not announced to all. Whoever hears the first
+  /// announcement answers at once, and not again for a while: the participant has to listen by then.
+  void hold_announcements() { holds_announcements_ = true; }
+  void release_announcements() { holds_announcements_ = false; }
+  bool holds_announcements() const { return holds_announcements_; }
 
  private:
   SelfProbe probe_;
   mutable std::mutex mutex_;
   RtpsGuard guard_;
   std::array<std::uint64_t, kDatagramRefusals.size()> refused_{};
+  std::atomic<bool> holds_announcements_ = false;
 };
 
 /// Puts a guard in front of each UDP transport, also in front of that which Fast DDS would make by itself.

@@ -10,6 +10,7 @@
 
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
+#include "end_to_end/eavesdropper.hpp"
 #include "laneloom/dds/raw_writer.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
@@ -111,6 +112,21 @@ PublishedMap map_of(std::uint64_t sequence) {
   map.frame_id = "map";
   map.map.boundaries.push_back(Marking{.id = 7, .points = {{0, 0, 0}, {1, 2, 3}}});
   return map;
+}
+
+/// Fast DDS by itself announces a participant before it listens. Who answers that at once would not be heard.
+bool listens_before_it_is_announced() {
+  Eavesdropper eavesdropper(own_domain());
+  DdsConfig config;
+  config.domain = own_domain();
+  const Participant participant(config, "newcomer");
+  return eavesdropper.participants().empty();
+}
+
+TEST(Participants, ListenBeforeTheyAreAnnounced) {
+  // A busy host may stop the test until the announcement has come.
+  EXPECT_TRUE(listens_before_it_is_announced() || listens_before_it_is_announced() ||
+              listens_before_it_is_announced());
 }
 
 TEST(Participants, FramesArriveInOrderAndWhole) {
