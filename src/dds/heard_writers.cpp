@@ -13,6 +13,10 @@ constexpr std::int64_t kMemory_ns = 60'000'000'000;
 // A writer may have sent so many messages before it was heard: 100 a second for more than a year.
 constexpr std::int64_t kLastUnheard = std::int64_t{1} << 32;
 
+// Fast DDS keeps an entry for each number that a writer skips, as long as one before it is missing: 48 bytes.
+constexpr std::int64_t kMostSkipped = 1 << 16;
+constexpr std::int64_t kForgetsOne_ns = 4'000'000;
+
 /// Whether a writer announces endpoints. It sends no more than one message for each change of one.
 bool announces_endpoints(const WriterId& writer) {
   return writer[12] == 0 && writer[13] == 0 && (writer[14] >= 2 && writer[14] <= 4) &&
@@ -35,6 +39,15 @@ bool HeardWriters::may_have_sent(const WriterId& writer, std::int64_t sequence, 
   return sequence <= (announces_endpoints(writer) ? kLongestLeap : kLastUnheard);
 }
 
+std::int64_t HeardWriters::Heard::skipped_at(std::int64_t now_ns) const {
+  return std::max<std::int64_t>(0, skipped - (now_ns - skipped_ns) / kForgetsOne_ns);
+}
+
+bool HeardWriters::may_skip(const WriterId& writer, std::int64_t numbers, std::int64_t now_ns) const {
+  const Heard* heard = find(writer);
+  return numbers + (heard ? heard->skipped_at(now_ns) : 0) <= kMostSkipped;
+}
+
 bool HeardWriters::is_cut_like(const WriterId& writer, const Fragmentation& cut) const {
   const Heard* heard = find(writer);
   return !heard || std::ranges::none_of(heard->cuts, [&](const Fragmentation& known) {
@@ -52,6 +65,12 @@ void HeardWriters::note(const WriterId& writer, const Fragmentation& cut, std::i
   if (std::ranges::find(known.cuts, cut) != known.cuts.end()) return;
   known.cuts[known.next_cut] = cut;
   known.next_cut = (known.next_cut + 1) % known.cuts.size();
+}
+
+void HeardWriters::note_skipped(const WriterId& writer, std::int64_t numbers, std::int64_t now_ns) {
+  auto& known = heard(writer, now_ns);
+  known.skipped = known.skipped_at(now_ns) + numbers;
+  known.skipped_ns = now_ns;
 }
 
 HeardWriters::Heard& HeardWriters::heard(const WriterId& writer, std::int64_t now_ns) {

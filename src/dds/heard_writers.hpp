@@ -24,11 +24,14 @@ class HeardWriters {
  public:
   /// Whether a writer may have come to this sequence number.
   bool may_have_sent(const WriterId& writer, std::int64_t sequence, std::int64_t now_ns) const;
+  /// Whether a writer may tell that it skips so many numbers more.
+  bool may_skip(const WriterId& writer, std::int64_t numbers, std::int64_t now_ns) const;
   /// Whether no other fragmentation of the same sample is known.
   bool is_cut_like(const WriterId& writer, const Fragmentation& cut) const;
 
   void note(const WriterId& writer, std::int64_t sequence, std::int64_t now_ns);
   void note(const WriterId& writer, const Fragmentation& cut, std::int64_t now_ns);
+  void note_skipped(const WriterId& writer, std::int64_t numbers, std::int64_t now_ns);
 
  private:
   struct Heard {
@@ -37,6 +40,10 @@ class HeardWriters {
     std::int64_t heard_ns = 0;
     std::array<Fragmentation, 8> cuts{};  ///< the newest ones, in a ring
     std::size_t next_cut = 0;
+    std::int64_t skipped = 0;  ///< numbers, less those that were forgotten until skipped_ns
+    std::int64_t skipped_ns = 0;
+
+    std::int64_t skipped_at(std::int64_t now_ns) const;
   };
 
   Heard& heard(const WriterId& writer, std::int64_t now_ns);

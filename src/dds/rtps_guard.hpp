@@ -20,7 +20,7 @@ enum class DatagramRefusal {
   writer,      ///< a sample of nobody
   fragments,   ///< fragments that do not fit to their sample
   sequence,    ///< sequence numbers that no writer has
-  leap,        ///< sequence numbers far beyond those that the writer has sent
+  leap,        ///< sequence numbers far beyond those that the writer has sent, or too many skipped ones
   bitmap,      ///< a set of more numbers than RTPS allows
   parameters,  ///< a list of parameters that does not end, or of other lengths than it says
 };

@@ -19,8 +19,6 @@ constexpr std::uint8_t kAckNack = 0x06, kHeartbeat = 0x07, kGap = 0x08, kInfoSou
 // batches, acknowledgements by applications, virtual heartbeats).
 constexpr std::uint8_t kDataSession = 0x14, kAckNackBatch = 0x17, kVirtualHeartbeat = 0x1e;
 constexpr std::int64_t kLastSequence = std::int64_t{1} << 40;
-// Fast DDS keeps an entry for each number of a gap that lies ahead.
-constexpr std::int64_t kLongestGap = 1 << 16;
 constexpr std::uint32_t kMostBits = 256;
 // The largest message of laneloom has 12.6 MB.
 constexpr std::uint32_t kLargestSample_bytes = 16U << 20;
@@ -163,6 +161,7 @@ void SubmessageCheck::note_all(HeardWriters& heard) const {
   for (const Sent& sent : sent_) {
     heard.note(sent.writer, sent.sequence, now_ns_);
     if (sent.cut) heard.note(sent.writer, *sent.cut, now_ns_);
+    if (sent.skipped > 0) heard.note_skipped(sent.writer, sent.skipped, now_ns_);
   }
 }
 
@@ -241,10 +240,23 @@ Verdict SubmessageCheck::gap(const RtpsSubmessage& submessage) {
   const WriterId from = writer(bytes);
   const std::int64_t start = bytes.sequence();
   const std::int64_t base = bytes.sequence();
+  const std::size_t before_bits = bytes.left();
   if (const auto refusal = take_bits(bytes)) return refusal;
   if (!is_sequence(start) || !is_sequence(base) || base < start) return DatagramRefusal::sequence;
-  if (base - start > kLongestGap || !heard_.may_have_sent(from, base, now_ns_)) return DatagramRefusal::leap;
+  constexpr std::size_t kSizeBytes = 4, kBitsPerByte = 8;
+  const auto bits = static_cast<std::int64_t>((before_bits - bytes.left() - kSizeBytes) * kBitsPerByte);
+  const std::int64_t skipped = base - start + bits;
+  if (!heard_.may_skip(from, skipped + skipped_by(from), now_ns_)) return DatagramRefusal::leap;
+  if (const auto refusal = sent(from, base)) return refusal;
+  sent_.back().skipped = skipped;
   return {};
+}
+
+std::int64_t SubmessageCheck::skipped_by(const WriterId& writer) const {
+  std::int64_t sum = 0;
+  for (const Sent& sent : sent_)
+    if (sent.writer == writer) sum += sent.skipped;
+  return sum;
 }
 
 Verdict SubmessageCheck::info_source(const RtpsSubmessage& submessage) {

@@ -222,6 +222,27 @@ TEST_F(RtpsGuardTest, AWriterThatIsKnownDoesNotLeap) {
   EXPECT_EQ(check_all({data(kLong + (1 << 22))}), Refusal()) << "the network was cut for long";
 }
 
+TEST_F(RtpsGuardTest, AWriterSkipsFewNumbersForEachSecond) {
+  // Fast DDS would remember each of them.
+  constexpr std::int64_t kMany = 40'000, kFew = 1000, kSecond_ns = 1'000'000'000;
+  EXPECT_EQ(check_all({gap(5, 5 + kMany), gap(5 + kMany, 5 + 2 * kMany)}), DatagramRefusal::leap);
+  EXPECT_EQ(check_all({gap(5, 5 + kMany)}), Refusal());
+  EXPECT_EQ(check_all({gap(5, 5 + kMany)}), DatagramRefusal::leap);
+  EXPECT_EQ(check_all({gap(5, 5 + kFew)}), Refusal());
+  now_ns_ += 100 * kSecond_ns;
+  EXPECT_EQ(check_all({gap(5, 5 + kMany)}), Refusal()) << "one that is asked for them again";
+  for (int i = 0; i < 100; ++i) {
+    now_ns_ += kSecond_ns / 100;
+    ASSERT_EQ(check_all({gap(5, 6)}), Refusal()) << "one that skips each of its messages";
+  }
+}
+
+TEST_F(RtpsGuardTest, NumbersOfASetAreSkippedToo) {
+  constexpr int kSets = 257;
+  for (int i = 1; i < kSets; ++i)
+    ASSERT_EQ(check_all({gap(5, 6, 254)}), i < 256 ? Refusal() : DatagramRefusal::leap);
+}
+
 TEST_F(RtpsGuardTest, ARefusedDatagramIsNotBelievedInAnything) {
   EXPECT_EQ(check_all({data(1), data(1'000'000), submessage(0x22, 0, {})}), DatagramRefusal::kind);
   EXPECT_EQ(check_all({data(1)}), Refusal());
