@@ -92,7 +92,7 @@ TEST_F(Commands, ReplayWritesNothingOverItsInputOrAnotherOutput) {
   for (const std::string out : {"in.frames.jsonl", "link.jsonl", "./in.frames.jsonl"}) {
     for (const std::string option : {"--out", "--report"}) {
       EXPECT_EQ(run("replay --in in.frames.jsonl " + option + " " + out), 1) << out;
-      EXPECT_THAT(output(), HasSubstr(out + ": is the input"));
+      EXPECT_THAT(output(), HasSubstr(out + ": is an input"));
     }
   }
   EXPECT_EQ(run("replay --in in.frames.jsonl --truth truth.json --out truth.json"), 1);

@@ -10,6 +10,7 @@
 #include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
+#include "commands/given_files.hpp"
 #include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
@@ -47,6 +48,7 @@ std::string list_of(const check::Findings& found) {
 bool is_sound(const check::Findings& found) { return std::ranges::all_of(found, &check::Finding::advice); }
 
 void check(const CheckOptions& options) {
+  refuse_overwriting({options.drive, options.config}, {options.out});
   const Config config = config::resolve_config(options.config, {});
   const auto source = replay::open_messages(options.drive, config.dds.map_frame_id,
                                             {.conventions = {.any_confidence = true}});

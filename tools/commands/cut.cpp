@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
@@ -142,11 +143,11 @@ void cut_frames(const CutOptions& options, Part& part, io::JsonLinesWriter& out)
 
 /// Writes the frames of a recording, or else its maps.
 void cut_to_lines(const CutOptions& options, Part& part) {
-  io::JsonLinesWriter out(options.out);
   const bool maps = options.topics == std::vector<std::string>{"lane_map"};
   if (!maps && !options.topics.empty())
     throw std::runtime_error(options.out +
                              ": JSON lines hold frames with their poses, or else maps (--topic lane_map)");
+  io::JsonLinesWriter out(options.out);
   if (maps)
     for_each_map(options.drive, options.strict, [&](const LocalMap& map) {
       if (part.holds(map.stamp_ns)) out.write(map);
@@ -158,7 +159,7 @@ void cut_to_lines(const CutOptions& options, Part& part) {
 
 void cut(const CutOptions& options) {
   if (!(options.from_s < options.to_s)) throw CLI::ValidationError("--to", "must be later than --from");
-  refuse_same_file(options.out, options.drive);
+  refuse_overwriting({options.drive}, {options.out});
   Part part(options);
   if (options.out.ends_with(".mcap"))
     cut_to_recording(options, part);

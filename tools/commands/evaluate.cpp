@@ -12,6 +12,7 @@
 #include "commands/commands.hpp"
 #include "commands/evaluate_later.hpp"
 #include "commands/evaluation_tables.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/read_input.hpp"
 #include "config/config_file.hpp"
@@ -187,6 +188,8 @@ void rate_by_truth(const EvaluateOptions& options) {
 }
 
 void evaluate(const EvaluateOptions& options) {
+  refuse_overwriting({options.in, options.frames, options.map, options.truth, options.config},
+                     {options.json});
   if (!options.later) return rate_by_truth(options);
   if (options.in.empty() && (options.frames.empty() || options.map.empty()))
     throw CLI::RequiredError("--later: --in, or --frames and --map");

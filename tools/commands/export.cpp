@@ -5,12 +5,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/read_drive.hpp"
 #include "commands/read_input.hpp"
@@ -48,11 +48,9 @@ exports::Origin origin(const std::string& text) {
 }
 
 void check_files(const ExportOptions& options) {
-  std::set<std::string> written;
-  for (const std::string& out : {options.lanelet2, options.opendrive, options.geojson, options.report}) {
-    for (const std::string& in : options.in) refuse_same_file(out, in);
-    if (!out.empty() && !written.insert(out).second) throw std::runtime_error(out + ": is given twice");
-  }
+  std::vector<std::string> read = options.in;
+  read.push_back(options.config);
+  refuse_overwriting(read, {options.lanelet2, options.opendrive, options.geojson, options.report});
 }
 
 /// A road of the drives that could be read, and what is told of them.

@@ -10,6 +10,7 @@
 #include "commands/check_drive.hpp"
 #include "commands/class_option.hpp"
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/log_files.hpp"
 #include "commands/options.hpp"
 #include "commands/warn_of.hpp"
@@ -45,6 +46,7 @@ using ReadResults = imports::ImportedFrames (*)(const std::filesystem::path& res
                                                 const imports::ResultsReading& reading);
 
 void import_results(const ResultsOptions& options, ReadResults read) {
+  refuse_overwriting({options.results, options.poses, options.samples}, {options.out});
   const std::string& source = options.argoverse2.empty() ? options.poses : options.argoverse2;
   const imports::DriveLog drive =
       read_and_warn(source, options.strict, [&](LeftOut& left_out) { return load_drive(options, left_out); });
@@ -103,6 +105,7 @@ struct OpenpilotOptions {
 };
 
 void import_openpilot(const OpenpilotOptions& options) {
+  refuse_overwriting({options.log}, {options.out});
   imports::OpenpilotDrive drive = read_and_warn(options.log, options.strict, [&](LeftOut& left_out) {
     support::ProgressBar bar;
     return imports::read_openpilot(options.log,

@@ -15,6 +15,7 @@
 #include "check/correction.hpp"
 #include "check/drive.hpp"
 #include "commands/class_option.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
@@ -67,6 +68,7 @@ std::vector<DetectionFrame> frames_of_all_sources(check::Drive& drive) {
 }
 
 void import_frames(const ImportFramesOptions& options) {
+  refuse_overwriting({options.drive}, {options.out});
   const auto source = open_drive(options);
   check::Drive drive = read_inputs(*source);
   warn_of(options.drive, source->refused(), source->cut_off());

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/warn_of.hpp"
 #include "scene/scene_recording.hpp"
 #include "support/progress_bar.hpp"
@@ -18,6 +19,7 @@ struct ImportSceneOptions {
 };
 
 void import_scene(const ImportSceneOptions& options) {
+  refuse_overwriting({options.in}, {options.out});
   support::ProgressBar bar;
   const scene::SceneRecordingReport report =
       scene::add_scene(options.in, options.out, options.map_frame_id, [&](double share) { bar.step(share); });

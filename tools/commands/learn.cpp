@@ -7,6 +7,7 @@
 
 #include "check/findings.hpp"
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/read_input.hpp"
 #include "config/config_file.hpp"
@@ -65,6 +66,7 @@ NetworkProfiles learned_from(const LearnOptions& options) {
 }
 
 void learn(const LearnOptions& options) {
+  refuse_overwriting({options.in, options.config}, {options.out});
   const NetworkProfiles networks = learned_from(options);
   io::write_text(
       options.out,

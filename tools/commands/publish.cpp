@@ -12,6 +12,7 @@
 #include "base/random_id.hpp"
 #include "base/system_clock.hpp"
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/road_source.hpp"
 #include "commands/stop_signal.hpp"
@@ -141,6 +142,8 @@ std::int64_t step_count(const PublishOptions& options, const simulation::Road& r
 }
 
 void publish(const PublishOptions& options) {
+  refuse_overwriting({options.source.lanelet2, options.source.opendrive},
+                     {options.truth, options.frames, options.times});
   catch_stop_signals();
   const simulation::Road road = options.source.load();
   const double drive_s = road.drive.duration_s();

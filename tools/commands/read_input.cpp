@@ -1,8 +1,6 @@
 #include "commands/read_input.hpp"
 
-#include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "commands/warn_of.hpp"
@@ -62,12 +60,6 @@ std::size_t for_each_map(const std::string& path, bool strict,
   return read_with_bar(path, strict, [&](const evaluation::InputReading& reading) {
     return evaluation::for_each_map(path, visit, reading);
   });
-}
-
-void refuse_same_file(const std::string& output, const std::string& input) {
-  std::error_code there_is_none;
-  if (!output.empty() && std::filesystem::equivalent(output, input, there_is_none))
-    throw std::runtime_error(output + ": is the input, and would be written over");
 }
 
 }  // namespace laneloom::commands

@@ -33,7 +33,4 @@ std::size_t for_each_frame(const std::string& path, bool strict,
 std::size_t for_each_map(const std::string& path, bool strict,
                          const std::function<void(const LocalMap&)>& visit);
 
-/// Throws std::runtime_error if the output is the input, which it would be written over.
-void refuse_same_file(const std::string& output, const std::string& input);
-
 }  // namespace laneloom::commands

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -12,6 +11,7 @@
 #include "commands/evaluation_tables.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/explain.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/replay_report.hpp"
 #include "commands/stop_signal.hpp"
@@ -107,29 +107,12 @@ void check_live(const ReplayResult& result) {
   if (!live.holds()) end_with(kFoundWrong);
 }
 
-/// Whether two paths name one file, which need not exist yet.
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code error;
-  if (std::filesystem::equivalent(a, b, error)) return true;
-  const auto whole = [&error](const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
-  };
-  return whole(a) == whole(b) && !error;
-}
-
 /// Refuses to write a file that is read, or one that is written already.
 void check_files(const ReplayOptions& options) {
-  std::vector<std::string> written = options.out;
-  if (!options.report.empty()) written.push_back(options.report);
-  for (auto path = written.begin(); path != written.end(); ++path) {
-    const auto is_same = [&](const std::string& other) { return same_file(*path, other); };
-    if (*path != io::kStandard && is_same(options.in))
-      throw std::runtime_error(*path + ": is the input, and would be written over");
-    if (!options.truth.empty() && is_same(options.truth))
-      throw std::runtime_error(*path + ": is the truth, and would be written over");
-    if (std::any_of(written.begin(), path, is_same))
-      throw std::runtime_error(*path + ": is given as an output twice");
-  }
+  std::vector<std::string> read = options.config_files, written = options.out;
+  read.insert(read.end(), {options.in, options.truth});
+  written.push_back(options.report);
+  refuse_overwriting(read, written);
 }
 
 void replay(ReplayOptions& options) {

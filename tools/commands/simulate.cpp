@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/log_files.hpp"
 #include "commands/options.hpp"
 #include "commands/road_source.hpp"
@@ -22,6 +23,7 @@ struct SimulateOptions {
 
 void simulate(const RoadSource& source, double duration_s, const std::string& frames_file,
               const std::string& truth_file) {
+  refuse_overwriting({source.lanelet2, source.opendrive}, {frames_file, truth_file});
   const simulation::Road road = source.load();
   if (!truth_file.empty()) save_truth(truth_file, road);
   simulation::Perception perception = source.perception(road);

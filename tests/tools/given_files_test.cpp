@@ -1,0 +1,66 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "commands.hpp"
+
+// No command loses a file that it is given.
+namespace laneloom {
+namespace {
+
+using testing::HasSubstr;
+
+class GivenFiles : public Commands {
+ protected:
+  void SetUp() override { simulate("none", "in.frames.jsonl"); }
+
+  void refuses(const std::string& words, const std::string& output_file, const std::string& why) const {
+    EXPECT_EQ(run(words), 1) << words << output();
+    EXPECT_THAT(output(), HasSubstr(output_file + ": is " + why)) << words;
+  }
+};
+
+TEST_F(GivenFiles, NoInputIsWrittenOver) {
+  ASSERT_TRUE(done("replay in.frames.jsonl --out map.jsonl"));
+  ASSERT_TRUE(done("cut in.frames.jsonl --out in.mcap"));
+  ASSERT_TRUE(done("export in.frames.jsonl --opendrive road.xodr"));
+  std::string before;
+  for (const char* name : {"in.frames.jsonl", "in.mcap", "map.jsonl", "truth.json", "road.xodr"})
+    before += text(name);
+  refuses("learn in.frames.jsonl --out in.frames.jsonl", "in.frames.jsonl", "an input");
+  refuses("check in.frames.jsonl --out ./in.frames.jsonl", "./in.frames.jsonl", "an input");
+  refuses("evaluate --later --in in.frames.jsonl --json in.frames.jsonl", "in.frames.jsonl", "an input");
+  const std::string evaluate = "evaluate --truth truth.json --frames in.frames.jsonl --map map.jsonl --json ";
+  for (const std::string input : {"truth.json", "in.frames.jsonl", "map.jsonl"})
+    refuses(evaluate + input, input, "an input");
+  refuses("simulate --opendrive road.xodr --frames road.xodr", "road.xodr", "an input");
+  refuses("publish --opendrive road.xodr --truth road.xodr", "road.xodr", "an input");
+  refuses("export in.frames.jsonl map.jsonl --lanelet2 map.jsonl", "map.jsonl", "an input");
+  refuses("import frames in.frames.jsonl --out in.frames.jsonl", "in.frames.jsonl", "an input");
+  refuses("import scene in.mcap --out in.mcap", "in.mcap", "an input");
+  std::string after;
+  for (const char* name : {"in.frames.jsonl", "in.mcap", "map.jsonl", "truth.json", "road.xodr"})
+    after += text(name);
+  EXPECT_EQ(before, after);
+}
+
+TEST_F(GivenFiles, NoOutputIsWrittenOverAnotherOne) {
+  refuses("simulate --scenario straight --frames s --truth ./s", "./s", "given as an output twice");
+  refuses("export in.frames.jsonl --lanelet2 x.osm --opendrive ./x.osm", "./x.osm",
+          "given as an output twice");
+  refuses("export in.frames.jsonl --lanelet2 x.osm --report x.osm", "x.osm", "given as an output twice");
+  EXPECT_FALSE(exists("s"));
+  EXPECT_FALSE(exists("x.osm"));
+}
+
+TEST_F(GivenFiles, AnOutputIsOpenedOnlyWhenItCanBeWritten) {
+  ASSERT_TRUE(done("cut in.frames.jsonl --out in.mcap"));
+  ASSERT_EQ(shell("echo kept >keep.jsonl"), 0);
+  EXPECT_EQ(run("cut in.mcap --topic detections --out keep.jsonl"), 1);
+  EXPECT_THAT(output(), HasSubstr("JSON lines hold frames with their poses"));
+  EXPECT_EQ(text("keep.jsonl"), "kept\n");
+}
+
+}  // namespace
+}  // namespace laneloom
