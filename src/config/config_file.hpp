@@ -20,6 +20,11 @@ Config load_config(const std::filesystem::path& path);
 /// The same of a text. Errors name it `name`.
 Config parse_config(const std::string& text, const std::string& name);
 
+/// The configuration with these values, each a key ("section.key") with its value as settings() gives it; a
+/// key that is missing keeps its default. Errors name it `name`. Throws ConfigError as load_config() does.
+Config from_settings(const std::vector<std::pair<std::string, std::string>>& settings,
+                     const std::string& name);
+
 /// Sets one value, from "section.key=value" in the words of a file: "mapper.range.side_max_m=20".
 /// Throws ConfigError as load_config() does; `config` is unchanged then.
 void set_value(Config& config, std::string_view assignment);

@@ -156,19 +156,13 @@ void refuse_second_document(const std::string& text) {
       throw LocatedProblem{0, {"", "bad YAML: something stands outside of its document"}};
 }
 
-/// The values of `text`, on top of `config`.
-Config parse(const std::string& text, Config config = {}) {
+/// The values of a tree, on top of `config`.
+Config read_tree(const YAML::Node& root, Config config = {}) {
   Parser::Lines lines;
-  try {
-    refuse_second_document(text);
-    const YAML::Node root = YAML::Load(text);
-    if (!root.IsNull()) {
-      Parser parser(root, "", lines);
-      visit(parser, config);
-      parser.finish();
-    }
-  } catch (const YAML::Exception& error) {
-    throw LocatedProblem{error.mark.is_null() ? 0 : error.mark.line + 1, {"", "bad YAML: " + error.msg}};
+  if (!root.IsNull()) {
+    Parser parser(root, "", lines);
+    visit(parser, config);
+    parser.finish();
   }
   if (const auto problem = find_problem(config)) {
     const auto line = lines.find(problem->key);
@@ -177,9 +171,24 @@ Config parse(const std::string& text, Config config = {}) {
   return config;
 }
 
-}  // namespace
+/// The values of `text`, on top of `config`.
+Config parse(const std::string& text, Config config = {}) {
+  try {
+    refuse_second_document(text);
+    return read_tree(YAML::Load(text), std::move(config));
+  } catch (const YAML::Exception& error) {
+    throw LocatedProblem{error.mark.is_null() ? 0 : error.mark.line + 1, {"", "bad YAML: " + error.msg}};
+  }
+}
 
-namespace {
+/// Puts a value into a tree, at a key with dots.
+void put(YAML::Node at, std::string_view key, const std::string& value) {
+  for (auto dot = key.find('.'); dot != std::string_view::npos; dot = key.find('.')) {
+    at.reset(at[std::string(key.substr(0, dot))]);
+    key.remove_prefix(dot + 1);
+  }
+  at[std::string(key)] = value;
+}
 
 /// Calls `make`. What it finds wrong is told with the name of the place where the text is from.
 template <class Make>
@@ -201,6 +210,21 @@ Config load_config(const std::filesystem::path& path) {
 
 Config parse_config(const std::string& text, const std::string& name) {
   return located_in(name, [&] { return parse(text); });
+}
+
+Config from_settings(const std::vector<std::pair<std::string, std::string>>& settings,
+                     const std::string& name) {
+  return located_in(name, [&] {
+    YAML::Node root;
+    for (const auto& [key, value] : settings) {
+      try {
+        put(root, key, value);
+      } catch (const YAML::Exception&) {
+        throw LocatedProblem{0, {key, "is both a value and a section"}};
+      }
+    }
+    return read_tree(root);
+  });
 }
 
 Config resolve_config(const std::filesystem::path& file, std::string_view preset) {

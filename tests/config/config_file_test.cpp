@@ -208,6 +208,34 @@ TEST(Validate, RefusesWhatWasSetInCode) {
   EXPECT_THROW(validate(config), ConfigError);
 }
 
+TEST(Settings, ReadBackAsTheConfigurationThatTheyAreOf) {
+  Config config;
+  config.mapper.range.side_max_m = 20.5;
+  config.dds.vehicle_id = "7";
+  config.dds.profile_file = "/etc/a: 'b', {c}.xml";  // the two are valid together alone
+  config.dds.profile_name = "planner";
+  config.service.snapshot_file = "";
+  EXPECT_EQ(settings(from_settings(settings(config), "a status")), settings(config));
+  EXPECT_EQ(settings(from_settings({}, "a status")), settings(Config{}));
+}
+
+TEST(Settings, AreRefusedWhereTheyAreNone) {
+  const auto complaint = [](const std::vector<std::pair<std::string, std::string>>& told) {
+    try {
+      from_settings(told, "a status");
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint({{"mapper.unheard_of", "1"}}), "a status: mapper.unheard_of: is not a known key");
+  EXPECT_THAT(complaint({{"mapper.range.side_max_m", "wide"}}), HasSubstr("is not a number"));
+  EXPECT_THAT(complaint({{"mapper", "1"}, {"mapper.method", "lines"}}), HasSubstr("a status: mapper"));
+  EXPECT_THAT(complaint({{"dds.profile_file", "x"}}), HasSubstr("given together"));
+  EXPECT_NE(complaint({{"", ""}}), "");
+  EXPECT_NE(complaint({{"..", "1"}}), "");
+}
+
 TEST(SetValue, ChangesOneValueOfAny) {
   Config config;
   set_value(config, "mapper.range.side_max_m=20.5");

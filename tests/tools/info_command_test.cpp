@@ -47,6 +47,8 @@ TEST_F(Commands, ARecordingOfAServiceTellsTheConfigurationOfTheService) {
   config.mapper.lane.min_width_m = 1.7;
   config.dds.vehicle_id = "car_7";
   config.service.snapshot_file = "/var/lib/a: b, c";
+  config.dds.profile_file = "profiles.xml";  // valid with the next alone
+  config.dds.profile_name = "car";
   recording::RecordingWriter out(file("live.mcap"));
   out.write(ServiceStatus{.published_ns = 5, .configuration = config::settings(config)}, 5);
   out.close();
@@ -57,8 +59,17 @@ TEST_F(Commands, ARecordingOfAServiceTellsTheConfigurationOfTheService) {
   recording::RecordingWriter other(file("other.mcap"));
   other.write(ServiceStatus{.published_ns = 5, .configuration = {{"mapper.unheard_of", "1"}}}, 5);
   other.close();
-  ASSERT_TRUE(done("info --configuration other.mcap"));
-  EXPECT_EQ(output(), "");
+  EXPECT_EQ(run("info --configuration other.mcap"), 1);
+  EXPECT_THAT(output(), HasSubstr("other.mcap: the service's configuration: mapper.unheard_of: is not a"));
+}
+
+TEST_F(Commands, ADriveOfNobodysConfigurationSaysSo) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_TRUE(done("cut in.frames.jsonl --out in.mcap"));
+  for (const std::string drive : {"in.frames.jsonl", "in.mcap"}) {
+    EXPECT_EQ(run("info --configuration " + drive), 1);
+    EXPECT_THAT(output(), HasSubstr(drive + ": nobody tells its configuration"));
+  }
 }
 
 }  // namespace

@@ -29,7 +29,9 @@ TEST(BlackBox, SavesTheLastMessagesWithTheConfiguration) {
   BlackBox box({}, {.span_s = 60.0});
   ServiceStatus status;
   Config changed;
-  config::set_value(changed, "mapper.range.side_max_m=17.5");
+  changed.mapper.range.side_max_m = 17.5;
+  changed.dds.profile_file = "profiles.xml";  // valid with the next alone
+  changed.dds.profile_name = "car";
   status.configuration = config::settings(changed);
   box.add(status, 0);
   DetectionFrame frame{.source = "network"};

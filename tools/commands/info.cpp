@@ -8,17 +8,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/seconds.hpp"
 #include "commands/commands.hpp"
+#include "commands/recorded_configuration.hpp"
 #include "commands/warn_of.hpp"
-#include "config/config_file.hpp"
 #include "io/printable.hpp"
 #include "laneloom/dds/topics.hpp"
+#include "laneloom/error.hpp"
 #include "replay/message_source.hpp"
 #include "support/progress_bar.hpp"
 
@@ -44,8 +45,9 @@ struct TopicInfo {
 struct FileInfo {
   recording::Origin origin{};
   std::array<TopicInfo, kTopicNames.size()> topics{};
-  std::set<std::string> sources{};                                      ///< of detections
-  std::vector<std::pair<std::string, std::string>> service_settings{};  ///< as a service told them last
+  std::set<std::string> sources{};  ///< of detections
+  std::string configuration{};      ///< that made the maps (YAML); empty: it is not known
+  std::string why_none{};           ///< why it is not known
 
   void add(const recording::RecordedMessage& message) {
     TopicInfo& topic = topics.at(message.message.index());
@@ -56,35 +58,17 @@ struct FileInfo {
     ++topic.messages;
     std::visit([&](const auto& content) { topic.sessions.insert(content.session_id); }, message.message);
     if (const auto* frame = std::get_if<DetectionFrame>(&message.message)) sources.insert(frame->source);
-    if (const auto* status = std::get_if<ServiceStatus>(&message.message))
-      service_settings = status->configuration;
   }
 };
 
-/// Sets a key to a value, which may be any text. False: it is refused.
-bool set_key(Config& config, const std::string& key, const std::string& value) {
-  const std::string quoted =
-      nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  for (const std::string& written : {quoted, value}) {  // a text, or a number
-    try {
-      config::set_value(config, std::string(key).append("=").append(written));
-      return true;
-    } catch (const ConfigError&) {
-    }
+/// Sets the configuration, or why there is none.
+void add_configuration(const std::string& path, FileInfo& info) {
+  try {
+    info.configuration = recorded_configuration(path);
+    if (info.configuration.empty()) info.why_none = path + ": nobody tells its configuration";
+  } catch (const ConfigError& error) {
+    info.why_none = error.what();
   }
-  return false;
-}
-
-/// The configuration of a service by what it told of its settings. Empty: it told none, or has keys that this
-/// laneloom does not know.
-std::string configuration_of(std::vector<std::pair<std::string, std::string>> settings) {
-  if (settings.empty()) return {};
-  Config config;
-  // A setting may be refused until another one is made that goes with it.
-  const auto set = [&](const auto& setting) { return set_key(config, setting.first, setting.second); };
-  while (std::erase_if(settings, set) > 0) {
-  }
-  return settings.empty() ? config::dump(config) : std::string();
 }
 
 FileInfo read_info(const std::string& path) {
@@ -97,7 +81,7 @@ FileInfo read_info(const std::string& path) {
   }
   bar.clear();
   info.origin = source->origin();
-  if (info.origin.configuration.empty()) info.origin.configuration = configuration_of(info.service_settings);
+  add_configuration(path, info);
   warn_of(path, source->refused(), source->cut_off());
   warn_of(path, source->left_out());
   return info;
@@ -106,9 +90,8 @@ FileInfo read_info(const std::string& path) {
 std::string text(const FileInfo& info) {
   std::string text;
   if (!info.origin.version.empty())
-    text +=
-        fmt::format("written by laneloom {}{}\n", io::printable(info.origin.version),
-                    info.origin.configuration.empty() ? "" : ", with its configuration (--configuration)");
+    text += fmt::format("written by laneloom {}{}\n", io::printable(info.origin.version),
+                        info.configuration.empty() ? "" : ", with its configuration (--configuration)");
   text += fmt::format("{:<26} {:>9} {:>9} {:>8} {:>13} {:>9}\n", "topic", "messages", "seconds", "a second",
                       "longest gap s", "sessions");
   for (std::size_t i = 0; i < kTopicNames.size(); ++i)
@@ -129,7 +112,7 @@ nlohmann::json to_json(const FileInfo& info) {
           {"messages", topic.messages}, {"first_ns", *topic.first_ns},          {"last_ns", *topic.last_ns},
           {"rate_hz", topic.rate_hz()}, {"longest_gap_s", topic.longest_gap_s}, {"sessions", topic.sessions}};
   return {{"version", info.origin.version},
-          {"configuration", info.origin.configuration},
+          {"configuration", info.configuration},
           {"topics", topics},
           {"sources", info.sources}};
 }
@@ -141,8 +124,9 @@ struct InfoOptions {
 
 void info(const InfoOptions& options) {
   const FileInfo info = read_info(options.drive);
+  if (options.configuration && info.configuration.empty()) throw std::runtime_error(info.why_none);
   if (options.configuration)
-    fmt::print("{}", info.origin.configuration);
+    fmt::print("{}", info.configuration);
   else if (options.json)
     fmt::print("{}\n", to_json(info).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   else

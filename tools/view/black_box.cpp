@@ -25,13 +25,12 @@ std::string content_of(const std::filesystem::path& path) {
   return content;
 }
 
-/// The configuration that a status tells, as a file. Empty: it is of another version of laneloom.
+/// The configuration that a status tells, as a file. Empty: it tells none, or is of another version of
+/// laneloom.
 std::string configuration_of(const ServiceStatus& status) {
+  if (status.configuration.empty()) return {};
   try {
-    Config config;
-    for (const auto& [key, value] : status.configuration)
-      config::set_value(config, key + "=" + (value.empty() ? "\"\"" : value));
-    return config::dump(config);
+    return config::dump(config::from_settings(status.configuration, ""));
   } catch (const ConfigError&) {
     return {};
   }

@@ -1,0 +1,28 @@
+#include "commands/recorded_configuration.hpp"
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "config/config_file.hpp"
+#include "laneloom/dds/cdr.hpp"
+#include "replay/message_source.hpp"
+
+namespace laneloom::commands {
+
+std::string recorded_configuration(const std::string& path) {
+  if (!recording::is_recording(path)) return {};
+  const auto source = replay::open_messages(path, "map");
+  if (std::string told = source->origin().configuration; !told.empty()) return told;
+  const std::size_t of_status = recording::AnyMessage(std::in_place_type<ServiceStatus>).index();
+  while (const auto message = source->next_raw()) {
+    ServiceStatus status;
+    if (message->topic == of_status && dds::from_cdr(message->bytes, "map", status).empty() &&
+        !status.configuration.empty())
+      return config::dump(config::from_settings(status.configuration, path + ": the service's configuration"));
+  }
+  return {};
+}
+
+}  // namespace laneloom::commands

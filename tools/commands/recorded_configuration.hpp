@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace laneloom::commands {
+
+/// The configuration that made the maps of a drive (YAML): as the writer of the recording tells it, or else as
+/// a service told it in its first status. Empty: neither tells it, or the drive is no recording. Throws
+/// ConfigError naming the file if the service had keys that this laneloom does not know.
+std::string recorded_configuration(const std::string& path);
+
+}  // namespace laneloom::commands
