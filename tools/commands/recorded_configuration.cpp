@@ -20,9 +20,14 @@ std::string recorded_configuration(const std::string& path) {
     ServiceStatus status;
     if (message->topic == of_status && dds::from_cdr(message->bytes, "map", status).empty() &&
         !status.configuration.empty())
-      return config::dump(config::from_settings(status.configuration, path + ": the service's configuration"));
+      return config::dump(
+          config::from_settings(status.configuration, path + ": the service's configuration"));
   }
   return {};
+}
+
+Config recorded_config(const std::string& path) {
+  return config::parse_config(recorded_configuration(path), path + ": its configuration");
 }
 
 }  // namespace laneloom::commands

@@ -1,15 +1,21 @@
 #include "commands/recorded_view.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <deque>
 #include <exception>
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <memory>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "commands/read_input.hpp"
+#include "commands/recorded_configuration.hpp"
 #include "commands/stop_signal.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
@@ -98,15 +104,25 @@ class Explainer {
   replay::Replay replay_;
 };
 
-/// The configuration that made the maps of a recording. The defaults, if the recording does not tell.
-Config config_of(const recording::RecordingReader& reader, const std::string& path) {
-  const std::string text = reader.origin().configuration;
-  return text.empty() ? Config{} : config::parse_config(text, path + ": its configuration");
+/// Null if no map can be explained: the configuration that made the maps is of another version of laneloom,
+/// or names a file that is not here.
+std::unique_ptr<Explainer> explainer_of(const std::string& path) {
+  try {
+    return std::make_unique<Explainer>(recorded_config(path));
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "laneloom: {}; the view cannot tell why its maps are as they are\n", error.what());
+    return nullptr;
+  }
+}
+
+bool is_input(const recording::AnyMessage& message) {
+  return std::holds_alternative<DetectionFrame>(message) || std::holds_alternative<VehiclePose>(message) ||
+         std::holds_alternative<TrackedObjects>(message);
 }
 
 void load_recording(const std::string& path, bool strict, Storer& storer) {
   recording::RecordingReader reader(path);
-  Explainer explainer(config_of(reader, path));
+  const std::unique_ptr<Explainer> explainer = explainer_of(path);
   view::MomentBuilder builder;
   LeftOut left_out(strict);
   support::ProgressBar bar;
@@ -116,13 +132,10 @@ void load_recording(const std::string& path, bool strict, Storer& storer) {
     const auto add = [&](auto&& message) {
       return builder.add(std::forward<decltype(message)>(message), recorded->log_time_ns);
     };
-    if (std::holds_alternative<DetectionFrame>(recorded->message) ||
-        std::holds_alternative<VehiclePose>(recorded->message) ||
-        std::holds_alternative<TrackedObjects>(recorded->message))
-      explainer.add(*recorded);
+    if (explainer && is_input(recorded->message)) explainer->add(*recorded);
     if (!std::visit(add, std::move(recorded->message))) continue;
     view::ViewMoment moment = builder.take();
-    moment.why = explainer.why(moment.map.map);
+    if (explainer) moment.why = explainer->why(moment.map.map);
     storer.add(std::move(moment));
   }
   if (const auto last = builder.finish()) storer.add(*last);

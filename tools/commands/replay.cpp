@@ -13,6 +13,7 @@
 #include "commands/explain.hpp"
 #include "commands/given_files.hpp"
 #include "commands/options.hpp"
+#include "commands/recorded_configuration.hpp"
 #include "commands/replay_report.hpp"
 #include "commands/stop_signal.hpp"
 #include "commands/warn_of.hpp"
@@ -42,8 +43,8 @@ struct ReplayOptions {
   double speed_up = 1.0;
 };
 
-Config read_config(const ReplayOptions& options, const std::string& file) {
-  Config config = config::resolve_config(file, options.preset);
+/// The configuration with the range that is given, if one is.
+Config adjusted(Config config, const ReplayOptions& options) {
   if (options.range_given) {
     config.mapper.range.forward_min_m = options.range.forward_min_m;
     config.mapper.range.forward_max_m = options.range.forward_max_m;
@@ -51,6 +52,16 @@ Config read_config(const ReplayOptions& options, const std::string& file) {
   }
   config::validate(config);
   return config;
+}
+
+Config read_config(const ReplayOptions& options, const std::string& file) {
+  return adjusted(config::resolve_config(file, options.preset), options);
+}
+
+/// The configuration that explains a drive: where none is given, that which made its maps.
+Config explaining_config(const ReplayOptions& options) {
+  if (!options.config_files.empty()) return read_config(options, options.config_files.front());
+  return options.preset.empty() ? adjusted(recorded_config(options.in), options) : read_config(options, "");
 }
 
 /// Replays the whole input with one configuration.
@@ -116,10 +127,7 @@ void check_files(const ReplayOptions& options) {
 }
 
 void replay(ReplayOptions& options) {
-  if (!options.explain.empty())
-    return explain(options.in,
-                   read_config(options, options.config_files.empty() ? "" : options.config_files.front()),
-                   options.explain);
+  if (!options.explain.empty()) return explain(options.in, explaining_config(options), options.explain);
   check_files(options);
   if (!options.out.empty() && options.out.size() != std::max<std::size_t>(1, options.config_files.size()))
     throw std::runtime_error("replay: --out is needed once per --config, or not at all");
