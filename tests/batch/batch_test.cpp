@@ -90,6 +90,18 @@ TEST_F(Batch, MakesAnewWhatIsMadeOfSomethingElse) {
   EXPECT_THAT(output(), HasSubstr("3 made")) << "with other options";
 }
 
+TEST_F(Batch, ItsOwnOutputsAreNoDrives) {
+  for (const std::string step : {"replay", "replay", "replay --preset av2"}) {
+    ASSERT_TRUE(done("batch --drives . --out maps " + step));
+    EXPECT_THAT(output(), HasSubstr("3 drives: ")) << step;
+  }
+  ASSERT_TRUE(done("batch --drives drives --out drives replay"));
+  ASSERT_TRUE(done("batch --drives drives --out drives replay"));
+  EXPECT_THAT(output(), HasSubstr("3 drives: 0 made"));
+  ASSERT_TRUE(done("batch --drives maps --out roads export"));
+  EXPECT_THAT(output(), HasSubstr("3 drives: 3 made")) << "outputs of another batch may be drives";
+}
+
 TEST_F(Batch, KeepsWhatIsMadeOfADriveThatWasCopied) {
   ASSERT_TRUE(done(kBatch + "maps replay"));
   const std::string content = text(drive("a"));
@@ -202,7 +214,7 @@ class Drives : public testing::Test {
  protected:
   std::vector<std::string> names(const std::vector<std::string>& words, const std::string& list = "") const {
     std::vector<std::string> names;
-    for (const Drive& drive : find_drives(words, list)) names.push_back(drive.name);
+    for (const Drive& drive : find_drives(words, list, folder_.file("out"))) names.push_back(drive.name);
     return names;
   }
   void touch(const std::string& name) const {
@@ -220,6 +232,18 @@ TEST_F(Drives, AreThoseOfFoldersPatternsAndLists) {
   EXPECT_THAT(names({folder_.file("1/a.mcap"), folder_.file("1")}), ElementsAre("a", "b"));
   std::ofstream(folder_.file("list.txt")) << "# of one night\n1/a.mcap\n\n2\n";
   EXPECT_THAT(names({}, folder_.file("list.txt")), ElementsAre("1/a", "2/a"));
+}
+
+TEST_F(Drives, KeepTheirNamesWhenOthersCome) {
+  touch("nights/monday/a.mcap");
+  EXPECT_THAT(names({folder_.file("nights")}), ElementsAre("monday/a"));
+  EXPECT_THAT(names({folder_.file("nights/*/a.mcap")}), ElementsAre("monday/a"));
+  EXPECT_THAT(names({folder_.file("nights/*")}), ElementsAre("monday/a"));
+  EXPECT_THAT(names({folder_.file("nights/./monday/a.mcap")}), ElementsAre("monday/a"));
+  std::ofstream(folder_.file("list.txt")) << "nights/monday/a.mcap\n";
+  EXPECT_THAT(names({}, folder_.file("list.txt")), ElementsAre("nights/monday/a"));
+  touch("nights/tuesday/a.mcap");
+  EXPECT_THAT(names({folder_.file("nights")}), ElementsAre("monday/a", "tuesday/a"));
 }
 
 TEST_F(Drives, OfOneNameAreRefused) {

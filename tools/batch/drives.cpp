@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "batch/outputs.hpp"
+
 namespace laneloom::batch {
 namespace {
 
@@ -31,37 +33,69 @@ std::vector<fs::path> matches(const std::string& pattern) {
   return paths;
 }
 
-void add(const std::string& word, std::vector<fs::path>& drives) {
-  const std::size_t before = drives.size();
-  for (const fs::path& path : fs::exists(word) ? std::vector<fs::path>{word} : matches(word)) {
-    if (!fs::is_directory(path)) {
-      drives.push_back(path);
-      continue;
+fs::path whole(const fs::path& path) {
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+/// The folder below which a word names its drives.
+fs::path folder_of(const std::string& word) {
+  if (const std::size_t mark = word.find(kNamesBegin); mark != std::string::npos)
+    return whole(word.substr(0, mark + 1));
+  if (fs::is_directory(word)) return whole(word);
+  const std::size_t pattern = fs::exists(word) ? std::string::npos : word.find_first_of("*?[");
+  return whole(word.substr(0, pattern) + "x").parent_path();
+}
+
+struct Found {
+  fs::path folder;  ///< below which the word named it
+  fs::path path;
+};
+
+/// Finds the drives that words mean.
+class Search {
+ public:
+  explicit Search(const fs::path& outputs) : outputs_(whole(outputs)) {}
+
+  void add(const std::string& word) {
+    const std::size_t before = found_.size();
+    const fs::path folder = folder_of(word);
+    for (const fs::path& path : fs::exists(word) ? std::vector<fs::path>{word} : matches(word)) {
+      if (!fs::is_directory(path)) {
+        found_.push_back({folder, whole(path)});
+        continue;
+      }
+      for (const auto& entry : fs::recursive_directory_iterator(whole(path)))
+        if (entry.is_regular_file() && is_drive(entry.path()) && !is_output(outputs_, entry.path()))
+          found_.push_back({folder, entry.path()});
     }
-    for (const auto& entry : fs::recursive_directory_iterator(path))
-      if (entry.is_regular_file() && is_drive(entry.path())) drives.push_back(entry.path());
+    if (found_.size() == before) throw std::runtime_error(word + ": there is no such drive");
   }
-  if (drives.size() == before) throw std::runtime_error(word + ": there is no such drive");
-}
 
-void add_list(const std::string& list, std::vector<fs::path>& drives) {
-  std::ifstream file(list);
-  if (!file) throw std::runtime_error(list + ": cannot be read");
-  for (std::string line; std::getline(file, line);)
-    if (!line.empty() && line.front() != '#') add((fs::path(list).parent_path() / line).string(), drives);
-}
-
-/// The innermost folder that has all drives below it.
-fs::path common_folder(const std::vector<fs::path>& drives) {
-  fs::path common = drives.front().parent_path();
-  for (const fs::path& drive : drives) {
-    const fs::path folder = drive.parent_path();
-    fs::path shared;
-    for (auto a = common.begin(), b = folder.begin(); a != common.end() && b != folder.end() && *a == *b;
-         ++a, ++b)
-      shared /= *a;
-    common = shared;
+  /// A relative path of a list names the drive below the list's folder.
+  void add_list(const std::string& list) {
+    std::ifstream file(list);
+    if (!file) throw std::runtime_error(list + ": cannot be read");
+    const std::string folder = fs::path(list).parent_path().string();
+    for (std::string line; std::getline(file, line);) {
+      if (line.empty() || line.front() == '#') continue;
+      const bool below = !fs::path(line).is_absolute() && !line.starts_with("..");
+      add(below ? (folder.empty() ? "." : folder) + kNamesBegin + line : (fs::path(folder) / line).string());
+    }
   }
+
+  const std::vector<Found>& found() const { return found_; }
+
+ private:
+  fs::path outputs_;
+  std::vector<Found> found_;
+};
+
+/// The innermost folder that has all folders below it, or is one of them.
+fs::path common_folder(const std::vector<Found>& drives) {
+  fs::path common = drives.front().folder;
+  for (const Found& drive : drives)
+    while (*drive.folder.lexically_relative(common).begin() == "..") common = common.parent_path();
   return common;
 }
 
@@ -74,20 +108,20 @@ std::string name_of(const fs::path& drive, const fs::path& below) {
 
 }  // namespace
 
-std::vector<Drive> find_drives(const std::vector<std::string>& words, const std::string& list) {
-  std::vector<fs::path> paths;
-  for (const std::string& word : words) add(word, paths);
-  if (!list.empty()) add_list(list, paths);
-  if (paths.empty()) throw std::runtime_error("no drive is named");
-  for (fs::path& path : paths) path = fs::canonical(path);
-  std::ranges::sort(paths);
-  paths.erase(std::ranges::unique(paths).begin(), paths.end());
-  const fs::path below = common_folder(paths);
+std::vector<Drive> find_drives(const std::vector<std::string>& words, const std::string& list,
+                               const fs::path& outputs) {
+  Search search(outputs);
+  for (const std::string& word : words) search.add(word);
+  if (!list.empty()) search.add_list(list);
+  if (search.found().empty()) throw std::runtime_error("no drive is named");
+  const fs::path below = common_folder(search.found());
+  std::map<fs::path, std::string> names;
+  for (const Found& found : search.found()) names.emplace(found.path, name_of(found.path, below));
   std::vector<Drive> drives;
   std::map<std::string, fs::path> by_name;
-  for (const fs::path& path : paths) {
-    drives.push_back({path, name_of(path, below)});
-    const auto [other, is_new] = by_name.emplace(drives.back().name, path);
+  for (const auto& [path, name] : names) {
+    drives.push_back({path, below, name});
+    const auto [other, is_new] = by_name.emplace(name, path);
     if (!is_new)
       throw std::runtime_error(path.string() + " and " + other->second.string() + " would have one output");
   }

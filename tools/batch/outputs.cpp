@@ -22,7 +22,17 @@ nlohmann::json read_record(const fs::path& path) {
   return record.is_object() ? record : nlohmann::json::object();
 }
 
+/// What an output was made of is noted there.
+fs::path record_of(const fs::path& folder, const fs::path& output) {
+  return folder / kOwnFolder / (output.string() + ".made_of.json");
+}
+
 }  // namespace
+
+bool is_output(const fs::path& folder, const fs::path& file) {
+  const fs::path below = file.lexically_relative(folder);
+  return *below.begin() == kOwnFolder || fs::exists(record_of(folder, below));
+}
 
 std::string digest_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -42,7 +52,7 @@ Output::Output(const fs::path& folder, const Step& step, const Drive& drive, std
   const std::string name = drive.name + kind_of(step).suffix;
   path_ = folder / name;
   part_ = folder / kOwnFolder / name;
-  record_ = folder / kOwnFolder / (name + ".made_of.json");
+  record_ = record_of(folder, name);
   log_ = folder / (drive.name + ".log");
 }
 

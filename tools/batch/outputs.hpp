@@ -15,6 +15,9 @@ inline constexpr const char* kOwnFolder = ".batch";
 /// A digest of a file's contents. Throws std::runtime_error if it cannot be read.
 std::string digest_of(const std::filesystem::path& path);
 
+/// Whether a batch with its outputs below this folder made the file, or is about to. Both paths are absolute.
+bool is_output(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 /// The output of a step for one drive, below the folder of a batch.
 class Output {
  public:

@@ -42,7 +42,8 @@ std::vector<fs::path> write_scripts(const JobArray& array, const std::vector<Dri
   const fs::path own = array.folder / kOwnFolder;
   fs::create_directories(own);
   std::string list;
-  for (const Drive& drive : drives) list += drive.path.string() + "\n";
+  for (const Drive& drive : drives)
+    list += drive.folder.string() + kNamesBegin + drive.path.lexically_relative(drive.folder).string() + "\n";
   io::write_text(own / "drives.txt", list);
   const auto script = [&](const std::string& name, const std::string& directives, const std::string& more) {
     io::write_text(own / name,

@@ -87,7 +87,7 @@ void run_batch(const BatchOptions& options, std::vector<std::string> words) {
   if (words.empty()) throw CLI::RequiredError("the step: replay, evaluate, learn, export or check");
   const batch::Step step{.name = words.front(), .options = {words.begin() + 1, words.end()}};
   static_cast<void>(batch::kind_of(step));  // throws
-  std::vector<batch::Drive> drives = batch::find_drives(options.drives, options.list);
+  std::vector<batch::Drive> drives = batch::find_drives(options.drives, options.list, options.out);
   std::filesystem::create_directories(options.out);
   if (options.slurm) return submit_array(options, step, drives);
   if (!options.task.empty()) drives = share_of(options.task, std::move(drives));
