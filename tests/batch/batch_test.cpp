@@ -164,7 +164,14 @@ TEST_F(Batch, WhatChecksFindIsNoFailure) {
   mirrored.close();
   ASSERT_TRUE(done(kBatch + "checked check"));
   EXPECT_THAT(output(), HasSubstr("something wrong was found"));
-  EXPECT_FALSE(json_of("checked/mirrored.json").at("findings").empty());
+  EXPECT_FALSE(json_of("checked/mirrored.check.json").at("findings").empty());
+}
+
+TEST_F(Batch, StepsLeaveEachOthersOutputs) {
+  ASSERT_TRUE(done(kBatch + "both evaluate --later"));
+  ASSERT_TRUE(done(kBatch + "both check"));
+  ASSERT_TRUE(done(kBatch + "both evaluate --later"));
+  EXPECT_THAT(output(), HasSubstr("3 kept"));
 }
 
 TEST_F(Batch, WhatWasLearnedIsMerged) {
@@ -205,6 +212,13 @@ TEST_F(Batch, WrongStepsAndDrivesAreNamed) {
   EXPECT_THAT(output(), HasSubstr("'view' is no step of a batch; these are: replay, evaluate"));
   EXPECT_EQ(run(kBatch + "maps replay --out mine"), 1);
   EXPECT_THAT(output(), HasSubstr("batch names the output of each drive"));
+  EXPECT_EQ(run(kBatch + "maps replay --out=mine"), 1);
+  EXPECT_THAT(output(), HasSubstr("batch names the output of each drive"));
+  for (const std::string step :
+       {"replay --report", "evaluate --plots", "export --geojson", "export --opendrive", "export --report"}) {
+    EXPECT_EQ(run(kBatch + "maps " + step + " mine"), 1);
+    EXPECT_THAT(output(), HasSubstr(step + ": all drives would write to one place"));
+  }
   EXPECT_EQ(run(kBatch + "maps"), 64);
   EXPECT_EQ(run("batch --drives 'nowhere*' --out maps replay"), 1);
   EXPECT_THAT(output(), HasSubstr("nowhere*: there is no such drive"));

@@ -12,21 +12,36 @@ namespace laneloom::batch {
 namespace {
 
 const std::array kKinds{
-    StepKind{.name = "replay", .suffix = ".maps.mcap", .option = "--out", .figures = {}},
+    StepKind{.name = "replay",
+             .suffix = ".maps.mcap",
+             .option = "--out",
+             .other_outputs = {"--report"},
+             .figures = {}},
     StepKind{.name = "evaluate",
              .suffix = ".json",
              .option = "--json",
+             .other_outputs = {"--plots"},
              .figures = {"/fused/total/f1", "/fused/lane/f1", "/fused/topology/linkages/precision",
                          "/fused/topology/directions/precision", "/planner/own_lane",
                          "/fused/planner/own_lane", "/planner/blinks_per_s", "/fused/planner/blinks_per_s",
                          "/planner/kink_p99_deg", "/fused/planner/kink_p99_deg"}},
-    StepKind{.name = "learn", .suffix = ".yaml", .option = "--out", .figures = {}},
-    StepKind{.name = "export", .suffix = ".osm", .option = "--lanelet2", .figures = {}},
-    StepKind{
-        .name = "check", .suffix = ".json", .option = "--out", .figures = {}, .may_find_something = true}};
+    StepKind{.name = "learn", .suffix = ".yaml", .option = "--out", .other_outputs = {}, .figures = {}},
+    StepKind{.name = "export",
+             .suffix = ".osm",
+             .option = "--lanelet2",
+             .other_outputs = {"--opendrive", "--geojson", "--report"},
+             .figures = {}},
+    StepKind{.name = "check",
+             .suffix = ".check.json",
+             .option = "--out",
+             .other_outputs = {},
+             .figures = {},
+             .may_find_something = true}};
 
 bool has(const Step& step, const std::string& option) {
-  return std::ranges::find(step.options, option) != step.options.end();
+  return std::ranges::any_of(step.options, [&](const std::string& word) {
+    return word == option || word.starts_with(option + "=");
+  });
 }
 
 /// The truth that a step rates a drive by.
@@ -49,6 +64,9 @@ const StepKind& kind_of(const Step& step) {
   if (has(step, kind->option))
     throw std::runtime_error(
         fmt::format("{} {}: batch names the output of each drive", step.name, kind->option));
+  for (const std::string& option : kind->other_outputs)
+    if (has(step, option))
+      throw std::runtime_error(fmt::format("{} {}: all drives would write to one place", step.name, option));
   return *kind;
 }
 

@@ -19,14 +19,15 @@ struct Step {
 /// What a command makes of a drive.
 struct StepKind {
   std::string name;
-  std::string suffix;                ///< of the output
-  std::string option;                ///< that names the output
-  std::vector<std::string> figures;  ///< of the output (JSON), those that are shown, as JSON pointers
-  bool may_find_something = false;   ///< exit code 2 tells of the drive, and is no failure
+  std::string suffix;                      ///< of the output
+  std::string option;                      ///< that names the output
+  std::vector<std::string> other_outputs;  ///< options that name others, which a batch has not
+  std::vector<std::string> figures;        ///< of the output (JSON), those that are shown, as JSON pointers
+  bool may_find_something = false;         ///< exit code 2 tells of the drive, and is no failure
 };
 
 /// The kind of a step. Throws std::runtime_error naming the commands that can be a step, if it is none of
-/// them, or naming the option that batch itself gives.
+/// them, or naming an option that batch itself gives, or by which all drives would write to one place.
 const StepKind& kind_of(const Step& step);
 
 /// The command line that makes `output` of a drive. A step that rates drives by their truth takes it from
