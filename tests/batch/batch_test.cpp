@@ -90,6 +90,21 @@ TEST_F(Batch, MakesAnewWhatIsMadeOfSomethingElse) {
   EXPECT_THAT(output(), HasSubstr("3 made")) << "with other options";
 }
 
+TEST_F(Batch, MakesAnewWhatIsMadeOfAnotherFileThatAnOptionNamesInAnyWay) {
+  ASSERT_TRUE(done("learn " + drive("a") + " --out profile.yaml"));
+  std::ofstream(file("car.yaml")) << "mapper: {fusion: {profile_file: profile.yaml}}";
+  const auto made = [&] {
+    EXPECT_TRUE(done(kBatch + "maps replay --config=car.yaml"));
+    return output().find("3 made") != std::string::npos;
+  };
+  EXPECT_TRUE(made());
+  EXPECT_FALSE(made());
+  ASSERT_TRUE(done("learn " + drive("night/c") + " --out profile.yaml"));
+  EXPECT_TRUE(made()) << "with another profile";
+  std::ofstream(file("car.yaml")) << "mapper: {lane: {min_width_m: 2.2}}";
+  EXPECT_TRUE(made()) << "with another configuration";
+}
+
 TEST_F(Batch, ItsOwnOutputsAreNoDrives) {
   for (const std::string step : {"replay", "replay", "replay --preset av2"}) {
     ASSERT_TRUE(done("batch --drives . --out maps " + step));

@@ -8,6 +8,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "config/config_file.hpp"
+
 namespace laneloom::batch {
 namespace {
 
@@ -38,10 +40,19 @@ const std::array kKinds{
              .figures = {},
              .may_find_something = true}};
 
+const std::string kConfiguration = "--config";
+
 bool has(const Step& step, const std::string& option) {
   return std::ranges::any_of(step.options, [&](const std::string& word) {
     return word == option || word.starts_with(option + "=");
   });
+}
+
+/// Adds the files that a configuration names, and maps depend on.
+void add_named_by(const std::string& configuration, std::vector<std::filesystem::path>& files) {
+  const Config config = config::load_config(configuration);
+  for (const std::string& file : {config.mapper.fusion.profile_file, config.sd_map.file})
+    if (!file.empty()) files.emplace_back(file);
 }
 
 /// The truth that a step rates a drive by.
@@ -81,8 +92,15 @@ std::vector<std::string> command_line(const std::string& laneloom, const Step& s
 
 std::vector<std::filesystem::path> other_inputs(const Step& step, const Drive& drive) {
   std::vector<std::filesystem::path> files;
-  for (const std::string& word : step.options)
-    if (std::filesystem::is_regular_file(word)) files.emplace_back(word);
+  bool of_configuration = false;
+  for (const std::string& word : step.options) {
+    const bool is_option = word.starts_with("-");
+    if (is_option) of_configuration = word == kConfiguration || word.starts_with(kConfiguration + "=");
+    const std::string file = is_option ? word.substr(word.find('=') + 1) : word;
+    if (!std::filesystem::is_regular_file(file)) continue;
+    files.emplace_back(file);
+    if (of_configuration) add_named_by(file, files);
+  }
   if (const auto truth = truth_of(step, drive)) files.push_back(*truth);
   return files;
 }

@@ -35,7 +35,8 @@ const StepKind& kind_of(const Step& step);
 std::vector<std::string> command_line(const std::string& laneloom, const Step& step, const Drive& drive,
                                       const std::filesystem::path& output);
 
-/// The files that a drive's output is made of, other than the drive: those that options name, and the truth.
+/// The files that a drive's output is made of, other than the drive: those that options name, those that a
+/// configuration among them names, and the truth. Throws ConfigError if a configuration cannot be read.
 std::vector<std::filesystem::path> other_inputs(const Step& step, const Drive& drive);
 
 }  // namespace laneloom::batch
