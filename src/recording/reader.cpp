@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "laneloom/dds/cdr.hpp"
+#include "recording/damage.hpp"
 #include "recording/mcap_format.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/recording.hpp"
@@ -47,10 +48,10 @@ bool is_recording(const std::string& path) {
 class RecordingReader::Impl {
  public:
   Impl(const std::string& path, std::string map_frame_id, const RecordingLimits& limits)
-      : map_frame_id_(std::move(map_frame_id)), file_(path, limits) {}
+      : path_(path), map_frame_id_(std::move(map_frame_id)), file_(path, limits) {}
 
   std::optional<RecordedMessage> next(bool inputs_only) {
-    while (const auto message = file_.next()) {
+    while (const auto message = next_of_file()) {
       RecordedMessage recorded{static_cast<std::int64_t>(message->log_time_ns),
                                static_cast<std::int64_t>(message->publish_time_ns),
                                {}};
@@ -66,7 +67,7 @@ class RecordingReader::Impl {
   }
 
   std::optional<RawMessage> next_raw() {
-    while (const auto message = file_.next()) {
+    while (const auto message = next_of_file()) {
       RawMessage raw{static_cast<std::int64_t>(message->log_time_ns), 0, {}};
       const auto copy = [&]<class T>(std::in_place_type_t<T> type) {
         raw.topic = AnyMessage(type).index();
@@ -88,7 +89,6 @@ class RecordingReader::Impl {
     return {text(kVersionKey), text(kConfigurationKey)};
   }
   const Counters& refused() const { return refused_; }
-  bool cut_off() const { return file_.cut_off(); }
   double progress() const { return file_.progress(); }
 
  private:
@@ -114,8 +114,17 @@ class RecordingReader::Impl {
     return message.channel->topic.starts_with(kTopicsOfAnyVersion) ? kOtherVersion : kForeignTopic;
   }
 
-  std::string map_frame_id_;
+  /// Throws Damage at the end of a file that is cut off, once.
+  std::optional<McapMessage> next_of_file() {
+    auto message = file_.next();
+    if (!message && file_.cut_off() && !std::exchange(told_of_end_, true))
+      throw Damage(path_, "its end", "the recording is cut off");
+    return message;
+  }
+
+  std::string path_, map_frame_id_;
   McapReader file_;
+  bool told_of_end_ = false;  ///< that it is missing
   Counters refused_;
 };
 
@@ -131,7 +140,6 @@ std::optional<RecordedMessage> RecordingReader::next_input() { return impl_->nex
 std::optional<RawMessage> RecordingReader::next_raw() { return impl_->next_raw(); }
 Origin RecordingReader::origin() const { return impl_->origin(); }
 const Counters& RecordingReader::refused() const { return impl_->refused(); }
-bool RecordingReader::cut_off() const { return impl_->cut_off(); }
 double RecordingReader::progress() const { return impl_->progress(); }
 
 }  // namespace laneloom::recording

@@ -115,7 +115,8 @@ bool is_recording(const std::string& path);
 
 /// Reads a recording: any MCAP file of any writer, whole or cut off. Memory stays within the limits. Not
 /// thread-safe. All throw std::runtime_error naming file and offset when the file is malformed; next() may
-/// then be called again, and goes on behind the damage.
+/// then be called again, and goes on behind the damage. A file that is cut off, as when its writer was
+/// killed, is read up to its last whole chunk; that its end is missing is told there, once.
 class RecordingReader {
  public:
   /// Messages are refused for the same reasons as by a service whose map frame is `map_frame_id`.
@@ -137,8 +138,6 @@ class RecordingReader {
   Origin origin() const;
   /// Counts of the messages that were refused so far, by "<topic>: <reason>".
   const Counters& refused() const;
-  /// Whether the file is cut off, as when its writer was killed. It is then read up to its last whole chunk.
-  bool cut_off() const;
   /// The share of the file that was read, 0..1.
   double progress() const;
 

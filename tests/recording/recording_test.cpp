@@ -7,6 +7,7 @@
 #include "cdr/random_messages.hpp"
 #include "cdr/serialise.hpp"
 #include "laneloom/dds/cdr.hpp"
+#include "recording/damage.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/mcap_writer.hpp"
 #include "recording/topics.hpp"
@@ -55,7 +56,6 @@ MessageOf<T> message_from(const T& plain_message) {
 
 std::vector<RecordedMessage> read_all(const std::string& path) {
   RecordingReader reader(path);
-  EXPECT_FALSE(reader.cut_off());
   std::vector<RecordedMessage> messages;
   while (auto message = reader.next()) messages.push_back(std::move(*message));
   EXPECT_TRUE(reader.refused().values().empty());
@@ -243,9 +243,9 @@ TEST(Recording, WhatIsFlushedIsThereBeforeTheEnd) {
   writer.flush();
   writer.write(pose_at(2), 2);
   RecordingReader reader(writer.path());
-  EXPECT_TRUE(reader.cut_off());
   EXPECT_TRUE(reader.next());
-  EXPECT_FALSE(reader.next());
+  EXPECT_THROW(reader.next(), Damage);
+  EXPECT_FALSE(reader.next()) << "it is told once";
 }
 
 TEST(Recording, AClosedRecordingTakesNoMore) {

@@ -139,6 +139,19 @@ TEST_F(CutCommand, WhatIsNoLineIsLeftOutOrRefused) {
   EXPECT_THAT(output(), HasSubstr("bad.jsonl:1: is not JSON"));
 }
 
+TEST_F(CutCommand, TheMissingEndOfARecordingIsLeftOutOrRefused) {
+  ASSERT_TRUE(done("cut in.frames.jsonl --out in.mcap"));
+  ASSERT_EQ(shell("head -c -40 in.mcap >short.mcap && head -c 100 in.mcap >shorter.mcap"), 0);
+  EXPECT_TRUE(done("replay short.mcap"));
+  EXPECT_THAT(output(), HasSubstr("short.mcap: left out: 1 x the recording is cut off"));
+  EXPECT_EQ(run("replay shorter.mcap"), 1);
+  EXPECT_THAT(output(), HasSubstr("nothing of it can be read: 1 x the recording is cut off"));
+  for (const std::string command : {"replay", "cut --out a.mcap", "export --lanelet2 a.osm --in"}) {
+    EXPECT_EQ(run(command + " short.mcap --strict"), 1) << command << output();
+    EXPECT_THAT(output(), HasSubstr("short.mcap: at its end: the recording is cut off")) << command;
+  }
+}
+
 TEST_F(CutCommand, CommandsAreJoinedByPipes) {
   ASSERT_EQ(shell("laneloom cut in.frames.jsonl --from 1 --out - | laneloom replay - --out - 2>report | "
                   "laneloom cut - --to 3 --out maps.jsonl"),

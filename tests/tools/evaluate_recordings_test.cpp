@@ -146,7 +146,7 @@ TEST_F(EvaluateRecordings, WhatIsNotComparedIsTold) {
   bytes.resize(bytes.size() / 2);
   write_bytes(file("cut.mcap"), bytes);
   run(kByTruth + "--frames cut.mcap");
-  EXPECT_THAT(output(), HasSubstr("cut.mcap: the recording is cut off"));
+  EXPECT_THAT(output(), HasSubstr("cut.mcap: left out: 1 x the recording is cut off (first: its end)"));
 }
 
 TEST_F(EvaluateRecordings, NothingToCompareIsAFailure) {

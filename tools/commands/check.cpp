@@ -53,8 +53,7 @@ void check(const CheckOptions& options) {
   const auto source = replay::open_messages(options.drive, config.dds.map_frame_id,
                                             {.conventions = {.any_confidence = true}});
   const check::Findings found = findings(read_inputs(*source), config);
-  warn_of(options.drive, source->refused(), source->cut_off());
-  warn_of(options.drive, source->left_out());
+  warn_of(options.drive, source->refused(), source->left_out());
   const auto json = [&] {
     return report_json(found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   };

@@ -79,8 +79,7 @@ void cut_to_recording(const CutOptions& options, Part& part) {
   }
   out.close();
   bar.clear();
-  warn_of(options.drive, source->refused(), source->cut_off());
-  warn_of(options.drive, source->left_out());
+  warn_of(options.drive, source->refused(), source->left_out());
 }
 
 /// Lines keep their text.

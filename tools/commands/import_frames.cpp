@@ -71,8 +71,7 @@ void import_frames(const ImportFramesOptions& options) {
   refuse_overwriting({options.drive}, {options.out});
   const auto source = open_drive(options);
   check::Drive drive = read_inputs(*source);
-  warn_of(options.drive, source->refused(), source->cut_off());
-  warn_of(options.drive, source->left_out());
+  warn_of(options.drive, source->refused(), source->left_out());
   const check::PoseTrack track(drive.poses);
   std::vector<VehiclePose> poses = track.poses();
   for (VehiclePose& pose : poses) pose = corrected(pose, options.correction);

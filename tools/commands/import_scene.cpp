@@ -24,8 +24,7 @@ void import_scene(const ImportSceneOptions& options) {
   const scene::SceneRecordingReport report =
       scene::add_scene(options.in, options.out, options.map_frame_id, [&](double share) { bar.step(share); });
   bar.clear();
-  warn_of(options.in, report.refused, report.cut_off);
-  warn_of(options.in, report.left_out);
+  warn_of(options.in, report.refused, report.left_out);
   fmt::print("{}: {} messages, {} of scenes\n", options.out, report.messages + report.scenes, report.scenes);
 }
 

@@ -82,8 +82,7 @@ FileInfo read_info(const std::string& path) {
   bar.clear();
   info.origin = source->origin();
   add_configuration(path, info);
-  warn_of(path, source->refused(), source->cut_off());
-  warn_of(path, source->left_out());
+  warn_of(path, source->refused(), source->left_out());
   return info;
 }
 

@@ -69,8 +69,7 @@ void take_recorded_maps(const std::string& path, bool strict, DriveReader& taker
   }
   bar.clear();
   if (taker.maps() == 0) return;
-  warn_of(path, reader.refused(), reader.cut_off());
-  warn_of(path, left_out);
+  warn_of(path, reader.refused(), left_out);
 }
 
 void map_frames(const std::string& path, const Config& config, bool strict, DriveReader& taker) {

@@ -17,8 +17,7 @@ std::size_t read_with_bar(const std::string& path, bool strict, Read read) {
   const evaluation::InputAccount account =
       read(evaluation::InputReading{.strict = strict, .on_step = [&](double share) { bar.step(share); }});
   bar.clear();
-  warn_of(path, account.refused, account.cut_off);
-  warn_of(path, account.left_out);
+  warn_of(path, account.refused, account.left_out);
   return account.count;
 }
 
@@ -33,8 +32,7 @@ void for_each_input(const std::string& path, const Config& config, bool strict,
     bar.step(source->progress());
   }
   bar.clear();
-  warn_of(path, source->refused(), source->cut_off());
-  warn_of(path, source->left_out());
+  warn_of(path, source->refused(), source->left_out());
 }
 
 check::Drive read_inputs(replay::MessageSource& source) {

@@ -140,8 +140,7 @@ void load_recording(const std::string& path, bool strict, Storer& storer) {
   }
   if (const auto last = builder.finish()) storer.add(*last);
   bar.clear();
-  warn_of(path, reader.refused(), reader.cut_off());
-  warn_of(path, left_out);
+  warn_of(path, reader.refused(), left_out);
 }
 
 /// Maps one drive with several configurations, in step; or with a single one.

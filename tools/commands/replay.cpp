@@ -105,8 +105,7 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
   result.pending = replay.pending();
   result.advice = advice_on(input, result, config.mapper);
   if (evaluation) result.score = evaluation->score();
-  warn_of(options.in, source->refused(), source->cut_off());
-  warn_of(options.in, source->left_out());
+  warn_of(options.in, source->refused(), source->left_out());
   return result;
 }
 
@@ -182,8 +181,7 @@ void play(const ReplayOptions& options) {
     bar.step(source->progress());
   }
   bar.clear();
-  warn_of(options.in, source->refused(), source->cut_off());
-  warn_of(options.in, source->left_out());
+  warn_of(options.in, source->refused(), source->left_out());
   fmt::print("{} detections and {} poses published", player.detections(), player.poses());
   if (player.not_taken() > 0) fmt::print(", {} messages not taken by DDS", player.not_taken());
   fmt::print("\n");

@@ -8,12 +8,11 @@
 
 namespace laneloom::commands {
 
-/// Warns on standard error if only a part of a file could be read: of refused messages, as "<topic>:
-/// <reason>", and of a file that is cut off.
-void warn_of(const std::filesystem::path& path, const Counters& refused, bool cut_off);
-
 /// Warns on standard error of what is wrong in a file and was left out, if anything was.
 void warn_of(const std::filesystem::path& path, const LeftOut& left_out);
+
+/// The same of a recording, and of its messages that were refused, by "<topic>: <reason>".
+void warn_of(const std::filesystem::path& path, const Counters& refused, const LeftOut& left_out);
 
 /// Calls `read` with what it leaves out, and warns of that, also if nothing remains and it throws.
 template <typename Read>

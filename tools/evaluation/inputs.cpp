@@ -157,7 +157,6 @@ InputAccount read_recorded(const std::filesystem::path& path, const InputReading
     taker.add(std::move(*message));
   }
   account.refused = reader.refused();
-  account.cut_off = reader.cut_off();
   return account;
 }
 
@@ -219,7 +218,6 @@ InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& vis
       maps.add(std::move(published->map));
     }
     account.refused = reader.refused();
-    account.cut_off = reader.cut_off();
   } else {
     io::JsonLinesReader in(path);
     for (; auto map = in.next_map(account.left_out); ++account.count) {

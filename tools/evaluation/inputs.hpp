@@ -18,7 +18,6 @@ struct InputAccount {
   std::size_t count = 0;  ///< of frames, objects or maps in the file, visited or not
   Counters refused;       ///< messages that were refused, by "<topic>: <reason>"
   LeftOut left_out;       ///< damaged parts of a recording, or lines that are no frames or maps
-  bool cut_off = false;   ///< the file is cut off
 };
 
 /// How an input is read.

@@ -61,7 +61,6 @@ void warn_of(const std::string& file, const evaluation::InputAccount& account) {
   if (account.count == 0 && !account.left_out.empty())
     throw std::runtime_error(file + ": nothing is left: " + account.left_out.summary());
   if (!account.left_out.empty()) warn(file + ": left out: " + account.left_out.summary());
-  if (account.cut_off) warn(file + ": the recording is cut off");
 }
 
 /// Converts what was read of a file to a list of pairs.

@@ -36,7 +36,6 @@ class McapMessages : public MessageSource {
   Counters refused() const override { return reader_.refused(); }
   const LeftOut& left_out() const override { return left_out_; }
   recording::Origin origin() const override { return reader_.origin(); }
-  bool cut_off() const override { return reader_.cut_off(); }
 
  private:
   template <typename Next>
@@ -95,7 +94,6 @@ class JsonLinesMessages : public MessageSource {
   Counters refused() const override { return {}; }
   const LeftOut& left_out() const override { return left_out_; }
   recording::Origin origin() const override { return {}; }
-  bool cut_off() const override { return false; }
 
  private:
   std::string path_;

@@ -30,8 +30,6 @@ class MessageSource {
   virtual const LeftOut& left_out() const = 0;
   /// How a recording was made. JSON lines do not tell.
   virtual recording::Origin origin() const = 0;
-  /// Whether the file is cut off.
-  virtual bool cut_off() const = 0;
 };
 
 /// How messages are read.

@@ -27,7 +27,6 @@ SceneRecordingReport add_scene(const std::string& from, const std::string& to,
   }
   out.close();
   report.refused = in.refused();
-  report.cut_off = in.cut_off();
   return report;
 }
 

@@ -21,7 +21,6 @@ struct SceneRecordingReport {
   std::uint64_t scenes = 0;    ///< messages of the scene topics
   Counters refused;            ///< messages that are not in the new recording, as RecordingReader counts them
   LeftOut left_out;            ///< damaged parts of `from`
-  bool cut_off = false;        ///< `from` is cut off
 };
 
 /// Copies the recording `from` to `to`: laneloom's messages byte for byte, with scenes made from them. Throws
