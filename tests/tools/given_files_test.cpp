@@ -54,6 +54,22 @@ TEST_F(GivenFiles, NoOutputIsWrittenOverAnotherOne) {
   EXPECT_FALSE(exists("x.osm"));
 }
 
+TEST_F(GivenFiles, StandardInputIsReadOnce) {
+  const auto refused = [&](const std::string& words, const std::string& why) {
+    EXPECT_EQ(run(words + " <in.frames.jsonl"), 1) << words << output();
+    EXPECT_THAT(output(), HasSubstr("-: standard input can be read once, and " + why)) << words;
+  };
+  refused("replay - --config $CONFIG/laneloom.yaml --config $CONFIG/paper.yaml", "a second --config reads");
+  refused("evaluate --truth truth.json -", "--truth reads it twice");
+  refused("evaluate --truth truth.json --frames -", "--truth reads it twice");
+  refused("evaluate --later --frames - --map -", "is given twice");
+  refused("learn - --sensor-left --out profile.yaml", "--sensor-left reads it twice");
+  refused("export - - --lanelet2 a.osm", "is given twice");
+  refused("render --frames - --map - --out a.svg", "is given twice");
+  EXPECT_TRUE(done("evaluate --later - <in.frames.jsonl"));
+  EXPECT_TRUE(done("learn - --out profile.yaml <in.frames.jsonl"));
+}
+
 TEST_F(GivenFiles, AnOutputIsOpenedOnlyWhenItCanBeWritten) {
   ASSERT_TRUE(done("cut in.frames.jsonl --out in.mcap"));
   ASSERT_EQ(shell("echo kept >keep.jsonl"), 0);

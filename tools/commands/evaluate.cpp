@@ -190,6 +190,7 @@ void rate_by_truth(const EvaluateOptions& options) {
 void evaluate(const EvaluateOptions& options) {
   refuse_overwriting({options.in, options.frames, options.map, options.truth, options.config},
                      {options.json});
+  refuse_second_reading({options.in, options.frames, options.map}, options.truth.empty() ? "" : "--truth");
   if (!options.later) return rate_by_truth(options);
   if (options.in.empty() && (options.frames.empty() || options.map.empty()))
     throw CLI::RequiredError("--later: --in, or --frames and --map");

@@ -119,6 +119,7 @@ void write_report(const std::string& path, const std::vector<exports::Change>& c
 
 void export_drives(const ExportOptions& options) {
   check_files(options);
+  refuse_second_reading(options.in);
   const Config config = config::resolve_config(options.config, options.preset);
   const Surveyed surveyed = survey(options, config);
   const LocalMap map = weave(surveyed.survey.road(), config.mapper);

@@ -39,4 +39,11 @@ void refuse_overwriting(const std::vector<std::string>& inputs, const std::vecto
   }
 }
 
+void refuse_second_reading(const std::vector<std::string>& inputs, const std::string& option) {
+  const auto given = std::ranges::count(inputs, io::kStandard);
+  if (given > 1) throw std::runtime_error("-: standard input can be read once, and is given twice");
+  if (given == 1 && !option.empty())
+    throw std::runtime_error("-: standard input can be read once, and " + option + " reads it twice");
+}
+
 }  // namespace laneloom::commands

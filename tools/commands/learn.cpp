@@ -67,6 +67,7 @@ NetworkProfiles learned_from(const LearnOptions& options) {
 
 void learn(const LearnOptions& options) {
   refuse_overwriting({options.in, options.config}, {options.out});
+  refuse_second_reading({options.in}, options.sensor_left ? "--sensor-left" : "");
   const NetworkProfiles networks = learned_from(options);
   io::write_text(
       options.out,

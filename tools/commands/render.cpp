@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "commands/commands.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/read_input.hpp"
 #include "drawing/frame_elements.hpp"
@@ -126,6 +127,7 @@ render::Moment draw_moment(const RenderOptions& options, const Inputs& inputs, s
 }
 
 void render(const RenderOptions& options) {
+  refuse_second_reading({options.frames, options.map});
   const Inputs inputs = read(options);
   render::Figure figure{options.title, options.range, {}};
   if (figure.title.empty()) figure.title = inputs.truth ? inputs.truth->name : "laneloom";

@@ -128,6 +128,7 @@ void check_files(const ReplayOptions& options) {
 void replay(ReplayOptions& options) {
   if (!options.explain.empty()) return explain(options.in, explaining_config(options), options.explain);
   check_files(options);
+  refuse_second_reading({options.in}, options.config_files.size() > 1 ? "a second --config" : "");
   if (!options.out.empty() && options.out.size() != std::max<std::size_t>(1, options.config_files.size()))
     throw std::runtime_error("replay: --out is needed once per --config, or not at all");
   if (options.config_files.empty()) options.config_files.emplace_back();
