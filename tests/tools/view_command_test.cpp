@@ -80,6 +80,10 @@ TEST_F(ViewCommand, AServicesMapsAreExplainedWithItsConfiguration) {
   EXPECT_THAT(output(), HasSubstr("2.00 are needed")) << "as it would have been";
 }
 
+TEST_F(ViewCommand, ARecordingWithoutMapsIsMapped) {
+  EXPECT_EQ(last_frame("in.mcap").at("why").at("confirm"), 2.0);
+}
+
 TEST_F(ViewCommand, MapsOfAnUnknownConfigurationAreShownWithoutReasons) {
   record_service({.published_ns = 5, .configuration = {{"mapper.unheard_of", "1"}}});
   EXPECT_FALSE(last_frame("live.mcap").contains("why"));

@@ -44,6 +44,8 @@ class Storer {
          std::stop_token stop)
       : range_(range), truth_(truth), placer_(range, maps, truth), store_(store), stop_(std::move(stop)) {}
 
+  bool empty() const { return store_.size() == 0; }
+
   /// Throws Stopped if the loading is to end.
   void check() const {
     if (stop_requested() || stop_.stop_requested()) throw Stopped();
@@ -120,7 +122,8 @@ bool is_input(const recording::AnyMessage& message) {
          std::holds_alternative<TrackedObjects>(message);
 }
 
-void load_recording(const std::string& path, bool strict, Storer& storer) {
+/// Returns whether the recording has a map. If not, there is nothing of it in the store.
+bool load_recording(const std::string& path, bool strict, Storer& storer) {
   recording::RecordingReader reader(path);
   const std::unique_ptr<Explainer> explainer = explainer_of(path);
   view::MomentBuilder builder;
@@ -140,7 +143,9 @@ void load_recording(const std::string& path, bool strict, Storer& storer) {
   }
   if (const auto last = builder.finish()) storer.add(*last);
   bar.clear();
+  if (storer.empty()) return false;
   warn_of(path, reader.refused(), left_out);
+  return true;
 }
 
 /// Maps one drive with several configurations, in step; or with a single one.
@@ -278,9 +283,8 @@ void load(const RecordedInputs& inputs, const RangeConfig& range, const simulati
     Storer storer(range, maps, truth, store, stop);
     if (inputs.recording.empty())
       load_files(inputs, storer);
-    else if (inputs.configs.empty() && recording::is_recording(inputs.recording))
-      load_recording(inputs.recording, inputs.strict, storer);
-    else
+    else if (!inputs.configs.empty() || !recording::is_recording(inputs.recording) ||
+             !load_recording(inputs.recording, inputs.strict, storer))
       load_mapped(inputs, storer);
     store.finish(store.size() == 0 ? inputs.title() + ": there is nothing in it to show" : "");
   } catch (const std::exception& error) {

@@ -12,7 +12,7 @@ namespace laneloom::commands {
 
 /// Files that a view shows. An empty name: the file is not given.
 struct RecordedInputs {
-  std::string recording;             ///< all topics (.mcap), or frames that are mapped anew (.frames.jsonl)
+  std::string recording;             ///< of all topics (.mcap), or a drive without maps, which is mapped
   std::vector<std::string> configs;  ///< each maps the recording's detections, instead of its own maps
   std::string frames;                ///< frames, instead of a recording
   std::vector<std::string> maps;     ///< maps of the same drive, likewise
