@@ -56,6 +56,24 @@ TEST_F(CutCommand, OfARecordingTopicsAndTimeAreKeptWithTheConfiguration) {
   EXPECT_NE(part.at("configuration"), "");
 }
 
+TEST_F(CutCommand, SecondsCountFromTheFirstMessageOfARecordingForLinesToo) {
+  constexpr std::int64_t kOtherClock_ns = 7'000'000'000'000;  // that of the computer is ahead of the sensors'
+  {
+    recording::RecordingWriter writer(file("late.mcap"));
+    io::JsonLinesReader frames(file("in.frames.jsonl"));
+    writer.write(ServiceStatus{.published_ns = kOtherClock_ns}, kOtherClock_ns);
+    while (const auto record = frames.next_frame()) {
+      writer.write(record->pose, kOtherClock_ns + record->pose.stamp_ns);
+      writer.write(record->frame, kOtherClock_ns + record->frame.stamp_ns);
+    }
+    writer.close();
+  }
+  ASSERT_TRUE(done("cut late.mcap --to 1.05 --out a.frames.jsonl"));
+  EXPECT_EQ(lines_of(text("a.frames.jsonl")), 10u) << "from 0.1 s to 1 s";
+  ASSERT_TRUE(done("cut late.mcap --to 1.05 --topic detections --out a.mcap"));
+  EXPECT_THAT(output(), HasSubstr("10 messages"));
+}
+
 TEST_F(CutCommand, ObjectsOfOthersAreATopic) {
   ASSERT_TRUE(done("simulate --scenario town --traffic usual --duration 2 --frames t.frames.jsonl"));
   ASSERT_TRUE(done("cut t.frames.jsonl --out t.mcap"));

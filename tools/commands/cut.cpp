@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "commands/commands.hpp"
@@ -45,7 +46,10 @@ class Part {
  public:
   explicit Part(const CutOptions& options) : options_(options) {}
 
-  /// Whether a message is kept. Times count from that of the first message.
+  /// Times count from this one on. If it is not set, they count from that of the first message.
+  void set_begin(std::int64_t first_ns) { first_ns_ = first_ns; }
+
+  /// Whether a message is kept.
   bool holds(std::int64_t stamp_ns) {
     if (!first_ns_) first_ns_ = stamp_ns;
     const double at_s = static_cast<double>(stamp_ns - *first_ns_) * 1e-9;
@@ -125,6 +129,20 @@ class ObjectsOfFrames {
   std::deque<TrackedObjects> seen_;  ///< in the map frame; stamps ascend
 };
 
+/// When the first message of a recording came, by the clock of the stamps: as long before the first T as it
+/// came before it.
+template <class T>
+std::optional<std::int64_t> begin_of(const std::string& recording) {
+  const auto source = replay::open_messages(recording, "map");
+  std::optional<std::int64_t> first_ns;
+  while (const auto message = source->next()) {
+    if (!first_ns) first_ns = message->log_time_ns;
+    if (std::holds_alternative<T>(message->message) && message->publish_time_ns > 0)
+      return message->publish_time_ns - (message->log_time_ns - *first_ns);
+  }
+  return std::nullopt;
+}
+
 /// Writes the frames of a recording with their poses and objects.
 void cut_frames(const CutOptions& options, Part& part, io::JsonLinesWriter& out) {
   ObjectsOfFrames objects(options.drive);
@@ -146,6 +164,9 @@ void cut_to_lines(const CutOptions& options, Part& part) {
   if (!maps && !options.topics.empty())
     throw std::runtime_error(options.out +
                              ": JSON lines hold frames with their poses, or else maps (--topic lane_map)");
+  const auto begin_ns =
+      maps ? begin_of<PublishedMap>(options.drive) : begin_of<DetectionFrame>(options.drive);
+  if (begin_ns) part.set_begin(*begin_ns);
   io::JsonLinesWriter out(options.out);
   if (maps)
     for_each_map(options.drive, options.strict, [&](const LocalMap& map) {
