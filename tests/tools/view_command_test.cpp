@@ -34,13 +34,22 @@ class ViewCommand : public Commands {
   /// what the command wrote, if it ends before.
   json last_frame(const std::string& words) const {
     support::ChildProcess view = start("laneloom view --port 0 " + words, "view.log");
-    while (view.running() && text("view.log").find("http://") == std::string::npos) std::this_thread::yield();
+    wait_for_url(view);
     json summaries{{"complete", false}};
     while (!summaries.at("complete").get<bool>()) {
       if (!view.running()) throw std::runtime_error(text("view.log"));
       summaries = json::parse(answer("/recording?from=0"));
     }
     return json::parse(answer("/frame?number=" + std::to_string(summaries.at("frames").size() - 1)));
+  }
+
+  /// Waits until the view has printed its URL, or has ended.
+  void wait_for_url(support::ChildProcess& view) const {
+    while (view.running() && text("view.log").find("http://") == std::string::npos) std::this_thread::yield();
+  }
+  std::uint16_t port() const {
+    const std::string url = text("view.log").substr(text("view.log").find("http://"));
+    return static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
   }
 
   /// A recording of a service that needs more evidence of a line than by default.
@@ -61,8 +70,7 @@ class ViewCommand : public Commands {
 
  private:
   std::string answer(const std::string& target) const {
-    const std::string url = text("view.log").substr(text("view.log").find("http://"));
-    Client client(static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1))));
+    Client client(port());
     client.send("GET " + target + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     const std::string answer = client.receive_all();
     return answer.substr(answer.find("\r\n\r\n") + 4);
@@ -82,6 +90,14 @@ TEST_F(ViewCommand, AServicesMapsAreExplainedWithItsConfiguration) {
 
 TEST_F(ViewCommand, ARecordingWithoutMapsIsMapped) {
   EXPECT_EQ(last_frame("in.mcap").at("why").at("confirm"), 2.0);
+}
+
+TEST_F(ViewCommand, APortThatIsTakenIsToldBeforeTheDriveIsRead) {
+  support::ChildProcess first = start("laneloom view --port 0 in.mcap", "view.log");
+  wait_for_url(first);
+  ASSERT_EQ(shell("mkfifo endless.frames.jsonl"), 0);  // whoever reads it waits
+  EXPECT_EQ(run("view endless.frames.jsonl --port " + std::to_string(port())), 1);
+  EXPECT_THAT(output(), HasSubstr(std::to_string(port())));
 }
 
 TEST_F(ViewCommand, MapsOfAnUnknownConfigurationAreShownWithoutReasons) {

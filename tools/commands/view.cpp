@@ -81,18 +81,15 @@ void view_recording(const ViewOptions& options) {
                          .names = options.recorded.names(),
                          .max_file_bytes = options.server.max_file_bytes},
                         store);
-  std::thread loader([&] { load(options.recorded, options.range, road, store); });
-  try {
-    view::FileDesk desk(site, file_loader(options.range), options.server.max_file_bytes);
-    const view::WebServer server = serve(options, desk);
-    print_urls(options, server.port());
+  view::FileDesk desk(site, file_loader(options.range), options.server.max_file_bytes);
+  const view::WebServer server = serve(options, desk);  // before a long drive is read for nothing
+  print_urls(options, server.port());
+  {
+    const std::jthread loader(
+        [&](const std::stop_token& stop) { load(options.recorded, options.range, road, store, stop); });
     while (store.failure().empty() && sleep_until(std::chrono::steady_clock::now() + kLook)) {
     }
-  } catch (...) {
-    loader.join();
-    throw;
   }
-  loader.join();
   if (const std::string failure = store.failure(); !failure.empty()) throw std::runtime_error(failure);
 }
 
