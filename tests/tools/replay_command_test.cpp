@@ -112,6 +112,11 @@ TEST_F(Commands, ReplayRefusesOptionsThatWouldBeOfNoAccount) {
     EXPECT_GT(run("replay in.frames.jsonl --publish --speed-up 100 " + option), 1) << option;
     EXPECT_THAT(output(), HasSubstr(option.substr(0, option.find(' '))));
   }
+  for (const std::string option : {"--verify", "--out a", "--truth truth.json", "--report r.json", "--strict",
+                                   "--config $CONFIG/laneloom.yaml --config $CONFIG/paper.yaml"}) {
+    EXPECT_EQ(run("replay in.frames.jsonl --explain 3@5 " + option), 64) << option;
+    EXPECT_THAT(output(), HasSubstr(option.substr(0, option.find(' '))));
+  }
   EXPECT_GT(run("replay --in in.frames.jsonl --domain 7"), 1);
   EXPECT_GT(run("replay --in in.frames.jsonl --compression lz4"), 1);
 }

@@ -47,8 +47,9 @@ inline CLI::Option* add_range(CLI::App& command, RangeConfig& range) {
 }
 
 /// Adds --strict.
-inline void add_strict(CLI::App& command, bool& strict) {
-  command.add_flag("--strict", strict, "Fail at the first thing that is wrong, instead of leaving it out");
+inline CLI::Option* add_strict(CLI::App& command, bool& strict) {
+  return command.add_flag("--strict", strict,
+                          "Fail at the first thing that is wrong, instead of leaving it out");
 }
 
 /// Lets all that the command reports go to standard error, since standard output is a file that it writes.

@@ -126,6 +126,8 @@ void check_files(const ReplayOptions& options) {
 }
 
 void replay(ReplayOptions& options) {
+  if (!options.explain.empty() && options.config_files.size() > 1)
+    throw CLI::ValidationError("--explain", "takes one --config");
   if (!options.explain.empty()) return explain(options.in, explaining_config(options), options.explain);
   check_files(options);
   refuse_second_reading({options.in}, options.config_files.size() > 1 ? "a second --config" : "");
@@ -212,7 +214,9 @@ void add_replay(CLI::App& app) {
   auto* explain = command->add_option(
       "--explain", options->explain,
       "Tell why: ID@TIME of a line or lane, as 23@12.5, or dN@TIME of detection N; in s since the first map");
-  add_strict(*command, options->strict);
+  auto* strict = add_strict(*command, options->strict);
+  for (CLI::Option* of_whole_drives : {out, report, truth, verify, strict})
+    explain->excludes(of_whole_drives);
   CLI::Option* range = add_range(*command, options->range);
   CLI::Option* publish = command->add_flag("--publish", options->publish,
                                            "Publish the detections and poses on DDS, as they came");
