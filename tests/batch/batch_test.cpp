@@ -153,6 +153,12 @@ TEST_F(Batch, OneThatIsKilledLeavesNoHalfOutput) {
   for (const auto& [name, content] : left) EXPECT_EQ(content, whole.at(name)) << name;
 }
 
+TEST_F(Batch, TheSummaryMayGoToStandardOutput) {
+  ASSERT_TRUE(done(kBatch + "maps --json - replay 2>table"));
+  EXPECT_EQ(json_of("output").at("drives").size(), 3U);
+  EXPECT_THAT(text("table"), HasSubstr("3 drives: 3 made"));
+}
+
 TEST_F(Batch, FiguresAreSummedUpOverDrives) {
   ASSERT_TRUE(done(kBatch + "rated --json table.json evaluate"));
   EXPECT_THAT(output(), HasSubstr("fused/lane/f1"));

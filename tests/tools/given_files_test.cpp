@@ -70,6 +70,14 @@ TEST_F(GivenFiles, StandardInputIsReadOnce) {
   EXPECT_TRUE(done("learn - --out profile.yaml <in.frames.jsonl"));
 }
 
+TEST_F(GivenFiles, StandardOutputIsOneFileWithoutTheReport) {
+  ASSERT_TRUE(done("check in.frames.jsonl --out - 2>report"));
+  EXPECT_TRUE(json_of("output").contains("findings"));
+  EXPECT_THAT(text("report"), HasSubstr("in.frames.jsonl"));
+  EXPECT_EQ(run("publish --scenario straight --frames - --truth -"), 64);
+  EXPECT_THAT(output(), HasSubstr("standard output is another file already"));
+}
+
 TEST_F(GivenFiles, AnOutputIsOpenedOnlyWhenItCanBeWritten) {
   ASSERT_TRUE(done("cut in.frames.jsonl --out in.mcap"));
   ASSERT_EQ(shell("echo kept >keep.jsonl"), 0);

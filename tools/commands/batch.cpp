@@ -122,7 +122,7 @@ void add_batch(CLI::App& app) {
   command->add_option("--out", options->out, "Folder of the outputs, one for each drive")->required();
   command->add_option("--jobs", options->jobs, "Drives at a time; default: one for each CPU")
       ->check(CLI::Range(1U, 1024U));
-  command->add_option("--json", options->json, "Summary to write (.json)");
+  add_text_output(*command, "--json", options->json, "Summary to write (.json)");
   CLI::Option* task =
       command->add_option("--task", options->task, "I/N: take every N-th drive alone, from the I-th on");
   CLI::Option* slurm = command

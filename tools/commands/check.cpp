@@ -11,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/given_files.hpp"
+#include "commands/options.hpp"
 #include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
@@ -86,7 +87,7 @@ void add_check(CLI::App& app) {
       ->required();
   command->add_option("--config", options->config, "Configuration (.yaml), whose limits are looked at, too");
   command->add_flag("--json", options->json, "One JSON object");
-  command->add_option("--out", options->out, "Findings to write, too (.json)");
+  add_text_output(*command, "--out", options->out, "Findings to write, too (.json)");
   command->callback([options] { check(*options); });
 }
 

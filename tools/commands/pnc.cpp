@@ -180,7 +180,7 @@ void add_pnc(CLI::App& app) {
   const auto options = std::make_shared<PncOptions>();
   add_dds(*command, options->dds);
   command->add_flag("--json", options->json, "One JSON object per update");
-  command->add_option("--record", options->record, "Maps to write, one per fused frame (.jsonl)");
+  add_text_output(*command, "--record", options->record, "Maps to write, one per fused frame (.jsonl)");
   command->add_option("--duration", options->duration_s, "Seconds; default: until it is ended")
       ->check(positive_seconds());
   command->add_flag("--require-lanes", options->require_lanes, "Fail if no map has a lane");

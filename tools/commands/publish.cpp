@@ -200,8 +200,9 @@ void add_publish(CLI::App& app) {
                    "Milliseconds from the shortest to the longest delay of a frame; the mean is 100")
       ->check(within(0.0, 100.0))
       ->capture_default_str();
-  command->add_option("--truth", options->truth, "Truth of the road to write (.json)");
-  command->add_option("--frames", options->frames, "Detections and exact poses to write (.frames.jsonl)");
+  add_text_output(*command, "--truth", options->truth, "Truth of the road to write (.json)");
+  add_text_output(*command, "--frames", options->frames,
+                  "Detections and exact poses to write (.frames.jsonl)");
   command->add_option("--times", options->times, "Times of each frame's publication to write (.csv)");
   command->add_flag_callback("--list", list, "List the built-in roads and kinds of noise")
       ->trigger_on_parse();
