@@ -138,6 +138,11 @@ TEST_F(Batch, ADriveThatFailsIsToldAndStopsNoOther) {
   EXPECT_THAT(output(), HasSubstr("3 kept, 1 failed"));
 }
 
+TEST_F(Batch, WrongOptionsOfTheStepAreNamed) {
+  ASSERT_EQ(run(kBatch + "maps replay --preset nowhere"), 2);
+  EXPECT_THAT(output(), HasSubstr("laneloom replay: --preset: nowhere"));
+}
+
 TEST_F(Batch, OneThatIsKilledLeavesNoHalfOutput) {
   {
     support::ChildProcess batch = start("laneloom " + kBatch + "maps --jobs 1 replay", "output");

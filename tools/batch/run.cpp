@@ -17,16 +17,19 @@
 namespace laneloom::batch {
 namespace {
 
-constexpr int kFoundSomething = 2;  // exit code of a command (commands/exit_codes.hpp)
+// Exit codes of a command (commands/exit_codes.hpp).
+constexpr int kFoundSomething = 2;
+constexpr int kWrongUse = 64;
 
-/// The last line that a command printed: an error is told there.
-std::string last_line(const std::filesystem::path& log) {
+/// The line in which a command told its error: of wrong use the first one, before the usage, and else the
+/// last one.
+std::string error_in(const std::filesystem::path& log, int code) {
   std::ifstream file(log);
-  std::string last;
-  for (std::string line; std::getline(file, line);)
-    if (!line.empty()) last = line;
+  std::string told;
+  for (std::string line; std::getline(file, line) && (told.empty() || code != kWrongUse);)
+    if (!line.empty()) told = line;
   constexpr std::string_view kProgram = "laneloom: ";
-  return last.starts_with(kProgram) ? last.substr(kProgram.size()) : last;
+  return told.starts_with(kProgram) ? told.substr(kProgram.size()) : told;
 }
 
 Result made(const Work& work, const Drive& drive, const Output& output) {
@@ -39,7 +42,7 @@ Result made(const Work& work, const Drive& drive, const Output& output) {
   result.duration_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.found_something = code == kFoundSomething && kind_of(work.step).may_find_something;
   if (code != 0 && !result.found_something) {
-    const std::string line = last_line(output.log());
+    const std::string line = error_in(output.log(), code);
     result.problem = line.empty() ? command.failure() : fmt::format("{} ({})", line, command.failure());
     return result;
   }
