@@ -158,7 +158,10 @@ TEST(FrameJson, WhatIsWrongIsNamed) {
             "detections[0].type: must be one of laneline, roadedge, stopline");
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,2]")), "pose: must have a quaternion of unit length");
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0]")), "pose: must be [x, y, z, qx, qy, qz, qw]");
-  EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,1]", "1e300")), "t: is too large");
+  for (const std::string t : {"1e300", "4.6e9"})  // nor would a service believe such a stamp
+    EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,1]", t)), "t: is too large");
+  EXPECT_EQ(complaint(R"({"stamp_ns":4611686018427387904,)" + frame_with("[]").substr(1)),
+            "stamp_ns: is too large");
   EXPECT_EQ(complaint(frame_with("[]", "[0,0,0,0,0,0,1]", "-0.1")), "t: must be 0 or above");
   EXPECT_EQ(complaint(frame_with("[]", "[0,-1.1e7,0,0,0,0,1]")), "pose: is too far away");
   EXPECT_EQ(complaint(frame_with(R"([{"type":"laneline","score":0.5,"points":[[0,0,0],[1e308,0,0]]}])")),

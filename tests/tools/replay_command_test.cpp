@@ -122,9 +122,10 @@ TEST_F(Commands, ReplayRefusesOptionsThatWouldBeOfNoAccount) {
 }
 
 TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
-  const auto advice = [&](const std::string& lines) {
+  std::ofstream(file("near.yaml")) << "gate: {max_coordinate_m: 1000}";
+  const auto advice = [&](const std::string& lines, const std::string& options = "") {
     std::ofstream(file("in.jsonl")) << lines;
-    EXPECT_TRUE(done("replay --in in.jsonl"));
+    EXPECT_TRUE(done("replay --in in.jsonl" + options));
     return output();
   };
   /// Frames every 2 m, each with a line that no vehicle drives along.
@@ -140,8 +141,8 @@ TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
   std::ofstream(file("empty.jsonl")).close();
   EXPECT_EQ(run("replay --in empty.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("is empty; a recording (MCAP) or frames"));
-  EXPECT_THAT(advice(R"({"t":5e9,"pose":[0,0,0,0,0,0,1],"detections":[]})"),
-              HasSubstr("all poses were refused, most of them as 'stamp'"));
+  EXPECT_THAT(advice(R"({"t":1,"pose":[2000,0,0,0,0,0,1],"detections":[]})", " --config near.yaml"),
+              HasSubstr("all poses were refused, most of them as 'coordinate'"));
   EXPECT_THAT(advice(R"({"t":1,"pose":[0,0,0,0,0,0,1],"detections":[]})"),
               HasSubstr("no map has a marking: no frame has a detection"));
   EXPECT_THAT(advice(drive(20, 0.1)), HasSubstr("confidence of 0.3 or more"));

@@ -10,7 +10,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMaxTime_s = 9e9;  // nanoseconds of a later time do not fit
+// As a service believes; differences of such stamps do not overflow.
+constexpr double kMaxTime_s = 4.6e9;
+constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62U;
 
 json to_json(const Detection& detection) {
   json out = ToJson::of(detection);
@@ -87,7 +89,10 @@ void put_stamp_and_pose(json& object, std::int64_t stamp_ns, const Point& positi
 std::int64_t read_stamp_ns(const json& object) {
   const double t_s = required(object, "t", number);
   if (!(std::abs(t_s) < kMaxTime_s)) throw JsonError("t", "is too large");
-  return optional(object, "stamp_ns", integer).value_or(static_cast<std::int64_t>(std::llround(t_s * 1e9)));
+  const std::int64_t stamp_ns =
+      optional(object, "stamp_ns", integer).value_or(static_cast<std::int64_t>(std::llround(t_s * 1e9)));
+  if (stamp_ns >= kMaxStamp_ns) throw JsonError("stamp_ns", "is too large");
+  return stamp_ns;
 }
 
 VehiclePose read_pose(const json& object) {
