@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <string_view>
+#include <variant>
 
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/messages.hpp"
 #include "laneloom/objects.hpp"
+#include "recording/recording.hpp"
 
 /// The topics of laneloom as a recording describes them.
 namespace laneloom::recording {
@@ -17,6 +20,11 @@ extern const char* const kObjectsIdl;
 extern const char* const kLaneMapIdl;
 extern const char* const kRoadMarkingsIdl;
 extern const char* const kServiceStatusIdl;
+
+/// The names of the topics, in the order of AnyMessage.
+inline constexpr std::array<const char*, std::variant_size_v<AnyMessage>> kTopicNames{
+    dds::kDetectionsTopic,   dds::kVehiclePoseTopic, dds::kLaneMapTopic,
+    dds::kRoadMarkingsTopic, dds::kStatusTopic,      dds::kObjectsTopic};
 
 inline constexpr const char* kCdr = "cdr";
 inline constexpr const char* kOmgIdl = "omgidl";

@@ -22,6 +22,7 @@
 #include "evaluation/inputs.hpp"
 #include "io/json_lines.hpp"
 #include "laneloom/objects.hpp"
+#include "recording/topics.hpp"
 #include "replay/message_source.hpp"
 #include "support/progress_bar.hpp"
 
@@ -29,8 +30,16 @@ namespace laneloom::commands {
 namespace {
 
 /// The topics by their names without laneloom's prefix, as places in AnyMessage.
-const std::map<std::string, std::size_t> kTopics{{"detections", 0},    {"vehicle_pose", 1}, {"lane_map", 2},
-                                                 {"road_markings", 3}, {"status", 4},       {"objects", 5}};
+std::map<std::string, std::size_t> topics_by_name() {
+  std::map<std::string, std::size_t> topics;
+  for (std::size_t i = 0; i < recording::kTopicNames.size(); ++i) {
+    const std::string name = recording::kTopicNames.at(i);
+    topics[name.substr(name.rfind('/') + 1)] = i;
+  }
+  return topics;
+}
+
+const std::map<std::string, std::size_t> kTopics = topics_by_name();
 
 struct CutOptions {
   std::string drive, out;

@@ -18,17 +18,15 @@
 #include "commands/recorded_configuration.hpp"
 #include "commands/warn_of.hpp"
 #include "io/printable.hpp"
-#include "laneloom/dds/topics.hpp"
 #include "laneloom/error.hpp"
+#include "recording/topics.hpp"
 #include "replay/message_source.hpp"
 #include "support/progress_bar.hpp"
 
 namespace laneloom::commands {
 namespace {
 
-/// The topics in the order of AnyMessage.
-constexpr std::array kTopicNames{dds::kDetectionsTopic,   dds::kVehiclePoseTopic, dds::kLaneMapTopic,
-                                 dds::kRoadMarkingsTopic, dds::kStatusTopic,      dds::kObjectsTopic};
+using recording::kTopicNames;
 
 struct TopicInfo {
   std::uint64_t messages = 0;

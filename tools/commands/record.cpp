@@ -23,8 +23,8 @@
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
 #include "laneloom/dds/raw_reader.hpp"
-#include "laneloom/dds/topics.hpp"
 #include "recording/recording.hpp"
+#include "recording/topics.hpp"
 #include "scene/scene_maker.hpp"
 #include "scene/scene_recording.hpp"
 
@@ -47,11 +47,9 @@ struct RecordOptions {
   bool scene = false;
 };
 
-/// The topics in the order of AnyMessage.
-constexpr std::array kTopics{dds::kDetectionsTopic,   dds::kVehiclePoseTopic, dds::kLaneMapTopic,
-                             dds::kRoadMarkingsTopic, dds::kStatusTopic,      dds::kObjectsTopic};
+using recording::kTopicNames;
 
-using Counts = std::array<std::uint64_t, kTopics.size()>;
+using Counts = std::array<std::uint64_t, kTopicNames.size()>;
 
 /// The messages that are not written yet, so that none of DDS's threads ever waits for the disk. When it is
 /// full, messages are dropped and counted.
@@ -125,11 +123,11 @@ class Recorder {
   bool finish() {
     step(std::chrono::milliseconds(0));
     writer_.close();
-    for (std::size_t i = 0; i < kTopics.size(); ++i) {
-      fmt::print("{:<26} {:>8} messages\n", kTopics.at(i), written_.at(i));
+    for (std::size_t i = 0; i < kTopicNames.size(); ++i) {
+      fmt::print("{:<26} {:>8} messages\n", kTopicNames.at(i), written_.at(i));
       if (dropped_.at(i) > 0)
         fmt::print(stderr, "laneloom: the disk was too slow: {} of {} were dropped\n", dropped_.at(i),
-                   kTopics.at(i));
+                   kTopicNames.at(i));
     }
     return std::ranges::any_of(written_, [](std::uint64_t count) { return count > 0; });
   }
@@ -147,7 +145,7 @@ class Recorder {
   Counts written_{}, dropped_{};
   SteadyClock::time_point next_flush_ = SteadyClock::now() + kFlushPeriod;
   dds::Participant participant_;
-  // In the order of kTopics. They end before the inbox that they fill.
+  // In the order of kTopicNames. They end before the inbox that they fill.
   dds::RawReader<DetectionFrame> detections_;
   dds::RawReader<VehiclePose> poses_;
   dds::RawReader<PublishedMap> maps_;
