@@ -79,6 +79,16 @@ void expect_apart(const As& ours, const As& theirs) {
   EXPECT_NE(our.sessions(), their.sessions());
 }
 
+TEST(Security, NothingIsRefusedWhereThereIsNoStranger) {
+  const auto config = private_config();
+  const Identities identities;
+  const Service service(identities.as("service", config));
+  Listener<ServiceStatus> status(identities.as("observer", config));
+  ASSERT_TRUE(status.wait_for([](const ServiceStatus& heard) { return heard.uptime_s > 2.0; }))
+      << service.errors();
+  EXPECT_FALSE(refused_datagrams(status.samples().back())) << "it asks itself at every tick";
+}
+
 TEST(Security, WhoHasNoIdentityIsNotHeardAndHearsNothing) {
   const auto config = private_config();
   const Identities identities;
