@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -47,24 +48,48 @@ Config configure(const Options& options) {
   return config;
 }
 
+/// What tells that files have changed: by the key that names each.
+using Contents = std::map<std::string, std::string>;
+
 /// The configuration that the service runs with.
 struct Running {
   Config config;
-  std::string profile;  ///< text of the profile's file at the start; Fast DDS reads it once
+  Contents files;  ///< of the files that are read once, at the start
 };
 
-/// The text of the profile's file. Empty: there is none.
-std::string profile_of(const Config& config) {
+/// The text of a file. Empty: there is none.
+std::string text_of(const std::string& file) {
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(config.dds.profile_file, unknown)) return {};
+  if (!std::filesystem::is_regular_file(file, unknown)) return {};
   std::ostringstream text;
-  text << std::ifstream(config.dds.profile_file).rdbuf();
+  text << std::ifstream(file).rdbuf();
   return std::move(text).str();
+}
+
+/// Size and time of a file that may be too large to read once more.
+std::string stamp_of(const std::string& file) {
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(file, unknown);
+  const auto time = std::filesystem::last_write_time(file, unknown);
+  return std::to_string(size) + " " + std::to_string(time.time_since_epoch().count());
+}
+
+Contents contents_of(const Config& config) {
+  return {{"dds.profile_file", text_of(config.dds.profile_file)},
+          {"mapper.fusion.profile_file", text_of(config.mapper.fusion.profile_file)},
+          {"sd_map.file", stamp_of(config.sd_map.file)}};
+}
+
+/// Throws ConfigError for a file that the mapper would refuse. An SD map is not read: that may take seconds.
+void check_mapper_files(Config config) {
+  config.sd_map = {};
+  const session::MappingSession session(config);
 }
 
 /// Applies the settings that can change while the service runs, and logs which can not.
 void reconfigure(Running& running, const Options& options) try {
   const auto wanted = configure(options);
+  check_mapper_files(wanted);
   auto& config = running.config;
   for (const auto& key : config::changed_keys(config, wanted)) {
     if (key == "service.log_level") {
@@ -75,9 +100,9 @@ void reconfigure(Running& running, const Options& options) try {
       spdlog::warn("event=needs_restart key={}", key);
     }
   }
-  if (profile_of(config) != running.profile) {
-    spdlog::warn("event=needs_restart key=dds.profile_file why=\"its content changed\"");
-  }
+  for (const auto& [key, content] : contents_of(config))
+    if (content != running.files.at(key))
+      spdlog::warn("event=needs_restart key={} why=\"its content changed\"", key);
 } catch (const ConfigError& error) {
   spdlog::error("event=configuration_refused reason=\"{}\"", error.what());
 }
@@ -106,7 +131,7 @@ void reload(Service& service, Running& running, const Options& options) {
 
 void run(const Config& config, const Options& options) {
   Signals signals;
-  Running running{config, profile_of(config)};
+  Running running{config, contents_of(config)};
   Service service(config, steady_now_ns, [&signals] { signals.call(); });
   spdlog::info("event=started version={} config={} domain={} vehicle={}", core::version(),
                config::config_hash(config), config.dds.domain, config.dds.vehicle_id);

@@ -84,6 +84,35 @@ TEST(Reload, SaysThatAProfileThatChangedNeedsARestart) {
       << service.errors();
 }
 
+TEST(Reload, SaysThatFilesOfTheMapperThatChangedNeedARestart) {
+  const std::string profile = "front: {stddev_at_8_m: {value: 0.03, weight: 5400}}\n";
+  const TemporaryFile profiles("networks.yaml", profile);
+  const std::string map =
+      "<osm><node id='1' lat='0' lon='0'/><node id='2' lat='0.001' lon='0'/>"
+      "<way id='3'><nd ref='1'/><nd ref='2'/><tag k='highway' v='primary'/></way></osm>\n";
+  const TemporaryFile streets("streets.osm", map);
+  const TemporaryFile file("files.yaml", "mapper:\n  fusion:\n    profile_file: " + profiles.path +
+                                             "\nsd_map:\n  file: " + streets.path + "\n");
+  const Process service(command(private_config(), {"--config", file.path}));
+  ASSERT_TRUE(service.wait_for_error("event=started")) << service.errors();
+  service.signal(SIGHUP);
+  ASSERT_TRUE(service.wait_for_error("event=reopened")) << service.errors();
+  EXPECT_EQ(service.errors().find("event=needs_restart"), std::string::npos) << service.errors();
+
+  profiles.write(profile + "# edited\n");
+  streets.write(map + "<!-- edited -->\n");
+  service.signal(SIGHUP);
+  for (const std::string key : {"mapper.fusion.profile_file", "sd_map.file"})
+    EXPECT_TRUE(service.wait_for_error("event=needs_restart key=" + key + " why=\"its content changed\"\n"))
+        << service.errors();
+
+  // The next start would stay down.
+  profiles.write("front: {stddev_at_8_m: {value: much, weight: 5400}}\n");
+  service.signal(SIGHUP);
+  EXPECT_TRUE(service.wait_for_error("error event=configuration_refused reason=\"" + profiles.path + ":1: "))
+      << service.errors();
+}
+
 TEST(Reload, AProfileThatIsGoneIsRefusedAndTheEndpointsStay) {
   const TemporaryFile profiles("gone.xml",
                                "<dds xmlns='http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles'><profiles>"
