@@ -16,9 +16,12 @@
 #include <system_error>
 #include <utility>
 
+#include "base/random_id.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/dds/participant.hpp"
+#include "service/endpoints.hpp"
 #include "service/executor.hpp"
+#include "service/ingestion_queue.hpp"
 #include "service/log.hpp"
 #include "service/service.hpp"
 #include "service/signals.hpp"
@@ -157,6 +160,12 @@ void run(const Config& config, const Options& options) {
   spdlog::info("event=stopping");
 }
 
+/// Throws dds::NotPermitted where DDS does not believe the identity, or it does not permit a service's work.
+void check_identity(const Config& config) {
+  IngestionQueue queue(config);
+  const Endpoints trial(config, random_id(), queue, steady_now_ns, dds::Participant::Presence::hidden);
+}
+
 int start(const Options& options) {
   const Config config = configure(options);
   if (options.dump_only) {
@@ -166,6 +175,7 @@ int start(const Options& options) {
   if (options.check_only) {
     const session::MappingSession session(config);  // checks the files that the configuration names
     dds::check_files(config.dds);
+    if (!config.dds.security_directory.empty()) check_identity(config);
     std::printf("configuration %s is valid\n", config::config_hash(config).c_str());
     return EX_OK;
   }

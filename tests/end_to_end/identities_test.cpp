@@ -33,6 +33,8 @@ void expect_refused(const Identities& identities, int code, const std::string& w
   EXPECT_NE(service.errors().find(folder), std::string::npos) << what << service.errors();
   EXPECT_NE(service.errors().find(reason), std::string::npos) << what << service.errors();
   EXPECT_EQ(service.errors().find("event=started"), std::string::npos) << what;
+  Process check(command(private_config(), {"--config", service.path, "--check-config"}));
+  EXPECT_EQ(check.wait(), code) << what;
 }
 
 TEST(Identities, AFolderThatIsNotInOrderStopsTheStart) {
@@ -92,6 +94,13 @@ TEST(Identities, TheFileThatIsNotBelievedIsNamed) {
                  fs::copy_options::overwrite_existing);
       },
       "not permitted to the identity, in ");
+}
+
+TEST(Identities, AFolderThatIsInOrderIsValid) {
+  const Identities identities;
+  const Service service(identities.as("service", private_config()));
+  Process check(command(private_config(), {"--config", service.path, "--check-config"}));
+  EXPECT_EQ(check.wait(), 0) << check.errors();
 }
 
 TEST(Identities, OtherDomainsAreClosed) {
