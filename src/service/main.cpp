@@ -3,6 +3,7 @@
 #include <systemd/sd-daemon.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -160,6 +161,12 @@ void run(const Config& config, const Options& options) {
   spdlog::info("event=stopping");
 }
 
+/// Throws if standard output does not take the text.
+void print(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw std::system_error(errno, std::generic_category(), "standard output");
+}
+
 /// Throws dds::NotPermitted where DDS does not believe the identity, or it does not permit a service's work.
 void check_identity(const Config& config) {
   IngestionQueue queue(config);
@@ -169,14 +176,14 @@ void check_identity(const Config& config) {
 int start(const Options& options) {
   const Config config = configure(options);
   if (options.dump_only) {
-    std::printf("%s", config::dump(config).c_str());
+    print(config::dump(config));
     return EX_OK;
   }
   if (options.check_only) {
     const session::MappingSession session(config);  // checks the files that the configuration names
     dds::check_files(config.dds);
     if (!config.dds.security_directory.empty()) check_identity(config);
-    std::printf("configuration %s is valid\n", config::config_hash(config).c_str());
+    print("configuration " + config::config_hash(config) + " is valid\n");
     return EX_OK;
   }
   set_up_log(config.service.log_level);

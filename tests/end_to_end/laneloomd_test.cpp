@@ -260,6 +260,10 @@ TEST(Laneloomd, ChecksAConfigurationAndSaysItsVersion) {
   EXPECT_EQ(version.wait(), 0);
   Process help({LANELOOMD, "--help"});
   EXPECT_EQ(help.wait(), 0);
+  for (const std::string option : {"--check-config", "--dump-config"}) {
+    Process unprinted({"/bin/sh", "-c", "exec " LANELOOMD " " + option + " > /dev/full"});
+    EXPECT_EQ(unprinted.wait(), EXIT_FAILURE) << option;
+  }
 }
 
 }  // namespace
