@@ -19,6 +19,8 @@ constexpr double kMinLength_m = 8.0;      // of a path
 constexpr double kStep_m = 1.0;           // between its points
 constexpr double kDriverStddev_m = 0.6;   // drivers keep off the middle
 constexpr double kOneTrail = 0.85;        // probability of a path that one vehicle drove
+constexpr double kSoundShare = 0.8;       // of the metres that a sound tracker tells, in long trails
+constexpr double kMinProbability = 0.6;   // of a path that is told
 
 /// The courses on which traffic is known to run.
 class KnownCourses {
@@ -71,6 +73,17 @@ std::vector<Polyline> new_stretches(const Polyline& trail, std::span<const Drive
   return stretches;
 }
 
+/// The share of all driven metres that long trails have. A tracker that loses its objects, takes one for
+/// another or turns them round leaves short trails: then a long one, too, may be made of several objects.
+double share_of_long(const std::vector<double>& lengths_m) {
+  double long_m = 0.0, all_m = 0.0;
+  for (const double length_m : lengths_m) {
+    all_m += length_m;
+    if (length_m >= kMinTrail_m) long_m += length_m;
+  }
+  return all_m > 0.0 ? long_m / all_m : 0.0;
+}
+
 /// The path along places that a tracker told, each with an error of its own.
 Polyline path_along(const Polyline& places) {
   const Polyline points = MeasuredPolyline(places).resample(kStep_m);
@@ -83,17 +96,21 @@ std::vector<DrivenPath> driven_paths(const std::vector<trails::Trail>& trails,
                                      const std::vector<DrivenStretch>& driven, const RoadGraph& road,
                                      const geometry::MapBox& box) {
   std::vector<DrivenPath> paths;
-  if (trails.empty()) return paths;
+  std::vector<double> lengths_m(trails.size());
+  std::ranges::transform(trails, lengths_m.begin(),
+                         [](const trails::Trail& trail) { return length(trail.points); });
+  const double probability = kOneTrail * std::min(1.0, share_of_long(lengths_m) / kSoundShare);
+  if (probability < kMinProbability) return paths;
   KnownCourses known(road);
   for (std::size_t i = 0; i < trails.size(); ++i) {
     const Polyline& trail = trails[i].points;
-    if (trail.size() < 2 || length(trail) < kMinTrail_m) continue;
+    if (lengths_m[i] < kMinTrail_m) continue;
     const auto first = std::ranges::lower_bound(driven, i, {}, &DrivenStretch::trail);
     const auto last = std::ranges::upper_bound(driven, i, {}, &DrivenStretch::trail);
     for (const Polyline& stretch : new_stretches(trail, {first, last}, known, box)) {
       if (stretch.size() < 2 || length(stretch) < kMinLength_m) continue;
       DrivenPath path{
-          .points = path_along(stretch), .lateral_stddev_m = kDriverStddev_m, .probability = kOneTrail};
+          .points = path_along(stretch), .lateral_stddev_m = kDriverStddev_m, .probability = probability};
       known.add(path.points);
       paths.push_back(std::move(path));
     }

@@ -92,6 +92,17 @@ TEST_F(DrivenPaths, OfSeveralVehiclesAreOneAndItStaysInPlace) {
   EXPECT_EQ(paths().size(), 2U) << "the other way";
 }
 
+TEST_F(DrivenPaths, AreTheLessSureTheMoreOftenATrackerLosesItsObjects) {
+  trails_ = {trail(1, straight({0, 5, 0}, {30, 5, 0}))};
+  const double sound = paths().at(0).probability;
+  trails_.push_back(trail(2, straight({0, -40, 0}, {10, -40, 0})));
+  EXPECT_NEAR(paths().at(0).probability, 0.75 / 0.8 * sound, 1e-9) << "a quarter of all metres";
+  trails_.push_back(trail(3, straight({0, -44, 0}, {19, -44, 0})));
+  EXPECT_TRUE(paths().empty()) << "the long trail, too, may be patched together";
+  trails_.push_back(trail(4, straight({0, -48, 0}, {60, -48, 0})));
+  EXPECT_FALSE(paths().empty()) << "others are followed well";
+}
+
 TEST_F(DrivenPaths, AreNotOfGhostsNorFarAway) {
   trails_ = {trail(1, straight({0, 5, 0}, {15, 5, 0}))};
   EXPECT_TRUE(paths().empty()) << "too short a trail";
