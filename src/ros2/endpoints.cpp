@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include "AutowareMaplessPlanningMsgsPubSubTypes.hpp"
@@ -13,7 +12,7 @@
 #include "dds/topic_writer.hpp"
 #include "ros2/announcement.hpp"
 #include "ros2/diagnostics.hpp"
-#include "ros2/input.hpp"
+#include "ros2/input_readers.hpp"
 #include "ros2/markers.hpp"
 #include "ros2/road_segments.hpp"
 #include "ros2/topic.hpp"
@@ -22,23 +21,13 @@ namespace laneloom::ros2 {
 namespace {
 
 using autoware_mapless_planning_msgs::msg::dds_::RoadSegments_PubSubType;
-using autoware_perception_msgs::msg::dds_::TrackedObjects_;
 using dds::TopicKind;
 using diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType;
-using nav_msgs::msg::dds_::Odometry_;
 using visualization_msgs::msg::dds_::MarkerArray_PubSubType;
 
 bool is_to_drive_on(const PublishedMap& map) {
   return map.state != MapState::stale &&
          std::ranges::find(map.reasons, StateReason::another_service) == map.reasons.end();
-}
-
-/// Nodes of ROS are in no partition.
-std::shared_ptr<dds::Participant::Impl> make_participant(const Config& config,
-                                                         dds::Participant::Presence presence) {
-  DdsConfig dds = config.dds;
-  dds.vehicle_id.clear();
-  return std::make_shared<dds::Participant::Impl>(dds, "laneloomd for ROS 2", presence, kParticipantUserData);
 }
 
 }  // namespace
@@ -47,29 +36,20 @@ class Endpoints::Impl {
  public:
   Impl(const Config& config, Inputs inputs, dds::Participant::Presence presence)
       : config_(config),
-        participant_(make_participant(config, presence)),
-        map_(participant_, relative<dds::CheckedType<msg::LaneMapPubSubType>>(
-                               "laneloom/lane_map", "laneloom_msgs/msg/LaneMap", TopicKind::map)),
+        participant_(make_participant(config.dds, "laneloomd for ROS 2", presence)),
+        map_(participant_,
+             topic<dds::CheckedType<msg::LaneMapPubSubType>>(config.ros2, "laneloom/lane_map",
+                                                             "laneloom_msgs/msg/LaneMap", TopicKind::map)),
         markers_writer_(participant_,
-                        relative<MarkerArray_PubSubType>(
-                            "laneloom/markers", "visualization_msgs/msg/MarkerArray", TopicKind::view)),
-        segments_(participant_, relative<RoadSegments_PubSubType>(
-                                    config.ros2.road_segments_topic,
+                        topic<MarkerArray_PubSubType>(config.ros2, "laneloom/markers",
+                                                      "visualization_msgs/msg/MarkerArray", TopicKind::view)),
+        segments_(participant_, topic<RoadSegments_PubSubType>(
+                                    config.ros2, config.ros2.road_segments_topic,
                                     "autoware_mapless_planning_msgs/msg/RoadSegments", TopicKind::view)),
-        diagnostics_(participant_,
-                     relative<DiagnosticArray_PubSubType>(
-                         "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", TopicKind::status)),
-        detections_(participant_,
-                    relative<dds::CheckedType<msg::DetectionsPubSubType>>(kDetectionsTopic, kDetectionsType,
-                                                                          TopicKind::detections),
-                    std::move(inputs.detections),
-                    with_map_frame<msg::Detections&&, DetectionFrame>(dds::from_msg)),
-        odometry_(participant_,
-                  relative<OdometryType>(config.ros2.odometry_topic, kOdometryType, TopicKind::poses),
-                  std::move(inputs.poses), with_map_frame<const Odometry_&, VehiclePose>(from_ros)),
-        objects_(
-            participant_, relative<ObjectsType>(config.ros2.objects_topic, kObjectsType, TopicKind::objects),
-            std::move(inputs.objects), with_map_frame<const TrackedObjects_&, TrackedObjects>(from_ros)) {
+        diagnostics_(participant_, topic<DiagnosticArray_PubSubType>(config.ros2, "/diagnostics",
+                                                                     "diagnostic_msgs/msg/DiagnosticArray",
+                                                                     TopicKind::status)),
+        inputs_(participant_, config, std::move(inputs)) {
     if (config.ros2.announce) announcement_ = announce(participant_, config.ros2);
   }
 
@@ -91,27 +71,12 @@ class Endpoints::Impl {
   }
 
  private:
-  template <class Type>
-  dds::TopicDescription relative(const std::string& name, std::string_view ros_type, TopicKind kind) const {
-    return topic<Type>(dds_topic(config_.ros2, name), ros_type, kind);
-  }
-  /// `From` is a message as `convert` takes it.
-  template <class From, class T>
-  typename Input<std::remove_cvref_t<From>, T>::Convert with_map_frame(
-      std::string_view (*convert)(From, const std::string&, T&)) const {
-    return [convert, frame = config_.dds.map_frame_id](std::remove_cvref_t<From>&& from, T& to) {
-      return convert(std::move(from), frame, to);
-    };
-  }
-
   Config config_;
   std::shared_ptr<dds::Participant::Impl> participant_;
   Markers markers_;
   dds::Sample<msg::LaneMap> map_sample_;  // kept, so that its memory is reused
   dds::TopicWriter map_, markers_writer_, segments_, diagnostics_;
-  Input<msg::Detections, DetectionFrame> detections_;
-  Input<Odometry_, VehiclePose> odometry_;
-  Input<TrackedObjects_, TrackedObjects> objects_;
+  InputReaders inputs_;
   std::unique_ptr<dds::TopicWriter> announcement_;  ///< null: there is none
 };
 

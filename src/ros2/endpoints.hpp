@@ -6,9 +6,8 @@
 #include "laneloom/config.hpp"
 #include "laneloom/counters.hpp"
 #include "laneloom/dds/participant.hpp"
-#include "laneloom/dds/reader.hpp"
 #include "laneloom/messages.hpp"
-#include "laneloom/objects.hpp"
+#include "ros2/listener.hpp"
 
 namespace laneloom::ros2 {
 
@@ -16,13 +15,6 @@ namespace laneloom::ros2 {
 /// its topics and types have the names that ROS gives them. Not thread-safe.
 class Endpoints {
  public:
-  /// Callbacks for the inputs, as those of dds::Reader. A message without a session gets one that is
-  /// derived from its DDS writer, and the sequence number that DDS gave it.
-  struct Inputs {
-    dds::ReaderCallbacks<DetectionFrame> detections;
-    dds::ReaderCallbacks<VehiclePose> poses;
-    dds::ReaderCallbacks<TrackedObjects> objects;
-  };
   /// Throws as dds::Participant().
   Endpoints(const Config& config, Inputs inputs, dds::Participant::Presence presence);
   ~Endpoints();

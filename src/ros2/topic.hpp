@@ -16,4 +16,11 @@ dds::TopicDescription topic(const std::string& name, std::string_view ros_type, 
   return {name, kind, eprosima::fastdds::dds::TypeSupport(type), user_data(ros_type)};
 }
 
+/// Likewise; `name` is below the namespace of `config` if it has no leading '/'.
+template <class Type>
+dds::TopicDescription topic(const Ros2Config& config, const std::string& name, std::string_view ros_type,
+                            dds::TopicKind kind) {
+  return topic<Type>(dds_topic(config, name), ros_type, kind);
+}
+
 }  // namespace laneloom::ros2

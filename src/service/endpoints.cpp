@@ -63,8 +63,7 @@ Endpoints::Endpoints(const Config& config, std::uint64_t session_id, IngestionQu
   if (!config.ros2.enabled) return;
   ros2 = std::make_unique<ros2::Endpoints>(
       config,
-      ros2::Endpoints::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns),
-                              take_objects(queue, now_ns)},
+      ros2::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns), take_objects(queue, now_ns)},
       presence);
 }
 

@@ -7,6 +7,8 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@
 #include "end_to_end/participants.hpp"
 #include "end_to_end/process.hpp"
 #include "end_to_end/service.hpp"
+#include "recording/recording.hpp"
+#include "support/child_process.hpp"
+#include "temporary_folder.hpp"
 
 // A node of ROS 2 as it is on DDS (cyclone_ros_node.c) and the service with ros2.enabled.
 namespace laneloom {
@@ -108,6 +113,37 @@ TEST_F(CycloneRosNode, ObjectsOfAnotherFrameAreRefusedAndCounted) {
   start_service("dds:\n  map_frame_id: odom\n");
   EXPECT_TRUE(statuses.wait_for(
       [](const ServiceStatus& status) { return counts(status, "objects_refused_wrong_frame"); }));
+}
+
+TEST_F(CycloneRosNode, IsRecordedAsThoughItWroteTheServicesOwnTopics) {
+  const TemporaryFolder folder;
+  const std::string recording = folder.file("node.mcap");
+  service_config_.write("ros2:\n  enabled: true\n  namespace: " + std::string(kNamespace) + "\n");
+  support::ChildProcess recorder(
+      {LANELOOM_COMMAND, "record", "--config", service_config_.path, "--domain",
+       std::to_string(config_.domain), "--vehicle-id", config_.vehicle_id, "--out", recording},
+      folder.file("record.log"));
+  const auto has_all_inputs = [&] {
+    std::set<std::size_t> topics;
+    try {
+      recording::RecordingReader reader(recording);
+      while (const auto message = reader.next_raw()) topics.insert(message->topic);
+    } catch (const std::runtime_error&) {
+      return false;  // it is not there yet
+    }
+    return topics == std::set<std::size_t>{0, 1, 5};
+  };
+  for (int i = 0; i < 150 && !has_all_inputs(); ++i) usleep(200'000);
+  recorder.signal(SIGINT);
+  EXPECT_EQ(recorder.wait(), 0) << content(folder.file("record.log"));
+  EXPECT_TRUE(has_all_inputs());
+  EXPECT_EQ(content(folder.file("record.log")).find("refused"), std::string::npos);
+  recording::RecordingReader reader(recording);
+  std::size_t objects = 0;
+  while (const auto message = reader.next())
+    if (const auto* seen = std::get_if<TrackedObjects>(&message->message)) objects += seen->objects.size();
+  EXPECT_GT(objects, 0U);
+  EXPECT_TRUE(reader.refused().values().empty());
 }
 
 TEST_F(CycloneRosNode, MarkersKeepTheirIds) {

@@ -12,7 +12,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,9 +24,12 @@
 #include "commands/inbox.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
+#include "config/config_file.hpp"
+#include "laneloom/dds/cdr.hpp"
 #include "laneloom/dds/raw_reader.hpp"
 #include "recording/recording.hpp"
 #include "recording/topics.hpp"
+#include "ros2/listener.hpp"
 #include "scene/scene_maker.hpp"
 #include "scene/scene_recording.hpp"
 
@@ -38,7 +43,7 @@ constexpr std::chrono::seconds kFlushPeriod{1};
 constexpr double kBytesPerMB = 1e6;
 
 struct RecordOptions {
-  DdsConfig dds;
+  Config config;
   recording::RecordingOptions recording;
   std::string out;
   std::string compression = "zstd";
@@ -92,14 +97,16 @@ class Recorder {
  public:
   explicit Recorder(const RecordOptions& options)
       : writer_(options.out, options.recording),
-        scene_(options.scene ? std::optional<scene::SceneMaker>(options.dds.map_frame_id) : std::nullopt),
-        participant_(options.dds, "laneloom record"),
+        scene_(options.scene ? std::optional<scene::SceneMaker>(options.config.dds.map_frame_id)
+                             : std::nullopt),
+        participant_(options.config.dds, "laneloom record"),
         detections_(participant_, into_inbox(0)),
         poses_(participant_, into_inbox(1)),
         maps_(participant_, into_inbox(2)),
         markings_(participant_, into_inbox(3)),
         status_(participant_, into_inbox(4)),
         objects_(participant_, into_inbox(5)) {
+    if (options.config.ros2.enabled) listen_to_nodes(options.config);
     fmt::print("Recording to {}\n", writer_.path());
     std::fflush(stdout);
   }
@@ -121,8 +128,11 @@ class Recorder {
 
   /// Returns whether anything was recorded.
   bool finish() {
+    nodes_.reset();
     step(std::chrono::milliseconds(0));
     writer_.close();
+    for (const auto& [reason, count] : refused_.values())
+      fmt::print(stderr, "laneloom: {} messages of ROS 2 were refused ({})\n", count, reason);
     for (std::size_t i = 0; i < kTopicNames.size(); ++i) {
       fmt::print("{:<26} {:>8} messages\n", kTopicNames.at(i), written_.at(i));
       if (dropped_.at(i) > 0)
@@ -139,6 +149,29 @@ class Recorder {
     };
   }
 
+  /// What nodes of ROS 2 write becomes messages of laneloom's own topics.
+  void listen_to_nodes(const Config& config) {
+    nodes_ = std::make_unique<ros2::Listener>(
+        config, "laneloom record for ROS 2",
+        ros2::Inputs{.detections = as_own<DetectionFrame>(0, config.dds.map_frame_id),
+                     .poses = as_own<VehiclePose>(1, config.dds.map_frame_id),
+                     .objects = as_own<TrackedObjects>(5, config.dds.map_frame_id)});
+  }
+  template <class T>
+  dds::ReaderCallbacks<T> as_own(std::size_t topic, const std::string& map_frame_id) {
+    dds::ReaderCallbacks<T> callbacks;
+    callbacks.sample = [this, topic, map_frame_id](T&& message) {
+      recording::RawMessage raw{.topic = topic};
+      dds::to_cdr(message, map_frame_id, raw.bytes);
+      inbox_.put(std::move(raw));
+    };
+    callbacks.refused = [this, topic](std::string_view reason) {
+      const std::lock_guard lock(refused_mutex_);
+      refused_.add(fmt::format("{}: {}", kTopics.at(topic), reason));
+    };
+    return callbacks;
+  }
+
   recording::RecordingWriter writer_;
   std::optional<scene::SceneMaker> scene_;
   Inbox<recording::RawMessage, Unwritten> inbox_;
@@ -152,6 +185,9 @@ class Recorder {
   dds::RawReader<RoadMarkings> markings_;
   dds::RawReader<ServiceStatus> status_;
   dds::RawReader<TrackedObjects> objects_;
+  std::mutex refused_mutex_;
+  Counters refused_;                       ///< messages of nodes of ROS 2
+  std::unique_ptr<ros2::Listener> nodes_;  ///< null: ros2 is not enabled
 };
 
 std::string default_name() {
@@ -175,7 +211,7 @@ void record(RecordOptions options) {
   while (!stop_requested() && !is_over()) recorder.step(std::chrono::milliseconds(50));
   if (recorder.finish()) return;
   fmt::print(stderr, "laneloom: nobody was heard in domain {} as vehicle \"{}\": see laneloom doctor\n",
-             options.dds.domain, options.dds.vehicle_id);
+             options.config.dds.domain, options.config.dds.vehicle_id);
   end_with(kNobodyHeard);
 }
 
@@ -184,7 +220,13 @@ void record(RecordOptions options) {
 void add_record(CLI::App& app) {
   CLI::App* command = app.add_subcommand("record", "Records all topics of a vehicle into MCAP files");
   const auto options = std::make_shared<RecordOptions>();
-  add_dds(*command, options->dds);
+  command
+      ->add_option_function<std::string>(
+          "--config", [options](const std::string& file) { options->config = config::load_config(file); },
+          "Configuration of the service: its section dds says where to listen, and with ros2.enabled what "
+          "nodes of ROS 2 write is recorded as well")
+      ->trigger_on_parse();
+  add_dds(*command, options->config.dds);
   command->add_option("--out", options->out,
                       "File (.mcap), or a folder; default: laneloom_<UTC time>.mcap here");
   add_compression(*command, options->compression);
@@ -198,7 +240,7 @@ void add_record(CLI::App& app) {
   CLI::Option* scene = command->add_flag(
       "--scene", options->scene, "Add /laneloom/scene and /tf, for the 3D panels of Foxglove and Lichtblick");
   command
-      ->add_option("--map-frame-id", options->dds.map_frame_id,
+      ->add_option("--map-frame-id", options->config.dds.map_frame_id,
                    "With --scene: frame of the poses; default: map")
       ->needs(scene);
   command->callback([options] { record(*options); });
