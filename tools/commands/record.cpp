@@ -27,6 +27,8 @@
 #include "config/config_file.hpp"
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/dds/raw_reader.hpp"
+#include "laneloom/dds/topics.hpp"
+#include "recording/log_clock.hpp"
 #include "recording/recording.hpp"
 #include "recording/topics.hpp"
 #include "ros2/listener.hpp"
@@ -54,6 +56,10 @@ struct RecordOptions {
 
 using recording::kTopicNames;
 
+std::int64_t steady_now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(SteadyClock::now().time_since_epoch()).count();
+}
+
 using Counts = std::array<std::uint64_t, kTopicNames.size()>;
 
 /// The messages that are not written yet, so that none of DDS's threads ever waits for the disk. When it is
@@ -62,11 +68,10 @@ class Unwritten {
  public:
   bool empty() const { return messages_.empty(); }
 
-  /// Sets the message's log time. A recording is read in the order of log times, which stays the order of
-  /// arrival even if the clock is set back.
+  /// Sets the message's log time. A recording is read in the order of log times, which is the order of
+  /// arrival.
   void push(recording::RawMessage message) {
-    log_time_ns_ = std::max(log_time_ns_ + 1, system_now_ns());
-    message.log_time_ns = log_time_ns_;
+    message.log_time_ns = clock_.next();
     if (bytes_ + message.bytes.size() > kCapacityBytes) {
       ++dropped_.at(message.topic);
       return;
@@ -88,7 +93,7 @@ class Unwritten {
   static constexpr std::size_t kCapacityBytes = 256U << 20U;
   std::deque<recording::RawMessage> messages_;
   std::size_t bytes_ = 0;
-  std::int64_t log_time_ns_ = 0;
+  recording::LogClock clock_{system_now_ns, steady_now_ns};
   Counts dropped_{};
 };
 
