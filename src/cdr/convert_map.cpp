@@ -5,6 +5,14 @@
 namespace laneloom::dds {
 namespace {
 
+/// Leaves out what is beyond the bounds of the IDL. Returns how many elements that was.
+template <class T, class Message>
+std::size_t bounded_to_msg(T from, const std::string& map_frame_id, Message& to) {
+  const auto left_out = keep_within_bounds(from);
+  to_msg(from, map_frame_id, to);
+  return left_out;
+}
+
 /// A way without stations is sent where there is none.
 std::optional<Way> way_of(const msg::Way& from, Intake& intake) {
   if (from.stations().empty()) return std::nullopt;
@@ -17,12 +25,7 @@ std::optional<Way> way_of(const msg::Way& from, Intake& intake) {
 }  // namespace
 
 std::size_t to_msg(const PublishedMap& from, const std::string& map_frame_id, msg::LaneMap& to) {
-  if (!within_bounds(from)) {
-    auto bounded = from;
-    const auto left_out = keep_within_bounds(bounded);
-    to_msg(bounded, map_frame_id, to);
-    return left_out;
-  }
+  if (!within_bounds(from)) return bounded_to_msg(from, map_frame_id, to);
   to.header(header_to_msg(from.map.stamp_ns, from.sequence, from.session_id, from.frame_id));
   to.published_ns(from.published_ns);
   to.map_id(from.map_id);
@@ -69,12 +72,7 @@ Refusal from_msg(const msg::LaneMap& from, const std::string& /*map_frame_id*/, 
 }
 
 std::size_t to_msg(const RoadMarkings& from, const std::string& map_frame_id, msg::RoadMarkings& to) {
-  if (!within_bounds(from)) {
-    auto bounded = from;
-    const auto left_out = keep_within_bounds(bounded);
-    to_msg(bounded, map_frame_id, to);
-    return left_out;
-  }
+  if (!within_bounds(from)) return bounded_to_msg(from, map_frame_id, to);
   to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, from.frame_id));
   ToMessage{from.stamp_ns}.put(from.markings, to.markings());
   return 0;
