@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/fnv.hpp"
 #include "config/config_file.hpp"
 #include "schema.hpp"
 #include "text.hpp"
@@ -68,40 +69,6 @@ class Dump {
   std::size_t indent_ = 0;
 };
 
-/// FNV-1a over keys and values.
-class Hash {
- public:
-  template <class C>
-  void section(const char* key, const C& child, const char* /*meaning*/) {
-    add(key);
-    visit(*this, child);
-  }
-  void number(const char* key, double number, const Limits& /*limits*/, const char* /*meaning*/) {
-    text(key, to_text(number));
-  }
-  void flag(const char* key, bool flag, const char* /*meaning*/) { text(key, flag ? "true" : "false"); }
-  void choice(const char* key, const std::string& content, const char* /*choices*/, const char* /*meaning*/) {
-    text(key, content);
-  }
-  void identifier(const char* key, const std::string& content, const char* /*meaning*/) {
-    text(key, content);
-  }
-  void path(const char* key, const std::string& content, const char* /*meaning*/) { text(key, content); }
-
-  std::uint64_t value = 14695981039346656037U;
-
- private:
-  void text(std::string_view key, std::string_view content) {
-    add(key);
-    add(content);
-  }
-  void add(std::string_view bytes) {
-    for (const char byte : bytes) mix(static_cast<unsigned char>(byte));
-    mix(0);  // so that moving a character from one text to the next changes the hash
-  }
-  void mix(unsigned char byte) { value = (value ^ byte) * 1099511628211U; }
-};
-
 /// Every key with its value.
 class List {
  public:
@@ -158,10 +125,10 @@ std::vector<std::string> changed_keys(const Config& before, const Config& after)
 }
 
 std::string config_hash(const Config& config) {
-  Hash hash;
-  visit(hash, config);
+  std::string bytes;
+  for (const auto& [key, value] : settings(config)) bytes += key + '\0' + value + '\0';
   std::ostringstream text;
-  text << std::hex << std::setfill('0') << std::setw(16) << hash.value;
+  text << std::hex << std::setfill('0') << std::setw(16) << fnv1a(bytes);
   return text.str();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/fnv.hpp"
 #include "ros2_type_hashes.hpp"
 
 namespace laneloom::ros2 {
@@ -41,12 +42,6 @@ std::string user_data(std::string_view ros_type) {
   return "typehash=" + std::string(found->second) + ";";
 }
 
-std::uint64_t hash_of(std::span<const std::uint8_t> name) {
-  std::uint64_t hash = 14695981039346656037U;  // FNV-1a
-  for (const std::uint8_t byte : name) hash = (hash ^ byte) * 1099511628211U;
-  return hash;
-}
-
-std::uint64_t session_of(const dds::WriterId& writer) { return std::max<std::uint64_t>(hash_of(writer), 1); }
+std::uint64_t session_of(const dds::WriterId& writer) { return std::max<std::uint64_t>(fnv1a(writer), 1); }
 
 }  // namespace laneloom::ros2

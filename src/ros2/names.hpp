@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -43,9 +42,6 @@ std::string user_data(std::string_view ros_type);
 
 /// The user data of a participant of ROS. It names the security enclave that the participant belongs to.
 inline constexpr const char* kParticipantUserData = "enclave=/;";
-
-/// A number for a name of many bytes, such as a UUID: two names have different ones, but by bad luck.
-std::uint64_t hash_of(std::span<const std::uint8_t> name);
 
 /// A session id for a writer whose messages name none: a different one for each writer, never 0.
 std::uint64_t session_of(const dds::WriterId& writer);

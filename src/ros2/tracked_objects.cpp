@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "Common.hpp"
+#include "base/fnv.hpp"
 #include "ros2/input_parts.hpp"
 #include "ros2/names.hpp"
 
@@ -65,7 +66,7 @@ TrackedObject object_of(const TrackedObject_& from, dds::Intake& intake) {
   const auto& pose = kinematics.pose_with_covariance();
   const auto& size = from.shape().dimensions();
   TrackedObject to;
-  to.id = hash_of(from.object_id().uuid());
+  to.id = fnv1a(from.object_id().uuid());
   to.kind = kind_of(from.classification(), intake);
   to.existence_probability = intake.number(static_cast<double>(from.existence_probability()));
   to.position = point_of(pose.pose().position(), intake) - 0.5 * intake.number(size.z()) * Point::UnitZ();

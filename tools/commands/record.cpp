@@ -172,7 +172,7 @@ class Recorder {
     };
     callbacks.refused = [this, topic](std::string_view reason) {
       const std::lock_guard lock(refused_mutex_);
-      refused_.add(fmt::format("{}: {}", kTopics.at(topic), reason));
+      refused_.add(fmt::format("{}: {}", kTopicNames.at(topic), reason));
     };
     return callbacks;
   }
