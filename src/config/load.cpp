@@ -215,7 +215,7 @@ Config parse_config(const std::string& text, const std::string& name) {
 Config from_settings(const std::vector<std::pair<std::string, std::string>>& settings,
                      const std::string& name) {
   return located_in(name, [&] {
-    YAML::Node root;
+    YAML::Node root(YAML::NodeType::Map);
     for (const auto& [key, value] : settings) {
       try {
         put(root, key, value);

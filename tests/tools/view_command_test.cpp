@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <fstream>
 #include <stdexcept>
@@ -49,7 +48,7 @@ class ViewCommand : public Commands {
   }
   std::uint16_t port() const {
     const std::string url = text("view.log").substr(text("view.log").find("http://"));
-    return static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+    return static_cast<std::uint16_t>(std::stoi(url.substr(url.find(':', 7) + 1)));
   }
 
   /// A recording of a service that needs more evidence of a line than by default.
