@@ -194,9 +194,9 @@ TEST_F(Batch, WhatChecksFindIsNoFailure) {
 }
 
 TEST_F(Batch, StepsLeaveEachOthersOutputs) {
-  ASSERT_TRUE(done(kBatch + "both evaluate --later"));
+  ASSERT_TRUE(done(kBatch + "both evaluate"));
   ASSERT_TRUE(done(kBatch + "both check"));
-  ASSERT_TRUE(done(kBatch + "both evaluate --later"));
+  ASSERT_TRUE(done(kBatch + "both evaluate"));
   EXPECT_THAT(output(), HasSubstr("3 kept"));
 }
 

@@ -10,8 +10,8 @@ namespace laneloom::commands {
 /// is one. Two paths of one file are the same, also where it is not there yet.
 void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
-/// Throws std::runtime_error if standard input would be read twice: if it is two of the inputs, or if it is one
-/// of them and `option`, where that is given, reads inputs twice.
+/// Throws std::runtime_error if standard input would be read twice: if it is two of the inputs, or if it is
+/// one of them and `option`, where that is given, reads inputs twice.
 void refuse_second_reading(const std::vector<std::string>& inputs, const std::string& option = {});
 
 }  // namespace laneloom::commands
