@@ -126,7 +126,8 @@ std::vector<std::string> changed_keys(const Config& before, const Config& after)
 
 std::string config_hash(const Config& config) {
   std::string bytes;
-  for (const auto& [key, value] : settings(config)) bytes += key + '\0' + value + '\0';
+  for (const auto& [key, value] : settings(config))
+    bytes.append(key).append(1, '\0').append(value).append(1, '\0');
   std::ostringstream text;
   text << std::hex << std::setfill('0') << std::setw(16) << fnv1a(bytes);
   return text.str();

@@ -117,7 +117,8 @@ std::optional<Problem> find_equal_names(const Ros2Config& ros2) {
     taken.insert(full_name(ros2, fixed));
   const auto problem = [&](const char* key, const std::string& name) -> std::optional<Problem> {
     if (taken.insert(full_name(ros2, name)).second) return std::nullopt;
-    return Problem{std::string("ros2.") + key, "\"" + name + "\" is the name of another topic of the service"};
+    return Problem{std::string("ros2.") + key,
+                   "\"" + name + "\" is the name of another topic of the service"};
   };
   if (auto found = problem("odometry_topic", ros2.odometry_topic)) return found;
   if (auto found = problem("objects_topic", ros2.objects_topic)) return found;

@@ -110,8 +110,7 @@ TEST(RoadKinds, GuessesBesideDashedLinesDoNotOverlap) {
     const auto across = lanes_across(driven({{.left_m = 0.5 * width_m, .style = MarkingStyle::dashed},
                                              {.left_m = -0.5 * width_m, .style = MarkingStyle::dashed}}));
     ASSERT_GE(across.size(), 3U);
-    for (std::size_t i = 1; i < across.size(); ++i)
-      EXPECT_LT(across[i - 1].second - across[i].first, 0.2);
+    for (std::size_t i = 1; i < across.size(); ++i) EXPECT_LT(across[i - 1].second - across[i].first, 0.2);
   }
 }
 
