@@ -8,6 +8,7 @@
 #include "base/degree.hpp"
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/left_of.hpp"
+#include "mapping/geometry/levels.hpp"
 
 namespace laneloom {
 namespace {
@@ -18,7 +19,6 @@ constexpr double kMostSamples =
 constexpr double kFurthest_m = 50.0;  // from the vehicle; what is further is left out
 constexpr double kGate_m = 0.6;       // lateral: what is further beside a marking does not lie on it
 constexpr double kReach_m = 1.0;      // likewise while a pose is refined
-constexpr double kLevel_m = 2.0;      // roads that lie further apart in height are two
 constexpr double kMaxAngle_deg = 25.0;
 
 constexpr int kRounds = 5;
@@ -76,7 +76,8 @@ const MapFit::Place* MapFit::nearest(const geometry::PointGrid<Place>& grid, con
   grid.around(sample.position, kReach_m, [&](const Place& place) {
     const Point apart = place.position - sample.position;
     if (place.is_stopline != sample.is_stopline || apart.head<2>().squaredNorm() >= least_m2 ||
-        std::abs(apart.z()) > kLevel_m || std::abs(place.direction.dot(sample.direction)) < min_cosine)
+        !geometry::same_level(place.position, sample.position) ||
+        std::abs(place.direction.dot(sample.direction)) < min_cosine)
       return;
     best = &place;
     least_m2 = apart.head<2>().squaredNorm();

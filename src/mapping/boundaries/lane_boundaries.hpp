@@ -20,7 +20,6 @@ struct LaneBoundary {
 
   bool is_edge() const { return marking.type == MarkingType::roadedge; }
   bool is_confirmed() const { return marking.status == ElementStatus::confirmed; }
-  bool is_tentative() const { return marking.status == ElementStatus::tentative; }
   bool is_inferred() const { return marking.status == ElementStatus::inferred; }
 };
 

@@ -5,7 +5,6 @@
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/smooth_step.hpp"
-#include "mapping/geometry/stretches.hpp"
 
 namespace laneloom::lanes {
 namespace {
@@ -90,21 +89,6 @@ bool share_boundary(const Lane& lane, Side side, const Lane& across) {
 }
 
 LaneSide lane_side(const Lane& lane, Side side) { return lane_side(lane.borders(side).front(), side); }
-
-const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes) {
-  const Lane* across = nullptr;
-  double longest_m = 0.0;
-  for (const Lane& lane : lanes) {
-    for (const Side its_side : kSides) {
-      const LaneSide beyond = lane_side(lane, its_side);
-      const double common_m = geometry::common(beyond.range, side.range).length();
-      if (beyond.of != side.of.other() || common_m <= longest_m) continue;
-      across = &lane;
-      longest_m = common_m;
-    }
-  }
-  return across;
-}
 
 Linkage::Turn reversed(Linkage::Turn turn) {
   if (turn == Linkage::Turn::left) return Linkage::Turn::right;

@@ -58,9 +58,6 @@ double mean_over(const std::vector<Border>& borders, Value value) {
 /// The side of a lane that has one border there, as the mapper makes them.
 LaneSide lane_side(const Lane& lane, Side side);
 
-/// The lane on the other side of the boundary that shares the longest stretch of it. Null: there is none.
-const Lane* lane_across(const LaneSide& side, const std::vector<Lane>& lanes);
-
 bool are_neighbours(const Lane& a, const Lane& b);
 
 /// The neighbour on a side that shares the longest stretch. kNoElement: there is none.
