@@ -207,9 +207,10 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
   choice(v, "method", method, kLaneMethods,
          "How lanes are found. scored: by log odds of width, styles and surroundings. paper: by the width "
          "alone, as in the paper.");
-  v.number("min_width_m", min_width_m, {"m", 0.5, 20}, "Narrower strips rather are no lanes.");
-  v.number("max_width_m", max_width_m, {"m", 0.5, 20}, "Wider strips between two lines rather are no lanes.");
-  v.number("max_kerb_width_m", max_kerb_width_m, {"m", 0.5, 20},
+  v.number("min_width_m", min_width_m, {"m", 0.8, 8.5}, "Narrower strips rather are no lanes.");
+  v.number("max_width_m", max_width_m, {"m", 0.8, 8.5},
+           "Wider strips between two lines rather are no lanes.");
+  v.number("max_kerb_width_m", max_kerb_width_m, {"m", 0.8, 8.5},
            "Wider strips beside a roadedge, where there is room to park, rather are no lanes.");
   v.flag("find_shoulders", find_shoulders,
          "Tell shoulders from lanes: narrow strips between a roadedge and the solid line of a lane.");
@@ -220,7 +221,7 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
            "A narrower road without a line rather is one lane.");
   v.flag("one_sided_lanes", one_sided_lanes,
          "Infer a lane beside a line that has nothing on its other side.");
-  v.number("assumed_width_m", assumed_width_m, {"m", 0.5, 20}, "Width of such an inferred lane.");
+  v.number("assumed_width_m", assumed_width_m, {"m", 0.8, 8.5}, "Width of such an inferred lane.");
   v.number("max_width_variation_m", max_width_variation_m, {"m", 0, 10},
            "Method paper: largest difference between the widest and the narrowest place of a lane.");
   v.number("min_length_m", min_length_m, {"m", 0.5, 100}, "Lanes shorter than this are not built.");

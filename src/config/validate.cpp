@@ -137,6 +137,12 @@ std::optional<Problem> find_contradiction(const Config& c) {
     return Problem{"mapper.voxel_map.min_detections",
                    "must be less than remembered_frames, or nothing is ever reliable"};
   }
+  if (mapper.fusion.birth_log_odds < mapper.fusion.min_log_odds) {
+    return Problem{"mapper.fusion.birth_log_odds", "must not be below min_log_odds, or nothing is mapped"};
+  }
+  if (mapper.fusion.extension_log_odds < mapper.fusion.min_log_odds) {
+    return Problem{"mapper.fusion.extension_log_odds", "must not be below min_log_odds, or no line grows"};
+  }
   if (mapper.lane.min_width_m >= mapper.lane.max_width_m) {
     return Problem{"mapper.lane.min_width_m", "must be less than max_width_m"};
   }

@@ -123,6 +123,10 @@ TEST_F(ConfigFile, AValueOutOfRangeIsNamedWithItsLine) {
 TEST_F(ConfigFile, AContradictionIsNamedWithItsLine) {
   EXPECT_EQ(error_of("mapper:\n  range:\n    forward_min_m: 40\n"),
             ":3: mapper.range.forward_min_m: must be less than forward_max_m");
+  EXPECT_EQ(error_of("mapper:\n  fusion:\n    birth_log_odds: -5\n"),
+            ":3: mapper.fusion.birth_log_odds: must not be below min_log_odds, or nothing is mapped");
+  EXPECT_EQ(error_of("mapper:\n  fusion:\n    extension_log_odds: -5\n"),
+            ":3: mapper.fusion.extension_log_odds: must not be below min_log_odds, or no line grows");
   EXPECT_EQ(error_of("mapper:\n  lane:\n    min_width_m: 4.5\n"),
             ":3: mapper.lane.min_width_m: must be less than max_width_m");
   EXPECT_EQ(error_of("mapper:\n  lane:\n    assumed_width_m: 2\n"),
