@@ -125,8 +125,7 @@ std::optional<Problem> find_equal_names(const Ros2Config& ros2) {
   return problem("road_segments_topic", ros2.road_segments_topic);
 }
 
-std::optional<Problem> find_contradiction(const Config& c) {
-  const auto& mapper = c.mapper;
+std::optional<Problem> find_contradiction(const MapperConfig& mapper) {
   if (mapper.range.forward_min_m >= mapper.range.forward_max_m) {
     return Problem{"mapper.range.forward_min_m", "must be less than forward_max_m"};
   }
@@ -152,7 +151,11 @@ std::optional<Problem> find_contradiction(const Config& c) {
     return Problem{"mapper.lane.assumed_width_m",
                    "must be from min_width_m to max_kerb_width_m, or one_sided_lanes false"};
   }
-  if (auto problem = find_too_many_points(mapper)) return problem;
+  return find_too_many_points(mapper);
+}
+
+std::optional<Problem> find_contradiction(const Config& c) {
+  if (auto problem = find_contradiction(c.mapper)) return problem;
   if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {
     return Problem{"sync.pose_history_s", "must exceed max_pose_gap_s"};
   }
