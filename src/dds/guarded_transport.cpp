@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/steady_clock.hpp"
 #include "dds/fast_dds.hpp"
 
 namespace laneloom::dds {
@@ -14,12 +15,6 @@ namespace {
 
 using namespace eprosima::fastdds::rtps;
 using eprosima::fastdds::dds::DomainParticipantQos;
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 /// Where this host reaches a port of its own.
 in_addr address_of(const Locator_t& local) {
@@ -96,7 +91,7 @@ void name_builtin_transports(DomainParticipantQos& qos) {
 bool Door::lets_in(std::span<const std::uint8_t> datagram) {
   if (probe_.is_question(datagram)) return true;
   const std::lock_guard lock(mutex_);
-  const auto refusal = guard_.check(datagram, now_ns());
+  const auto refusal = guard_.check(datagram, steady_now_ns());
   if (refusal) ++refused_[static_cast<std::size_t>(*refusal)];
   return !refusal;
 }

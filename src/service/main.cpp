@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "base/random_id.hpp"
+#include "base/steady_clock.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/dds/participant.hpp"
 #include "service/endpoints.hpp"
@@ -52,7 +53,7 @@ Config configure(const Options& options) {
   return config;
 }
 
-/// What tells that files have changed: by the key that names each.
+/// The contents of files, or their size and time, by the key that names each. Other ones tell of a change.
 using Contents = std::map<std::string, std::string>;
 
 /// The configuration that the service runs with.

@@ -64,9 +64,4 @@ Wake Signals::sleep_until(std::int64_t deadline_ns) {
   return std::exchange(told_, Wake::deadline);
 }
 
-std::int64_t steady_now_ns() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
 }  // namespace laneloom::service

@@ -38,7 +38,4 @@ class Signals {
   std::jthread thread_;
 };
 
-/// Nanoseconds of the steady clock.
-std::int64_t steady_now_ns();
-
 }  // namespace laneloom::service

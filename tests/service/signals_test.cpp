@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/steady_clock.hpp"
 #include "milliseconds.hpp"
 
 namespace laneloom::service {

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/steady_clock.hpp"
 #include "base/system_clock.hpp"
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
@@ -55,10 +56,6 @@ struct RecordOptions {
 };
 
 using recording::kTopicNames;
-
-std::int64_t steady_now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(SteadyClock::now().time_since_epoch()).count();
-}
 
 using Counts = std::array<std::uint64_t, kTopicNames.size()>;
 
