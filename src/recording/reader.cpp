@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/seconds.hpp"
 #include "laneloom/dds/cdr.hpp"
 #include "recording/damage.hpp"
 #include "recording/mcap_format.hpp"
@@ -20,7 +21,6 @@ constexpr std::string_view kTopicsOfAnyVersion = "laneloom/v";
 /// The prefix of types for viewers alone. Their topics are made from laneloom's, so that passing over them
 /// loses nothing.
 constexpr std::string_view kViewersTypes = "foxglove::";
-constexpr std::uint64_t kMaxLogTime_ns = std::uint64_t{1} << 62U;  // differences do not overflow
 
 template <class T>
 constexpr bool kIsInput =
@@ -33,7 +33,7 @@ std::string_view refusal(const McapMessage& message) {
   const McapChannel& channel = *message.channel;
   if (channel.message_encoding != kCdr) return "unknown encoding";
   if (!channel.schema || channel.schema->name != topic_of<T>().type) return "another type";
-  if (message.log_time_ns > kMaxLogTime_ns) return "log time";
+  if (message.log_time_ns > static_cast<std::uint64_t>(kMaxStamp_ns)) return "log time";
   return "";
 }
 

@@ -14,8 +14,7 @@ namespace {
 constexpr int kOutliersToBelieve = 3;
 constexpr double kLateToBelieve_s = 0.2;
 constexpr std::size_t kSessionsRemembered = 8;
-constexpr double kMaxHeadingError = 1e-3;                     // of its length
-constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62;  // differences of smaller stamps do not overflow
+constexpr double kMaxHeadingError = 1e-3;  // of its length
 
 bool plausible_stamp(std::int64_t stamp_ns) { return stamp_ns > 0 && stamp_ns < kMaxStamp_ns; }
 

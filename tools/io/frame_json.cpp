@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/seconds.hpp"
 #include "io/element_json.hpp"
 #include "io/json_lines.hpp"
 #include "io/stamp_and_pose.hpp"
@@ -10,9 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// As a service believes; differences of such stamps do not overflow.
-constexpr double kMaxTime_s = 4.6e9;
-constexpr std::int64_t kMaxStamp_ns = std::int64_t{1} << 62U;
+constexpr double kMaxTime_s = 4.6e9;  // in round numbers, that of kMaxStamp_ns
 
 json to_json(const Detection& detection) {
   json out = ToJson::of(detection);
