@@ -4,6 +4,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/ros_name.hpp"
 #include "config/config_file.hpp"
 #include "schema.hpp"
 #include "text.hpp"
@@ -102,21 +103,13 @@ std::optional<Problem> find_wrong_name(const Ros2Config& ros2) {
   return std::nullopt;
 }
 
-/// The name with its namespace, and a leading '/'.
-std::string full_name(const Ros2Config& ros2, const std::string& name) {
-  if (name.starts_with('/')) return name;
-  const std::string& outer = ros2.ros_namespace;
-  const std::string below_outer = outer.empty() ? name : outer + "/" + name;
-  return below_outer.starts_with('/') ? below_outer : "/" + below_outer;
-}
-
 /// Finds a topic of ROS 2 with the name of another one: each has a type of its own.
 std::optional<Problem> find_equal_names(const Ros2Config& ros2) {
   std::set<std::string> taken;
   for (const auto* fixed : {"laneloom/detections", "laneloom/lane_map", "laneloom/markers", "/diagnostics"})
-    taken.insert(full_name(ros2, fixed));
+    taken.insert(full_ros_name(ros2, fixed));
   const auto problem = [&](const char* key, const std::string& name) -> std::optional<Problem> {
-    if (taken.insert(full_name(ros2, name)).second) return std::nullopt;
+    if (taken.insert(full_ros_name(ros2, name)).second) return std::nullopt;
     return Problem{std::string("ros2.") + key,
                    "\"" + name + "\" is the name of another topic of the service"};
   };

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/fnv.hpp"
+#include "base/ros_name.hpp"
 #include "ros2_type_hashes.hpp"
 
 namespace laneloom::ros2 {
@@ -11,22 +12,16 @@ namespace {
 
 constexpr std::string_view kInfix = "/msg/";
 
-std::string below(const Ros2Config& config, const std::string& name) {
-  if (name.starts_with('/')) return name;
-  const std::string outer = full_namespace(config);
-  return (outer == "/" ? outer : outer + "/") + name;
-}
-
 }  // namespace
 
 std::string full_namespace(const Ros2Config& config) {
   return (config.ros_namespace.starts_with('/') ? "" : "/") + config.ros_namespace;
 }
 
-std::string full_node_name(const Ros2Config& config) { return below(config, kNodeName); }
+std::string full_node_name(const Ros2Config& config) { return full_ros_name(config, kNodeName); }
 
 std::string dds_topic(const Ros2Config& config, const std::string& name) {
-  return "rt" + below(config, name);
+  return "rt" + full_ros_name(config, name);
 }
 
 std::string dds_type(std::string_view ros_type) {
