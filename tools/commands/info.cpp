@@ -43,9 +43,10 @@ struct TopicInfo {
 struct FileInfo {
   recording::Origin origin{};
   std::array<TopicInfo, kTopicNames.size()> topics{};
-  std::set<std::string> sources{};  ///< of detections
-  std::string configuration{};      ///< that made the maps (YAML); empty: it is not known
-  std::string why_none{};           ///< why it is not known
+  std::set<std::string> sources{};         ///< of detections
+  std::optional<ServiceStatus> service{};  ///< the first status that tells a configuration
+  std::string configuration{};             ///< that made the maps (YAML); empty: it is not known
+  std::string why_none{};                  ///< why it is not known
 
   void add(const recording::RecordedMessage& message) {
     TopicInfo& topic = topics.at(message.message.index());
@@ -56,13 +57,18 @@ struct FileInfo {
     ++topic.messages;
     std::visit([&](const auto& content) { topic.sessions.insert(content.session_id); }, message.message);
     if (const auto* frame = std::get_if<DetectionFrame>(&message.message)) sources.insert(frame->source);
+    if (const auto* status = std::get_if<ServiceStatus>(&message.message);
+        status != nullptr && !service && !status->configuration.empty())
+      service = *status;
   }
 };
 
-/// Sets the configuration, or why there is none.
+/// Sets the configuration, or why there is none. As recorded_configuration(), of what was read.
 void add_configuration(const std::string& path, FileInfo& info) {
   try {
-    info.configuration = recorded_configuration(path);
+    info.configuration = info.origin.configuration;
+    if (info.configuration.empty() && info.service)
+      info.configuration = told_configuration(path, *info.service);
     if (info.configuration.empty()) info.why_none = path + ": nobody tells its configuration";
   } catch (const ConfigError& error) {
     info.why_none = error.what();

@@ -11,6 +11,10 @@
 
 namespace laneloom::commands {
 
+std::string told_configuration(const std::string& path, const ServiceStatus& status) {
+  return config::dump(config::from_settings(status.configuration, path + ": the service's configuration"));
+}
+
 std::string recorded_configuration(const std::string& path) {
   if (!recording::is_recording(path)) return {};
   const auto source = replay::open_messages(path, "map");
@@ -20,8 +24,7 @@ std::string recorded_configuration(const std::string& path) {
     ServiceStatus status;
     if (message->topic == of_status && dds::from_cdr(message->bytes, "map", status).empty() &&
         !status.configuration.empty())
-      return config::dump(
-          config::from_settings(status.configuration, path + ": the service's configuration"));
+      return told_configuration(path, status);
   }
   return {};
 }
