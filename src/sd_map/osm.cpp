@@ -105,8 +105,9 @@ std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
     if (role == "to" && type == "way") to = id_of(member, "ref");
     if (role == "via" && type == "node") via = id_of(member, "ref");
   }
-  const bool about_turn =
-      from == to;  // of a way that goes on beyond the node, it would forbid to go straight on
+  // An about turn is never driven. Forbidden on a way that goes on beyond the node, it would forbid to go
+  // straight on.
+  const bool about_turn = from == to;
   if (!from || !via || !to || about_turn) return std::nullopt;
   return SdRestriction{*from, *via, *to, kind.starts_with("only_")};
 }

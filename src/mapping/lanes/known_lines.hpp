@@ -9,7 +9,7 @@
 
 namespace laneloom::lanes {
 
-/// What a line is known as.
+/// The name of a line, and since when it is known.
 struct LineIdentity {
   ElementId id = kNoElement;
   std::int64_t first_seen_ns = 0;

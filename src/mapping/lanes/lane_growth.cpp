@@ -209,7 +209,8 @@ class Growth {
     }
   }
 
-  /// Of two tracks that are joined, the one of the lower rank keeps its id: one that the last map showed.
+  /// The track of the lower rank keeps its id where two are joined: one that the last map showed goes first,
+  /// and then the older one.
   std::pair<bool, ElementId> rank(const TrackEnd& end) const {
     const LaneTrack& track = tracks_[end.track];
     return {track.published == 0, track.id};

@@ -44,7 +44,8 @@ TEST(BestRuns, NeverLieWhereAnotherLaneIs) {
               testing::ElementsAre(Runs(0, 10), Runs(11, 21)));
 }
 
-/// What a place of a street of 7 m says of a lane, or of two, where a vehicle drives that far from the right.
+/// The log odds of a lane, or of two, at a place of a street of 7 m. A vehicle drives there, so far from the
+/// right edge.
 double log_odds_of(Room room, double vehicle_y) {
   boundaries::Boundaries edges;
   for (const double y : {0.0, 7.0})
