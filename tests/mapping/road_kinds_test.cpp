@@ -17,6 +17,7 @@ struct Drawn {
   MarkingType type = MarkingType::laneline;
   double left_m = 0.0;  ///< of the vehicle
   MarkingStyle style = MarkingStyle::solid;
+  double per_metre = 0.0;  ///< how much further on the left it lies, per metre of x in the map
 };
 
 constexpr MarkingType kEdge = MarkingType::roadedge;
@@ -32,7 +33,10 @@ std::vector<LocalMap> maps_of(const std::vector<Drawn>& lines, const MapperConfi
     DetectionFrame frame{.stamp_ns = i * 100'000'000, .sequence = static_cast<std::uint64_t>(i)};
     for (const Drawn& line : lines) {
       Detection detection{.type = line.type, .style = line.style, .confidence = 0.9};
-      for (double x = -5.0; x <= 30.0; x += 1.0) detection.points.emplace_back(x, line.left_m, 0.0);
+      for (double x = -5.0; x <= 30.0; x += 1.0) {
+        const double along_m = x + T_map_body.translation().x();
+        detection.points.emplace_back(x, line.left_m + line.per_metre * along_m, 0.0);
+      }
       frame.detections.push_back(detection);
     }
     if (!island.empty()) {
@@ -78,6 +82,23 @@ TEST(RoadKinds, AStreetHasTwoLanesWhereverTheVehicleDrives) {
       SCOPED_TRACE(testing::Message() << width_m << " m, " << share);
       const double from_right_m = share * width_m;
       EXPECT_THAT(driven({{kEdge, width_m - from_right_m}, {kEdge, -from_right_m}}).lanes, SizeIs(2));
+    }
+}
+
+/// A ramp, beside a road with lines. Where one lane becomes two, some maps have neither beside the vehicle.
+TEST(RoadKinds, AStreetThatNarrowsOrWidensHasALaneWhereTheVehicleDrives) {
+  for (const double width_m : {4.4, 5.2, 6.0, 6.8, 7.6})
+    for (const double per_metre : {-0.05, -0.03, 0.03, 0.05}) {
+      SCOPED_TRACE(testing::Message() << width_m << " m halfway, " << per_metre << " more per metre");
+      const double left_m = 0.5 * (width_m - 24.0 * per_metre);
+      const std::vector<LocalMap> maps =
+          maps_of({{.type = kEdge, .left_m = left_m, .per_metre = 0.5 * per_metre},
+                   {.type = kEdge, .left_m = -left_m, .per_metre = -0.5 * per_metre},
+                   {.left_m = -left_m - 3.0},
+                   {.left_m = -left_m - 6.5}});
+      EXPECT_LE(std::ranges::count_if(maps.begin() + 9, maps.end(),
+                                      [](const LocalMap& map) { return lane_at(map, 0.2) == nullptr; }),
+                3);
     }
 }
 

@@ -44,6 +44,7 @@ constexpr double kVerge = -1.60;          // lines across one of two edges: a ro
 constexpr double kDriven = 0.91;          // the vehicle drives in the lane
 constexpr double kDrivenEdges = 1.65;     // likewise, between two edges
 constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within the lane
+constexpr double kLeastDriven = 0.0;      // likewise: at least, of the likelier of one lane and two
 constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
 constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
 constexpr double kUnseenLine = -6.00;  // a line parts the marks not far along the road, which goes on unseen
@@ -182,10 +183,16 @@ double of_width(const Surroundings& around, double width_m, Room room, const Lan
   return on_curve(kBetweenEdges, as_by_default(width_m, least_m, config.min_divided_width_m, kDividedFrom_m));
 }
 
+/// Whether a mark that rather is there than not lies within the lane.
+bool is_divided(const Surroundings& around) {
+  return around.inside(true) > kInsidePrior || around.inside(false) > kInsidePrior;
+}
+bool is_between_edges(const Surroundings& around) { return around.left().is_edge && around.right().is_edge; }
+
 /// What it says that the vehicle drives there.
 double of_driving(const Surroundings& around) {
-  if (around.inside(true) > kInsidePrior || around.inside(false) > kInsidePrior) return kDrivenAcross;
-  return around.left().is_edge && around.right().is_edge ? kDrivenEdges : kDriven;
+  if (is_divided(around)) return kDrivenAcross;
+  return is_between_edges(around) ? kDrivenEdges : kDriven;
 }
 
 /// What the lines say that lie beside an edge.
@@ -198,6 +205,28 @@ double of_shoulder(const Surroundings& around, double width_m, Room room, const 
     sum += kShoulder * 0.5 * (1.0 - line.dashed) *
            std::clamp(config.max_shoulder_width_m - width_m, 0.0, kMostNarrow_m);
   return sum;
+}
+
+/// The log odds of lanes between two marks.
+double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
+  const Surroundings around(cut, candidate);
+  const double wide_m = width_m(cut, candidate);
+  const Mark &left = around.left(), &right = around.right();
+  double sum = of_width(around, wide_m, candidate.room, config);
+  sum += kSurer * bounded(std::min(left.log_odds, right.log_odds)) + kEdgeInside * around.inside(true);
+  sum += kTaper * std::min(candidate.taper, kMostTaper) + kBend * std::min(cut.bend, kMostBend);
+  if (candidate.driven)
+    sum += of_driving(around);
+  else if (candidate.gore)
+    sum += kGore;
+  for (const Side side : kSides)
+    if (!(side == Side::left ? left : right).is_edge && around.edge_along(side)) sum += kEdgeAlong;
+  if (candidate.room == Room::between) {
+    sum += kUnseenLine * candidate.parted * wide(wide_m) + kLineInside * around.inside(false) +
+           kDashed * (dashed(left) + dashed(right)) + kBothSolid * solid(left) * solid(right);
+  }
+  if (is_between_edges(around)) return candidate.driven ? sum : sum + kVerge * around.lines_outside();
+  return left.is_edge || right.is_edge ? sum + of_shoulder(around, wide_m, candidate.room, config) : sum;
 }
 
 /// The log odds that lanes lie between the mark of an open lane and the next one on that side.
@@ -230,26 +259,15 @@ bool is_kerb(const RoadCut& cut, std::size_t mark, Side side) {
 }
 
 double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
-  const Surroundings around(cut, candidate);
-  const double wide_m = width_m(cut, candidate);
   if (is_open(candidate.room))
-    return std::min(of_open_lane(cut, wide_m, candidate), -of_lanes_instead(cut, candidate, config));
-  const Mark &left = around.left(), &right = around.right();
-  double sum = of_width(around, wide_m, candidate.room, config);
-  sum += kSurer * bounded(std::min(left.log_odds, right.log_odds)) + kEdgeInside * around.inside(true);
-  sum += kTaper * std::min(candidate.taper, kMostTaper) + kBend * std::min(cut.bend, kMostBend);
-  if (candidate.driven)
-    sum += of_driving(around);
-  else if (candidate.gore)
-    sum += kGore;
-  for (const Side side : kSides)
-    if (!(side == Side::left ? left : right).is_edge && around.edge_along(side)) sum += kEdgeAlong;
-  if (candidate.room == Room::between) {
-    sum += kUnseenLine * candidate.parted * wide(wide_m) + kLineInside * around.inside(false) +
-           kDashed * (dashed(left) + dashed(right)) + kBothSolid * solid(left) * solid(right);
-  }
-  if (left.is_edge && right.is_edge) return sum + kVerge * around.lines_outside();
-  return left.is_edge || right.is_edge ? sum + of_shoulder(around, wide_m, candidate.room, config) : sum;
+    return std::min(of_open_lane(cut, width_m(cut, candidate), candidate),
+                    -of_lanes_instead(cut, candidate, config));
+  const double sum = of_lane(cut, candidate, config);
+  const Surroundings around(cut, candidate);
+  if (!candidate.driven || !is_between_edges(around) || is_divided(around)) return sum;
+  Candidate instead = candidate;
+  instead.room = candidate.room == Room::between ? Room::divided : Room::between;
+  return sum + std::max(kLeastDriven - std::max(sum, of_lane(cut, instead, config)), 0.0);
 }
 
 }  // namespace laneloom::lanes
