@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "laneloom/mapper.hpp"
@@ -18,9 +19,19 @@ struct Drawn {
   double left_m = 0.0;  ///< of the vehicle
   MarkingStyle style = MarkingStyle::solid;
   double per_metre = 0.0;  ///< how much further on the left it lies, per metre of x in the map
+
+  Point at(double along_m) const { return {along_m, left_m + per_metre * along_m, 0.0}; }
 };
 
 constexpr MarkingType kEdge = MarkingType::roadedge;
+
+/// Adds what the vehicle sees of a line.
+void add(const Drawn& line, const Eigen::Isometry3d& T_map_body, DetectionFrame& frame) {
+  Detection detection{.type = line.type, .style = line.style, .confidence = 0.9};
+  for (double x = -5.0; x <= 30.0; x += 1.0)
+    detection.points.push_back(T_map_body.inverse() * line.at(x + T_map_body.translation().x()));
+  frame.detections.push_back(std::move(detection));
+}
 
 /// The maps of 6 s along x at 8 m/s. An island is a closed road edge in the map frame.
 std::vector<LocalMap> maps_of(const std::vector<Drawn>& lines, const MapperConfig& config = {},
@@ -31,14 +42,7 @@ std::vector<LocalMap> maps_of(const std::vector<Drawn>& lines, const MapperConfi
     Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
     T_map_body.translation().x() = 0.8 * static_cast<double>(i);
     DetectionFrame frame{.stamp_ns = i * 100'000'000, .sequence = static_cast<std::uint64_t>(i)};
-    for (const Drawn& line : lines) {
-      Detection detection{.type = line.type, .style = line.style, .confidence = 0.9};
-      for (double x = -5.0; x <= 30.0; x += 1.0) {
-        const double along_m = x + T_map_body.translation().x();
-        detection.points.emplace_back(x, line.left_m + line.per_metre * along_m, 0.0);
-      }
-      frame.detections.push_back(detection);
-    }
+    for (const Drawn& line : lines) add(line, T_map_body, frame);
     if (!island.empty()) {
       frame.detections.push_back({.type = kEdge, .confidence = 0.9});
       for (const Point& point : island)
@@ -100,6 +104,25 @@ TEST(RoadKinds, AStreetThatNarrowsOrWidensHasALaneWhereTheVehicleDrives) {
                                       [](const LocalMap& map) { return lane_at(map, 0.2) == nullptr; }),
                 3);
     }
+}
+
+/// Lines are painted along its kerbs, on one side or on both.
+TEST(RoadKinds, NoLaneLiesOnAMedian) {
+  for (const double median_m : {1.0, 2.0, 3.0, 4.0, 6.0})
+    for (const double beside_m : {0.3, 0.5, 0.8})
+      for (const bool both : {true, false}) {
+        SCOPED_TRACE(testing::Message()
+                     << median_m << " m, lines " << beside_m << (both ? " beside both" : ""));
+        const double from_m = 1.7 + beside_m, to_m = from_m + median_m,
+                     lane_m = both ? to_m + beside_m : to_m;
+        std::vector<Drawn> road{
+            {.left_m = -1.7}, {.left_m = 1.7}, {kEdge, from_m}, {kEdge, to_m}, {.left_m = lane_m + 3.5}};
+        if (both) road.push_back({.left_m = lane_m});
+        const LocalMap map = driven(road);
+        EXPECT_EQ(lane_at(map, 0.5 * (from_m + to_m)), nullptr);
+        EXPECT_NE(lane_at(map, 0.0), nullptr);
+        EXPECT_NE(lane_at(map, lane_m + 1.75), nullptr);
+      }
 }
 
 TEST(RoadKinds, OneLaneLiesBetweenPaintedLinesUpToSixMetresApart) {

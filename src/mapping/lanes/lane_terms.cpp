@@ -47,6 +47,7 @@ constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within th
 constexpr double kLeastDriven = 0.0;      // likewise: at least, of the likelier of one lane and two
 constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
 constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
+constexpr double kMedian = -6.00;         // edges lie along the borders, within
 constexpr double kUnseenLine = -6.00;  // a line parts the marks not far along the road, which goes on unseen
 constexpr double kBend = -7.82;        // curvature, 1/m
 constexpr double kBendOpen = -18.67;   // likewise, where the other border is unseen
@@ -61,6 +62,7 @@ constexpr double kUsualFrom_m = 2.8, kUsualTo_m = 3.5;
 constexpr double kLeastSpan_m = 0.1;
 
 constexpr double kAlongEdge_m = 1.2;                // distance of a line that is painted along an edge
+constexpr double kLeastWithin_m = 0.15;             // of an edge from a border
 constexpr double kLane_m = 2.2, kWideLane_m = 5.0;  // widths that rather are a lane's
 constexpr double kWide_m = 4.0, kWider_m = 1.0;     // a lane's width, and how much more is two lanes' rather
 constexpr double kNothing_m = 8.0;                  // room in which nothing lies
@@ -110,6 +112,13 @@ class Surroundings {
   bool edge_along(Side side) const {
     const Mark* next = beyond(side);
     return next != nullptr && next->is_edge && gap_beyond_m(side) < kAlongEdge_m;
+  }
+  /// Whether an edge lies along a border within the lane. The border is that edge's line, then.
+  bool edge_within(Side side) const {
+    if (right_ + 1 >= left_) return false;
+    const Mark& next = marks_[side == Side::left ? left_ - 1 : right_ + 1];
+    const double aside_m = std::abs(next.lateral_m - (side == Side::left ? left() : right()).lateral_m);
+    return next.is_edge && next.log_odds > 0.0 && aside_m > kLeastWithin_m && aside_m < kAlongEdge_m;
   }
   /// What the marks within the lane say that they exist, of one kind.
   double inside(bool edges) const {
@@ -189,6 +198,12 @@ bool is_divided(const Surroundings& around) {
 }
 bool is_between_edges(const Surroundings& around) { return around.left().is_edge && around.right().is_edge; }
 
+/// Whether the strip lies between the two edges of a median, one or both of which have a line along them.
+bool is_median(const Surroundings& around) {
+  const bool on_left = around.edge_within(Side::left), on_right = around.edge_within(Side::right);
+  return (on_left && on_right) || (on_left && around.right().is_edge) || (on_right && around.left().is_edge);
+}
+
 /// What it says that the vehicle drives there.
 double of_driving(const Surroundings& around) {
   if (is_divided(around)) return kDrivenAcross;
@@ -221,6 +236,7 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
     sum += kGore;
   for (const Side side : kSides)
     if (!(side == Side::left ? left : right).is_edge && around.edge_along(side)) sum += kEdgeAlong;
+  if (is_median(around)) sum += kMedian;
   if (candidate.room == Room::between) {
     sum += kUnseenLine * candidate.parted * wide(wide_m) + kLineInside * around.inside(false) +
            kDashed * (dashed(left) + dashed(right)) + kBothSolid * solid(left) * solid(right);
