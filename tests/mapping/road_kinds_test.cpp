@@ -125,6 +125,22 @@ TEST(RoadKinds, NoLaneLiesOnAMedian) {
       }
 }
 
+/// A bay for buses, 15 m long, as networks draw it: with square corners.
+TEST(RoadKinds, AKerbThatStepsAsideForABayStaysABorder) {
+  for (const double depth_m : {1.0, 2.0, 2.5}) {
+    SCOPED_TRACE(depth_m);
+    const std::vector<LocalMap> maps = maps_of({{kEdge, 1.8}}, {},
+                                               {{-20, -1.8, 0},
+                                                {25, -1.8, 0},
+                                                {26, -1.8 - depth_m, 0},
+                                                {40, -1.8 - depth_m, 0},
+                                                {41, -1.8, 0},
+                                                {90, -1.8, 0}});
+    for (std::size_t i = 5; i < maps.size(); ++i)
+      EXPECT_NE(lane_at(maps[i], 0.0), nullptr) << "frame " << i + 1;
+  }
+}
+
 TEST(RoadKinds, OneLaneLiesBetweenPaintedLinesUpToSixMetresApart) {
   for (const MarkingStyle style : {MarkingStyle::solid, MarkingStyle::dashed})
     for (double width_m = 2.6; width_m <= 6.05; width_m += 0.2) {

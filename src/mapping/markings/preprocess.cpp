@@ -10,6 +10,9 @@ namespace laneloom::markings {
 
 namespace {
 
+// A kerb has square corners, where it steps aside for a bay or behind parked cars.
+constexpr double kSquare_deg = 100.0;
+
 /// Whether a line comes back to where it began, at least by two thirds.
 bool is_outline(const Polyline& points) {
   constexpr double kMostEndsApart = 1.0 / 3.0;  // of the length
@@ -19,8 +22,10 @@ bool is_outline(const Polyline& points) {
 }  // namespace
 
 bool is_zigzag(const Polyline& points, MarkingType type, const PreprocessConfig& config) {
-  const double min_cosine = cos_degrees(config.zigzag_angle_deg);
-  const bool outline = type == MarkingType::roadedge && is_outline(points);
+  const bool is_edge = type == MarkingType::roadedge;
+  const double min_cosine =
+      cos_degrees(is_edge ? std::max(config.zigzag_angle_deg, kSquare_deg) : config.zigzag_angle_deg);
+  const bool outline = is_edge && is_outline(points);
   std::optional<Eigen::Vector2d> previous;
   std::size_t start = 0;
   double last_turn = 0.0;  // its sign tells the side

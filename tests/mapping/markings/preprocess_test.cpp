@@ -72,6 +72,15 @@ TEST(Zigzag, TheOutlineOfAnIslandIsNone) {
   EXPECT_TRUE(is_zigzag(zigzag, kEdge, {}));
 }
 
+TEST(Zigzag, AKerbMayHaveSquareCorners) {
+  const Polyline steps_aside{{0, 0, 0}, {9, 0, 0}, {9, -2, 0}, {20, -2, 0}};
+  const Polyline bay{{0, 0, 0}, {9, 0, 0}, {10, -3, 0}, {25, -3, 0}, {26, 0, 0}, {40, 0, 0}};
+  for (const Polyline& kerb : {steps_aside, bay}) {
+    EXPECT_FALSE(is_zigzag(kerb, kEdge, {}));
+    EXPECT_TRUE(is_zigzag(kerb, kLine, {})) << "no paint is laid like that";
+  }
+}
+
 TEST(Zigzag, ABendIsNone) { EXPECT_FALSE(is_zigzag(arc({0, 0, 0}, 12, 0, 180), kLine, {})); }
 
 TEST(Zigzag, ShortSegmentsCarryNoAngle) {
