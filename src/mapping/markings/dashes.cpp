@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kMaxDash_m = 9.0;      // the longest dashes are painted shorter, but may be seen too long
 constexpr double kMaxGap_m = 13.0;      // the longest gaps that are painted
-constexpr double kMaxLateral_m = 0.5;   // of an end from the extension of the other line
+constexpr double kMaxLateral_m = 0.5;   // of an end from an arc that leaves the other one,
+constexpr double kMaxBow_m = 1.5;       // which leads so far from the extension: a bend
 constexpr double kMaxAngle_deg = 20.0;  // a dash of a metre hardly tells its direction
 constexpr std::size_t kMinDashes = 3;   // two may be pieces of one solid line
 
@@ -46,9 +47,15 @@ bool are_aligned(const Tip& a, const Tip& b) {
   return a.leaving.dot(b.leaving) <= -cos_degrees(2.0 * kMaxAngle_deg);
 }
 
-bool goes_on(const Tip& tip, const Eigen::Vector2d& gap) {
-  return tip.leaving.dot(gap) >= cos_degrees(kMaxAngle_deg) * gap.norm() &&
-         std::abs(cross(tip.leaving, gap)) <= kMaxLateral_m;
+/// Whether the gap from one end to another is that of a line that goes on straight, or as an arc: from such a
+/// line's ends, the gap leads to different sides by the same angle.
+bool goes_on(const Tip& a, const Tip& b) {
+  const Eigen::Vector2d gap = (b.place - a.place).head<2>();
+  const double least = cos_degrees(kMaxAngle_deg) * gap.norm();
+  if (a.leaving.dot(gap) < least || b.leaving.dot(-gap) < least) return false;
+  const double from_a_m = cross(a.leaving, gap), from_b_m = cross(b.leaving, -gap);
+  return std::abs(from_a_m + from_b_m) <= 2.0 * kMaxLateral_m &&
+         std::abs(from_a_m - from_b_m) <= 2.0 * kMaxBow_m;
 }
 
 std::vector<Join> possible_joins(const std::vector<ObservedMarking>& markings) {
@@ -59,8 +66,7 @@ std::vector<Join> possible_joins(const std::vector<ObservedMarking>& markings) {
       if (a->id.line == b->id.line || (!a->of_dash && !b->of_dash)) continue;
       const Eigen::Vector2d gap = (b->place - a->place).head<2>();
       if (gap.squaredNorm() > kMaxGap_m * kMaxGap_m || !geometry::same_level(a->place, b->place)) continue;
-      if (are_aligned(*a, *b) && goes_on(*a, gap) && goes_on(*b, -gap))
-        joins.push_back({gap.norm(), a->id, b->id});
+      if (are_aligned(*a, *b) && goes_on(*a, *b)) joins.push_back({gap.norm(), a->id, b->id});
     }
   }
   return joins;

@@ -33,6 +33,32 @@ TEST(JoinDashes, MakesOneDashedLineOfARow) {
   EXPECT_DOUBLE_EQ(lines[0].belief, 1.0 - 0.5 * 0.5 * 0.5);
 }
 
+/// Rows of motorways (6 m and gaps of 12 m) and of their ramps, and of two lanes in a bend.
+TEST(JoinDashes, FollowsABend) {
+  struct Row {
+    double radius_m, dash_m, gap_m;
+  };
+  for (const auto& [radius_m, dash_m, gap_m] : {Row{40, 3, 9}, Row{100, 6, 12}, Row{250, 6, 12}})
+    for (const double next_m : {3.0, 3.5}) {
+      SCOPED_TRACE(radius_m);
+      std::vector<ObservedMarking> dashes;
+      for (const double r : {radius_m, radius_m + next_m})
+        for (int i = 0; i < 4; ++i) {
+          const double degrees_per_m = 180.0 / (std::numbers::pi * r), from_m = i * (dash_m + gap_m);
+          dashes.push_back(piece({0, 0, 0}, {1, 0, 0}));
+          dashes.back().points =
+              test::arc({0, 0, 0}, r, from_m * degrees_per_m, (from_m + dash_m) * degrees_per_m);
+        }
+      const auto lines = join_dashes(dashes);
+      ASSERT_EQ(lines.size(), 2U);
+      for (const ObservedMarking& line : lines)
+        EXPECT_NEAR((line.points.front() - line.points.back()).norm(),
+                    2.0 * line.points.front().norm() *
+                        std::sin(0.5 * (4.0 * dash_m + 3.0 * gap_m) / line.points.front().norm()),
+                    0.01);
+    }
+}
+
 TEST(JoinDashes, ARowHasTheNumberOfItsFirstDash) {
   std::vector<ObservedMarking> dashes = row(1.8, 3);
   for (std::size_t i = 0; i < dashes.size(); ++i) dashes[i].number = 4 + i;
