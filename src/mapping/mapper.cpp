@@ -68,7 +68,8 @@ DirectionConfig with_observed_side(DirectionConfig config, const geometry::Scene
                                    const topology::RoadGraph& road,
                                    const std::vector<topology::DrivenStretch>& driven, MapperState& state) {
   state.side.observe(road, driven, state.lane_tracks, state.trails.all());
-  state.side.observe_passing(state.map.T_map_body.translation(), scene.T_map_body(), state.trails.all());
+  state.side.observe_passing(state.map.T_map_body.translation(), scene.T_map_body(), road.boundaries,
+                             state.trails.all());
   config.driving_side = state.side.corrected(config.driving_side);
   return config;
 }

@@ -71,6 +71,15 @@ int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
   return aside_m > 0.0 ? 1 : -1;
 }
 
+/// Whether an edge that was seen lies between two places.
+bool is_parted(const Point& a, const Point& b, const boundaries::Boundaries& boundaries) {
+  const Polyline between{a, b};
+  return std::ranges::any_of(boundaries, [&](const boundaries::LaneBoundary& boundary) {
+    return boundary.is_edge() && !boundary.is_inferred() &&
+           intersect(between, boundary.course.points(), geometry::kLevel_m);
+  });
+}
+
 }  // namespace
 
 std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& trails,
@@ -119,11 +128,12 @@ void ObservedSide::observe(const RoadGraph& road, const std::vector<DrivenStretc
 }
 
 void ObservedSide::observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
+                                   const boundaries::Boundaries& boundaries,
                                    std::vector<trails::Trail>& trails) {
   if ((T_map_body.translation() - before).head<2>().norm() < kMoving_m) return;
   for (trails::Trail& trail : trails) {
     const int side = trail.told_side ? 0 : passing(trail, T_map_body);
-    if (side == 0) continue;
+    if (side == 0 || is_parted(T_map_body.translation(), trail.position, boundaries)) continue;
     trail.told_side = true;
     tell(side);
   }

@@ -32,10 +32,11 @@ class ObservedSide {
   /// one the other way in the next lane of the same road.
   void observe(const RoadGraph& road, const std::vector<DrivenStretch>& driven,
                const lanes::LaneTracks& tracks, std::vector<trails::Trail>& trails);
-  /// Takes what oncoming vehicles tell that pass the own one while it moves, whatever lanes are known.
-  /// `before` is the place of the own vehicle in the frame before, map frame.
+  /// Takes what oncoming vehicles tell that pass the own one while it moves, whatever lanes are known, and no
+  /// edge that was seen lies between: beyond one, they may drive on another road. `before` is the place of
+  /// the own vehicle in the frame before, map frame.
   void observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
-                       std::vector<trails::Trail>& trails);
+                       const boundaries::Boundaries& boundaries, std::vector<trails::Trail>& trails);
   /// Whether traffic keeps to the other side than `driving_side`. Two vehicles more have told so than have
   /// told the contrary.
   bool contradicts(DrivingSide driving_side) const;

@@ -140,13 +140,14 @@ class Passing : public ::testing::Test {
     }
     double before_m = 0.0;
     for (const double x : {0.0, moved_m_, 2.0 * moved_m_, -100.0}) {
-      side_.observe_passing({before_m, 0, 0}, test::at(x), trails);
+      side_.observe_passing({before_m, 0, 0}, test::at(x), boundaries_, trails);
       before_m = x;
     }
   }
   DrivingSide told_for(DrivingSide configured) const { return side_.corrected(configured); }
 
   double moved_m_ = 1.0;
+  boundaries::Boundaries boundaries_;
   ObservedSide side_;
 };
 
@@ -163,6 +164,16 @@ TEST_F(Passing, OnTheLeftTellsRightHandTraffic) {
   meet(2, 3.5);
   EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::right);
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+}
+
+/// A service road, beyond the kerb.
+TEST_F(Passing, BeyondAnEdgeThatWasSeenTellsNothing) {
+  boundaries_ =
+      std::vector{test::boundary(1, test::straight({-20, -1.8, 0}, {40, -1.8, 0}), MarkingType::roadedge)};
+  meet(4, -8.0);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+  meet(2, 3.5);
+  EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::right);
 }
 
 TEST_F(Passing, IsNotTurningNorFarAsideNorOnABridge) {
