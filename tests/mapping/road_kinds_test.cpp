@@ -19,8 +19,9 @@ struct Drawn {
   double left_m = 0.0;  ///< of the vehicle
   MarkingStyle style = MarkingStyle::solid;
   double per_metre = 0.0;  ///< how much further on the left it lies, per metre of x in the map
+  double up_m = 0.0;       ///< above the vehicle's origin
 
-  Point at(double along_m) const { return {along_m, left_m + per_metre * along_m, 0.0}; }
+  Point at(double along_m) const { return {along_m, left_m + per_metre * along_m, up_m}; }
 };
 
 constexpr MarkingType kEdge = MarkingType::roadedge;
@@ -182,6 +183,26 @@ TEST(RoadKinds, ALaneLiesBesideASingleKerb) {
       EXPECT_THAT(map.lanes, SizeIs(1));
       EXPECT_NE(lane_at(map, 0.0), nullptr);
     }
+}
+
+/// A truck with its antenna on the roof, and a car on a bridge above the lines.
+TEST(RoadKinds, TheBodysOriginMayLieFiveMetresAboveTheRoad) {
+  const auto map_from = [](double above_m) {
+    const Drawn left{.left_m = 1.75, .up_m = -above_m}, right{.left_m = -1.75, .up_m = -above_m};
+    return driven({left, right});
+  };
+  const LocalMap ground = map_from(0.0);
+  ASSERT_THAT(ground.lanes, SizeIs(1));
+  ASSERT_TRUE(ground.way.has_value());
+  for (const double above_m : {1.0, 2.5, 4.5}) {
+    SCOPED_TRACE(above_m);
+    const LocalMap map = map_from(above_m);
+    ASSERT_THAT(map.lanes, SizeIs(1));
+    EXPECT_EQ(map.lanes[0].direction, ground.lanes[0].direction);
+    EXPECT_EQ(map.way.has_value(), ground.way.has_value());
+    EXPECT_EQ(map.lanes[0].evidence, ground.lanes[0].evidence);
+  }
+  EXPECT_FALSE(map_from(7.0).way.has_value());
 }
 
 /// Islands, bays and bollards of both hands, as data sets give their kerbs.

@@ -41,7 +41,7 @@ class VehicleBeside {
     }
     const double beyond_m2 = foot_.distance_m * foot_.distance_m - foot_.lateral_m * foot_.lateral_m;
     const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
-    is_beside_ = beyond_m2 < kBeyondEnd_m * kBeyondEnd_m && geometry::same_level(foot_.foot, vehicle_) &&
+    is_beside_ = beyond_m2 < kBeyondEnd_m * kBeyondEnd_m && geometry::may_drive_on(foot_.foot, vehicle_) &&
                  std::abs(ahead_.dot(heading)) > kAsDriven * heading.norm();
   }
 

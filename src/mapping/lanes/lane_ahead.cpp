@@ -25,7 +25,7 @@ double misfit_m(const DirectedLane& lane, const Eigen::Isometry3d& T_map_body) {
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>().normalized();
   const Eigen::Vector2d to_begin = (begin - vehicle).head<2>();
   const double ahead_m = heading.dot(to_begin), aside_m = std::abs(cross(heading, to_begin));
-  const bool is_ahead = ahead_m > 0.0 && ahead_m < kMaxAhead_m && geometry::same_level(begin, vehicle);
+  const bool is_ahead = ahead_m > 0.0 && ahead_m < kMaxAhead_m && geometry::may_drive_on(begin, vehicle);
   if (!is_ahead || aside_m > std::min(kMaxAside_m, 0.5 + kMaxSlope * ahead_m)) return kNone;
   if (begin_direction(lane).dot(heading) < kMinAlong) return kNone;
   return aside_m + kPerMetreAhead * ahead_m;
@@ -34,7 +34,7 @@ double misfit_m(const DirectedLane& lane, const Eigen::Isometry3d& T_map_body) {
 bool is_behind_edge(const Point& begin, const Point& vehicle, const LocalMap& map) {
   return std::ranges::any_of(map.boundaries, [&](const Marking& boundary) {
     return boundary.type == MarkingType::roadedge &&
-           intersect({vehicle, begin}, boundary.points, geometry::kLevel_m);
+           intersect({geometry::lowered(vehicle, begin), begin}, boundary.points, geometry::kLevel_m);
   });
 }
 

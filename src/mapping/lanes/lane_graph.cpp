@@ -30,14 +30,16 @@ Turn turn_onto(const DirectedLane& from, const DirectedLane& to) {
 }
 
 bool may_lie_in(const Lane& lane, const Point& place) {
-  return lanes::box_around(lane.centerline, 0.5 * lane.width_m).contains(place);
+  Eigen::AlignedBox2d around;
+  for (const Point& point : lane.centerline) around.extend(point.head<2>());
+  return around.squaredExteriorDistance(place.head<2>()) <= 0.25 * lane.width_m * lane.width_m;
 }
 
 /// The foot of a place that lies in a lane, on its centerline.
 std::optional<Projection> foot_on(const MeasuredPolyline& centerline, const Lane& lane, const Point& place) {
   const Projection foot = centerline.project(place);
   const bool inside =
-      foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::same_level(foot.foot, place);
+      foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::may_drive_on(foot.foot, place);
   return inside ? std::optional(foot) : std::nullopt;
 }
 

@@ -208,7 +208,7 @@ std::optional<RouteStart> start_on_passage(const LaneGraph& graph, const Eigen::
     if (path.empty()) continue;
     const MeasuredPolyline line(path);
     const Projection foot = line.project(place, kMaxBesidePath_m);
-    if (!foot.inside || !geometry::same_level(foot.foot, place)) continue;
+    if (!foot.inside || !geometry::may_drive_on(foot.foot, place)) continue;
     const double along = line.direction(foot).dot(heading);
     const bool against = along < 0.0;
     const Lane *from = graph.find(against ? linkage.to : linkage.from),

@@ -66,14 +66,14 @@ int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
   const double aside_m = cross(ahead, offset);
   if (std::abs(ahead.dot(offset)) > kAbreast_m || trail.heading.dot(ahead) > kCosOncoming) return 0;
   if (std::abs(aside_m) < kMinPassing_m || std::abs(aside_m) > kMaxPassing_m) return 0;
-  if (!geometry::same_level(trail.position, T_map_body.translation())) return 0;
+  if (!geometry::may_drive_on(trail.position, T_map_body.translation())) return 0;
   if (trail.points.size() < 2 || length(trail.points) < kMinDriven_m) return 0;
   return aside_m > 0.0 ? 1 : -1;
 }
 
-/// Whether an edge that was seen lies between two places.
-bool is_parted(const Point& a, const Point& b, const boundaries::Boundaries& boundaries) {
-  const Polyline between{a, b};
+/// Whether an edge that was seen lies between the own vehicle and another one.
+bool is_parted(const Point& own, const Point& other, const boundaries::Boundaries& boundaries) {
+  const Polyline between{geometry::lowered(own, other), other};
   return std::ranges::any_of(boundaries, [&](const boundaries::LaneBoundary& boundary) {
     return boundary.is_edge() && !boundary.is_inferred() &&
            intersect(between, boundary.course.points(), geometry::kLevel_m);
