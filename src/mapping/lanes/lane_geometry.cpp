@@ -10,6 +10,7 @@ namespace laneloom::lanes {
 namespace {
 
 constexpr double kMaxLongerLeg = 1.25;  // of a turn, as a multiple of the shorter leg
+constexpr double kSteepest = 0.12;      // of a road
 
 /// A cubic that begins and ends in the directions of the lanes.
 Polyline straight_path(const Lane& from, const Lane& to) {
@@ -99,6 +100,10 @@ Eigen::Vector2d leaving(const Lane& lane) { return end_direction(lane.centerline
 Eigen::Vector2d entering(const Lane& lane) { return -end_direction(lane.centerline, End::front); }
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to) {
   return (to.centerline.front() - from.centerline.back()).head<2>();
+}
+bool may_climb(const Lane& from, const Lane& to) {
+  const double climb_m = std::abs(to.centerline.front().z() - from.centerline.back().z());
+  return climb_m <= std::max(geometry::kLevel_m, kSteepest * gap_between(from, to).norm());
 }
 
 std::optional<Corner> corner_between(const Lane& from, const Lane& to) {

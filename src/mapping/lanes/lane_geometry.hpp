@@ -74,6 +74,9 @@ Eigen::Vector2d entering(const Lane& lane);
 /// The vector from the end of `from` to the start of `to`; map frame, horizontal, in metres.
 Eigen::Vector2d gap_between(const Lane& from, const Lane& to);
 
+/// Whether a road may lead from the end of `from` up or down to the start of `to`: by 2 m, or by 12 %.
+bool may_climb(const Lane& from, const Lane& to);
+
 /// The turn of a way that is driven from its end to its start.
 Linkage::Turn reversed(Linkage::Turn turn);
 

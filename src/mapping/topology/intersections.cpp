@@ -145,7 +145,9 @@ std::vector<Crossing> possible_crossings(const RoadGraph& road, const SdMap& sd_
   std::vector<Crossing> crossings;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     for (std::size_t j = 0; j < lanes.size(); ++j) {
-      if (i == j || lanes::gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config)) continue;
+      if (i == j || lanes::gap_between(lanes[i], lanes[j]).norm() > max_gap_m(config) ||
+          !lanes::may_climb(lanes[i], lanes[j]))
+        continue;
       auto found = crossing(lanes[i], lanes[j], road, config);
       if (!found) continue;
       const auto verdict = sd_map.verdict(lanes[i].centerline, lanes[j].centerline);

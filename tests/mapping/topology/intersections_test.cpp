@@ -106,6 +106,16 @@ TEST(Crossings, NotTooFarAsideOrAround) {
   EXPECT_THAT(crossings({from, lane(2, straight({30, 0, 0}, {40, 0, 0}))}, {}, never), IsEmpty());
 }
 
+TEST(Crossings, LeadUpAndDownButNotOntoABridge) {
+  const auto from_road_to = [](double z) {
+    return crossings({lane(1, straight({0, 0, 0}, {10, 0, 0})), lane(2, straight({40, 0, z}, {50, 0, z}))});
+  };
+  EXPECT_EQ(from_road_to(3.5).size(), 1U);
+  EXPECT_EQ(from_road_to(-3.5).size(), 1U);
+  EXPECT_THAT(from_road_to(5.0), IsEmpty());
+  EXPECT_THAT(from_road_to(-5.0), IsEmpty());
+}
+
 TEST(Crossings, LanesThatMarkingsLinkAreLeftAlone) {
   const std::vector<Lane> lanes{lane(1, straight({0, 0, 0}, {10, 0, 0})),
                                 lane(2, straight({11, 0, 0}, {18, 0, 0})),
