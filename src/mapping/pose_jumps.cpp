@@ -15,7 +15,7 @@ constexpr std::size_t kPosesRemembered = 16;
 constexpr std::size_t kJumpsRemembered = 8;
 constexpr double kLongestStep_s = 1.0;     // after a longer pause, nothing tells where the vehicle should be
 constexpr double kMostExtrapolated = 1.5;  // of the time that the motion before was measured over
-constexpr int kFramesToDecide = 3;
+constexpr int kFramesToDecide = 3, kFramesToWait = 12;
 
 // A larger step is suspected. A vehicle that brakes or turns abruptly exceeds it as well; the detections
 // decide.
@@ -79,14 +79,17 @@ std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
   const Stamped pose{frame.stamp_ns, T_map_body};
   if (!suspected_) {
     suspected_ = suspect(pose);
-    doubtful_frames_ = 0;
+    frames_since_ = doubtful_frames_ = 0;
   }
   poses_.push_back(pose);
   if (poses_.size() > kPosesRemembered) poses_.pop_front();
   if (!suspected_) return std::nullopt;
-  const auto true_pose = pose_without(*suspected_, T_map_body, MapFit(frame, markings, T_map_body));
+  const MapFit fit(frame, markings, T_map_body);
+  const auto true_pose = pose_without(*suspected_, T_map_body, fit);
   if (!true_pose) {
-    if (++doubtful_frames_ == kFramesToDecide) suspected_.reset();
+    ++frames_since_;
+    if (fit.length_m() >= kLeastGain_m) ++doubtful_frames_;
+    if (doubtful_frames_ == kFramesToDecide || frames_since_ == kFramesToWait) suspected_.reset();
     return std::nullopt;
   }
   const Eigen::Isometry3d motion = motion_between(*true_pose, T_map_body);
@@ -118,7 +121,7 @@ std::optional<Eigen::Isometry3d> PoseJumps::suspect(const Stamped& pose) const {
 
 /// Notes a jump. The poses before it, the pose of the jump excepted, move with the map.
 void PoseJumps::accept(const Stamped& jump) {
-  const auto jumped = poses_.end() - 1 - doubtful_frames_;
+  const auto jumped = poses_.end() - 1 - frames_since_;
   for (auto past = poses_.begin(); past != jumped; ++past) past->transform = jump.transform * past->transform;
   jumps_.push_back({jumped->stamp_ns, jump.transform});
   if (jumps_.size() > kJumpsRemembered) jumps_.pop_front();

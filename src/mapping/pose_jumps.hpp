@@ -24,7 +24,7 @@ class PoseJumps {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(poses_, jumps_, suspected_, doubtful_frames_);
+    archive(poses_, jumps_, suspected_, frames_since_, doubtful_frames_);
   }
 
  private:
@@ -45,7 +45,8 @@ class PoseJumps {
   std::deque<Stamped> poses_;                   ///< of the newest frames, in the order of their stamps
   std::deque<Stamped> jumps_;                   ///< the last ones
   std::optional<Eigen::Isometry3d> suspected_;  ///< motion of a jump that no detection has decided yet
-  int doubtful_frames_ = 0;                     ///< number of frames that have not decided it
+  int frames_since_ = 0;                        ///< number of frames since its first pose
+  int doubtful_frames_ = 0;                     ///< number of those that could have decided it
 };
 
 }  // namespace laneloom

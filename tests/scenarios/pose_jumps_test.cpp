@@ -155,6 +155,33 @@ INSTANTIATE_TEST_SUITE_P(Roads, PoseJumps,
                                            Road{"street", "inhouse"}, Road{"town", "av2"},
                                            Road{"country_road", "av2"}, Road{"motorway", "inhouse"}));
 
+/// A camera to the rear, which sees nothing, sends three frames between two of the front camera.
+TEST(PoseJumpsBetweenSources, AreDecidedByFramesThatShowLines) {
+  const Frames drive("street", "inhouse", 9.0);
+  const std::size_t at = drive.frames.size() - kFramesAfter;
+  const Eigen::Isometry3d motion = drive.poses[at] * Jump{.left_m = 0.9}.motion() * drive.poses[at].inverse();
+  Mapper mapper{MapperConfig{}};
+  bool found = false;
+  for (std::size_t i = 0; i + 1 < drive.frames.size(); ++i) {
+    for (int k = 0; k < 4; ++k) {
+      const double share = 0.25 * k;
+      Eigen::Isometry3d pose = drive.poses[i];
+      pose.translation() += share * (drive.poses[i + 1].translation() - drive.poses[i].translation());
+      DetectionFrame frame = drive.frames[i];
+      if (k > 0) {
+        frame.stamp_ns += static_cast<std::int64_t>(share * kFrame_s * 1e9);
+        frame.source = "rear";
+        frame.detections.clear();
+      }
+      // The poses jump right behind a frame of the front camera.
+      const bool jumped = i > at || (i == at && k > 0);
+      mapper.update(frame, jumped ? motion * pose : pose);
+      found = found || mapper.poses_jumped();
+    }
+  }
+  EXPECT_TRUE(found);
+}
+
 TEST(PoseJumpsOfOrdinaryDrives, AreNotFound) {
   for (const std::string& scenario : simulation::scenario_names()) {
     for (const char* noise : {"none", "inhouse", "av2"}) {
