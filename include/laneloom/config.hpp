@@ -26,8 +26,8 @@ struct RangeConfig {
 struct PreprocessConfig {
   bool reject_zigzag = true;          ///< whether polylines that zigzag are dropped
   double min_confidence = 0.3;        ///< 0..1; a detection with a lower confidence is dropped
-  double zigzag_angle_deg = 60.0;     ///< a larger turn counts; of a road edge, 100 at least
-  int zigzag_turns = 2;               ///< a polyline with this many such turns is dropped
+  double zigzag_angle_deg = 60.0;     ///< a larger turn counts
+  int zigzag_turns = 2;               ///< a polyline with so many is dropped; a road edge with one more
   double zigzag_min_segment_m = 0.3;  ///< shorter segments carry no angle and are skipped
 };
 

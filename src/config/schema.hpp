@@ -56,9 +56,10 @@ void visit(auto& v, Is<PreprocessConfig> auto& c) {
            "unsure of established lines: if at least this is left when their mean is scaled to 0.6.");
   v.number("zigzag_angle_deg", zigzag_angle_deg, {"deg", 1, 180},
            "A turn of a polyline between consecutive segments counts as a zigzag turn if it is larger than "
-           "this, of a road edge if it is larger than 100 degrees as well. Ours.");
+           "this. Ours.");
   v.number("zigzag_turns", zigzag_turns, {"", 1, 1000},
-           "A polyline with this many zigzag turns is dropped. Ours.");
+           "A polyline with this many zigzag turns is dropped, and a road edge with one more to alternating "
+           "sides. Ours.");
   v.number(
       "zigzag_min_segment_m", zigzag_min_segment_m, {"m", 0, 10},
       "Segments of a polyline that are shorter than this are left out when zigzag turns are counted. Ours.");

@@ -10,22 +10,14 @@ namespace laneloom::markings {
 
 namespace {
 
-// A kerb has square corners, where it steps aside for a bay or behind parked cars.
-constexpr double kSquare_deg = 100.0;
-
-/// Whether a line comes back to where it began, at least by two thirds.
-bool is_outline(const Polyline& points) {
-  constexpr double kMostEndsApart = 1.0 / 3.0;  // of the length
-  return (points.back() - points.front()).head<2>().norm() < kMostEndsApart * length(points);
-}
+constexpr double kSquare_deg = 100.0;  // a larger turn leads backwards
 
 }  // namespace
 
 bool is_zigzag(const Polyline& points, MarkingType type, const PreprocessConfig& config) {
   const bool is_edge = type == MarkingType::roadedge;
-  const double min_cosine =
-      cos_degrees(is_edge ? std::max(config.zigzag_angle_deg, kSquare_deg) : config.zigzag_angle_deg);
-  const bool outline = is_edge && is_outline(points);
+  const double min_cosine = cos_degrees(config.zigzag_angle_deg), backwards = cos_degrees(kSquare_deg);
+  const int most = config.zigzag_turns + (is_edge ? 1 : 0);
   std::optional<Eigen::Vector2d> previous;
   std::size_t start = 0;
   double last_turn = 0.0;  // its sign tells the side
@@ -37,10 +29,11 @@ bool is_zigzag(const Polyline& points, MarkingType type, const PreprocessConfig&
     const Eigen::Vector2d direction = segment / segment_m;
     if (previous && previous->dot(direction) < min_cosine) {
       const double turn = cross(*previous, direction);
-      turns = outline && turn * last_turn > 0.0 ? 1 : turns + 1;
+      if (is_edge && turn * last_turn > 0.0) turns = 0;
+      turns += is_edge && previous->dot(direction) < backwards ? 2 : 1;
       last_turn = turn;
     }
-    if (turns >= config.zigzag_turns) return true;
+    if (turns >= most) return true;
     previous = direction;
     start = i;
   }

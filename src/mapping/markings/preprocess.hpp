@@ -36,8 +36,8 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
 void drop_unsure(const PreprocessConfig& config, std::vector<ObservedMarking>& markings);
 
 /// Whether consecutive segments turn by more than the configured angle, the configured number of times in a
-/// row. The corners of a road edge may be square. A road edge that comes back to where it began is the
-/// outline of an island, or a part of one: there, only turns to alternating sides count.
+/// row. Of a road edge, only turns to alternating sides count, because islands have outlines; one more is
+/// needed, because kerbs step aside; and one that leads backwards counts as two.
 bool is_zigzag(const Polyline& points, MarkingType type, const PreprocessConfig& config);
 
 }  // namespace laneloom::markings
