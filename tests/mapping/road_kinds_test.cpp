@@ -20,30 +20,42 @@ struct Drawn {
   MarkingStyle style = MarkingStyle::solid;
   double per_metre = 0.0;  ///< how much further on the left it lies, per metre of x in the map
   double up_m = 0.0;       ///< above the vehicle's origin
+};
 
-  Point at(double along_m) const { return {along_m, left_m + per_metre * along_m, up_m}; }
+/// Places of a road that is straight along x, or bends to the left with a radius.
+struct Road {
+  double radius_m = 0.0;  ///< 0: it is straight
+
+  Eigen::Isometry3d pose(double along_m) const {
+    if (radius_m == 0.0) return Eigen::Isometry3d(Eigen::Translation3d(along_m, 0.0, 0.0));
+    const Eigen::Translation3d center(0.0, radius_m, 0.0);
+    return center * Eigen::AngleAxisd(along_m / radius_m, Eigen::Vector3d::UnitZ()) * center.inverse();
+  }
+  Point at(const Drawn& line, double along_m) const {
+    return pose(along_m) * Point(0.0, line.left_m + line.per_metre * along_m, line.up_m);
+  }
 };
 
 constexpr MarkingType kEdge = MarkingType::roadedge;
 
 /// Adds what the vehicle sees of a line.
-void add(const Drawn& line, const Eigen::Isometry3d& T_map_body, DetectionFrame& frame) {
+void add(const Drawn& line, const Road& road, double vehicle_m, DetectionFrame& frame) {
   Detection detection{.type = line.type, .style = line.style, .confidence = 0.9};
-  for (double x = -5.0; x <= 30.0; x += 1.0)
-    detection.points.push_back(T_map_body.inverse() * line.at(x + T_map_body.translation().x()));
+  for (double ahead_m = -5.0; ahead_m <= 30.0; ahead_m += 1.0)
+    detection.points.push_back(road.pose(vehicle_m).inverse() * road.at(line, vehicle_m + ahead_m));
   frame.detections.push_back(std::move(detection));
 }
 
-/// The maps of 6 s along x at 8 m/s. An island is a closed road edge in the map frame.
+/// The maps of 6 s at 8 m/s. An island is a closed road edge in the map frame.
 std::vector<LocalMap> maps_of(const std::vector<Drawn>& lines, const MapperConfig& config = {},
-                              const Polyline& island = {}) {
+                              const Polyline& island = {}, const Road& road = {}) {
   Mapper mapper(config);
   std::vector<LocalMap> maps;
   for (std::int64_t i = 1; i <= 60; ++i) {
-    Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
-    T_map_body.translation().x() = 0.8 * static_cast<double>(i);
+    const double vehicle_m = 0.8 * static_cast<double>(i);
+    const Eigen::Isometry3d T_map_body = road.pose(vehicle_m);
     DetectionFrame frame{.stamp_ns = i * 100'000'000, .sequence = static_cast<std::uint64_t>(i)};
-    for (const Drawn& line : lines) add(line, T_map_body, frame);
+    for (const Drawn& line : lines) add(line, road, vehicle_m, frame);
     if (!island.empty()) {
       frame.detections.push_back({.type = kEdge, .confidence = 0.9});
       for (const Point& point : island)
@@ -203,6 +215,16 @@ TEST(RoadKinds, TheBodysOriginMayLieFiveMetresAboveTheRoad) {
     EXPECT_EQ(map.lanes[0].evidence, ground.lanes[0].evidence);
   }
   EXPECT_FALSE(map_from(7.0).way.has_value());
+}
+
+/// A single kerb, and a line across from a kerb.
+TEST(RoadKinds, TheVehicleHasALaneRoundBends) {
+  for (const double radius_m : {100.0, 60.0, 40.0, 25.0, -25.0, -60.0})
+    for (const std::vector<Drawn>& lines :
+         {std::vector<Drawn>{{kEdge, -1.8}}, {{.left_m = -1.7}, {kEdge, 5.0}}}) {
+      SCOPED_TRACE(testing::Message() << radius_m << " m, " << lines.size() << " lines");
+      EXPECT_NE(lane_at(maps_of(lines, {}, {}, {.radius_m = radius_m}).back(), 0.0), nullptr);
+    }
 }
 
 /// Islands, bays and bollards of both hands, as data sets give their kerbs.

@@ -24,6 +24,7 @@ constexpr double kBeyondEnd_m =
     10.0;                          // up to here before or behind a boundary, the vehicle counts as beside it
 constexpr double kAsDriven = 0.9;  // cosine between its heading and the boundary
 constexpr double kDrivenFrom = 0.2;           // of a lane's width, from its borders to the vehicle
+constexpr double kHere_m = 12.0;              // from a cross-section to the vehicle that drives there
 constexpr double kUnseen_m = 15.0;            // along the road, up to where a line goes on unseen
 constexpr double kBegin = 4.0;                // log odds that it takes for a lane to begin, or to end
 constexpr double kLeast = -4.0, kMost = 4.0;  // log odds that a single place can say
@@ -55,6 +56,9 @@ class VehicleBeside {
     const double width_m = foot_.lateral_m - sense * foot.lateral_m;
     const double margin = room == Room::between ? kDrivenFrom : 0.5 * kDrivenFrom;
     return is_within(foot_.lateral_m, width_m, margin);
+  }
+  bool is_near(const Point& place) const {
+    return (place - vehicle_).head<2>().squaredNorm() < kHere_m * kHere_m;
   }
   bool is_in_open(Room room, double width_m) const {
     return is_beside_ &&
@@ -226,6 +230,9 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
     for (std::size_t i = 0; i < places.size(); ++i) {
       auto& [cut, candidate, width, opposite] = places[i];
       candidate.driven = is_driven;
+      candidate.here = is_driven && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
+                         return vehicle.is_near(cut.self().point);
+                       });
       candidate.gore = gore[i];
       candidate.parted = parted[one.first + i];
       candidate.taper = is_open(one.room) ? 0.0 : taper_at(places, i, step_m);

@@ -148,12 +148,16 @@ class Surroundings {
   std::size_t left_, right_;
 };
 
+/// What a bend says: a corner of two streets looks like it. Where the vehicle drives, it is none.
+double of_bend(double weight, const RoadCut& cut, const Candidate& candidate) {
+  return candidate.here ? 0.0 : weight * std::min(cut.bend, kMostBend);
+}
+
 double of_open_lane(const RoadCut& cut, double room_m, const Candidate& candidate) {
   const Surroundings around(cut, candidate);
   const Mark& mark = around.left();
   const Side other = candidate.room == Room::open_left ? Side::right : Side::left;
-  double sum =
-      on_curve(kOpen, room_m) + kSurer * bounded(mark.log_odds) + kBendOpen * std::min(cut.bend, kMostBend);
+  double sum = on_curve(kOpen, room_m) + kSurer * bounded(mark.log_odds) + of_bend(kBendOpen, cut, candidate);
   if (candidate.driven)
     sum += kDrivenOpen;
   else if (candidate.gore)
@@ -229,7 +233,7 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
   const Mark &left = around.left(), &right = around.right();
   double sum = of_width(around, wide_m, candidate.room, config);
   sum += kSurer * bounded(std::min(left.log_odds, right.log_odds)) + kEdgeInside * around.inside(true);
-  sum += kTaper * std::min(candidate.taper, kMostTaper) + kBend * std::min(cut.bend, kMostBend);
+  sum += kTaper * std::min(candidate.taper, kMostTaper) + of_bend(kBend, cut, candidate);
   if (candidate.driven)
     sum += of_driving(around);
   else if (candidate.gore)

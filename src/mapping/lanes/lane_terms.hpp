@@ -26,6 +26,7 @@ struct Candidate {
   double taper = 0.0;               ///< change of the width along the road, metres per metre
   double parted = 0.0;  ///< between two marks, from 0 to 1: how near along the road a line parts them
   bool driven = false;  ///< the vehicle drives in it
+  bool here = false;    ///< near this place
   bool gore = false;    ///< its borders meet at an end of it, and neither may be crossed up to here
 };
 
