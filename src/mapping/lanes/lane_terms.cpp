@@ -197,7 +197,7 @@ double of_width(const Surroundings& around, double width_m, Room room, const Lan
 }
 
 /// Whether a mark that rather is there than not lies within the lane.
-bool is_divided(const Surroundings& around) {
+bool has_mark_within(const Surroundings& around) {
   return around.inside(true) > kInsidePrior || around.inside(false) > kInsidePrior;
 }
 bool is_between_edges(const Surroundings& around) { return around.left().is_edge && around.right().is_edge; }
@@ -210,7 +210,7 @@ bool is_median(const Surroundings& around) {
 
 /// What it says that the vehicle drives there.
 double of_driving(const Surroundings& around) {
-  if (is_divided(around)) return kDrivenAcross;
+  if (has_mark_within(around)) return kDrivenAcross;
   return is_between_edges(around) ? kDrivenEdges : kDriven;
 }
 
@@ -284,7 +284,7 @@ double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig
                     -of_lanes_instead(cut, candidate, config));
   const double sum = of_lane(cut, candidate, config);
   const Surroundings around(cut, candidate);
-  if (!candidate.driven || !is_between_edges(around) || is_divided(around)) return sum;
+  if (!candidate.driven || !is_between_edges(around) || has_mark_within(around)) return sum;
   Candidate instead = candidate;
   instead.room = candidate.room == Room::between ? Room::divided : Room::between;
   return sum + std::max(kLeastDriven - std::max(sum, of_lane(cut, instead, config)), 0.0);
