@@ -20,6 +20,9 @@ double length(const Polyline& line);
 /// Leaves out the vertices that repeat their predecessor (horizontally).
 void drop_repeats(Polyline& line);
 
+/// Points every `step_m` (slightly less, so that both ends are met), at least two.
+Polyline resample(const Polyline& line, double step_m);
+
 /// The foot of a point on a polyline.
 struct Projection {
   double arc_m = 0.0;       ///< arc length of the foot
@@ -63,8 +66,6 @@ class MeasuredPolyline {
 
  private:
   static constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
-  /// `after` is the first vertex beyond the arc length.
-  Point at(double arc_m, std::size_t after) const;
   struct Nearest;
   void bound_blocks();
   void consider(std::size_t segment, const Point& point, Nearest& nearest) const;

@@ -25,6 +25,7 @@
 #include "mapping/topology/intersections.hpp"
 #include "mapping/topology/linkages.hpp"
 #include "mapping/topology/meeting.hpp"
+#include "mapping/topology/side_by_side.hpp"
 #include "mapping/topology/stoplines.hpp"
 #include "mapping/topology/traffic.hpp"
 
@@ -63,11 +64,11 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
                                            log.reasons()));
 }
 
-/// The configuration with the driving side that traffic keeps to. `driven` are the stretches of trails.
+/// The configuration with the driving side that traffic keeps to.
 DirectionConfig with_observed_side(DirectionConfig config, const geometry::Scene& scene,
-                                   const topology::RoadGraph& road,
-                                   const std::vector<topology::DrivenStretch>& driven, MapperState& state) {
-  state.side.observe(road, driven, state.lane_tracks, state.trails.all());
+                                   const topology::RoadGraph& road, const topology::RoadTraffic& traffic,
+                                   MapperState& state) {
+  state.side.observe(road.lanes, traffic, state.lane_tracks, state.trails.all());
   state.side.observe_passing(state.map.T_map_body.translation(), scene.T_map_body(), road.boundaries,
                              state.trails.all());
   config.driving_side = state.side.corrected(config.driving_side);
@@ -193,14 +194,15 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
                                state.lane_tracks);
-  const auto driven = topology::driven_stretches(state.trails.all(), road.lanes);
-  topology::find_directions(with_observed_side(config_.direction, scene, road, driven, state), driven,
+  const topology::RoadTraffic traffic{topology::side_by_side(road),
+                                      topology::driven_stretches(state.trails.all(), road.lanes)};
+  topology::find_directions(with_observed_side(config_.direction, scene, road, traffic, state), traffic,
                             state.lane_tracks, road, log.reasons());
   link_across_intersections(sd_map_, config_.linkage, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
   name_lanes(log.reasons(), state, road);
   meet_at_joints(road);
-  std::vector<DrivenPath> paths = paths_beside(road, driven, scene, config_.lane, state);
+  std::vector<DrivenPath> paths = paths_beside(road, traffic.driven, scene, config_.lane, state);
   LocalMap map =
       log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));
   map.driven_paths = std::move(paths);

@@ -41,7 +41,7 @@ void link(const SurveyedRoad& surveyed, const MapperConfig& config, lanes::LaneT
           topology::RoadGraph& road) {
   for (const Eigen::Isometry3d& pose : surveyed.poses)
     topology::observe_directions(road.lanes, pose, surveyed.markings, config.stopline, tracks);
-  find_directions(config.direction, {}, tracks, road);
+  find_directions(config.direction, {side_by_side(road), {}}, tracks, road);
   link_across_intersections(SdMap{}, config.linkage, road);
   topology::EgoTrack track;
   Point before = surveyed.poses.front().translation();

@@ -18,6 +18,29 @@ constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away furth
 
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
 
+/// The point at an arc length, clamped to the line. `after` is the first vertex beyond the arc length.
+Point point_at(const Polyline& points, const std::vector<double>& arc, double arc_m, std::size_t after) {
+  if (arc_m <= 0.0) return points.front();
+  if (arc_m >= arc.back()) return points.back();
+  const double share = (arc_m - arc[after - 1]) / (arc[after] - arc[after - 1]);
+  return points[after - 1] + share * (points[after] - points[after - 1]);
+}
+
+/// Points every `step_m`, or slightly less. `arc` are the arc lengths of the points.
+Polyline spaced(const Polyline& points, const std::vector<double>& arc, double step_m) {
+  const double length_m = arc.back();
+  const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length_m / step_m)));
+  Polyline out;
+  out.reserve(steps + 1);
+  std::size_t after = 0;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double arc_m = length_m * static_cast<double>(i) / static_cast<double>(steps);
+    while (after < arc.size() && arc[after] <= arc_m) ++after;
+    out.push_back(point_at(points, arc, arc_m, after));
+  }
+  return out;
+}
+
 /// A squared distance. A foot beyond it is further away than `distance_m`, whatever the rounding errors.
 double squared_bound_m2(double distance_m) { return (distance_m + kMargin_m) * (distance_m + kMargin_m); }
 
@@ -41,6 +64,12 @@ void drop_repeats(Polyline& line) {
     return horizontal_distance(a, b) <= kCoincident_m;
   };
   line.erase(std::unique(line.begin(), line.end(), repeats), line.end());
+}
+
+Polyline resample(const Polyline& line, double step_m) {
+  Polyline points = line;
+  drop_repeats(points);
+  return spaced(points, arc_lengths(points), step_m);
 }
 
 MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
@@ -87,14 +116,7 @@ Eigen::Vector2d MeasuredPolyline::in_course(const Point& point) const {
 
 Point MeasuredPolyline::at(double arc_m) const {
   const auto after = std::upper_bound(arc_.begin(), arc_.end(), arc_m);
-  return at(arc_m, static_cast<std::size_t>(after - arc_.begin()));
-}
-
-Point MeasuredPolyline::at(double arc_m, std::size_t after) const {
-  if (arc_m <= 0.0) return points_.front();
-  if (arc_m >= length()) return points_.back();
-  const double share = (arc_m - arc_[after - 1]) / (arc_[after] - arc_[after - 1]);
-  return points_[after - 1] + share * (points_[after] - points_[after - 1]);
+  return point_at(points_, arc_, arc_m, static_cast<std::size_t>(after - arc_.begin()));
 }
 
 Eigen::Vector2d MeasuredPolyline::segment_direction(std::size_t end) const {
@@ -239,21 +261,13 @@ Polyline MeasuredPolyline::slice(const Stretch& range) const {
   return out;
 }
 
-Polyline MeasuredPolyline::resample(double step_m) const {
-  const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length() / step_m)));
-  Polyline out;
-  out.reserve(steps + 1);
-  Cursor cursor(*this);
-  for (std::size_t i = 0; i <= steps; ++i)
-    out.push_back(cursor.at(length() * static_cast<double>(i) / static_cast<double>(steps)));
-  return out;
-}
+Polyline MeasuredPolyline::resample(double step_m) const { return spaced(points_, arc_, step_m); }
 
 Point MeasuredPolyline::Cursor::at(double arc_m) {
   const std::vector<double>& arc = line_.arc_;
   while (after_ < arc.size() && arc[after_] <= arc_m) ++after_;
   while (after_ > 0 && arc[after_ - 1] > arc_m) --after_;
-  return line_.at(arc_m, after_);
+  return point_at(line_.points_, arc, arc_m, after_);
 }
 
 Projection MeasuredPolyline::Cursor::project(const Point& point, double within_m) {

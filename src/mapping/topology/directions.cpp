@@ -154,19 +154,24 @@ std::vector<double> remembered_evidence(const std::vector<Lane>& lanes,
 }
 
 /// Per group, the log odds of its direction by the trails in its lanes. A trail counts once, as it was mostly
-/// driven.
+/// driven. `driven` is in the order of the trails.
 std::vector<double> traffic_evidence(const std::vector<DrivenStretch>& driven,
                                      const geometry::OrientedGroups& groups, std::size_t lanes) {
-  std::map<std::pair<std::size_t, std::size_t>, double> along_m;  // by trail and group
-  for (const DrivenStretch& stretch : driven)
-    along_m[{stretch.trail, groups.group(stretch.lane)}] +=
-        is_opposed(groups, stretch.lane) ? -stretch.along_m : stretch.along_m;
-  std::vector<double> evidence(lanes, 0.0);
+  std::vector<double> evidence(lanes, 0.0), along_m(lanes, 0.0);
   std::vector<std::array<int, 2>> trails(lanes);  // that were driven along and against
-  for (const auto& [of, length_m] : along_m) {
-    if (std::abs(length_m) < kMinDriven_m) continue;
-    const int number = ++trails[of.second][length_m > 0.0 ? 0 : 1];
-    evidence[of.second] += std::copysign(kTrailEvidence / (number * number), length_m);
+  for (auto first = driven.begin(); first != driven.end();) {
+    const auto end = std::find_if(first, driven.end(),
+                                  [&](const DrivenStretch& one) { return one.trail != first->trail; });
+    for (auto stretch = first; stretch != end; ++stretch)
+      along_m[groups.group(stretch->lane)] +=
+          is_opposed(groups, stretch->lane) ? -stretch->along_m : stretch->along_m;
+    for (; first != end; ++first) {
+      const std::size_t group = groups.group(first->lane);
+      const double length_m = std::exchange(along_m[group], 0.0);
+      if (std::abs(length_m) < kMinDriven_m) continue;
+      const int number = ++trails[group][length_m > 0.0 ? 0 : 1];
+      evidence[group] += std::copysign(kTrailEvidence / (number * number), length_m);
+    }
   }
   return evidence;
 }
@@ -194,15 +199,14 @@ std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLa
 }
 
 Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroups& groups,
-                  const std::vector<DrivenStretch>& driven, const lanes::LaneTracks& tracks, double side) {
+                  const RoadTraffic& traffic, const lanes::LaneTracks& tracks, double side) {
   const std::vector<Lane>& lanes = layout.lanes;
-  const std::vector<SideBySideLanes> beside = side_by_side(layout);
-  const std::vector<double> outermost = outermost_evidence(layout, beside);
+  const std::vector<double> outermost = outermost_evidence(layout, traffic.beside);
   Model model{.drive = remembered_evidence(lanes, groups, tracks),
               .borders = {},
-              .trails = traffic_evidence(driven, groups, lanes.size()),
+              .trails = traffic_evidence(traffic.driven, groups, lanes.size()),
               .evidence = {},
-              .pairs = side_by_side_groups(beside, groups)};
+              .pairs = side_by_side_groups(traffic.beside, groups)};
   std::vector<Mean> borders(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i)
     borders[groups.group(i)].add((is_opposed(groups, i) ? -1.0 : 1.0) * side * outermost[i]);
@@ -337,17 +341,17 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
   }
 }
 
-void find_directions(const DirectionConfig& config, const std::vector<DrivenStretch>& driven,
-                     lanes::LaneTracks& tracks, RoadGraph& road, FrameReasons* reasons) {
+void find_directions(const DirectionConfig& config, const RoadTraffic& traffic, lanes::LaneTracks& tracks,
+                     RoadGraph& road, FrameReasons* reasons) {
   const geometry::OrientedGroups groups = group(road);
   const double side = driving_side(config);
-  const Model model = build_model(road, groups, driven, tracks, side);
+  const Model model = build_model(road, groups, traffic, tracks, side);
   const std::vector<double> now = beliefs(model, side);
   std::vector<double> belief = now;
   const Told before = told(road.lanes, groups, tracks);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
-  const std::vector<Evidence> evidence = evidence_of(groups, driven, tracks, road.lanes);
+  const std::vector<Evidence> evidence = evidence_of(groups, traffic.driven, tracks, road.lanes);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];

@@ -29,12 +29,12 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
 /// against one another by max-product belief propagation. A direction that was sure stays known until it is
 /// contradicted; `tracks` remember it.
 ///
-/// `driven` holds the stretches of trails in the lanes of `road`.
+/// `traffic` is that of `road`.
 ///
 /// Linkages between lanes that are turned are turned too. At last the turn of every linkage is set.
 ///
 /// `reasons` has those of the lanes, and may be null.
-void find_directions(const DirectionConfig& config, const std::vector<DrivenStretch>& driven,
-                     lanes::LaneTracks& tracks, RoadGraph& road, FrameReasons* reasons = nullptr);
+void find_directions(const DirectionConfig& config, const RoadTraffic& traffic, lanes::LaneTracks& tracks,
+                     RoadGraph& road, FrameReasons* reasons = nullptr);
 
 }  // namespace laneloom::topology

@@ -39,7 +39,7 @@ class KnownCourses {
     bool found = false;
     for (const LinePlaces& courses : courses_) {
       const bool is_road = &courses == &courses_.front();
-      courses.beside(point, kBeside_m, [&](const LinePlace& place, double) {
+      courses.beside(point, [&](const LinePlace& place, double) {
         const double along = place.direction.dot(direction);
         found = found || (is_road && place.line < lanes_ ? std::abs(along) : along) > kCosAlong;
       });
@@ -54,22 +54,28 @@ class KnownCourses {
   std::vector<LinePlaces> courses_;  ///< of the road first; its lanes come before the paths of its linkages
 };
 
-/// The stretches of a trail within the box that lie on no known course. `driven` are those within lanes.
+/// The stretches of a trail within the box that lie on no known course. `driven` are those within lanes, in
+/// the order of the trail.
 std::vector<Polyline> new_stretches(const Polyline& trail, std::span<const DrivenStretch> driven,
                                     const KnownCourses& known, const geometry::MapBox& box) {
-  const auto is_in_lane = [&](std::size_t k) {
-    return std::ranges::any_of(
-        driven, [&](const DrivenStretch& stretch) { return stretch.first <= k && k <= stretch.last; });
-  };
   std::vector<Polyline> stretches(1);
-  for (std::size_t k = 0; k < trail.size(); ++k) {
-    Polyline& last = stretches.back();
-    const bool follows = last.empty() || (trail[k] - last.back()).head<2>().norm() <= trails::kMaxGap_m;
-    const bool is_new =
-        !is_in_lane(k) && box.shows(trail[k]) && !known.contains(trail[k], trails::direction_at(trail, k));
-    if (!last.empty() && (!follows || !is_new)) stretches.emplace_back();
-    if (is_new) stretches.back().push_back(trail[k]);
+  const auto add = [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) {
+      const bool is_new = box.shows(trail[k]) && !known.contains(trail[k], trails::direction_at(trail, k));
+      const Polyline& last = stretches.back();
+      const bool follows =
+          is_new && !last.empty() && (trail[k] - last.back()).head<2>().norm() <= trails::kMaxGap_m;
+      if (!last.empty() && !follows) stretches.emplace_back();
+      if (is_new) stretches.back().push_back(trail[k]);
+    }
+    if (!stretches.back().empty()) stretches.emplace_back();
+  };
+  std::size_t from = 0;
+  for (const DrivenStretch& stretch : driven) {
+    add(from, stretch.first);
+    from = stretch.last + 1;
   }
+  add(from, trail.size());
   return stretches;
 }
 
@@ -86,7 +92,7 @@ double share_of_long(const std::vector<double>& lengths_m) {
 
 /// The path along places that a tracker told, each with an error of its own.
 Polyline path_along(const Polyline& places) {
-  const Polyline points = MeasuredPolyline(places).resample(kStep_m);
+  const Polyline points = resample(places, kStep_m);
   return lanes::smooth_line(points, std::vector<double>(points.size(), 1.0));
 }
 
@@ -102,12 +108,13 @@ std::vector<DrivenPath> driven_paths(const std::vector<trails::Trail>& trails,
   const double probability = kOneTrail * std::min(1.0, share_of_long(lengths_m) / kSoundShare);
   if (probability < kMinProbability) return paths;
   KnownCourses known(road);
+  auto first = driven.begin();
   for (std::size_t i = 0; i < trails.size(); ++i) {
-    const Polyline& trail = trails[i].points;
+    const auto is_other = [i](const DrivenStretch& stretch) { return stretch.trail != i; };
+    const auto own = std::span(first, std::find_if(first, driven.end(), is_other));
+    first += std::ssize(own);
     if (lengths_m[i] < kMinTrail_m) continue;
-    const auto first = std::ranges::lower_bound(driven, i, {}, &DrivenStretch::trail);
-    const auto last = std::ranges::upper_bound(driven, i, {}, &DrivenStretch::trail);
-    for (const Polyline& stretch : new_stretches(trail, {first, last}, known, box)) {
+    for (const Polyline& stretch : new_stretches(trails[i].points, own, known, box)) {
       if (stretch.size() < 2 || length(stretch) < kMinLength_m) continue;
       DrivenPath path{
           .points = path_along(stretch), .lateral_stddev_m = kDriverStddev_m, .probability = probability};

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mapping/geometry/scene.hpp"
+#include "mapping/topology/road_graph.hpp"
 #include "mapping/topology/traffic.hpp"
 
 namespace laneloom::topology {

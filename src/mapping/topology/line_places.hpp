@@ -1,13 +1,13 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "laneloom/polyline.hpp"
+#include "mapping/geometry/box_grid.hpp"
 #include "mapping/geometry/levels.hpp"
-#include "mapping/geometry/point_grid.hpp"
 
 namespace laneloom::topology {
 
@@ -18,40 +18,53 @@ struct LinePlace {
   std::size_t line = 0;                                  ///< its index
 };
 
-/// Places along lines, a metre apart, by which the lines are found that run past a point.
+/// Places along lines, a metre apart, by which the lines are found that run past a point, at most `reach_m`
+/// aside.
 class LinePlaces {
  public:
-  /// Searches are quickest with the reach that is told here.
   LinePlaces(const std::vector<const Polyline*>& lines, double reach_m)
-      : grid_(places_on(lines), 2.0 * reach_m) {}
+      : reach_m_(reach_m), grid_(places_on(lines, reach_m), reach_m) {}
 
-  /// Calls `visit(place, lateral_m)` for the places of lines that run past a point, on its level, at most
-  /// `reach_m` aside.
+  /// Calls `visit(place, lateral_m)` for the places of lines that run past a point, on its level.
   template <class Visit>
-  void beside(const Point& point, double reach_m, Visit&& visit) const {
-    grid_.around(point, reach_m + kStep_m, [&](const LinePlace& place) {
+  void beside(const Point& point, Visit&& visit) const {
+    grid_.at(point, [&](const LinePlace& place) {
       const Eigen::Vector2d offset = (point - place.position).head<2>();
+      if (std::abs(place.direction.dot(offset)) > kAlong_m) return;
       const double lateral_m = std::abs(cross(place.direction, offset));
-      if (lateral_m > reach_m || std::abs(place.direction.dot(offset)) > kAlong_m) return;
-      if (geometry::same_level(point, place.position)) visit(place, lateral_m);
+      if (lateral_m <= reach_m_ && geometry::same_level(point, place.position)) visit(place, lateral_m);
     });
   }
 
  private:
-  static constexpr double kStep_m = 1.0;
-  static constexpr double kAlong_m = 0.6;  // half a step and a little more
+  using Grid = geometry::BoxGrid<LinePlace>;
 
-  static std::vector<LinePlace> places_on(const std::vector<const Polyline*>& lines) {
-    std::vector<LinePlace> places;
+  static constexpr double kStep_m = 1.0;
+  static constexpr double kAlong_m = 0.6;      // half a step and a little more
+  static constexpr double kRounding_m = 1e-6;  // far above the errors of a box
+
+  static std::vector<Grid::Boxed> places_on(const std::vector<const Polyline*>& lines, double reach_m) {
+    std::vector<Grid::Boxed> places;
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      const Polyline line = MeasuredPolyline(*lines[i]).resample(kStep_m);
-      for (std::size_t k = 0; k + 1 < line.size(); ++k)
-        places.push_back({0.5 * (line[k] + line[k + 1]), (line[k + 1] - line[k]).head<2>().normalized(), i});
+      const Polyline line = resample(*lines[i], kStep_m);
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        const LinePlace place{0.5 * (line[k] + line[k + 1]), (line[k + 1] - line[k]).head<2>().normalized(),
+                              i};
+        places.push_back({box_of(place, reach_m), place});
+      }
     }
     return places;
   }
 
-  geometry::PointGrid<LinePlace> grid_;
+  /// The box around the points that a place lies beside.
+  static Eigen::AlignedBox2d box_of(const LinePlace& place, double reach_m) {
+    const Eigen::Vector2d along = place.direction.cwiseAbs();
+    const Eigen::Vector2d reach = (kAlong_m * along + reach_m * along.reverse()).array() + kRounding_m;
+    return {place.position.head<2>() - reach, place.position.head<2>() + reach};
+  }
+
+  double reach_m_;
+  Grid grid_;
 };
 
 }  // namespace laneloom::topology

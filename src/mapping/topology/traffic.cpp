@@ -8,7 +8,6 @@
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
 #include "mapping/topology/line_places.hpp"
-#include "mapping/topology/side_by_side.hpp"
 
 namespace laneloom::topology {
 namespace {
@@ -32,12 +31,14 @@ struct Driven {
   double along = 0.0;
 };
 
-std::optional<Driven> lane_at(const LinePlaces& lanes, const Point& point, const Eigen::Vector2d& direction) {
+/// The lane in which a trail goes on from one of its points to the next.
+std::optional<Driven> lane_at(const LinePlaces& lanes, const Polyline& trail, std::size_t k) {
   std::optional<Driven> nearest;
   double nearest_m = kMaxLateral_m;
-  lanes.beside(point, kMaxLateral_m, [&](const LinePlace& place, double lateral_m) {
-    const double along = place.direction.dot(direction);
-    if (lateral_m > nearest_m || std::abs(along) < kCosMaxAngle) return;
+  lanes.beside(0.5 * (trail[k] + trail[k + 1]), [&](const LinePlace& place, double lateral_m) {
+    if (lateral_m > nearest_m) return;
+    const double along = place.direction.dot(trails::direction_at(trail, k));
+    if (std::abs(along) < kCosMaxAngle) return;
     nearest_m = lateral_m;
     nearest = Driven{place.line, along};
   });
@@ -93,10 +94,10 @@ std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& tr
   for (std::size_t i = 0; i < trails.size(); ++i) {
     const Polyline& points = trails[i].points;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+      const auto lane = lane_at(places, points, k);
+      if (!lane) continue;
       const double step_m = (points[k + 1] - points[k]).head<2>().norm();
       if (step_m > trails::kMaxGap_m) continue;
-      const auto lane = lane_at(places, 0.5 * (points[k] + points[k + 1]), trails::direction_at(points, k));
-      if (!lane) continue;
       const double along_m = std::copysign(step_m, lane->along);
       const bool goes_on = !driven.empty() && driven.back().trail == i && driven.back().lane == lane->lane &&
                            driven.back().along_m * along_m > 0.0;
@@ -108,17 +109,16 @@ std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& tr
   return driven;
 }
 
-void ObservedSide::observe(const RoadGraph& road, const std::vector<DrivenStretch>& driven,
+void ObservedSide::observe(const std::vector<Lane>& lanes, const RoadTraffic& traffic,
                            const lanes::LaneTracks& tracks, std::vector<trails::Trail>& trails) {
-  if (driven.empty()) return;
-  const std::vector<double> sense = senses(road.lanes, driven, tracks);
-  std::vector<int> told(road.lanes.size(),
-                        0);  // 1: meets another one as right-hand traffic does; -1: left-hand
-  for (const SideBySideLanes& pair : side_by_side(road)) {
+  if (traffic.driven.empty()) return;
+  const std::vector<double> sense = senses(lanes, traffic.driven, tracks);
+  std::vector<int> told(lanes.size(), 0);  // 1: meets another one as right-hand traffic does; -1: left-hand
+  for (const SideBySideLanes& pair : traffic.beside) {
     if (pair.may_part || sense[pair.left] * sense[pair.right] >= 0.0) continue;
     told[pair.left] = told[pair.right] = sense[pair.right] > 0.0 ? 1 : -1;
   }
-  for (const DrivenStretch& stretch : driven) {
+  for (const DrivenStretch& stretch : traffic.driven) {
     trails::Trail& trail = trails[stretch.trail];
     if (trail.told_side || told[stretch.lane] == 0 || std::abs(stretch.along_m) < kMinDriven_m) continue;
     if (stretch.along_m * sense[stretch.lane] < 0.0) continue;

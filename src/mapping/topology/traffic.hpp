@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/types.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
-#include "mapping/topology/road_graph.hpp"
+#include "mapping/topology/side_by_side.hpp"
 #include "mapping/trails/trails.hpp"
 
 namespace laneloom::topology {
@@ -22,6 +23,12 @@ struct DrivenStretch {
 std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& trails,
                                             const std::vector<Lane>& lanes);
 
+/// The lanes of a road that lie side by side, and the stretches that others drove in its lanes.
+struct RoadTraffic {
+  std::vector<SideBySideLanes> beside;
+  std::vector<DrivenStretch> driven;  ///< in the order of the trails
+};
+
 /// Stretches of one trail shorter than this, in metres, tell no direction: the vehicle may have crossed.
 inline constexpr double kMinDriven_m = 5.0;
 
@@ -30,8 +37,8 @@ class ObservedSide {
  public:
   /// Takes what trails tell that have not told it yet: a vehicle, or the own one, drives one way, and another
   /// one the other way in the next lane of the same road.
-  void observe(const RoadGraph& road, const std::vector<DrivenStretch>& driven,
-               const lanes::LaneTracks& tracks, std::vector<trails::Trail>& trails);
+  void observe(const std::vector<Lane>& lanes, const RoadTraffic& traffic, const lanes::LaneTracks& tracks,
+               std::vector<trails::Trail>& trails);
   /// Takes what oncoming vehicles tell that pass the own one while it moves, whatever lanes are known, and no
   /// edge that was seen lies between: beyond one, they may drive on another road. `before` is the place of
   /// the own vehicle in the frame before, map frame.

@@ -86,6 +86,12 @@ TEST(MeasuredPolyline, ResamplesBothEnds) {
   EXPECT_EQ(samples.back(), kCorner.back());
 }
 
+TEST(Polyline, ResamplesAsAMeasuredOneDoes) {
+  const Polyline repeating{{0, 0, 0}, {0, 0, 0}, {4, 0, 1}, {4, 0, 2}, {4, 3.3, 5}};
+  EXPECT_EQ(resample(repeating, 0.7), MeasuredPolyline(repeating).resample(0.7));
+  EXPECT_EQ(resample({{1, 1, 0}}, 2.0), (Polyline{{1, 1, 0}, {1, 1, 0}}));
+}
+
 TEST(Polyline, EndDirectionsPointOutwards) {
   EXPECT_TRUE(end_direction(kCorner, End::back).isApprox(Eigen::Vector2d(0, 1)));
   EXPECT_TRUE(end_direction(kCorner, End::front).isApprox(Eigen::Vector2d(-1, 0)));

@@ -161,7 +161,7 @@ TEST_F(Forks, TheBranchRunsAsItsStemDoesAndNotAsTheLaneBeyondIt) {
   for (const Lane& lane : road_.lanes) tracks.push_back({.id = lane.id});
   LaneTracks known(std::move(tracks));
   known.find(between(2, 3)[0]->id)->direction_log_odds = 6.0;
-  topology::find_directions({}, {}, known, road_);
+  topology::find_directions({}, {topology::side_by_side(road_), {}}, known, road_);
   EXPECT_EQ(between(1, 2)[0]->direction, Lane::Direction::along_centerline);
   const std::vector<const Lane*> beyond = between(4, 2);
   ASSERT_EQ(beyond.size(), 1U);

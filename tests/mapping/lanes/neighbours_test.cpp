@@ -18,7 +18,7 @@ std::pair<double, double> ends(const Stretch& range) { return {range.from_m, ran
 
 /// Lane 1 has lane 2 on its left, behind boundary 7 up to 20 m, nothing that is seen up to 30 m, and boundary
 /// 8 from there on.
-LaneLayout two_lanes() {
+LaneLayout lanes_side_by_side() {
   Lane right = test::lane(1, {0, 0, 0}, {50, 0, 0}), left = test::lane(2, {0, 3.5, 0}, {50, 3.5, 0});
   const Border behind{8, {30, 50}, {0, 20}};
   right.left_borders = {along(7, 0, 20), {kNoElement, {20, 30}, {}}, behind};
@@ -34,7 +34,7 @@ LaneLayout two_lanes() {
 }
 
 TEST(Neighbours, LieBesideEachBorderThatIsSeen) {
-  LaneLayout layout = two_lanes();
+  LaneLayout layout = lanes_side_by_side();
   find_neighbours(layout);
   const auto& neighbours = layout.lanes[0].left_neighbours;
   ASSERT_EQ(neighbours.size(), 2U);

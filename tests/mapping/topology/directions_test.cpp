@@ -74,7 +74,7 @@ class Directions : public ::testing::Test {
 
   void find(DrivingSide driving_side = DrivingSide::right) {
     RoadGraph road{{boundaries_, lanes_}, linkages_};
-    find_directions({.driving_side = driving_side}, driven_, tracks_, road);
+    find_directions({.driving_side = driving_side}, {side_by_side(road), driven_}, tracks_, road);
     lanes_ = std::move(road.lanes);
     linkages_ = std::move(road.linkages);
   }

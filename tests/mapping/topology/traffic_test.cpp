@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "mapping/shapes.hpp"
 
 namespace laneloom::topology {
@@ -39,6 +41,18 @@ TEST(DrivenStretches, AreWithinALaneAndAlongIt) {
   EXPECT_EQ(text(driven_stretches({}, {lane(1, straight({0, 0, 0}, {40, 0, 0}))})), "");
 }
 
+TEST(DrivenStretches, ReachAsFarAsideWhateverTheLanesHeading) {
+  for (int deg = 0; deg < 360; deg += 15) {
+    const Eigen::AngleAxisd turn(deg * std::numbers::pi / 180.0, Point::UnitZ());
+    const auto stretches = [&](double y) {
+      return text(driven_stretches({trail(driven(turn * Point(5, y, 0), turn * Point(25, y, 0)))},
+                                   {lane(1, straight(turn * Point(0, 0, 0), turn * Point(40, 0, 0)))}));
+    };
+    for (const double y : {-1.19, 0.0, 1.19}) EXPECT_EQ(stretches(y), "0:20") << deg << " degrees, " << y;
+    for (const double y : {-1.21, 1.21}) EXPECT_EQ(stretches(y), "") << deg << " degrees, " << y;
+  }
+}
+
 TEST(DrivenStretches, OfAChangeOfLanesAreInTheOrderInWhichTheyWereDriven) {
   const std::vector<Lane> lanes{lane(1, straight({0, 0, 0}, {40, 0, 0})),
                                 lane(2, straight({40, 3.5, 0}, {0, 3.5, 0}))};
@@ -71,9 +85,8 @@ class Side : public ::testing::Test {
   /// So many vehicles come towards the vehicle, and all trails are asked twice.
   void meet(int vehicles) {
     for (int i = 0; i < vehicles; ++i) trails_.push_back(trail(driven({35, 5.25, 0}, {10, 5.25, 0})));
-    const RoadGraph road{{boundaries_, lanes_}, {}};
-    for (int time = 0; time < 2; ++time)
-      side_.observe(road, driven_stretches(trails_, lanes_), tracks_, trails_);
+    const RoadTraffic traffic{side_by_side({boundaries_, lanes_}), driven_stretches(trails_, lanes_)};
+    for (int time = 0; time < 2; ++time) side_.observe(lanes_, traffic, tracks_, trails_);
   }
 
   std::vector<boundaries::LaneBoundary> boundaries_;
