@@ -12,10 +12,8 @@ namespace laneloom::session {
 namespace {
 
 constexpr std::int64_t kSilent_ns = 1'000'000'000;
-// The first comparison of two sources decides, so that no line is born twice. From then on, what four frames
-// in a row say does.
-constexpr double kNewShare = 0.2, kAtFirst = 0.4;
-constexpr double kAgrees = 0.6;  // share of what two frames have in common that lies where it should
+constexpr double kNewShare = 0.2;  // of a frame in the contradiction
+constexpr double kAgrees = 0.6;    // share of what two frames have in common that lies where it should
 constexpr double kLeastShared_m = 20.0;
 // Lines that lie further beside are other lines: the next one of a narrow lane may be as near.
 constexpr double kFurthest_m = 2.0, kStep_m = 0.25;
@@ -112,7 +110,7 @@ void SourceAgreement::forget_silent(std::int64_t stamp_ns) {
   });
   for (Source& source : sources_)
     if (source.disagrees() && std::ranges::find(sources_, source.other, &Source::name) == sources_.end())
-      source.contradiction = 0.0;
+      source.contradiction = kAtFirst;
 }
 
 /// Compares a frame with the first source before its own one that tells something. A source that disagrees

@@ -32,14 +32,18 @@ class SourceAgreement {
   void forget() { sources_.clear(); }
 
  private:
+  /// The contradiction of two sources before they are compared. The first comparison decides, so that no line
+  /// is born twice. From then on, what four frames in a row say does.
+  static constexpr double kAtFirst = 0.4;
+
   struct Source {
     std::string name;
-    std::int64_t stamp_ns = 0;   ///< of its newest frame
-    std::vector<Marking> lines;  ///< of that frame, map frame
-    double stddev_m = 0.0;       ///< lateral, of these
-    double contradiction = 0.0;  ///< share of its frames that contradict the other source, faded
-    std::string other;           ///< the source that it was compared with last
-    double beside_m = 0.0;       ///< of that one, see Disagreement
+    std::int64_t stamp_ns = 0;        ///< of its newest frame
+    std::vector<Marking> lines;       ///< of that frame, map frame
+    double stddev_m = 0.0;            ///< lateral, of these
+    double contradiction = kAtFirst;  ///< share of its frames that contradict the other source, faded
+    std::string other;                ///< the source that it was compared with last
+    double beside_m = 0.0;            ///< of that one, see Disagreement
     bool disagrees() const { return contradiction > 0.5; }
   };
   void forget_silent(std::int64_t stamp_ns);

@@ -147,6 +147,12 @@ TEST_F(SourcesOfADrive, OneThatContradictsIsToldAndLeftOut) {
   }
 }
 
+TEST_F(SourcesOfADrive, OneThatContradictsFromItsFirstFrameIsNeverFused) {
+  drive_.send_frames = with_one_beside(1.75);
+  drive_.run_for(3000);
+  EXPECT_EQ(fused_of("side"), 0U) << "the other one has no name";
+}
+
 TEST_F(SourcesOfADrive, OneThatContradictedIsFusedWhenItIsAlone) {
   drive_.send_frames = with_one_beside(1.75);
   drive_.run_for(1000);
