@@ -178,7 +178,7 @@ void MappingSession::State::fuse_ready() {
 
 void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   const auto& frame = synchronised.pending.frame;
-  if (!agreement.may_fuse(frame, synchronised.T_map_body)) {
+  if (!agreement.may_fuse(frame, synchronised.T_map_body, synchronised.pending.arrival_ns)) {
     refuse_frames("contradictory");
     return;
   }

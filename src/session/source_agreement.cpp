@@ -11,7 +11,8 @@
 namespace laneloom::session {
 namespace {
 
-constexpr std::int64_t kSilent_ns = 1'000'000'000;
+// A source that hangs for a moment keeps its place before one that contradicts it.
+constexpr std::int64_t kSilent_ns = 10'000'000'000;
 constexpr double kNewShare = 0.2;  // of a frame in the contradiction
 constexpr double kAgrees = 0.6;    // share of what two frames have in common that lies where it should
 constexpr double kLeastShared_m = 20.0;
@@ -81,10 +82,12 @@ std::optional<double> beside_m(const Fits& fits) {
 
 }  // namespace
 
-bool SourceAgreement::may_fuse(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-  forget_silent(frame.stamp_ns);
+bool SourceAgreement::may_fuse(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
+                               std::int64_t arrival_ns) {
+  forget_silent(arrival_ns);
   auto source = std::ranges::find(sources_, frame.source, &Source::name);
   if (source == sources_.end()) source = sources_.insert(sources_.end(), Source{.name = frame.source});
+  source->arrival_ns = arrival_ns;
   const DetectionFrame told = trusted(frame);
   source->stddev_m = stddev_m(told);
   compare(told, T_map_body, *source);
@@ -103,11 +106,18 @@ DetectionFrame SourceAgreement::trusted(const DetectionFrame& frame) const {
   return kept;
 }
 
-/// Forgets sources of which nothing came for a while. Who comes back comes last.
-void SourceAgreement::forget_silent(std::int64_t stamp_ns) {
-  std::erase_if(sources_, [stamp_ns](const Source& source) {
-    return std::abs(stamp_ns - source.stamp_ns) > kSilent_ns;
-  });
+void SourceAgreement::forget() {
+  for (Source& source : sources_) {
+    source.stamp_ns = 0;
+    source.lines.clear();
+  }
+}
+
+/// Forgets sources of which nothing came for a while. Who comes back comes last. Stamps tell no silence: a
+/// slow network's are always behind those of a fast one.
+void SourceAgreement::forget_silent(std::int64_t arrival_ns) {
+  std::erase_if(sources_,
+                [arrival_ns](const Source& source) { return arrival_ns - source.arrival_ns > kSilent_ns; });
   for (Source& source : sources_)
     if (source.disagrees() && std::ranges::find(sources_, source.other, &Source::name) == sources_.end())
       source.contradiction = kAtFirst;

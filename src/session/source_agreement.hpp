@@ -24,12 +24,15 @@ class SourceAgreement {
   explicit SourceAgreement(const MapperConfig& config)
       : fusion_(config.fusion), min_confidence_(config.preprocess.min_confidence) {}
 
-  /// Whether a frame of that pose may be fused. It may not while its source disagrees.
-  bool may_fuse(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body);
-  /// The sources that disagree. One that is silent for a second, or whose other one is, is forgotten.
+  /// Whether a frame of that pose may be fused. It may not while its source disagrees. A source of which
+  /// nothing arrives for 10 s is forgotten: nobody disagrees with it any more. A shorter pause changes
+  /// nothing.
+  bool may_fuse(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, std::int64_t arrival_ns);
+  /// The sources that disagree.
   std::vector<Disagreement> disagreements() const;
-  /// Forgets all frames: the poses that they are compared by are no longer continuous.
-  void forget() { sources_.clear(); }
+  /// Forgets all frames: the poses that they are compared by are no longer continuous. Who was there first,
+  /// and who disagrees, stays known.
+  void forget();
 
  private:
   /// The contradiction of two sources before they are compared. The first comparison decides, so that no line
@@ -38,6 +41,7 @@ class SourceAgreement {
 
   struct Source {
     std::string name;
+    std::int64_t arrival_ns = 0;      ///< of its frame that was judged last
     std::int64_t stamp_ns = 0;        ///< of its newest frame
     std::vector<Marking> lines;       ///< of that frame, map frame
     double stddev_m = 0.0;            ///< lateral, of these
@@ -46,7 +50,7 @@ class SourceAgreement {
     double beside_m = 0.0;            ///< of that one, see Disagreement
     bool disagrees() const { return contradiction > 0.5; }
   };
-  void forget_silent(std::int64_t stamp_ns);
+  void forget_silent(std::int64_t arrival_ns);
   DetectionFrame trusted(const DetectionFrame& frame) const;
   void compare(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, Source& source) const;
   double stddev_m(const DetectionFrame& frame) const;

@@ -42,8 +42,8 @@ Told drive(const Pair& pair, double left_m) {
     other.source = "second";
     for (Detection& detection : other.detections)
       for (Point& point : detection.points) point.y() += left_m;
-    EXPECT_TRUE(agreement.may_fuse(one, transform(pose)));
-    const bool agrees = agreement.may_fuse(other, transform(pose));
+    EXPECT_TRUE(agreement.may_fuse(one, transform(pose), pose.stamp_ns));
+    const bool agrees = agreement.may_fuse(other, transform(pose), pose.stamp_ns);
     EXPECT_EQ(agrees, agreement.disagreements().empty());
     ++told.frames;
     if (agrees) continue;
@@ -95,8 +95,8 @@ TEST(SourceAgreementOnRoads, LinesThatNobodyTrustsContradictNothing) {
       detection.confidence = 0.05;
       for (Point& point : detection.points) point.y() += 1.0;
     }
-    EXPECT_TRUE(agreement.may_fuse(one, transform(pose)));
-    EXPECT_TRUE(agreement.may_fuse(ghosts, transform(pose)));
+    EXPECT_TRUE(agreement.may_fuse(one, transform(pose), pose.stamp_ns));
+    EXPECT_TRUE(agreement.may_fuse(ghosts, transform(pose), pose.stamp_ns));
   }
 }
 

@@ -159,9 +159,48 @@ TEST_F(SourcesOfADrive, OneThatContradictedIsFusedWhenItIsAlone) {
   drive_.send_frames = [both = with_one_beside(1.75)](const DetectionFrame& frame) {
     return std::vector{both(frame).back()};
   };
-  drive_.run_for(12'000);
+  drive_.run_for(15'000);
   EXPECT_EQ(drive_.state(), "OK");
-  EXPECT_GT(fused_of("side"), 50U);
+  EXPECT_GT(fused_of("side"), 40U);
+}
+
+TEST_F(SourcesOfADrive, OneThatContradictsStaysLeftOutWhileTheOtherOnePauses) {
+  drive_.send_frames = with_one_beside(1.75);
+  drive_.run_for(3000);
+  drive_.send_frames = [both = with_one_beside(1.75)](const DetectionFrame& frame) {
+    return std::vector{both(frame).back()};
+  };
+  drive_.run_for(5000);
+  EXPECT_EQ(fused_of("side"), 0U);
+  drive_.send_frames = with_one_beside(1.75);
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.state(), "DEGRADED sources_disagree source_not_fused");
+  EXPECT_EQ(fused_of("side"), 0U);
+}
+
+TEST_F(SourcesOfADrive, OneThatContradictsStaysLeftOutWhenThePosesJump) {
+  drive_.send_frames = with_one_beside(1.75);
+  drive_.run_for(3000);
+  drive_.send_poses = [](VehiclePose pose) {
+    pose.position.y() += 0.9;
+    return std::vector{pose};
+  };
+  drive_.run_for(3000);
+  EXPECT_EQ(drive_.counter("pose_jumps"), 1U);
+  EXPECT_EQ(drive_.state(), "DEGRADED sources_disagree source_not_fused");
+  EXPECT_EQ(fused_of("side"), 0U);
+}
+
+TEST_F(SourcesOfADrive, OneThatContradictsIsLeftOutHoweverLateItIs) {
+  drive_.send_frames = [late = delay<DetectionFrame>(12),
+                        both = with_one_beside(1.75)](const DetectionFrame& frame) mutable {
+    std::vector sent{frame};
+    for (DetectionFrame& side : late(both(frame).back())) sent.push_back(std::move(side));
+    return sent;
+  };
+  drive_.run_for(5000);
+  EXPECT_EQ(drive_.state(), "DEGRADED sources_disagree source_not_fused");
+  EXPECT_EQ(fused_of("side"), 0U);
 }
 
 TEST_F(SourcesOfADrive, ThatSeeOtherLinesDoNotContradict) {
