@@ -28,6 +28,7 @@
 #include "service/service.hpp"
 #include "service/signals.hpp"
 #include "session/mapping_session.hpp"
+#include "snapshot/snapshot_file.hpp"
 
 namespace laneloom::service {
 namespace {
@@ -183,6 +184,7 @@ int start(const Options& options) {
   if (options.check_only) {
     const session::MappingSession session(config);  // checks the files that the configuration names
     dds::check_files(config.dds);
+    if (!config.service.snapshot_file.empty()) snapshot::check_snapshot_file(config.service.snapshot_file);
     if (!config.dds.security_directory.empty()) check_identity(config);
     print("configuration " + config::config_hash(config) + " is valid\n");
     return EX_OK;

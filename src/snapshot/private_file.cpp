@@ -56,7 +56,7 @@ File open_to_read(const std::string& file) {
 
 void replace_private_file(const std::string& file, std::string_view bytes) {
   refuse_planted_links(file);
-  const std::string unfinished = file + ".new";
+  const std::string unfinished = file + kUnfinished;
   unlink(unfinished.c_str());  // left by a crash during writing
   File out = create(unfinished);
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out.get()) == bytes.size();

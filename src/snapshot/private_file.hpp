@@ -5,6 +5,8 @@
 
 namespace laneloom::snapshot {
 
+inline constexpr const char* kUnfinished = ".new";  ///< ends the name of a file that is not whole yet
+
 /// Writes a file that only this user can read, and puts it in the place of `file` as a whole. It is safe in a
 /// folder into which others may write. Throws std::runtime_error, also if a folder of the path is a link of
 /// another user.

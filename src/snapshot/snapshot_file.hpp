@@ -28,9 +28,14 @@ struct Snapshot {  // NOLINT(bugprone-exception-escape): as the state
 /// std::runtime_error.
 void write_snapshot(const std::string& file, const Snapshot& snapshot);
 
+/// Throws ConfigError if no snapshot can be kept in `file`: its folder is missing or cannot be written, or a
+/// file that is no snapshot has its name, or one that it gets when it is taken.
+void check_snapshot_file(const std::string& file);
+
 /// Takes a snapshot out of the way to go on with it, and returns the file that it is in now. The same one can
 /// be taken again where a service ends before it has made a newer one, three times in all: a map that ends
-/// the service shall not do so for ever. Empty: there is none.
+/// the service shall not do so for ever. Empty: there is none. Throws ConfigError, and moves nothing, if a
+/// file that is no snapshot has one of these names.
 std::string take_snapshot(const std::string& file);
 
 /// Reads a snapshot. Throws std::runtime_error with the reason unless its file belongs to this user or to

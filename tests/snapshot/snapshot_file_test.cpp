@@ -71,6 +71,33 @@ TEST_F(SnapshotFileTest, ANewOneIsTakenBeforeThoseThatWereTaken) {
   EXPECT_EQ(take_snapshot(file_), "");
 }
 
+// A wrong path, as that of a folder or of the configuration.
+TEST_F(SnapshotFileTest, WhatIsNoSnapshotStaysWhereItIs) {
+  EXPECT_EQ(thrown_by([&] { check_snapshot_file(file_); }), "");
+  std::filesystem::create_directory(file_ + ".new");
+  EXPECT_THAT(thrown_by([&] { take_snapshot(file_); }), HasSubstr(file_ + ".new is no regular file"));
+  std::filesystem::remove(file_ + ".new");
+  write_snapshot(file_, snapshot());
+  std::ofstream(file_ + ".2") << "service:\n  log_level: info\n";
+  EXPECT_THAT(thrown_by([&] { take_snapshot(file_); }), HasSubstr(file_ + ".2 is no snapshot"));
+  EXPECT_THAT(thrown_by([&] { check_snapshot_file(file_); }), HasSubstr(file_ + ".2 is no snapshot"));
+  EXPECT_TRUE(std::filesystem::exists(file_)) << "nothing was moved";
+  EXPECT_GT(std::filesystem::file_size(file_ + ".2"), 0U);
+}
+
+TEST_F(SnapshotFileTest, ABrokenOneIsTaken) {
+  write_snapshot(file_, snapshot());
+  std::filesystem::resize_file(file_, 100);
+  EXPECT_EQ(take_snapshot(file_), file_ + ".1");
+  std::ofstream(file_).flush();
+  EXPECT_EQ(take_snapshot(file_), file_ + ".1") << "a file that lost its bytes";
+}
+
+TEST_F(SnapshotFileTest, AFolderThatCannotTakeItIsTold) {
+  EXPECT_THAT(thrown_by([&] { check_snapshot_file(folder_.file("none/map")); }),
+              HasSubstr("No such file or directory"));
+}
+
 TEST_F(SnapshotFileTest, ComesBackAsItWas) {
   write_snapshot(file_, snapshot());
   const auto back = read(soon_);
