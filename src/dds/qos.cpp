@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <system_error>
 
 #include "dds/fast_dds.hpp"
 #include "laneloom/dds/participant.hpp"
@@ -64,7 +65,8 @@ bool load_once(const std::string& file) {
 
 void load_profile(const DdsConfig& config, DomainParticipantQos& qos) {
   // Fast DDS itself would only log a missing file, and go on with its defaults.
-  if (!std::filesystem::is_regular_file(config.profile_file)) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(config.profile_file, unknown)) {
     throw ConfigError("dds.profile_file: there is no file " + config.profile_file);
   }
   if (!load_once(config.profile_file)) {
@@ -97,7 +99,8 @@ void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
 /// The URI of a file. Throws if it can not be read, since Fast DDS says nothing then.
 std::string readable(const std::filesystem::path& directory, const char* name) {
   const auto file = std::filesystem::absolute(directory / name);
-  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file)) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown) || !std::ifstream(file)) {
     throw ConfigError("dds.security_directory: cannot read " + file.string());
   }
   return "file://" + file.string();

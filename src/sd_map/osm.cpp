@@ -112,16 +112,7 @@ std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
   return SdRestriction{*from, *via, *to, kind.starts_with("only_")};
 }
 
-/// Refuses files that are too large or not regular: opening a pipe would wait for its writer.
-void check_file(const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error("is not a readable file");
-  if (std::filesystem::file_size(file, error) > kMaxFileBytes)
-    throw std::runtime_error("is larger than 128 MB");
-}
-
 SdMap read(const std::string& file, const SdMapConfig& config) {
-  check_file(file);
   pugi::xml_document document;
   if (const auto result = document.load_file(file.c_str()); !result)
     throw std::runtime_error(std::string(result.description()) + " at byte " + std::to_string(result.offset));
@@ -142,8 +133,19 @@ SdMap read(const std::string& file, const SdMapConfig& config) {
 
 }  // namespace
 
+// Opening a pipe would wait for its writer.
+void check_sd_map_file(const SdMapConfig& config) {
+  std::error_code error;
+  if (config.file.empty()) return;
+  if (!std::filesystem::is_regular_file(config.file, error))
+    throw ConfigError(config.file + ": is not a readable file");
+  if (std::filesystem::file_size(config.file, error) > kMaxFileBytes)
+    throw ConfigError(config.file + ": is larger than 128 MB");
+}
+
 SdMap load_sd_map(const SdMapConfig& config) {
   if (config.file.empty()) return {};
+  check_sd_map_file(config);
   try {
     return read(config.file, config);
   } catch (const std::exception& error) {

@@ -21,6 +21,7 @@
 #include "base/steady_clock.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/dds/participant.hpp"
+#include "sd_map/osm.hpp"
 #include "service/endpoints.hpp"
 #include "service/executor.hpp"
 #include "service/ingestion_queue.hpp"
@@ -86,8 +87,16 @@ Contents contents_of(const Config& config) {
           {"sd_map.file", stamp_of(config.sd_map.file)}};
 }
 
-/// Throws ConfigError for a file that the mapper would refuse. An SD map is not read: that may take seconds.
-void check_mapper_files(Config config) {
+/// Throws ConfigError for a file that the next start would refuse. An SD map is not read: that may take
+/// seconds. Nor is a profile of DDS: Fast DDS refuses a second one of the same name in one process.
+void check_named_files(Config config) {
+  auto& profile = config.dds.profile_file;
+  std::error_code unknown;
+  if (!profile.empty() && !std::filesystem::is_regular_file(profile, unknown))
+    throw ConfigError("dds.profile_file: there is no file " + profile);
+  profile.clear();
+  dds::check_files(config.dds);
+  sd_map::check_sd_map_file(config.sd_map);
   config.sd_map = {};
   const session::MappingSession session(config);
 }
@@ -95,7 +104,7 @@ void check_mapper_files(Config config) {
 /// Applies the settings that can change while the service runs, and logs which can not.
 void reconfigure(Running& running, const Options& options) try {
   const auto wanted = configure(options);
-  check_mapper_files(wanted);
+  check_named_files(wanted);
   auto& config = running.config;
   for (const auto& key : config::changed_keys(config, wanted)) {
     if (key == "service.log_level") {

@@ -113,6 +113,23 @@ TEST(Reload, SaysThatFilesOfTheMapperThatChangedNeedARestart) {
       << service.errors();
 }
 
+TEST(Reload, SaysThatTheNextStartWouldStayDown) {
+  const TemporaryFile file("paths.yaml", kBefore);
+  const Process service(command(private_config(), {"--config", file.path}));
+  ASSERT_TRUE(service.wait_for_error("event=started")) << service.errors();
+  const std::string missing = "/nonexistent";
+  for (const auto& [section, complaint] :
+       {std::pair<std::string, std::string>("dds:\n  profile_name: mine\n  profile_file: ",
+                                            "dds.profile_file: there is no file " + missing),
+        {"dds:\n  security_directory: ", "dds.security_directory: "},
+        {"sd_map:\n  file: ", missing + ": is not a readable file"}}) {
+    file.write(section + missing + "\n");
+    service.signal(SIGHUP);
+    EXPECT_TRUE(service.wait_for_error("error event=configuration_refused reason=\"" + complaint))
+        << service.errors();
+  }
+}
+
 TEST(Reload, AProfileThatIsGoneIsRefusedAndTheEndpointsStay) {
   const TemporaryFile profiles("gone.xml",
                                "<dds xmlns='http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles'><profiles>"
