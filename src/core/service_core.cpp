@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/file_stamp.hpp"
+#include "base/fnv.hpp"
 #include "base/seconds.hpp"
 #include "base/source_values.hpp"
 #include "config/config_file.hpp"
+#include "config/network_profile.hpp"
 #include "laneloom/state_names.hpp"
 
 namespace laneloom::core {
@@ -17,12 +20,14 @@ constexpr double kFusionShare = 0.5;  // share of a tick's period, after which n
 
 std::int64_t nanoseconds(double duration_s) { return static_cast<std::int64_t>(duration_s * 1e9); }
 
-/// Names the version and all of a configuration that maps depend on. Two services with the same name make the
-/// same maps of the same messages.
+/// Names the version and all of a configuration that maps depend on, with the files that it names. Two
+/// services with the same name make the same maps of the same messages.
 std::string maker_of_maps(Config config) {
   config.service = {};
   config.ros2 = {};
-  return std::string(version()) + " " + config::config_hash(config);
+  const auto profiles = config::load_network_profiles(config.mapper.fusion.profile_file);
+  const std::string files = config::dump(profiles) + file_stamp(config.sd_map.file);
+  return std::string(version()) + " " + config::config_hash(config) + " " + std::to_string(fnv1a(files));
 }
 
 }  // namespace

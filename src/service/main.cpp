@@ -17,6 +17,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/file_stamp.hpp"
 #include "base/random_id.hpp"
 #include "base/steady_clock.hpp"
 #include "config/config_file.hpp"
@@ -73,18 +74,10 @@ std::string text_of(const std::string& file) {
   return std::move(text).str();
 }
 
-/// Size and time of a file that may be too large to read once more.
-std::string stamp_of(const std::string& file) {
-  std::error_code unknown;
-  const auto size = std::filesystem::file_size(file, unknown);
-  const auto time = std::filesystem::last_write_time(file, unknown);
-  return std::to_string(size) + " " + std::to_string(time.time_since_epoch().count());
-}
-
 Contents contents_of(const Config& config) {
   return {{"dds.profile_file", text_of(config.dds.profile_file)},
           {"mapper.fusion.profile_file", text_of(config.mapper.fusion.profile_file)},
-          {"sd_map.file", stamp_of(config.sd_map.file)}};
+          {"sd_map.file", file_stamp(config.sd_map.file)}};
 }
 
 /// Throws ConfigError for a file that the next start would refuse. An SD map is not read: that may take

@@ -11,7 +11,7 @@ namespace laneloom::snapshot {
 
 /// The maker and the time of a snapshot.
 struct SnapshotStamp {
-  std::string maker;           ///< version and hash of the configuration
+  std::string maker;           ///< version, and hashes of the configuration and of the files that it names
   std::int64_t steady_ns = 0;  ///< steady clock, which begins anew when the host starts
   std::int64_t system_ns = 0;  ///< system clock, which may be set
 };

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <string>
 
 #include "simulated_drive.hpp"
+#include "temporary_folder.hpp"
 
 // A service that was killed goes on with its snapshot; deploy/README.md, "After a crash".
 namespace laneloom::service {
@@ -90,6 +93,22 @@ TEST(Restart, AnotherMapperMakesAnotherSnapshot) {
   EXPECT_EQ(maker(other), maker(with_snapshots())) << "they make the same maps";
   other.mapper.lane.min_width_m += 0.1;
   EXPECT_NE(maker(other), maker(with_snapshots()));
+
+  const TemporaryFolder folder;
+  other.mapper.fusion.profile_file = folder.file("networks.yaml");
+  std::ofstream(other.mapper.fusion.profile_file) << "front: {stddev_at_8_m: {value: 0.03, weight: 5400}}\n";
+  const std::string before = maker(other);
+  std::ofstream(other.mapper.fusion.profile_file) << "front: {stddev_at_8_m: {value: 0.04, weight: 5400}}\n";
+  EXPECT_NE(maker(other), before);
+
+  other.sd_map.file = folder.file("streets.osm");
+  const std::string streets =
+      "<osm><node id='1' lat='0' lon='0'/><node id='2' lat='0.001' lon='0'/>"
+      "<way id='3'><nd ref='1'/><nd ref='2'/><tag k='highway' v='primary'/></way></osm>\n";
+  std::ofstream(other.sd_map.file) << streets;
+  const std::string with_streets = maker(other);
+  std::ofstream(other.sd_map.file) << streets << "<!-- edited -->\n";
+  EXPECT_NE(maker(other), with_streets);
 }
 
 }  // namespace
