@@ -8,7 +8,7 @@
 namespace laneloom::dds {
 namespace {
 
-constexpr const char* kBodyFrame = "body";
+constexpr const char *kBodyFrame = "body", *kBaseLink = "base_link";
 
 constexpr std::size_t kMaxName = std::remove_cvref_t<decltype(msg::Detections().source())>::max_size;
 
@@ -99,7 +99,11 @@ Refusal from_msg(const msg::Objects& from, const std::string& map_frame_id, Trac
   to.stamp_ns = from.header().stamp_ns();
   to.sequence = from.header().sequence_number();
   to.session_id = from.header().session_id();
-  to.in_map_frame = intake.text(from.header().frame_id().to_string()) == map_frame_id;
+  const std::string frame_id = intake.text(from.header().frame_id().to_string());
+  to.in_map_frame = frame_id == map_frame_id;
+  // Coordinates in a third frame, such as odom, would be taken for ones about the vehicle.
+  const bool in_body_frame = frame_id.empty() || frame_id == kBodyFrame || frame_id == kBaseLink;
+  if (!to.in_map_frame && !in_body_frame) intake.refuse("wrong_frame");
   intake.take(from.objects(), to.objects);
   return intake.refusal();
 }

@@ -76,24 +76,30 @@ TEST(Convert, OfTooManyObjectsTheFirstOnesAreSent) {
   EXPECT_EQ(message.objects().back().id(), 0U);
 }
 
-TEST(Convert, ObjectsAreInTheMapFrameOrInAnyOther) {
+TEST(Convert, ObjectsAreInTheMapFrameOrInThatOfTheBody) {
   auto message = RandomMessages(1).objects();
   TrackedObjects objects;
-  for (const char* frame : {"map", "body", "base_link"}) {
+  for (const char* frame : {"map", "body", "base_link", ""}) {
     message.header().frame_id(frame);
     EXPECT_EQ(from_msg(message, "map", objects), "");
     EXPECT_EQ(objects.in_map_frame, frame == std::string("map")) << frame;
   }
+  for (const char* frame : {"odom", "camera_front", "utm"}) {
+    message.header().frame_id(frame);
+    EXPECT_EQ(from_msg(message, "map", objects), "wrong_frame") << frame;
+  }
+  EXPECT_EQ(from_msg(message, "utm", objects), "");
 }
 
 TEST(Refuse, ObjectsWithNumbersOrClassesThatAreNone) {
   TrackedObjects objects;
   auto message = RandomMessages(1).objects();
+  const std::string frame = message.header().frame_id().to_string();
   message.objects()[0].speed_mps(kNaN);
-  EXPECT_EQ(from_msg(message, "map", objects), "not_finite");
+  EXPECT_EQ(from_msg(message, frame, objects), "not_finite");
   message = RandomMessages(1).objects();
   message.objects()[0].kind(static_cast<msg::ObjectKind>(77));
-  EXPECT_EQ(from_msg(message, "map", objects), "unknown_enum");
+  EXPECT_EQ(from_msg(message, frame, objects), "unknown_enum");
 }
 
 TEST(Convert, RoadMarkingsSurvive) {

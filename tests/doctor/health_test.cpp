@@ -53,7 +53,7 @@ TEST(HealthFindings, CountersThatRise) {
   EXPECT_EQ(found[0].found, "poses_lost: poses were lost on the way (2 more).");
   EXPECT_EQ(found[1].found,
             "The service refused 7 poses (wrong_frame): their frame_id is not the map frame; of "
-            "detections, it is; of ROS 2's objects, it is not base_link either.");
+            "detections, it is; of objects, it is not base_link either.");
   EXPECT_THAT(found[1].remedy, HasSubstr("dds.map_frame_id"));
 }
 

@@ -26,8 +26,7 @@ constexpr std::array kRefusals{
             "Normalise it where they are written."},
     Refusal{
         "wrong_frame",
-        "their frame_id is not the map frame; of detections, it is; of ROS 2's objects, it is not base_link "
-        "either",
+        "their frame_id is not the map frame; of detections, it is; of objects, it is not base_link either",
         "Set dds.map_frame_id to the frame that poses are given in, or the frame_id of the poses to that. "
         "Detections are given in the body frame, which has another name."},
     Refusal{"wrong_size", "lists that belong together differ in length", kWriter},
