@@ -22,7 +22,7 @@ Participant::Participant(const DdsConfig& config, const std::string& name, Prese
 
 Counters Participant::refused_datagrams() const { return impl_->refused_datagrams(); }
 
-int Participant::ask_itself() { return impl_->ask_itself(); }
+SelfCheck Participant::ask_itself() { return impl_->ask_itself(); }
 
 Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presence presence,
                         const std::string& user_data)

@@ -31,7 +31,7 @@ class Participant::Impl {
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }
   Counters refused_datagrams() const { return door_->refused(); }
-  int ask_itself() { return door_->probe().ask(); }
+  SelfCheck ask_itself() { return door_->probe().ask(); }
   /// Throws, as Participant() does, because DDS made no `entity`. DDS itself does not tell why.
   [[noreturn]] void refuse(const std::string& entity) const;
 

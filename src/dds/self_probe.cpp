@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "base/random_id.hpp"
 
@@ -72,15 +73,34 @@ void SelfProbe::note_taken(std::uint16_t port) {
   found->second.unanswered = 0;
 }
 
-int SelfProbe::ask() {
+SelfCheck SelfProbe::ask() {
   const std::lock_guard lock(mutex_);
-  int worst = 0;
+  SelfCheck found;
   for (auto& [number, port] : ports_) {
-    if (port.has_taken) worst = std::max(worst, port.unanswered++);
-    sendto(socket_, question_.data(), question_.size(), 0, reinterpret_cast<const sockaddr*>(&port.address),
-           sizeof port.address);
+    const bool is_sent = send_to(port.address);
+    if (!port.has_taken) continue;
+    found.unanswered = std::max(found.unanswered, port.unanswered);
+    if (is_sent)
+      ++port.unanswered;
+    else
+      found.address_gone = true;
   }
-  return worst;
+  return found;
+}
+
+/// Sends a question from an address to itself. It is not sent if the host no longer has this address: another
+/// host would get it.
+bool SelfProbe::send_to(sockaddr_in address) {
+  iovec bytes{question_.data(), question_.size()};
+  const in_pktinfo from{.ipi_ifindex = 0, .ipi_spec_dst = address.sin_addr, .ipi_addr = {}};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof from)> control{};
+  msghdr message{&address, sizeof address, &bytes, 1, control.data(), control.size(), 0};
+  cmsghdr* const header = CMSG_FIRSTHDR(&message);
+  header->cmsg_level = IPPROTO_IP;
+  header->cmsg_type = IP_PKTINFO;
+  header->cmsg_len = CMSG_LEN(sizeof from);
+  std::memcpy(CMSG_DATA(header), &from, sizeof from);
+  return sendmsg(socket_, &message, 0) >= 0;
 }
 
 bool SelfProbe::is_question(std::span<const std::uint8_t> datagram) const {

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "laneloom/dds/participant.hpp"
+
 namespace laneloom::dds {
 
 /// Finds out whether a participant still takes what its ports receive. It sends datagrams to them that lead
@@ -24,9 +26,9 @@ class SelfProbe {
   void add_port(in_addr address, std::uint16_t port);
   /// Fast DDS has taken a datagram that came to this port.
   void note_taken(std::uint16_t port);
-  /// Sends a datagram to each port. Returns how many of these in a row one of the ports has not taken, in the
-  /// worst case. A port that has never taken one does not count: there may be no way to it.
-  int ask();
+  /// Sends a datagram to each port. A port that has never taken one does not count: there may be no way to
+  /// it.
+  SelfCheck ask();
   /// Whether these are the bytes of this probe's datagrams. They hold a random number and stay on this host,
   /// so that nobody else can send them.
   bool is_question(std::span<const std::uint8_t> datagram) const;
@@ -37,8 +39,9 @@ class SelfProbe {
     bool has_taken = false;
     int unanswered = 0;
   };
+  bool send_to(sockaddr_in address);
 
-  const std::vector<std::uint8_t> question_;
+  std::vector<std::uint8_t> question_;
   std::mutex mutex_;
   std::map<std::uint16_t, Port> ports_;
   int socket_;

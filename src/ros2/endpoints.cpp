@@ -64,7 +64,7 @@ class Endpoints::Impl {
     return failed;
   }
   Counters refused_datagrams() const { return participant_->refused_datagrams(); }
-  int ask_itself() { return participant_->ask_itself(); }
+  dds::SelfCheck ask_itself() { return participant_->ask_itself(); }
   std::size_t write(const ServiceStatus& status) {
     auto diagnostics = to_diagnostics(status, full_node_name(config_.ros2), config_.dds.vehicle_id);
     return diagnostics_.write(&diagnostics) ? 0 : 1;
@@ -87,6 +87,6 @@ Endpoints::~Endpoints() = default;
 std::size_t Endpoints::write(const PublishedMap& map) { return impl_->write(map); }
 std::size_t Endpoints::write(const ServiceStatus& status) { return impl_->write(status); }
 Counters Endpoints::refused_datagrams() const { return impl_->refused_datagrams(); }
-int Endpoints::ask_itself() { return impl_->ask_itself(); }
+dds::SelfCheck Endpoints::ask_itself() { return impl_->ask_itself(); }
 
 }  // namespace laneloom::ros2

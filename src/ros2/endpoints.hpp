@@ -27,7 +27,7 @@ class Endpoints {
   /// As dds::Participant::refused_datagrams().
   Counters refused_datagrams() const;
   /// As dds::Participant::ask_itself().
-  int ask_itself();
+  dds::SelfCheck ask_itself();
 
  private:
   class Impl;

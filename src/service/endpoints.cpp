@@ -73,9 +73,10 @@ Counters Endpoints::refused_datagrams() const {
   return result;
 }
 
-int Endpoints::ask_itself() {
-  const int own = participant_.ask_itself();
-  return ros2 ? std::max(own, ros2->ask_itself()) : own;
+dds::SelfCheck Endpoints::ask_itself() {
+  const dds::SelfCheck own = participant_.ask_itself();
+  const dds::SelfCheck of_ros2 = ros2 ? ros2->ask_itself() : dds::SelfCheck{};
+  return {std::max(own.unanswered, of_ros2.unanswered), own.address_gone || of_ros2.address_gone};
 }
 
 }  // namespace laneloom::service

@@ -27,7 +27,7 @@ class Endpoints {
   /// As dds::Participant::refused_datagrams(), of all participants.
   Counters refused_datagrams() const;
   /// As dds::Participant::ask_itself(), of all participants.
-  int ask_itself();
+  dds::SelfCheck ask_itself();
 
  private:
   dds::Participant participant_;

@@ -77,7 +77,7 @@ void Service::reopen() {
 void Service::tick(const core::Tick& tick) {
   core::Messages messages = core_.tick(tick, take_arrivals());
   publish(messages.map, messages.road_markings);
-  unanswered_ = endpoints_->ask_itself();
+  ask_itself();
   if (messages.snapshot) snapshots_->write(std::move(*messages.snapshot));
   work_.add(milliseconds(now_ns_() - tick.start_ns));
   delay_.add(milliseconds(tick.start_ns - tick.deadline_ns));
@@ -89,7 +89,13 @@ void Service::tick(const core::Tick& tick) {
   incidents_.note(*messages.status, tick.start_ns);
 }
 
-bool Service::is_deaf() const { return unanswered_ > kDeafAfter_s * config_.service.tick_rate_hz; }
+void Service::ask_itself() {
+  const dds::SelfCheck before = std::exchange(itself_, endpoints_->ask_itself());
+  if (itself_.address_gone && !before.address_gone)
+    spdlog::error("event=address_gone why=\"this host no longer has an address that DDS listens on\"");
+}
+
+bool Service::is_deaf() const { return itself_.unanswered > kDeafAfter_s * config_.service.tick_rate_hz; }
 
 core::Arrivals Service::take_arrivals() {
   core::Arrivals arrivals = queue_.take();

@@ -47,6 +47,7 @@ class Service {
   void resume();
   /// The arrivals through DDS, with the counters of this class added.
   core::Arrivals take_arrivals();
+  void ask_itself();
   void publish(const PublishedMap& map, const RoadMarkings& markings);
   void publish(const ServiceStatus& status);
   void log_tick(const core::Tick& tick, const core::Messages& messages) const;
@@ -61,7 +62,7 @@ class Service {
   TimeWindow delay_;
   Counters counters_;  ///< of events in this class
   IncidentLog incidents_;
-  int unanswered_ = 0;                                   ///< questions to the own endpoints
+  dds::SelfCheck itself_;                                ///< of the newest tick
   std::unique_ptr<snapshot::SnapshotWriter> snapshots_;  ///< null: no snapshots are kept
   std::unique_ptr<Endpoints> endpoints_;  ///< last, so that no callback meets a destroyed member
 };

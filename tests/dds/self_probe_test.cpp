@@ -53,13 +53,26 @@ TEST(SelfProbe, CountsWhatAPortDoesNotTake) {
   const OpenPort one, other;
   SelfProbe probe;
   for (const OpenPort* port : {&one, &other}) probe.add_port({htonl(INADDR_LOOPBACK)}, port->number());
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(probe.ask(), 0) << "there may be no way to the ports";
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(probe.ask().unanswered, 0) << "there may be no way to the ports";
   probe.note_taken(one.number());
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(probe.ask(), i);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(probe.ask().unanswered, i);
   probe.note_taken(other.number());
-  EXPECT_EQ(probe.ask(), 5);
+  EXPECT_EQ(probe.ask().unanswered, 5);
   probe.note_taken(one.number());
-  EXPECT_EQ(probe.ask(), 1) << "the other one has not taken the last question";
+  EXPECT_EQ(probe.ask().unanswered, 1) << "the other one has not taken the last question";
+}
+
+// DDS may be limited to one network, which goes away.
+TEST(SelfProbe, WhatCannotBeSentIsNotUnanswered) {
+  SelfProbe probe;
+  probe.add_port({inet_addr("192.0.2.1")}, 7410);  // reserved for documents: no host has it
+  EXPECT_FALSE(probe.ask().address_gone) << "there never was a way to the port";
+  probe.note_taken(7410);
+  for (int i = 0; i < 5; ++i) {
+    const SelfCheck found = probe.ask();
+    EXPECT_TRUE(found.address_gone);
+    EXPECT_EQ(found.unanswered, 0);
+  }
 }
 
 std::vector<std::uint8_t> question_of(SelfProbe& probe) {

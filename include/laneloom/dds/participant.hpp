@@ -34,6 +34,16 @@ struct NotPermitted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a participant finds out about its own UDP ports.
+struct SelfCheck {
+  /// How many datagrams in a row one of the ports has not taken, in the worst case. If the number keeps
+  /// rising, discovery or the reception of messages hangs.
+  int unanswered = 0;
+  /// A port that took datagrams before has an address that this host no longer has. What cannot be sent there
+  /// is not unanswered.
+  bool address_gone = false;
+};
+
 /// One participant in the domain, in the partition of one vehicle. Readers and writers keep it alive.
 /// Not thread-safe; not to be used within a reader's callback.
 class Participant {
@@ -46,10 +56,8 @@ class Participant {
 
   /// The received datagrams that were not handed to DDS: datagrams_refused_<reason>. Thread-safe.
   Counters refused_datagrams() const;
-  /// Sends a datagram to each of the participant's own UDP ports, and returns how many of these in a row one
-  /// of the ports has not taken, in the worst case. If the number keeps rising, discovery or the reception of
-  /// messages hangs. Does not wait; thread-safe.
-  int ask_itself();
+  /// Sends a datagram to each of the participant's own UDP ports. Does not wait; thread-safe.
+  SelfCheck ask_itself();
 
   class Impl;
   const std::shared_ptr<Impl>& impl() const { return impl_; }  ///< for readers and writers
