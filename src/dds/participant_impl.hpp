@@ -27,6 +27,7 @@ class Participant::Impl {
   eprosima::fastdds::dds::Topic* topic(const std::string& name,
                                        const eprosima::fastdds::dds::TypeSupport& type);
 
+  eprosima::fastdds::dds::DomainParticipant& participant() { return *participant_; }
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }

@@ -14,6 +14,7 @@
 #include "ros2/diagnostics.hpp"
 #include "ros2/input_readers.hpp"
 #include "ros2/markers.hpp"
+#include "ros2/other_writers.hpp"
 #include "ros2/road_segments.hpp"
 #include "ros2/topic.hpp"
 
@@ -24,6 +25,8 @@ using autoware_mapless_planning_msgs::msg::dds_::RoadSegments_PubSubType;
 using dds::TopicKind;
 using diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType;
 using visualization_msgs::msg::dds_::MarkerArray_PubSubType;
+
+constexpr const char* kMapTopic = "laneloom/lane_map";
 
 bool is_to_drive_on(const PublishedMap& map) {
   return map.state != MapState::stale &&
@@ -37,9 +40,9 @@ class Endpoints::Impl {
   Impl(const Config& config, Inputs inputs, dds::Participant::Presence presence)
       : config_(config),
         participant_(make_participant(config.dds, "laneloomd for ROS 2", presence)),
-        map_(participant_,
-             topic<dds::CheckedType<msg::LaneMapPubSubType>>(config.ros2, "laneloom/lane_map",
-                                                             "laneloom_msgs/msg/LaneMap", TopicKind::map)),
+        others_(participant_->participant(), dds_topic(config.ros2, kMapTopic)),
+        map_(participant_, topic<dds::CheckedType<msg::LaneMapPubSubType>>(
+                               config.ros2, kMapTopic, "laneloom_msgs/msg/LaneMap", TopicKind::map)),
         markers_writer_(participant_,
                         topic<MarkerArray_PubSubType>(config.ros2, "laneloom/markers",
                                                       "visualization_msgs/msg/MarkerArray", TopicKind::view)),
@@ -63,6 +66,7 @@ class Endpoints::Impl {
     failed += segments_.write(&segments) ? 0U : 1U;
     return failed;
   }
+  bool has_another_writer() const { return others_.any(); }
   Counters refused_datagrams() const { return participant_->refused_datagrams(); }
   dds::SelfCheck ask_itself() { return participant_->ask_itself(); }
   std::size_t write(const ServiceStatus& status) {
@@ -73,6 +77,7 @@ class Endpoints::Impl {
  private:
   Config config_;
   std::shared_ptr<dds::Participant::Impl> participant_;
+  OtherWriters others_;
   Markers markers_;
   dds::Sample<msg::LaneMap> map_sample_;  // kept, so that its memory is reused
   dds::TopicWriter map_, markers_writer_, segments_, diagnostics_;
@@ -86,6 +91,7 @@ Endpoints::~Endpoints() = default;
 
 std::size_t Endpoints::write(const PublishedMap& map) { return impl_->write(map); }
 std::size_t Endpoints::write(const ServiceStatus& status) { return impl_->write(status); }
+bool Endpoints::has_another_writer() const { return impl_->has_another_writer(); }
 Counters Endpoints::refused_datagrams() const { return impl_->refused_datagrams(); }
 dds::SelfCheck Endpoints::ask_itself() { return impl_->ask_itself(); }
 

@@ -24,6 +24,9 @@ class Endpoints {
   std::size_t write(const PublishedMap& map);
   /// Writes the diagnostics. Returns how many messages DDS did not take.
   std::size_t write(const ServiceStatus& status);
+  /// Whether another participant writes the topic of the lane map, such as the service of a second vehicle in
+  /// the same namespace.
+  bool has_another_writer() const;
   /// As dds::Participant::refused_datagrams().
   Counters refused_datagrams() const;
   /// As dds::Participant::ask_itself().

@@ -75,6 +75,8 @@ void Service::reopen() {
 }
 
 void Service::tick(const core::Tick& tick) {
+  const bool another = endpoints_->ros2 && endpoints_->ros2->has_another_writer();
+  if (another) queue_.note_other_service(tick.start_ns);
   core::Messages messages = core_.tick(tick, take_arrivals());
   publish(messages.map, messages.road_markings);
   ask_itself();

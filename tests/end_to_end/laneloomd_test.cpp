@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -218,6 +219,24 @@ TEST(Laneloomd, VehiclesDoNotMix) {
   EXPECT_EQ(our_sessions.size(), 1U);
   EXPECT_EQ(their_sessions.size(), 1U);
   EXPECT_NE(our_sessions, their_sessions);
+}
+
+// Both would write their maps to one topic of ROS 2.
+TEST(Laneloomd, VehiclesInOneNamespaceOfRosSaySo) {
+  const TemporaryFile file("ros.yaml", "ros2:\n  enabled: true\n");
+  const auto ours = private_config("ours");
+  const auto theirs = private_config("theirs");
+  const Process our_service(command(ours, {"--config", file.path}));
+  auto their_service = std::make_unique<Process>(command(theirs, {"--config", file.path}));
+  Listener<PublishedMap> our_maps(ours), their_maps(theirs);
+  const auto warns = [](const PublishedMap& map) {
+    return std::ranges::count(map.reasons, StateReason::another_service) > 0;
+  };
+  EXPECT_TRUE(our_maps.wait_for(warns)) << our_service.errors();
+  EXPECT_TRUE(their_maps.wait_for(warns)) << their_service->errors();
+  their_service.reset();
+  our_maps.forget();
+  EXPECT_TRUE(our_maps.wait_for([&](const PublishedMap& map) { return !warns(map); }));
 }
 
 TEST(Laneloomd, ABadConfigurationStopsTheStart) {

@@ -75,8 +75,8 @@ Explanation explain(StateReason reason) {
     case StateReason::overloaded:
       return {"Frames were dropped or had to wait, or a tick missed its deadline.", kLoad};
     case StateReason::another_service:
-      return {"Another service publishes maps for the same vehicle.",
-              "End one of them, or give each vehicle an id of its own."};
+      return {"Another service publishes maps for the same vehicle, or on the same topic of ROS 2.",
+              "End one of them, or give each vehicle an id and a ros2.namespace of its own."};
     case StateReason::outdated:
       return {
           "By their stamps, frames are mapped long after they were measured (service.degraded_lag_s): "
