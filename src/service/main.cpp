@@ -117,15 +117,20 @@ void reconfigure(Running& running, const Options& options) try {
 
 /// Makes the endpoints anew: after a change of the network, only new endpoints see interfaces that were down.
 void reopen(Service& service) try {
+  service.check_reopening();
+  sd_notify(0, "WATCHDOG=1");
   service.reopen();
   spdlog::info("event=reopened");
 } catch (const ConfigError& error) {
   spdlog::error("event=reopening_refused reason=\"{}\"", error.what());
 }
 
+/// No tick comes meanwhile. Each of the steps may take a second on a busy host, and the watchdog ends what
+/// says nothing for two.
 void reload(Service& service, Running& running, const Options& options) {
   sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(steady_now_ns() / 1000));
   reconfigure(running, options);
+  sd_notify(0, "WATCHDOG=1");
   reopen(service);
   sd_notify(0, "READY=1");
 }

@@ -29,9 +29,12 @@ class Service {
   void tick(const core::Tick& tick);
   /// As IngestionQueue::take_ready().
   std::vector<std::int64_t> take_ready() { return queue_.take_ready(); }
-  /// Makes all DDS endpoints anew; the map and the queued messages stay. Throws ConfigError, and keeps the
-  /// present endpoints, when a file of the profile or of security is missing or invalid, or DDS does not
-  /// trust it. If it throws std::runtime_error because DDS refuses, nothing else may be called.
+  /// Throws ConfigError if reopen() would be refused, while there still are endpoints to go on with: when a
+  /// file of the profile or of security is missing or invalid, or DDS does not trust it. Where there is
+  /// security, endpoints are made on trial.
+  void check_reopening();
+  /// Makes all DDS endpoints anew; the map and the queued messages stay. If it throws std::runtime_error
+  /// because DDS refuses, nothing else may be called.
   void reopen();
 
   /// Whether DDS has taken nothing of what it received for some seconds of ticks: nobody can be matched any
@@ -42,7 +45,6 @@ class Service {
   std::string summary() const { return core_.summary(); }
 
  private:
-  void check_reopening();
   /// Goes on with the map of a former service, if that left a snapshot.
   void resume();
   /// The arrivals through DDS, with the counters of this class added.

@@ -1,8 +1,16 @@
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
 #include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "participants.hpp"
 #include "process.hpp"
@@ -149,6 +157,56 @@ TEST(Reload, AProfileThatIsGoneIsRefusedAndTheEndpointsStay) {
   EXPECT_TRUE(maps.wait_for([&](const PublishedMap& map) { return map.sequence > newest + 3; }));
   for (std::uint64_t i = 0; i < maps.samples().size(); ++i)
     EXPECT_EQ(maps.samples()[i].sequence, maps.samples()[0].sequence + i) << "the endpoints were made anew";
+}
+
+/// What processes that are started meanwhile tell systemd.
+class Notices {
+ public:
+  Notices() : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    const std::string name = folder_.file("notify");
+    sockaddr_un here{.sun_family = AF_UNIX, .sun_path = {}};
+    name.copy(here.sun_path, sizeof here.sun_path - 1);
+    if (bind(socket_, reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0)
+      throw std::runtime_error("no socket for notices");
+    setenv("NOTIFY_SOCKET", name.c_str(), 1);
+  }
+  ~Notices() {
+    unsetenv("NOTIFY_SOCKET");
+    close(socket_);
+  }
+  Notices(const Notices&) = delete;
+  Notices& operator=(const Notices&) = delete;
+
+  /// The next one; empty if none comes within a minute.
+  std::string next() const {
+    pollfd event{socket_, POLLIN, 0};
+    std::string text(4096, '\0');
+    const ssize_t size = poll(&event, 1, 60'000) > 0 ? recv(socket_, text.data(), text.size(), 0) : 0;
+    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    return text;
+  }
+  /// The notices before the next one that begins so.
+  std::vector<std::string> until(const std::string& beginning) const {
+    std::vector<std::string> before;
+    std::string notice = next();
+    for (; !notice.empty() && !notice.starts_with(beginning); notice = next()) before.push_back(notice);
+    EXPECT_FALSE(notice.empty()) << "no " << beginning;
+    return before;
+  }
+
+ private:
+  TemporaryFolder folder_;
+  int socket_;
+};
+
+// On a busy host, all steps together take longer than the watchdog waits.
+TEST(Reload, TellsTheWatchdogBetweenItsSteps) {
+  const Notices notices;
+  const Process service(command(private_config()));
+  notices.until("READY=1");
+  service.signal(SIGHUP);
+  notices.until("RELOADING=1");
+  EXPECT_EQ(notices.until("READY=1"), (std::vector<std::string>{"WATCHDOG=1", "WATCHDOG=1"}));
 }
 
 TEST(Log, GoesToStandardErrorWhereThatIsNotTheJournal) {
