@@ -194,6 +194,19 @@ TEST(Replay, RawMessagesOfLinesAreThoseOfTheirRecording) {
   EXPECT_FALSE(from_lines->next_raw());
 }
 
+TEST(Replay, PosesOfLinesAreNumbered) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("drive.jsonl");
+  io::JsonLinesWriter out(path);
+  for (const io::FrameRecord& record : drive()) out.write(record);
+  out.close();
+  const auto source = open_messages(path, "map");
+  std::uint64_t poses = 0;
+  while (const auto message = source->next())
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) EXPECT_EQ(pose->sequence, ++poses);
+  EXPECT_EQ(poses, 10U);
+}
+
 /// The map as it arrives at a reader.
 PublishedMap received(const PublishedMap& map) {
   std::vector<std::uint8_t> bytes;

@@ -74,7 +74,7 @@ class JsonLinesMessages : public MessageSource {
       check_rest(path_, left_out_, count_);
       return std::nullopt;
     }
-    ++count_;
+    record->pose.sequence = ++count_;  // lines have no number for it
     frame_ = std::move(record->frame);
     objects_ = std::move(record->objects);
     return recording::RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
