@@ -39,11 +39,13 @@ std::string digest(std::string_view bytes) {
 }
 
 /// Whether bytes begin as a snapshot of any version: with a digest, the archive's byte order, and the length
-/// of the maker's name, which is short. An empty file may have lost its bytes with the power.
+/// of the maker's name, which is short. A file that is shorter, or of zeros, may have lost its bytes with the
+/// power: that must not keep the service from starting.
 bool begins_as_snapshot(std::string_view bytes) {
   constexpr std::string_view kByteOrder("\1", 1), kLengthAbove255("\0\0\0\0\0\0\0", 7);
-  return bytes.empty() || (bytes.size() == kBeginning && bytes.substr(kDigestBytes, 1) == kByteOrder &&
-                           bytes.substr(kDigestBytes + 2, 7) == kLengthAbove255);
+  const bool is_lost = bytes.size() < kBeginning || bytes.find_first_not_of('\0') == std::string_view::npos;
+  return is_lost || (bytes.substr(kDigestBytes, 1) == kByteOrder &&
+                     bytes.substr(kDigestBytes + 2, 7) == kLengthAbove255);
 }
 
 /// Throws ConfigError if a file is there that is no snapshot.

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <memory>
 #include <set>
 #include <utility>
 
@@ -227,14 +226,15 @@ TEST(Laneloomd, VehiclesInOneNamespaceOfRosSaySo) {
   const auto ours = private_config("ours");
   const auto theirs = private_config("theirs");
   const Process our_service(command(ours, {"--config", file.path}));
-  auto their_service = std::make_unique<Process>(command(theirs, {"--config", file.path}));
+  Process their_service(command(theirs, {"--config", file.path}));
   Listener<PublishedMap> our_maps(ours), their_maps(theirs);
   const auto warns = [](const PublishedMap& map) {
     return std::ranges::count(map.reasons, StateReason::another_service) > 0;
   };
   EXPECT_TRUE(our_maps.wait_for(warns)) << our_service.errors();
-  EXPECT_TRUE(their_maps.wait_for(warns)) << their_service->errors();
-  their_service.reset();
+  EXPECT_TRUE(their_maps.wait_for(warns)) << their_service.errors();
+  their_service.signal(SIGTERM);
+  EXPECT_EQ(their_service.wait(), 0);
   our_maps.forget();
   EXPECT_TRUE(our_maps.wait_for([&](const PublishedMap& map) { return !warns(map); }));
 }

@@ -202,8 +202,12 @@ TEST(Replay, PosesOfLinesAreNumbered) {
   out.close();
   const auto source = open_messages(path, "map");
   std::uint64_t poses = 0;
-  while (const auto message = source->next())
-    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) EXPECT_EQ(pose->sequence, ++poses);
+  while (const auto message = source->next()) {
+    const auto* pose = std::get_if<VehiclePose>(&message->message);
+    if (pose != nullptr) {
+      EXPECT_EQ(pose->sequence, ++poses);
+    }
+  }
   EXPECT_EQ(poses, 10U);
 }
 

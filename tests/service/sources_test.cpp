@@ -161,7 +161,7 @@ TEST_F(SourcesOfADrive, OneThatContradictedIsFusedWhenItIsAlone) {
   };
   drive_.run_for(15'000);
   EXPECT_EQ(drive_.state(), "OK");
-  EXPECT_GT(fused_of("side"), 40U);
+  EXPECT_GT(fused_of("side"), 30U);
 }
 
 TEST_F(SourcesOfADrive, OneThatContradictsStaysLeftOutWhileTheOtherOnePauses) {

@@ -72,6 +72,16 @@ TEST_F(SnapshotFileTest, ANewOneIsTakenBeforeThoseThatWereTaken) {
 }
 
 // A wrong path, as that of a folder or of the configuration.
+/// The power failed while the file was written.
+TEST_F(SnapshotFileTest, WhatLostItsBytesKeepsNobodyFromStarting) {
+  for (const std::string& left : {std::string(), std::string("abc"), std::string(4096, '\0')}) {
+    std::ofstream(file_, std::ios::trunc) << left;
+    EXPECT_EQ(thrown_by([&] { check_snapshot_file(file_); }), "");
+    EXPECT_EQ(take_snapshot(file_), file_ + ".1");
+    std::filesystem::remove(file_ + ".1");
+  }
+}
+
 TEST_F(SnapshotFileTest, WhatIsNoSnapshotStaysWhereItIs) {
   EXPECT_EQ(thrown_by([&] { check_snapshot_file(file_); }), "");
   std::filesystem::create_directory(file_ + ".new");
