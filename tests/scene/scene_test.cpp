@@ -69,6 +69,20 @@ TEST(SceneEntities, DashesAreSegmentsOfTheLine) {
   EXPECT_NEAR(painted_m, 3.6, 1e-9);  // two dashes of 1.8 m, 1.4 m apart, on 6 m
 }
 
+TEST(SceneEntities, ALineWithAPointFarAwayIsPaintedSolid) {
+  LocalMap map = small_map();
+  map.boundaries[0].points.back().x() = 5e6;
+  map.boundaries[0].styles = {{{0, 5e6}, MarkingStyle::dashed}};
+  drawing::Drawing drawing;
+  add_boundaries(map, drawing);
+  std::vector<foxglove::SceneEntity> entities;
+  append_entities(drawing, {"map"}, entities);
+  for (const foxglove::LinePrimitive& line : entities.at(0).lines) {
+    EXPECT_EQ(line.type, foxglove::LineType::strip);
+    EXPECT_LE(line.points.size(), 3U);
+  }
+}
+
 TEST(SceneEntities, PointsAreRelativeToAnOriginNearby) {
   LocalMap map = small_map();
   const Point far(600'000.25, 5'700'000.5, 120.0);

@@ -1,6 +1,7 @@
 #include "scene/scene_entities.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "laneloom/element_names.hpp"
 #include "laneloom/polyline.hpp"
@@ -14,14 +15,16 @@ using foxglove::SceneEntity;
 
 constexpr double kLayerStep_m = 0.02;        ///< by so much a shape that is painted later lies higher
 constexpr double kDashMetresPerPixel = 0.2;  ///< a dash is painted as long as a real one, about
+constexpr double kMostDashes = 500;          ///< of a line; they would not fit in a view of any use
 constexpr double kArrowMetresPerPixel = 0.1;
 constexpr double kOutlineWidth_px = 1.5;  ///< of an area that is not filled
 
-/// The dashes of a line, as segments.
-Polyline dashes(const Polyline& points, const drawing::palette::StyleSpec& spec) {
+/// The dashes of a line, as segments. None: it would have too many.
+std::optional<Polyline> dashes(const Polyline& points, const drawing::palette::StyleSpec& spec) {
   const MeasuredPolyline line(points);
   Polyline segments;
   const double on_m = spec.dash_on * kDashMetresPerPixel, off_m = spec.dash_off * kDashMetresPerPixel;
+  if (line.length() > kMostDashes * (on_m + off_m)) return std::nullopt;
   for (double from_m = 0.0; from_m < line.length(); from_m += on_m + off_m) {
     const Polyline dash = line.slice({from_m, std::min(from_m + on_m, line.length())});
     for (std::size_t i = 1; i < dash.size(); ++i) segments.insert(segments.end(), {dash[i - 1], dash[i]});
@@ -63,8 +66,9 @@ class Shaper {
 
   void add(const drawing::DrawnLine& line, const drawing::Shape& shape) {
     const drawing::palette::StyleSpec& spec = drawing::palette::of(shape.style);
-    if (spec.dash_on > 0.0)
-      add_line(LineType::list, overlay_ * spec.width, dashes(line.points, spec), shape);
+    const auto segments = spec.dash_on > 0.0 ? dashes(line.points, spec) : std::nullopt;
+    if (segments)
+      add_line(LineType::list, overlay_ * spec.width, *segments, shape);
     else
       add_line(LineType::strip, overlay_ * spec.width, line.points, shape);
   }
