@@ -69,6 +69,18 @@ const evaluation::LaterScore& lanelines(const evaluation::LaterMeter& meter, std
   return meter.score(MarkingType::laneline, distance);
 }
 
+TEST(Later, ALineWithAPointFarAwayIsNoWitness) {
+  evaluation::LaterMeter meter(0.3);
+  Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 101; ++i, T_map_body.translation().x() += 1.0) {
+    DetectionFrame frame{.stamp_ns = i * kStep_ns};
+    frame.detections.push_back({.confidence = 0.9, .points = {{0, kLeft_m, 0}, {1e7, kLeft_m, 0}}});
+    meter.add(frame, T_map_body, {});
+  }
+  EXPECT_EQ(meter.frames(), 53u);
+  EXPECT_FALSE(meter.any());
+}
+
 TEST(Later, APerfectMapHasNoErrorAndMissesNothing) {
   const evaluation::LaterMeter meter = StraightDrive{}.rate();
   EXPECT_EQ(meter.frames(), 53u);  // of 101: not the first 2 s, nor the last 28 m

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kNearest_m = 6.0, kFarthest_m = 10.0;  // ahead: close by
 constexpr double kPointDistance_m = 0.5;                // between the points of lines that are seen close by
+constexpr double kLongest_m = 1000.0;                   // what is longer has a wrong point, and is no witness
 constexpr double kHalfLength_m = 2.0;                   // of a place, along the road
 constexpr double kHalfWidth_m = 12.0;                   // of a place, across the road
 constexpr double kGap_m = 0.6, kLargestSpread_m = 1.0;  // of the points of one line
@@ -90,7 +91,9 @@ void LaterMeter::add_detections(const DetectionFrame& frame, Moment& moment) con
     if (detection.confidence < min_confidence_) continue;
     const std::size_t type = index(detection.type);
     moment.single[type].push_back(transformed(detection.points, moment.T_map_body));
-    for (const Point& point : MeasuredPolyline(detection.points).resample(kPointDistance_m))
+    const MeasuredPolyline line(detection.points);
+    if (line.length() > kLongest_m) continue;
+    for (const Point& point : line.resample(kPointDistance_m))
       if (point.x() >= kNearest_m && point.x() <= kFarthest_m) {
         moment.nearby[type].push_back(moment.T_map_body * point);
         moment.sides.right_m = std::min(moment.sides.right_m, point.y());
