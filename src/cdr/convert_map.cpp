@@ -1,3 +1,4 @@
+#include "base/is_local.hpp"
 #include "cdr/bounds.hpp"
 #include "cdr/convert.hpp"
 #include "cdr/convert_parts.hpp"
@@ -68,6 +69,7 @@ Refusal from_msg(const msg::LaneMap& from, const std::string& /*map_frame_id*/, 
   to.map.way = way_of(from.way(), intake);
   intake.take(from.driven_paths(), to.map.driven_paths);
   intake.take(from.lineage(), to.map.lineage);
+  if (!is_local(to.map)) intake.refuse("coordinate");
   return intake.refusal();
 }
 

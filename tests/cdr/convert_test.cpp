@@ -173,6 +173,15 @@ TEST(Convert, AWayThatIsNoLineIsRefused) {
   }
 }
 
+TEST(Convert, AMapFarFromItsVehicleIsRefused) {
+  for (const double x : {2e5, 1e7, 1e300}) {
+    auto message = RandomMessages(1).lane_map();
+    message.lanes()[0].left()[0].x(x);
+    PublishedMap received;
+    EXPECT_EQ(from_msg(message, "map", received), "coordinate") << x;
+  }
+}
+
 TEST(Convert, EvidenceOfAnUnknownKindIsRefused) {
   auto message = RandomMessages(1).lane_map();
   message.lanes()[0].evidence(32);

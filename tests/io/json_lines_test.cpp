@@ -302,6 +302,8 @@ TEST(MapJson, WhatIsWrongIsNamed) {
             "lanes[0].existence: must be from 0 to 1, or -1");
   EXPECT_EQ(map_complaint(R"("existence":0.5)", R"("existence":-1)"), "");
   EXPECT_EQ(map_complaint("[3.0,4.0,5.0]", "[3.0,1e308,5.0]"), "instances[0].points[1]: is too far away");
+  EXPECT_EQ(map_complaint("[3.0,4.0,5.0]", "[3.0,9e6,5.0]"),
+            "a line goes further than 100 km from the vehicle");
 }
 
 TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {

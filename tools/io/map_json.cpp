@@ -1,6 +1,7 @@
 #include <map>
 #include <utility>
 
+#include "base/is_local.hpp"
 #include "io/element_json.hpp"
 #include "io/json_lines.hpp"
 #include "io/stamp_and_pose.hpp"
@@ -101,6 +102,7 @@ LocalMap map_from_json(std::string_view text) {
   map.way = optional(object, "way", way);
   map.driven_paths = optional(object, "driven_paths", FromJson::element<std::vector<DrivenPath>>)
                          .value_or(std::vector<DrivenPath>{});
+  if (!is_local(map)) throw JsonError("a line goes further than 100 km from the vehicle");
   return map;
 }
 

@@ -15,7 +15,7 @@ template <class T>
 struct ReaderCallbacks {
   std::function<void(T&&)> sample;  ///< a valid sample
   /// A sample that is no valid T. `reason` is one of these stable names: crc, data_id, malformed,
-  /// unknown_enum, not_text, not_finite, not_a_rotation, wrong_frame, wrong_size.
+  /// unknown_enum, not_text, not_finite, not_a_rotation, wrong_frame, wrong_size, coordinate.
   std::function<void(std::string_view reason)> refused;
   /// Is called before each `sample` or `refused`: `writer` wrote it, as its sample of this `number`. Is also
   /// called for a message by which a writer only tells that it ends.
