@@ -158,6 +158,13 @@ TEST_F(Batch, OneThatIsKilledLeavesNoHalfOutput) {
   for (const auto& [name, content] : left) EXPECT_EQ(content, whole.at(name)) << name;
 }
 
+TEST_F(Batch, NamesNeedNotBeText) {
+  fs::create_directories(file("named"));
+  fs::copy_file(file(drive("a")), file("named/dr\xffive.frames.jsonl"));
+  ASSERT_TRUE(done("batch --drives named --out maps --json table.json replay"));
+  EXPECT_EQ(json_of("table.json").at("drives").size(), 1U);
+}
+
 TEST_F(Batch, TheSummaryMayGoToStandardOutput) {
   ASSERT_TRUE(done(kBatch + "maps --json - replay 2>table"));
   EXPECT_EQ(json_of("output").at("drives").size(), 3U);
@@ -272,6 +279,8 @@ TEST_F(Drives, AreThoseOfFoldersPatternsAndLists) {
   EXPECT_THAT(names({folder_.file("1/a.mcap"), folder_.file("1")}), ElementsAre("a", "b"));
   std::ofstream(folder_.file("list.txt")) << "# of one night\n1/a.mcap\n\n2\n";
   EXPECT_THAT(names({}, folder_.file("list.txt")), ElementsAre("1/a", "2/a"));
+  std::ofstream(folder_.file("windows.txt")) << "# of one night\r\n1/a.mcap\r\n\r\n2\r\n";
+  EXPECT_THAT(names({}, folder_.file("windows.txt")), ElementsAre("1/a", "2/a"));
 }
 
 TEST_F(Drives, KeepTheirNamesWhenOthersCome) {

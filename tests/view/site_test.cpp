@@ -48,6 +48,12 @@ TEST(Site, GivesTheFramesOfARecordingWhileItIsRead) {
   EXPECT_EQ(site.answer("/save").status, 404U);
 }
 
+TEST(FrameStore, WhatWasWrongMayNameWhatIsNoText) {
+  FrameStore store;
+  store.finish("unknown compression \"\xff\"");
+  EXPECT_EQ(json::parse(store.summaries(0))["error"], "unknown compression \"\ufffd\"");
+}
+
 TEST(FrameStore, KeepsWhatItsLimitsAllow) {
   FrameStore store({.span_s = 10.0});
   for (int i = 0; i < 300; ++i)

@@ -19,6 +19,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 WebAnswer echo(std::string_view target) {
+  if (target == "/fault") throw std::runtime_error("a fault of the handler");
   if (target == "/missing") return {404, "text/plain", "no"};
   return {200, "text/plain", "you asked for " + std::string(target)};
 }
@@ -72,6 +73,12 @@ TEST_F(Server, RefusesWhatItMust) {
   EXPECT_THAT(answer_to("POST / HTTP/1.1\r\nHost: localhost\r\n\r\n"), StartsWith("HTTP/1.1 405"));
   EXPECT_THAT(answer_to("BREW / HTTP/1.1\r\nHost: localhost\r\n\r\n"), StartsWith("HTTP/1.1 405"));
   EXPECT_THAT(answer_to(get("/live")), StartsWith("HTTP/1.1 426"));
+}
+
+TEST_F(Server, AFaultOfTheHandlerIsAnAnswer) {
+  start();
+  EXPECT_THAT(answer_to(get("/fault")), StartsWith("HTTP/1.1 500"));
+  EXPECT_THAT(answer_to(get("/a", "Connection: close\r\n")), StartsWith("HTTP/1.1 200"));
 }
 
 TEST_F(Server, RefusesMalformedAndOversizedRequests) {

@@ -78,6 +78,7 @@ class Search {
     if (!file) throw std::runtime_error(list + ": cannot be read");
     const std::string folder = fs::path(list).parent_path().string();
     for (std::string line; std::getline(file, line);) {
+      if (line.ends_with('\r')) line.pop_back();  // of a list that was written on Windows
       if (line.empty() || line.front() == '#') continue;
       const bool below = !fs::path(line).is_absolute() && !line.starts_with("..");
       add(below ? (folder.empty() ? "." : folder) + kNamesBegin + line : (fs::path(folder) / line).string());

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/json_text.hpp"
 #include "io/text_file.hpp"
 #include "replay/map_output.hpp"
 
@@ -92,7 +93,7 @@ void Output::begin() const {
 
 void Output::finish() const {
   if (!fs::exists(part_)) throw std::runtime_error(path_.string() + ": the command wrote nothing");
-  io::write_text(record_, made_of(nlohmann::json::object()).dump(2) + "\n");
+  io::write_text(record_, io::json_text(made_of(nlohmann::json::object()), 2) + "\n");
   fs::rename(part_, path_);
 }
 

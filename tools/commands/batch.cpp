@@ -18,6 +18,7 @@
 #include "commands/exit_codes.hpp"
 #include "commands/options.hpp"
 #include "config/network_profile.hpp"
+#include "io/json_text.hpp"
 #include "io/text_file.hpp"
 #include "support/progress_bar.hpp"
 
@@ -97,7 +98,8 @@ void run_batch(const BatchOptions& options, std::vector<std::string> words) {
                  drives, [&](double share) { bar.step(share); });
   bar.clear();
   fmt::print("{}", batch::table(step, results));
-  if (!options.json.empty()) io::write_text(options.json, batch::to_json(step, results).dump(2) + "\n");
+  if (!options.json.empty())
+    io::write_text(options.json, io::json_text(batch::to_json(step, results), 2) + "\n");
   if (step.name == "learn" && options.task.empty())
     merge_profiles(results, std::filesystem::path(options.out) / "merged.yaml");
   if (std::ranges::any_of(results, [](const auto& one) { return one.state == batch::Result::State::failed; }))

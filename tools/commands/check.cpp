@@ -15,6 +15,7 @@
 #include "commands/read_input.hpp"
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
+#include "io/json_text.hpp"
 #include "io/printable.hpp"
 #include "io/text_file.hpp"
 #include "replay/message_source.hpp"
@@ -55,9 +56,7 @@ void check(const CheckOptions& options) {
                                             {.conventions = {.any_confidence = true}});
   const check::Findings found = findings(read_inputs(*source), config);
   warn_of(options.drive, source->refused(), source->left_out());
-  const auto json = [&] {
-    return report_json(found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  };
+  const auto json = [&] { return io::json_text(report_json(found)) + "\n"; };
   if (!options.out.empty()) io::write_text(options.out, json());
   if (options.json)
     fmt::print("{}", json());

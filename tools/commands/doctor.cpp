@@ -17,6 +17,7 @@
 #include "config/config_file.hpp"
 #include "doctor/observer.hpp"
 #include "doctor/report.hpp"
+#include "io/json_text.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -73,8 +74,7 @@ void doctor(const DoctorOptions& options) {
   catch_stop_signals();
   const auto [seen, found] = examine(options);
   if (options.json)
-    fmt::print("{}\n",
-               report_json(seen, found).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", io::json_text(report_json(seen, found)));
   else
     fmt::print("{}", report(seen, found));
   if (!std::ranges::all_of(found, &doctor::Finding::advice)) end_with(kFoundWrong);

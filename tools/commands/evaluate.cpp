@@ -18,6 +18,7 @@
 #include "config/config_file.hpp"
 #include "evaluation/inputs.hpp"
 #include "evaluation/map_evaluation.hpp"
+#include "io/json_text.hpp"
 #include "io/text_file.hpp"
 #include "replay/replay.hpp"
 #include "support/progress_bar.hpp"
@@ -151,7 +152,7 @@ void rate_by_later(const EvaluateOptions& options) {
   if (options.json.empty()) return;
   nlohmann::json json = later_json(later);
   json["planner"] = steadiness_json(steady);
-  io::write_text(options.json, json.dump(2) + "\n");
+  io::write_text(options.json, io::json_text(json, 2) + "\n");
 }
 
 /// Prints and writes the rating of detections and maps by the truth. `account` tells how much was compared.
@@ -168,7 +169,7 @@ void tell(const EvaluateOptions& options, const std::vector<NamedEvaluation>& ev
   nlohmann::json json = score_json(scores);
   json.update(evaluation_json(evaluations), true);
   json.update(profile_json(evaluations), true);
-  io::write_text(options.json, json.dump(2) + "\n");
+  io::write_text(options.json, io::json_text(json, 2) + "\n");
 }
 
 void rate_by_truth(const EvaluateOptions& options) {

@@ -21,6 +21,7 @@
 #include "export/survey.hpp"
 #include "export/weave.hpp"
 #include "export/weld.hpp"
+#include "io/json_text.hpp"
 #include "io/text_file.hpp"
 #include "laneloom/element_names.hpp"
 #include "laneloom/polyline.hpp"
@@ -114,7 +115,7 @@ void write_report(const std::string& path, const std::vector<exports::Change>& c
                                  {"seen_by", surveyed.files[change.drive]},
                                  {"points", std::move(points)}});
   }
-  io::write_text(path, report.dump(2) + "\n");
+  io::write_text(path, io::json_text(report, 2) + "\n");
 }
 
 void export_drives(const ExportOptions& options) {

@@ -17,6 +17,7 @@
 #include "commands/commands.hpp"
 #include "commands/recorded_configuration.hpp"
 #include "commands/warn_of.hpp"
+#include "io/json_text.hpp"
 #include "io/printable.hpp"
 #include "laneloom/error.hpp"
 #include "recording/topics.hpp"
@@ -131,7 +132,7 @@ void info(const InfoOptions& options) {
   if (options.configuration)
     fmt::print("{}", info.configuration);
   else if (options.json)
-    fmt::print("{}\n", to_json(info).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", io::json_text(to_json(info)));
   else
     fmt::print("{}", text(info));
 }

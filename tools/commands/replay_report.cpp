@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "commands/time_table.hpp"
+#include "io/json_text.hpp"
 #include "io/text_file.hpp"
 
 namespace laneloom::commands {
@@ -161,7 +162,7 @@ void write_report(const std::string& path, const std::vector<ReplayResult>& resu
   } else {
     for (const ReplayResult& result : results) report["configurations"].push_back(as_json(result));
   }
-  io::write_text(path, report.dump(2) + "\n");
+  io::write_text(path, io::json_text(report, 2) + "\n");
 }
 
 }  // namespace laneloom::commands

@@ -16,6 +16,7 @@
 #include "commands/live_display.hpp"
 #include "commands/options.hpp"
 #include "commands/stop_signal.hpp"
+#include "io/json_text.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "status/report.hpp"
 
@@ -95,8 +96,7 @@ class Watch {
     heard.when = now;
     exit_code_ = code_of(status.state);
     if (options_.json) {
-      output_.print_line(status::to_json(status, heard.before())
-                             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+      output_.print_line(io::json_text(status::to_json(status, heard.before())));
     } else if (options_.once || !output_.is_terminal()) {
       output_.print_line(status::describe(status, heard.before()));
     }

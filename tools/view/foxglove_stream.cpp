@@ -3,6 +3,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "io/json_text.hpp"
+
 namespace laneloom::view {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr std::uint64_t kServerInfoSlot = 1ULL << 32U, kAdvertiseSlot = kServerI
                         kStatusSlot = kServerInfoSlot + 2;
 
 std::shared_ptr<const std::string> shared(const json& message) {
-  return std::make_shared<const std::string>(message.dump(-1, ' ', false, json::error_handler_t::replace));
+  return std::make_shared<const std::string>(io::json_text(message));
 }
 
 bool offers(std::string_view list, std::string_view name) {

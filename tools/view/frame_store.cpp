@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/seconds.hpp"
+#include "io/json_text.hpp"
 
 namespace laneloom::view {
 namespace {
@@ -81,8 +82,8 @@ std::string FrameStore::summaries(std::size_t from) const {
   std::string list;
   for (std::size_t i = begin; i < end; ++i) list += (i == begin ? "" : ",") + summaries_[i];
   const bool complete = finished_ && end >= summaries_.size();
-  return R"({"complete":)" + nlohmann::json(complete).dump() + R"(,"error":)" +
-         nlohmann::json(error_).dump() + R"(,"frames":[)" + list + "]}";
+  return R"({"complete":)" + nlohmann::json(complete).dump() + R"(,"error":)" + io::json_text(error_) +
+         R"(,"frames":[)" + list + "]}";
 }
 
 }  // namespace laneloom::view

@@ -10,6 +10,7 @@
 #include "drawing/map_elements.hpp"
 #include "drawing/properties.hpp"
 #include "drawing/traffic_elements.hpp"
+#include "io/json_text.hpp"
 #include "laneloom/state_names.hpp"
 #include "status/report.hpp"
 
@@ -106,12 +107,10 @@ drawing::Drawing drawing_of(const LocalMap& map, const ViewMoment& moment, const
   return drawing;
 }
 
-std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
-
 }  // namespace
 
 std::string summary_text(const ViewMoment& moment, const FramePlace& place) {
-  return dump(summary_json(moment, place));
+  return io::json_text(summary_json(moment, place));
 }
 
 std::string frame_text(const ViewMoment& moment, const FramePlace& place, const RangeConfig& range) {
@@ -127,7 +126,7 @@ std::string frame_text(const ViewMoment& moment, const FramePlace& place, const 
   frame["session_id"] = std::to_string(moment.map.session_id);
   frame["map_id"] = std::to_string(moment.map.map_id);
   if (moment.status) frame["status"] = status::to_json(*moment.status, nullptr);
-  return dump(frame);
+  return io::json_text(frame);
 }
 
 }  // namespace laneloom::view

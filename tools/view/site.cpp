@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "drawing/drawing_json.hpp"
+#include "io/json_text.hpp"
 #include "view/door.hpp"
 #include "view/metrics.hpp"
 #include "view/page.hpp"
@@ -45,11 +46,10 @@ WebAnswer Site::answer(std::string_view asked) const {
 }
 
 std::string Site::info() const {
-  return nlohmann::json{{"title", content_.title},
+  return io::json_text({{"title", content_.title},
                         {"live", content_.black_box != nullptr},
                         {"names", content_.names},
-                        {"max_file_bytes", content_.max_file_bytes}}
-      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+                        {"max_file_bytes", content_.max_file_bytes}});
 }
 
 WebAnswer Site::recorded(std::string_view path, std::string_view number) const {

@@ -81,7 +81,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!parser_->is_done()) return refuse(413);
     if (!protocol.empty()) return upgrade(std::make_unique<FoxgloveStream>(*hub_.foxglove), protocol);
     if (Target(knock.target).path == "/live") return upgrade(std::make_unique<PageStream>(kPageChannel), {});
-    answer(hub_.handler(view_of(request.target())), request.keep_alive());
+    answer_with([&] { return hub_.handler(view_of(request.target())); }, request.keep_alive());
   }
 
   static unsigned status_of(error_code error) {
@@ -113,7 +113,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (error == beast::error::timeout || error == http::error::partial_message) return end();
     const bool of_http = error.category() == make_error_code(http::error::body_limit).category();
     if (error) return refuse(of_http ? status_of(error) : 507);  // else the disk is full
-    answer(hub_.take_file(target, std::move(folder)), keep_alive);
+    answer_with([&] { return hub_.take_file(target, std::move(folder)); }, keep_alive);
   }
 
   /// The subprotocol of Foxglove that a request asks for. Empty: it asks for none.
@@ -133,6 +133,18 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void refuse(unsigned status) {
     const std::string_view reason = view_of(http::obsolete_reason(static_cast<http::status>(status)));
     answer({status, "text/plain", std::string(reason) + "\n"}, false);
+  }
+
+  /// Answers with what `make` returns. What it throws ends neither the server nor other connections.
+  template <class Make>
+  void answer_with(const Make& make, bool keep_alive) {
+    WebAnswer made;
+    try {
+      made = make();
+    } catch (const std::exception&) {
+      return refuse(500);
+    }
+    answer(std::move(made), keep_alive);
   }
 
   void answer(WebAnswer&& answer, bool keep_alive) {
