@@ -203,6 +203,15 @@ INSTANTIATE_TEST_SUITE_P(Roads, SoundDrives,
                                          "hill", "t_intersection", "overpass", "town"),
                          [](const auto& test) { return test.param; });
 
+TEST(Findings, PosesMayJumpWhereANewSessionBegins) {
+  Drive drive = simulated_drive("town", "none");
+  const auto second = drive.poses.begin() + 200;
+  std::for_each(second, drive.poses.end(), [](VehiclePose& pose) { pose.position.x() += 100.0; });
+  EXPECT_EQ(jump_findings(PoseTrack(drive.poses), {}).size(), 1u);
+  std::for_each(second, drive.poses.end(), [](VehiclePose& pose) { pose.session_id = 2; });
+  EXPECT_THAT(jump_findings(PoseTrack(drive.poses), {}), testing::IsEmpty());
+}
+
 TEST(Findings, AStraightRoadCannotTellItsMirrorImage) {
   const Findings found = findings(simulated_drive("straight", "none"), Config{});
   ASSERT_EQ(found.size(), 1u);

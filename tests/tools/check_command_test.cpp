@@ -48,6 +48,17 @@ TEST_F(CheckCommand, ASoundDriveIsSound) {
   EXPECT_TRUE(json::parse(output()).at("findings").empty()) << output();
 }
 
+TEST_F(CheckCommand, ADriveOfWhichLittleCanBeReadIsNotSound) {
+  const std::string whole = text("drive.frames.jsonl");
+  const std::size_t rest = whole.find('\n', whole.size() / 2) + 1;
+  std::ofstream damaged(file("damaged.frames.jsonl"));
+  damaged << whole.substr(0, rest);
+  for (int i = 0; i < 100; ++i) damaged << "{}\n";
+  damaged.close();
+  EXPECT_EQ(run("check --json damaged.frames.jsonl 2>log"), 2);
+  EXPECT_EQ(json::parse(output()).at("findings").at(0).at("id"), "left_out");
+}
+
 TEST_F(CheckCommand, ATerminalShowsABar) {
   EXPECT_EQ(shell("script -qec 'laneloom check drive.frames.jsonl' /dev/null"), 0);
   EXPECT_THAT(output(), HasSubstr(" left"));

@@ -12,12 +12,19 @@ namespace {
 
 constexpr std::int64_t kLongestGap_ns = 2'000'000'000;
 
+/// Whether a pose repeats another one, as it does in JSON lines where two sources have frames at its stamp.
+bool are_equal(const VehiclePose& a, const VehiclePose& b) {
+  return a.stamp_ns == b.stamp_ns && a.session_id == b.session_id && a.position == b.position &&
+         a.orientation.coeffs() == b.orientation.coeffs();
+}
+
 }  // namespace
 
 Drive read_drive(replay::MessageSource& source, const std::function<void(double share)>& on_step) {
   Drive drive;
   while (std::optional<recording::RecordedMessage> message = source.next_input()) {
-    if (const auto* pose = std::get_if<VehiclePose>(&message->message)) drive.poses.push_back(*pose);
+    if (const auto* pose = std::get_if<VehiclePose>(&message->message))
+      if (drive.poses.empty() || !are_equal(*pose, drive.poses.back())) drive.poses.push_back(*pose);
     if (auto* frame = std::get_if<DetectionFrame>(&message->message))
       drive.frames[frame->source].push_back(std::move(*frame));
     if (auto* objects = std::get_if<TrackedObjects>(&message->message))

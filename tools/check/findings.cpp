@@ -9,6 +9,8 @@
 namespace laneloom::check {
 namespace {
 
+constexpr std::uint64_t kTolerated = 20;  // one in so many may be left out
+
 void append(Findings& to, Findings more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -67,6 +69,14 @@ std::map<std::string, double> sensor_offsets(const Drive& drive, const MapperCon
                       offsets[source] = left_m;
                   });
   return offsets;
+}
+
+Findings left_out_findings(const Drive& drive, const LeftOut& left_out) {
+  std::uint64_t frames = 0;
+  for (const auto& [source, of_source] : drive.frames) frames += of_source.size();
+  if (kTolerated * left_out.count() <= frames + left_out.count()) return {};
+  return {{"left_out", fmt::format("Beside {} frames, this cannot be read: {}.", frames, left_out.summary()),
+           "Mend it where it is written: all commands leave it out."}};
 }
 
 Findings findings(const Drive& drive, const Config& config) {

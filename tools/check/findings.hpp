@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/left_out.hpp"
 #include "check/drive.hpp"
 #include "laneloom/config.hpp"
 
@@ -20,6 +21,9 @@ using Findings = std::vector<Finding>;
 
 /// All that is found about each source of a drive, the likeliest cause first.
 Findings findings(const Drive& drive, const Config& config);
+
+/// Whether more than a twentieth of a drive cannot be read.
+Findings left_out_findings(const Drive& drive, const LeftOut& left_out);
 
 /// What is found of conventions alone, and not of stamps and of jumps. None without detections or poses.
 Findings fit_findings(const Drive& drive, const MapperConfig& mapper);

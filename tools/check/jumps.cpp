@@ -48,6 +48,7 @@ std::vector<Step> steps_of(const std::vector<VehiclePose>& poses) {
   for (std::size_t i = 2; i + 1 < poses.size(); ++i) {
     const VehiclePose &a = poses[i - 2], &b = poses[i - 1], &c = poses[i], &d = poses[i + 1];
     if (seconds(d.stamp_ns - a.stamp_ns) > 3.0 * kLongestStep_s) continue;
+    if (a.session_id != d.session_id) continue;  // the map begins anew
     const double length_s = seconds(c.stamp_ns - b.stamp_ns);
     const auto [least, most] = std::minmax({yaw_rate(a, b), yaw_rate(c, d)});
     const double turn = yaw_rate(b, c);

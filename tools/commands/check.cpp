@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,7 +55,9 @@ void check(const CheckOptions& options) {
   const Config config = config::resolve_config(options.config, {});
   const auto source = replay::open_messages(options.drive, config.dds.map_frame_id,
                                             {.conventions = {.any_confidence = true}});
-  const check::Findings found = findings(read_inputs(*source), config);
+  const check::Drive drive = read_inputs(*source);
+  check::Findings found = left_out_findings(drive, source->left_out());
+  std::ranges::move(findings(drive, config), std::back_inserter(found));
   warn_of(options.drive, source->refused(), source->left_out());
   const auto json = [&] { return io::json_text(report_json(found)) + "\n"; };
   if (!options.out.empty()) io::write_text(options.out, json());
