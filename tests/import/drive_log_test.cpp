@@ -70,6 +70,15 @@ TEST_F(DriveLogs, PlainTablesGiveStampsAndAxes) {
   EXPECT_THAT(error(load), HasSubstr("samples.csv:2: a number is expected"));
 }
 
+TEST_F(DriveLogs, TablesOfSpreadsheetsMayBeginWithAMarkAndEndWithAnEmptyLine) {
+  write("poses.csv", "\xef\xbb\xbf" + std::string(kPoses) + "\r\n");
+  write("samples.csv", "\xef\xbb\xbftoken,timestamp_ns\r\na,17\r\n\r\n");
+  const DriveLog drive =
+      plain_drive(file("poses.csv"), file("samples.csv"), Eigen::Matrix3d::Identity(), strict_);
+  EXPECT_EQ(drive.poses.size(), 2u);
+  EXPECT_EQ(drive.stamp_ns_of("a"), 17);
+}
+
 TEST_F(DriveLogs, RowsThatAreWrongAreLeftOut) {
   write("poses.csv", std::string(kPoses) + "1500000000,1,0,0,0,nan,6,7\n2000000000,1,0\n");
   write("samples.csv", "token,timestamp_ns\na,17\na,17\nb,18\nc,1");

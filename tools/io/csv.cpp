@@ -2,9 +2,12 @@
 
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace laneloom::io {
 namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool next_line(std::istream& in, std::string& line) {
   if (!std::getline(in, line)) return false;
@@ -25,9 +28,11 @@ void for_each_csv_row(const std::filesystem::path& path, std::string_view column
   std::ifstream in(path);
   std::string line;
   if (!next_line(in, line)) throw std::runtime_error(path.string() + ": cannot be read");
+  if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
   if (line != columns && !line.starts_with(std::string(columns) + ","))
     throw std::runtime_error(path.string() + ":1: the columns must be " + std::string(columns));
   for (int number = 2; next_line(in, line); ++number) {
+    if (line.empty()) continue;
     try {
       visit(line);
     } catch (const std::runtime_error& error) {
