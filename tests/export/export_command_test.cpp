@@ -98,6 +98,16 @@ TEST_F(ExportCommand, PlainLanelet2HasStopLinesAsWaysOnly) {
   }
 }
 
+TEST_F(ExportCommand, PlainOpenDriveHasNoStopLines) {
+  simulate("intersection");
+  for (const bool plain : {false, true}) {
+    ASSERT_TRUE(
+        done(std::string("export drive.frames.jsonl --opendrive map.xodr") + (plain ? " --plain" : "")));
+    EXPECT_EQ(text("map.xodr").find("type=\"roadMark\"") == std::string::npos, plain);
+  }
+  EXPECT_EQ(run("export drive.frames.jsonl --geojson map.json --origin 48,11 --plain"), 64);
+}
+
 TEST_F(ExportCommand, GeoJsonNeedsAnOrigin) {
   simulate("straight");
   EXPECT_EQ(run("export --in drive.frames.jsonl --geojson map.json"), 64);
@@ -118,6 +128,15 @@ void move_poses(const std::string& path, double by_m) {
       frame["pose"][axis] = frame["pose"][axis].get<double>() + by_m;
     out << frame.dump() << '\n';
   }
+}
+
+TEST_F(ExportCommand, PosesFarFromTheOriginAreRefused) {
+  simulate("straight");
+  move_poses(file("drive.frames.jsonl"), 600'000.0);
+  ASSERT_TRUE(done("export drive.frames.jsonl --opendrive map.xodr"));
+  EXPECT_EQ(run("export drive.frames.jsonl --geojson map.json --origin 48.137,11.575"), 1);
+  EXPECT_THAT(output(), HasSubstr("km from the origin of the map frame"));
+  EXPECT_FALSE(exists("map.json"));
 }
 
 TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {

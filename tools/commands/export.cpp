@@ -118,13 +118,28 @@ void write_report(const std::string& path, const std::vector<exports::Change>& c
   io::write_text(path, io::json_text(report, 2) + "\n");
 }
 
+/// Throws where the tangent plane at the origin is no picture of the earth any more, as with poses in UTM.
+void check_origin(const LocalMap& map) {
+  constexpr double kFarthest_m = 1e5;
+  for (const Lane& lane : map.lanes)
+    for (const Point& point : lane.centerline)
+      if (const double far_m = point.head<2>().norm(); far_m > kFarthest_m)
+        throw std::runtime_error(
+            fmt::format("--origin: a lane is {:.0f} km from the origin of the map frame, and 100 km are the "
+                        "most; poses in UTM have to be moved to an origin nearby",
+                        far_m / 1000.0));
+}
+
 void export_drives(const ExportOptions& options) {
+  if (options.plain && options.lanelet2.empty() && options.opendrive.empty())
+    throw CLI::ValidationError("--plain", "needs --lanelet2 or --opendrive");
   check_files(options);
   refuse_second_reading(options.in);
   const Config config = config::resolve_config(options.config, options.preset);
   const Surveyed surveyed = survey(options, config);
   const LocalMap map = weave(surveyed.survey.road(), config.mapper);
   if (map.lanes.empty()) throw std::runtime_error(surveyed.files.front() + ": has no lanes to export");
+  if (options.origin) check_origin(map);
   const std::vector<exports::Change> changes = surveyed.survey.changes();
   tell(changes, surveyed);
   if (!options.report.empty()) write_report(options.report, changes, surveyed);
@@ -165,11 +180,9 @@ void add_export(CLI::App& app) {
   outputs->require_option(1, 3);
   add_text_output(*command, "--report", options->report,
                   "How each drive was moved, and what changed between drives (.json)");
-  command
-      ->add_flag(
-          "--plain", options->plain,
-          "Leave out the stop lines' regulatory elements, which Autoware's extension of Lanelet2 knows")
-      ->needs(lanelet2);
+  command->add_flag("--plain", options->plain,
+                    "Leave out the stop lines' regulatory elements, which Autoware's extension of Lanelet2 "
+                    "knows, and the stop lines of OpenDRIVE");
   command
       ->add_flag("--no-extras", options->no_extras,
                  "Leave out the tags that Lanelet2 itself does not know: local_x, local_y, turn_direction, "
