@@ -108,6 +108,14 @@ TEST_F(ExportCommand, PlainOpenDriveHasNoStopLines) {
   EXPECT_EQ(run("export drive.frames.jsonl --geojson map.json --origin 48,11 --plain"), 64);
 }
 
+TEST_F(ExportCommand, MapsThatAreEarlierThanOneBeforeAreTold) {
+  simulate("straight");
+  ASSERT_TRUE(done("replay drive.frames.jsonl --out maps.jsonl"));
+  std::ofstream(file("twice.jsonl")) << text("maps.jsonl") << text("maps.jsonl");
+  ASSERT_TRUE(done("export twice.jsonl --lanelet2 map.osm"));
+  EXPECT_THAT(output(), HasSubstr(" x a map is earlier than one before it"));
+}
+
 TEST_F(ExportCommand, GeoJsonNeedsAnOrigin) {
   simulate("straight");
   EXPECT_EQ(run("export --in drive.frames.jsonl --geojson map.json"), 64);

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "commands.hpp"
@@ -168,6 +170,36 @@ TEST_F(CutCommand, TheMissingEndOfARecordingIsLeftOutOrRefused) {
     EXPECT_EQ(run(command + " short.mcap --strict"), 1) << command << output();
     EXPECT_THAT(output(), HasSubstr("short.mcap: at its end: the recording is cut off")) << command;
   }
+}
+
+/// The lines of a drive, of two sources by turns.
+std::string of_two_sources(const std::string& lines) {
+  std::istringstream in(lines);
+  std::string out;
+  for (std::string line; std::getline(in, line);)
+    for (const char* source : {"front", "rear"}) {
+      json frame = json::parse(line);
+      frame["source"] = source;
+      out += frame.dump() + "\n";
+    }
+  return out;
+}
+
+TEST_F(CutCommand, TwoSourcesMayHaveFramesAtOneStamp) {
+  std::ofstream(file("two.frames.jsonl")) << of_two_sources(text("in.frames.jsonl"));
+  ASSERT_TRUE(done("cut two.frames.jsonl --out two.mcap"));
+  ASSERT_TRUE(done("cut two.mcap --out again.frames.jsonl"));
+  EXPECT_EQ(lines_of(text("again.frames.jsonl")), lines_of(text("two.frames.jsonl")));
+  EXPECT_TRUE(done("check two.frames.jsonl"));
+}
+
+TEST_F(CutCommand, FramesOutOfOrderAreToldAndLeftOut) {
+  std::ofstream(file("twice.frames.jsonl")) << text("in.frames.jsonl") << text("in.frames.jsonl");
+  const std::string command = "render --frames twice.frames.jsonl --at 1 --out a.svg";
+  EXPECT_TRUE(done(command));
+  EXPECT_THAT(output(),
+              HasSubstr("left out: 80 x a frame is not later than one before it (first: stamp 0.1"));
+  EXPECT_EQ(run(command + " --strict"), 1);
 }
 
 TEST_F(CutCommand, CommandsAreJoinedByPipes) {

@@ -24,7 +24,11 @@ class DriveReader {
   explicit DriveReader(const RangeConfig& range) : accumulator_(range) {}
 
   void take(const PublishedMap& published) {
-    if (published.map.stamp_ns == 0 || published.map.stamp_ns < stamp_ns_) return;
+    if (published.map.stamp_ns == 0) return;
+    if (published.map.stamp_ns < stamp_ns_) {
+      ++earlier_;
+      return;
+    }
     if (maps_ > 0 && published.map_id != map_id_) accumulator_.begin_anew();
     map_id_ = published.map_id;
     stamp_ns_ = published.map.stamp_ns;
@@ -32,11 +36,13 @@ class DriveReader {
     ++maps_;
   }
   std::size_t maps() const { return maps_; }
+  /// Maps that came too late to be joined.
+  std::size_t earlier() const { return earlier_; }
   exports::DriveLines finish() { return accumulator_.finish(); }
 
  private:
   exports::DriveAccumulator accumulator_;
-  std::size_t maps_ = 0;
+  std::size_t maps_ = 0, earlier_ = 0;
   std::uint64_t map_id_ = 0;
   std::int64_t stamp_ns_ = 0;
 };
@@ -69,6 +75,9 @@ void take_recorded_maps(const std::string& path, bool strict, DriveReader& taker
   }
   bar.clear();
   if (taker.maps() == 0) return;
+  if (taker.earlier() > 0)
+    fmt::print(stderr, "laneloom: {}: {} maps passed over: they are earlier than one before\n", path,
+               taker.earlier());
   warn_of(path, reader.refused(), left_out);
 }
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <variant>
 
 #include "io/json_lines.hpp"
+#include "io/leave_out.hpp"
 #include "recording/damage.hpp"
 #include "recording/recording.hpp"
 #include "session/gate.hpp"
@@ -20,19 +23,23 @@ using VisitFrame = std::function<void(const DetectionFrame&, const Eigen::Isomet
 using VisitObjects = std::function<void(const TrackedObjects&, const Eigen::Isometry3d&)>;
 using VisitMap = std::function<void(const LocalMap&)>;
 
-/// Passes on frames that are later than all before them.
+/// Passes on frames in the order of their stamps, and one of each source at a stamp.
 class Ascending {
  public:
-  explicit Ascending(const VisitFrame& visit) : visit_(visit) {}
+  Ascending(const VisitFrame& visit, LeftOut& left_out) : visit_(visit), left_out_(left_out) {}
   void operator()(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
-    if (frame.stamp_ns <= last_stamp_ns_) return;
-    last_stamp_ns_ = frame.stamp_ns;
+    if (frame.stamp_ns > newest_ns_) sources_.clear();
+    if (frame.stamp_ns < newest_ns_ || !sources_.insert(frame.source).second)
+      return io::leave_out(left_out_, "a frame is not later than one before it", frame.stamp_ns);
+    newest_ns_ = frame.stamp_ns;
     visit_(frame, T_map_body);
   }
 
  private:
   const VisitFrame& visit_;
-  std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
+  LeftOut& left_out_;
+  std::int64_t newest_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::set<std::string> sources_;  ///< of the frames at the newest stamp
 };
 
 /// The poses of a recording that a service would believe, and what waits for them.
@@ -58,7 +65,7 @@ class RecordedPoses {
 /// Gives each frame of a recording its pose.
 class RecordedFrames {
  public:
-  explicit RecordedFrames(const VisitFrame& visit) : visit_(visit) {}
+  RecordedFrames(const VisitFrame& visit, LeftOut& left_out) : visit_(visit, left_out) {}
 
   void add(const VehiclePose& pose) {
     poses_.add(pose);
@@ -127,9 +134,11 @@ void drop_degenerate_lines(LocalMap& map) {
 /// Passes on the last map of each stamp.
 class NewestMaps {
  public:
-  explicit NewestMaps(const VisitMap& visit) : visit_(visit) {}
+  NewestMaps(const VisitMap& visit, LeftOut& left_out) : visit_(visit), left_out_(left_out) {}
   void add(LocalMap&& map) {
-    if (map.stamp_ns == 0 || (newest_ && map.stamp_ns < newest_->stamp_ns)) return;
+    if (map.stamp_ns == 0) return;
+    if (newest_ && map.stamp_ns < newest_->stamp_ns)
+      return io::leave_out(left_out_, "a map is earlier than one before it", map.stamp_ns);
     if (newest_ && map.stamp_ns > newest_->stamp_ns) visit_(*newest_);
     newest_ = std::move(map);
     drop_degenerate_lines(*newest_);
@@ -140,13 +149,14 @@ class NewestMaps {
 
  private:
   const VisitMap& visit_;
+  LeftOut& left_out_;
   std::optional<LocalMap> newest_;  // another of its stamp may follow
 };
 
 /// Hands the poses of a recording to `taker`, and its messages of type T, which it counts.
 template <class T, class Taker>
-InputAccount read_recorded(const std::filesystem::path& path, const InputReading& reading, Taker& taker) {
-  InputAccount account{.left_out = LeftOut(reading.strict)};
+void read_recorded(const std::filesystem::path& path, const InputReading& reading, Taker& taker,
+                   InputAccount& account) {
   recording::RecordingReader reader(path.string());
   while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {
     reading.on_step(reader.progress());
@@ -157,57 +167,60 @@ InputAccount read_recorded(const std::filesystem::path& path, const InputReading
     taker.add(std::move(*message));
   }
   account.refused = reader.refused();
-  return account;
 }
 
 /// Hands the frames of a file of JSON lines to `take`, and counts those that it says it took.
 template <class Take>
-InputAccount read_lines(const std::filesystem::path& path, const InputReading& reading, Take take) {
-  InputAccount account{.left_out = LeftOut(reading.strict)};
+void read_lines(const std::filesystem::path& path, const InputReading& reading, InputAccount& account,
+                Take take) {
   io::JsonLinesReader in(path);
   while (const auto record = in.next_frame(account.left_out)) {
     reading.on_step(in.progress());
     account.count += take(*record) ? 1U : 0U;
   }
-  return account;
 }
 
 }  // namespace
 
 InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame& visit,
                             const InputReading& reading) {
+  InputAccount account{.left_out = LeftOut(reading.strict)};
   if (recording::is_recording(path)) {
-    RecordedFrames frames(visit);
-    return read_recorded<DetectionFrame>(path, reading, frames);
+    RecordedFrames frames(visit, account.left_out);
+    read_recorded<DetectionFrame>(path, reading, frames, account);
+    return account;
   }
-  Ascending ascending(visit);
-  return read_lines(path, reading, [&](const io::FrameRecord& record) {
+  Ascending ascending(visit, account.left_out);
+  read_lines(path, reading, account, [&](const io::FrameRecord& record) {
     ascending(record.frame, transform(record.pose));
     return true;
   });
+  return account;
 }
 
 InputAccount for_each_objects(const std::filesystem::path& path, const VisitObjects& visit,
                               const InputReading& reading) {
+  InputAccount account{.left_out = LeftOut(reading.strict)};
   if (recording::is_recording(path)) {
     RecordedObjects objects(visit);
-    InputAccount account = read_recorded<TrackedObjects>(path, reading, objects);
+    read_recorded<TrackedObjects>(path, reading, objects, account);
     objects.visit_ready();
     return account;
   }
   std::int64_t last_stamp_ns = 0;
-  return read_lines(path, reading, [&](const io::FrameRecord& record) {
+  read_lines(path, reading, account, [&](const io::FrameRecord& record) {
     if (!record.objects) return false;
     if (record.objects->stamp_ns > last_stamp_ns) visit(*record.objects, transform(record.pose));
     last_stamp_ns = std::max(last_stamp_ns, record.objects->stamp_ns);
     return true;
   });
+  return account;
 }
 
 InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& visit,
                           const InputReading& reading) {
   InputAccount account{.left_out = LeftOut(reading.strict)};
-  NewestMaps maps(visit);
+  NewestMaps maps(visit, account.left_out);
   if (recording::is_recording(path)) {
     recording::RecordingReader reader(path.string());
     while (auto recorded = recording::next_or_leave_out(account.left_out, [&] { return reader.next(); })) {

@@ -27,9 +27,10 @@ struct InputReading {
   std::function<void(double share)> on_step = [](double /*share*/) {};
 };
 
-/// Calls visit() for every frame with T_map_body at its stamp, in the order of the stamps. A frame that is
-/// not later than one before it is left out. Of a recording, only frames and poses that a service would
-/// believe are used; frames without poses around them are left out.
+/// Calls visit() for every frame with T_map_body at its stamp, in the order of the stamps. Several sources
+/// may have frames at one stamp. A frame that is not later than one before it is left out. Of a recording,
+/// only frames and poses that a service would believe are used; frames without poses around them are left
+/// out.
 InputAccount for_each_frame(const std::filesystem::path& path,
                             const std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>& visit,
                             const InputReading& reading = {});
