@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "recording/recording.hpp"
 #include "session/mapping_session.hpp"
 #include "temporary_folder.hpp"
@@ -85,11 +87,25 @@ TEST(DriveRecording, FramesWithoutPosesAroundThemGo) {
   EXPECT_EQ(frames[0].stamp_ns, kSecond_ns);
 }
 
-TEST(DriveRecording, WhatExceedsAMessageIsAnError) {
+TEST(DriveRecording, WhatExceedsAMessageIsLeftOutOrAnError) {
   const TemporaryFolder folder;
   DetectionFrame crowded = frame(kSecond_ns);
   crowded.detections.resize(513, crowded.detections.front());
-  EXPECT_THROW(write_drive(folder.file("drive.mcap"), poses(2), {crowded}), std::runtime_error);
+  EXPECT_THROW(write_drive(folder.file("drive.mcap"), poses(2), {crowded}, {}, true), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("drive.mcap")));
+  EXPECT_EQ(write_drive(folder.file("drive.mcap"), poses(2), {crowded}).count(), 1u);
+}
+
+TEST(DriveRecording, SessionsAreKept) {
+  const TemporaryFolder folder;
+  std::vector<VehiclePose> of_two = poses(4);
+  of_two[2].session_id = of_two[3].session_id = 7;
+  write_drive(folder.file("drive.mcap"), of_two, {});
+  recording::RecordingReader reader(folder.file("drive.mcap"));
+  std::vector<std::uint64_t> sessions;
+  while (const auto message = reader.next())
+    sessions.push_back(std::get<VehiclePose>(message->message).session_id);
+  EXPECT_EQ(sessions, (std::vector<std::uint64_t>{1, 1, 7, 7}));
 }
 
 }  // namespace

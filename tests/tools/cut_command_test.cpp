@@ -202,6 +202,21 @@ TEST_F(CutCommand, FramesOutOfOrderAreToldAndLeftOut) {
   EXPECT_EQ(run(command + " --strict"), 1);
 }
 
+TEST_F(CutCommand, WhatExceedsAMessageIsLeftOutOrRefused) {
+  const std::string whole = text("in.frames.jsonl");
+  json frame = json::parse(whole.substr(0, whole.find('\n')));
+  json& points = frame.at("detections").at(0).at("points");
+  for (int i = 0; i < 3000; ++i) points.push_back({0.01 * i, 20.0, 0.0});
+  std::ofstream(file("dense.frames.jsonl")) << frame << whole.substr(whole.find('\n'));
+  for (const std::string command : {"cut", "import frames"}) {
+    EXPECT_EQ(run(command + " dense.frames.jsonl --strict --out dense.mcap"), 1) << command;
+    EXPECT_FALSE(exists("dense.mcap")) << command;
+    EXPECT_TRUE(done(command + " dense.frames.jsonl --out dense.mcap"));
+    EXPECT_THAT(output(), HasSubstr("1 x beyond the bounds of a message (first: stamp 0.100 s)")) << command;
+    std::filesystem::remove(file("dense.mcap"));
+  }
+}
+
 TEST_F(CutCommand, CommandsAreJoinedByPipes) {
   ASSERT_EQ(shell("laneloom cut in.frames.jsonl --from 1 --out - | laneloom replay - --out - 2>report | "
                   "laneloom cut - --to 3 --out maps.jsonl"),

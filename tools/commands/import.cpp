@@ -57,7 +57,7 @@ void import_results(const ResultsOptions& options, ReadResults read) {
   const std::size_t without_pose = imports::drop_frames_without_pose(imported.frames, drive.poses);
   if (imported.frames.empty())
     throw std::runtime_error(options.results + ": no sample is within the poses of " + drive.name);
-  imports::write_drive(options.out, drive.poses, imported.frames);
+  warn_of(options.out, imports::write_drive(options.out, drive.poses, imported.frames, {}, options.strict));
   fmt::print("{}: {} frames, {} poses\n", drive.name, imported.frames.size(), drive.poses.size());
   for (const auto& [class_name, lines] : imported.left_out)
     fmt::print("left out: {} lines of class {}\n", lines, class_name);
@@ -113,7 +113,7 @@ void import_openpilot(const OpenpilotOptions& options) {
   });
   const std::size_t without_pose = imports::drop_frames_without_pose(drive.frames, drive.poses);
   if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");
-  imports::write_drive(options.out, drive.poses, drive.frames);
+  warn_of(options.out, imports::write_drive(options.out, drive.poses, drive.frames, {}, options.strict));
   fmt::print("{} frames, {} poses\n", drive.frames.size(), drive.poses.size());
   if (drive.invalid_frames > 0) fmt::print("left out: {} invalid frames\n", drive.invalid_frames);
   if (drive.invalid_poses > 0) fmt::print("left out: {} invalid poses\n", drive.invalid_poses);
@@ -149,7 +149,7 @@ void import_log(const std::filesystem::path& log, const std::string& out, const 
   if (out.empty()) return;
   const std::vector<VehiclePose> poses = simulation::argoverse2_poses(log, left_out);
   const std::vector<TrackedObjects> sweeps = simulation::argoverse2_objects(log, poses, left_out);
-  imports::write_drive(out, poses, {}, sweeps);
+  warn_of(out, imports::write_drive(out, poses, {}, sweeps, left_out.strict()));
   fmt::print("{}: {} poses, {} sweeps with objects\n", log.string(), poses.size(), sweeps.size());
 }
 

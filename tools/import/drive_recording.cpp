@@ -1,8 +1,9 @@
 #include "import/drive_recording.hpp"
 
 #include <limits>
-#include <stdexcept>
 
+#include "io/leave_out.hpp"
+#include "io/new_file.hpp"
 #include "recording/recording.hpp"
 #include "session/pose_buffer.hpp"
 
@@ -11,43 +12,32 @@ namespace {
 
 constexpr std::uint64_t kSession = 1;
 
-/// Writes messages of one topic, counted.
+/// Writes messages of one topic, counted, and tells what of them is left out.
 template <class T>
 class Stream {
  public:
-  explicit Stream(recording::RecordingWriter& out) : out_(out) {}
+  Stream(recording::RecordingWriter& out, LeftOut& left_out) : out_(out), left_out_(left_out) {}
   void write(T message) {
-    message.session_id = kSession;
+    if (message.session_id == 0) message.session_id = kSession;
     message.sequence = ++sequence_;
+    const std::uint64_t before = out_.left_out();
     out_.write(message, message.stamp_ns);
+    if (const std::uint64_t more = out_.left_out() - before; more > 0)
+      io::leave_out(left_out_, "beyond the bounds of a message", message.stamp_ns, more);
   }
 
  private:
   recording::RecordingWriter& out_;
+  LeftOut& left_out_;
   std::uint64_t sequence_ = 0;
 };
 
-}  // namespace
-
-std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
-                                     const std::vector<VehiclePose>& poses) {
-  SyncConfig config;
-  config.pose_history_s = std::numeric_limits<double>::infinity();
-  config.pose_queue_capacity = std::numeric_limits<int>::max();
-  session::PoseBuffer buffer(config);
-  for (const VehiclePose& pose : poses) buffer.add(pose);
-  return std::erase_if(frames, [&](const DetectionFrame& frame) {
-    Eigen::Isometry3d T_map_body;
-    return buffer.at(frame.stamp_ns, T_map_body) != session::PoseBuffer::Answer::found;
-  });
-}
-
-void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
-                 const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects) {
-  recording::RecordingWriter out(path);
-  Stream<VehiclePose> pose_stream(out);
-  Stream<DetectionFrame> frame_stream(out);
-  Stream<TrackedObjects> objects_stream(out);
+void write_messages(recording::RecordingWriter& out, const std::vector<VehiclePose>& poses,
+                    const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects,
+                    LeftOut& left_out) {
+  Stream<VehiclePose> pose_stream(out, left_out);
+  Stream<DetectionFrame> frame_stream(out, left_out);
+  Stream<TrackedObjects> objects_stream(out, left_out);
   auto next = objects.begin();
   const auto write_objects_until = [&](std::int64_t stamp_ns) {
     for (; next != objects.end() && next->stamp_ns <= stamp_ns; ++next) objects_stream.write(*next);
@@ -66,9 +56,32 @@ void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
   }
   write_before(std::numeric_limits<std::int64_t>::max());
   out.close();
-  if (out.left_out() > 0)
-    throw std::runtime_error(out.path() + ": " + std::to_string(out.left_out()) +
-                             " elements exceed the bounds of a message");
+}
+
+}  // namespace
+
+std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
+                                     const std::vector<VehiclePose>& poses) {
+  SyncConfig config;
+  config.pose_history_s = std::numeric_limits<double>::infinity();
+  config.pose_queue_capacity = std::numeric_limits<int>::max();
+  session::PoseBuffer buffer(config);
+  for (const VehiclePose& pose : poses) buffer.add(pose);
+  return std::erase_if(frames, [&](const DetectionFrame& frame) {
+    Eigen::Isometry3d T_map_body;
+    return buffer.at(frame.stamp_ns, T_map_body) != session::PoseBuffer::Answer::found;
+  });
+}
+
+LeftOut write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
+                    const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects,
+                    bool strict) {
+  LeftOut left_out(strict);
+  io::make_file(path, [&] {
+    recording::RecordingWriter out(path);
+    write_messages(out, poses, frames, objects, left_out);
+  });
+  return left_out;
 }
 
 }  // namespace laneloom::imports

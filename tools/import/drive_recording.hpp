@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/left_out.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -16,10 +17,11 @@ std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
 
 /// Writes poses, frames and objects (stamps ascend) as the recording `path`. Log times are their stamps, so
 /// that a frame comes after the pose before it, and before the pose after it. Objects come before a frame of
-/// their stamp. Sequences are counted up from 1, in
-/// session 1. Throws std::runtime_error naming the file if it exists or cannot be written, or where a message
-/// exceeds the bounds of the IDL.
-void write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
-                 const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects = {});
+/// their stamp. Sequences are counted up from 1. Messages without a session are of session 1. Returns what
+/// was left out, because it exceeds the bounds of the IDL; that is an error if the writing is `strict`.
+/// Throws std::runtime_error if the file exists or cannot be written; it leaves no half file.
+LeftOut write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
+                    const std::vector<DetectionFrame>& frames,
+                    const std::vector<TrackedObjects>& objects = {}, bool strict = false);
 
 }  // namespace laneloom::imports

@@ -118,7 +118,7 @@ void write_recording(const std::string& file, const std::vector<SeenFrame>& seen
   std::vector<TrackedObjects> objects;
   objects.reserve(seen_objects.size());
   for (const SeenObjects& each : seen_objects) objects.push_back(each.objects);
-  imports::write_drive(file, poses, frames, objects);
+  imports::write_drive(file, poses, frames, objects, /*strict=*/true);
 }
 
 void write_json_lines(const std::string& file, const std::vector<SeenFrame>& seen,

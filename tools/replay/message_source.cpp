@@ -6,6 +6,7 @@
 
 #include "io/file_kind.hpp"
 #include "io/json_lines.hpp"
+#include "io/leave_out.hpp"
 #include "laneloom/dds/cdr.hpp"
 #include "recording/damage.hpp"
 
@@ -86,7 +87,9 @@ class JsonLinesMessages : public MessageSource {
     const std::optional<recording::RecordedMessage> message = next();
     if (!message) return std::nullopt;
     recording::RawMessage raw{message->log_time_ns, message->message.index(), {}};
-    std::visit([&](const auto& m) { dds::to_cdr(m, map_frame_id_, raw.bytes); }, message->message);
+    const std::size_t too_much =
+        std::visit([&](const auto& m) { return dds::to_cdr(m, map_frame_id_, raw.bytes); }, message->message);
+    if (too_much > 0) io::leave_out(left_out_, "beyond the bounds of a message", raw.log_time_ns, too_much);
     return raw;
   }
 
