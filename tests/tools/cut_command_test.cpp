@@ -142,6 +142,8 @@ TEST_F(CutCommand, ARecordingBecomesLinesAndLinesARecording) {
 TEST_F(CutCommand, APartWithNothingInItIsAnError) {
   EXPECT_EQ(run("cut in.frames.jsonl --from 100 --out a.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("nothing of it is in that part"));
+  EXPECT_EQ(run("cut in.frames.jsonl --from 100 --out a.mcap"), 1);
+  EXPECT_FALSE(exists("a.mcap")) << "it would be in the way of the next attempt";
   EXPECT_EQ(run("cut in.frames.jsonl --from 3 --to 2 --out a.jsonl"), 64);
   EXPECT_EQ(run("cut in.frames.jsonl --topic status --out a.jsonl"), 1);
   EXPECT_THAT(output(), HasSubstr("JSON lines have no topics"));

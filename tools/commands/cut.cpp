@@ -21,6 +21,7 @@
 #include "commands/warn_of.hpp"
 #include "evaluation/inputs.hpp"
 #include "io/json_lines.hpp"
+#include "io/new_file.hpp"
 #include "laneloom/objects.hpp"
 #include "recording/topics.hpp"
 #include "replay/message_source.hpp"
@@ -190,14 +191,16 @@ void cut(const CutOptions& options) {
   if (!(options.from_s < options.to_s)) throw CLI::ValidationError("--to", "must be later than --from");
   refuse_overwriting({options.drive}, {options.out});
   Part part(options);
-  if (options.out.ends_with(".mcap"))
-    cut_to_recording(options, part);
-  else if (recording::is_recording(options.drive))
-    cut_to_lines(options, part);
-  else
-    cut_lines(options, part);
+  io::make_file(options.out, [&] {
+    if (options.out.ends_with(".mcap"))
+      cut_to_recording(options, part);
+    else if (recording::is_recording(options.drive))
+      cut_to_lines(options, part);
+    else
+      cut_lines(options, part);
+    if (part.kept() == 0) throw std::runtime_error(options.drive + ": nothing of it is in that part");
+  });
   fmt::print("{}: {} messages\n", options.out, part.kept());
-  if (part.kept() == 0) throw std::runtime_error(options.drive + ": nothing of it is in that part");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "commands/commands.hpp"
 #include "commands/given_files.hpp"
 #include "commands/warn_of.hpp"
+#include "io/new_file.hpp"
 #include "scene/scene_recording.hpp"
 #include "support/progress_bar.hpp"
 
@@ -21,8 +22,11 @@ struct ImportSceneOptions {
 void import_scene(const ImportSceneOptions& options) {
   refuse_overwriting({options.in}, {options.out});
   support::ProgressBar bar;
-  const scene::SceneRecordingReport report =
-      scene::add_scene(options.in, options.out, options.map_frame_id, [&](double share) { bar.step(share); });
+  scene::SceneRecordingReport report;
+  io::make_file(options.out, [&] {
+    report = scene::add_scene(options.in, options.out, options.map_frame_id,
+                              [&](double share) { bar.step(share); });
+  });
   bar.clear();
   warn_of(options.in, report.refused, report.left_out);
   fmt::print("{}: {} messages, {} of scenes\n", options.out, report.messages + report.scenes, report.scenes);

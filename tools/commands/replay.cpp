@@ -19,6 +19,7 @@
 #include "commands/warn_of.hpp"
 #include "config/config_file.hpp"
 #include "evaluation/map_evaluation.hpp"
+#include "io/new_file.hpp"
 #include "replay/message_source.hpp"
 #include "replay/player.hpp"
 #include "replay/replay.hpp"
@@ -139,9 +140,10 @@ void replay(ReplayOptions& options) {
     truth = std::make_unique<const simulation::Road>(simulation::load_truth(options.truth));
   std::vector<ReplayResult> results;
   results.reserve(options.config_files.size());
-  for (std::size_t i = 0; i < options.config_files.size(); ++i)
-    results.push_back(run(options, options.config_files[i],
-                          options.out.empty() ? std::string() : options.out[i], truth.get()));
+  for (std::size_t i = 0; i < options.config_files.size(); ++i) {
+    const std::string out = options.out.empty() ? std::string() : options.out[i];
+    io::make_file(out, [&] { results.push_back(run(options, options.config_files[i], out, truth.get())); });
+  }
   for (const ReplayResult& result : results) {
     print_result(result);
     if (!result.advice.empty()) fmt::print(stderr, "laneloom: {}: {}\n", options.in, result.advice);
@@ -161,6 +163,10 @@ void replay(ReplayOptions& options) {
   if (options.verify) {
     for (const ReplayResult& result : results) check_live(result);
   }
+  const auto is_vain = [](const ReplayResult& result) { return result.maps == 0; };
+  if (!std::ranges::all_of(results, is_vain)) return;
+  std::ranges::for_each(options.out, io::discard);
+  end_with(kFailed);
 }
 
 /// Whether the input may have objects. Standard input can only be read once.
