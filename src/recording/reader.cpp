@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -40,6 +42,9 @@ std::string_view refusal(const McapMessage& message) {
 }  // namespace
 
 bool is_recording(const std::string& path) {
+  std::error_code not_there;
+  if (std::filesystem::is_fifo(path, not_there))  // its first bytes would be lost
+    throw std::runtime_error(path + ": is a pipe; - stands for standard input, which may be one");
   std::array<char, kMcapMagic.size()> begin{};
   std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
   return std::ranges::equal(begin, kMcapMagic, {}, [](char c) { return static_cast<std::uint8_t>(c); });

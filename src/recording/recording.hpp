@@ -111,6 +111,7 @@ struct Origin {
 };
 
 /// Whether the file begins as MCAP does. False if it cannot be read; a later opening tells why.
+/// Throws std::runtime_error for a pipe, whose beginning can be read only once.
 bool is_recording(const std::string& path);
 
 /// Reads a recording: any MCAP file of any writer, whole or cut off. Memory stays within the limits. Not

@@ -219,6 +219,13 @@ TEST_F(CutCommand, WhatExceedsAMessageIsLeftOutOrRefused) {
   }
 }
 
+TEST_F(CutCommand, APipeIsStandardInput) {
+  for (const std::string command : {"replay", "cut --out a.jsonl", "evaluate --later --in"}) {
+    EXPECT_EQ(run(command + " <(cat in.frames.jsonl)"), 1) << command;
+    EXPECT_THAT(output(), HasSubstr("is a pipe; - stands for standard input")) << command;
+  }
+}
+
 TEST_F(CutCommand, CommandsAreJoinedByPipes) {
   ASSERT_EQ(shell("laneloom cut in.frames.jsonl --from 1 --out - | laneloom replay - --out - 2>report | "
                   "laneloom cut - --to 3 --out maps.jsonl"),
