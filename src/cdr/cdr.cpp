@@ -39,6 +39,11 @@ std::optional<CdrHeader> header_of(std::span<const std::uint8_t> message) {
   return header;
 }
 
+std::string frame_of_pose(std::span<const std::uint8_t> pose) {
+  MessageOf<VehiclePose> message;
+  return deserialise(pose, message).empty() ? message.header().frame_id().to_string() : std::string();
+}
+
 template std::size_t to_cdr(const DetectionFrame&, const std::string&, std::vector<std::uint8_t>&);
 template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, DetectionFrame&);
 template std::size_t to_cdr(const VehiclePose&, const std::string&, std::vector<std::uint8_t>&);

@@ -63,6 +63,8 @@ class RecordingReader::Impl {
       bool passed_over = false;
       const auto convert = [&]<class T>(std::in_place_type_t<T> /*type*/) {
         passed_over = inputs_only && !kIsInput<T>;
+        if (std::is_same_v<T, VehiclePose> && map_frame_id_.empty())
+          map_frame_id_ = dds::frame_of_pose(message->data);
         return passed_over ? std::string_view()
                            : dds::from_cdr(message->data, map_frame_id_, recorded.message.emplace<T>());
       };

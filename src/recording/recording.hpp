@@ -120,8 +120,9 @@ bool is_recording(const std::string& path);
 /// killed, is read up to its last whole chunk; that its end is missing is told there, once.
 class RecordingReader {
  public:
-  /// Messages are refused for the same reasons as by a service whose map frame is `map_frame_id`.
-  explicit RecordingReader(const std::string& path, std::string map_frame_id = "map",
+  /// Messages are refused for the same reasons as by a service whose map frame is `map_frame_id`; empty: that
+  /// of the first pose.
+  explicit RecordingReader(const std::string& path, std::string map_frame_id = {},
                            const RecordingLimits& limits = {});
   RecordingReader(RecordingReader&&) noexcept;
   RecordingReader& operator=(RecordingReader&&) noexcept;

@@ -219,6 +219,21 @@ TEST_F(CutCommand, WhatExceedsAMessageIsLeftOutOrRefused) {
   }
 }
 
+TEST_F(CutCommand, PosesMayBeInAFrameOfAnyName) {
+  io::JsonLinesReader frames(file("in.frames.jsonl"));
+  recording::RecordingWriter out(file("odom.mcap"), {.map_frame_id = "odom"});
+  while (const auto record = frames.next_frame()) {
+    out.write(record->pose, record->frame.stamp_ns);
+    out.write(record->frame, record->frame.stamp_ns);
+  }
+  out.close();
+  ASSERT_TRUE(done("cut odom.mcap --out a.frames.jsonl"));
+  EXPECT_EQ(lines_of(text("a.frames.jsonl")), lines_of(text("in.frames.jsonl")));
+  EXPECT_TRUE(done("import frames odom.mcap --out b.mcap"));
+  EXPECT_TRUE(done("replay b.mcap"));
+  EXPECT_EQ(info("odom.mcap").at("topics").size(), 2u);
+}
+
 TEST_F(CutCommand, APipeIsStandardInput) {
   for (const std::string command : {"replay", "cut --out a.jsonl", "evaluate --later --in"}) {
     EXPECT_EQ(run(command + " <(cat in.frames.jsonl)"), 1) << command;

@@ -83,7 +83,7 @@ class Part {
 
 /// Messages keep their bytes, refused ones as well.
 void cut_to_recording(const CutOptions& options, Part& part) {
-  const auto source = replay::open_messages(options.drive, "map", {.strict = options.strict});
+  const auto source = replay::open_messages(options.drive, "", {.strict = options.strict});
   recording::RecordingWriter out(options.out, {.compression = kCompressions.at(options.compression),
                                                .configuration = source->origin().configuration});
   support::ProgressBar bar;
@@ -143,7 +143,7 @@ class ObjectsOfFrames {
 /// came before it.
 template <class T>
 std::optional<std::int64_t> begin_of(const std::string& recording) {
-  const auto source = replay::open_messages(recording, "map");
+  const auto source = replay::open_messages(recording, "");
   std::optional<std::int64_t> first_ns;
   while (const auto message = source->next()) {
     if (!first_ns) first_ns = message->log_time_ns;

@@ -42,7 +42,7 @@ std::unique_ptr<replay::MessageSource> open_drive(const ImportFramesOptions& opt
   if (!options.classes.empty() && recording::is_recording(options.drive))
     throw std::runtime_error(options.drive + ": a recording has laneloom's types; --class needs JSON lines");
   return replay::open_messages(
-      options.drive, "map",
+      options.drive, "",
       {.strict = options.strict, .conventions = {.any_confidence = true, .classes = options.classes}});
 }
 

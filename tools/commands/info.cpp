@@ -77,7 +77,7 @@ void add_configuration(const std::string& path, FileInfo& info) {
 }
 
 FileInfo read_info(const std::string& path) {
-  const auto source = replay::open_messages(path, "map");
+  const auto source = replay::open_messages(path, "");
   FileInfo info;
   support::ProgressBar bar;
   while (const auto message = source->next()) {

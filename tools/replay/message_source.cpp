@@ -58,7 +58,7 @@ class JsonLinesMessages : public MessageSource {
   JsonLinesMessages(const std::string& path, std::string map_frame_id, const MessageReading& reading)
       : path_(path),
         reader_(path, reading.conventions),
-        map_frame_id_(std::move(map_frame_id)),
+        map_frame_id_(map_frame_id.empty() ? "map" : std::move(map_frame_id)),
         left_out_(reading.strict) {}
 
   std::optional<recording::RecordedMessage> next() override {

@@ -33,4 +33,7 @@ struct CdrHeader {
 /// header are not checked.
 std::optional<CdrHeader> header_of(std::span<const std::uint8_t> message);
 
+/// The frame that a pose is in. Empty: it names none, or the bytes are refused.
+std::string frame_of_pose(std::span<const std::uint8_t> pose);
+
 }  // namespace laneloom::dds
