@@ -241,6 +241,15 @@ TEST_F(CutCommand, APipeIsStandardInput) {
   }
 }
 
+TEST_F(CutCommand, FilesOfAnotherKindAreNamed) {
+  ASSERT_EQ(shell("gzip -k in.frames.jsonl truth.json"), 0);
+  for (const std::string command : {"evaluate --truth truth.json --frames in.frames.jsonl.gz",
+                                    "render --truth truth.json.gz --at 1 --out a.svg"}) {
+    EXPECT_EQ(run(command), 1) << command;
+    EXPECT_THAT(output(), HasSubstr("is compressed with gzip")) << command;
+  }
+}
+
 TEST_F(CutCommand, CommandsAreJoinedByPipes) {
   ASSERT_EQ(shell("laneloom cut in.frames.jsonl --from 1 --out - | laneloom replay - --out - 2>report | "
                   "laneloom cut - --to 3 --out maps.jsonl"),

@@ -57,7 +57,7 @@ std::string file_kind(const std::filesystem::path& path) {
   if (!in) return "";
   in.read(bytes.data(), bytes.size());
   const std::string_view begin(bytes.data(), static_cast<std::size_t>(in.gcount()));
-  if (begin.empty()) return "is empty";
+  if (begin.empty()) return std::string(kEmpty);
   for (const Kind& kind : kKinds)
     if (begin.starts_with(kind.begin)) return kind.text;
   const bool binary = begin.find('\0') != std::string_view::npos;

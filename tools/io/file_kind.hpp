@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace laneloom::io {
+
+inline constexpr std::string_view kEmpty = "is empty";
 
 /// What a file is by its first bytes, as "is compressed with zstd" or "is empty". Empty: it is a text, or
 /// nothing known, or cannot be read.

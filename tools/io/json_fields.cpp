@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/unit_rotation.hpp"
+#include "io/file_kind.hpp"
 #include "io/json_not_finite.hpp"
 
 namespace laneloom::io {
@@ -68,6 +69,8 @@ json parse_json(std::string_view text) {
 }
 
 json load_json(const std::filesystem::path& path) {
+  if (const std::string kind = file_kind(path); !kind.empty())
+    throw std::runtime_error(path.string() + ": " + kind + "; JSON is needed");
   std::ifstream in(path);
   std::ostringstream content;
   content << in.rdbuf();

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/file_kind.hpp"
 #include "io/json_fields.hpp"
 #include "io/stamp_and_pose.hpp"
 
@@ -18,6 +19,8 @@ constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
 JsonLinesReader::JsonLinesReader(const std::filesystem::path& path, FrameConventions conventions)
     : path_(path), conventions_(std::move(conventions)), buffer_(std::cin.rdbuf()) {
   if (path == kStandard) return;
+  if (const std::string kind = file_kind(path); !kind.empty() && kind != kEmpty)
+    throw std::runtime_error(path.string() + ": " + kind + "; JSON lines are needed");
   file_.open(path);
   buffer_ = file_.rdbuf();
   if (!file_ || std::filesystem::is_directory(path))
