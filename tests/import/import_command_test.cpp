@@ -70,6 +70,14 @@ TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
   EXPECT_EQ(frames[1].detections[0].points, (Polyline{{0, 2, -0.3}, {30, 2, -0.3}}));
 }
 
+TEST_F(ImportCommand, TheEndingOfARecordingNeedNotBeGiven) {
+  const std::string words = "maptr --results results.json --argoverse2 log --out ";
+  ASSERT_TRUE(done(words + "drive"));
+  EXPECT_EQ(messages<VehiclePose>("drive.mcap").size(), 6u);
+  EXPECT_EQ(run(words + "-"), 64);
+  EXPECT_THAT(output(), HasSubstr("no standard output"));
+}
+
 TEST_F(ImportCommand, ClassesBecomeTheTypesThatAreSaid) {
   ASSERT_TRUE(
       done("maptr --results results.json --argoverse2 log --class ped_crossing=stopline --class divider=none "

@@ -37,7 +37,7 @@ TEST_F(GivenFiles, NoInputIsWrittenOver) {
   refuses("simulate --opendrive road.xodr --frames road.xodr", "road.xodr", "an input");
   refuses("publish --opendrive road.xodr --truth road.xodr", "road.xodr", "an input");
   refuses("export in.frames.jsonl map.jsonl --lanelet2 map.jsonl", "map.jsonl", "an input");
-  refuses("import frames in.frames.jsonl --out in.frames.jsonl", "in.frames.jsonl", "an input");
+  refuses("import frames in.mcap --out in", "in.mcap", "an input");
   refuses("import scene in.mcap --out in.mcap", "in.mcap", "an input");
   std::string after;
   for (const char* name : {"in.frames.jsonl", "in.mcap", "map.jsonl", "truth.json", "road.xodr"})

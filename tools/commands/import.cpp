@@ -93,7 +93,7 @@ void add_results(CLI::App& app, const std::string& name, const std::string& whos
       ->required();
   add_drive(*command, *options);
   add_classes(*command, options->classes);
-  command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  add_recording_output(*command, options->out)->required();
   add_strict(*command, options->strict);
   command->callback([options, read] { import_results(*options, read); });
 }
@@ -130,7 +130,7 @@ void add_openpilot(CLI::App& app) {
     return is_list ? ""
                    : word + ": the lists of lines are " + imports::names_of(imports::openpilot_classes());
   });
-  command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  add_recording_output(*command, options->out)->required();
   add_strict(*command, options->strict);
   command->footer(
       "The log as JSON: zstdcat rlog.zst | capnp convert --short binary:json openpilot/cereal/log.capnp "

@@ -132,7 +132,7 @@ void add_import_frames(CLI::App& import) {
   command
       ->add_option("--in,drive", options->drive, "Recording (MCAP), or detections and poses (.frames.jsonl)")
       ->required();
-  command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  add_recording_output(*command, options->out)->required();
   add_points(*command, options->correction);
   add_poses(*command, options->correction);
   add_classes(*command, options->classes);

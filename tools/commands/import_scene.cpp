@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/given_files.hpp"
+#include "commands/options.hpp"
 #include "commands/warn_of.hpp"
 #include "io/new_file.hpp"
 #include "scene/scene_recording.hpp"
@@ -39,7 +40,7 @@ void add_import_scene(CLI::App& app) {
       app.add_subcommand("scene", "Adds scenes for the 3D panels of Foxglove and Lichtblick to a recording");
   const auto options = std::make_shared<ImportSceneOptions>();
   command->add_option("--in,drive", options->in, "Recording (.mcap)")->required()->check(CLI::ExistingFile);
-  command->add_option("--out", options->out, "Recording to write (.mcap)")->required();
+  add_recording_output(*command, options->out)->required();
   command->add_option("--map-frame-id", options->map_frame_id, "Frame of the poses; default: map");
   command->callback([options] { import_scene(*options); });
 }

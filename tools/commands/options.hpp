@@ -67,6 +67,17 @@ CLI::Option* add_text_output(CLI::App& command, const std::string& name, Paths& 
   });
 }
 
+/// Adds --out, of a recording to write. Its ending need not be given.
+inline CLI::Option* add_recording_output(CLI::App& command, std::string& path) {
+  const auto complete = [](std::string& given) -> std::string {
+    if (given == io::kStandard) return "a recording is a file, and no standard output";
+    if (!given.ends_with(".mcap")) given += ".mcap";
+    return {};
+  };
+  return command.add_option("--out", path, "Recording to write (.mcap)")
+      ->transform(CLI::Validator(complete, ""));
+}
+
 /// Adds --axes, of points: see io/axes.hpp.
 inline CLI::Option* add_axes(CLI::App& command, std::string& axes) {
   const auto complaint = [](const std::string& name) -> std::string {
