@@ -168,6 +168,14 @@ TEST_F(SceneRecording, TheRestIsTheSameByteForByte) {
   EXPECT_TRUE(after.refused().values().empty());
 }
 
+TEST_F(SceneRecording, TheConfigurationIsKept) {
+  ASSERT_TRUE(done("import scene --in maps.mcap --out maps_scene.mcap"));
+  ASSERT_TRUE(done("info --configuration maps.mcap"));
+  const std::string configuration = output();
+  ASSERT_TRUE(done("info --configuration maps_scene.mcap"));
+  EXPECT_EQ(output(), configuration);
+}
+
 TEST_F(SceneRecording, TheLayoutShowsTopicsThatThereAre) {
   std::ifstream in(std::string(LANELOOM_SOURCE) + "/config/foxglove/layout.json");
   const json panel = json::parse(in)["configById"]["3D!laneloom"];

@@ -14,7 +14,9 @@ SceneRecordingReport add_scene(const std::string& from, const std::string& to,
                                const std::string& map_frame_id,
                                const std::function<void(double share)>& on_step) {
   recording::RecordingReader in(from, map_frame_id);
-  recording::RecordingWriter out(to, {.map_frame_id = map_frame_id, .extra_topics = scene_topics()});
+  recording::RecordingWriter out(to, {.map_frame_id = map_frame_id,
+                                      .configuration = in.origin().configuration,
+                                      .extra_topics = scene_topics()});
   SceneMaker maker(map_frame_id);
   SceneRecordingReport report;
   while (const auto message = recording::next_or_leave_out(report.left_out, [&] { return in.next_raw(); })) {
