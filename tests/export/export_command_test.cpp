@@ -108,6 +108,22 @@ TEST_F(ExportCommand, PlainOpenDriveHasNoStopLines) {
   EXPECT_EQ(run("export drive.frames.jsonl --geojson map.json --origin 48,11 --plain"), 64);
 }
 
+TEST_F(ExportCommand, MapsNeedNotTellHowOftenALineWasSeen) {
+  simulate("straight");
+  ASSERT_TRUE(done("replay drive.frames.jsonl --out maps.jsonl"));
+  std::istringstream lines(text("maps.jsonl"));
+  std::ofstream minimal(file("minimal.jsonl"));
+  minimal << "{\"cut off\n";
+  for (std::string line; std::getline(lines, line);) {
+    nlohmann::json map = nlohmann::json::parse(line);
+    for (nlohmann::json& instance : map["instances"]) instance.erase("observations");
+    minimal << map << '\n';
+  }
+  minimal.close();
+  ASSERT_TRUE(done("export minimal.jsonl --lanelet2 map.osm"));
+  EXPECT_THAT(output(), HasSubstr("maps read"));
+}
+
 TEST_F(ExportCommand, MapsThatAreEarlierThanOneBeforeAreTold) {
   simulate("straight");
   ASSERT_TRUE(done("replay drive.frames.jsonl --out maps.jsonl"));

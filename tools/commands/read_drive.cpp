@@ -47,14 +47,13 @@ class DriveReader {
   std::int64_t stamp_ns_ = 0;
 };
 
-/// Whether the first line of JSON lines is a map.
+/// Whether the first line of JSON lines that can be read is a map.
 bool holds_json_maps(const std::string& path) {
   std::ifstream in(path);
-  std::string line;
-  while (line.empty() && std::getline(in, line)) {
-  }
-  const auto json = nlohmann::json::parse(line, nullptr, false);
-  return json.is_object() && json.contains("instances");
+  for (std::string line; std::getline(in, line);)
+    if (const auto json = nlohmann::json::parse(line, nullptr, false); json.is_object())
+      return json.contains("instances");
+  return false;
 }
 
 void take_json_maps(const std::string& path, bool strict, DriveReader& taker) {
@@ -75,10 +74,10 @@ void take_recorded_maps(const std::string& path, bool strict, DriveReader& taker
   }
   bar.clear();
   if (taker.maps() == 0) return;
+  warn_of(path, reader.refused(), left_out);
   if (taker.earlier() > 0)
     fmt::print(stderr, "laneloom: {}: {} maps passed over: they are earlier than one before\n", path,
                taker.earlier());
-  warn_of(path, reader.refused(), left_out);
 }
 
 void map_frames(const std::string& path, const Config& config, bool strict, DriveReader& taker) {

@@ -21,11 +21,11 @@ constexpr double kMinChange_m = 10.0;  // length of a stretch that is gone or ne
 constexpr int kMinDrives = 3;          // that agree, before the others say otherwise
 
 /// Whether a marking was seen as seldom, or is believed in as little, as lines that are not there sometimes
-/// are.
+/// are. Maps of others need not tell how often it was seen.
 bool is_doubtful(const Marking& marking) {
   const double existence = marking.existence_probability;
   return (existence >= 0.0 && existence < kMinExistence) || marking.status == ElementStatus::tentative ||
-         marking.observations < kMinObservations;
+         (marking.observations > 0 && marking.observations < kMinObservations);
 }
 
 bool is_gone(const Votes& votes) { return votes.belief <= -Votes::kSeen && votes.seen >= kMinDrives; }
