@@ -111,6 +111,17 @@ TEST_F(Commands, RenderDrawsEveryInput) {
   EXPECT_THAT(text("truth.svg"), HasSubstr("</svg>"));
 }
 
+TEST_F(Commands, RenderWritesNoPictureOverAnInputOrLargerThanPicturesAre) {
+  simulate("none", "in.frames.jsonl");
+  const std::string truth = text("truth.json");
+  EXPECT_EQ(run("render --truth truth.json --out ./truth.json"), 1);
+  EXPECT_THAT(output(), HasSubstr("is an input"));
+  EXPECT_EQ(text("truth.json"), truth);
+  EXPECT_EQ(run("render --truth truth.json --sequence 50 --out large.png"), 1);
+  EXPECT_THAT(output(), HasSubstr("draw fewer moments, a smaller range, or an .svg"));
+  EXPECT_TRUE(done("render --truth truth.json --sequence 50 --out large.svg"));
+}
+
 TEST_F(Commands, EveryCommandTakesRecordingsAndLines) {
   simulate("none", "in.frames.jsonl");
   ASSERT_TRUE(done("replay --in in.frames.jsonl --out map.jsonl"));

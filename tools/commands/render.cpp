@@ -128,6 +128,7 @@ render::Moment draw_moment(const RenderOptions& options, const Inputs& inputs, s
 
 void render(const RenderOptions& options) {
   refuse_second_reading({options.frames, options.map});
+  refuse_overwriting({options.frames, options.map, options.truth}, {options.out});
   const Inputs inputs = read(options);
   render::Figure figure{options.title, options.range, {}};
   if (figure.title.empty()) figure.title = inputs.truth ? inputs.truth->name : "laneloom";

@@ -1,7 +1,9 @@
 #include "render/canvas.hpp"
 
 #include <cairo-svg.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -10,11 +12,18 @@
 namespace laneloom::render {
 namespace {
 
-constexpr double kPngScale = 2.0;  ///< pixels of a PNG per unit: sharp in print
+constexpr double kPngScale = 2.0;        ///< pixels of a PNG per unit: sharp in print
+constexpr double kMostPixels = 32767.0;  ///< of a side of an image of cairo
 
 cairo_surface_t* make_image(double width, double height) {
-  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(std::ceil(width * kPngScale)),
-                                    static_cast<int>(std::ceil(height * kPngScale)));
+  const double columns = std::ceil(width * kPngScale), rows = std::ceil(height * kPngScale);
+  if (std::max(columns, rows) > kMostPixels)
+    throw std::runtime_error(
+        fmt::format("the picture would have {:.0f} x {:.0f} pixels, and {:.0f} a side are the most: draw "
+                    "fewer moments, a "
+                    "smaller range, or an .svg",
+                    columns, rows, kMostPixels));
+  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(columns), static_cast<int>(rows));
 }
 
 cairo_surface_t* make_surface(const std::string& path, double width, double height) {
