@@ -136,5 +136,7 @@ def test_configurations(tmp_path):
         config["mapper.colour"] = 1
     with pytest.raises(KeyError):
         config["mapper.colour"]
+    assert "mapper.method" in config and "mapper.colour" not in config and 1 not in config
+    assert list(config) == config.keys() and len(config) == len(config.keys())
     with pytest.raises(FileNotFoundError, match="nowhere.yaml"):
         Config.load("nowhere.yaml")

@@ -68,6 +68,8 @@ def test_the_graph_knows_the_own_lane_and_what_follows(lane_map):
         assert (then, False) in graph.successors(first)
     with pytest.raises(KeyError):
         graph[10**9]
+    assert lane.id in graph and 10**9 not in graph and "lane" not in graph
+    assert list(graph) == [other.id for other in lane_map.lanes] and len(graph) == len(lane_map.lanes)
 
 
 def test_a_mapper_tells_why(frames):

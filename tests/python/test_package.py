@@ -17,6 +17,11 @@ def test_everything_public_has_a_docstring():
             assert inspect.getdoc(public), name
 
 
+def test_everything_that_is_imported_is_public():
+    core = {name for name in vars(laneloom) if hasattr(laneloom._core, name) and not name.startswith("__")}
+    assert core <= set(laneloom.__all__), core - set(laneloom.__all__)
+
+
 def test_the_version_is_that_of_the_program():
     assert laneloom.__version__ in run("--version").stdout
 

@@ -49,6 +49,12 @@ py::object value_of(const Config& config, const std::string& key) {
   return python_value(found->second);
 }
 
+py::list keys_of(const Config& config) {
+  py::list keys;
+  for (const auto& [key, value] : config::settings(config)) keys.append(key);
+  return keys;
+}
+
 Config make_config(const py::object& preset) {
   Config config;
   if (!preset.is_none()) config::apply_preset(config, text(preset, "preset"));
@@ -76,13 +82,11 @@ void bind_config(py::module_& module) {
           py::arg("key"))
       .def("__setitem__", &set, py::arg("key"), py::arg("value"))
       .def(
-          "keys",
-          [](const Config& c) {
-            py::list keys;
-            for (const auto& [key, value] : config::settings(c)) keys.append(key);
-            return keys;
-          },
-          "Every key, in the order of the file.")
+          "__contains__", [](const Config& c, const py::object& key) { return keys_of(c).contains(key); },
+          py::arg("key"))
+      .def("__iter__", [](const Config& c) { return py::iter(keys_of(c)); })
+      .def("__len__", [](const Config& c) { return keys_of(c).size(); })
+      .def("keys", &keys_of, "Every key, in the order of the file.")
       .def(
           "dump", [](const Config& c) { return config::dump(c); },
           "The whole configuration as a YAML file, with units.")

@@ -209,28 +209,36 @@ py::object next(Stream<T>& stream) {
 
 std::unique_ptr<FrameStream> iter_frames(const py::object& file) {
   return std::make_unique<FrameStream>(
-      existing_path(file, "path"), [](const std::string& name, const auto& put) {
+      existing_path(file, "path"),
+      [](const std::string& name, const auto& put, const evaluation::InputReading& reading) {
         return evaluation::for_each_frame(
-            name, [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
+            name,
+            [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
               put({frame, pose_of(T_map_body, frame.stamp_ns)});
-            });
+            },
+            reading);
       });
 }
 
 std::unique_ptr<ObjectsStream> iter_objects(const py::object& file) {
   return std::make_unique<ObjectsStream>(
-      existing_path(file, "path"), [](const std::string& name, const auto& put) {
+      existing_path(file, "path"),
+      [](const std::string& name, const auto& put, const evaluation::InputReading& reading) {
         return evaluation::for_each_objects(
-            name, [&](const TrackedObjects& seen, const Eigen::Isometry3d& T_map_body) {
+            name,
+            [&](const TrackedObjects& seen, const Eigen::Isometry3d& T_map_body) {
               put({seen, pose_of(T_map_body, seen.stamp_ns)});
-            });
+            },
+            reading);
       });
 }
 
 std::unique_ptr<MapStream> iter_maps(const py::object& file) {
   return std::make_unique<MapStream>(
-      existing_path(file, "path"), [](const std::string& name, const auto& put) {
-        return evaluation::for_each_map(name, [&](const LocalMap& map) { put(map); });
+      existing_path(file, "path"),
+      [](const std::string& name, const auto& put, const evaluation::InputReading& reading) {
+        return evaluation::for_each_map(
+            name, [&](const LocalMap& map) { put(map); }, reading);
       });
 }
 

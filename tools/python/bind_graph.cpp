@@ -30,6 +30,12 @@ class OwnedGraph {
   LaneGraph graph_;
 };
 
+py::list ids_of(const OwnedGraph& graph) {
+  py::list ids;
+  for (const Lane& lane : graph.graph().map().lanes) ids.append(lane.id);
+  return ids;
+}
+
 py::object or_none(const Lane* lane) { return lane != nullptr ? py::cast(*lane) : py::none(); }
 
 py::object own_lane(const OwnedGraph& graph) {
@@ -71,6 +77,11 @@ void bind_graph(py::module_& module) {
       .def(
           "__getitem__", [](const OwnedGraph& g, const py::object& id) { return g.lane(count(id, "id")); },
           arg("id"), "The Lane of an id.")
+      .def(
+          "__contains__", [](const OwnedGraph& g, const py::object& id) { return ids_of(g).contains(id); },
+          arg("id"))
+      .def("__iter__", [](const OwnedGraph& g) { return py::iter(ids_of(g)); })
+      .def("__len__", [](const OwnedGraph& g) { return g.graph().map().lanes.size(); })
       .def("own_lane", &own_lane,
            "(Lane, arc, offset, against) of the lane that the vehicle drives in; None: it is in none. Metres "
            "along the lane and to its left, as the vehicle drives; against: the vehicle drives against the "

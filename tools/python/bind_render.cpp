@@ -65,6 +65,8 @@ py::object render(const py::object& file, const py::object& map, const py::objec
   render::Figure figure{.title = text(title, "title")};
   if (!config.is_none()) figure.range = instance<Config>(config, "config").mapper.range;
   const std::string name = file.is_none() ? "" : path(file, "path");
+  if (!name.empty() && !name.ends_with(".png") && !name.ends_with(".svg"))
+    refuse_value("path", "pictures are .png or .svg");
   render::Image image;
   {
     const py::gil_scoped_release others_run;

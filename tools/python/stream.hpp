@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -21,7 +22,8 @@ class Stream {
  public:
   using Put = std::function<void(T)>;
   /// Reads the file and puts its items.
-  using Read = std::function<evaluation::InputAccount(const std::string& file, const Put& put)>;
+  using Read = std::function<evaluation::InputAccount(const std::string& file, const Put& put,
+                                                      const evaluation::InputReading& reading)>;
 
   Stream(std::string file, Read read)
       : file_(std::move(file)), thread_([this, read = std::move(read)] { run(read); }) {}
@@ -71,7 +73,12 @@ class Stream {
     std::exception_ptr error;
     evaluation::InputAccount account;
     try {
-      account = read(file_, [this](T item) { put(std::move(item)); });
+      // Also a file with nothing to put is read no further.
+      const evaluation::InputReading reading{.on_step = [this](double /*share*/) {
+        if (stopped_) throw Stopped();
+      }};
+      account = read(
+          file_, [this](T item) { put(std::move(item)); }, reading);
     } catch (const Stopped&) {
     } catch (...) {
       error = std::current_exception();
@@ -89,7 +96,8 @@ class Stream {
   std::deque<T> items_;
   evaluation::InputAccount account_;
   std::exception_ptr error_;
-  bool done_ = false, stopped_ = false;
+  bool done_ = false;
+  std::atomic<bool> stopped_ = false;
   std::thread thread_;
 };
 

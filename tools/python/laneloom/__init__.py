@@ -10,7 +10,8 @@
 >>> laneloom.evaluate_later(frames, maps).score("laneline", 20).map.recall
 
 Metres, radians, nanoseconds. The body frame is the vehicle's: x forward, y left, z up. The map frame is the fixed one
-that poses are given in. Arrays are copies. Objects cannot be changed once they are made, but for Config and Mapper.
+that poses are given in. Lines and the numbers along them are views that cannot be written; other arrays are copies.
+Objects cannot be changed once they are made, but for Config and Mapper.
 What is wrong with an argument is a TypeError or a ValueError whose text begins with the argument's name.
 """
 
@@ -83,10 +84,12 @@ __all__ = [
     "Mapper",
     "Marking",
     "Neighbour",
+    "Objects",
     "PairScore",
     "Pose",
     "Score",
     "Stopline",
+    "TrackedObject",
     "Truth",
     "TruthLane",
     "TruthMarking",
@@ -97,8 +100,10 @@ __all__ = [
     "evaluate_later",
     "iter_frames",
     "iter_maps",
+    "iter_objects",
     "read_frames",
     "read_maps",
+    "read_objects",
     "render",
     "way_ahead",
     "write_frames",
