@@ -67,10 +67,23 @@ void HeardWriters::note(const WriterId& writer, const Fragmentation& cut, std::i
   known.next_cut = (known.next_cut + 1) % known.cuts.size();
 }
 
-void HeardWriters::note_skipped(const WriterId& writer, std::int64_t numbers, std::int64_t now_ns) {
+std::int64_t HeardWriters::newly_skipped(const WriterId& writer, const SequenceNumbers& numbers) const {
+  const Heard* heard = find(writer);
+  const std::int64_t all = numbers.to - numbers.from;
+  if (!heard) return all;
+  const SequenceNumbers& known = heard->last_skipped;
+  return all - std::max<std::int64_t>(0, std::min(numbers.to, known.to) - std::max(numbers.from, known.from));
+}
+
+void HeardWriters::note_skipped(const WriterId& writer, const SequenceNumbers& numbers, std::int64_t now_ns) {
+  const std::int64_t more = newly_skipped(writer, numbers);
   auto& known = heard(writer, now_ns);
-  known.skipped = known.skipped_at(now_ns) + numbers;
+  known.skipped = known.skipped_at(now_ns) + more;
   known.skipped_ns = now_ns;
+  SequenceNumbers& last = known.last_skipped;
+  const bool continues = numbers.from <= last.to && last.from <= numbers.to;
+  last =
+      continues ? SequenceNumbers{std::min(last.from, numbers.from), std::max(last.to, numbers.to)} : numbers;
 }
 
 HeardWriters::Heard& HeardWriters::heard(const WriterId& writer, std::int64_t now_ns) {

@@ -18,6 +18,11 @@ struct Fragmentation {
   bool operator==(const Fragmentation&) const = default;
 };
 
+/// Sequence numbers in a row.
+struct SequenceNumbers {
+  std::int64_t from = 0, to = 0;  ///< `to` is not one of them
+};
+
 /// The newest numbers of remote writers, by which a stranger's leap in their name is seen. Memory is bounded:
 /// the writer that was heard least recently is forgotten first.
 class HeardWriters {
@@ -26,12 +31,15 @@ class HeardWriters {
   bool may_have_sent(const WriterId& writer, std::int64_t sequence, std::int64_t now_ns) const;
   /// Whether a writer may tell that it skips so many numbers more.
   bool may_skip(const WriterId& writer, std::int64_t numbers, std::int64_t now_ns) const;
+  /// How many of the numbers a writer has not just skipped. It tells of those that a slow reader asks for at
+  /// each heartbeat anew, and all readers hear it.
+  std::int64_t newly_skipped(const WriterId& writer, const SequenceNumbers& numbers) const;
   /// Whether no other fragmentation of the same sample is known.
   bool is_cut_like(const WriterId& writer, const Fragmentation& cut) const;
 
   void note(const WriterId& writer, std::int64_t sequence, std::int64_t now_ns);
   void note(const WriterId& writer, const Fragmentation& cut, std::int64_t now_ns);
-  void note_skipped(const WriterId& writer, std::int64_t numbers, std::int64_t now_ns);
+  void note_skipped(const WriterId& writer, const SequenceNumbers& numbers, std::int64_t now_ns);
 
  private:
   struct Heard {
@@ -42,6 +50,7 @@ class HeardWriters {
     std::size_t next_cut = 0;
     std::int64_t skipped = 0;  ///< numbers, less those that were forgotten until skipped_ns
     std::int64_t skipped_ns = 0;
+    SequenceNumbers last_skipped{};  ///< counted; without a gap
 
     std::int64_t skipped_at(std::int64_t now_ns) const;
   };

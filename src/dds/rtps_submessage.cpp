@@ -161,7 +161,7 @@ void SubmessageCheck::note_all(HeardWriters& heard) const {
   for (const Sent& sent : sent_) {
     heard.note(sent.writer, sent.sequence, now_ns_);
     if (sent.cut) heard.note(sent.writer, *sent.cut, now_ns_);
-    if (sent.skipped > 0) heard.note_skipped(sent.writer, sent.skipped, now_ns_);
+    if (sent.skipped) heard.note_skipped(sent.writer, *sent.skipped, now_ns_);
   }
 }
 
@@ -245,8 +245,9 @@ Verdict SubmessageCheck::gap(const RtpsSubmessage& submessage) {
   if (!is_sequence(start) || !is_sequence(base) || base < start) return DatagramRefusal::sequence;
   constexpr std::size_t kSizeBytes = 4, kBitsPerByte = 8;
   const auto bits = static_cast<std::int64_t>((before_bits - bytes.left() - kSizeBytes) * kBitsPerByte);
-  const std::int64_t skipped = base - start + bits;
-  if (!heard_.may_skip(from, skipped + skipped_by(from), now_ns_)) return DatagramRefusal::leap;
+  const SequenceNumbers skipped{start, base + bits};
+  if (!heard_.may_skip(from, heard_.newly_skipped(from, skipped) + skipped_by(from), now_ns_))
+    return DatagramRefusal::leap;
   if (const auto refusal = sent(from, base)) return refusal;
   sent_.back().skipped = skipped;
   return {};
@@ -255,7 +256,7 @@ Verdict SubmessageCheck::gap(const RtpsSubmessage& submessage) {
 std::int64_t SubmessageCheck::skipped_by(const WriterId& writer) const {
   std::int64_t sum = 0;
   for (const Sent& sent : sent_)
-    if (sent.writer == writer) sum += sent.skipped;
+    if (sent.writer == writer && sent.skipped) sum += heard_.newly_skipped(writer, *sent.skipped);
   return sum;
 }
 

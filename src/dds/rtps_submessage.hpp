@@ -50,7 +50,7 @@ class SubmessageCheck {
   Verdict info_source(const RtpsSubmessage& submessage);
   /// Refuses a number that the writer can not have come to; else remembers it.
   Verdict sent(const WriterId& writer, std::int64_t sequence);
-  /// The numbers that a writer has skipped in this datagram so far.
+  /// How many numbers more a writer has skipped in this datagram so far.
   std::int64_t skipped_by(const WriterId& writer) const;
   WriterId writer(RtpsBytes& bytes) const;
 
@@ -58,7 +58,7 @@ class SubmessageCheck {
     WriterId writer{};
     std::int64_t sequence = 0;
     std::optional<Fragmentation> cut;
-    std::int64_t skipped = 0;
+    std::optional<SequenceNumbers> skipped;
   };
 
   const HeardWriters& heard_;
