@@ -46,8 +46,8 @@ Linkage::Turn turn_between(const Eigen::Vector2d& leaving, const Eigen::Vector2d
 Linkage::Turn turn_between(const Lane& from, const Lane& to);
 
 /// The foot of a place on the lane's centerline; empty where the place is not in the lane, which is half its
-/// width to either side, on its level: the lane lies up to 2 m above the place or 5 m below it, since the origin
-/// of a vehicle's body may lie on its roof.
+/// width to either side, on its level: the lane lies up to 2 m above the place or 5 m below it, since the
+/// origin of a vehicle's body may lie on its roof.
 std::optional<Projection> foot_in(const Lane& lane, const Point& place);
 
 /// The cosine between the vehicle's heading and the centerline, where the vehicle drives in the lane; 0 where

@@ -230,8 +230,9 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
     for (std::size_t i = 0; i < places.size(); ++i) {
       auto& [cut, candidate, width, opposite] = places[i];
       candidate.driven = is_driven;
+      const Point& at = cut.self().point;
       candidate.here = is_driven && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
-                         return vehicle.is_near(cut.self().point);
+                         return vehicle.is_near(at);
                        });
       candidate.gore = gore[i];
       candidate.parted = parted[one.first + i];
