@@ -1,5 +1,6 @@
 #include "replay/replay.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
