@@ -69,14 +69,16 @@ class Eavesdropper {
 
   /// A port is of who announced it last.
   void note_ports(std::span<const std::uint8_t> announcement) {
-    const bool is_named = !std::ranges::search(announcement, name_).empty();
+    const auto end = announcement.end();
+    const bool is_named = std::search(announcement.begin(), end, name_.begin(), name_.end()) != end;
     // Parameters of announcements: where the participant listens, by UDP over IPv4, to others' topics (0x31)
     // and announcements (0x32). The port is behind.
     for (const std::uint8_t whose : std::array<std::uint8_t, 2>{0x31, 0x32}) {
       const std::array<std::uint8_t, 8> address{whose, 0, 24, 0, 1, 0, 0, 0};
-      const auto found = std::ranges::search(announcement, address);
-      if (found.empty() || announcement.end() - found.end() < 2) continue;
-      ports_[found.end()[0] | found.end()[1] << 8] = is_named;
+      const auto found = std::search(announcement.begin(), end, address.begin(), address.end());
+      if (end - found < static_cast<std::ptrdiff_t>(address.size()) + 2) continue;
+      const auto port = found + address.size();
+      ports_[port[0] | port[1] << 8] = is_named;
     }
   }
 

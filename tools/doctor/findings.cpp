@@ -23,7 +23,7 @@ Findings findings(const Observed& seen) {
     add(state_findings(seen));
   }
   add(shared_memory_findings(seen));
-  std::ranges::stable_partition(all, [](const Finding& finding) { return !finding.advice; });
+  std::stable_partition(all.begin(), all.end(), [](const Finding& finding) { return !finding.advice; });
   return all;
 }
 

@@ -168,7 +168,7 @@ Findings incident_findings(const Observed& seen) {
       judge_counter(counter, rise, found);
     for (const SourceStatus& source : service.last.sources) judge_source(source, service.first, found);
   }
-  std::ranges::stable_partition(found, [](const Finding& finding) {
+  std::stable_partition(found.begin(), found.end(), [](const Finding& finding) {
     return std::ranges::find(kConsequences, finding.id) == kConsequences.end();
   });
   return found;
