@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "mapping/boundaries/lane_boundaries.hpp"
+#include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/stretches.hpp"
 #include "mapping/markings/markings.hpp"
 
@@ -43,6 +44,13 @@ void Boundaries::insert(std::vector<LaneBoundary> boundaries) {
   std::ranges::for_each(boundaries, measure);
   std::ranges::move(boundaries, std::back_inserter(all_));
   std::ranges::stable_sort(all_, {}, id_of);
+}
+
+bool crosses_edge(const Polyline& path, const Boundaries& boundaries) {
+  return std::ranges::any_of(boundaries, [&](const LaneBoundary& boundary) {
+    return boundary.is_edge() && !boundary.is_unseen_edge() &&
+           intersect(path, boundary.marking.points, geometry::kLevel_m);
+  });
 }
 
 }  // namespace laneloom::boundaries

@@ -21,6 +21,8 @@ struct LaneBoundary {
   bool is_edge() const { return marking.type == MarkingType::roadedge; }
   bool is_confirmed() const { return marking.status == ElementStatus::confirmed; }
   bool is_inferred() const { return marking.status == ElementStatus::inferred; }
+  /// Whether it is an edge that was continued where it is not seen. A street may begin there.
+  bool is_unseen_edge() const { return is_edge() && is_inferred(); }
 };
 
 /// The boundaries of one map, by ascending id, each with its measured course.
@@ -48,6 +50,9 @@ class Boundaries {
  private:
   std::vector<LaneBoundary> all_;
 };
+
+/// Whether a path leads over an edge that was seen, on its level.
+bool crosses_edge(const Polyline& path, const Boundaries& boundaries);
 
 /// Joins lanelines, and joins roadedges, whose ends are close and aligned to continuous boundaries (paper,
 /// Sec. III-D-1). Ends that `joints` shows to be separate are not joined. Close ends that detections ran

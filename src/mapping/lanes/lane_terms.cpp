@@ -99,6 +99,7 @@ class Surroundings {
 
   const Mark& left() const { return marks_[left_]; }
   const Mark& right() const { return marks_[right_]; }
+  const Mark& border(Side side) const { return side == Side::left ? left() : right(); }
   /// The next mark beyond a border. Null: there is none.
   const Mark* beyond(Side side) const {
     if (side == Side::left) return left_ + 1 < marks_.size() ? &marks_[left_ + 1] : nullptr;
@@ -107,7 +108,7 @@ class Surroundings {
   double gap_beyond_m(Side side) const {
     const Mark* next = beyond(side);
     if (next == nullptr) return kCutReach_m;
-    return std::abs(next->lateral_m - (side == Side::left ? left() : right()).lateral_m);
+    return std::abs(next->lateral_m - border(side).lateral_m);
   }
   bool edge_along(Side side) const {
     const Mark* next = beyond(side);
@@ -117,7 +118,7 @@ class Surroundings {
   bool edge_within(Side side) const {
     if (right_ + 1 >= left_) return false;
     const Mark& next = marks_[side == Side::left ? left_ - 1 : right_ + 1];
-    const double aside_m = std::abs(next.lateral_m - (side == Side::left ? left() : right()).lateral_m);
+    const double aside_m = std::abs(next.lateral_m - border(side).lateral_m);
     return next.is_edge && next.log_odds > 0.0 && aside_m > kLeastWithin_m && aside_m < kAlongEdge_m;
   }
   /// What the marks within the lane say that they exist, of one kind.
@@ -148,7 +149,7 @@ class Surroundings {
   std::size_t left_, right_;
 };
 
-/// What a bend says: a corner of two streets looks like it. Where the vehicle drives, it is none.
+/// The log odds of a bend. The corner of two streets looks like one, but no vehicle drives round that.
 double of_bend(double weight, const RoadCut& cut, const Candidate& candidate) {
   return candidate.here ? 0.0 : weight * std::min(cut.bend, kMostBend);
 }
@@ -217,7 +218,7 @@ double of_driving(const Surroundings& around) {
 /// What the lines say that lie beside an edge.
 double of_shoulder(const Surroundings& around, double width_m, Room room, const LaneConfig& config) {
   const Side side = around.left().is_edge ? Side::right : Side::left;
-  const Mark& line = side == Side::left ? around.left() : around.right();
+  const Mark& line = around.border(side);
   const double gap_m = around.gap_beyond_m(side);
   double sum = gap_m > kNothing_m ? kNothingBeyond : 0.0;
   if (config.find_shoulders && room == Room::between && gap_m > kLane_m && gap_m < kWideLane_m)
@@ -239,7 +240,7 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
   else if (candidate.gore)
     sum += kGore;
   for (const Side side : kSides)
-    if (!(side == Side::left ? left : right).is_edge && around.edge_along(side)) sum += kEdgeAlong;
+    if (!around.border(side).is_edge && around.edge_along(side)) sum += kEdgeAlong;
   if (is_median(around)) sum += kMedian;
   if (candidate.room == Room::between) {
     sum += kUnseenLine * candidate.parted * wide(wide_m) + kLineInside * around.inside(false) +

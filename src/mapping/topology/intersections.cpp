@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "laneloom/polyline.hpp"
-#include "mapping/geometry/levels.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
 
@@ -60,11 +59,6 @@ std::optional<double> turn_misfit(const Lane& from, const Lane& to, const Linkag
   return longer_m / config.max_turn_gap_m;
 }
 
-/// Whether a boundary is an edge that was continued where it is not seen. A street may begin there.
-bool is_unseen_edge(const boundaries::LaneBoundary& boundary) {
-  return boundary.is_edge() && boundary.is_inferred();
-}
-
 /// The turns by which lanes are left and entered already.
 class Taken {
  public:
@@ -73,7 +67,7 @@ class Taken {
     const auto beside_unseen_edge = [&](ElementId id) {
       const Lane& lane = road.lane(id);
       return std::ranges::any_of(road.boundaries, [&](const boundaries::LaneBoundary& boundary) {
-        return is_unseen_edge(boundary) && std::ranges::any_of(kSides, [&](Side side) {
+        return boundary.is_unseen_edge() && std::ranges::any_of(kSides, [&](Side side) {
                  return std::ranges::count(lane.borders(side), boundary.marking.id, &Border::boundary) > 0;
                });
       });
@@ -163,13 +157,6 @@ std::vector<Crossing> possible_crossings(const RoadGraph& road, const SdMap& sd_
   return crossings;
 }
 
-bool crosses_edge(const Polyline& path, const boundaries::Boundaries& boundaries) {
-  return std::ranges::any_of(boundaries, [&](const boundaries::LaneBoundary& boundary) {
-    return boundary.is_edge() && !is_unseen_edge(boundary) &&
-           intersect(path, boundary.marking.points, geometry::kLevel_m);
-  });
-}
-
 /// Whether a lane lies between two solid lines with lanes beyond, as lanes for turning do in the middle of a
 /// road. The lane ahead of such a lane may be the turning lane of the other direction.
 bool is_enclosed(const Lane& lane, const RoadGraph& road) {
@@ -241,7 +228,7 @@ void link_across_intersections(const SdMap& sd_map, const LinkageConfig& config,
     Lane &from = road.lanes[crossing.from], &to = road.lanes[crossing.to];
     if (taken.contains(from.id, to.id, crossing.turn)) return;
     Polyline path = lanes::path_between(from, to);
-    if (crosses_edge(path, road.boundaries)) return;
+    if (boundaries::crosses_edge(path, road.boundaries)) return;
     taken.take(from.id, to.id, crossing.turn);
     if (crossing.turn == Turn::straight) agree_on_direction(from, to, crossing.confirmed, road);
     road.linkages.push_back(

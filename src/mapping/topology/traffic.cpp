@@ -72,15 +72,6 @@ int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
   return aside_m > 0.0 ? 1 : -1;
 }
 
-/// Whether an edge that was seen lies between the own vehicle and another one.
-bool is_parted(const Point& own, const Point& other, const boundaries::Boundaries& boundaries) {
-  const Polyline between{geometry::lowered(own, other), other};
-  return std::ranges::any_of(boundaries, [&](const boundaries::LaneBoundary& boundary) {
-    return boundary.is_edge() && !boundary.is_inferred() &&
-           intersect(between, boundary.course.points(), geometry::kLevel_m);
-  });
-}
-
 }  // namespace
 
 std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& trails,
@@ -133,7 +124,10 @@ void ObservedSide::observe_passing(const Point& before, const Eigen::Isometry3d&
   if ((T_map_body.translation() - before).head<2>().norm() < kMoving_m) return;
   for (trails::Trail& trail : trails) {
     const int side = trail.told_side ? 0 : passing(trail, T_map_body);
-    if (side == 0 || is_parted(T_map_body.translation(), trail.position, boundaries)) continue;
+    const Point& other = trail.position;
+    if (side == 0 ||
+        boundaries::crosses_edge({geometry::lowered(T_map_body.translation(), other), other}, boundaries))
+      continue;
     trail.told_side = true;
     tell(side);
   }
