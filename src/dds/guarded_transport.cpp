@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "base/steady_clock.hpp"
+#include "base/clock.hpp"
 #include "dds/fast_dds.hpp"
 
 namespace laneloom::dds {

@@ -17,9 +17,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/clock.hpp"
 #include "base/file_stamp.hpp"
 #include "base/random_id.hpp"
-#include "base/steady_clock.hpp"
 #include "config/config_file.hpp"
 #include "laneloom/dds/participant.hpp"
 #include "sd_map/osm.hpp"

@@ -7,8 +7,8 @@
 #include <exception>
 #include <utility>
 
+#include "base/clock.hpp"
 #include "base/random_id.hpp"
-#include "base/system_clock.hpp"
 #include "laneloom/error.hpp"
 #include "laneloom/state_names.hpp"
 

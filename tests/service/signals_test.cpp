@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/steady_clock.hpp"
+#include "base/clock.hpp"
 #include "milliseconds.hpp"
 
 namespace laneloom::service {

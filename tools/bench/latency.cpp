@@ -15,7 +15,7 @@
 #include <thread>
 #include <unordered_map>
 
-#include "base/system_clock.hpp"
+#include "base/clock.hpp"
 #include "bench/process_usage.hpp"
 #include "bench/view_readers.hpp"
 #include "io/work_folder.hpp"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/clock.hpp"
 #include "base/random_id.hpp"
-#include "base/system_clock.hpp"
 #include "commands/drive_tables.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/lab_commands.hpp"

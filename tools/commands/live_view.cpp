@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/system_clock.hpp"
+#include "base/clock.hpp"
 #include "commands/stop_signal.hpp"
 #include "view/frame_text.hpp"
 

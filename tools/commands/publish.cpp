@@ -9,8 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/clock.hpp"
 #include "base/random_id.hpp"
-#include "base/system_clock.hpp"
 #include "commands/commands.hpp"
 #include "commands/given_files.hpp"
 #include "commands/options.hpp"

@@ -18,8 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/steady_clock.hpp"
-#include "base/system_clock.hpp"
+#include "base/clock.hpp"
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
 #include "commands/inbox.hpp"

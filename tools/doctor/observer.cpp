@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/clock.hpp"
 #include "base/seconds.hpp"
-#include "base/system_clock.hpp"
 #include "doctor/host.hpp"
 #include "laneloom/error.hpp"
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/system_clock.hpp"
+#include "base/clock.hpp"
 #include "simulation/random.hpp"
 
 namespace laneloom::endurance {
