@@ -2,7 +2,9 @@
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "dds/fast_dds.hpp"
 #include "dds/identity_check.hpp"
@@ -16,6 +18,12 @@ using namespace eprosima::fastdds::dds;
 using eprosima::fastdds::rtps::DiscoveryProtocol;
 
 void check_files(const DdsConfig& config) { participant_qos(config, ""); }
+
+void check_profile_file(const DdsConfig& config) {
+  std::error_code unknown;
+  if (!config.profile_file.empty() && !std::filesystem::is_regular_file(config.profile_file, unknown))
+    throw ConfigError("dds.profile_file: there is no file " + config.profile_file);
+}
 
 Participant::Participant(const DdsConfig& config, const std::string& name, Presence presence)
     : impl_(std::make_shared<Impl>(config, name, presence)) {}

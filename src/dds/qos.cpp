@@ -65,10 +65,7 @@ bool load_once(const std::string& file) {
 
 void load_profile(const DdsConfig& config, DomainParticipantQos& qos) {
   // Fast DDS itself would only log a missing file, and go on with its defaults.
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(config.profile_file, unknown)) {
-    throw ConfigError("dds.profile_file: there is no file " + config.profile_file);
-  }
+  check_profile_file(config);
   if (!load_once(config.profile_file)) {
     throw ConfigError("dds.profile_file: not valid for Fast DDS: " + config.profile_file);
   }

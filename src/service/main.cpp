@@ -83,11 +83,8 @@ Contents contents_of(const Config& config) {
 /// Throws ConfigError for a file that the next start would refuse. An SD map is not read: that may take
 /// seconds. Nor is a profile of DDS: Fast DDS refuses a second one of the same name in one process.
 void check_named_files(Config config) {
-  auto& profile = config.dds.profile_file;
-  std::error_code unknown;
-  if (!profile.empty() && !std::filesystem::is_regular_file(profile, unknown))
-    throw ConfigError("dds.profile_file: there is no file " + profile);
-  profile.clear();
+  dds::check_profile_file(config.dds);
+  config.dds.profile_file.clear();
   dds::check_files(config.dds);
   sd_map::check_sd_map_file(config.sd_map);
   config.sd_map = {};

@@ -159,7 +159,7 @@ TEST(Reload, AProfileThatIsGoneIsRefusedAndTheEndpointsStay) {
     EXPECT_EQ(maps.samples()[i].sequence, maps.samples()[0].sequence + i) << "the endpoints were made anew";
 }
 
-/// What processes that are started meanwhile tell systemd.
+/// Receives the notices to systemd of processes that are started while this object lives.
 class Notices {
  public:
   Notices() : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {

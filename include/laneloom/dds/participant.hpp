@@ -21,6 +21,9 @@ using WriterId = std::array<std::uint8_t, 16>;
 /// DDS trusts the files of security only shows when there is a participant. Thread-safe.
 void check_files(const DdsConfig& config);
 
+/// Throws ConfigError when the file of the profile is missing. It is not opened. Thread-safe.
+void check_profile_file(const DdsConfig& config);
+
 /// The longest datagram, in bytes, that a participant with this configuration receives whole. Fast DDS cuts
 /// longer ones without a word. Throws as check_files().
 std::uint32_t largest_datagram(const DdsConfig& config);
@@ -34,7 +37,7 @@ struct NotPermitted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a participant finds out about its own UDP ports.
+/// The state of a participant's own UDP ports, as the participant finds it.
 struct SelfCheck {
   /// How many datagrams in a row one of the ports has not taken, in the worst case. If the number keeps
   /// rising, discovery or the reception of messages hangs.
