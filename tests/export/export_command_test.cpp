@@ -21,6 +21,9 @@ class ExportCommand : public Commands {
   void simulate(const std::string& scenario) {
     ASSERT_TRUE(done("simulate --scenario " + scenario + " --frames drive.frames.jsonl --duration 20"));
   }
+  bool export_drive(const std::string& output, bool plain) {
+    return done("export drive.frames.jsonl " + output + (plain ? " --plain" : ""));
+  }
 };
 
 TEST_F(ExportCommand, FramesRecordingsAndMapsGiveTheSameMap) {
@@ -91,8 +94,7 @@ TEST_F(ExportCommand, OsmiumFindsEveryReference) {
 TEST_F(ExportCommand, PlainLanelet2HasStopLinesAsWaysOnly) {
   simulate("intersection");
   for (const bool plain : {false, true}) {
-    ASSERT_TRUE(
-        done(std::string("export drive.frames.jsonl --lanelet2 map.osm") + (plain ? " --plain" : "")));
+    ASSERT_TRUE(export_drive("--lanelet2 map.osm", plain));
     EXPECT_EQ(text("map.osm").find("regulatory_element") == std::string::npos, plain);
     EXPECT_THAT(text("map.osm"), HasSubstr("stop_line"));
   }
@@ -101,8 +103,7 @@ TEST_F(ExportCommand, PlainLanelet2HasStopLinesAsWaysOnly) {
 TEST_F(ExportCommand, PlainOpenDriveHasNoStopLines) {
   simulate("intersection");
   for (const bool plain : {false, true}) {
-    ASSERT_TRUE(
-        done(std::string("export drive.frames.jsonl --opendrive map.xodr") + (plain ? " --plain" : "")));
+    ASSERT_TRUE(export_drive("--opendrive map.xodr", plain));
     EXPECT_EQ(text("map.xodr").find("type=\"roadMark\"") == std::string::npos, plain);
   }
   EXPECT_EQ(run("export drive.frames.jsonl --geojson map.json --origin 48,11 --plain"), 64);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "batch/outputs.hpp"
+#include "io/text_file.hpp"
 
 namespace laneloom::batch {
 namespace {
@@ -77,8 +78,7 @@ class Search {
     std::ifstream file(list);
     if (!file) throw std::runtime_error(list + ": cannot be read");
     const std::string folder = fs::path(list).parent_path().string();
-    for (std::string line; std::getline(file, line);) {
-      if (line.ends_with('\r')) line.pop_back();  // of a list that was written on Windows
+    for (std::string line; io::next_line(file, line);) {
       if (line.empty() || line.front() == '#') continue;
       const bool below = !fs::path(line).is_absolute() && !line.starts_with("..");
       add(below ? (folder.empty() ? "." : folder) + kNamesBegin + line : (fs::path(folder) / line).string());

@@ -23,7 +23,7 @@ class Stream {
     const std::uint64_t before = out_.left_out();
     out_.write(message, message.stamp_ns);
     if (const std::uint64_t more = out_.left_out() - before; more > 0)
-      io::leave_out(left_out_, "beyond the bounds of a message", message.stamp_ns, more);
+      io::leave_out(left_out_, io::kBeyondBounds, message.stamp_ns, more);
   }
 
  private:

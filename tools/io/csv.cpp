@@ -4,16 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "io/text_file.hpp"
+
 namespace laneloom::io {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-
-bool next_line(std::istream& in, std::string& line) {
-  if (!std::getline(in, line)) return false;
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  return true;
-}
 
 }  // namespace
 

@@ -2,13 +2,22 @@
 
 #include <filesystem>
 #include <fstream>
+#include <istream>
 #include <ostream>
+#include <string>
 #include <string_view>
 
 namespace laneloom::io {
 
 /// The name that stands for standard input or standard output.
 inline constexpr const char* kStandard = "-";
+
+/// Reads a line, without the carriage return of files that were written on Windows. False: there is none.
+inline bool next_line(std::istream& in, std::string& line) {
+  if (!std::getline(in, line)) return false;
+  if (line.ends_with('\r')) line.pop_back();
+  return true;
+}
 
 /// A text file that is written. Its name may be "-", which is standard output. Not thread-safe.
 class TextFile {

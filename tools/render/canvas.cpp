@@ -20,8 +20,7 @@ cairo_surface_t* make_image(double width, double height) {
   if (std::max(columns, rows) > kMostPixels)
     throw std::runtime_error(
         fmt::format("the picture would have {:.0f} x {:.0f} pixels, and {:.0f} a side are the most: draw "
-                    "fewer moments, a "
-                    "smaller range, or an .svg",
+                    "fewer moments, a smaller range, or an .svg",
                     columns, rows, kMostPixels));
   return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(columns), static_cast<int>(rows));
 }

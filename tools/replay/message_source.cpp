@@ -89,7 +89,7 @@ class JsonLinesMessages : public MessageSource {
     recording::RawMessage raw{message->log_time_ns, message->message.index(), {}};
     const std::size_t too_much =
         std::visit([&](const auto& m) { return dds::to_cdr(m, map_frame_id_, raw.bytes); }, message->message);
-    if (too_much > 0) io::leave_out(left_out_, "beyond the bounds of a message", raw.log_time_ns, too_much);
+    if (too_much > 0) io::leave_out(left_out_, io::kBeyondBounds, raw.log_time_ns, too_much);
     return raw;
   }
 

@@ -40,9 +40,8 @@ struct MessageReading {
 
 /// Opens a recording (MCAP), or frames with their poses as JSON lines (io/json_lines.hpp); the first bytes
 /// tell which. "-" is standard input, with JSON lines. A line gives the pose and then the frame, both at the
-/// frame's stamp. `map_frame_id` is the frame of the poses; empty: that of a
-/// recording's first pose, and "map" of JSON lines. Throws std::runtime_error if the file cannot be
-/// read, or is of another kind.
+/// frame's stamp. `map_frame_id` is the frame of the poses; empty: that of a recording's first pose, and
+/// "map" of JSON lines. Throws std::runtime_error if the file cannot be read, or is of another kind.
 std::unique_ptr<MessageSource> open_messages(const std::string& path, const std::string& map_frame_id,
                                              const MessageReading& reading = {});
 
