@@ -159,6 +159,12 @@ std::vector<Mistake> mistakes() {
          std::erase_if(frames_of(drive), [&](const DetectionFrame&) { return i++ % 8 != 0; });
        },
        "frames_rare", "service.stale_after_s"},
+      {"StampsInMilliseconds",
+       [](Drive& drive) {
+         for (DetectionFrame& frame : frames_of(drive)) frame.stamp_ns *= 1000;
+         for (VehiclePose& pose : drive.poses) pose.stamp_ns *= 1000;
+       },
+       "stamps_not_seconds", "milliseconds"},
       {"NoPoses", [](Drive& drive) { drive.poses.clear(); }, "no_poses", "laneloom doctor"},
       {"NoDetections", [](Drive& drive) { drive.frames.clear(); }, "no_detections", "laneloom doctor"},
   };

@@ -52,8 +52,7 @@ TEST(HealthFindings, CountersThatRise) {
   ASSERT_THAT(ids(found), ElementsAre("poses_lost", "poses_refused_wrong_frame"));
   EXPECT_EQ(found[0].found, "poses_lost: poses were lost on the way (2 more).");
   EXPECT_EQ(found[1].found,
-            "The service refused 7 poses (wrong_frame): their frame_id is not the map frame; of "
-            "detections, it is; of objects, it is not base_link either.");
+            "The service refused 7 poses (wrong_frame): their frame_id is not the map frame.");
   EXPECT_THAT(found[1].remedy, HasSubstr("dds.map_frame_id"));
 }
 
@@ -83,12 +82,19 @@ TEST(HealthFindings, CausesStandBeforeTheirConsequences) {
 }
 
 TEST(HealthFindings, EveryReasonOfTheServiceIsExplained) {
-  const std::string unknown(explain_refusal("no such reason").cause);
+  const std::string unknown(explain_refusal("poses", "no such reason").cause);
   for (const char* reason :
        {"malformed", "unknown_enum", "not_text", "not_finite", "not_a_rotation", "wrong_frame", "wrong_size",
         "stamp", "coordinate", "too_few_points", "confidence", "stddev", "crc", "data_id", "repeated", "late",
         "outlier", "unsynchronised", "reset"})
-    EXPECT_NE(explain_refusal(reason).cause, unknown) << reason;
+    EXPECT_NE(explain_refusal("detections", reason).cause, unknown) << reason;
+}
+
+TEST(HealthFindings, AFrameIsWrongForAReasonOfItsTopic) {
+  const auto cause = [](const char* subject) { return explain_refusal(subject, "wrong_frame").cause; };
+  EXPECT_THAT(cause("detections"), HasSubstr("is the map frame"));
+  EXPECT_THAT(cause("poses"), HasSubstr("is not the map frame"));
+  EXPECT_THAT(cause("objects"), HasSubstr("base_link"));
 }
 
 TEST(HealthFindings, ASourceOfWhichNothingIsMapped) {

@@ -150,6 +150,12 @@ TEST(Replay, LinesThatAreNoFramesAreLeftOutUnlessThatIsStrict) {
             "2 x t: is missing (first: line 1), 1 x t: must be finite (first: line 3), "
             "1 x the last line is cut off (first: line 5)");
   EXPECT_THROW(open_messages(path, "map", {.strict = true})->next(), std::runtime_error);
+  std::ofstream(path) << frame << "\n[" << frame << "]";
+  const auto list = open_messages(path, "map");
+  EXPECT_TRUE(list->next());
+  EXPECT_TRUE(list->next());
+  EXPECT_FALSE(list->next());
+  EXPECT_EQ(list->left_out().summary(), "1 x must be an object (first: line 2)") << "not that it is cut off";
   std::ofstream(path) << "{}\n";
   EXPECT_THROW(open_messages(path, "map")->next(), std::runtime_error) << "nothing is left";
 }
@@ -247,6 +253,10 @@ TEST(LiveComparison, TellsEqualDifferentAndMissing) {
   changed.add_live(live);
   EXPECT_EQ(changed.result().missing, 1U);
   EXPECT_FALSE(changed.result().holds());
+  EXPECT_FALSE(changed.result().began_late);
+  live.map.stamp_ns = 50;
+  changed.add_live(live);
+  EXPECT_TRUE(changed.result().began_late);
   EXPECT_FALSE(LiveComparison().result().holds());
 
   LiveComparison markings;

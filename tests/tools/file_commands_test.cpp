@@ -109,12 +109,25 @@ TEST_F(Commands, RenderDrawsEveryInput) {
   EXPECT_EQ(text("map.png").substr(1, 3), "PNG");
   ASSERT_TRUE(done("render --truth truth.json --at 3 --out truth.svg"));
   EXPECT_THAT(text("truth.svg"), HasSubstr("</svg>"));
+  EXPECT_EQ(run("render --truth truth.json --at 3 --out truth.bmp"), 64);
+  EXPECT_THAT(output(), HasSubstr("pictures are .png or .svg"));
+}
+
+TEST_F(Commands, MapsOfAnotherDriveAreNoMapsOfTheFrames) {
+  simulate("none", "in.frames.jsonl");
+  ASSERT_TRUE(done("simulate --scenario town --duration 8 --seed 3 --frames other.frames.jsonl"));
+  ASSERT_TRUE(done("replay --in other.frames.jsonl --out other.jsonl"));
+  for (const std::string command : {"render --out a.svg --at 3", "evaluate --later"}) {
+    EXPECT_EQ(run(command + " --frames in.frames.jsonl --map other.jsonl"), 1);
+    EXPECT_THAT(output(), HasSubstr("are of two drives")) << command;
+  }
 }
 
 TEST_F(Commands, RenderWritesNoPictureOverAnInputOrLargerThanPicturesAre) {
   simulate("none", "in.frames.jsonl");
   const std::string truth = text("truth.json");
-  EXPECT_EQ(run("render --truth truth.json --out ./truth.json"), 1);
+  std::filesystem::create_symlink("truth.json", file("truth.svg"));
+  EXPECT_EQ(run("render --truth truth.json --out truth.svg"), 1);
   EXPECT_THAT(output(), HasSubstr("is an input"));
   EXPECT_EQ(text("truth.json"), truth);
   EXPECT_EQ(run("render --truth truth.json --sequence 50 --out large.png"), 1);

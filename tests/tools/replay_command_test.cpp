@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -56,6 +57,9 @@ TEST_F(Commands, LearnWritesAProfileThatAReplayStartsWith) {
   std::ofstream(file("c.yaml")) << "mapper: {fusion: {profile_file: '" << file("network.yaml") << "'}}";
   EXPECT_EQ(run("replay --in in.frames.jsonl --config c.yaml"), 1);
   EXPECT_THAT(output(), HasSubstr("network.yaml: front.stddev is not a value that is learned of a network"));
+  std::ofstream(file("network.yaml")) << "rear: {confidence: {value: 0.7, weight: 100}}";
+  EXPECT_TRUE(done("replay --in in.frames.jsonl --config c.yaml"));
+  EXPECT_THAT(output(), HasSubstr("the profile of the source \"rear\" is not used"));
 }
 
 TEST_F(Commands, ReplayWritesRecordingsToo) {
@@ -117,6 +121,12 @@ TEST_F(Commands, ReplayRefusesOptionsThatWouldBeOfNoAccount) {
     EXPECT_EQ(run("replay in.frames.jsonl --explain 3@5 " + option), 64) << option;
     EXPECT_THAT(output(), HasSubstr(option.substr(0, option.find(' '))));
   }
+  for (const std::string asked : {"3", "3@", "x@5"}) {
+    EXPECT_EQ(run("replay in.frames.jsonl --explain " + asked), 64);
+    EXPECT_THAT(output(), HasSubstr("must be ID@TIME"));
+  }
+  EXPECT_EQ(run("replay in.frames.jsonl --explain d900@5"), 1);
+  EXPECT_THAT(output(), HasSubstr("the frame has no detection of the number 900"));
   EXPECT_GT(run("replay --in in.frames.jsonl --domain 7"), 1);
   EXPECT_GT(run("replay --in in.frames.jsonl --compression lz4"), 1);
 }
@@ -156,6 +166,17 @@ TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
   simulate("none", "good.jsonl");
   EXPECT_TRUE(done("replay --in good.jsonl"));
   EXPECT_THAT(output(), testing::Not(HasSubstr("no map")));
+  EXPECT_THAT(output(), testing::Not(HasSubstr("refused as")));
+  std::istringstream good(text("good.jsonl"));
+  std::ofstream leaving(file("leaving.jsonl"));
+  for (std::string line; std::getline(good, line);) {
+    json frame = json::parse(line);
+    frame["pose"][0] = 970.0 + frame["pose"][0].get<double>();
+    leaving << frame << "\n";
+  }
+  leaving.close();
+  EXPECT_TRUE(done("replay --in leaving.jsonl --config near.yaml"));
+  EXPECT_THAT(output(), HasSubstr("poses were refused as 'coordinate'"));
 }
 
 TEST_F(Commands, ADriveThatBeginsAtTimeZeroLosesNoFrame) {

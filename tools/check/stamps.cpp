@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLongGap_s = 1.0, kGapPeriods = 5.0;  // a gap is longer than both
 constexpr double kLongestPeriod_s = 0.7;
+constexpr double kNoPeriod_s = 20.0;  // stamps that are no seconds: 20 ms is the shortest period
 constexpr const char* kSort =
     "`laneloom import frames` puts them in order. Live, send them in the order of their stamps.";
 
@@ -64,6 +65,11 @@ void add_gaps(const Steps& steps, const std::string& what, Findings& found) {
 void add_rate(const Steps& steps, Findings& found) {
   const double period_s = Distribution(steps.steps_s).quantile(0.5);
   if (period_s <= kLongestPeriod_s) return;
+  if (period_s >= kNoPeriod_s) {
+    found.push_back({"stamps_not_seconds", fmt::format("Frames come every {:g} s.", period_s),
+                     "Give stamps in seconds: these look like milliseconds, microseconds or nanoseconds."});
+    return;
+  }
   found.push_back({"frames_rare", fmt::format("Frames come every {:.2f} s.", period_s),
                    "laneloom is made for about 10 frames a second: a line is confirmed late, and "
                    "service.stale_after_s has to be longer."});

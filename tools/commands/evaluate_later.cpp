@@ -41,11 +41,17 @@ void rate_replay(const LaterInputs& inputs, Pairs& pairs) {
 }
 
 void rate_files(const LaterInputs& inputs, Pairs& pairs) {
-  const auto add_frame = [&](const DetectionFrame& frame, const Eigen::Isometry3d& /*T_map_body*/) {
+  std::map<std::int64_t, Eigen::Isometry3d> poses;  // of the frames, by stamp
+  const auto add_frame = [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
     pairs.add(frame);
+    poses.insert_or_assign(frame.stamp_ns, T_map_body);
   };
   for_each_frame(inputs.frames, inputs.strict, add_frame);
-  for_each_map(inputs.map, inputs.strict, [&](const LocalMap& map) { pairs.add(map); });
+  for_each_map(inputs.map, inputs.strict, [&](const LocalMap& map) {
+    const auto pose = poses.find(map.stamp_ns);
+    if (pose != poses.end()) check_one_drive(pose->second, map, inputs.frames, inputs.map);
+    pairs.add(map);
+  });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <optional>
 #include <stdexcept>
@@ -32,8 +33,9 @@ Wanted parsed(const std::string& text) {
   const std::size_t at = whole.find('@');
   if (at == std::string_view::npos || !read(whole.substr(0, at), wanted.id) ||
       !read(whole.substr(at + 1), wanted.time_s))
-    throw std::runtime_error(fmt::format(
-        "--explain {}: must be ID@TIME, as 23@12.5, or d2@12.5 for the detection of number 2", text));
+    throw CLI::ValidationError(
+        "--explain",
+        fmt::format("{}: must be ID@TIME, as 23@12.5, or d2@12.5 for the detection of number 2", text));
   return wanted;
 }
 
@@ -62,8 +64,10 @@ void explain(const std::string& drive, const Config& config, const std::string& 
   if (!asked)
     throw std::runtime_error(fmt::format("{}: has no map {:g} s after its first", drive, what.time_s));
   if (text.empty() || text.front().empty())
-    throw std::runtime_error(fmt::format("{}: at {:g} s, nothing of the id {} was followed", drive,
-                                         what.time_s, wanted.substr(0, wanted.find('@'))));
+    throw std::runtime_error(fmt::format(
+        "{}: at {:g} s, {} {}", drive, what.time_s,
+        what.detection ? "the frame has no detection of the number" : "nothing was followed of the id",
+        what.id));
   for (const std::string& sentence : text) fmt::print("{}\n", sentence);
 }
 

@@ -1,8 +1,12 @@
 #include "commands/read_input.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "base/seconds.hpp"
 #include "commands/warn_of.hpp"
 #include "evaluation/inputs.hpp"
 #include "support/progress_bar.hpp"
@@ -20,6 +24,8 @@ std::size_t read_with_bar(const std::string& path, bool strict, Read read) {
   warn_of(path, account.refused, account.left_out);
   return account.count;
 }
+
+constexpr double kOneDrive_m = 20.0;  // between the poses of one moment of one drive
 
 }  // namespace
 
@@ -58,6 +64,15 @@ std::size_t for_each_map(const std::string& path, bool strict,
   return read_with_bar(path, strict, [&](const evaluation::InputReading& reading) {
     return evaluation::for_each_map(path, visit, reading);
   });
+}
+
+void check_one_drive(const Eigen::Isometry3d& T_map_body, const LocalMap& map, const std::string& frames,
+                     const std::string& maps) {
+  const double apart_m = (T_map_body.translation() - map.T_map_body.translation()).norm();
+  if (apart_m < kOneDrive_m) return;
+  throw std::runtime_error(
+      fmt::format("{} and {}: are of two drives; at the stamp {:.3f} s, their poses are {:.0f} m apart",
+                  frames, maps, seconds(map.stamp_ns), apart_m));
 }
 
 }  // namespace laneloom::commands

@@ -33,4 +33,9 @@ std::size_t for_each_frame(const std::string& path, bool strict,
 std::size_t for_each_map(const std::string& path, bool strict,
                          const std::function<void(const LocalMap&)>& visit);
 
+/// Throws std::runtime_error if a map and a frame of its time have the vehicle in two places, as those of two
+/// drives do. `T_map_body` is the frame's. `frames` and `maps` are the files' names, for the message.
+void check_one_drive(const Eigen::Isometry3d& T_map_body, const LocalMap& map, const std::string& frames,
+                     const std::string& maps);
+
 }  // namespace laneloom::commands

@@ -38,6 +38,16 @@ struct Inputs {
   std::optional<simulation::Road> truth;
 };
 
+std::int64_t stamp(const SeenFrame& seen) { return seen.frame.stamp_ns; }
+std::int64_t stamp(const LocalMap& map) { return map.stamp_ns; }
+
+template <class T>
+const T& nearest(const std::vector<T>& items, std::int64_t stamp_ns) {
+  return *std::min_element(items.begin(), items.end(), [&](const T& a, const T& b) {
+    return std::abs(stamp(a) - stamp_ns) < std::abs(stamp(b) - stamp_ns);
+  });
+}
+
 Inputs read(const RenderOptions& options) {
   Inputs inputs;
   if (!options.truth.empty()) inputs.truth = simulation::load_truth(options.truth);
@@ -53,17 +63,13 @@ Inputs read(const RenderOptions& options) {
     for_each_map(options.map, options.strict, [&](const LocalMap& map) { inputs.maps.push_back(map); });
     if (inputs.maps.empty()) throw std::runtime_error(options.map + ": holds no map");
   }
+  for (const SeenFrame& seen : inputs.frames) {
+    const auto map = std::ranges::find(inputs.maps, seen.frame.stamp_ns, &LocalMap::stamp_ns);
+    if (map == inputs.maps.end()) continue;
+    check_one_drive(seen.T_map_body, *map, options.frames, options.map);
+    break;
+  }
   return inputs;
-}
-
-std::int64_t stamp(const SeenFrame& seen) { return seen.frame.stamp_ns; }
-std::int64_t stamp(const LocalMap& map) { return map.stamp_ns; }
-
-template <class T>
-const T& nearest(const std::vector<T>& items, std::int64_t stamp_ns) {
-  return *std::min_element(items.begin(), items.end(), [&](const T& a, const T& b) {
-    return std::abs(stamp(a) - stamp_ns) < std::abs(stamp(b) - stamp_ns);
-  });
 }
 
 /// First and last stamp of the things to draw: of the maps, or else the detections, or else the drive.
@@ -156,7 +162,11 @@ void add_render(CLI::App& app) {
       ->excludes(at);
   add_range(*command, options->range);
   command->add_option("--title", options->title, "Default: the road's name");
-  command->add_option("--out", options->out, "Picture to write (.png or .svg)")->required();
+  command->add_option("--out", options->out, "Picture to write (.png or .svg)")
+      ->required()
+      ->check([](const std::string& path) {
+        return path.ends_with(".png") || path.ends_with(".svg") ? "" : "pictures are .png or .svg";
+      });
   add_strict(*command, options->strict);
   command->callback([options] { render(*options); });
 }

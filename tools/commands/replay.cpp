@@ -110,12 +110,18 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
   return result;
 }
 
-void check_live(const ReplayResult& result) {
+void check_live(const std::string& drive, const ReplayResult& result) {
   const replay::LiveComparison::Result live = result.comparison.result();
   fmt::print("live messages: {} equal, {} different, {} missing\n", live.equal, live.different, live.missing);
   if (live.equal + live.different + live.missing == 0)
     throw std::runtime_error("the recording has no maps of a live service to compare with");
-  if (!live.holds()) end_with(kFoundWrong);
+  if (live.holds()) return;
+  if (live.began_late)
+    fmt::print(stderr,
+               "laneloom: {}: the recording began while the service had a map: what it had seen before is "
+               "missing in the replay. Record before the first frame is sent, or restart the service.\n",
+               drive);
+  end_with(kFoundWrong);
 }
 
 /// Refuses to write a file that is read, or one that is written already.
@@ -161,7 +167,7 @@ void replay(ReplayOptions& options) {
   }
   if (!options.report.empty()) write_report(options.report, results);
   if (options.verify) {
-    for (const ReplayResult& result : results) check_live(result);
+    for (const ReplayResult& result : results) check_live(options.in, result);
   }
   const auto is_vain = [](const ReplayResult& result) { return result.maps == 0; };
   if (!std::ranges::all_of(results, is_vain)) return;

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "commands/time_table.hpp"
+#include "config/network_profile.hpp"
 #include "io/json_text.hpp"
 #include "io/text_file.hpp"
 
@@ -96,6 +97,20 @@ std::string why_no_lane(const ReplayResult& result, const MapperConfig& config) 
                      config.lane.min_width_m, config.lane.max_width_m);
 }
 
+/// Of messages of which most were refused, how many were, and why.
+std::string why_few_maps(const Counters& counters, const std::string& subject, std::size_t count) {
+  const auto [why, refused] = main_refusal(counters, subject + "_refused_");
+  if (2 * refused <= count) return {};
+  return fmt::format("{} of {} {} were refused as '{}'", refused, count, subject, why);
+}
+
+std::string idle_profile(const std::set<std::string>& sources, const std::string& profile_file) {
+  for (const auto& [source, profile] : config::load_network_profiles(profile_file))
+    if (!sources.contains(source))
+      return fmt::format("the profile of the source \"{}\" is not used: no frame has this source", source);
+  return {};
+}
+
 }  // namespace
 
 void ReplayInput::add(const recording::AnyMessage& message) {
@@ -104,6 +119,7 @@ void ReplayInput::add(const recording::AnyMessage& message) {
   if (frame == nullptr) return;
   ++frames;
   detections += frame->detections.size();
+  sources.insert(frame->source);
   for (const Detection& detection : frame->detections)
     best_confidence = std::max(best_confidence, detection.confidence);
 }
@@ -112,7 +128,9 @@ std::string advice_on(const ReplayInput& input, const ReplayResult& result, cons
   if (result.maps == 0) return "no map came of it: " + why_no_map(input, result);
   if (result.boundaries == 0) return "no map has a marking: " + why_no_marking(input, result, config);
   if (result.lanes == 0) return "no map has a lane: " + why_no_lane(result, config);
-  return {};
+  if (std::string few = why_few_maps(result.counters, "poses", input.poses); !few.empty()) return few;
+  if (std::string few = why_few_maps(result.counters, "detections", input.frames); !few.empty()) return few;
+  return idle_profile(input.sources, config.fusion.profile_file);
 }
 
 void ReplayResult::add(const LocalMap& map) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace laneloom::commands {
 struct ReplayInput {
   std::uint64_t poses = 0, frames = 0, detections = 0;
   double best_confidence = 0.0;
+  std::set<std::string> sources;  ///< of the frames
 
   void add(const recording::AnyMessage& message);
 };
@@ -39,8 +41,8 @@ struct ReplayResult {
   void add_live(const recording::AnyMessage& message);
 };
 
-/// If a replay gave no map, no marking or no lane, a text that says so and gives a likely reason. Otherwise
-/// empty.
+/// If a replay gave no map, no marking or no lane, most of its input was refused, or a profile was of no use,
+/// a text that says so and gives a likely reason. Otherwise empty.
 std::string advice_on(const ReplayInput& input, const ReplayResult& result, const MapperConfig& config);
 
 void print_result(const ReplayResult& result);

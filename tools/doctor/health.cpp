@@ -111,7 +111,7 @@ void judge_state(const ServiceStatus& status, Findings& found) {
 Finding refusal(std::string_view by_whom, std::string_view subject, std::string_view reason,
                 std::uint64_t count) {
   const bool at_the_door = subject == "datagrams";
-  const Refusal why = at_the_door ? explain_refused_datagrams(reason) : explain_refusal(reason);
+  const Refusal why = at_the_door ? explain_refused_datagrams(reason) : explain_refusal(subject, reason);
   return {
       io::printable(fmt::format("{}_refused_{}", subject, reason)),
       io::printable(fmt::format("{} refused {} {} ({}): {}.", by_whom, count, subject, reason, why.cause)),

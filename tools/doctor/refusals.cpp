@@ -1,7 +1,10 @@
 #include "doctor/refusals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 namespace laneloom::doctor {
 namespace {
@@ -24,11 +27,13 @@ constexpr std::array kRefusals{
     Refusal{"not_finite", "they hold a NaN or an infinity", kWriter},
     Refusal{"not_a_rotation", "their quaternion is not of length one",
             "Normalise it where they are written."},
+    Refusal{"detections_wrong_frame", "their frame_id is the map frame, but they are given in the body frame",
+            "Name the body frame in them, as in base_link. See whether dds.map_frame_id is that by mistake."},
     Refusal{
-        "wrong_frame",
-        "their frame_id is not the map frame; of detections, it is; of objects, it is not base_link either",
-        "Set dds.map_frame_id to the frame that poses are given in, or the frame_id of the poses to that. "
-        "Detections are given in the body frame, which has another name."},
+        "poses_wrong_frame", "their frame_id is not the map frame",
+        "Set dds.map_frame_id to the frame that poses are given in, or the frame_id of the poses to that."},
+    Refusal{"objects_wrong_frame", "their frame_id is neither the map frame nor base_link",
+            "Give them in the body frame as base_link, or in the frame that dds.map_frame_id names."},
     Refusal{"wrong_size", "lists that belong together differ in length", kWriter},
     Refusal{"stamp", "their stamp is zero, negative or absurd", "Stamp them in nanoseconds, at measurement."},
     Refusal{"coordinate", "a coordinate is further out than gate.max_coordinate_m", kGate},
@@ -79,17 +84,24 @@ constexpr std::array kRefusedDatagrams{
     Refusal{"bitmap", "a set has more numbers than RTPS allows", kStranger},
     Refusal{"parameters", "a list of parameters or a handshake is not as long as it says", kStranger}};
 
+/// The explanation of the first of `names` that has one.
 template <std::size_t count>
-Refusal find_refusal(const std::array<Refusal, count>& all, std::string_view reason) {
-  const auto* const known = std::ranges::find(all, reason, &Refusal::reason);
-  if (known != all.end()) return *known;
-  return {reason, "they are not what the service takes", "See the log of the service."};
+Refusal find_refusal(const std::array<Refusal, count>& all, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    const auto* const known = std::ranges::find(all, name, &Refusal::reason);
+    if (known != all.end()) return *known;
+  }
+  return {"unknown", "they are not what the service takes", "See the log of the service."};
 }
 
 }  // namespace
 
-Refusal explain_refused_datagrams(std::string_view reason) { return find_refusal(kRefusedDatagrams, reason); }
+Refusal explain_refused_datagrams(std::string_view reason) {
+  return find_refusal(kRefusedDatagrams, {reason});
+}
 
-Refusal explain_refusal(std::string_view reason) { return find_refusal(kRefusals, reason); }
+Refusal explain_refusal(std::string_view subject, std::string_view reason) {
+  return find_refusal(kRefusals, {fmt::format("{}_{}", subject, reason), reason});
+}
 
 }  // namespace laneloom::doctor

@@ -57,7 +57,8 @@ DriveLog plain_drive(const std::filesystem::path& poses, const std::filesystem::
     if (!stamps.emplace(token, io::take_number<std::int64_t>(row)).second)
       throw std::runtime_error("a sample that is given twice");
   });
-  DriveLog drive{.name = samples.string(), .poses = simulation::read_pose_table(poses, left_out)};
+  DriveLog drive{.name = poses.string() + " and " + samples.string(),
+                 .poses = simulation::read_pose_table(poses, left_out)};
   drive.stamp_ns_of = [stamps = std::move(stamps)](const std::string& token) -> std::optional<std::int64_t> {
     const auto found = stamps.find(token);
     return found == stamps.end() ? std::nullopt : std::optional(found->second);

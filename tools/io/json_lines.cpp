@@ -69,7 +69,7 @@ auto JsonLinesReader::next(LeftOut& left_out, Read read)
       return read(place);
     } catch (const JsonError& complaint) {
       if (left_out.strict()) throw error(complaint.what());
-      const bool cut = !line_ended_ && line_.find_last_of('}') != line_.size() - 1;
+      const bool cut = !line_ended_ && line_.find_last_of("]}") != line_.size() - 1;
       left_out.add(cut ? "the last line is cut off" : complaint.reason(), place);
     }
   }

@@ -103,6 +103,8 @@ LiveComparison::Result LiveComparison::result() const {
   };
   compare(live_maps_, maps_);
   compare(live_markings_, markings_);
+  result.began_late =
+      !live_maps_.empty() && !maps_.empty() && live_maps_.begin()->first < maps_.begin()->first;
   return result;
 }
 

@@ -56,6 +56,7 @@ class LiveComparison {
 
   struct Result {
     std::size_t equal = 0, different = 0, missing = 0;  ///< of the live messages
+    bool began_late = false;  ///< the service had fused frames before those that were recorded
     bool holds() const { return equal > 0 && different == 0 && missing == 0; }
   };
   Result result() const;

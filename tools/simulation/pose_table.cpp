@@ -58,9 +58,13 @@ VehiclePose checked_pose(std::int64_t stamp_ns, const PoseNumbers& v) {
 }
 
 std::vector<VehiclePose> read_pose_table(const std::filesystem::path& path, LeftOut& left_out) {
-  std::vector<VehiclePose> poses =
-      cleaned_poses(path.extension() == ".feather" ? read_feather(path, left_out) : read_csv(path, left_out));
-  if (poses.size() < 2) throw std::runtime_error(path.string() + ": has fewer than two poses");
+  const std::vector<VehiclePose> given =
+      path.extension() == ".feather" ? read_feather(path, left_out) : read_csv(path, left_out);
+  std::vector<VehiclePose> poses = cleaned_poses(given);
+  if (poses.size() < 2)
+    throw std::runtime_error(
+        path.string() + ": has fewer than two poses" +
+        (given.size() < 2 ? "" : " that are a millisecond apart; stamps are nanoseconds"));
   return poses;
 }
 
