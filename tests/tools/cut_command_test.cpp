@@ -234,6 +234,13 @@ TEST_F(CutCommand, PosesMayBeInAFrameOfAnyName) {
   EXPECT_EQ(info("odom.mcap").at("topics").size(), 2u);
 }
 
+TEST_F(CutCommand, NamesOfFilesControlNoTerminal) {
+  std::ofstream(file("bad\x1b[31m.jsonl")) << "{}\n";
+  EXPECT_EQ(run("replay 'bad\x1b[31m.jsonl' --strict"), 1);
+  EXPECT_THAT(output(), HasSubstr("bad?[31m.jsonl"));
+  EXPECT_THAT(output(), Not(HasSubstr("\x1b")));
+}
+
 TEST_F(CutCommand, APipeIsStandardInput) {
   for (const std::string command : {"replay", "cut --out a.jsonl", "evaluate --later --in"}) {
     EXPECT_EQ(run(command + " <(cat in.frames.jsonl)"), 1) << command;

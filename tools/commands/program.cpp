@@ -13,12 +13,13 @@
 
 #include "commands/completion.hpp"
 #include "commands/exit_codes.hpp"
+#include "io/printable.hpp"
 
 namespace laneloom::commands {
 namespace {
 
 void tell(const Program& program, const std::string& complaint) {
-  std::fprintf(stderr, "%s: %s\n", program.name.c_str(), complaint.c_str());
+  std::fprintf(stderr, "%s: %s\n", program.name.c_str(), io::printable(complaint).c_str());
 }
 
 /// The words of the command line. `help COMMAND` becomes `COMMAND --help`.
