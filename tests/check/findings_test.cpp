@@ -209,6 +209,53 @@ INSTANTIATE_TEST_SUITE_P(Roads, SoundDrives,
                                          "hill", "t_intersection", "overpass", "town"),
                          [](const auto& test) { return test.param; });
 
+/// A drive along lines that bend, of steady speed, whose points lie on a grid, as many writers' do.
+Drive drive_on_a_grid(double bend, double speed_mps, double left_m, double right_m) {
+  constexpr int kFrames = 150;
+  Drive drive;
+  for (int i = 0; i < kFrames; ++i) {
+    const double x_m = 0.1 * speed_mps * i, heading = std::atan(bend * x_m);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(heading, Point::UnitZ()));
+    const std::int64_t stamp_ns = 100'000'000LL * (i + 1);
+    drive.poses.push_back(
+        {.stamp_ns = stamp_ns, .position = {x_m, 0.5 * bend * x_m * x_m, 0.0}, .orientation = turn});
+    DetectionFrame& frame = drive.frames[""].emplace_back();
+    frame.stamp_ns = stamp_ns;
+    for (const double lateral_m : {left_m, right_m}) {
+      Detection& line = frame.detections.emplace_back(Detection{.confidence = 0.8, .points = {}});
+      for (double ahead_m = 0.0; ahead_m <= 40.0; ahead_m += 4.0)
+        line.points.emplace_back(ahead_m, lateral_m + 0.5 * bend * ahead_m * ahead_m, 0.0);
+    }
+  }
+  return drive;
+}
+
+TEST(Findings, PointsOnAGridAreNoMistake) {
+  for (const double bend : {0.0, 0.0001, 0.0005})
+    for (const double speed_mps : {5.0, 10.0, 15.0, 20.0})
+      EXPECT_THAT(wrong(drive_on_a_grid(bend, speed_mps, 1.75, -1.75)), testing::IsEmpty())
+          << bend << " " << speed_mps;
+}
+
+TEST(Findings, ALaneIsWideWhereNoneIsFound) {
+  EXPECT_THAT(wrong(drive_on_a_grid(0.0, 10.0, 2.6, -2.6)), testing::IsEmpty());
+  const Findings found = wrong(drive_on_a_grid(0.0, 10.0, 3.5, -3.5));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].id, "lane_wide");
+}
+
+TEST(Findings, ALineThatTheNetworkDoubtsNarrowsNoLane) {
+  Drive drive = drive_on_a_grid(0.0, 10.0, 1.75, -1.75);
+  for (DetectionFrame& frame : frames_of(drive)) {
+    Detection doubted = frame.detections.back();
+    for (Point& point : doubted.points) point.y() = 0.2;
+    frame.detections.push_back(doubted);
+  }
+  ASSERT_EQ(wrong(drive).size(), 1u) << "a lane of 1.55 m";
+  for (DetectionFrame& frame : frames_of(drive)) frame.detections.back().confidence = 0.04;
+  EXPECT_THAT(wrong(drive), testing::IsEmpty());
+}
+
 TEST(Findings, PosesMayJumpWhereANewSessionBegins) {
   Drive drive = simulated_drive("town", "none");
   const auto second = drive.poses.begin() + 200;

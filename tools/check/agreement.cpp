@@ -19,7 +19,7 @@ constexpr std::array kSteps_m{5.0, 12.0, 20.0};        // between the frames of 
 constexpr std::size_t kLinePoints = 16;
 constexpr std::size_t kFewestPoints = 6;
 constexpr double kFarthest_m = 1.0;  // that a distance counts
-constexpr double kMargin_m = 1.0;    // by which a view reaches beyond its points
+constexpr double kMargin_m = 0.9;    // by which a view reaches beyond its points: their ends are near enough
 constexpr double kNearby_m = 25.0;
 constexpr double kMostTilt_deg = 30.0, kMostHeading_deg = 60.0;
 
@@ -120,20 +120,25 @@ std::optional<Agreement::Outline> Agreement::outline(const View& view, const Cor
   return result;
 }
 
-/// The horizontal distance of a point from the nearest line, or kFarthest_m.
-double Agreement::distance(const Eigen::Vector2d& point, const std::vector<Line>& lines) {
+/// The horizontal distance of a point from the nearest line, or kFarthest_m. Empty: a line's end is nearest.
+/// How far the point lies beyond it depends on what the frames see of the line.
+std::optional<double> Agreement::distance(const Eigen::Vector2d& point, const std::vector<Line>& lines) {
   double nearest2 = kFarthest_m * kFarthest_m;
+  bool is_beyond_end = false;
   for (const Line& line : lines) {
     if (line.bounds.squaredExteriorDistance(point) >= nearest2) continue;
     for (std::size_t i = 1; i < line.points.size(); ++i) {
       const Eigen::Vector2d along = (line.points[i] - line.points[i - 1]).head<2>();
       const Eigen::Vector2d beyond = point - line.points[i - 1].head<2>();
       const double length2 = along.squaredNorm();
-      const double share = length2 > 0.0 ? std::clamp(along.dot(beyond) / length2, 0.0, 1.0) : 0.0;
-      nearest2 = std::min(nearest2, (beyond - share * along).squaredNorm());
+      const double at = length2 > 0.0 ? along.dot(beyond) / length2 : 0.0;
+      const double distance2 = (beyond - std::clamp(at, 0.0, 1.0) * along).squaredNorm();
+      if (distance2 >= nearest2) continue;
+      nearest2 = distance2;
+      is_beyond_end = (i == 1 && at < 0.0) || (i + 1 == line.points.size() && at > 1.0);
     }
   }
-  return std::sqrt(nearest2);
+  return is_beyond_end ? std::nullopt : std::optional(std::sqrt(nearest2));
 }
 
 double Agreement::disagreement(const Outline& from, const Outline& to) {
@@ -146,7 +151,9 @@ double Agreement::disagreement(const Outline& from, const Outline& to) {
       for (const Point& point : line.points) {
         const Eigen::Vector2d there = (T_to_from * point).head<2>();
         if (!view.contains(there)) continue;
-        sum_m += distance(there, to.lines[kind]);
+        const std::optional<double> distance_m = distance(there, to.lines[kind]);
+        if (!distance_m) continue;
+        sum_m += *distance_m;
         ++count;
       }
   return count < kFewestPoints ? kFarthest_m : sum_m / static_cast<double>(count);

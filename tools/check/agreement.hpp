@@ -59,7 +59,7 @@ class Agreement {
   };
   using Pair = std::pair<std::size_t, std::size_t>;  ///< places in `views_`
 
-  static double distance(const Eigen::Vector2d& point, const std::vector<Line>& lines);
+  static std::optional<double> distance(const Eigen::Vector2d& point, const std::vector<Line>& lines);
   std::optional<Outline> outline(const View& view, const Correction& correction) const;
   static double disagreement(const Outline& from, const Outline& to);
 

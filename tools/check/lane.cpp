@@ -15,7 +15,9 @@ namespace {
 constexpr std::array kAhead_m{2.0, 6.0, 10.0};
 constexpr std::size_t kFewestFrames = 30;                     // that must show the lane
 constexpr double kLeastOffset_m = 0.35, kMostSpread_m = 0.5;  // of the vehicle from the middle
-constexpr double kRoom = 0.85;                                // from a measured width to a limit below it
+constexpr double kLeastConfidence = 1.0 / 3.0;                // of the frame's median
+constexpr double kBeyondLimit_m = 1.3;  // up to there beyond the greatest width, the own lane is still found
+constexpr double kRoom = 0.85;          // from a measured width to a limit below it
 
 /// Left and right line of the vehicle's lane, as their lateral distances.
 struct OwnLane {
@@ -25,11 +27,19 @@ struct OwnLane {
   bool found() const { return std::isfinite(left_m) && std::isfinite(right_m); }
 };
 
+/// The confidence from which on a line counts. Some networks write all that they doubt.
+double least_confidence(const DetectionFrame& frame) {
+  Distribution confidences;
+  for (const Detection& line : frame.detections) confidences.add(line.confidence);
+  return kLeastConfidence * confidences.quantile(0.5);
+}
+
 OwnLane own_lane_at(const DetectionFrame& frame, double ahead_m, bool between_edges) {
   OwnLane lane;
+  const double least = least_confidence(frame);
   for (const Detection& line : frame.detections) {
-    const bool counts =
-        line.type == MarkingType::laneline || (between_edges && line.type == MarkingType::roadedge);
+    const bool counts = line.confidence >= least && (line.type == MarkingType::laneline ||
+                                                     (between_edges && line.type == MarkingType::roadedge));
     for (std::size_t i = 1; counts && i < line.points.size(); ++i) {
       const Point &from = line.points[i - 1], &to = line.points[i];
       if ((from.x() <= ahead_m) == (to.x() <= ahead_m)) continue;
@@ -58,11 +68,11 @@ Findings width_findings(const Distribution& widths_m, const Distribution& betwee
                          lane.min_width_m),
              fmt::format("Set mapper.lane.min_width_m to {:.1f}, and mapper.lane.assumed_width_m to {:.1f}.",
                          kRoom * width_m, width_m)}};
-  if (between_lines_m.count() >= kFewestFrames && wide_m > lane.max_width_m)
+  if (between_lines_m.count() >= kFewestFrames && wide_m > lane.max_width_m + kBeyondLimit_m)
     return {
         {"lane_wide",
          fmt::format("The vehicle's lane is {:.1f} m wide; lanes between two lines are found up to {:g} m.",
-                     wide_m, lane.max_width_m),
+                     wide_m, lane.max_width_m + kBeyondLimit_m),
          fmt::format("Set mapper.lane.max_width_m to {:.1f}.", wide_m / kRoom)}};
   return {};
 }

@@ -91,10 +91,9 @@ std::string why_no_marking(const ReplayInput& input, const ReplayResult& result,
          "T_map_body, and the points metres in the body frame";
 }
 
-std::string why_no_lane(const ReplayResult& result, const MapperConfig& config) {
+std::string why_no_lane(const ReplayResult& result) {
   if (std::string few = why_too_few_frames(result); !few.empty()) return few;
-  return fmt::format("a lane needs a line or an edge on both sides, {:g} to {:g} m apart (mapper.lane)",
-                     config.lane.min_width_m, config.lane.max_width_m);
+  return "a lane needs a line or an edge on both sides, as far apart as the limits in mapper.lane say";
 }
 
 /// Of messages of which most were refused, how many were, and why.
@@ -127,7 +126,7 @@ void ReplayInput::add(const recording::AnyMessage& message) {
 std::string advice_on(const ReplayInput& input, const ReplayResult& result, const MapperConfig& config) {
   if (result.maps == 0) return "no map came of it: " + why_no_map(input, result);
   if (result.boundaries == 0) return "no map has a marking: " + why_no_marking(input, result, config);
-  if (result.lanes == 0) return "no map has a lane: " + why_no_lane(result, config);
+  if (result.lanes == 0) return "no map has a lane: " + why_no_lane(result);
   if (std::string few = why_few_maps(result.counters, "poses", input.poses); !few.empty()) return few;
   if (std::string few = why_few_maps(result.counters, "detections", input.frames); !few.empty()) return few;
   return idle_profile(input.sources, config.fusion.profile_file);
