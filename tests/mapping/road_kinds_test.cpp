@@ -251,6 +251,33 @@ TEST(RoadKinds, AClosedKerbBesideTheLaneIsAnEdge) {
     }
 }
 
+/// The lane would lead from the vehicle's line over the near kerb to the far one.
+TEST(RoadKinds, NoLaneLeadsOverAnIsland) {
+  for (const double side : {-1.0, 1.0})
+    for (const double begin_m : {0.0, 7.0})
+      for (const double width_m : {1.5, 2.0, 3.0}) {
+        SCOPED_TRACE(testing::Message() << "side " << side << ", " << width_m << " m, from " << begin_m);
+        Polyline island{{0, 0, 0}, {14, 0, 0}, {14, width_m, 0}, {0, width_m, 0}, {0, 0, 0}};
+        for (Point& point : island) point = {30.0 + point.x(), side * (2.75 + point.y()), 0.0};
+        island.front().x() = island.back().x() = 30.0 + begin_m;
+        if (begin_m > 0.0) island.insert(island.end() - 1, {30.0, side * 2.75, 0.0});
+        const std::vector<LocalMap> maps =
+            maps_of({{MarkingType::laneline, 1.75}, {MarkingType::laneline, -1.75}}, {}, island);
+        for (std::size_t i = 20; i < maps.size(); ++i) EXPECT_THAT(maps[i].lanes, SizeIs(1)) << i;
+      }
+}
+
+/// One edge turns back at the end of the street.
+TEST(RoadKinds, ADeadEndHasALane) {
+  for (const double half_m : {1.5, 2.0, 2.5}) {
+    SCOPED_TRACE(half_m);
+    const Polyline edge{{-10, half_m, 0}, {60, half_m, 0}, {60, -half_m, 0}, {-10, -half_m, 0}};
+    const LocalMap map = maps_of({}, {}, edge).back();
+    EXPECT_THAT(map.lanes, SizeIs(1));
+    EXPECT_NE(lane_at(map, 0.0), nullptr);
+  }
+}
+
 /// Lines 5 m apart, as on a fifth of the lanes of a public map.
 TEST(RoadKinds, ALaneBetweenSolidLinesIsUpToFiveMetresWide) {
   for (double width_m = 2.4; width_m <= 5.3; width_m += 0.2) {

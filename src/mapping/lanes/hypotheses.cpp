@@ -57,6 +57,9 @@ class VehicleBeside {
     const double margin = room == Room::between ? kDrivenFrom : 0.5 * kDrivenFrom;
     return is_within(foot_.lateral_m, width_m, margin);
   }
+  bool is_in_width(double width_m) const {
+    return is_beside_ && is_within(foot_.lateral_m, width_m, kDrivenFrom);
+  }
   bool is_near(const Point& place) const {
     return (place - vehicle_).head<2>().squaredNorm() < kHere_m * kHere_m;
   }
@@ -190,6 +193,11 @@ std::vector<double> parted_from(std::size_t other, const RoadCuts& cuts, double 
   return parted;
 }
 
+/// Whether a mark is of the cut edge itself, where it has turned back, as at the end of a street.
+bool is_other_side(const RoadCut& cut, const Mark& mark) {
+  return mark.is_edge && mark.boundary == cut.self().boundary && mark.arc_m > cut.self().arc_m;
+}
+
 /// Adds the candidates between the cut boundary and those on its left that are wanted: of two opposed
 /// boundaries, the older one is the one that is cut.
 template <class IsWanted>
@@ -216,11 +224,18 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
   std::vector<VehicleBeside> vehicles;
   for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(base, found.front().reversed, pose);
   for (Hypothesis& one : found) {
+    std::vector<Place> places = places_of(one, cuts);
+    const auto is_in_self = [&](const VehicleBeside& vehicle) {
+      return !is_open(one.room) && one.other == one.base &&
+             std::ranges::any_of(places, [&](const Place& place) {
+               return vehicle.is_near(place.cut.self().point) && vehicle.is_in_width(place.width_m);
+             });
+    };
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
+      if (is_in_self(vehicle)) return true;
       return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
                                : vehicle.is_left_up_to(road.boundaries[one.other].course, one.room);
     });
-    std::vector<Place> places = places_of(one, cuts);
     // Two lanes fit into no gore.
     const std::vector<bool> gore =
         one.room == Room::divided ? std::vector<bool>(places.size()) : gore_places(places);
@@ -253,8 +268,9 @@ std::vector<Hypothesis> hypotheses(std::size_t boundary, const RoadCuts& cuts,
   Collection collection(boundary, false, cuts.size());
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     const RoadCut cut = cuts[c];
-    add_on_left(cut, c, config, collection,
-                [&](const Mark& mark) { return !mark.opposed || mark.boundary > boundary; });
+    add_on_left(cut, c, config, collection, [&](const Mark& mark) {
+      return !mark.opposed || mark.boundary > boundary || is_other_side(cut, mark);
+    });
     for (const Room room : {Room::open_left, Room::open_right})
       if (config.one_sided_lanes &&
           width_m(cut, {.room = room, .left = cut.own, .right = cut.own}) > kMinRoom_m)
@@ -267,9 +283,12 @@ std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const RoadCuts&
                                            const boundaries::SectionGraph& road, Poses driven,
                                            const LaneConfig& config) {
   Collection collection(boundary, true, cuts.size());
-  for (std::size_t c = 0; c < cuts.size(); ++c)
-    add_on_left(cuts[c], c, config, collection,
-                [&](const Mark& mark) { return !mark.opposed && mark.boundary > boundary; });
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const RoadCut cut = cuts[c];
+    add_on_left(cut, c, config, collection, [&](const Mark& mark) {
+      return (!mark.opposed && mark.boundary > boundary) || is_other_side(cut, mark);
+    });
+  }
   return weighed(collection.take(), cuts, road, driven, config);
 }
 

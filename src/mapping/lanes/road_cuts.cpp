@@ -83,6 +83,46 @@ std::vector<MetBoundary> boundaries_beside(std::size_t boundary, const boundarie
 /// Unit direction from one point to another; zero if they are one point.
 Eigen::Vector2d heading(const Point& from, const Point& to) { return (to - from).head<2>().normalized(); }
 
+/// Inserts a mark among those from right to left.
+void insert(const Mark& mark, std::vector<Mark>& marks) {
+  marks.insert(std::ranges::upper_bound(marks, mark.lateral_m, {}, &Mark::lateral_m), mark);
+}
+
+/// Where a boundary that turns back, as round the tip of an island, lies beside itself.
+class OtherSide {
+ public:
+  OtherSide(const Polyline& points, double step_m) : points_(points), step_m_(step_m) {
+    ahead_.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      ahead_.push_back(heading(points[i > 0 ? i - 1 : 0], points[std::min(i + 1, points.size() - 1)]));
+    turns_ = std::ranges::any_of(
+        ahead_, [&](const Eigen::Vector2d& ahead) { return ahead.dot(ahead_.front()) < kTurned; });
+  }
+  /// The index of the nearest point that runs back beside the point of an index. Empty: there is none.
+  std::optional<std::size_t> of(std::size_t i) const {
+    std::optional<std::size_t> nearest;
+    double nearest_m = kCutReach_m;
+    for (std::size_t j = 0; turns_ && j < points_.size(); ++j) {
+      if (ahead_[i].dot(ahead_[j]) > -kAlongside) continue;
+      const Eigen::Vector2d away = (points_[j] - points_[i]).head<2>();
+      if (std::abs(away.dot(ahead_[i])) > step_m_ || away.norm() >= nearest_m ||
+          !geometry::same_level(points_[j], points_[i]))
+        continue;
+      nearest_m = away.norm();
+      nearest = j;
+    }
+    return nearest;
+  }
+
+ private:
+  static constexpr double kTurned = 0.5;  // cosine to the begin, from where on it may turn back
+
+  const Polyline& points_;
+  double step_m_;
+  std::vector<Eigen::Vector2d> ahead_{};
+  bool turns_ = false;
+};
+
 }  // namespace
 
 void RoadCuts::add(const RoadCut& cut) {
@@ -104,13 +144,13 @@ RoadCuts reversed(const RoadCuts& cuts) {
   std::vector<Mark> marks;
   for (std::size_t i = cuts.size(); i-- > 0;) {
     RoadCut cut = cuts[i];
-    const std::size_t boundary = cut.self().boundary;
     marks.assign(cut.marks.rbegin(), cut.marks.rend());
     for (Mark& mark : marks) {
       mark.lateral_m = -mark.lateral_m;
-      if (mark.boundary != boundary) mark.opposed = !mark.opposed;
+      mark.opposed = !mark.opposed;
     }
     cut.own = marks.size() - 1 - cut.own;
+    marks[cut.own].opposed = false;
     cut.ahead = -cut.ahead;
     cut.marks = marks;
     turned.add(cut);
@@ -124,12 +164,16 @@ RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, c
   std::vector<MetBoundary> others = boundaries_beside(boundary, road);
   MeasuredPolyline::Cursor behind(course), ahead(course), far_behind(course), far_ahead(course);
   const Polyline points = course.resample(config.step_m);
+  const OtherSide other_side(points, config.step_m);
   RoadCuts cuts;
   cuts.reserve(points.size(), others.size() + 1);
+  const auto arc_at = [&](std::size_t i) {
+    return course.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+  };
   std::vector<Mark> marks;
   marks.reserve(others.size() + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double arc_m = course.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    const double arc_m = arc_at(i);
     RoadCut cut{.ahead = heading(behind.at(arc_m - kDirection_m), ahead.at(arc_m + kDirection_m))};
     const Eigen::Vector2d from = heading(far_behind.at(arc_m - kBend_m), points[i]),
                           to = heading(points[i], far_ahead.at(arc_m + kBend_m));
@@ -138,8 +182,15 @@ RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, c
     for (MetBoundary& other : others)
       if (const auto mark = other.beside(points[i], cut.ahead,
                                          base.is_edge() && other.is_edge() ? kStreetReach_m : kCutReach_m))
-        marks.insert(std::ranges::upper_bound(marks, mark->lateral_m, {}, &Mark::lateral_m), *mark);
-    cut.own = static_cast<std::size_t>(std::ranges::find(marks, boundary, &Mark::boundary) - marks.begin());
+        insert(*mark, marks);
+    if (const auto back = other_side.of(i)) {
+      Mark mark = base.at(arc_at(*back), points[*back]);
+      mark.lateral_m = cross(cut.ahead, Eigen::Vector2d((points[*back] - points[i]).head<2>()));
+      mark.opposed = true;
+      insert(mark, marks);
+    }
+    const auto is_own = [&](const Mark& mark) { return mark.boundary == boundary && !mark.opposed; };
+    cut.own = static_cast<std::size_t>(std::ranges::find_if(marks, is_own) - marks.begin());
     cut.marks = marks;
     cuts.add(cut);
   }

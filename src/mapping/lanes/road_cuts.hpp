@@ -63,7 +63,8 @@ RoadCuts reversed(const RoadCuts& cuts);
 inline constexpr double kCutReach_m = 14.0, kStreetReach_m = 16.5;
 
 /// Cross-sections of the road along a boundary, LaneConfig::step_m apart, from its begin to its end. They
-/// show the boundaries beside it.
+/// show the boundaries beside it, and where the boundary itself runs back beside that place: it is opposed
+/// there, and bounds no lane with itself, but no lane reaches across it.
 RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, const LaneConfig& config);
 
 }  // namespace laneloom::lanes
