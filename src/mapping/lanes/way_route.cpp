@@ -214,8 +214,10 @@ std::optional<RouteStart> start_on_passage(const LaneGraph& graph, const Eigen::
     const Lane *from = graph.find(against ? linkage.to : linkage.from),
                *to = graph.find(against ? linkage.from : linkage.to);
     if (from == nullptr || to == nullptr || !to->is_drivable() || std::abs(along) < kMinAlongPath) continue;
+    const DirectedLane into{to, against};
+    if (into.oncoming()) continue;
     const double worth =
-        std::abs(along) - 0.1 * foot.distance_m + 1.0 + (find(before, {to, against}) != nullptr ? 1.0 : 0.0);
+        std::abs(along) - 0.1 * foot.distance_m + 1.0 + (find(before, into) != nullptr ? 1.0 : 0.0);
     if (worth <= best_worth) continue;
     best_worth = worth;
     start = RouteStart{{from, against}, length(from->centerline), to->id};

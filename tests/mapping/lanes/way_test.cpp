@@ -41,6 +41,17 @@ LocalMap two_lanes() {
   return map;
 }
 
+TEST(Way, OnAPassageOfOncomingTrafficDoesNotStart) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {80, 3.5, 0}, {32, 3.5, 0}), road_lane(2, {20, 3.5, 0}, {0, 3.5, 0})};
+  map.linkages = {link(1, 2, Turn::straight, straight({32, 3.5, 0}, {20, 3.5, 0}, 13))};
+  const Eigen::Isometry3d east = test::at(26, 2.5), west = test::at(26, 2.5, std::numbers::pi);
+  EXPECT_THAT(ids(way_on(map, east)), ElementsAre(1)) << "nothing is known of it";
+  for (Lane& lane : map.lanes) lane.direction = Lane::Direction::along_centerline;
+  EXPECT_THAT(ids(way_on(map, east)), ElementsAre());
+  EXPECT_THAT(ids(way_on(map, west)), ElementsAre(2));
+}
+
 TEST(Way, OnAStraightRoadRunsInTheMiddleOfTheLaneFromBesideTheVehicle) {
   LocalMap map;
   map.lanes = {road_lane(1, {0, 0, 0}, {100, 0, 0})};
