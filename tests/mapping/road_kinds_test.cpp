@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -225,6 +226,26 @@ TEST(RoadKinds, TheVehicleHasALaneRoundBends) {
       SCOPED_TRACE(testing::Message() << radius_m << " m, " << lines.size() << " lines");
       EXPECT_NE(lane_at(maps_of(lines, {}, {}, {.radius_m = radius_m}).back(), 0.0), nullptr);
     }
+}
+
+/// Cross-sections that a bend pushes together are left out. Those that it then lacks are put back.
+TEST(RoadKinds, ALaneRoundAHairpinFollowsItsLines) {
+  for (const double radius_m : {10.0, 14.0, -10.0, -14.0}) {
+    const Road road{.radius_m = radius_m};
+    const std::vector<LocalMap> maps =
+        maps_of({{.left_m = 1.75}, {.left_m = -1.75}, {kEdge, 5.25}, {kEdge, -5.25}}, {}, {}, road);
+    for (std::size_t i = 20; i < maps.size(); i += 5)
+      for (const Lane& lane : maps[i].lanes) {
+        SCOPED_TRACE(testing::Message() << radius_m << " m, frame " << i + 1 << ", lane " << lane.id);
+        for (const Polyline& side : {lane.left, lane.right})
+          for (std::size_t k = 1; k < side.size(); ++k) {
+            const Point middle = 0.5 * (side[k - 1] + side[k]);
+            const double from_middle_m =
+                std::abs((middle - Point(0.0, radius_m, 0.0)).norm() - std::abs(radius_m));
+            EXPECT_LT(std::min(std::abs(from_middle_m - 1.75), std::abs(from_middle_m - 5.25)), 0.25);
+          }
+      }
+  }
 }
 
 /// Islands, bays and bollards of both hands, as data sets give their kerbs.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <tuple>
@@ -12,6 +14,9 @@
 
 namespace laneloom::lanes {
 namespace {
+
+constexpr double kLongestStep =
+    1.6;  // between stations, as a share of LaneConfig::step_m; a longer one is a gap
 
 /// An end of a track, by the track's index.
 struct TrackEnd {
@@ -38,7 +43,8 @@ struct Cover {
 
 /// The covers of each strip, along it.
 std::vector<std::vector<Cover>> covers_of(const std::vector<std::vector<Match>>& matches,
-                                          const std::vector<LaneTrack>& tracks, std::size_t strips) {
+                                          const std::vector<LaneTrack>& tracks, std::size_t strips,
+                                          double longest_step_m) {
   std::vector<std::vector<Cover>> covers(strips);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const std::vector<Match>& places = matches[t];
@@ -47,7 +53,8 @@ std::vector<std::vector<Cover>> covers_of(const std::vector<std::vector<Match>>&
       if (!places[i].strip) continue;
       double weight = tracks[t].stations[i].log_odds;
       while (end < places.size() && places[end].strip == places[i].strip &&
-             places[end].reversed == places[i].reversed)
+             places[end].reversed == places[i].reversed &&
+             std::abs(places[end].arc_m - places[end - 1].arc_m) < longest_step_m)
         weight += tracks[t].stations[end++].log_odds;
       Cover cover{{places[i].arc_m, places[end - 1].arc_m}, t, i, end - 1, places[i].reversed, weight};
       if (cover.reversed) {
@@ -61,6 +68,13 @@ std::vector<std::vector<Cover>> covers_of(const std::vector<std::vector<Match>>&
     std::ranges::sort(along, {}, [](const Cover& c) { return std::tuple(c.range.from_m, c.track, c.first); });
   return covers;
 }
+
+/// Stations that a track lacks between two others.
+struct Filling {
+  std::size_t track = 0;
+  std::size_t at = 0;  ///< index of the station before which they belong
+  std::vector<LaneStation> stations;
+};
 
 /// Stations from the end of a track outwards, and the end of another track that they reach.
 struct Extension {
@@ -85,6 +99,10 @@ class Growth {
   }
 
   void apply(markings::IdSource& ids) {
+    // The last of a track first, as each moves those behind it.
+    std::ranges::sort(fillings_, std::greater(),
+                      [](const Filling& one) { return std::pair(one.track, one.at); });
+    for (Filling& filling : fillings_) fill(filling);
     std::vector<std::array<TrackEnd, 2>> present;  // where the ends of each track are now
     for (std::size_t t = 0; t < tracks_.size(); ++t)
       present.push_back({TrackEnd{t, End::front}, TrackEnd{t, End::back}});
@@ -136,7 +154,8 @@ class Growth {
 
   /// What a strip says between two covers. Null: there is none before, or behind.
   void take_in_gap(const Strip& strip, const Cover* before, const Cover* behind) {
-    if (before != nullptr && behind != nullptr && before->track == behind->track) return;
+    if (before != nullptr && behind != nullptr && before->track == behind->track)
+      return fill_between(strip, *before, *behind);
     const auto a = before == nullptr ? std::nullopt : before->passed(End::back, tracks_[before->track]);
     const auto b = behind == nullptr ? std::nullopt : behind->passed(End::front, tracks_[behind->track]);
     std::vector<LaneStation> stations = stations_between(strip, before, behind);
@@ -152,6 +171,25 @@ class Growth {
     } else if (stations.size() > 1 && (a || b || length_of(stations) >= config_.min_length_m)) {
       bear(strip, before, behind, std::move(stations));
     }
+  }
+
+  /// What a strip says between two neighbouring stations of a track: in a tight bend, stations were left out
+  /// between them.
+  void fill_between(const Strip& strip, const Cover& before, const Cover& behind) {
+    const auto [first, second] = std::minmax(before.last, behind.first);
+    if (before.reversed != behind.reversed || second != first + 1) return;
+    std::vector<LaneStation> stations = stations_between(strip, &before, &behind);
+    if (before.reversed) std::ranges::reverse(stations);
+    if (!stations.empty()) fillings_.push_back({before.track, second, std::move(stations)});
+  }
+
+  void fill(Filling& filling) {
+    std::vector<LaneStation>& to = tracks_[filling.track].stations;
+    const LaneStation &before = to[filling.at - 1], &behind = to[filling.at];
+    continue_lane(before, before.shown && behind.shown, filling.stations);
+    to.insert(to.begin() + static_cast<std::ptrdiff_t>(filling.at),
+              std::make_move_iterator(filling.stations.begin()),
+              std::make_move_iterator(filling.stations.end()));
   }
 
   /// Makes a track of stations between two covers.
@@ -182,18 +220,23 @@ class Growth {
     return stations;
   }
 
-  /// Adds stations outwards from an end. What continues a lane that is shown is shown.
-  void extend(std::vector<LaneStation> stations, const TrackEnd& from) {
-    if (stations.empty()) return;
-    const LaneStation& last = last_station(from);
+  /// Lets stations continue a lane from its last one. What continues a lane that is shown is shown.
+  static void continue_lane(const LaneStation& last, bool shown, std::vector<LaneStation>& stations) {
     const auto across = [](const LaneStation& station) -> Eigen::Vector2d {
       return (station.border[1] - station.border[0]).head<2>();
     };
     const bool turned = across(last).dot(across(stations.front())) < 0.0;
     for (LaneStation& station : stations) {
       if (turned) station.swap_sides();
-      if (last.shown) station.log_odds = std::max(station.log_odds, kShown);
+      if (shown) station.log_odds = std::max(station.log_odds, kShown);
     }
+  }
+
+  /// Adds stations outwards from an end.
+  void extend(std::vector<LaneStation> stations, const TrackEnd& from) {
+    if (stations.empty()) return;
+    const LaneStation& last = last_station(from);
+    continue_lane(last, last.shown, stations);
     append(std::move(stations), from);
   }
 
@@ -253,6 +296,7 @@ class Growth {
 
   const LaneConfig& config_;
   std::vector<LaneTrack>& tracks_;
+  std::vector<Filling> fillings_;
   std::vector<Extension> extensions_;
   std::vector<LaneTrack> born_;
 };
@@ -261,7 +305,8 @@ class Growth {
 
 void grow(const std::vector<Strip>& strips, const std::vector<std::vector<Match>>& matches,
           const LaneConfig& config, markings::IdSource& ids, std::vector<LaneTrack>& tracks) {
-  std::vector<std::vector<Cover>> covers = covers_of(matches, tracks, strips.size());
+  std::vector<std::vector<Cover>> covers =
+      covers_of(matches, tracks, strips.size(), kLongestStep * config.step_m);
   Growth growth(config, tracks);
   for (std::size_t s = 0; s < strips.size(); ++s) growth.take_in(strips[s], std::move(covers[s]));
   growth.apply(ids);
