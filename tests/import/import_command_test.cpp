@@ -53,6 +53,18 @@ class ImportCommand : public Commands {
   }
 };
 
+/// A map of Argoverse 2 with one lane.
+std::string one_lane_map() {
+  const auto border = [](double y) {
+    const std::string at = R"(,"y":)" + std::to_string(y) + R"(,"z":0})";
+    return R"([{"x":0)" + at + R"(,{"x":20)" + at + "]";
+  };
+  return R"({"lane_segments":{"7":{"id":7,"is_intersection":false,"lane_type":"VEHICLE","successors":[],)"
+         R"("left_lane_boundary":)" +
+         border(1.75) + R"(,"left_lane_mark_type":"DASHED_WHITE","right_lane_boundary":)" + border(-1.75) +
+         R"(,"right_lane_mark_type":"SOLID_WHITE"}},"drivable_areas":{}})";
+}
+
 TEST_F(ImportCommand, MapTrResultsOfALogBecomeARecording) {
   ASSERT_TRUE(done("maptr --results results.json --argoverse2 log --out drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("log: 2 frames, 6 poses"));
@@ -212,15 +224,7 @@ TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {
 }
 
 TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
-  const auto border = [](double y) {
-    const std::string at = R"(,"y":)" + std::to_string(y) + R"(,"z":0})";
-    return R"([{"x":0)" + at + R"(,{"x":20)" + at + "]";
-  };
-  write("log/log_map_archive_x.json",
-        R"({"lane_segments":{"7":{"id":7,"is_intersection":false,"lane_type":"VEHICLE","successors":[],)"
-        R"("left_lane_boundary":)" +
-            border(1.75) + R"(,"left_lane_mark_type":"DASHED_WHITE","right_lane_boundary":)" + border(-1.75) +
-            R"(,"right_lane_mark_type":"SOLID_WHITE"}},"drivable_areas":{}})");
+  write("log/log_map_archive_x.json", one_lane_map());
   ASSERT_TRUE(done("argoverse2 log --out poses.mcap --truth truth.json"));
 
   const simulation::Road truth = simulation::load_truth(file("truth.json"));
@@ -304,6 +308,73 @@ TEST_F(ImportCommand, ALogInSeveralSplitsIsTakenOnce) {
     EXPECT_THAT(output(), HasSubstr(std::to_string(layouts[i].size() - 1) + " x a second log of this name"));
     EXPECT_TRUE(exists(out + "/log.mcap"));
   }
+}
+
+/// Makes data/val/log a copy of the log, and data/test/log one that lacks something.
+class LogOfTwoSplits : public ImportCommand {
+ protected:
+  void SetUp() override {
+    ImportCommand::SetUp();
+    write("log/log_map_archive_x.json", one_lane_map());
+    std::vector<AnnotationRow> rows;
+    for (const int sweep : {0, 1, 2, 3, 4, 5})
+      rows.push_back({1'000'000'000 + sweep * 100'000'000, "a", "REGULAR_VEHICLE", 20.0});
+    write_bytes(file("log/annotations.feather"), FeatherWriter(annotation_columns(rows)).write());
+    for (const std::string split : {"test", "val"}) {
+      std::filesystem::create_directories(file("data/" + split));
+      std::filesystem::copy(file("log"), file("data/" + split + "/log"));
+    }
+  }
+  void expect_that_val_is_taken() {
+    ASSERT_TRUE(done("argoverse2 data --out drives --truth truths"));
+    EXPECT_THAT(output(), HasSubstr("1 x a second log of this name (first: test/log)"));
+    EXPECT_THAT(output(), HasSubstr("data/val/log: 6 poses, 6 sweeps with objects"));
+    EXPECT_EQ(simulation::load_truth(file("truths/log.truth.json")).lanes.size(), 1U);
+  }
+};
+
+TEST_F(LogOfTwoSplits, TheOneWithAnnotationsIsTaken) {
+  std::filesystem::remove(file("data/test/log/annotations.feather"));
+  expect_that_val_is_taken();
+}
+
+TEST_F(LogOfTwoSplits, TheOneWithAMapIsTaken) {
+  std::filesystem::remove(file("data/test/log/log_map_archive_x.json"));
+  expect_that_val_is_taken();
+}
+
+TEST_F(LogOfTwoSplits, TheOneWhosePosesCanBeReadIsTaken) {
+  write("data/test/log/city_SE3_egovehicle.csv",
+        "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n1000000000,1,0,0,");
+  expect_that_val_is_taken();
+}
+
+TEST_F(ImportCommand, ALogThatIsBrokenDoesNotEndTheImportOfTheOthers) {
+  for (const std::string log : {"a", "b", "c"}) {
+    std::filesystem::create_directories(file("data/val"));
+    std::filesystem::copy(file("log"), file("data/val/" + log));
+  }
+  write("data/val/a/annotations.feather", "ARROW");
+  write("data/val/b/city_SE3_egovehicle.csv", "");
+  EXPECT_EQ(run("argoverse2 data --out strict --strict"), 1);
+  EXPECT_THAT(output(), HasSubstr("data/val/a/annotations.feather: "));
+  ASSERT_TRUE(done("argoverse2 data --out drives"));
+  EXPECT_THAT(output(), HasSubstr("data/val/a/annotations.feather: "));
+  EXPECT_THAT(output(), HasSubstr("data/val/b/city_SE3_egovehicle.csv: "));
+  EXPECT_THAT(output(), HasSubstr("; the log is left out"));
+  EXPECT_TRUE(exists("drives/c.mcap"));
+  EXPECT_FALSE(exists("drives/a.mcap"));
+
+  EXPECT_EQ(run("argoverse2 data --truth truths"), 1) << "no log has a map";
+  EXPECT_THAT(output(), HasSubstr("data: no log of it can be read"));
+  EXPECT_EQ(run("argoverse2 data --out drives"), 1) << "an output that is there is no fault of a log";
+}
+
+TEST_F(ImportCommand, NoTruthIsLeftBehindWhereTheRecordingFails) {
+  write("log/log_map_archive_x.json", one_lane_map());
+  write("there.mcap", "");
+  EXPECT_EQ(run("argoverse2 log --out there.mcap --truth truth.json"), 1);
+  EXPECT_FALSE(exists("truth.json"));
 }
 
 TEST_F(ImportCommand, WrongUseAndInputAreNamed) {

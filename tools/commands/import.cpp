@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@
 #include "import/maptr.hpp"
 #include "import/openpilot.hpp"
 #include "import/streammapnet.hpp"
+#include "io/new_file.hpp"
+#include "io/printable.hpp"
 #include "simulation/argoverse2.hpp"
 #include "simulation/argoverse2_objects.hpp"
 #include "simulation/road.hpp"
@@ -143,14 +146,49 @@ struct LogOptions {
   bool strict = false;
 };
 
-void import_log(const std::filesystem::path& log, const std::string& out, const std::string& truth,
-                LeftOut& left_out) {
-  if (!truth.empty()) save_truth(truth, simulation::load_argoverse2(log, left_out));
-  if (out.empty()) return;
-  const std::vector<VehiclePose> poses = simulation::argoverse2_poses(log, left_out);
-  const std::vector<TrackedObjects> sweeps = simulation::argoverse2_objects(log, poses, left_out);
-  warn_of(out, imports::write_drive(out, poses, {}, sweeps, left_out.strict()));
-  fmt::print("{}: {} poses, {} sweeps with objects\n", log.string(), poses.size(), sweeps.size());
+/// What is imported of a log.
+struct LogContent {
+  std::optional<simulation::Road> road;
+  std::vector<VehiclePose> poses;
+  std::vector<TrackedObjects> sweeps;
+};
+
+LogContent read_log(const std::filesystem::path& log, const LogOptions& options, LeftOut& left_out) {
+  LogContent content;
+  if (!options.truth.empty()) content.road = simulation::load_argoverse2(log, left_out);
+  if (options.out.empty()) return content;
+  content.poses = simulation::argoverse2_poses(log, left_out);
+  content.sweeps = simulation::argoverse2_objects(log, content.poses, left_out);
+  return content;
+}
+
+void write_log(const std::filesystem::path& log, const LogOptions& options, const LogContent& content) {
+  const std::string out = file_of_log(options.out, options.directory, log, ".mcap");
+  const std::string truth = file_of_log(options.truth, options.directory, log, ".truth.json");
+  const auto write_drive = [&] {
+    if (out.empty()) return;
+    warn_of(out, imports::write_drive(out, content.poses, {}, content.sweeps, options.strict));
+    fmt::print("{}: {} poses, {} sweeps with objects\n", log.string(), content.poses.size(),
+               content.sweeps.size());
+  };
+  if (truth.empty()) return write_drive();
+  io::make_file(truth, [&] {
+    save_truth(truth, *content.road);
+    write_drive();
+  });
+}
+
+/// The content of a log, which is all of the import, or one of several. None: that one is broken, and told.
+std::optional<LogContent> read_or_leave_out(const std::filesystem::path& log, bool is_all,
+                                            const LogOptions& options) {
+  const auto read = [&](LeftOut& left_out) { return read_log(log, options, left_out); };
+  try {
+    return read_and_warn(log, options.strict, read);
+  } catch (const std::runtime_error& error) {
+    if (is_all || options.strict) throw;
+    fmt::print(stderr, "laneloom: {}; the log is left out\n", io::printable(error.what()));
+    return std::nullopt;
+  }
 }
 
 void import_argoverse2(const LogOptions& options) {
@@ -158,16 +196,16 @@ void import_argoverse2(const LogOptions& options) {
     return simulation::argoverse2_logs(options.directory, left_out);
   });
   support::ProgressBar bar;
-  std::size_t done = 0;
+  std::size_t done = 0, imported = 0;
   for (const auto& log : logs) {
     bar.clear();
-    read_and_warn(log.string(), options.strict, [&](LeftOut& left_out) {
-      import_log(log, file_of_log(options.out, options.directory, log, ".mcap"),
-                 file_of_log(options.truth, options.directory, log, ".truth.json"), left_out);
-      return true;
-    });
+    if (const auto content = read_or_leave_out(log, logs.size() == 1, options)) {
+      write_log(log, options, *content);
+      ++imported;
+    }
     bar.step(static_cast<double>(++done) / static_cast<double>(logs.size()));
   }
+  if (imported == 0) throw std::runtime_error(options.directory + ": no log of it can be read");
 }
 
 void add_argoverse2(CLI::App& app) {

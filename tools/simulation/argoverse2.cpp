@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 
 #include "io/json_fields.hpp"
 #include "laneloom/polyline.hpp"
+#include "simulation/argoverse2_objects.hpp"
 #include "simulation/borders.hpp"
 #include "simulation/drivable_areas.hpp"
 #include "simulation/pose_table.hpp"
@@ -175,7 +175,8 @@ std::optional<std::filesystem::path> pose_table(const std::filesystem::path& dir
   return std::nullopt;
 }
 
-std::filesystem::path map_archive(const std::filesystem::path& log_directory) {
+/// The file of the map of a log. None: the log has no map.
+std::optional<std::filesystem::path> map_archive(const std::filesystem::path& log_directory) {
   std::error_code absent;
   std::vector<std::filesystem::path> found;
   for (const auto& directory : {log_directory / "map", log_directory}) {
@@ -186,7 +187,23 @@ std::filesystem::path map_archive(const std::filesystem::path& log_directory) {
     }
     if (!found.empty()) return *std::min_element(found.begin(), found.end());
   }
-  throw std::runtime_error(log_directory.string() + ": has no map/log_map_archive_*.json");
+  return std::nullopt;
+}
+
+std::size_t number_of_poses(const std::filesystem::path& log_directory) {
+  LeftOut nothing_told;
+  try {
+    return argoverse2_poses(log_directory, nothing_told).size();
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
+}
+
+/// What a log has. The greater one is the more complete one.
+std::tuple<bool, bool, bool, std::size_t> content(const std::filesystem::path& log_directory) {
+  const std::size_t poses = number_of_poses(log_directory);
+  return {poses > 0, map_archive(log_directory).has_value(), annotations_in(log_directory).has_value(),
+          poses};
 }
 
 void add_logs(const std::filesystem::path& directory, int depth, std::vector<std::filesystem::path>& logs) {
@@ -207,13 +224,16 @@ std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& 
     throw std::runtime_error(directory.string() +
                              ": holds no log of Argoverse 2 (city_SE3_egovehicle.feather)");
   std::sort(logs.begin(), logs.end());
-  std::set<std::filesystem::path> names;
-  std::erase_if(logs, [&](const std::filesystem::path& log) {
-    if (names.insert(log.filename()).second) return false;
+  std::map<std::filesystem::path, std::filesystem::path> taken;  // by name
+  for (std::filesystem::path& log : logs) {
+    const auto [known, is_new] = taken.try_emplace(log.filename(), log);
+    if (is_new) continue;
     if (left_out.strict()) throw std::runtime_error(log.string() + ": is a second log of this name");
+    if (content(log) > content(known->second)) std::swap(log, known->second);
     left_out.add("a second log of this name", std::filesystem::relative(log, directory).string());
-    return true;
-  });
+  }
+  logs.clear();
+  for (auto& [name, log] : taken) logs.push_back(std::move(log));
   return logs;
 }
 
@@ -227,14 +247,15 @@ std::vector<VehiclePose> argoverse2_poses(const std::filesystem::path& log_direc
 }
 
 Road load_argoverse2(const std::filesystem::path& log_directory, LeftOut& left_out) {
-  const std::filesystem::path archive = map_archive(log_directory);
+  const auto archive = map_archive(log_directory);
+  if (!archive) throw std::runtime_error(log_directory.string() + ": has no map/log_map_archive_*.json");
   try {
-    Road road = read_map(io::load_json(archive), left_out);
+    Road road = read_map(io::load_json(*archive), left_out);
     road.name = std::filesystem::weakly_canonical(log_directory).filename().string();
     road.drive = resampled(argoverse2_poses(log_directory, left_out));
     return road;
   } catch (const io::JsonError& error) {
-    throw std::runtime_error(archive.string() + ": " + error.what());
+    throw std::runtime_error(archive->string() + ": " + error.what());
   }
 }
 

@@ -10,7 +10,8 @@ namespace laneloom::simulation {
 
 /// The Argoverse 2 logs in a directory, in the order of their names: the directory itself if it has a log's
 /// poses, or else those below it, as in `sensor/val/<log id>`. A log that is in several splits of a data set
-/// is taken once. Throws std::runtime_error naming the directory if there is none, or a log that comes twice
+/// is taken once, from where it is the most complete: it has poses that can be read, a map, annotations, and
+/// the most poses. Throws std::runtime_error naming the directory if there is none, or a log that comes twice
 /// if `left_out` is strict.
 std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& directory, LeftOut& left_out);
 

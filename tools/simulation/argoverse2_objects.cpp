@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -126,14 +125,13 @@ void keep_nearest(std::vector<TrackedObject>& objects) {
   if (objects.size() > kMaxAnnotated) objects.resize(kMaxAnnotated);
 }
 
-/// The file of annotations. Some logs come with one that has the vehicle itself, too.
+}  // namespace
+
 std::optional<std::filesystem::path> annotations_in(const std::filesystem::path& log_directory) {
   for (const char* const name : {"annotations.feather", "annotations_with_ego.feather"})
     if (std::filesystem::exists(log_directory / name)) return log_directory / name;
   return std::nullopt;
 }
-
-}  // namespace
 
 std::vector<TrackedObjects> argoverse2_objects(const std::filesystem::path& log_directory,
                                                const std::vector<VehiclePose>& poses, LeftOut& left_out) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "base/left_out.hpp"
@@ -8,6 +9,10 @@
 #include "laneloom/types.hpp"
 
 namespace laneloom::simulation {
+
+/// The file of annotations of a log. Some logs come with one that has the vehicle itself, too. None: the log
+/// has no annotations.
+std::optional<std::filesystem::path> annotations_in(const std::filesystem::path& log_directory);
 
 /// The vehicles, cyclists and pedestrians that are annotated in an Argoverse 2 log (annotations.feather), by
 /// the stamps of its sweeps, in the body frame. Speeds are those of the tracks, from the sweep before to the
