@@ -212,8 +212,9 @@ TEST_F(ImportCommand, ATerminalShowsABar) {
 
 TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {
   const std::string line = R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2],[30,NaN]]})";
-  write("results.json",
-        R"({"results":[{"sample_token":"log_1250000000","vectors":[)" + line + "," + line + "]}]}");
+  const std::string right = R"({"cls_name":"divider","confidence_level":0.9,"pts":[[0,2],[30,2]]})";
+  write("results.json", R"({"results":[{"sample_token":"log_1250000000","vectors":[)" + line + "," + line +
+                            "," + right + "]}]}");
   const std::string maptr = "maptr --results results.json --argoverse2 log --out drive.mcap";
   EXPECT_EQ(run(maptr + " --strict"), 1);
   EXPECT_THAT(output(), HasSubstr("results.json: results[0].vectors[0].pts[1]: must be finite"));

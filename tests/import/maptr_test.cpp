@@ -154,6 +154,20 @@ TEST_F(MapTr, AValueThatIsNoNumberLosesItsLineAlone) {
     }
 }
 
+TEST_F(MapTr, WhereEveryLineIsWrongNothingIsLeft) {
+  const auto complaint = [&](const std::string& lines) {
+    return thrown_by([&] { read(sample("drive_1", lines) + "," + sample("drive_2", "")); });
+  };
+  EXPECT_THAT(complaint(vector("kerb")), HasSubstr("results.json: no line is left, as lines are wrong"));
+  EXPECT_THAT(complaint(vector("divider", "[[1,2],[NaN,4]]")), HasSubstr("no line is left"));
+  EXPECT_THAT(complaint(vector("divider", "[[1,2],[3,4]]", "80")), HasSubstr("no line is left"));
+  EXPECT_THAT(left_out(), HasSubstr("1 x vectors[].confidence_level: must be from 0 to 1; percentages have "
+                                    "to be divided by 100"));
+  EXPECT_EQ(complaint(vector("kerb") + "," + vector("divider")), "");
+  EXPECT_EQ(complaint(vector("centerline")), "") << "no line is wanted, and none is wrong";
+  EXPECT_EQ(complaint(""), "") << "the network saw nothing";
+}
+
 TEST_F(MapTr, AFileThatIsCutOffIsReadUpToThere) {
   const std::string cut = R"({"results":[)" + sample("drive_1", vector("divider")) + "," +
                           sample("drive_2", vector("divider")).substr(0, 50);

@@ -173,6 +173,15 @@ TEST_F(Openpilot, WhatIsWrongIsLeftOutAndTheRestComes) {
             "1 x livePose.velocityDevice: is too fast (first: line 8)");
 }
 
+TEST_F(Openpilot, WhereEveryLineIsWrongNothingIsLeft) {
+  classes_["roadEdges"] = std::nullopt;
+  const auto complaint = [&](const std::string& probabilities) {
+    return thrown_by([&] { read({pose(1, 0, 1), model(100, kLine, probabilities), pose(200, 0, 1)}); });
+  };
+  EXPECT_THAT(complaint("[75]"), HasSubstr("rlog.jsonl: no line is left, as lines are wrong"));
+  EXPECT_EQ(complaint("[0.75]"), "");
+}
+
 TEST_F(Openpilot, EventsThatComeTwiceAreTakenOnce) {
   const OpenpilotDrive drive =
       read({pose(1, 0, 1), model(100), model(100), pose(200, 0, 1), pose(200, 0, 1), model(100)});

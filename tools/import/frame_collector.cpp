@@ -36,7 +36,8 @@ std::string names_of(const Classes& classes) {
 
 double confidence(const json& value) {
   const double confidence = io::number(value);
-  if (!(confidence >= 0.0 && confidence <= 1.0)) throw io::JsonError("must be from 0 to 1");
+  if (!(confidence >= 0.0 && confidence <= 1.0))
+    throw io::JsonError("must be from 0 to 1; percentages have to be divided by 100");
   return confidence;
 }
 
@@ -45,6 +46,12 @@ void check_line(const Detection& line) {
   const DetectionFrame frame{.stamp_ns = kAnyStamp_ns, .detections = {line}};
   if (const auto why = session::defect(frame, GateConfig{}); !why.empty())
     throw io::JsonError("the service would refuse this line: " + std::string(why));
+}
+
+void check_lines_are_left(const std::vector<DetectionFrame>& frames, std::size_t wrong_lines) {
+  const bool no_line =
+      std::ranges::all_of(frames, [](const DetectionFrame& frame) { return frame.detections.empty(); });
+  if (no_line && wrong_lines > 0) throw std::runtime_error("no line is left, as lines are wrong");
 }
 
 FrameCollector::FrameCollector(const ResultsReading& reading, std::string source,
@@ -63,7 +70,8 @@ void FrameCollector::add_sample(const std::string& place, const std::function<vo
 }
 
 void FrameCollector::add_line(std::size_t number, const std::function<void()>& read) {
-  io::take_or_leave_out(left_out_, place_ + ".", "vectors[" + std::to_string(number) + "]", read);
+  if (!io::take_or_leave_out(left_out_, place_ + ".", "vectors[" + std::to_string(number) + "]", read))
+    ++wrong_lines_;
 }
 
 bool FrameCollector::begin(const std::string& sample) {
@@ -115,7 +123,12 @@ ImportedFrames FrameCollector::collect(const std::filesystem::path& file,
     if (left_out_.strict() || imported_.frames.empty()) throw;
     left_out_.add("the rest of the file, which is damaged or cut off", damage.where());
   }
-  if (imported_.frames.empty()) throw std::runtime_error(file.string() + ": has no sample of " + drive_.name);
+  try {
+    if (imported_.frames.empty()) throw std::runtime_error("has no sample of " + drive_.name);
+    check_lines_are_left(imported_.frames, wrong_lines_);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
   std::ranges::sort(imported_.frames, {}, &DetectionFrame::stamp_ns);
   return std::move(imported_);
 }

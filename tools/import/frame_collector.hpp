@@ -67,8 +67,8 @@ class FrameCollector {
   void end();
 
   /// Calls `walk`, which walks over the samples of `file`. If the file is damaged, the samples before that
-  /// are kept. Returns the frames. Throws std::runtime_error naming the file if there are none, or it is
-  /// damaged and that is strict.
+  /// are kept. Returns the frames. Throws std::runtime_error naming the file if there are none, or no line
+  /// that is right, or it is damaged and that is strict.
   ImportedFrames collect(const std::filesystem::path& file, const std::function<void()>& walk) &&;
 
  private:
@@ -81,6 +81,7 @@ class FrameCollector {
   DetectionFrame frame_;
   ImportedFrames imported_;
   std::set<std::int64_t> stamps_;
+  std::size_t wrong_lines_ = 0;
   std::string place_;  ///< of the sample
 };
 
@@ -95,5 +96,8 @@ double confidence(const nlohmann::json& value);
 
 /// Throws JsonError if the service would refuse a frame because of this line.
 void check_line(const Detection& line);
+
+/// Throws std::runtime_error if lines were wrong, and the frames have no other.
+void check_lines_are_left(const std::vector<DetectionFrame>& frames, std::size_t wrong_lines);
 
 }  // namespace laneloom::imports

@@ -82,6 +82,7 @@ class LogReader {
     drive_.poses = odometry_.poses(left_out_);
     if (drive_.poses.size() < 2)
       throw std::runtime_error("has fewer than two valid livePose or liveLocationKalman");
+    check_lines_are_left(drive_.frames, wrong_lines_);
     return std::move(drive_);
   }
 
@@ -122,7 +123,7 @@ class LogReader {
     const json& deviations = *io::required(model, kind.deviations.c_str(), io::array);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::string key = kind.lines + "[" + std::to_string(i) + "]";
-      io::take_or_leave_out(left_out_, place + ": modelV2.", key, [&] {
+      const bool taken = io::take_or_leave_out(left_out_, place + ": modelV2.", key, [&] {
         if (i >= confidences.size()) throw io::JsonError("has no value in " + kind.confidences);
         if (i >= deviations.size()) throw io::JsonError("has no value in " + kind.deviations);
         Detection line{
@@ -131,6 +132,7 @@ class LogReader {
         check_line(line);
         frame.detections.push_back(std::move(line));
       });
+      if (!taken) ++wrong_lines_;
     }
   }
 
@@ -145,6 +147,7 @@ class LogReader {
   std::vector<MarkingType> types_;  ///< of the classes
   OpenpilotDrive drive_;
   std::map<std::int64_t, DetectionFrame> frames_;  ///< by stamp, as logs are not in its order
+  std::size_t wrong_lines_ = 0;
   OpenpilotOdometry odometry_;
   bool has_events_ = false, has_model_ = false, has_driving_model_ = false;
 };
