@@ -115,21 +115,53 @@ TEST_F(ImportCommand, StreamMapNetAndMapTrackerNameSamplesByStamp) {
   }
 }
 
-TEST_F(ImportCommand, AnOpenpilotLogBecomesARecording) {
-  const auto pose = [](std::int64_t stamp_ns) {
+class ImportOpenpilot : public ImportCommand {
+ protected:
+  static std::string pose(std::int64_t stamp_ns) {
     return R"({"logMonoTime":")" + std::to_string(stamp_ns) +
            R"(","livePose":{"orientationNED":{"x":0,"y":0,"z":0,"valid":true},)"
            R"("velocityDevice":{"x":10,"y":0,"z":0,"valid":true}}})" +
            "\n";
-  };
-  const std::string line = R"({"x":[0,30],"y":[-1.8,-1.8],"z":[1.2,1.2]})";
-  write("rlog.jsonl",
-        pose(1'000'000'000) + pose(1'100'000'000) +
-            R"({"logMonoTime":"2","modelV2":{"timestampEof":"1050000000","laneLines":[)" + line +
-            R"(],"laneLineProbs":[0.9],"laneLineStds":[0.1],"roadEdges":[],"roadEdgeStds":[]}})" + "\n");
+  }
+  static std::string model(std::int64_t stamp_ns, const std::string& probability = "0.9") {
+    const std::string line = R"({"x":[0,30],"y":[-1.8,-1.8],"z":[1.2,1.2]})";
+    return R"({"logMonoTime":"2","modelV2":{"timestampEof":")" + std::to_string(stamp_ns) +
+           R"(","laneLines":[)" + line + R"(],"laneLineProbs":[)" + probability +
+           R"(],"laneLineStds":[0.1],"roadEdges":[],"roadEdgeStds":[]}})" + "\n";
+  }
+};
+
+TEST_F(ImportOpenpilot, ALogBecomesARecording) {
+  write("rlog.jsonl", pose(1'000'000'000) + pose(1'100'000'000) + model(1'050'000'000));
   ASSERT_TRUE(done("openpilot --log rlog.jsonl --out drive.mcap"));
   EXPECT_THAT(output(), HasSubstr("1 frames, 2 poses"));
   EXPECT_EQ(messages<DetectionFrame>("drive.mcap").size(), 1u);
+}
+
+TEST_F(ImportOpenpilot, AQlogThatHasFramesIsTold) {
+  std::string poses, frames;
+  for (std::int64_t stamp_ns = 1'000'000'000; stamp_ns <= 9'000'000'000; stamp_ns += 200'000'000)
+    poses += pose(stamp_ns);
+  for (const std::int64_t s : {2, 4, 6, 8}) frames += model(s * 1'000'000'000);
+  write("qlog.jsonl", poses + frames);
+  ASSERT_TRUE(done("openpilot --log qlog.jsonl --out drive.mcap"));
+  const auto is_told = HasSubstr("qlog.jsonl: looks like a qlog, with a frame every 2.0 s; the rlog has all");
+  EXPECT_THAT(output(), is_told);
+  write("qlog.jsonl", pose(1) + pose(2) + frames);
+  EXPECT_EQ(run("openpilot --log qlog.jsonl --out none.mcap"), 1);
+  EXPECT_THAT(output(), is_told);
+  EXPECT_THAT(output(), HasSubstr("no frame is within the poses"));
+}
+
+TEST_F(ImportOpenpilot, WhatCheckFindsInTheDriveIsTold) {
+  std::string log;
+  for (std::int64_t stamp_ns = 1'000'000'000; stamp_ns <= 9'000'000'000; stamp_ns += 50'000'000)
+    log += pose(stamp_ns) + model(stamp_ns, "0.01");
+  write("rlog.jsonl", log);
+  ASSERT_TRUE(done("openpilot --log rlog.jsonl --out drive.mcap"));
+  EXPECT_THAT(output(), HasSubstr("drive.mcap: `laneloom check` finds:"));
+  EXPECT_THAT(output(), HasSubstr("Set mapper.preprocess.min_confidence"));
+  EXPECT_THAT(output(), Not(HasSubstr("qlog")));
 }
 
 TEST_F(ImportCommand, ClassesOfJsonLinesBecomeTheTypesThatAreSaid) {

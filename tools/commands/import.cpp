@@ -114,6 +114,8 @@ void import_openpilot(const OpenpilotOptions& options) {
     return imports::read_openpilot(options.log,
                                    {left_out, options.classes, [&](double share) { bar.step(share); }});
   });
+  const std::string qlog = imports::why_qlog(drive.frames);
+  if (!qlog.empty()) fmt::print(stderr, "laneloom: {}: {}\n", options.log, qlog);
   const std::size_t without_pose = imports::drop_frames_without_pose(drive.frames, drive.poses);
   if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");
   warn_of(options.out, imports::write_drive(options.out, drive.poses, drive.frames, {}, options.strict));
@@ -121,6 +123,7 @@ void import_openpilot(const OpenpilotOptions& options) {
   if (drive.invalid_frames > 0) fmt::print("left out: {} invalid frames\n", drive.invalid_frames);
   if (drive.invalid_poses > 0) fmt::print("left out: {} invalid poses\n", drive.invalid_poses);
   if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
+  fmt::print(stderr, "{}", why_poor(options.out, {}));
 }
 
 void add_openpilot(CLI::App& app) {

@@ -1,5 +1,7 @@
 #include "import/openpilot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -8,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/distribution.hpp"
+#include "base/seconds.hpp"
 #include "import/frame_collector.hpp"
 #include "import/openpilot_odometry.hpp"
 #include "io/file_kind.hpp"
@@ -22,6 +26,7 @@ using nlohmann::json;
 
 constexpr const char* kNeeded =
     "the rlog is needed, as JSON with one event a line (capnp convert --short binary:json)";
+constexpr double kMostBetweenFrames_s = 0.5;  // a log has 20 frames a second
 
 /// Reads an integer of 64 bits, which Cap'n Proto writes as a text.
 std::int64_t long_integer(const json& value) {
@@ -190,6 +195,15 @@ const Classes& openpilot_classes() {
   static const Classes classes{{kLaneLines.lines, MarkingType::laneline},
                                {kRoadEdges.lines, MarkingType::roadedge}};
   return classes;
+}
+
+std::string why_qlog(const std::vector<DetectionFrame>& frames) {
+  Distribution gaps_s;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    gaps_s.add(seconds(frames[i].stamp_ns - frames[i - 1].stamp_ns));
+  const double usual_s = gaps_s.quantile(0.5);
+  if (!(usual_s > kMostBetweenFrames_s)) return {};
+  return fmt::format("looks like a qlog, with a frame every {:.1f} s; the rlog has all frames", usual_s);
 }
 
 OpenpilotDrive read_openpilot(const std::filesystem::path& path, const OpenpilotReading& reading) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "base/left_out.hpp"
@@ -58,5 +59,8 @@ struct OpenpilotReading {
 /// Throws std::runtime_error naming the file if it is no such log, and if no frame or fewer than two poses
 /// are left; also of the first wrong value, naming line and key, if `left_out` is strict.
 OpenpilotDrive read_openpilot(const std::filesystem::path& path, const OpenpilotReading& reading);
+
+/// What speaks for a qlog, which has few of the frames of a log. Empty: the frames are as many as a log has.
+std::string why_qlog(const std::vector<DetectionFrame>& frames);
 
 }  // namespace laneloom::imports
