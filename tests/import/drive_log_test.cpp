@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "io/axes.hpp"
 #include "temporary_folder.hpp"
@@ -140,12 +142,12 @@ class NuScenes : public DriveLogs {
            R"(,"rotation":[0,0,0,1],"translation":[)" + std::to_string(x_m) + ",7,0]}";
   }
   std::string scene_error() {
-    return error([&] { nuscenes_drive(file(""), "scene-0001"); });
+    return error([&] { nuscenes_drive(file(""), "scene-0001", strict_); });
   }
 };
 
 TEST_F(NuScenes, PosesOfAllSensorsOfTheSceneAndTheStampOfTheLidar) {
-  const DriveLog drive = nuscenes_drive(file(""), "scene-0001");
+  const DriveLog drive = nuscenes_drive(file(""), "scene-0001", strict_);
   ASSERT_EQ(drive.poses.size(), 3u);
   EXPECT_EQ(drive.poses[0].stamp_ns, 1'500'000'000);
   EXPECT_EQ(drive.poses[2].stamp_ns, 1'550'000'000);
@@ -156,7 +158,7 @@ TEST_F(NuScenes, PosesOfAllSensorsOfTheSceneAndTheStampOfTheLidar) {
 }
 
 TEST_F(NuScenes, PointsAreTurnedByTheLidarsYawAlone) {
-  const DriveLog drive = nuscenes_drive(file(""), "scene-0001");
+  const DriveLog drive = nuscenes_drive(file(""), "scene-0001", strict_);
   const Point ahead = drive.T_body_points * Point(-3.0, 30.0, 0.0);  // 3 m to the left, 30 m ahead
   EXPECT_NEAR(ahead.x(), 30.94, 1e-2);
   EXPECT_NEAR(ahead.y(), 3.0, 1e-2);
@@ -164,8 +166,28 @@ TEST_F(NuScenes, PointsAreTurnedByTheLidarsYawAlone) {
   EXPECT_EQ(drive.ground_z_m, 0.0);
 }
 
+TEST_F(NuScenes, RecordsThatAreWrongAreLeftOut) {
+  const std::vector<std::pair<std::string, std::string>> wrongs{
+      {"\"translation\":[102,7,0]", "\"translation\":[NaN,7,0]"},
+      {"\"rotation\":[0,0,0,1]", "\"rotation\":[2,0,0,0]"},
+      {"\"timestamp\":1510000", "\"timestamp\":-5"},
+      {"\"timestamp\":1510000", "\"timestamp\":\"1510000\""},
+      {"\"translation\"", "\"place\""}};
+  for (const auto& [right, wrong] : wrongs) {
+    std::string bad = pose("p2", 1'510'000, 102);
+    bad.replace(bad.find(right), right.size(), wrong);
+    write("ego_pose.json",
+          "[" + pose("p3", 1'550'000, 103) + "," + bad + "," + pose("p1", 1'500'000, 101) + "]");
+    LeftOut left_out;
+    EXPECT_EQ(nuscenes_drive(file(""), "scene-0001", left_out).poses.size(), 2U) << wrong;
+    EXPECT_THAT(left_out.summary(), HasSubstr("(first: ego_pose.json[1])")) << wrong;
+    EXPECT_THAT(scene_error(), HasSubstr("ego_pose.json: [1]")) << wrong;
+  }
+}
+
 TEST_F(NuScenes, WhatIsWrongIsNamed) {
-  EXPECT_THAT(error([&] { nuscenes_drive(file(""), "scene-0099"); }), HasSubstr("no scene scene-0099"));
+  EXPECT_THAT(error([&] { nuscenes_drive(file(""), "scene-0099", strict_); }),
+              HasSubstr("no scene scene-0099"));
   write("ego_pose.json", R"([{"token":"p1","timestamp":1500000,"rotation":[1,0,0],"translation":[0,0,0]}])");
   EXPECT_THAT(scene_error(), HasSubstr("ego_pose.json: [0].rotation: must be [w, x, y, z]"));
   write("ego_pose.json", "[]");

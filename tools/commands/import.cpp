@@ -40,7 +40,7 @@ struct ResultsOptions {
 
 imports::DriveLog load_drive(const ResultsOptions& options, LeftOut& left_out) {
   if (!options.argoverse2.empty()) return imports::argoverse2_drive(options.argoverse2, left_out);
-  if (!options.nuscenes.empty()) return imports::nuscenes_drive(options.nuscenes, options.scene);
+  if (!options.nuscenes.empty()) return imports::nuscenes_drive(options.nuscenes, options.scene, left_out);
   return imports::plain_drive(options.poses, options.samples, io::axes_named(options.axes), left_out);
 }
 

@@ -31,9 +31,10 @@ struct DriveLog {
 DriveLog argoverse2_drive(const std::filesystem::path& log_directory, LeftOut& left_out);
 
 /// The drive of a scene of nuScenes, from the folder of tables (v1.0-…). Points are in a level frame at the
-/// LiDAR: x right, y forward. It is turned by the LiDAR's yaw alone, and the road is at z = 0. Throws
-/// std::runtime_error naming file and key, or the scene if there is none of this name.
-DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& scene);
+/// LiDAR: x right, y forward. It is turned by the LiDAR's yaw alone, and the road is at z = 0. Records that
+/// are wrong are left out. Throws std::runtime_error naming the table and what it lacks, and of the first
+/// such record if `left_out` is strict.
+DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& scene, LeftOut& left_out);
 
 /// A drive of any other data set, from poses as read_pose_table() reads them, and a table of samples with the
 /// columns token and timestamp_ns. Points are in the vehicle's frame, with other axes: see io/axes.hpp. Rows

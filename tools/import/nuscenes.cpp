@@ -36,11 +36,12 @@ Eigen::Quaterniond rotation(const json& record) {
   });
 }
 
-/// Reads the tables of one scene. Large tables, which hold every scene, are read record by record.
+/// Reads the tables of one scene. Large tables, which hold every scene, are read record by record. Records
+/// that are wrong are left out.
 class SceneReader {
  public:
-  SceneReader(std::filesystem::path tables, std::string scene)
-      : tables_(std::move(tables)), scene_(std::move(scene)) {}
+  SceneReader(std::filesystem::path tables, std::string scene, LeftOut& left_out)
+      : tables_(std::move(tables)), scene_(std::move(scene)), left_out_(left_out) {}
 
   DriveLog read() {
     const std::string scene = scene_token();
@@ -60,7 +61,11 @@ class SceneReader {
 
  private:
   void for_each(const std::string& table, const std::function<void(const json&)>& visit) const {
-    io::for_each_json_element(path(table), "", visit);
+    std::size_t number = 0;
+    io::for_each_json_element(path(table), "", [&](const json& record) {
+      const std::string place = table + ".json[" + std::to_string(number++) + "]";
+      io::take_or_leave_out(left_out_, place, "", [&] { visit(record); });
+    });
   }
   std::filesystem::path path(const std::string& table) const { return tables_ / (table + ".json"); }
 
@@ -118,6 +123,7 @@ class SceneReader {
 
   std::filesystem::path tables_;
   std::string scene_;
+  LeftOut& left_out_;
   Tokens samples_, pose_tokens_;
   std::map<std::string, Eigen::Isometry3d> lidars_;  ///< T_body_lidar by token of the calibrated sensor
   std::map<std::string, std::int64_t> stamps_;       ///< by sample
@@ -126,8 +132,8 @@ class SceneReader {
 
 }  // namespace
 
-DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& scene) {
-  return SceneReader(tables, scene).read();
+DriveLog nuscenes_drive(const std::filesystem::path& tables, const std::string& scene, LeftOut& left_out) {
+  return SceneReader(tables, scene, left_out).read();
 }
 
 }  // namespace laneloom::imports
