@@ -69,7 +69,9 @@ TEST_F(DriveLogs, PlainTablesGiveStampsAndAxes) {
   write("samples.csv", "token,timestamp_ns\na,17\na,18\n");
   EXPECT_THAT(error(load), HasSubstr("samples.csv:3: a sample that is given twice"));
   write("samples.csv", "token,timestamp_ns\na\n");
-  EXPECT_THAT(error(load), HasSubstr("samples.csv:2: a number is expected"));
+  EXPECT_THAT(error(load), HasSubstr("samples.csv:2: a whole number is expected"));
+  write("samples.csv", "token,timestamp_ns\na,17.0\n");
+  EXPECT_THAT(error(load), HasSubstr("samples.csv:2: a whole number is expected"));
 }
 
 TEST_F(DriveLogs, TablesOfSpreadsheetsMayBeginWithAMarkAndEndWithAnEmptyLine) {

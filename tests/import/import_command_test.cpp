@@ -256,6 +256,14 @@ TEST_F(ImportCommand, WhatIsWrongIsToldOnceAndStrictRefusesIt) {
                                   "results[0].vectors[0])\n"));
 }
 
+TEST_F(ImportCommand, AWrongRowIsToldWithItsFile) {
+  std::filesystem::copy(file("log/city_SE3_egovehicle.csv"), file("poses.csv"));
+  write("samples.csv", "token,timestamp_ns\nlog_1250000000,1250000000\nlog_1100000000,1.1\n");
+  ASSERT_TRUE(done("maptr --results results.json --poses poses.csv --samples samples.csv --out drive.mcap"));
+  EXPECT_THAT(output(), HasSubstr("laneloom: poses.csv and samples.csv: left out: 1 x a whole number is "
+                                  "expected (first: samples.csv:3)\n"));
+}
+
 TEST_F(ImportCommand, ALogGivesItsMapAndItsPosesInTheSameFrame) {
   write("log/log_map_archive_x.json", one_lane_map());
   ASSERT_TRUE(done("argoverse2 log --out poses.mcap --truth truth.json"));

@@ -44,15 +44,21 @@ imports::DriveLog load_drive(const ResultsOptions& options, LeftOut& left_out) {
   return imports::plain_drive(options.poses, options.samples, io::axes_named(options.axes), left_out);
 }
 
+/// The files that the drive is read from, for messages.
+std::string drive_source(const ResultsOptions& options) {
+  if (!options.poses.empty()) return options.poses + " and " + options.samples;
+  return options.argoverse2.empty() ? options.nuscenes : options.argoverse2;
+}
+
 /// Reads the part of a file of results that belongs to the drive.
 using ReadResults = imports::ImportedFrames (*)(const std::filesystem::path& results,
                                                 const imports::ResultsReading& reading);
 
 void import_results(const ResultsOptions& options, ReadResults read) {
   refuse_overwriting({options.results, options.poses, options.samples}, {options.out});
-  const std::string& source = options.argoverse2.empty() ? options.poses : options.argoverse2;
   const imports::DriveLog drive =
-      read_and_warn(source, options.strict, [&](LeftOut& left_out) { return load_drive(options, left_out); });
+      read_and_warn(drive_source(options), options.strict,
+                    [&](LeftOut& left_out) { return load_drive(options, left_out); });
   imports::ImportedFrames imported = read_and_warn(options.results, options.strict, [&](LeftOut& left_out) {
     support::ProgressBar bar;
     return read(options.results, {drive, left_out, options.classes, [&](double share) { bar.step(share); }});

@@ -32,14 +32,16 @@ inline std::string_view take_field(std::string_view& row) {
   return field;
 }
 
-/// Takes the first field off a row, as a finite number. Throws std::runtime_error if it is none.
+/// Takes the first field off a row, as a finite number, or as a whole one. Throws std::runtime_error if it is
+/// none.
 template <typename Number>
 Number take_number(std::string_view& row) {
   const std::string_view field = take_field(row);
   Number value{};
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size())
-    throw std::runtime_error("a number is expected");
+    throw std::runtime_error(std::is_integral_v<Number> ? "a whole number is expected"
+                                                        : "a number is expected");
   if constexpr (std::is_floating_point_v<Number>)
     if (!std::isfinite(value)) throw std::runtime_error("a finite number is expected");
   return value;
