@@ -111,6 +111,14 @@ TEST_F(DriveLogs, TablesOfOtherColumnsAreRefused) {
   EXPECT_EQ(error(load), "");
   write("samples.csv", "timestamp_ns,token\na,17\n");
   EXPECT_THAT(error(load), HasSubstr("samples.csv:1: the columns must be token,timestamp_ns"));
+  write("samples.csv", "");
+  EXPECT_THAT(error(load), HasSubstr("samples.csv: is empty"));
+  write("samples.csv", "\x89MCAP0\r\n");
+  EXPECT_THAT(error(load),
+              HasSubstr("samples.csv: is a recording (MCAP); a table of comma-separated values"));
+  write("samples.csv", "token,timestamp_ns\na,17\n");
+  write("poses.csv", "PAR1");
+  EXPECT_THAT(error(load), HasSubstr("poses.csv: is a Parquet file; a table"));
 }
 
 /// Two scenes, each of one sample with LiDAR and camera; a LiDAR sweep between samples as well.

@@ -426,6 +426,8 @@ TEST_F(ImportCommand, WrongUseAndInputAreNamed) {
   EXPECT_EQ(run(maptr + "late.json"), 1);
   EXPECT_THAT(output(), HasSubstr("no sample is within the poses"));
   EXPECT_FALSE(exists("drive.mcap"));
+  EXPECT_EQ(run("streammapnet --results results.json --argoverse2 log --out drive.mcap"), 1);
+  EXPECT_THAT(output(), HasSubstr("results.json: results: must be an object; results of MapTR have a list"));
   EXPECT_NE(run("maptr --results results.json --nuscenes log --out x"), 0);
   EXPECT_THAT(output(), HasSubstr("--scene"));
   EXPECT_NE(run(""), 0);

@@ -109,8 +109,14 @@ TEST_F(MapTr, WhatIsWrongIsNamed) {
   EXPECT_THAT(sample_error(sample("other_1", "")), HasSubstr("no sample of drive"));
   EXPECT_THAT(sample_error("1"), HasSubstr("results[0]: must be an object"));
   EXPECT_THAT(error("{}"), HasSubstr("results: is missing"));
-  EXPECT_THAT(error("[]"), HasSubstr("results"));
-  EXPECT_THAT(error(R"({"results":{}})"), HasSubstr("results: must be an array"));
+  for (const std::string other : {"[]", R"({"type":"FeatureCollection","features":[]})", R"({"results":{}})"})
+    EXPECT_THAT(error(other), HasSubstr("results of MapTR have a list `results`")) << other;
+  EXPECT_THAT(error(R"({"results":{}})"), HasSubstr("results.json: results: must be an array; "));
+  EXPECT_THAT(
+      error("{\"t\":1}\n{\"t\":2}\n"),
+      testing::EndsWith("results.json: is not JSON: line 2, column 1: syntax error while parsing value - "
+                        "unexpected '{'; expected end of input"));
+  EXPECT_THAT(error("boundaries"), HasSubstr(": is not JSON: line 1, column 1: "));
   EXPECT_THAT(error(R"({"results":[{"sample_token":"drive_1","vectors")"), HasSubstr("is not JSON"));
   EXPECT_THAT(error(R"({"results":[{"sample_token":)" + std::string(100'000, '[')), HasSubstr("too deeply"));
   EXPECT_THAT(error(""), HasSubstr("is empty"));

@@ -75,7 +75,7 @@ TEST_F(TruthFile, ErrorsNameFileAndKey) {
   EXPECT_NE(error("\"version\":1", "\"version\":2").find("version"), std::string::npos);
   EXPECT_NE(error("\"left_marking\":", "\"left_marking\":99").find("unknown id 99"), std::string::npos);
   EXPECT_NE(error("\"drive\":[[0.0,", "\"drive\":[[-1.0,").find("drive[0]"), std::string::npos);
-  EXPECT_NE(error("{", "").find("is not JSON"), std::string::npos);
+  EXPECT_NE(error("{", "").find("truth.json: is not JSON: line 1, column "), std::string::npos);
 }
 
 TEST_F(TruthFile, WhatWouldTakeAllMemoryIsRefused) {

@@ -13,6 +13,15 @@ namespace laneloom::imports {
 
 using nlohmann::json;
 
+namespace {
+
+constexpr const char* kResults =
+    "results of MapTR have a list `results` (laneloom import maptr), and those of StreamMapNet and "
+    "MapTracker "
+    "an object `results` (import streammapnet, import maptracker)";
+
+}  // namespace
+
 const Classes& usual_classes() {
   static const Classes classes{{"divider", MarkingType::laneline},
                                {"boundary", MarkingType::roadedge},
@@ -119,6 +128,8 @@ ImportedFrames FrameCollector::collect(const std::filesystem::path& file,
     throw std::runtime_error(file.string() + ": " + kind + "; the results are needed as JSON");
   try {
     walk();
+  } catch (const io::OtherJson& error) {
+    throw std::runtime_error(std::string(error.what()) + "; " + kResults);
   } catch (const io::DamagedJson& damage) {
     if (left_out_.strict() || imported_.frames.empty()) throw;
     left_out_.add("the rest of the file, which is damaged or cut off", damage.where());

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/file_kind.hpp"
 #include "io/text_file.hpp"
 
 namespace laneloom::io {
@@ -21,6 +22,8 @@ void for_each_csv_row(const std::filesystem::path& path, std::string_view column
 
 void for_each_csv_row(const std::filesystem::path& path, std::string_view columns, LeftOut& left_out,
                       const std::function<void(std::string_view)>& visit) {
+  if (const std::string kind = file_kind(path); !kind.empty())
+    throw std::runtime_error(path.string() + ": " + kind + "; a table of comma-separated values is needed");
   std::ifstream in(path);
   std::string line;
   if (!next_line(in, line)) throw std::runtime_error(path.string() + ": cannot be read");

@@ -51,6 +51,15 @@ std::string JsonError::reason() const {
   return reason.empty() ? complaint_ : reason + ": " + complaint_;
 }
 
+std::string complaint_of(const json::exception& error) {
+  std::string_view words = error.what();
+  words = words.substr(0, words.find("; last read"));  // may be as long as the file
+  for (const std::string_view before : {"] ", "parse error at "})
+    if (const std::size_t at = words.find(before); at != std::string_view::npos)
+      words.remove_prefix(at + before.size());
+  return std::string(words);
+}
+
 json parse_json(std::string_view text) {
   const auto limit_depth = [](int depth, json::parse_event_t, const json&) {
     if (depth > kMaxJsonDepth) throw JsonError("is nested too deeply");
@@ -64,7 +73,7 @@ json parse_json(std::string_view text) {
       return parse(text);
     return parse(quote_not_finite(text));
   } catch (const json::exception& error) {
-    throw JsonError("", "is not JSON", std::string(": ") + error.what());
+    throw JsonError("", "is not JSON", ": " + complaint_of(error));
   }
 }
 

@@ -52,6 +52,9 @@ bool take_or_leave_out(LeftOut& left_out, const std::string& around, const std::
 
 constexpr int kMaxJsonDepth = 16;
 
+/// Where a text is no JSON and why, in the words of the parser: "line 2, column 1: syntax error …".
+std::string complaint_of(const nlohmann::json::exception& error);
+
 /// Parses a text. Throws JsonError if it is not JSON, or is nested deeper than any of our formats.
 nlohmann::json parse_json(std::string_view text);
 

@@ -95,9 +95,11 @@ void for_each_element(const std::filesystem::path& path, const std::string& key,
         in, [&](int depth, Event event, const json& value) { return visitor(depth, event, value); });
     if (!visitor.found()) throw JsonError(key, key.empty() ? visitor.expected() : "is missing");
   } catch (const JsonError& error) {
-    throw std::runtime_error(path.string() + ": " + error.what());
+    const std::string complaint = path.string() + ": " + error.what();
+    if (!visitor.found()) throw OtherJson(complaint);
+    throw std::runtime_error(complaint);
   } catch (const json::exception& error) {
-    throw DamagedJson(path.string() + ": is not JSON: " + error.what(), visitor.where());
+    throw DamagedJson(path.string() + ": is not JSON: " + complaint_of(error), visitor.where());
   }
 }
 
