@@ -1,8 +1,10 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
@@ -26,6 +28,20 @@ const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",
 constexpr double kMaxDistance_m = 1e6;  // from the origin; further away the projection has no meaning
 constexpr std::uintmax_t kMaxFileBytes = 128U << 20U;  // in memory a file takes five to eight times as much
 constexpr double kMaxStreets_m = 2e7;  // all streets; a few bytes can name streets that take all memory
+
+/// What a file is that is no XML, by its first bytes. Empty: nothing known.
+std::string_view other_kind(const std::string& file) {
+  std::array<char, 32> bytes{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), bytes.size());
+  const std::string_view begin(bytes.data(), static_cast<std::size_t>(in.gcount()));
+  if (begin.empty()) return "is empty";
+  if (begin.starts_with("\x1f\x8b")) return "is compressed with gzip";
+  if (begin.starts_with("BZh")) return "is compressed with bzip2";
+  if (begin.find("OSMHeader") != std::string_view::npos) return "is an extract as PBF";
+  if (begin.starts_with('{') || begin.starts_with('[')) return "is JSON";
+  return {};
+}
 
 [[noreturn]] void refuse(const pugi::xml_node& element, const std::string& complaint) {
   throw std::runtime_error(name_of(element) + " " + complaint);
@@ -112,12 +128,24 @@ std::optional<SdRestriction> restriction(const pugi::xml_node& relation) {
   return SdRestriction{*from, *via, *to, kind.starts_with("only_")};
 }
 
-SdMap read(const std::string& file, const SdMapConfig& config) {
-  pugi::xml_document document;
-  if (const auto result = document.load_file(file.c_str()); !result)
+/// Loads a file. Returns its element osm.
+pugi::xml_node load_osm(const std::string& file, pugi::xml_document& document) {
+  const auto refuse_other = [](std::string_view kind) {
+    throw std::runtime_error(std::string(kind) + "; an extract as OSM XML (.osm) is needed");
+  };
+  if (const std::string_view kind = other_kind(file); !kind.empty()) refuse_other(kind);
+  const auto result = document.load_file(file.c_str());
+  if (result.status == pugi::status_no_document_element) refuse_other("is no XML");
+  if (!result)
     throw std::runtime_error(std::string(result.description()) + " at byte " + std::to_string(result.offset));
   const pugi::xml_node osm = document.child("osm");
-  if (!osm) throw std::runtime_error("has no element osm");
+  if (!osm) refuse_other("has no element osm");
+  return osm;
+}
+
+SdMap read(const std::string& file, const SdMapConfig& config) {
+  pugi::xml_document document;
+  const pugi::xml_node osm = load_osm(file, document);
   remove_deleted(osm);
   const auto nodes = read_nodes(osm, config);
   std::vector<SdWay> ways;

@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "config/config_file.hpp"
 #include "mapping/shapes.hpp"
@@ -103,6 +106,23 @@ TEST_F(OsmFile, NamesWhatIsWrong) {
   EXPECT_THAT(complaint("<unclosed"), HasSubstr(config_.file));
   config_.origin_latitude_deg = -48.0;
   EXPECT_THAT(complaint(kNodes + kMain), HasSubstr("origin"));
+}
+
+TEST_F(OsmFile, AFileOfAnotherKindIsToldAsThat) {
+  using namespace std::string_literals;
+  const std::vector<std::pair<std::string, std::string>> files{
+      {"\x1f\x8b\x08", "is compressed with gzip"},
+      {"BZh91AY", "is compressed with bzip2"},
+      {"\0\0\0\x0d\x0a\x09OSMHeader\x18"s, "is an extract as PBF"},
+      {R"({"version": 0.6})", "is JSON"},
+      {"streets", "is no XML"},
+      {"<gpx/>", "has no element osm"},
+      {"", "is empty"}};
+  for (const auto& [content, kind] : files) {
+    std::ofstream(config_.file) << content;
+    EXPECT_EQ(thrown_by([&] { load_sd_map(config_); }),
+              config_.file + ": " + kind + "; an extract as OSM XML (.osm) is needed");
+  }
 }
 
 TEST_F(OsmFile, TakesLittleMemoryForALongStreet) {
