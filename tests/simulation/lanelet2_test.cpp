@@ -150,7 +150,7 @@ TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
   EXPECT_NE(error("<osm><node").find("made_up.osm"), std::string::npos);
   EXPECT_NE(error("<html/>").find("is a web page; a Lanelet2 map (.osm) is needed"), std::string::npos);
   EXPECT_NE(error("<gpx/>").find("has no element osm"), std::string::npos);
-  EXPECT_NE(error("<osm/>").find("has no lanes"), std::string::npos);
+  EXPECT_NE(error("<osm/>").find("has no lanelets, as an extract of OpenStreetMap"), std::string::npos);
   EXPECT_NE(error(two_lanes() + lanelet(30, 11, 99) + "</osm>").find("relation 30: has no way 99"),
             std::string::npos);
   EXPECT_NE(error(two_lanes() + way(40, {1, 77}, "") + "</osm>").find("way 40: has no node 77"),

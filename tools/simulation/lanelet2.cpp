@@ -6,6 +6,7 @@
 #include <pugixml.hpp>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "io/file_kind.hpp"
@@ -126,6 +127,15 @@ bool is_right_hand(const std::vector<Lanelet>& lanelets) {
   return rights <= shared_with_opposite(&Lanelet::left) || 10 * rights < lanelets.size();
 }
 
+std::string why_no_lanes(const pugi::xml_node& osm) {
+  const auto relations = osm.children("relation");
+  const bool has_lanelets =
+      std::any_of(relations.begin(), relations.end(),
+                  [](const pugi::xml_node& relation) { return tag(relation, "type") == "lanelet"; });
+  if (has_lanelets) return "has no lanes for vehicles";
+  return "has no lanelets, as an extract of OpenStreetMap has none; a Lanelet2 map is needed";
+}
+
 /// Loads a file up to the place where it is damaged.
 void load(const std::filesystem::path& osm_file, pugi::xml_document& document, LeftOut& left_out) {
   if (const std::string kind = io::file_kind(osm_file); !kind.empty() && kind != "is XML")
@@ -151,7 +161,7 @@ Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps, Left
     road.name = osm_file.stem().string();
     const std::map<OsmId, Way> ways = read_ways(osm, read_nodes(osm, left_out), road, left_out);
     const std::vector<Lanelet> lanelets = read_lanes(osm, ways, road, left_out);
-    if (lanelets.empty()) throw std::runtime_error("has no lanes");
+    if (lanelets.empty()) throw std::runtime_error(why_no_lanes(osm));
     add_successors(lanelets, road);
     road.right_hand_traffic = is_right_hand(lanelets);
     join_markings(road, kJoin_m);
