@@ -179,6 +179,18 @@ TEST_F(MadeUpMap, WhatIsWrongIsLeftOutWithWhatHangsOnIt) {
             "1 x a relation that is given twice (first: relation 22)");
 }
 
+TEST_F(MadeUpMap, ANodeWithoutLocalCoordinatesDoesNotMoveTheMap) {
+  for (const std::string place : {"lat='49' lon='8'", "lat='' lon=''"}) {
+    const Road road = load_rest(two_lanes() + "<node id='8' " + place + "/>" +
+                                way(41, {1, 8}, tag("type", "line_thin")) + "</osm>");
+    ASSERT_EQ(road.lanes.size(), 2u);
+    EXPECT_EQ(road.lanes[0].left.front(), Point(0.0, 0.0, 7.0)) << "in local coordinates";
+    EXPECT_EQ(left_out.summary(),
+              "1 x a node that has no local_x and local_y, as most nodes have (first: node 8), "
+              "1 x a way that has no node (first: way 41)");
+  }
+}
+
 TEST_F(MadeUpMap, DeletedElementsArePassedOver) {
   const std::string deleted =
       "<node id='9' action='delete' visible='true' lat='0' lon='0'/>"

@@ -9,7 +9,7 @@ namespace laneloom::simulation {
 
 /// Loads a Lanelet2 map (.osm) and drives a long way along its lanes, at constant speed.
 ///
-/// Coordinates are the nodes' local_x and local_y if all nodes have them, or else metres east and north of
+/// Coordinates are the nodes' local_x and local_y if most nodes have them, or else metres east and north of
 /// the first node. The height is ele, or 0. Lanelines are line_thin and line_thick, roadedges are curbstone,
 /// road_border, wall, fence and guard_rail, and stoplines are stop_line. Virtual lines and lines without a
 /// type are no markings. Lanes are the lanelets for vehicles, with borders oriented as Lanelet2 does. A

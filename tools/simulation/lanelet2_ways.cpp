@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -30,6 +31,10 @@ double coordinate(const pugi::xml_node& node, std::string_view text, const char*
   if (used == 0 || used != text.size() || !(std::abs(value) < kMaxCoordinate_m))
     refuse(node, std::string(key) + " must be a number");
   return value;
+}
+
+bool has_local(const pugi::xml_node& node) {
+  return !tag(node, "local_x").empty() && !tag(node, "local_y").empty();
 }
 
 /// Takes degrees to metres about the first node that has a place.
@@ -82,12 +87,13 @@ Way read_way(const pugi::xml_node& element, const std::map<OsmId, Point>& nodes)
 
 std::map<OsmId, Point> read_nodes(const pugi::xml_node& osm, LeftOut& left_out) {
   const auto nodes = osm.children("node");
-  const bool local = std::all_of(nodes.begin(), nodes.end(), [](const pugi::xml_node& node) {
-    return !tag(node, "local_x").empty() && !tag(node, "local_y").empty();
-  });
+  // One node that lacks them must not move the whole map to another frame.
+  const bool local =
+      2 * std::count_if(nodes.begin(), nodes.end(), has_local) > std::distance(nodes.begin(), nodes.end());
   Projection projected;
   std::map<OsmId, Point> points;
   for_each_element(osm, "node", left_out, [&](const pugi::xml_node& node) {
+    if (local && !has_local(node)) refuse(node, "has no local_x and local_y, as most nodes have");
     const std::string_view ele = tag(node, "ele");
     Point point = local ? Point(coordinate(node, tag(node, "local_x"), "local_x"),
                                 coordinate(node, tag(node, "local_y"), "local_y"), 0.0)
