@@ -47,6 +47,7 @@ std::string_view other_kind(const std::string& file) {
   throw std::runtime_error(name_of(element) + " " + complaint);
 }
 
+/// The places of nodes. Those of nodes without one are not finite.
 std::map<OsmId, Eigen::Vector2d> read_nodes(const pugi::xml_node& osm, const SdMapConfig& config) {
   const GeographicLib::LocalCartesian projection(config.origin_latitude_deg, config.origin_longitude_deg);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -54,8 +55,10 @@ std::map<OsmId, Eigen::Vector2d> read_nodes(const pugi::xml_node& osm, const SdM
   for (const pugi::xml_node& node : osm.children("node")) {
     const double lat_deg = node.attribute("lat").as_double(kNone);
     const double lon_deg = node.attribute("lon").as_double(kNone);
-    if (!(std::abs(lat_deg) <= 90.0) || !(std::abs(lon_deg) <= 180.0))
-      refuse(node, "has no latitude and longitude in degrees");
+    if (!(std::abs(lat_deg) <= 90.0) || !(std::abs(lon_deg) <= 180.0)) {
+      nodes.emplace(id_of(node), Eigen::Vector2d::Constant(kNone));
+      continue;
+    }
     double east_m = 0.0, north_m = 0.0, up_m = 0.0;
     projection.Forward(lat_deg, lon_deg, 0.0, east_m, north_m, up_m);
     if (std::hypot(east_m, north_m) <= kMaxDistance_m)
@@ -94,6 +97,8 @@ void add_way(const pugi::xml_node& element, const std::map<OsmId, Eigen::Vector2
       finish();
       continue;
     }
+    if (!node->second.allFinite())
+      refuse(element, "has node " + std::to_string(ref) + ", which has no latitude and longitude in degrees");
     way.nodes.push_back(ref);
     way.points.push_back(node->second);
   }

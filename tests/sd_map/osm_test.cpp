@@ -100,8 +100,14 @@ TEST(HarbourStreets, LeadIntoAOneWayStreetAndNotOutOfItsBegin) {
 }
 
 TEST_F(OsmFile, NamesWhatIsWrong) {
-  EXPECT_THAT(complaint(R"(<node id="1" lat="91" lon="9"/>)"), HasSubstr("node 1"));
-  EXPECT_THAT(complaint(R"(<node id="1" lat="48"/>)"), HasSubstr("node 1"));
+  for (const std::string place : {R"(lat="91" lon="9")", R"(lat="48")", R"(lat="" lon="")"}) {
+    const std::string bad = R"(<node id="7" )" + place + "/>";
+    const std::string way = R"(<way id="10"><nd ref="1"/><nd ref="7"/><nd ref="3"/>)";
+    EXPECT_THAT(complaint(kNodes + bad + way + R"(<tag k="highway" v="primary"/></way>)"),
+                HasSubstr("way 10 has node 7, which has no latitude and longitude in degrees"));
+    EXPECT_EQ(complaint(kNodes + bad + way + R"(<tag k="power" v="line"/></way>)" + kMain), "")
+        << "no street needs it";
+  }
   EXPECT_THAT(complaint(kNodes), HasSubstr("no street"));
   EXPECT_THAT(complaint("<unclosed"), HasSubstr(config_.file));
   config_.origin_latitude_deg = -48.0;
