@@ -120,6 +120,45 @@ TEST_F(OpenDrive, TheRuleOfARoadTellsTheSideOfTraffic) {
   expect_left_is_left(road.lanes[0]);
 }
 
+TEST_F(OpenDrive, ALaneMayBeDrivenTheOtherWay) {
+  std::string text = road_of(geometry(40.0, "<line/>"));
+  const std::string lane = R"(<lane id="-1" )";
+  text.insert(text.find(lane) + lane.size(), R"(direction="reversed" )");
+  const Road road = load(text);
+  ASSERT_EQ(road.lanes.size(), 1u);
+  expect_near(road.lanes[0].left.front(), 50.0, 17.0);
+  expect_near(road.lanes[0].left.back(), 10.0, 17.0);
+  expect_left_is_left(road.lanes[0]);
+}
+
+/// A lane section of a single side, whose lane has a mark 5 m behind its begin.
+std::string one_side(const std::string& s_m, const std::string& side, const std::string& id,
+                     const std::string& width) {
+  return R"(<laneSection s=")" + s_m + R"(" singleSide="true"><center><lane id="0"/></center><)" + side +
+         R"(><lane id=")" + id + R"(" type="driving"><width sOffset="0" )" + width +
+         R"(/><roadMark sOffset="5" type="solid"/></lane></)" + side + "></laneSection>";
+}
+
+TEST_F(OpenDrive, SectionsOfASingleSideLeaveTheOtherSideAsItIs) {
+  const Road at_once = load(road_of(geometry(40.0, "<line/>"), one_side("0", "right", "-1", R"(a="3")") +
+                                                                   one_side("0", "left", "1", R"(a="4")")));
+  ASSERT_EQ(at_once.lanes.size(), 2u);
+  expect_near(at_once.lanes[0].right.front(), 50.0, 24.0);
+  expect_near(at_once.lanes[1].right.front(), 10.0, 17.0);
+
+  const Road later =
+      load(road_of(geometry(40.0, "<line/>"), one_side("0", "right", "-1", R"(a="3" b="0.1")") +
+                                                  one_side("20", "left", "1", R"(a="4")")));
+  ASSERT_EQ(later.lanes.size(), 3u);
+  expect_near(later.lanes[0].right.back(), 30.0, 15.0);
+  expect_near(later.lanes[2].right.back(), 50.0, 13.0);  // its width goes on, and does not begin anew
+  EXPECT_EQ(later.lanes[0].successors, std::vector<ElementId>{later.lanes[2].id});
+  double marks_m = 0.0;
+  for (const RoadMarking& mark : later.markings)
+    if (mark.type == MarkingType::laneline) marks_m += mark.points.back().x() - mark.points.front().x();
+  EXPECT_NEAR(marks_m, 35.0 + 15.0, 1e-6) << "the mark on the right is not anew 5 m behind the section";
+}
+
 TEST_F(OpenDrive, MarksHaveTypesAndStyles) {
   const std::string lanes =
       R"(<laneSection s="0"><center><lane id="0"><roadMark sOffset="0" type="solid solid"/>)"

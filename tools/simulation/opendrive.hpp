@@ -13,12 +13,12 @@ namespace laneloom::simulation {
 /// Coordinates are those of the file. Roads have line, arc, spiral, poly3 and paramPoly3, elevation, lane
 /// offsets, lane sections, lanes by width or border, and road marks. Superelevation, shape, heights of lanes
 /// and the outlines of junctions are not read. Lanes are those for vehicles (driving, entry, exit, ramps,
-/// bus, taxi, HOV), on the side that the road's rule (RHT, LHT) says. Solid marks are solid lanelines, broken
-/// ones and dots are dashed; marks of both kinds in one are of unknown style; curb, edge and grass are
-/// roadedges. Where what is paved ends without a mark outside of junctions, there is a roadedge. Stop lines
-/// are objects of the type roadMark whose subtype is signalLines, or whose name has StopLine. Lanes follow
-/// one another where their ends meet, whatever the links say. Traffic is that of the greater part of the
-/// roads.
+/// bus, taxi, HOV), on the side that the road's rule (RHT, LHT) says, and with the direction "reversed"
+/// driven the other way. Solid marks are solid lanelines, broken ones and dots are dashed; marks of both
+/// kinds in one are of unknown style; curb, edge and grass are roadedges. Where what is paved ends without a
+/// mark outside of junctions, there is a roadedge. Stop lines are objects of the type roadMark whose subtype
+/// is signalLines, or whose name has StopLine. Lanes follow one another where their ends meet, whatever the
+/// links say. Traffic is that of the greater part of the roads.
 ///
 /// What is wrong is left out, with its road. Throws std::runtime_error naming the file if there are no lanes;
 /// also naming the first wrong road if `left_out` is strict.

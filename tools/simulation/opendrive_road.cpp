@@ -30,12 +30,18 @@ bool is_one_of(const auto& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
+/// A part of a lane section: its lanes on one side, or its centre lane.
+struct Part {
+  pugi::xml_node element{};
+  double from_m = 0.0;  ///< begin of the section, from which its offsets count
+};
+
 /// A lane of a lane section: between `inner` and the border that is farther from the centre lane.
 struct Strip {
   int id = 0;
   std::string_view type{};
   std::vector<double> inner_m{}, outer_m{};  ///< to the left of the reference line, at each station
-  pugi::xml_node element{};
+  Part lane{};
 
   bool is_for_vehicles() const { return is_one_of(kVehicleLanes, type); }
   bool is_paved() const { return is_for_vehicles() || is_one_of(kOtherPavedLanes, type); }
@@ -72,12 +78,13 @@ class RoadReader {
       sections.push_back(section);
     for (std::size_t i = 0; i < sections.size(); ++i) {
       const double length_m = line_.length_m();
-      from_m_ = std::clamp(number(element_, sections[i], "s"), 0.0, length_m);
+      const double from_m = std::clamp(number(element_, sections[i], "s"), 0.0, length_m);
+      take_parts(sections[i], from_m);
       to_m_ = length_m;
       if (i + 1 < sections.size()) to_m_ = std::min(length_m, number(element_, sections[i + 1], "s"));
-      if (to_m_ - from_m_ < kLeastLength_m) continue;
-      stations_ = section_stations(from_m_, to_m_);
-      read_section(sections[i]);
+      if (to_m_ - from_m < kLeastLength_m) continue;
+      stations_ = section_stations(from_m, to_m_);
+      read_section();
     }
     for (const pugi::xml_node& object : element_.child("objects").children("object")) read_object(object);
     road_.right_hand_traffic = right_hand_;
@@ -85,38 +92,47 @@ class RoadReader {
   }
 
  private:
-  void read_section(const pugi::xml_node& section) {
+  /// Takes the parts of a section. If it is of a single side, that of the other side goes on.
+  void take_parts(const pugi::xml_node& section, double from_m) {
+    const bool single = section.attribute("singleSide").as_bool();
+    if (!single || section.child("left")) left_ = {section.child("left"), from_m};
+    if (!single || section.child("right")) right_ = {section.child("right"), from_m};
+    centre_ = {section.child("center").child("lane"), from_m};
+  }
+
+  /// Reads the stretch on which all parts stay the same.
+  void read_section() {
     std::vector<double> centre_m;
     for (const double s_m : stations_) centre_m.push_back(lane_offset_.at(s_m));
     line(centre_m);  // for its length, which is limited
-    centre_ = section.child("center").child("lane");
     add_marks(centre_, centre_m);
-    const std::vector<Strip> left = strips(section.child("left"), centre_m);
-    const std::vector<Strip> right = strips(section.child("right"), centre_m);
+    const std::vector<Strip> left = strips(left_, centre_m);
+    const std::vector<Strip> right = strips(right_, centre_m);
     for (const std::vector<Strip>* side : {&left, &right})
       for (const Strip& strip : *side) {
         if (!strip.is_paved() || !strip.is_wide()) continue;
         if (strip.is_for_vehicles()) add_lane(strip);
-        add_marks(strip.element, strip.outer_m);
+        add_marks(strip.lane, strip.outer_m);
       }
     add_edges(borders(left, right, centre_m));
   }
 
   /// The lanes of a side, from the centre outwards.
-  std::vector<Strip> strips(const pugi::xml_node& side, const std::vector<double>& centre_m) const {
+  std::vector<Strip> strips(const Part& side, const std::vector<double>& centre_m) const {
     std::map<int, pugi::xml_node> lanes;  // by their number from the centre
-    for (const pugi::xml_node& lane : side.children("lane"))
+    for (const pugi::xml_node& lane : side.element.children("lane"))
       if (const int id = lane.attribute("id").as_int(); id != 0) lanes[std::abs(id)] = lane;
     if (lanes.size() > kMostLanes) refuse(element_, "has more than 64 lanes on one side");
     std::vector<Strip> result;
     std::vector<double> inner_m = centre_m;
     for (const auto& [number, lane] : lanes) {
-      Strip strip{
-          .id = lane.attribute("id").as_int(), .type = lane.attribute("type").as_string(), .element = lane};
+      Strip strip{.id = lane.attribute("id").as_int(),
+                  .type = lane.attribute("type").as_string(),
+                  .lane = {lane, side.from_m}};
       const double sign = strip.id > 0 ? 1.0 : -1.0;
       const Cubics widths(element_, lane, "width", "sOffset"), borders(element_, lane, "border", "sOffset");
       for (std::size_t i = 0; i < stations_.size(); ++i) {
-        const double at_m = stations_[i] - from_m_;
+        const double at_m = stations_[i] - side.from_m;
         const double width_m = widths.empty() && !borders.empty()
                                    ? sign * (borders.at(at_m) + centre_m[i] - inner_m[i])
                                    : widths.at(at_m);
@@ -139,7 +155,9 @@ class RoadReader {
   Polyline line(const std::vector<double>& left_m) { return line(left_m, 0, left_m.size() - 1); }
 
   void add_lane(const Strip& strip) {
-    const bool against = (strip.id < 0) != right_hand_;
+    const bool reversed =
+        std::string_view(strip.lane.element.attribute("direction").as_string()) == "reversed";
+    const bool against = ((strip.id < 0) != right_hand_) != reversed;
     // The borders on the left and on the right of someone who looks along the reference line.
     Polyline left = line(strip.id > 0 ? strip.outer_m : strip.inner_m);
     Polyline right = line(strip.id > 0 ? strip.inner_m : strip.outer_m);
@@ -158,12 +176,12 @@ class RoadReader {
   }
 
   /// Adds the marks of a lane, which lie on its outer border.
-  void add_marks(const pugi::xml_node& lane, const std::vector<double>& left_m) {
+  void add_marks(const Part& lane, const std::vector<double>& left_m) {
     std::vector<pugi::xml_node> marks;
-    for (const pugi::xml_node& mark : lane.children("roadMark")) marks.push_back(mark);
+    for (const pugi::xml_node& mark : lane.element.children("roadMark")) marks.push_back(mark);
+    const auto begin_of = [&](std::size_t i) { return lane.from_m + number(element_, marks[i], "sOffset"); };
     for (std::size_t i = 0; i < marks.size(); ++i) {
-      const double begin_m = from_m_ + number(element_, marks[i], "sOffset");
-      const double end_m = i + 1 < marks.size() ? from_m_ + number(element_, marks[i + 1], "sOffset") : to_m_;
+      const double begin_m = begin_of(i), end_m = i + 1 < marks.size() ? begin_of(i + 1) : to_m_;
       const auto first = std::ranges::lower_bound(stations_, begin_m - 1e-6) - stations_.begin();
       const auto last = std::ranges::upper_bound(stations_, end_m + 1e-6) - stations_.begin() - 1;
       if (first >= last) continue;
@@ -186,7 +204,7 @@ class RoadReader {
   /// A border between two lanes, or at the side of the road.
   struct Border {
     const std::vector<double>* left_m;
-    pugi::xml_node lane;        ///< whose marks lie on it
+    Part lane;                  ///< whose marks lie on it
     const Strip* beyond;        ///< the lane to its right; null: none
     std::vector<bool> is_edge;  ///< of what is paved, at each station
   };
@@ -195,19 +213,19 @@ class RoadReader {
                               const std::vector<double>& centre_m) const {
     std::vector<Border> result;
     for (auto strip = left.rbegin(); strip != left.rend(); ++strip)
-      result.push_back({&strip->outer_m, strip->element, &*strip, {}});
+      result.push_back({&strip->outer_m, strip->lane, &*strip, {}});
     result.push_back({&centre_m, centre_, nullptr, {}});
     for (const Strip& strip : right) {
       result.back().beyond = &strip;
-      result.push_back({&strip.outer_m, strip.element, nullptr, {}});
+      result.push_back({&strip.outer_m, strip.lane, nullptr, {}});
     }
     return result;
   }
 
-  std::string_view mark_at(const pugi::xml_node& lane, double s_m) const {
+  std::string_view mark_at(const Part& lane, double s_m) const {
     std::string_view type = "none";
-    for (const pugi::xml_node& mark : lane.children("roadMark"))
-      if (from_m_ + number(element_, mark, "sOffset") <= s_m) type = mark.attribute("type").as_string();
+    for (const pugi::xml_node& mark : lane.element.children("roadMark"))
+      if (lane.from_m + number(element_, mark, "sOffset") <= s_m) type = mark.attribute("type").as_string();
     return type;
   }
 
@@ -270,9 +288,9 @@ class RoadReader {
   ReferenceLine line_;
   Cubics lane_offset_;
   bool in_junction_, right_hand_;
-  double from_m_ = 0.0, to_m_ = 0.0;  ///< of the lane section
+  Part left_, right_, centre_;
+  double to_m_ = 0.0;  ///< end of the stretch
   std::vector<double> stations_;
-  pugi::xml_node centre_;  ///< the centre lane
 };
 
 }  // namespace
