@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kMaxShift_m = 1.2;  // of a lane's end, to the point where lanes meet
 constexpr double kMinAhead = 0.5;    // cosine between a lane's end and the way to the next lane
+constexpr double kDrivable = 0.94;   // likewise, of a way that a vehicle drives where the next lane runs on
+constexpr double kGoesOn = 0.87;     // cosine between the directions of two lanes of which one runs on
 
 /// The end of a lane, by the lane's id.
 using LaneEnd = std::pair<ElementId, End>;
@@ -127,6 +129,12 @@ void bend(Lane& lane, const Point& front_shift, const Point& back_shift) {
   }
 }
 
+/// The cosine between the end of a lane and the way from there to the next one.
+double ahead(const Lane& from, const Lane& to) {
+  const Eigen::Vector2d gap = lanes::gap_between(from, to);
+  return gap.norm() > 1e-6 ? gap.normalized().dot(lanes::leaving(from)) : 1.0;
+}
+
 }  // namespace
 
 void meet_at_joints(RoadGraph& road) {
@@ -154,10 +162,13 @@ void meet_at_joints(RoadGraph& road) {
     }
   }
   std::erase_if(road.linkages, [&](const Linkage& linkage) {
-    const Lane &from = nodes.lane(linkage.from), &to = nodes.lane(linkage.to);
-    const Eigen::Vector2d gap = lanes::gap_between(from, to);
-    return gap.norm() > 1e-6 && gap.dot(lanes::leaving(from)) < kMinAhead * gap.norm();
+    return ahead(nodes.lane(linkage.from), nodes.lane(linkage.to)) < kMinAhead;
   });
+  for (Linkage& linkage : road.linkages) {
+    const Lane &from = nodes.lane(linkage.from), &to = nodes.lane(linkage.to);
+    const double drivable = std::min((ahead(from, to) - kMinAhead) / (kDrivable - kMinAhead), 1.0);
+    if (lanes::leaving(from).dot(lanes::entering(to)) > kGoesOn) linkage.probability *= drivable;
+  }
 }
 
 }  // namespace laneloom::topology

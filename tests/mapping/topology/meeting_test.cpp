@@ -94,5 +94,16 @@ TEST(MeetAtJoints, NoLinkageLeadsAside) {
   EXPECT_TRUE(road.linkages.empty());
 }
 
+TEST(MeetAtJoints, AStepAsideCostsProbabilityWhereTheNextLaneRunsOn) {
+  const auto probability = [](const Lane& next) {
+    const RoadGraph road = met({lane(1, {0, 0, 0}, {20, 0, 0}), next},
+                               {{.from = 1, .to = 2, .probability = 0.9, .path = {{20, 0, 0}, {22, 0, 0}}}});
+    return road.linkages.empty() ? 0.0 : road.linkages[0].probability;
+  };
+  EXPECT_DOUBLE_EQ(probability(lane(2, {26, 2, 0}, {40, 2, 0})), 0.9);  // 18 degrees
+  EXPECT_LT(probability(lane(2, {22, 2, 0}, {40, 2, 0})), 0.5);         // 45 degrees
+  EXPECT_DOUBLE_EQ(probability(lane(2, {26, 6, 0}, {26, 30, 0})), 0.9) << "a turn";
+}
+
 }  // namespace
 }  // namespace laneloom::topology
