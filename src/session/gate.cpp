@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/degree.hpp"
@@ -87,8 +88,9 @@ Gate::Verdict Gate::check(const StreamPoint& point) {
   const double step_s = seconds(point.stamp_ns - last_->stamp_ns);
   if (point.stamp_ns == last_->stamp_ns) return Verdict::repeated;
   if (step_s < 0.0 && step_s >= -config_.max_stamp_step_s) return check_late(point);
-  late_.reset();
+  const bool was_late = std::exchange(late_, {}).has_value();
   if (!plausible(*last_, point)) return check_outlier(point);
+  if (!was_late) before_last_ = last_;
   last_ = point;
   outliers_in_a_row_ = 0;
   return Verdict::accepted;
@@ -106,7 +108,12 @@ Gate::Verdict Gate::check_late(const StreamPoint& point) {
   if (!late_ || !plausible(*late_, point)) first_late_ = point;
   late_ = point;
   const bool lasts = seconds(point.stamp_ns - first_late_->stamp_ns) >= kLateToBelieve_s;
-  return late_anew_ && lasts ? begin_anew(point) : Verdict::late;
+  if (!late_anew_ || !lasts) return Verdict::late;
+  if (!before_last_ || !plausible(*before_last_, *first_late_)) return begin_anew(point);
+  last_ = point;
+  late_.reset();
+  outliers_in_a_row_ = 0;
+  return Verdict::corrects;
 }
 
 Gate::Verdict Gate::check_outlier(const StreamPoint& point) {
@@ -121,6 +128,7 @@ Gate::Verdict Gate::begin_anew(const StreamPoint& point) {
   if (point.session_id != last_->session_id) superseded_.push_back(last_->session_id);
   if (superseded_.size() > kSessionsRemembered) superseded_.pop_front();
   last_ = point;
+  before_last_.reset();
   late_.reset();
   outliers_in_a_row_ = 0;
   return Verdict::begins_anew;

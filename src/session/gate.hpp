@@ -28,19 +28,22 @@ bool follows(const StreamPoint& point, const StreamPoint& before, const GateConf
 
 /// Decides which messages of one stream are believed. A message that jumps in stamp, position or orientation
 /// is an outlier. The third outlier in a row that agrees with its predecessors is believed, and so is the
-/// first message of a new session: the stream begins anew with it.
+/// first message of a new session: the stream begins anew with it. A message whose stamp is wrong by less
+/// than a jump is believed until the messages after it show that it was wrong.
 class Gate {
  public:
   enum class Verdict {
     accepted,
     begins_anew,  ///< accepted; it does not continue the messages before
+    corrects,     ///< accepted; the accepted messages with newer stamps were wrong
     repeated,     ///< has the stamp that was accepted last
     late,         ///< older than that, by a plausible step
     outlier       ///< jumps in stamp, position or orientation
   };
 
-  /// If `late_anew`, the stream also begins anew with late messages that follow one another for 0.2 s, with
-  /// no newer message in between: the clock was set back.
+  /// If `late_anew`, late messages are also believed that follow one another for 0.2 s, with no newer message
+  /// in between. If they continue the stream as it was before the newest message, that message was wrong.
+  /// Otherwise the clock was set back, and the stream begins anew.
   explicit Gate(const GateConfig& config, bool late_anew = false) : config_(config), late_anew_(late_anew) {}
 
   Verdict check(const StreamPoint& point);
@@ -56,6 +59,7 @@ class Gate {
   bool late_anew_;
   std::optional<StreamPoint> first_late_, late_;  ///< the first and the newest of late messages in a row
   std::optional<StreamPoint> last_;               ///< of the newest accepted message
+  std::optional<StreamPoint> before_last_;        ///< of the one before, after which nothing was late
   std::optional<StreamPoint> outlier_;            ///< of the newest outlier
   int outliers_in_a_row_ = 0;
   /// Sessions that newer ones took the place of. If their writer is still alive (two perception stacks by

@@ -44,6 +44,7 @@ std::string_view reason(Gate::Verdict verdict) {
       return "outlier";
     case Gate::Verdict::accepted:
     case Gate::Verdict::begins_anew:
+    case Gate::Verdict::corrects:
       break;
   }
   return {};
@@ -115,6 +116,7 @@ std::string_view MappingSession::State::add(const VehiclePose& pose) {
     if (!goes_on(pose, place(*newest_pose))) reset();
     synchroniser.clear_poses();
   }
+  if (verdict == Gate::Verdict::corrects) synchroniser.drop_poses_from(pose.stamp_ns);
   check_resumed(pose);
   counters.add("poses_accepted");
   newest_pose = pose;

@@ -35,6 +35,10 @@ void PoseBuffer::add(const VehiclePose& pose) {
   }
 }
 
+void PoseBuffer::drop_from(std::int64_t stamp_ns) {
+  while (!poses_.empty() && poses_.back().stamp_ns >= stamp_ns) poses_.pop_back();
+}
+
 PoseBuffer::Answer PoseBuffer::at(std::int64_t stamp_ns, Eigen::Isometry3d& T_map_body) const {
   const auto after =
       std::lower_bound(poses_.begin(), poses_.end(), stamp_ns,

@@ -16,6 +16,8 @@ class PoseBuffer {
   /// Stamps must ascend.
   void add(const VehiclePose& pose);
   void clear() { poses_.clear(); }
+  /// Forgets the poses of a stamp and after it.
+  void drop_from(std::int64_t stamp_ns);
 
   enum class Answer {
     found,    ///< the result is set

@@ -43,6 +43,7 @@ class Synchroniser {
   /// Removes all frames; returns how many.
   std::size_t clear_frames();
   void clear_poses() { poses_.clear(); }
+  void drop_poses_from(std::int64_t stamp_ns) { poses_.drop_from(stamp_ns); }
   /// The pose at a stamp.
   PoseBuffer::Answer pose_at(std::int64_t stamp_ns, Eigen::Isometry3d& T_map_body) const {
     return poses_.at(stamp_ns, T_map_body);

@@ -113,6 +113,21 @@ TEST_F(Faults, PosesThatAreLaterStillMatchNothing) {
   recover();
 }
 
+TEST_F(Faults, OnePoseWhoseStampIsAheadLeavesTheMap) {
+  const auto map_id = drive_.maps().back().map_id;
+  for (const std::int64_t ahead_ms : {250, 500, 1900}) {
+    drive_.send_poses = [ahead_ms, sent = 0](VehiclePose pose) mutable {
+      if (++sent == 30) pose.stamp_ns += ahead_ms * 1'000'000;
+      return std::vector{pose};
+    };
+    drive_.run_for(2000);
+    EXPECT_EQ(drive_.state(), "OK") << ahead_ms;
+    EXPECT_EQ(drive_.maps().back().map_id, map_id) << ahead_ms;
+    EXPECT_TRUE(all_have_lanes()) << ahead_ms;
+  }
+  EXPECT_GT(drive_.counter("poses_refused_late"), 0U);
+}
+
 TEST_F(Faults, PosesOutOfOrderAreRefused) {
   drive_.send_poses = swap_pairs<VehiclePose>();
   drive_.run_for(2000);

@@ -101,6 +101,26 @@ TEST_F(GateTest, LateMessagesBetweenOthersAreNoClockThatIsSetBack) {
   }
 }
 
+TEST_F(GateTest, AStampThatWasAheadIsFoundWrong) {
+  for (const int ahead : {250, 500, 1'900}) {
+    Gate gate(GateConfig{}, true);
+    for (int t = 10'000; t <= 10'100; t += 10) EXPECT_EQ(gate.check(at(t)), Verdict::accepted);
+    EXPECT_EQ(gate.check(at(10'110 + ahead)), Verdict::accepted);
+    for (int t = 10'120; t < 10'220; t += 10) EXPECT_EQ(gate.check(at(t)), Verdict::late) << ahead;
+    EXPECT_EQ(gate.check(at(10'210 + ahead)), Verdict::accepted) << "a second one";
+    for (int t = 10'220; t < 10'420; t += 10) EXPECT_EQ(gate.check(at(t)), Verdict::late) << ahead;
+    EXPECT_EQ(gate.check(at(10'420)), Verdict::corrects) << ahead;
+    EXPECT_EQ(gate.check(at(10'430)), Verdict::accepted);
+  }
+}
+
+TEST_F(GateTest, LateMessagesAtAnotherPlaceDoNotCorrect) {
+  Gate anew(GateConfig{}, true);
+  for (const int t : {10'000, 10'010, 10'500}) EXPECT_EQ(anew.check(at(t)), Verdict::accepted);
+  for (int t = 10'020; t < 10'220; t += 10) EXPECT_EQ(anew.check(at(t, 100.0)), Verdict::late);
+  EXPECT_EQ(anew.check(at(10'220, 100.0)), Verdict::begins_anew);
+}
+
 TEST_F(GateTest, ANewSessionIsBelievedAtOnce) {
   EXPECT_EQ(gate_.check(at(10'100, 0.0, 2)), Verdict::begins_anew);
   EXPECT_EQ(gate_.check(at(5, 500.0, 3)), Verdict::begins_anew);

@@ -246,6 +246,19 @@ TEST_F(MappingSessionTest, AClockThatIsSetBackResetsTheMap) {
   EXPECT_EQ(session_.counters()["map_resets"], 1U);
 }
 
+TEST_F(MappingSessionTest, APoseWhoseStampIsAheadLeavesTheMap) {
+  drive(10'000, 12'000);
+  const auto id = session_.map().boundaries.at(0).id;
+  VehiclePose ahead = pose(12'000);
+  ahead.stamp_ns += 1'000 * kMs;
+  session_.add(ahead);
+  drive(12'010, 13'000);
+  EXPECT_EQ(session_.counters()["poses_refused_late"], 20U);
+  EXPECT_EQ(session_.counters()["map_resets"], 0U);
+  EXPECT_EQ(session_.map().boundaries.at(0).id, id);
+  EXPECT_EQ(session_.map().stamp_ns, 12'900 * kMs);
+}
+
 TEST_F(MappingSessionTest, WhatBecameOfTheOldMapIsNotToldOfTheNewOne) {
   drive(10'000, 12'000);
   session_.add(pose(12'010, 2));
