@@ -28,7 +28,8 @@ struct Arrivals {
   std::optional<std::int64_t> newest_pose_ns;   ///< arrival of the newest pose
   /// Arrival of the newest status of another service of this vehicle.
   std::optional<std::int64_t> other_service_ns;
-  std::vector<SourceStatus> sources;  ///< the sessions heard last, in the order of their beginning
+  std::vector<SourceStatus> sources;   ///< the sessions heard last, in the order of their beginning
+  std::vector<std::int64_t> heard_ns;  ///< arrival of the newest frame of each of these, refused or not
 };
 
 }  // namespace laneloom::core

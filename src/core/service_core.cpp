@@ -1,6 +1,8 @@
 #include "core/service_core.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
 #include <utility>
 
 #include "base/file_stamp.hpp"
@@ -103,21 +105,25 @@ HealthInputs ServiceCore::inputs(std::int64_t now_ns, const Arrivals& arrivals) 
           .fused_age_s = age_s(surroundings_.steady_now_ns(), fused_ns),
           .other_service_age_s = age_s(now_ns, arrivals.other_service_ns),
           .lag_s = session_.lag_s(),
-          .source_not_fused = source_not_fused(now_ns),
+          .source_not_fused = source_not_fused(now_ns, arrivals),
           .sources_disagree = !session_.disagreements().empty(),
           .driving_side_contradicted = session_.mapper().driving_side_contradicted()};
 }
 
-bool ServiceCore::source_not_fused(std::int64_t now_ns) const {
+bool ServiceCore::source_not_fused(std::int64_t now_ns, const Arrivals& arrivals) const {
   const auto crowded_out_ns = session_.crowded_out_ns();
   if (crowded_out_ns && age_s(now_ns, crowded_out_ns) < kSourceRemembered_s) return true;
-  const auto sources = session_.sources();
-  return sources.size() > 1 && std::ranges::any_of(sources, [&](const session::SourceProgress& source) {
-           const double period_s = seconds(source.period_ns);
-           const double patience_s = std::max(config_.service.stale_after_s, kSourcePeriods * period_s);
-           return age_s(now_ns, source.arrival_ns) < kSourceRemembered_s &&
-                  (!source.fused_arrival_ns || age_s(now_ns, source.fused_arrival_ns) > patience_s);
-         });
+  const auto is_fused = [&](const session::SourceProgress& source) {
+    const double patience_s =
+        std::max(config_.service.stale_after_s, kSourcePeriods * seconds(source.period_ns));
+    return source.fused_arrival_ns && age_s(now_ns, source.fused_arrival_ns) <= patience_s;
+  };
+  std::set<std::string> heard, fused;
+  for (std::size_t i = 0; i < arrivals.sources.size(); ++i)
+    if (age_s(now_ns, arrivals.heard_ns[i]) < kSourceRemembered_s) heard.insert(arrivals.sources[i].source);
+  for (const session::SourceProgress& source : session_.sources())
+    if (is_fused(source)) fused.insert(source.source);
+  return heard.size() > 1 && !std::ranges::includes(fused, heard);
 }
 
 void ServiceCore::note_incidents(const Tick& tick, const Arrivals& arrivals,

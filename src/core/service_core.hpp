@@ -65,7 +65,7 @@ class ServiceCore {
   /// The facts for Health at `now_ns`.
   HealthInputs inputs(std::int64_t now_ns, const Arrivals& arrivals) const;
   /// Whether one of several sources that was heard a moment ago does not go into the map.
-  bool source_not_fused(std::int64_t now_ns) const;
+  bool source_not_fused(std::int64_t now_ns, const Arrivals& arrivals) const;
   void note_incidents(const Tick& tick, const Arrivals& arrivals,
                       const session::MappingSession::Progress& progress);
   PublishedMap published_map(session::MappingSession::Progress&& progress);

@@ -115,9 +115,9 @@ void IngestionQueue::note_source(const DetectionFrame& frame, std::int64_t arriv
   if (known == sources.end()) {
     if (sources.size() == kMaxSources) forget_a_source();
     sources.push_back({frame.source, frame.session_id, frame.sequence, frame.sequence, 1});
-    heard_ns_.push_back(arrival_ns);
+    state_.heard_ns.push_back(arrival_ns);
   } else {
-    heard_ns_[static_cast<std::size_t>(known - sources.begin())] = arrival_ns;
+    state_.heard_ns[static_cast<std::size_t>(known - sources.begin())] = arrival_ns;
     // The first frame to arrive may have overtaken one that was lost and sent again.
     known->first_sequence = std::min(known->first_sequence, frame.sequence);
     known->last_sequence = std::max(known->last_sequence, frame.sequence);
@@ -126,9 +126,9 @@ void IngestionQueue::note_source(const DetectionFrame& frame, std::int64_t arriv
 }
 
 void IngestionQueue::forget_a_source() {
-  const auto silent = std::ranges::min_element(heard_ns_);
-  state_.sources.erase(state_.sources.begin() + (silent - heard_ns_.begin()));
-  heard_ns_.erase(silent);
+  const auto silent = std::ranges::min_element(state_.heard_ns);
+  state_.sources.erase(state_.sources.begin() + (silent - state_.heard_ns.begin()));
+  state_.heard_ns.erase(silent);
 }
 
 void IngestionQueue::count_frame() {

@@ -88,8 +88,7 @@ class IngestionQueue {
   std::uint64_t frames_lost_ = 0;
   std::uint64_t poses_lost_ = 0;
   std::uint64_t objects_lost_ = 0;
-  core::Arrivals state_;                ///< without messages, which are in the queues
-  std::vector<std::int64_t> heard_ns_;  ///< arrival of the newest frame of each of its sources
+  core::Arrivals state_;  ///< without messages, which are in the queues
 };
 
 }  // namespace laneloom::service

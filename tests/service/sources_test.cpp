@@ -67,6 +67,34 @@ TEST_F(SourcesOfADrive, OneThatIsNotFusedIsTold) {
   EXPECT_EQ(drive_.state(), "OK") << "it is missed for 10 s";
 }
 
+/// A second source, with confidences beyond 1.
+std::vector<DetectionFrame> with_one_refused(const DetectionFrame& frame) {
+  DetectionFrame other = of_source(frame, "side", 70);
+  other.detections.at(0).confidence = 1.5;
+  return {frame, other};
+}
+
+TEST_F(SourcesOfADrive, OneThatIsRefusedFromItsFirstFrameIsTold) {
+  drive_.send_frames = with_one_refused;
+  drive_.run_for(2000);
+  EXPECT_EQ(drive_.state(), "DEGRADED source_not_fused");
+  EXPECT_EQ(fused_of("side"), 0U);
+}
+
+TEST_F(SourcesOfADrive, OneThatIsRefusedIsToldAsLongAsItIsHeard) {
+  drive_.send_frames = [](const DetectionFrame& frame) {
+    return std::vector{frame, of_source(frame, "side", 70)};
+  };
+  drive_.run_for(1000);
+  drive_.send_frames = with_one_refused;
+  drive_.run_for(1000);
+  drive_.run_for(15'000);
+  EXPECT_EQ(drive_.states(), States{"DEGRADED source_not_fused"});
+  drive_.send_frames = {};
+  drive_.run_for(12'000);
+  EXPECT_EQ(drive_.state(), "OK");
+}
+
 /// A second source sends each `nth` frame, too.
 Channel<DetectionFrame> with_every(std::uint64_t nth) {
   return [nth](const DetectionFrame& frame) {
