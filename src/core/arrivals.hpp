@@ -24,8 +24,8 @@ struct Arrival {
 struct Arrivals {
   std::vector<Arrival> messages;                ///< since the tick before, in the order of their arrival
   Counters counters;                            ///< of events outside the core, since the start
-  std::optional<std::int64_t> newest_frame_ns;  ///< arrival of the newest frame
-  std::optional<std::int64_t> newest_pose_ns;   ///< arrival of the newest pose
+  std::optional<std::int64_t> newest_frame_ns;  ///< arrival of the newest frame, refused or not
+  std::optional<std::int64_t> newest_pose_ns;   ///< arrival of the newest pose, refused or not
   /// Arrival of the newest status of another service of this vehicle.
   std::optional<std::int64_t> other_service_ns;
   std::vector<SourceStatus> sources;   ///< the sessions heard last, in the order of their beginning

@@ -33,14 +33,14 @@ Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {
   // The other service may miss one of its status messages.
   add_if(!older(inputs.other_service_age_s, 2.5 * config_.status_period_s), StateReason::another_service);
 
+  const bool silent = older(inputs.fused_age_s, config_.stale_after_s);
+  // Both inputs come, yet nothing is fused: no pose matches, or all frames are refused.
+  add_if(silent && verdict.reasons.empty(), StateReason::unsynchronised);
   const auto lags = [&](double limit_s) { return inputs.lag_s && *inputs.lag_s > limit_s; };
   add_if(lags(config_.degraded_lag_s), StateReason::outdated);
-  const bool silent = older(inputs.fused_age_s, config_.stale_after_s);
   add_if(inputs.source_not_fused && !silent, StateReason::source_not_fused);
   add_if(inputs.driving_side_contradicted && !silent, StateReason::driving_side_contradicted);
   const bool stale = silent || lags(config_.stale_lag_s);
-  // Both inputs come, yet nothing is fused: no pose matches, or all frames are refused.
-  add_if(silent && verdict.reasons.empty(), StateReason::unsynchronised);
   verdict.state = stale ? MapState::stale : verdict.reasons.empty() ? MapState::ok : MapState::degraded;
   return verdict;
 }

@@ -10,7 +10,9 @@ dds::ReaderCallbacks<DetectionFrame> take_detections(IngestionQueue& queue,
                                                      const std::function<std::int64_t()>& now_ns) {
   dds::ReaderCallbacks<DetectionFrame> callbacks;
   callbacks.sample = [&queue, now_ns](DetectionFrame&& frame) { queue.push(std::move(frame), now_ns()); };
-  callbacks.refused = [&queue](std::string_view reason) { queue.refuse_detections(reason); };
+  callbacks.refused = [&queue, now_ns](std::string_view reason) {
+    queue.refuse_detections(reason, now_ns());
+  };
   callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
     queue.number_detections(writer, number);
   };
@@ -21,7 +23,7 @@ dds::ReaderCallbacks<VehiclePose> take_poses(IngestionQueue& queue,
                                              const std::function<std::int64_t()>& now_ns) {
   dds::ReaderCallbacks<VehiclePose> callbacks;
   callbacks.sample = [&queue, now_ns](VehiclePose&& pose) { queue.push(std::move(pose), now_ns()); };
-  callbacks.refused = [&queue](std::string_view reason) { queue.refuse_pose(reason); };
+  callbacks.refused = [&queue, now_ns](std::string_view reason) { queue.refuse_pose(reason, now_ns()); };
   callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
     queue.number_pose(writer, number);
   };

@@ -40,8 +40,7 @@ bool IngestionQueue::enqueue(DetectionFrame&& frame, std::int64_t arrival_ns) {
   const std::string_view refusal = session::defect(frame, gate_);
   const std::size_t left_out = refusal.empty() ? session::admit(gate_, frame) : 0;
   const std::lock_guard lock(mutex_);
-  count_frame();
-  state_.newest_frame_ns = arrival_ns;
+  note_frame(arrival_ns);
   note_source(frame, arrival_ns);
   if (!refusal.empty()) {
     state_.counters.add("detections_refused_" + std::string(refusal));
@@ -59,8 +58,7 @@ bool IngestionQueue::enqueue(DetectionFrame&& frame, std::int64_t arrival_ns) {
 
 bool IngestionQueue::enqueue(VehiclePose&& pose, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
-  count_pose();
-  state_.newest_pose_ns = arrival_ns;
+  note_pose(arrival_ns);
   if (poses_.size() >= static_cast<std::size_t>(config_.pose_queue_capacity)) {
     poses_.pop_front();
     state_.counters.add("poses_dropped_queue_full");
@@ -131,12 +129,14 @@ void IngestionQueue::forget_a_source() {
   state_.heard_ns.erase(silent);
 }
 
-void IngestionQueue::count_frame() {
+void IngestionQueue::note_frame(std::int64_t arrival_ns) {
+  state_.newest_frame_ns = arrival_ns;
   state_.counters.add("detections_received");
   frames_lost_ = lost_frames_.total();
 }
 
-void IngestionQueue::count_pose() {
+void IngestionQueue::note_pose(std::int64_t arrival_ns) {
+  state_.newest_pose_ns = arrival_ns;
   state_.counters.add("poses_received");
   poses_lost_ = lost_poses_.total();
 }
@@ -146,15 +146,15 @@ void IngestionQueue::count_objects() {
   objects_lost_ = lost_objects_.total();
 }
 
-void IngestionQueue::refuse_detections(std::string_view reason) {
+void IngestionQueue::refuse_detections(std::string_view reason, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
-  count_frame();
+  note_frame(arrival_ns);
   state_.counters.add("detections_refused_" + std::string(reason));
 }
 
-void IngestionQueue::refuse_pose(std::string_view reason) {
+void IngestionQueue::refuse_pose(std::string_view reason, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
-  count_pose();
+  note_pose(arrival_ns);
   state_.counters.add("poses_refused_" + std::string(reason));
 }
 

@@ -31,9 +31,9 @@ class IngestionQueue {
   void push(DetectionFrame&& frame, std::int64_t arrival_ns);
   void push(VehiclePose&& pose, std::int64_t arrival_ns);
   void push(TrackedObjects&& objects, std::int64_t arrival_ns);
-  /// Counts a message that was refused as invalid.
-  void refuse_detections(std::string_view reason);
-  void refuse_pose(std::string_view reason);
+  /// Counts a message that was refused as invalid. It has arrived all the same.
+  void refuse_detections(std::string_view reason, std::int64_t arrival_ns);
+  void refuse_pose(std::string_view reason, std::int64_t arrival_ns);
   void refuse_objects(std::string_view reason);
 
   /// Notes that another service of the same vehicle was heard.
@@ -66,8 +66,8 @@ class IngestionQueue {
   void note_source(const DetectionFrame& frame, std::int64_t arrival_ns);
   /// Forgets the one that has been silent for the longest time.
   void forget_a_source();
-  void count_frame();
-  void count_pose();
+  void note_frame(std::int64_t arrival_ns);
+  void note_pose(std::int64_t arrival_ns);
   void count_objects();
 
   SyncConfig config_;

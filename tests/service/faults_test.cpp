@@ -75,6 +75,24 @@ TEST_F(Faults, PosesStop) {
   recover();
 }
 
+/// Messages that the threads of DDS refuse are not missing.
+TEST_F(Faults, RefusedMessagesAreNotMissing) {
+  const auto refuse = [this](int tenths, auto&& one) {
+    for (int i = 0; i < tenths; ++i) {
+      one(drive_.now_ns());
+      drive_.run_for(100);
+    }
+  };
+  drive_.send_frames = lose<DetectionFrame>;
+  refuse(20, [this](std::int64_t now_ns) { drive_.queue().refuse_detections("wrong_frame", now_ns); });
+  EXPECT_EQ(drive_.state(), "STALE unsynchronised outdated");
+  recover();
+  drive_.send_poses = lose<VehiclePose>;
+  refuse(20, [this](std::int64_t now_ns) { drive_.queue().refuse_pose("wrong_frame", now_ns); });
+  EXPECT_EQ(drive_.state(), "STALE unsynchronised");
+  recover();
+}
+
 TEST_F(Faults, NothingComesAtAll) {
   drive_.send_frames = lose<DetectionFrame>;
   drive_.send_poses = lose<VehiclePose>;

@@ -147,16 +147,17 @@ TEST(IngestionQueue, RefusesAFrameWholeForADefectInWhatWouldBeLeftOut) {
 
 TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
   IngestionQueue queue(capacities(2, 2));
-  queue.refuse_detections("malformed");
-  queue.refuse_detections("malformed");
-  queue.refuse_pose("wrong_frame");
+  queue.refuse_detections("malformed", 3);
+  queue.refuse_detections("malformed", 5);
+  queue.refuse_pose("wrong_frame", 4);
   const auto arrivals = queue.take();
   const auto& counters = arrivals.counters;
   EXPECT_EQ(counters["detections_received"], 2U);
   EXPECT_EQ(counters["detections_refused_malformed"], 2U);
   EXPECT_EQ(counters["poses_received"], 1U);
   EXPECT_EQ(counters["poses_refused_wrong_frame"], 1U);
-  EXPECT_FALSE(arrivals.newest_frame_ns);
+  EXPECT_EQ(arrivals.newest_frame_ns, 5) << "it has arrived";
+  EXPECT_EQ(arrivals.newest_pose_ns, 4);
 }
 
 TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
@@ -210,7 +211,7 @@ TEST(IngestionQueue, CountsWhatNeverCame) {
   queue.number_detections({1}, 11);
   for (const std::uint64_t number : {1U, 6U, 8U}) queue.number_pose({2}, number);
   EXPECT_EQ(queue.take().counters["detections_lost"], 0U) << "before the message that shows it";
-  queue.refuse_detections("malformed");
+  queue.refuse_detections("malformed", 1);
   queue.push(pose(8), 0);
   const auto counters = queue.take().counters;
   EXPECT_EQ(counters["detections_lost"], 3U);
@@ -225,7 +226,7 @@ TEST(IngestionQueue, CountsExactlyWhileThreadsPush) {
   const auto pushing = [&] {
     for (std::uint64_t i = 0; i < kEach; ++i) {
       queue.push(frame(i), 1);
-      if (i % 3 == 0) queue.refuse_detections("malformed");
+      if (i % 3 == 0) queue.refuse_detections("malformed", 1);
     }
     --running;
   };
