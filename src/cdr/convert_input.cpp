@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "base/vehicle_frame.hpp"
 #include "cdr/bounds.hpp"
 #include "cdr/convert.hpp"
 #include "cdr/convert_parts.hpp"
 
 namespace laneloom::dds {
 namespace {
-
-constexpr const char *kBodyFrame = "body", *kBaseLink = "base_link";
 
 constexpr std::size_t kMaxName = std::remove_cvref_t<decltype(msg::Detections().source())>::max_size;
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/ros_name.hpp"
+#include "base/vehicle_frame.hpp"
 #include "config/config_file.hpp"
 #include "schema.hpp"
 #include "text.hpp"
@@ -147,6 +148,14 @@ std::optional<Problem> find_contradiction(const MapperConfig& mapper) {
   return find_too_many_points(mapper);
 }
 
+std::optional<Problem> find_contradiction(const DdsConfig& dds) {
+  if (dds.map_frame_id == kBodyFrame || dds.map_frame_id == kBaseLink)
+    return Problem{"dds.map_frame_id", "\"" + dds.map_frame_id + "\" names the frame of the vehicle"};
+  if (dds.profile_file.empty() != dds.profile_name.empty())
+    return Problem{"dds.profile_file", "profile_file and profile_name are given together or not at all"};
+  return std::nullopt;
+}
+
 std::optional<Problem> find_contradiction(const Config& c) {
   if (auto problem = find_contradiction(c.mapper)) return problem;
   if (c.sync.pose_history_s <= c.sync.max_pose_gap_s) {
@@ -158,9 +167,7 @@ std::optional<Problem> find_contradiction(const Config& c) {
   if (c.service.degraded_after_s > c.service.stale_after_s) {
     return Problem{"service.degraded_after_s", "must not exceed stale_after_s"};
   }
-  if (c.dds.profile_file.empty() != c.dds.profile_name.empty()) {
-    return Problem{"dds.profile_file", "profile_file and profile_name are given together or not at all"};
-  }
+  if (auto problem = find_contradiction(c.dds)) return problem;
   if (auto problem = find_wrong_name(c.ros2)) return problem;
   return find_equal_names(c.ros2);
 }

@@ -21,9 +21,6 @@ inline constexpr const char* kOdometryType = "nav_msgs/msg/Odometry";
 /// Type of the tracked objects. The configuration names their topic.
 inline constexpr const char* kObjectsType = "autoware_perception_msgs/msg/TrackedObjects";
 
-/// The name of the vehicle's frame in ROS.
-inline constexpr const char* kBaseLink = "base_link";
-
 /// The namespace with its leading '/'; "/" if there is none.
 std::string full_namespace(const Ros2Config& config);
 /// The node with its namespace: "/car_1/laneloom".

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "base/vehicle_frame.hpp"
 #include "ros2/names.hpp"
 #include "ros2/parts.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "Common.hpp"
 #include "base/fnv.hpp"
+#include "base/vehicle_frame.hpp"
 #include "ros2/input_parts.hpp"
 #include "ros2/names.hpp"
 

@@ -136,6 +136,9 @@ TEST_F(ConfigFile, AContradictionIsNamedWithItsLine) {
             ":2: service.degraded_after_s: must not exceed stale_after_s");
   EXPECT_EQ(error_of("dds:\n  profile_file: x.xml\n"),
             ":2: dds.profile_file: profile_file and profile_name are given together or not at all");
+  for (const std::string name : {"body", "base_link"})
+    EXPECT_EQ(error_of("dds:\n  map_frame_id: " + name + "\n"),
+              ":2: dds.map_frame_id: \"" + name + "\" names the frame of the vehicle");
   // The key at fault need not be in the file.
   EXPECT_EQ(error_of("service:\n  stale_after_s: 0.1\n"),
             ": service.degraded_after_s: must not exceed stale_after_s");
