@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <type_traits>
 
 #include "base/vehicle_frame.hpp"
 #include "cdr/bounds.hpp"
@@ -8,8 +7,6 @@
 
 namespace laneloom::dds {
 namespace {
-
-constexpr std::size_t kMaxName = std::remove_cvref_t<decltype(msg::Detections().source())>::max_size;
 
 /// Types that fit into a message. A list that is too long is reduced to one of each type. It must not become
 /// empty, which would mean every type.
@@ -35,8 +32,8 @@ std::size_t put_fitting(const std::vector<From>& from, std::vector<To>& to) {
 
 std::size_t to_msg(const DetectionFrame& from, const std::string& /*map_frame_id*/, msg::Detections& to) {
   to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, kBodyFrame));
-  to.source(from.source.c_str());  // cut to its bound; readers may then take two sources for one
-  std::size_t left_out = from.source.size() <= kMaxName ? 0U : 1U;
+  ToMessage().put(from.source, to.source());  // readers may take two sources for one if it is cut
+  std::size_t left_out = to.source().to_string() == from.source ? 0U : 1U;
   ToMessage().put(fitting(from.detected_types), to.detected_types());
   ToMessage().put(fits(from.field_of_view) ? from.field_of_view : Polyline{}, to.field_of_view());
   left_out += fits(from.field_of_view) ? 0U : 1U;

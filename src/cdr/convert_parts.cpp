@@ -29,6 +29,13 @@ Eigen::Quaterniond Intake::rotation(const msg::Quaternion& from) {
   return q.normalized();
 }
 
+std::string beginning(const std::string& text, std::size_t bytes) {
+  if (text.size() <= bytes) return text;
+  const auto goes_on = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; };
+  while (bytes > 0 && goes_on(text[bytes])) --bytes;
+  return text.substr(0, bytes);
+}
+
 msg::Pose pose_to_msg(const Point& position, const Eigen::Quaterniond& orientation) {
   msg::Pose to;
   ToMessage::put(position, to.position());
@@ -45,7 +52,7 @@ msg::Header header_to_msg(std::int64_t stamp_ns, std::uint64_t sequence, std::ui
   to.stamp_ns(stamp_ns);
   to.sequence_number(sequence);
   to.session_id(session_id);
-  to.frame_id(frame_id.c_str());
+  ToMessage().put(frame_id, to.frame_id());
   return to;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -11,6 +12,8 @@
 /// Parts that several messages share.
 namespace laneloom::dds {
 
+/// The beginning of a text, of at most `bytes` bytes. No character of UTF-8 is cut.
+std::string beginning(const std::string& text, std::size_t bytes);
 msg::Pose pose_to_msg(const Point& position, const Eigen::Quaterniond& orientation);
 msg::Header header_to_msg(std::int64_t stamp_ns, std::uint64_t sequence, std::uint64_t session_id,
                           const std::string& frame_id);
@@ -28,7 +31,7 @@ struct ToMessage {
   void put(Enum from, MsgEnum& to) const { to = static_cast<MsgEnum>(from); }
   template <class Text>
   void put(const std::string& from, Text& to) const {
-    to = from.c_str();
+    to = beginning(from, Text::max_size).c_str();
   }
   static void put(const Point& from, msg::Point& to) {
     to.x(from.x());

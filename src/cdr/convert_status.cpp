@@ -22,7 +22,7 @@ TimeSummary from_msg(const msg::TimeSummary& from, Intake& intake) {
 
 msg::SourceStatus to_msg(const SourceStatus& from) {
   msg::SourceStatus to;
-  to.source(from.source.c_str());
+  ToMessage().put(from.source, to.source());
   to.session_id(from.session_id);
   to.first_sequence(from.first_sequence);
   to.last_sequence(from.last_sequence);
@@ -33,7 +33,7 @@ msg::SourceStatus to_msg(const SourceStatus& from) {
   for (const auto& [name, value] : from.learned) {
     if (to.learned().size() == msg::MAX_VALUES) break;
     msg::NamedValue learned;
-    learned.name(name.c_str());
+    ToMessage().put(name, learned.name());
     learned.value(value);
     to.learned().push_back(learned);
   }
@@ -70,7 +70,7 @@ std::size_t to_msg(const ServiceStatus& from, const std::string& /*map_frame_id*
   for (const auto& [name, value] : from.counters) {
     if (to.counters().size() == msg::MAX_COUNTERS) break;
     msg::Counter counter;
-    counter.name(name.c_str());
+    ToMessage().put(name, counter.name());
     counter.value(value);
     to.counters().push_back(counter);
   }
@@ -79,14 +79,14 @@ std::size_t to_msg(const ServiceStatus& from, const std::string& /*map_frame_id*
   for (std::size_t i = from.sources.size() - sources; i < from.sources.size(); ++i) {
     to.sources().push_back(to_msg(from.sources[i]));
   }
-  to.version(from.version.c_str());
-  to.config_hash(from.config_hash.c_str());
+  ToMessage().put(from.version, to.version());
+  ToMessage().put(from.config_hash, to.config_hash());
   to.configuration().clear();
   for (const auto& [key, value] : from.configuration) {
     if (to.configuration().size() == msg::MAX_SETTINGS) break;
     msg::Setting setting;
-    setting.key(key.c_str());
-    setting.value(value.c_str());
+    ToMessage().put(key, setting.key());
+    ToMessage().put(value, setting.value());
     to.configuration().push_back(setting);
   }
   return from.counters.size() - to.counters().size() + from.sources.size() - sources +

@@ -1,6 +1,7 @@
 #include "cdr/convert.hpp"
 
 #include <gtest/gtest.h>
+#include <utf8.h>
 
 #include <functional>
 #include <limits>
@@ -289,6 +290,33 @@ TEST(Convert, ASourceWhoseNameIsCutIsCounted) {
   EXPECT_EQ(to_msg(frame, "map", message), 0U);
   frame.source += "1";
   EXPECT_EQ(to_msg(frame, "map", message), 1U);
+  frame.source = std::string("camera\0left", 11);
+  EXPECT_EQ(to_msg(frame, "map", message), 1U) << "a zero ends a name";
+}
+
+TEST(Convert, ASourceIsCutBetweenTwoCharacters) {
+  for (const std::string last : {"\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x9a\x97"}) {
+    DetectionFrame frame, read;
+    msg::Detections message;
+    for (const std::size_t fits : {64 - last.size(), std::size_t{63}}) {
+      frame.source = std::string(fits, 's') + last;
+      EXPECT_EQ(to_msg(frame, "map", message), fits == 63 ? 1U : 0U);
+      EXPECT_EQ(from_msg(msg::Detections(message), "map", read), "");
+      EXPECT_EQ(read.source, fits == 63 ? std::string(63, 's') : frame.source);
+    }
+  }
+}
+
+TEST(Convert, TheStatusOfALongSourceIsText) {
+  ServiceStatus status;
+  std::string long_name(63, 's');
+  long_name += "\xc3\xa9";
+  status.sources.push_back({.source = long_name, .learned = {{"beside_" + long_name, 1.0}}});
+  msg::ServiceStatus message;
+  to_msg(status, "map", message);
+  for (const std::string& name :
+       {message.sources()[0].source().to_string(), message.sources()[0].learned()[0].name().to_string()})
+    EXPECT_TRUE(utf8::is_valid(name.begin(), name.end())) << name;
 }
 
 TEST(Refuse, PosesThatAreNone) {
