@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/dds_values.hpp"
 #include "laneloom/config.hpp"
 #include "text.hpp"
 
@@ -375,7 +376,7 @@ void visit(auto& v, Is<ServiceConfig> auto& c) {
 
 void visit(auto& v, Is<DdsConfig> auto& c) {
   auto& [domain, vehicle_id, map_frame_id, transport, profile_file, profile_name, security_directory] = c;
-  v.number("domain", domain, {"", 0, 232}, "DDS domain id.");
+  v.number("domain", domain, {"", 0, kLastDomain}, "DDS domain id.");
   v.identifier("vehicle_id", vehicle_id,
                "Name of the DDS partition: vehicles of different ids never mix. Letters, digits, _ - . /");
   v.identifier("map_frame_id", map_frame_id,

@@ -4,6 +4,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/dds_values.hpp"
 #include "base/ros_name.hpp"
 #include "base/vehicle_frame.hpp"
 #include "config/config_file.hpp"
@@ -31,14 +32,7 @@ class RangeCheck {
     if (!is_choice(choices, value)) report(key, "\"" + value + "\" is none of " + choices);
   }
   void identifier(const char* key, const std::string& value, const char* /*meaning*/) {
-    // '*' and '?' would be wildcards in the name of a DDS partition.
-    const auto allowed = [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-             std::string_view("_-./").find(c) != std::string_view::npos;
-    };
-    if (value.empty() || value.size() > 64 || !std::all_of(value.begin(), value.end(), allowed)) {
-      report(key, "\"" + value + "\" is not 1 to 64 letters, digits, '_', '-', '.' or '/'");
-    }
+    if (const std::string what = identifier_problem(value); !what.empty()) report(key, what);
   }
   void path(const char* /*key*/, const std::string& /*value*/, const char* /*meaning*/) {}
 

@@ -158,8 +158,10 @@ class Discovery::Impl : public DiscoveryListener<Discovery::Impl> {
   DomainParticipant* participant_;  ///< last, because it calls back from its beginning on
 };
 
-Discovery::Discovery(const DdsConfig& config, const std::string& name)
-    : impl_(std::make_unique<Impl>(config, name)) {}
+Discovery::Discovery(const DdsConfig& config, const std::string& name) {
+  check_values(config);
+  impl_ = std::make_unique<Impl>(config, name);
+}
 Discovery::Discovery(Discovery&&) noexcept = default;
 Discovery& Discovery::operator=(Discovery&&) noexcept = default;
 Discovery::~Discovery() = default;

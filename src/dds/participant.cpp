@@ -25,8 +25,10 @@ void check_profile_file(const DdsConfig& config) {
     throw ConfigError("dds.profile_file: there is no file " + config.profile_file);
 }
 
-Participant::Participant(const DdsConfig& config, const std::string& name, Presence presence)
-    : impl_(std::make_shared<Impl>(config, name, presence)) {}
+Participant::Participant(const DdsConfig& config, const std::string& name, Presence presence) {
+  check_values(config);
+  impl_ = std::make_shared<Impl>(config, name, presence);
+}
 
 Counters Participant::refused_datagrams() const { return impl_->refused_datagrams(); }
 

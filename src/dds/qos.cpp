@@ -12,6 +12,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/dds_values.hpp"
 #include "dds/fast_dds.hpp"
 #include "laneloom/dds/participant.hpp"
 #include "laneloom/error.hpp"
@@ -27,6 +28,7 @@ using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 
 // With the kernel's default buffers, a map of 500 KB gets lost. The kernel may give less than this.
 constexpr std::uint32_t kSocketBufferBytes = 4U << 20;
+constexpr const char* kWithSharedMemory = "udp+shm";
 constexpr std::uint32_t kSharedMemoryBytes = 16U << 20;
 
 /// UDP that receives datagrams of any size and sends none above `max_sent_bytes`. Fast DDS asks the
@@ -86,7 +88,7 @@ void set_transports(const DdsConfig& config, DomainParticipantQos& qos) {
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
   qos.transport().user_transports.push_back(udp);
-  if (config.transport == "udp+shm") {
+  if (config.transport == kWithSharedMemory) {
     auto shared_memory = std::make_shared<SharedMemTransportDescriptor>();
     shared_memory->segment_size(kSharedMemoryBytes);
     qos.transport().user_transports.push_back(shared_memory);
@@ -158,6 +160,16 @@ void set_common(TopicKind kind, Qos& qos) {
 }
 
 }  // namespace
+
+void check_values(const DdsConfig& config) {
+  if (config.domain < 0 || config.domain > kLastDomain)
+    throw ConfigError("dds.domain: " + std::to_string(config.domain) + " is not in 0 .. " +
+                      std::to_string(kLastDomain));
+  if (const std::string what = identifier_problem(config.vehicle_id); !what.empty())
+    throw ConfigError("dds.vehicle_id: " + what);
+  if (config.transport != "udp" && config.transport != kWithSharedMemory)
+    throw ConfigError("dds.transport: \"" + config.transport + "\" is none of udp|" + kWithSharedMemory);
+}
 
 DomainParticipantQos participant_qos(const DdsConfig& config, const std::string& name) {
   DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;

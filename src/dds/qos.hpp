@@ -22,6 +22,8 @@ enum class TopicKind {
   view         ///< from the service to viewers; a late reader gets the next message
 };
 
+/// Throws ConfigError for a value that no participant can have. Fast DDS ends the process for some of them.
+void check_values(const DdsConfig& config);
 /// Throws ConfigError when the configured profile is missing or invalid, or a file of security is unreadable.
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsConfig& config,
                                                              const std::string& name);

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <condition_variable>
 #include <fstream>
+#include <functional>
 #include <mutex>
 
 #include "dds/participant_impl.hpp"
 #include "dds/topic_traits.hpp"
 #include "end_to_end/eavesdropper.hpp"
+#include "laneloom/dds/discovery.hpp"
 #include "laneloom/dds/raw_writer.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
@@ -262,6 +264,26 @@ TEST(Participants, ATopicHasOneType) {
   auto* const topic = here.topic("x", detections);
   EXPECT_EQ(here.topic("x", detections), topic);
   EXPECT_THROW(here.topic("x", map), ConfigError);
+}
+
+TEST(Participants, AValueOutsideItsRangeIsRefused) {
+  const auto refused = [](const DdsConfig& config, const std::string& key) {
+    const auto names_the_key = [&](const std::function<void()>& make) {
+      try {
+        make();
+      } catch (const ConfigError& error) {
+        return std::string(error.what()).starts_with(key + ": ");
+      }
+      return false;
+    };
+    return names_the_key([&] { const Participant one(config, "p"); }) &&
+           names_the_key([&] { const Discovery one(config, "d"); });
+  };
+  EXPECT_TRUE(refused({.domain = 233}, "dds.domain"));
+  EXPECT_TRUE(refused({.domain = -1}, "dds.domain"));
+  EXPECT_TRUE(refused({.vehicle_id = "car_?"}, "dds.vehicle_id")) << "it would be in all partitions of cars";
+  EXPECT_TRUE(refused({.vehicle_id = ""}, "dds.vehicle_id"));
+  EXPECT_TRUE(refused({.transport = "tcp"}, "dds.transport"));
 }
 
 TEST(Participants, ABadProfileStopsTheStart) {

@@ -53,8 +53,8 @@ class Participant {
  public:
   /// A hidden participant neither hears others nor is heard. It only serves to see what DDS refuses.
   enum class Presence { shown, hidden };
-  /// `name` is shown to others. Throws ConfigError as check_files(), NotPermitted where there is security and
-  /// DDS refuses, else std::runtime_error.
+  /// `name` is shown to others. Throws ConfigError for a value outside its range and as check_files(),
+  /// NotPermitted where there is security and DDS refuses, else std::runtime_error.
   Participant(const DdsConfig& config, const std::string& name, Presence presence = Presence::shown);
 
   /// The received datagrams that were not handed to DDS: datagrams_refused_<reason>. Thread-safe.
