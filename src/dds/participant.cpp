@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+#include <typeinfo>
 
 #include "dds/fast_dds.hpp"
 #include "dds/identity_check.hpp"
@@ -71,6 +72,7 @@ void Participant::Impl::close() {
 }
 
 Topic* Participant::Impl::topic(const std::string& name, const TypeSupport& type) {
+  check_support(name, type);
   if (auto* known = dynamic_cast<Topic*>(participant_->lookup_topicdescription(name))) {
     if (known->get_type_name() == type.get_type_name()) return known;
     throw ConfigError("topic " + name + " cannot have two types: " + known->get_type_name() + " and " +
@@ -80,6 +82,16 @@ Topic* Participant::Impl::topic(const std::string& name, const TypeSupport& type
   auto* topic = participant_->create_topic(name, type.get_type_name(), TOPIC_QOS_DEFAULT);
   if (!topic) refuse("topic " + name);
   return topic;
+}
+
+/// A participant makes the samples of all its readers of a type by one type support. Two supports of one type
+/// differ in what a sample is.
+void Participant::Impl::check_support(const std::string& topic, const TypeSupport& type) const {
+  const TypeSupport known = participant_->find_type(type.get_type_name());
+  if (known.empty()) return;
+  const TopicDataType &first = *known, &second = *type;
+  if (typeid(first) != typeid(second))
+    throw ConfigError("topic " + topic + " cannot be used both raw and not raw by one participant");
 }
 
 void Participant::Impl::refuse(const std::string& entity) const {

@@ -23,7 +23,7 @@ class Participant::Impl {
   Impl& operator=(const Impl&) = delete;
 
   /// The topic of this name. It is made at its first use. Throws as Participant(), and ConfigError if it has
-  /// another type.
+  /// another type, or one with samples of another kind.
   eprosima::fastdds::dds::Topic* topic(const std::string& name,
                                        const eprosima::fastdds::dds::TypeSupport& type);
 
@@ -38,6 +38,7 @@ class Participant::Impl {
 
  private:
   void close();
+  void check_support(const std::string& topic, const eprosima::fastdds::dds::TypeSupport& type) const;
 
   std::string map_frame_id_;
   std::string security_directory_;

@@ -13,6 +13,7 @@
 #include "dds/topic_traits.hpp"
 #include "end_to_end/eavesdropper.hpp"
 #include "laneloom/dds/discovery.hpp"
+#include "laneloom/dds/raw_reader.hpp"
 #include "laneloom/dds/raw_writer.hpp"
 #include "laneloom/dds/reader.hpp"
 #include "laneloom/dds/writer.hpp"
@@ -264,6 +265,18 @@ TEST(Participants, ATopicHasOneType) {
   auto* const topic = here.topic("x", detections);
   EXPECT_EQ(here.topic("x", detections), topic);
   EXPECT_THROW(here.topic("x", map), ConfigError);
+}
+
+/// A raw reader that shares its topic with another reader would take the samples of that one for its own.
+TEST(Participants, ATopicIsRawOrNot) {
+  const auto no_message = [](const WriterId& /*writer*/, std::vector<std::uint8_t>&& /*message*/) {};
+  const Participant here(config_of("raw"), "here", Participant::Presence::hidden);
+  const Reader<VehiclePose> reader(here, {});
+  EXPECT_THROW(RawReader<VehiclePose>(here, no_message), ConfigError);
+  EXPECT_THROW(RawWriter<VehiclePose>{here}, ConfigError);
+  EXPECT_NO_THROW(Writer<VehiclePose>{here});
+  const RawReader<DetectionFrame> raw(here, no_message);
+  EXPECT_THROW(Reader<DetectionFrame>(here, {}), ConfigError);
 }
 
 TEST(Participants, AValueOutsideItsRangeIsRefused) {

@@ -11,8 +11,8 @@ namespace laneloom::dds {
 
 /// Reads the topic of T (as for Reader) without looking into its messages: well-formed or not, they come as
 /// they went over the wire, for a recording to keep. cdr.hpp turns them into T.
-/// No RawReader and Reader of one topic belong to the same participant.
-/// Throws std::runtime_error when it can't be made.
+/// Throws std::runtime_error when it can't be made, and ConfigError if the participant has a Reader or Writer
+/// of the topic.
 template <class T>
 class RawReader {
  public:

@@ -9,8 +9,8 @@
 namespace laneloom::dds {
 
 /// Writes the topic of T (as for Writer) from messages as they go over the wire, well-formed or not, such as
-/// a RawReader received. No RawWriter shares its topic with another reader or writer of one participant. Not
-/// thread-safe; throws std::runtime_error when it can't be made.
+/// a RawReader received. Not thread-safe. Throws std::runtime_error when it can't be made, and ConfigError if
+/// the participant has a Reader or Writer of the topic.
 template <class T>
 class RawWriter {
  public:

@@ -26,7 +26,9 @@ struct ReaderCallbacks {
 };
 
 /// Reads one topic; T as for Writer. Input topics are read best effort, so that writers of both kinds match.
-/// After the destructor no callback runs. Throws std::runtime_error when it can't be made.
+/// Detections are also read reliably, from writers that are reliable; each sample comes once. After the
+/// destructor no callback runs. Throws std::runtime_error when it can't be made, and ConfigError if the
+/// participant has a RawReader or RawWriter of the topic.
 template <class T>
 class Reader {
  public:
