@@ -1,5 +1,7 @@
 #include "cdr/cdr_scanner.hpp"
 
+#include <algorithm>
+
 namespace laneloom::dds {
 namespace {
 
@@ -37,7 +39,10 @@ std::size_t CdrScanner::length(std::size_t bound) {
 void CdrScanner::text(std::size_t bound) {
   const auto count = length(bound + 1);  // with the terminator
   numbers(1, count);
-  ok_ = ok_ && count > 0 && bytes_[position_ - 1] == 0;
+  if (!ok_) return;
+  // A zero before the terminator would end the text there: "map\0x" would count as "map".
+  const auto text = bytes_.subspan(position_ - count, count);
+  ok_ = count > 0 && std::ranges::find(text, 0) == text.end() - 1;
 }
 
 void CdrScanner::number_sequence(std::size_t size, std::size_t bound) { numbers(size, length(bound)); }

@@ -152,5 +152,12 @@ TEST(CdrScanner, RefusesATextWithoutItsEnd) {
   EXPECT_FALSE(cdr.complete());
 }
 
+TEST(CdrScanner, RefusesATextWithAZeroInIt) {
+  const Bytes bytes{0, 1, 0, 0, 6, 0, 0, 0, 'm', 'a', 'p', 0, 'x', 0};
+  CdrScanner cdr(bytes);
+  cdr.text(8);
+  EXPECT_FALSE(cdr.complete());
+}
+
 }  // namespace
 }  // namespace laneloom::dds
