@@ -22,13 +22,14 @@ Verdict Health::assess(std::int64_t now_ns, const HealthInputs& inputs) const {
   const auto add_if = [&](bool condition, StateReason reason) {
     if (condition) verdict.reasons.push_back(reason);
   };
-  add_if(older(inputs.detections_age_s, config_.degraded_after_s), StateReason::no_detections);
+  const bool detections_come = !older(inputs.detections_age_s, config_.degraded_after_s);
+  add_if(!detections_come, StateReason::no_detections);
   add_if(older(inputs.poses_age_s, config_.degraded_after_s), StateReason::no_poses);
   add_if(recent(unsynchronised_ns_), StateReason::unsynchronised);
   add_if(inputs.fused_age_s < 0.0 && !recent(reset_ns_), StateReason::starting);
   add_if(recent(reset_ns_), StateReason::reset);
   add_if(recent(overload_ns_), StateReason::overloaded);
-  add_if(inputs.sources_disagree, StateReason::sources_disagree);
+  add_if(inputs.sources_disagree && detections_come, StateReason::sources_disagree);
   add_if(recent(pose_jump_ns_), StateReason::poses_jumped);
   // The other service may miss one of its status messages.
   add_if(!older(inputs.other_service_age_s, 2.5 * config_.status_period_s), StateReason::another_service);

@@ -57,9 +57,14 @@ TEST_F(HealthTest, IncidentsDegradeForASecond) {
 }
 
 TEST_F(HealthTest, SourcesThatDisagreeDegrade) {
-  const HealthInputs inputs{
+  HealthInputs inputs{
       .detections_age_s = 0.0, .poses_age_s = 0.0, .fused_age_s = 0.0, .sources_disagree = true};
   EXPECT_EQ(health_.assess(now_ns_, inputs), (Verdict{MapState::degraded, {StateReason::sources_disagree}}));
+  inputs.fused_age_s = 1.0;
+  EXPECT_EQ(health_.assess(now_ns_, inputs), (Verdict{MapState::stale, {StateReason::sources_disagree}}))
+      << "the one that is left out is alone";
+  inputs.detections_age_s = 1.0;
+  EXPECT_EQ(health_.assess(now_ns_, inputs), (Verdict{MapState::stale, {StateReason::no_detections}}));
 }
 
 TEST_F(HealthTest, AResetIsSaidForASecond) {
