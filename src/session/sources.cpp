@@ -21,14 +21,14 @@ Sources::Verdict Sources::check(const DetectionFrame& frame, std::int64_t arriva
   Source& source = *found;
   const Gate::Verdict verdict = source.gate.check({frame.stamp_ns, frame.session_id});
   const bool seen = std::ranges::find(source.stamps_ns, frame.stamp_ns) != source.stamps_ns.end();
-  const bool restarted = verdict == Gate::Verdict::begins_anew;
+  const bool begins_anew = verdict == Gate::Verdict::begins_anew;
+  const bool restarted = begins_anew && source.progress.session_id != frame.session_id;
   if (verdict == Gate::Verdict::outlier) return {"outlier"};
-  if (verdict == Gate::Verdict::repeated || (seen && !restarted)) return {"repeated"};
-  if (restarted) {
+  if (verdict == Gate::Verdict::repeated || (seen && !begins_anew)) return {"repeated"};
+  if (begins_anew) {
     source.stamps_ns.clear();
     // After a jump of the stamps within one session, the count goes on.
-    const bool same = source.progress.session_id == frame.session_id;
-    source.progress = {.source = frame.source, .fused = same ? source.progress.fused : 0};
+    source.progress = {.source = frame.source, .fused = restarted ? 0 : source.progress.fused};
   }
   source.stamps_ns.push_back(frame.stamp_ns);
   if (source.stamps_ns.size() > kStampsRemembered) source.stamps_ns.pop_front();

@@ -25,7 +25,7 @@ class Sources {
   /// The judgement of a frame.
   struct Verdict {
     std::string_view refusal;  ///< a stable name; empty: the frame is believed
-    bool restarted = false;    ///< the source begins anew with this frame
+    bool restarted = false;    ///< a new session of the source begins with this frame
   };
   /// Judges a frame. Frames of one source may come in another order than that of their stamps.
   Verdict check(const DetectionFrame& frame, std::int64_t arrival_ns);

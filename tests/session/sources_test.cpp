@@ -16,14 +16,18 @@ DetectionFrame frame_at(std::int64_t stamp_ns, std::uint64_t session_id) {
   return frame;
 }
 
-void fuse(const DetectionFrame& frame, Sources& sources) {
-  if (sources.check(frame, frame.stamp_ns).refusal.empty()) sources.note_fused(frame, frame.stamp_ns);
+/// Fuses a frame if it is believed. Returns whether it begins a new session.
+bool fuse(const DetectionFrame& frame, Sources& sources) {
+  const Sources::Verdict verdict = sources.check(frame, frame.stamp_ns);
+  if (verdict.refusal.empty()) sources.note_fused(frame, frame.stamp_ns);
+  return verdict.restarted;
 }
 
 TEST(Sources, CountsOnAfterAJumpOfTheStamps) {
   Sources sources{GateConfig{}};
   for (int i = 1; i <= 5; ++i) fuse(frame_at(i * kFrame_ns, 7), sources);
-  for (int i = 1; i <= 5; ++i) fuse(frame_at(kHour_ns + i * kFrame_ns, 7), sources);
+  for (int i = 1; i <= 5; ++i)
+    EXPECT_FALSE(fuse(frame_at(kHour_ns + i * kFrame_ns, 7), sources)) << "no new session";
   ASSERT_EQ(sources.progress().size(), 1U);
   EXPECT_EQ(sources.progress()[0].fused, 8U) << "the first two after the jump are outliers";
   EXPECT_EQ(sources.progress()[0].session_id, 7U);
@@ -32,7 +36,7 @@ TEST(Sources, CountsOnAfterAJumpOfTheStamps) {
 TEST(Sources, ANewSessionCountsFromZero) {
   Sources sources{GateConfig{}};
   for (int i = 1; i <= 5; ++i) fuse(frame_at(i * kFrame_ns, 7), sources);
-  fuse(frame_at(6 * kFrame_ns, 8), sources);
+  EXPECT_TRUE(fuse(frame_at(6 * kFrame_ns, 8), sources));
   EXPECT_EQ(sources.progress()[0].fused, 1U);
   EXPECT_EQ(sources.progress()[0].session_id, 8U);
 }
