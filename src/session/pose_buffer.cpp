@@ -1,10 +1,17 @@
 #include "session/pose_buffer.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "base/seconds.hpp"
 
 namespace laneloom::session {
+namespace {
+
+// A history of 60 s at 1 kHz fits. This only bounds the memory that a flood of poses takes.
+constexpr std::size_t kMostPoses = 65536;
+
+}  // namespace
 
 Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to, double share) {
   // The normalised sum of two unit quaternions lies half-way on their arc. Ten halvings leave at most a
@@ -30,9 +37,7 @@ void PoseBuffer::add(const VehiclePose& pose) {
   const auto too_old = [&](const VehiclePose& old) {
     return seconds(pose.stamp_ns - old.stamp_ns) > config_.pose_history_s;
   };
-  while (too_old(poses_.front()) || poses_.size() > static_cast<std::size_t>(config_.pose_queue_capacity)) {
-    poses_.pop_front();
-  }
+  while (too_old(poses_.front()) || poses_.size() > kMostPoses) poses_.pop_front();
 }
 
 void PoseBuffer::drop_from(std::int64_t stamp_ns) {

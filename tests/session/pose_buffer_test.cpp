@@ -73,13 +73,22 @@ TEST(PoseBuffer, ForgetsWhatIsOlderThanItsHistory) {
 }
 
 TEST(PoseBuffer, IsBounded) {
-  auto small = config();
-  small.pose_queue_capacity = 3;
-  PoseBuffer poses(small);
-  for (int i = 0; i < 10; ++i) poses.add(pose((1 + i) * kMs, Point::Zero()));
+  PoseBuffer poses(config());
+  constexpr std::int64_t kMost = 65536, kLast = 2 * kMost;
+  for (std::int64_t stamp_ns = 1; stamp_ns <= kLast; ++stamp_ns) poses.add(pose(stamp_ns, Point::Zero()));
   Eigen::Isometry3d T_map_body;
-  EXPECT_EQ(poses.at(8 * kMs, T_map_body), Answer::found);
-  EXPECT_EQ(poses.at(7 * kMs, T_map_body), Answer::never);
+  EXPECT_EQ(poses.at(kLast - kMost + 1, T_map_body), Answer::found);
+  EXPECT_EQ(poses.at(kLast - kMost, T_map_body), Answer::never);
+}
+
+// The queue bounds what comes between two ticks. The history goes on for longer.
+TEST(PoseBuffer, KeepsItsHistoryHoweverShortTheQueueIs) {
+  auto short_queue = config();
+  short_queue.pose_queue_capacity = 3;
+  PoseBuffer poses(short_queue);
+  for (int i = 0; i < 300; ++i) poses.add(pose((1 + i) * kMs, Point::Zero()));
+  Eigen::Isometry3d T_map_body;
+  EXPECT_EQ(poses.at(100 * kMs, T_map_body), Answer::found);
 }
 
 TEST(Slerp, AgreesWithTheFormula) {
