@@ -140,6 +140,18 @@ TEST_F(GateTest, TwoWritersAtOnceDoNotResetEachOther) {
   EXPECT_EQ(gate_.check(at(13'300, 0.0, 1)), Verdict::accepted);
 }
 
+TEST_F(GateTest, OfTwoWritersTheQuickerOneIsBelieved) {
+  EXPECT_EQ(gate_.check(at(10'010, 0.0, 2)), Verdict::begins_anew);
+  int anew = 0;
+  for (int t = 10'020; t < 12'000; t += 10) {
+    anew += gate_.check(at(t, 0.0, 1)) == Verdict::begins_anew ? 1 : 0;
+    if (t % 50 == 0) {
+      EXPECT_EQ(gate_.check(at(t + 5, 0.0, 2)), Verdict::outlier) << t;
+    }
+  }
+  EXPECT_EQ(anew, 1);
+}
+
 DetectionFrame good_frame() {
   DetectionFrame frame{.stamp_ns = 5};
   frame.detections.push_back(Detection{.confidence = 0.5, .points = {{0, 0, 0}, {10, 0, 0}}});
