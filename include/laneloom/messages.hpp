@@ -75,7 +75,7 @@ struct SourceStatus {
   std::uint64_t session_id = 0;      ///< of the source's run
   std::uint64_t first_sequence = 0;  ///< the smallest number of a frame that arrived
   std::uint64_t last_sequence = 0;   ///< the largest
-  std::uint64_t frames = 0;          ///< number of valid frames that arrived
+  std::uint64_t frames = 0;          ///< number of well-formed frames that arrived, refused or not
   std::uint64_t fused = 0;           ///< number of frames that went into the map
   double lag_s = -1.0;  ///< from its newest fused frame's stamp to the newest pose's; -1: none yet
   /// Values that the mapper learned of the source's network: name, value.

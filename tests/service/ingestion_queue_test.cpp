@@ -178,6 +178,12 @@ TEST(IngestionQueue, KnowsTheSessionsOfEachSource) {
   EXPECT_EQ(sources[0].frames, 4U);
   EXPECT_EQ(sources[1].session_id, 2U);
   EXPECT_EQ(sources[2].source, "rear");
+  auto refused = frame_of(1);
+  refused.source = "rear";
+  refused.session_id = 1;
+  refused.detections[0].confidence = 2.0;
+  queue.push(std::move(refused), 0);
+  EXPECT_EQ(queue.take().sources[2].frames, 2U) << "a refused one has arrived, too";
 
   for (std::uint64_t session = 10; session < 30; ++session) push("front", session, 0);
   ASSERT_EQ(queue.take().sources.size(), 16U);

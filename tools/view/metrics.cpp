@@ -75,7 +75,8 @@ void add_sources(Text& text, const std::vector<SourceStatus>& sources, const Val
 }
 
 void add_sources(Text& text, const ServiceStatus& status) {
-  text.family("source_frames_total", "counter", "Valid frames of a source that arrived.");
+  text.family("source_frames_total", "counter",
+              "Well-formed frames of a source that arrived, refused or not.");
   add_sources(text, status.sources, [](const SourceStatus& source) { return source.frames; });
   text.family("source_fused_total", "counter", "Frames of a source that went into the map.");
   add_sources(text, status.sources, [](const SourceStatus& source) { return source.fused; });
