@@ -1,6 +1,7 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -25,6 +26,7 @@ namespace {
 const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",     "secondary",
                                           "tertiary", "unclassified", "residential", "living_street",
                                           "service",  "road"};
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMaxDistance_m = 1e6;  // from the origin; further away the projection has no meaning
 constexpr std::uintmax_t kMaxFileBytes = 128U << 20U;  // in memory a file takes five to eight times as much
 constexpr double kMaxStreets_m = 2e7;  // all streets; a few bytes can name streets that take all memory
@@ -47,14 +49,20 @@ std::string_view other_kind(const std::string& file) {
   throw std::runtime_error(name_of(element) + " " + complaint);
 }
 
+/// The degrees that an attribute has. Not finite: it has none.
+double degrees(const pugi::xml_attribute& attribute) {
+  const std::string_view text = attribute.as_string();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : kNone;
+}
+
 /// The places of nodes. Those of nodes without one are not finite.
 std::map<OsmId, Eigen::Vector2d> read_nodes(const pugi::xml_node& osm, const SdMapConfig& config) {
   const GeographicLib::LocalCartesian projection(config.origin_latitude_deg, config.origin_longitude_deg);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::map<OsmId, Eigen::Vector2d> nodes;
   for (const pugi::xml_node& node : osm.children("node")) {
-    const double lat_deg = node.attribute("lat").as_double(kNone);
-    const double lon_deg = node.attribute("lon").as_double(kNone);
+    const double lat_deg = degrees(node.attribute("lat")), lon_deg = degrees(node.attribute("lon"));
     if (!(std::abs(lat_deg) <= 90.0) || !(std::abs(lon_deg) <= 180.0)) {
       nodes.emplace(id_of(node), Eigen::Vector2d::Constant(kNone));
       continue;

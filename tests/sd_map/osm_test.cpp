@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <utility>
-#include <vector>
+#include <string_view>
 
 #include "config/config_file.hpp"
 #include "mapping/shapes.hpp"
@@ -115,20 +114,19 @@ TEST_F(OsmFile, NamesWhatIsWrong) {
 }
 
 TEST_F(OsmFile, AFileOfAnotherKindIsToldAsThat) {
-  using namespace std::string_literals;
-  const std::vector<std::pair<std::string, std::string>> files{
-      {"\x1f\x8b\x08", "is compressed with gzip"},
-      {"BZh91AY", "is compressed with bzip2"},
-      {"\0\0\0\x0d\x0a\x09OSMHeader\x18"s, "is an extract as PBF"},
-      {R"({"version": 0.6})", "is JSON"},
-      {"streets", "is no XML"},
-      {"<gpx/>", "has no element osm"},
-      {"", "is empty"}};
-  for (const auto& [content, kind] : files) {
+  using namespace std::string_view_literals;
+  const auto expect_told = [&](std::string_view content, const std::string& kind) {
     std::ofstream(config_.file) << content;
     EXPECT_EQ(thrown_by([&] { load_sd_map(config_); }),
               config_.file + ": " + kind + "; an extract as OSM XML (.osm) is needed");
-  }
+  };
+  expect_told("\x1f\x8b\x08"sv, "is compressed with gzip");
+  expect_told("BZh91AY"sv, "is compressed with bzip2");
+  expect_told("\0\0\0\x0d\x0a\x09OSMHeader\x18"sv, "is an extract as PBF");
+  expect_told(R"({"version": 0.6})"sv, "is JSON");
+  expect_told("streets"sv, "is no XML");
+  expect_told("<gpx/>"sv, "has no element osm");
+  expect_told(""sv, "is empty");
 }
 
 TEST_F(OsmFile, TakesLittleMemoryForALongStreet) {
