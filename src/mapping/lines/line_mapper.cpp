@@ -91,11 +91,11 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
 
 /// Samples the detections, takes the suspected pitch and pose error of the frame out of them, and matches
 /// them with the lines. Notes the suspected errors in `from`.
-Association LineMapper::associated(std::vector<markings::ObservedMarking> markings, const Network& network,
+Association LineMapper::associated(std::vector<markings::ObservedMarking> markings, Network& network,
                                    const FusionConfig& config, Viewpoint& from) {
   const Eigen::Isometry3d& T_map_body = from.T_map_body;
   auto detections = sample_detections(join_dashes(std::move(markings)), config);
-  from.stretch_per_m = estimate_stretch_per_m(detections, T_map_body);
+  from.stretch_per_m = network.pitch.news(estimate_stretch_per_m(detections, T_map_body));
   unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
   LineMatcher matcher(lines_, config);
   from.error = align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);

@@ -44,7 +44,7 @@ class LineMapper {
   }
 
  private:
-  Association associated(std::vector<markings::ObservedMarking> markings, const Network& network,
+  Association associated(std::vector<markings::ObservedMarking> markings, Network& network,
                          const FusionConfig& config, Viewpoint& from);
   void join(const FusionConfig& config, std::vector<markings::Relative>& relatives);
 

@@ -62,7 +62,8 @@ std::size_t Networks::number(const std::string& source, std::uint64_t frame, con
                 .frame = frame,
                 .lateral = NetworkModel(config.fusion, profile),
                 .detection = DetectionModel(profile),
-                .standpoint = {}};
+                .standpoint = {},
+                .pitch = {}};
   }
   network->frame = frame;
   return static_cast<std::size_t>(std::distance(networks_.begin(), network));

@@ -40,6 +40,27 @@ class Standpoint {
   bool paused_ = false;            ///< before that one, no view was taken for a second
 };
 
+/// The stretch of a network's frames. A vehicle pitches about where it mostly is: a stretch that stays is
+/// that of the road, whose lines draw together.
+class PitchHistory {
+ public:
+  /// What a frame's stretch has more than those before.
+  double news(double stretch_per_m) {
+    const double news = stretch_per_m - mean_per_m_;
+    mean_per_m_ += kNewest * news;
+    return news;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(mean_per_m_);
+  }
+
+ private:
+  static constexpr double kNewest = 0.25;  // weight of a frame
+  double mean_per_m_ = 0.0;
+};
+
 /// A source of detections, with the models of its network.
 struct Network {
   std::string source;        ///< name that its frames carry
@@ -47,12 +68,13 @@ struct Network {
   NetworkModel lateral;      ///< how it errs in the lateral place of lines
   DetectionModel detection;  ///< how well it tells whether there are lines
   Standpoint standpoint;     ///< of its views
+  PitchHistory pitch;        ///< suspected of its frames
 
   NetworkProfile profile() const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(source, frame, lateral, detection, standpoint);
+    archive(source, frame, lateral, detection, standpoint, pitch);
   }
 };
 

@@ -66,6 +66,14 @@ TEST(Networks, TheOneThatWasNotHeardOfForLongestIsForgotten) {
   EXPECT_NE(networks.find("another"), nullptr);
 }
 
+TEST(PitchHistory, AStretchThatStaysIsThatOfTheRoad) {
+  PitchHistory pitch;
+  EXPECT_EQ(pitch.news(0.004), 0.004);
+  for (int i = 0; i < 30; ++i) pitch.news(0.004);
+  EXPECT_NEAR(pitch.news(0.004), 0.0, 1e-5);
+  EXPECT_NEAR(pitch.news(0.007), 0.003, 1e-5) << "the vehicle pitches, beside the taper";
+}
+
 TEST(Networks, StartsWithWhatTheProfileOfASourceKnows) {
   MapperConfig config;
   config.networks["front"] = {{"stddev_at_26_m", {0.4, 1000}},
