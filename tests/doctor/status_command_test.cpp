@@ -19,6 +19,11 @@ TEST_F(Status, NobodyIsHeard) {
   EXPECT_THAT(output(), HasSubstr("no service of vehicle \"" + vehicle_ + "\" was heard"));
 }
 
+TEST_F(Status, AVehicleIdThatMeansManyVehiclesIsRefused) {
+  EXPECT_NE(run("publish --scenario straight" + of(domain_, "'car_?'")), 0);
+  EXPECT_THAT(output(), HasSubstr("--vehicle-id: \"car_?\" is not 1 to 64 letters"));
+}
+
 TEST_F(Status, TheExitCodeIsTheState) {
   const support::ChildProcess running = start(service_, "service.log");
   ASSERT_TRUE(run_until(once_, [](int code) { return code == 4; })) << output();

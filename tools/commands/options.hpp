@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/dds_values.hpp"
 #include "io/axes.hpp"
 #include "io/text_file.hpp"
 #include "laneloom/config.hpp"
@@ -101,9 +102,10 @@ inline constexpr std::chrono::seconds kDiscovery{1};
 /// Adds the options that tell which service is meant, and how it is reached. Returns them.
 inline std::vector<CLI::Option*> add_dds(CLI::App& command, DdsConfig& dds) {
   auto* domain = command.add_option("--domain", dds.domain, "DDS domain")
-                     ->check(CLI::Range(0, 232))
+                     ->check(CLI::Range(0, kLastDomain))
                      ->capture_default_str();
   auto* vehicle = command.add_option("--vehicle-id", dds.vehicle_id, "Names the vehicle's DDS partition")
+                      ->check(CLI::Validator(identifier_problem, "NAME"))
                       ->capture_default_str();
   auto* transport = command.add_option("--transport", dds.transport, "udp+shm: among processes of one user")
                         ->check(CLI::IsMember({"udp", "udp+shm"}))
