@@ -214,6 +214,16 @@ void add_on_left(const RoadCut& cut, std::size_t at, const LaneConfig& config, C
   }
 }
 
+/// Whether a vehicle drives in a lane of a hypothesis with these places.
+bool drives_in(const VehicleBeside& vehicle, const Hypothesis& one, std::span<const Place> places,
+               const boundaries::SectionGraph& road, const LaneConfig& config) {
+  if (is_open(one.room)) return vehicle.is_in_open(one.room, config.assumed_width_m);
+  if (one.other != one.base) return vehicle.is_left_up_to(road.boundaries[one.other].course, one.room);
+  return std::ranges::any_of(places, [&](const Place& place) {
+    return vehicle.is_near(place.cut.self().point) && vehicle.is_in_width(place.width_m);
+  });
+}
+
 /// Gives hypotheses their log odds.
 std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& cuts,
                                 const boundaries::SectionGraph& road, Poses driven,
@@ -225,16 +235,8 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
   for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(base, found.front().reversed, pose);
   for (Hypothesis& one : found) {
     std::vector<Place> places = places_of(one, cuts);
-    const auto is_in_self = [&](const VehicleBeside& vehicle) {
-      return !is_open(one.room) && one.other == one.base &&
-             std::ranges::any_of(places, [&](const Place& place) {
-               return vehicle.is_near(place.cut.self().point) && vehicle.is_in_width(place.width_m);
-             });
-    };
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
-      if (is_in_self(vehicle)) return true;
-      return is_open(one.room) ? vehicle.is_in_open(one.room, config.assumed_width_m)
-                               : vehicle.is_left_up_to(road.boundaries[one.other].course, one.room);
+      return drives_in(vehicle, one, places, road, config);
     });
     // Two lanes fit into no gore.
     const std::vector<bool> gore =
