@@ -81,6 +81,7 @@ struct LaneReason {
   double by_drive = 0.0;    ///< by the own drive, and by stop lines
   double by_borders = 0.0;  ///< by the borders of the road and the driving side
   double by_trails = 0.0;   ///< by trails of other vehicles
+  double by_streets = 0.0;  ///< by one-way streets of the SD map
   double by_beside = 0.0;   ///< by the lanes beside it
   double direction = 0.0;   ///< the sum, smoothed over frames
 };

@@ -25,7 +25,8 @@ struct SdRestriction {
   bool only = false;  ///< `to_way` is the only way that may be entered; else it may not be entered
 };
 
-/// A standard-definition map: which streets lead into which (paper, Sec. III-D-4). Immutable.
+/// A standard-definition map: which streets lead into which (paper, Sec. III-D-4), and
+/// which are one-way streets. Immutable.
 class SdMap {
  public:
   SdMap() = default;
@@ -44,6 +45,11 @@ class SdMap {
   /// Whether traffic may drive from the end of lane `from` to the start of lane `to`. Both are centerlines in
   /// the map frame, in the direction of traffic.
   Verdict verdict(const Polyline& from, const Polyline& to) const;
+
+  /// Which way traffic runs on the streets around a place: all that are at most 15 m away and run along
+  /// `direction` or against it, by 37 degrees. 1: along it; -1: against it; 0: either way, or there is no
+  /// street. `direction` has unit length. Map frame.
+  int one_way_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
 
  private:
   /// A piece of a way from one node to the next, in a direction in which it may be driven.

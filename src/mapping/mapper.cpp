@@ -195,7 +195,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
                                state.lane_tracks);
   const topology::RoadTraffic traffic{topology::side_by_side(road),
-                                      topology::driven_stretches(state.trails.all(), road.lanes)};
+                                      topology::driven_stretches(state.trails.all(), road.lanes),
+                                      topology::one_way_shares(sd_map_, road.lanes)};
   topology::find_directions(with_observed_side(config_.direction, scene, road, traffic, state), traffic,
                             state.lane_tracks, road, log.reasons());
   link_across_intersections(sd_map_, config_.linkage, road);

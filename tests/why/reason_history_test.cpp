@@ -56,6 +56,7 @@ LaneReason lane_of(LaneReason::Verdict verdict) {
           .confirmed = 3,
           .inferred = 3,
           .by_trails = 1.5,
+          .by_streets = 0.5,
           .direction = 2.0};
 }
 
@@ -94,8 +95,7 @@ TEST(ReasonHistory, ALaneHasItsTermsThoseOfItsDirectionAndItsLines) {
             "at 3, another lane at 1, nothing at 2.");
   EXPECT_EQ(text[3],
             "That its traffic runs along its points has log odds of +2.00, smoothed over frames: +1.50 by "
-            "trails of "
-            "others.");
+            "trails of others, +0.50 by one-way streets of the SD map.");
   EXPECT_EQ(text[4].substr(0, 35), "On its left: laneline 7 is ended: i");
   // A lane that is inferred, or not shown, has fewer.
   frame.lanes[0].inferred = frame.lanes[0].shown;

@@ -72,7 +72,9 @@ std::string direction_of(const LaneReason& lane) {
   for (const auto& [log_odds, by] :
        {std::pair(lane.by_drive, "the own drive and stop lines"),
         std::pair(lane.by_borders, "the borders of the road and the driving side"),
-        std::pair(lane.by_trails, "trails of others"), std::pair(lane.by_beside, "the lanes beside it")})
+        std::pair(lane.by_trails, "trails of others"),
+        std::pair(lane.by_streets, "one-way streets of the SD map"),
+        std::pair(lane.by_beside, "the lanes beside it")})
     if (std::abs(log_odds) >= kNone) terms.push_back(fmt::format("{:+.2f} by {}", log_odds, by));
   if (terms.empty()) terms.emplace_back("nothing tells it now");
   return fmt::format(

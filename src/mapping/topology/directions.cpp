@@ -25,6 +25,7 @@ constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
 constexpr double kTrailEvidence = 1.5;     // of the first trail; the n-th one counts 1/n² of it
+constexpr double kOneWayEvidence = 2.0;    // of a one-way street of the SD map
 constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
 constexpr double kKnown = 1.5;             // from here on, a direction is published
 constexpr double kNews = 0.05;             // share of a frame in the belief in a direction
@@ -98,8 +99,8 @@ struct SideBySideGroups {
 
 /// Log odds are per group, that it runs along its first lane.
 struct Model {
-  std::vector<double> drive, borders, trails;  ///< the terms of the evidence
-  std::vector<double> evidence;                ///< their sum
+  std::vector<double> drive, borders, trails, streets;  ///< the terms of the evidence
+  std::vector<double> evidence;                         ///< their sum
   std::vector<SideBySideGroups> pairs;
 };
 
@@ -205,14 +206,19 @@ Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroup
   Model model{.drive = remembered_evidence(lanes, groups, tracks),
               .borders = {},
               .trails = traffic_evidence(traffic.driven, groups, lanes.size()),
+              .streets = {},
               .evidence = {},
               .pairs = side_by_side_groups(traffic.beside, groups)};
-  std::vector<Mean> borders(lanes.size());
-  for (std::size_t i = 0; i < lanes.size(); ++i)
-    borders[groups.group(i)].add((is_opposed(groups, i) ? -1.0 : 1.0) * side * outermost[i]);
+  std::vector<Mean> borders(lanes.size()), streets(lanes.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
+    borders[groups.group(i)].add(sense * side * outermost[i]);
+    if (!traffic.one_way.empty()) streets[groups.group(i)].add(sense * kOneWayEvidence * traffic.one_way[i]);
+  }
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     model.borders.push_back(borders[i].value());
-    model.evidence.push_back(model.drive[i] + (model.borders[i] + model.trails[i]));
+    model.streets.push_back(streets[i].value());
+    model.evidence.push_back(model.drive[i] + (model.borders[i] + model.trails[i] + model.streets[i]));
   }
   return model;
 }
@@ -283,13 +289,14 @@ double sense_of(double log_odds, double told_direction, double told_orientation)
   return std::abs(log_odds) >= kDoubted ? as_traffic : 1.0;
 }
 
-/// Per group, what tells its direction: its borders, and that the vehicle or others drove in one of its
-/// lanes. The lanes are told that they were driven.
-std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups,
-                                  const std::vector<DrivenStretch>& driven, const lanes::LaneTracks& tracks,
-                                  std::vector<Lane>& lanes) {
+/// Per group, what tells its direction: its borders, that the vehicle or others drove in one of its lanes,
+/// and the SD map. The lanes are told that they were driven.
+std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups, const RoadTraffic& traffic,
+                                  const lanes::LaneTracks& tracks, std::vector<Lane>& lanes) {
   std::vector<Evidence> evidence(lanes.size(), Evidence::none);
-  for (const DrivenStretch& stretch : driven)
+  for (std::size_t i = 0; i < traffic.one_way.size(); ++i)
+    if (traffic.one_way[i] != 0.0) evidence[groups.group(i)] |= Evidence::sd_map;
+  for (const DrivenStretch& stretch : traffic.driven)
     if (std::abs(stretch.along_m) >= kMinDriven_m) lanes[stretch.lane].evidence |= Evidence::traffic;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const lanes::LaneTrack* known = tracks.find(lanes[i].id);
@@ -318,6 +325,7 @@ void explain(const Model& model, std::size_t group, double sense, const GroupBel
   reason.by_drive = sense * model.drive[group];
   reason.by_borders = sense * model.borders[group];
   reason.by_trails = sense * model.trails[group];
+  reason.by_streets = sense * model.streets[group];
   reason.by_beside = sense * (belief.frame - model.evidence[group]);
   reason.direction = sense * belief.followed;
 }
@@ -351,7 +359,7 @@ void find_directions(const DirectionConfig& config, const RoadTraffic& traffic, 
   const Told before = told(road.lanes, groups, tracks);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
-  const std::vector<Evidence> evidence = evidence_of(groups, traffic.driven, tracks, road.lanes);
+  const std::vector<Evidence> evidence = evidence_of(groups, traffic, tracks, road.lanes);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];

@@ -91,6 +91,20 @@ const SdMap::Segment* SdMap::nearest(const Eigen::Vector2d& point, const Eigen::
   return best;
 }
 
+int SdMap::one_way_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const {
+  const auto cell = cells_.find(cell_of(place));
+  if (cell == cells_.end()) return 0;
+  bool along = false, against = false;
+  for (const std::size_t i : cell->second) {
+    const Segment& segment = segments_[i];
+    if (foot_on(segment.from, segment.to, place).distance_m > kMaxDistance_m) continue;
+    const double cosine = (segment.to - segment.from).normalized().dot(direction);
+    along = along || cosine >= kMinCosine;
+    against = against || cosine <= -kMinCosine;
+  }
+  return static_cast<int>(along) - static_cast<int>(against);
+}
+
 bool SdMap::may_follow(const Segment& segment, const Segment& next) const {
   if (next.end == segment.begin) return false;  // about turn
   const std::int64_t from = ways_[segment.way].id, to = ways_[next.way].id;

@@ -74,6 +74,22 @@ int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
 
 }  // namespace
 
+std::vector<double> one_way_shares(const SdMap& sd_map, const std::vector<Lane>& lanes) {
+  std::vector<double> shares;
+  if (sd_map.empty()) return shares;
+  shares.reserve(lanes.size());
+  for (const Lane& lane : lanes) {
+    const MeasuredPolyline line(lane.centerline);
+    double sum = 0.0;
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double arc_m = share * line.length();
+      sum += sd_map.one_way_at(line.at(arc_m).head<2>(), line.direction(arc_m));
+    }
+    shares.push_back(sum / 3.0);
+  }
+  return shares;
+}
+
 std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& trails,
                                             const std::vector<Lane>& lanes) {
   std::vector<DrivenStretch> driven;

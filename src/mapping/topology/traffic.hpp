@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/sd_map.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
 #include "mapping/topology/side_by_side.hpp"
@@ -23,10 +24,16 @@ struct DrivenStretch {
 std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& trails,
                                             const std::vector<Lane>& lanes);
 
-/// The lanes of a road that lie side by side, and the stretches that others drove in its lanes.
+/// Per lane, the share of it on which streets of the map are one-way streets: positive along the lane,
+/// negative against it. Where the map has streets of either direction near the lane, it tells nothing.
+/// Empty: there is no map.
+std::vector<double> one_way_shares(const SdMap& sd_map, const std::vector<Lane>& lanes);
+
+/// The lanes of a road that lie side by side, and what else than their borders tells of their directions.
 struct RoadTraffic {
   std::vector<SideBySideLanes> beside;
-  std::vector<DrivenStretch> driven;  ///< in the order of the trails
+  std::vector<DrivenStretch> driven;  ///< by others; in the order of the trails
+  std::vector<double> one_way;        ///< as one_way_shares() tells
 };
 
 /// Stretches of one trail shorter than this, in metres, tell no direction: the vehicle may have crossed.

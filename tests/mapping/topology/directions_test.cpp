@@ -74,7 +74,7 @@ class Directions : public ::testing::Test {
 
   void find(DrivingSide driving_side = DrivingSide::right) {
     RoadGraph road{{boundaries_, lanes_}, linkages_};
-    find_directions({.driving_side = driving_side}, {side_by_side(road), driven_}, tracks_, road);
+    find_directions({.driving_side = driving_side}, {side_by_side(road), driven_, one_way_}, tracks_, road);
     lanes_ = std::move(road.lanes);
     linkages_ = std::move(road.linkages);
   }
@@ -89,6 +89,7 @@ class Directions : public ::testing::Test {
   std::vector<Lane> lanes_;
   std::vector<Linkage> linkages_;
   std::vector<DrivenStretch> driven_;
+  std::vector<double> one_way_;
   lanes::LaneTracks tracks_;
 };
 
@@ -134,6 +135,31 @@ TEST_F(Directions, OneTrailTellsTheDirectionOfALane) {
   EXPECT_EQ(get(11).evidence, Evidence::traffic);
   EXPECT_FALSE(known(12)) << "nothing tells how the two belong together";
   EXPECT_EQ(get(12).evidence, Evidence::none);
+}
+
+TEST_F(Directions, AOneWayStreetTellsTheDirectionsOfItsLanes) {
+  find(DrivingSide::unknown);
+  ASSERT_FALSE(known(11) || known(12));
+  lanes_[0].evidence = lanes_[1].evidence = Evidence::edges;
+  one_way_ = {1.0, 1.0};
+  find(DrivingSide::unknown);
+  for (const ElementId id : {11U, 12U}) {
+    EXPECT_TRUE(known(id) && runs_forward(id)) << id;
+    EXPECT_EQ(get(id).direction_evidence, Evidence::edges | Evidence::sd_map) << id;
+    EXPECT_EQ(get(id).evidence, Evidence::edges) << "the map does not tell that the lane is there";
+  }
+  one_way_ = {-1.0, -1.0};
+  tracks_ = {};
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(12));
+  EXPECT_FALSE(runs_forward(12));
+}
+
+TEST_F(Directions, TheOwnDriveOutweighsAOneWayStreet) {
+  one_way_ = {-1.0, -1.0};
+  for (int i = 0; i < 10; ++i) observe(test::at(10, 1.75));
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(12) && runs_forward(12));
 }
 
 TEST_F(Directions, AShortTrailTellsNothing) {

@@ -84,6 +84,30 @@ TEST(SdMap, ALongSlantingStreetIsFoundAllAlong) {
   }
 }
 
+TEST(SdMap, AOneWayStreetTellsWhichWayTrafficRunsBesideIt) {
+  const Eigen::Vector2d north = Eigen::Vector2d::UnitY(), east = Eigen::Vector2d::UnitX();
+  std::vector<SdWay> ways = crossing_streets();
+  EXPECT_EQ(SdMap(ways, {}).one_way_at({5, 50}, north), 0) << "either way";
+  ways[1].oneway = true;  // leads north
+  const SdMap map(ways, {});
+  EXPECT_EQ(map.one_way_at({5, 50}, north), 1);
+  EXPECT_EQ(map.one_way_at({-14, 50}, -north), -1);
+  EXPECT_EQ(map.one_way_at({5, 50}, east), 0) << "across the street";
+  EXPECT_EQ(map.one_way_at({16, 50}, north), 0) << "too far away";
+  EXPECT_EQ(map.one_way_at({5000, 50}, north), 0);
+  EXPECT_EQ(SdMap().one_way_at({5, 50}, north), 0);
+}
+
+TEST(SdMap, StreetsOfBothDirectionsSideBySideTellNothing) {
+  const Eigen::Vector2d east = Eigen::Vector2d::UnitX();
+  const SdMap map({{.id = 1, .nodes = {1, 2}, .points = {{-100, 0}, {100, 0}}, .oneway = true},
+                   {.id = 2, .nodes = {3, 4}, .points = {{100, 20}, {-100, 20}}, .oneway = true}},
+                  {});
+  EXPECT_EQ(map.one_way_at({0, 10}, east), 0);
+  EXPECT_EQ(map.one_way_at({0, 2}, east), 1);
+  EXPECT_EQ(map.one_way_at({0, 18}, east), -1);
+}
+
 TEST(SdMap, WaysNeedTheirPoints) {
   EXPECT_THROW(SdMap({{.id = 1, .nodes = {1, 2}, .points = {{0, 0}}}}, {}), std::invalid_argument);
   EXPECT_THROW(SdMap({{.id = 1, .nodes = {1}, .points = {{0, 0}}}}, {}), std::invalid_argument);

@@ -61,6 +61,18 @@ TEST(DrivenStretches, OfAChangeOfLanesAreInTheOrderInWhichTheyWereDriven) {
   EXPECT_EQ(text(driven_stretches({trail(points)}, lanes)), "0:15 1:-15");
 }
 
+TEST(OneWayShares, AreTheShareOfALaneBesideOneWayStreets) {
+  const std::vector<Lane> lanes{lane(1, straight({0, 0, 0}, {40, 0, 0})),
+                                lane(2, straight({40, 3.5, 0}, {0, 3.5, 0}))};
+  const SdMap whole({{.id = 1, .nodes = {1, 2}, .points = {{-100, 2}, {100, 2}}, .oneway = true}}, {});
+  EXPECT_THAT(one_way_shares(whole, lanes), ::testing::ElementsAre(1.0, -1.0));
+  const SdMap part({{.id = 1, .nodes = {1, 2}, .points = {{-100, 2}, {10, 2}}, .oneway = true}}, {});
+  EXPECT_THAT(one_way_shares(part, {lanes[0]}),
+              ::testing::ElementsAre(::testing::DoubleNear(2.0 / 3.0, 1e-9)))
+      << "the street ends 10 m before the middle of the lane";
+  EXPECT_TRUE(one_way_shares(SdMap(), lanes).empty());
+}
+
 /// Two lanes that run along x, with a boundary 2 between them; the vehicle drives in lane 12, on the right.
 class Side : public ::testing::Test {
  protected:
