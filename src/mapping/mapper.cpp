@@ -20,6 +20,7 @@
 #include "mapping/state.hpp"
 #include "mapping/state_bytes.hpp"
 #include "mapping/topology/directions.hpp"
+#include "mapping/topology/driven_linkages.hpp"
 #include "mapping/topology/driven_paths.hpp"
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/topology/intersections.hpp"
@@ -200,6 +201,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   topology::find_directions(with_observed_side(config_.direction, scene, road, traffic, state), traffic,
                             state.lane_tracks, road, log.reasons());
   link_across_intersections(sd_map_, config_.linkage, road);
+  link_traffic(state.trails.all(), traffic.driven, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);
   name_lanes(log.reasons(), state, road);
   meet_at_joints(road);

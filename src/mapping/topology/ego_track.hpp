@@ -1,23 +1,22 @@
 #pragma once
 
 #include <map>
-#include <utility>
 #include <vector>
 
+#include "mapping/topology/driven_linkages.hpp"
 #include "mapping/topology/road_graph.hpp"
 
 namespace laneloom::topology {
 
 /// The way that the vehicle took through the lanes.
 struct EgoTrack {
-  using Step = std::pair<ElementId, ElementId>;  ///< from one lane into another
-  ElementId lane = kNoElement;                   ///< the lane that the vehicle was in last
-  std::vector<Step> steps;                       ///< each once, between lanes that are still in the map
+  ElementId lane = kNoElement;  ///< the lane that the vehicle was in last
+  std::vector<LaneStep> steps;  ///< each once, between lanes that are still in the map
 
   /// Forgets what was driven in lanes that run the other way now.
   void forget(const std::map<ElementId, ElementId>& renamed) {
     std::erase_if(steps,
-                  [&](const Step& s) { return renamed.contains(s.first) || renamed.contains(s.second); });
+                  [&](const LaneStep& s) { return renamed.contains(s.first) || renamed.contains(s.second); });
     if (renamed.contains(lane)) lane = kNoElement;
   }
 

@@ -93,7 +93,7 @@ TEST_F(EgoTrackTest, BackAndForthAtAPlaceIsOneStep) {
     drive(18, 0);
     drive(21, 0);
   }
-  EXPECT_THAT(track_.steps, testing::ElementsAre(EgoTrack::Step(1, 2)));
+  EXPECT_THAT(track_.steps, testing::ElementsAre(LaneStep(1, 2)));
 }
 
 TEST_F(EgoTrackTest, ItStaysInALaneForAsLongAsThatIsThere) {
