@@ -65,7 +65,10 @@ geometry::OrientedGroups group(const RoadGraph& road) {
         const First& first =
             beside.emplace(std::pair(side.of, lanes::forks_before(side, road.forks)), First{i, side.reversed})
                 .first->second;
-        groups.join(first.lane, i, side.reversed != first.reversed);
+        // Where a lane for turning opens in the middle of a road, it has the boundary beside it that had the
+        // oncoming lane beside it before.
+        if (!lanes::are_neighbours(lanes[first.lane], lanes[i]))
+          groups.join(first.lane, i, side.reversed != first.reversed);
       }
     }
   }

@@ -464,6 +464,21 @@ TEST_F(Directions, LanesAlongTheSameSideOfABoundaryRunTheSameWay) {
   EXPECT_TRUE(runs_forward(13));
 }
 
+TEST_F(Directions, BesideTheBoundaryOfTheOncomingLaneALaneForTurningMayOpen) {
+  // Lane 13 opens at x = 20 between boundary 2 and lane 11, which lay beside boundary 2 before.
+  lanes_[0].right_borders = {{2, {0.0, 20.0}, {0.0, 20.0}}, {4, {20.0, 40.0}, {20.0, 40.0}}};
+  lanes_.push_back(lane(13, 1, 20, 40));
+  lanes_.back().left_borders.front().boundary = 4;
+  lanes_.back().right_borders = {{2, {0.0, 20.0}, {20.0, 40.0}}};
+  lanes_[0].right_neighbours = {{.lane = 13, .range = {20.0, 40.0}}};
+  lanes_.back().left_neighbours = {{.lane = 11, .range = {0.0, 20.0}}};
+  boundaries_.push_back(test::boundary(4, straight({20, 5.25, 0}, {40, 5.25, 0})));
+  driven_ = {{.trail = 0, .lane = 2, .along_m = 20.0}};
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(13));
+  EXPECT_FALSE(known(11)) << "it may be the oncoming lane";
+}
+
 TEST_F(Directions, ALaneThatRunsAgainstOthersBesideItsBoundaryIsTurned) {
   // The second stretch of the left lane was built against its boundaries.
   lanes_ = {lane(11, 1, 0, 20), lane(13, 1, 20, 40)};
