@@ -25,6 +25,7 @@ constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
 constexpr double kTrailEvidence = 1.5;     // of the first trail; the n-th one counts 1/n² of it
+constexpr double kCosDriven = 0.8660254;   // 30 degrees; a vehicle at a wider angle crosses the lane
 constexpr double kOneWayEvidence = 2.0;    // of a one-way street of the SD map
 constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
 constexpr double kKnown = 1.5;             // from here on, a direction is published
@@ -309,6 +310,13 @@ std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups, const 
   return evidence;
 }
 
+/// The sense in which the vehicle drives along a lane. 0: it is elsewhere, or crosses the lane on its way
+/// into another road.
+double driven_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
+  const double along = ego_alignment(lane, T_map_body);
+  return std::abs(along) < kCosDriven ? 0.0 : std::copysign(1.0, along);
+}
+
 /// The place for the reasons of a lane. Null: nobody asks.
 LaneReason* reason_of(ElementId id, FrameReasons* reasons) {
   if (reasons == nullptr) return nullptr;
@@ -338,14 +346,14 @@ void explain(const Model& model, std::size_t group, double sense, const GroupBel
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
                         lanes::LaneTracks& tracks) {
-  const auto driven = std::ranges::find_if(
-      lanes, [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body) != 0.0; });
+  const auto driven =
+      std::ranges::find_if(lanes, [&](const Lane& lane) { return driven_sense(lane, T_map_body) != 0.0; });
   for (const Lane& lane : lanes) {
     lanes::LaneTrack* remembered = tracks.find(lane.id);
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
     if (driven != lanes.end() && lanes::are_neighbours(*driven, lane)) log_odds *= kMemory;
-    const double sense = lanes::ego_sense(lane, T_map_body);
+    const double sense = driven_sense(lane, T_map_body);
     remembered->driven = remembered->driven || sense != 0.0;
     log_odds += kEgoEvidence * sense + kStoplineEvidence * stopline_sense(lane, markings, config);
     log_odds = std::clamp(log_odds, -kMaxEvidence, kMaxEvidence);

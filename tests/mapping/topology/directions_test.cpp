@@ -446,6 +446,15 @@ TEST_F(Directions, TheOncomingLaneThatWasOvertakenInIsNotTakenForOurs) {
   EXPECT_FALSE(known(11) && runs_forward(11));
 }
 
+TEST_F(Directions, CrossingTheLaneOnTheWayIntoAnotherRoadSaysNothing) {
+  for (int i = 0; i < 10; ++i) observe(test::at(10, 1.75, 35.0 * std::numbers::pi / 180.0));
+  find(DrivingSide::unknown);
+  EXPECT_FALSE(known(12));
+  for (int i = 0; i < 10; ++i) observe(test::at(10, 1.75, 10.0 * std::numbers::pi / 180.0));
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(12));
+}
+
 TEST_F(Directions, CrossingTheLaneSaysNothing) {
   divider(MarkingStyle::dashed);
   for (int i = 0; i < 10; ++i) observe(test::at(3, 1.75, 0.5 * std::numbers::pi));
