@@ -166,7 +166,7 @@ struct DriftingDrive {
   DriveLines lines;
 
   DriftingDrive(const std::shared_ptr<const simulation::Road>& road, std::uint64_t seed,
-                const Eigen::Isometry3d& offset, double drift) {
+                const Eigen::Isometry3d& offset, double drift, std::size_t most_frames = 100'000) {
     const experiment::DriveSpec spec{
         .road = road, .noise = simulation::noise_profile("inhouse"), .seed = seed};
     simulation::Odometry odometry(transform(road->drive.pose_at(0.0)), drift);
@@ -174,6 +174,7 @@ struct DriftingDrive {
     Mapper mapper(config);
     std::vector<LocalMap> maps;
     for (const experiment::SimulatedFrame& frame : simulate(spec)) {
+      if (maps.size() == most_frames) break;
       told.push_back(offset * odometry.move_to(frame.T_map_body));
       truth.push_back(frame.T_map_body);
       maps.push_back(mapper.update(frame.record.frame, told.back()));
@@ -208,6 +209,18 @@ evaluation::MapScore rated(const char* what, const LocalMap& map, const simulati
               100 * markings.precision(), 100 * markings.recall(), 100 * markings.f1(), markings.acd_m(),
               100 * lanes.precision(), 100 * lanes.recall(), 100 * lanes.f1());
   return evaluation.score();
+}
+
+TEST(ManyDrives, AShortStretchInCommonBendsNoDrive) {
+  const auto road = std::make_shared<const simulation::Road>(simulation::make_scenario("town"));
+  Survey survey;
+  for (const std::size_t frames : {100U, 100'000U}) {
+    const DriftingDrive drive(road, frames == 100U ? 1 : 2, Eigen::Isometry3d::Identity(), 0.0, frames);
+    const Survey::Offset offset = survey.add(drive.lines);
+    // The poses are exact. The heading is found on 100 m, and counts for 1400 m.
+    EXPECT_LT(offset.greatest_deg, 1.5) << frames;
+    EXPECT_LT(offset.greatest_m, 8.0) << frames;
+  }
 }
 
 TEST(ManyDrives, OfTheTownAreABetterMapThanOne) {

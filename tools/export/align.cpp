@@ -20,6 +20,8 @@ using Covariance = Eigen::Matrix<double, 6, 6>;
 // Deviations of a drive's place and drift at first, and of what changes from station to station.
 const State kFirstStddev{{3.0, 3.0, 3.0, 1.0 * kDegree, 0.02, 3e-4}};
 const State kStepStddev{{0.02, 0.02, 0.05, 3e-4, 1e-3, 2e-5}};
+// Where the road is not known, nothing holds the drift that was found: it is forgotten over this.
+constexpr double kDriftMemory_m = 30.0;
 // A sample is met within this, and within kGateSigmas of what is doubted. The errors of a line's samples are
 // not independent: together they count as one every 10 m.
 constexpr double kGate_m = 0.5, kGateSigmas = 2.5, kMaxGate_m = 1.8, kMaxStoplineGate_m = 5.0;
@@ -42,6 +44,7 @@ struct Estimate {
   Eigen::Isometry3d T_road_drive = Eigen::Isometry3d::Identity();
   Eigen::Vector2d drift = Eigen::Vector2d::Zero();
   Covariance covariance = kFirstStddev.cwiseAbs2().asDiagonal();
+  bool is_held = false;  ///< samples of the station lie on the road
 };
 
 Eigen::Vector2d left_of(const Eigen::Vector2d& along) { return {-along.y(), along.x()}; }
@@ -112,14 +115,15 @@ Estimate Follower::predict(std::size_t k, const Estimate& before, Covariance& ca
   carry.block<2, 1>(0, 4) = ahead;
   carry.block<2, 1>(0, 5) = 0.5 * driven_m * left_of(ahead);
   carry(3, 5) = driven_m;
-  Estimate estimate = before;
+  const double kept = before.is_held ? 1.0 : std::exp(-driven_m / kDriftMemory_m);
+  carry.bottomRightCorner<2, 2>() *= kept;
+  Estimate estimate{.T_road_drive = before.T_road_drive};
   State drift = State::Zero();
   drift.tail<2>() = before.drift;
-  State by = carry * drift;
-  by.tail<2>().setZero();
-  change(estimate, by, to);
+  change(estimate, carry * drift, to);
   estimate.covariance = carry * before.covariance * carry.transpose();
   estimate.covariance.diagonal() += driven_m / kStation_m * kStepStddev.cwiseAbs2();
+  estimate.covariance.diagonal().tail<2>() += (1.0 - kept * kept) * kFirstStddev.tail<2>().cwiseAbs2();
   return estimate;
 }
 
@@ -187,6 +191,7 @@ void Follower::correct(std::size_t k, Estimate& estimate) const {
   const Covariance held = prior.covariance.inverse();
   const Point about = place(k, prior.T_road_drive);
   Covariance H = held;
+  estimate.is_held = false;
   for (int i = 0; i < kIterations; ++i) {
     H = held;
     State g = held * difference(prior, estimate, about);
@@ -200,6 +205,7 @@ void Follower::correct(std::size_t k, Estimate& estimate) const {
       const double gate_m = std::min(most_m, kGate_m + kGateSigmas * std::sqrt(a.dot(prior.covariance * a)));
       const auto near = meet(sample, estimate.T_road_drive, gate_m);
       if (!near) continue;
+      estimate.is_held = true;
       const Eigen::Vector2d normal = left_of(near->along);
       const double residual_m = normal.dot((point - near->foot).head<2>());
       const double kernel_m = gate_m / 3.0, weight = 1.0 / (1.0 + std::pow(residual_m / kernel_m, 2));

@@ -13,9 +13,9 @@ namespace laneloom::exports {
 /// m, the lines that the drive left behind since then are laid upon the nearest lines of the road (point to
 /// line, by Gauss-Newton), from where a Kalman filter expects them; it estimates the drift as well. A
 /// Rauch-Tung-Striebel smoother then carries what was found back. Where the road is not known yet, the filter
-/// goes on alone. At the beginning, and where nothing has held the drive for long, places up to 6 m around
-/// are tried, and headings up to 1.5 degrees. A drive that finds no road stays where its poses say. Ours,
-/// beyond the paper.
+/// goes on alone, and soon as the poses say: a drift that was found on a short stretch would bend the rest.
+/// At the beginning, and where nothing has held the drive for long, places up to 6 m around are tried, and
+/// headings up to 1.5 degrees. A drive that finds no road stays where its poses say. Ours, beyond the paper.
 std::vector<Eigen::Isometry3d> align(const DriveLines& drive, const LineArchive& road);
 
 }  // namespace laneloom::exports
