@@ -65,15 +65,18 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
                                            log.reasons()));
 }
 
-/// The configuration with the driving side that traffic keeps to.
-DirectionConfig with_observed_side(DirectionConfig config, const geometry::Scene& scene,
-                                   const topology::RoadGraph& road, const topology::RoadTraffic& traffic,
-                                   MapperState& state) {
+/// The traffic on a road, and the driving side that it keeps to, in place of the configured one.
+topology::RoadTraffic observed_traffic(const topology::RoadGraph& road, const geometry::Scene& scene,
+                                       const SdMap& sd_map, MapperState& state, DirectionConfig& config) {
+  topology::RoadTraffic traffic{.beside = topology::side_by_side(road),
+                                .driven = topology::driven_stretches(state.trails.all(), road.lanes),
+                                .one_way = topology::one_way_shares(sd_map, road.lanes)};
   state.side.observe(road.lanes, traffic, state.lane_tracks, state.trails.all());
-  state.side.observe_passing(state.map.T_map_body.translation(), scene.T_map_body(), road.boundaries,
+  state.side.observe_passing(state.map.T_map_body.translation(), scene.T_map_body(), road,
                              state.trails.all());
+  traffic.is_side_corrected = state.side.contradicts(config.driving_side);
   config.driving_side = state.side.corrected(config.driving_side);
-  return config;
+  return traffic;
 }
 
 /// Renames the lanes that have another id now, because they run the other way.
@@ -195,11 +198,9 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
                                state.lane_tracks);
-  const topology::RoadTraffic traffic{topology::side_by_side(road),
-                                      topology::driven_stretches(state.trails.all(), road.lanes),
-                                      topology::one_way_shares(sd_map_, road.lanes)};
-  topology::find_directions(with_observed_side(config_.direction, scene, road, traffic, state), traffic,
-                            state.lane_tracks, road, log.reasons());
+  DirectionConfig direction = config_.direction;
+  const topology::RoadTraffic traffic = observed_traffic(road, scene, sd_map_, state, direction);
+  topology::find_directions(direction, traffic, state.lane_tracks, road, log.reasons());
   link_across_intersections(sd_map_, config_.linkage, road);
   link_traffic(state.trails.all(), traffic.driven, road);
   link_ego_track(scene.T_map_body(), state.ego_track, road);

@@ -7,6 +7,7 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/topology/line_places.hpp"
 
 namespace laneloom::topology {
@@ -16,13 +17,14 @@ constexpr double kMaxLateral_m = 1.2;       // beside the middle of a lane
 constexpr double kCosMaxAngle = 0.8660254;  // 30 degrees
 
 // An oncoming vehicle passes the own one within these.
-constexpr double kAbreast_m = 5.0;                           // ahead or behind
-constexpr double kMinPassing_m = 2.0, kMaxPassing_m = 12.0;  // aside
-constexpr double kCosOncoming = -0.94;                       // 20 degrees from the opposite heading
-constexpr double kMoving_m = 0.1;                            // of the vehicle, since the frame before
+constexpr double kAbreast_m = 5.0;                          // ahead or behind
+constexpr double kMinPassing_m = 2.0, kMaxPassing_m = 7.0;  // aside
+constexpr double kStraight_m = 15.0;                        // that either has driven straight on
+constexpr double kCosStraight = 0.985;                      // 10 degrees
+constexpr double kMoving_m = 0.1;                           // of the vehicle, since the frame before
 
 constexpr double kKnownSense = 2.0;  // log odds from which on the own drive tells the direction of a lane
-constexpr int kBelieved = 2;         // trails that must tell the driving side
+constexpr int kBelieved = 3;         // trails that must tell the driving side
 constexpr int kMaxTold = 4;          // trails that are remembered, so that a country's border is noticed
 
 /// The lane that a vehicle drives in at a place. `along` is positive if it drives along the lane's points.
@@ -59,16 +61,26 @@ std::vector<double> senses(const std::vector<Lane>& lanes, const std::vector<Dri
   return sense;
 }
 
+/// The unit direction of the last metres of a trail, if it is long enough and straight; else zero.
+Eigen::Vector2d last_course(const trails::Trail& trail) {
+  const Point& end = trail.points.back();
+  const auto begin = std::find_if(trail.points.rbegin(), trail.points.rend(), [&](const Point& point) {
+    return (point - end).head<2>().norm() >= kStraight_m;
+  });
+  if (begin == trail.points.rend()) return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d course = (end - *begin).head<2>().normalized();
+  return course.dot(trail.heading) < kCosStraight ? Eigen::Vector2d::Zero() : course;
+}
+
 /// Whether an oncoming vehicle passes the own one: 1 on its left, as right-hand traffic does; -1 on its
 /// right; 0: it does not.
 int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
   const Eigen::Vector2d ahead = T_map_body.linear().col(0).head<2>().normalized();
   const Eigen::Vector2d offset = (trail.position - T_map_body.translation()).head<2>();
   const double aside_m = cross(ahead, offset);
-  if (std::abs(ahead.dot(offset)) > kAbreast_m || trail.heading.dot(ahead) > kCosOncoming) return 0;
+  if (std::abs(ahead.dot(offset)) > kAbreast_m || last_course(trail).dot(ahead) > -kCosStraight) return 0;
   if (std::abs(aside_m) < kMinPassing_m || std::abs(aside_m) > kMaxPassing_m) return 0;
   if (!geometry::may_drive_on(trail.position, T_map_body.translation())) return 0;
-  if (trail.points.size() < 2 || length(trail.points) < kMinDriven_m) return 0;
   return aside_m > 0.0 ? 1 : -1;
 }
 
@@ -134,26 +146,45 @@ void ObservedSide::observe(const std::vector<Lane>& lanes, const RoadTraffic& tr
   }
 }
 
+bool ObservedSide::drives_straight(const Eigen::Isometry3d& T_map_body) {
+  const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>().normalized();
+  const Point place = T_map_body.translation();
+  if (heading.dot(straight_heading_) < kCosStraight) {
+    straight_from_ = place;
+    straight_heading_ = heading;
+  }
+  return (place - straight_from_).head<2>().norm() >= kStraight_m;
+}
+
 void ObservedSide::observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
-                                   const boundaries::Boundaries& boundaries,
-                                   std::vector<trails::Trail>& trails) {
-  if ((T_map_body.translation() - before).head<2>().norm() < kMoving_m) return;
+                                   const lanes::LaneLayout& layout, std::vector<trails::Trail>& trails) {
+  const bool is_straight = drives_straight(T_map_body);
+  if (!is_straight || (T_map_body.translation() - before).head<2>().norm() < kMoving_m ||
+      std::ranges::none_of(layout.lanes,
+                           [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body) != 0.0; }))
+    return;
   for (trails::Trail& trail : trails) {
     const int side = trail.told_side ? 0 : passing(trail, T_map_body);
     const Point& other = trail.position;
-    if (side == 0 ||
-        boundaries::crosses_edge({geometry::lowered(T_map_body.translation(), other), other}, boundaries))
+    if (side == 0 || boundaries::crosses_edge({geometry::lowered(T_map_body.translation(), other), other},
+                                              layout.boundaries))
       continue;
     trail.told_side = true;
     tell(side);
   }
 }
 
-void ObservedSide::tell(int side) { right_ = std::clamp(right_ + side, -kMaxTold, kMaxTold); }
+void ObservedSide::tell(int side) {
+  told_ = std::clamp(told_ + side, -kMaxTold, kMaxTold);
+  if (std::abs(told_) >= kBelieved)
+    believed_ = told_ > 0 ? 1 : -1;
+  else if (told_ * believed_ <= 0)
+    believed_ = 0;
+}
 
 bool ObservedSide::contradicts(DrivingSide driving_side) const {
   if (driving_side == DrivingSide::unknown) return false;
-  return (driving_side == DrivingSide::right ? -right_ : right_) >= kBelieved;
+  return believed_ == (driving_side == DrivingSide::right ? -1 : 1);
 }
 
 DrivingSide ObservedSide::corrected(DrivingSide driving_side) const {

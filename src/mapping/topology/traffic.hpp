@@ -34,6 +34,7 @@ struct RoadTraffic {
   std::vector<SideBySideLanes> beside;
   std::vector<DrivenStretch> driven;  ///< by others; in the order of the trails
   std::vector<double> one_way;        ///< as one_way_shares() tells
+  bool is_side_corrected = false;     ///< traffic contradicts the configured driving side
 };
 
 /// Stretches of one trail shorter than this, in metres, tell no direction: the vehicle may have crossed.
@@ -46,26 +47,30 @@ class ObservedSide {
   /// one the other way in the next lane of the same road.
   void observe(const std::vector<Lane>& lanes, const RoadTraffic& traffic, const lanes::LaneTracks& tracks,
                std::vector<trails::Trail>& trails);
-  /// Takes what oncoming vehicles tell that pass the own one while it moves, whatever lanes are known, and no
-  /// edge that was seen lies between: beyond one, they may drive on another road. `before` is the place of
-  /// the own vehicle in the frame before, map frame.
+  /// Takes what oncoming vehicles tell that pass the own one while it moves in a lane. Both drive straight
+  /// on: on a turn, vehicles pass on either side. No edge that was seen lies between: beyond one, they may
+  /// drive on another road. `before` is the place of the own vehicle in the frame before, map frame.
   void observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
-                       const boundaries::Boundaries& boundaries, std::vector<trails::Trail>& trails);
-  /// Whether traffic keeps to the other side than `driving_side`. Two vehicles more have told so than have
-  /// told the contrary.
+                       const lanes::LaneLayout& layout, std::vector<trails::Trail>& trails);
+  /// Whether traffic keeps to the other side than `driving_side`. Three vehicles more have told so than have
+  /// told the contrary, and since then not as many have told the contrary.
   bool contradicts(DrivingSide driving_side) const;
   /// The side on which traffic keeps: the other one where it contradicts `driving_side`.
   DrivingSide corrected(DrivingSide driving_side) const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(right_);
+    archive(told_, believed_, straight_from_, straight_heading_);
   }
 
  private:
+  bool drives_straight(const Eigen::Isometry3d& T_map_body);
   void tell(int side);
 
-  int right_ = 0;  ///< number of trails that told "right", less those that told "left"; limited
+  int told_ = 0;      ///< number of trails that told "right", less those that told "left"; limited
+  int believed_ = 0;  ///< 1: right; -1: left; 0: neither
+  Point straight_from_ = Point::Zero();  ///< where the own vehicle began to drive straight on, map frame
+  Eigen::Vector2d straight_heading_ = Eigen::Vector2d::Zero();  ///< there; zero: nowhere yet
 };
 
 }  // namespace laneloom::topology

@@ -115,8 +115,8 @@ TEST_F(Side, TrafficThatMeetsOnTheLeftContradictsNoRightHandTraffic) {
   EXPECT_FALSE(side_.contradicts(DrivingSide::unknown));
 }
 
-TEST_F(Side, ASingleVehicleContradictsNothing) {
-  meet(1);
+TEST_F(Side, TwoVehiclesContradictNothing) {
+  meet(2);
   EXPECT_FALSE(side_.contradicts(DrivingSide::left));
   meet(1);
   EXPECT_TRUE(side_.contradicts(DrivingSide::left));
@@ -124,13 +124,13 @@ TEST_F(Side, ASingleVehicleContradictsNothing) {
 
 TEST_F(Side, TheVehicleOnTheLeftLaneTellsTheOtherSide) {
   tracks_ = lanes::LaneTracks({{.id = 11, .direction_log_odds = -4.0}, {.id = 12}});
-  for (int i = 0; i < 2; ++i) trails_.push_back(trail(driven({5, 1.75, 0}, {30, 1.75, 0})));
+  for (int i = 0; i < 3; ++i) trails_.push_back(trail(driven({5, 1.75, 0}, {30, 1.75, 0})));
   meet(0);
   EXPECT_TRUE(side_.contradicts(DrivingSide::left));
   side_ = {};
   trails_.clear();
   tracks_ = lanes::LaneTracks({{.id = 11, .direction_log_odds = 4.0}, {.id = 12}});
-  for (int i = 0; i < 2; ++i) trails_.push_back(trail(driven({30, 1.75, 0}, {5, 1.75, 0})));
+  for (int i = 0; i < 3; ++i) trails_.push_back(trail(driven({30, 1.75, 0}, {5, 1.75, 0})));
   meet(0);
   EXPECT_TRUE(side_.contradicts(DrivingSide::right)) << "oncoming traffic is on the right";
   EXPECT_FALSE(side_.contradicts(DrivingSide::left));
@@ -147,71 +147,122 @@ TEST_F(Side, ACountrysBorderIsNoticed) {
   meet(20);
   tracks_ = lanes::LaneTracks({{.id = 11, .direction_log_odds = 4.0}, {.id = 12}});
   trails_.clear();
-  for (int i = 0; i < 6; ++i) trails_.push_back(trail(driven({30, 1.75, 0}, {5, 1.75, 0})));
+  for (int i = 0; i < 7; ++i) trails_.push_back(trail(driven({30, 1.75, 0}, {5, 1.75, 0})));
   meet(0);
   EXPECT_TRUE(side_.contradicts(DrivingSide::right));
 }
 
-/// The vehicle drives along x, a metre from frame to frame, and meets others there.
+/// The vehicle drives along x in a lane, a metre from frame to frame, and meets others there.
 class Passing : public ::testing::Test {
  protected:
-  /// Vehicles that passed the own one at so many metres on its left, and go on straight towards it.
-  void meet(int vehicles, double left_m, const Eigen::Vector2d& heading = {-1, 0}, double z = 0.0) {
-    std::vector<trails::Trail> trails;
-    for (int i = 0; i < vehicles; ++i) {
-      trails.push_back(trail(driven({30, left_m, z}, {1, left_m, z})));
-      trails.back().position = {1, left_m, z};
-      trails.back().heading = heading;
+  /// The way that a vehicle drove which passes the own one at so many metres on its left.
+  static trails::Trail straight_past(double left_m, double z = 0.0) {
+    trails::Trail one = trail(driven({30, left_m, z}, {1, left_m, z}));
+    one.position = one.points.back();
+    one.heading = {-1, 0};
+    return one;
+  }
+  void meet(int vehicles, double left_m) { meet(vehicles, straight_past(left_m)); }
+  void meet(int vehicles, const trails::Trail& one) {
+    std::vector<trails::Trail> trails(static_cast<std::size_t>(vehicles), one);
+    Point before = own_.front().translation();
+    for (const Eigen::Isometry3d& pose : own_) {
+      side_.observe_passing(before, pose, layout_, trails);
+      before = pose.translation();
     }
-    double before_m = 0.0;
-    for (const double x : {0.0, moved_m_, 2.0 * moved_m_, -100.0}) {
-      side_.observe_passing({before_m, 0, 0}, test::at(x), boundaries_, trails);
-      before_m = x;
-    }
+  }
+  /// The poses on the way to x = 1 and back, far from where others pass.
+  static std::vector<Eigen::Isometry3d> straight_on() {
+    std::vector<Eigen::Isometry3d> poses;
+    for (double x = -20.0; x <= 1.0; x += 1.0) poses.push_back(test::at(x));
+    poses.push_back(test::at(-100.0));
+    return poses;
   }
   DrivingSide told_for(DrivingSide configured) const { return side_.corrected(configured); }
 
-  double moved_m_ = 1.0;
-  boundaries::Boundaries boundaries_;
+  std::vector<Eigen::Isometry3d> own_ = straight_on();
+  lanes::LaneLayout layout_{{}, {own_lane()}};
   ObservedSide side_;
+
+ private:
+  static Lane own_lane() {
+    Lane own = lane(1, straight({-30, 0, 0}, {40, 0, 0}));
+    own.left = straight({-30, 1.75, 0}, {40, 1.75, 0});
+    own.right = straight({-30, -1.75, 0}, {40, -1.75, 0});
+    return own;
+  }
 };
 
 TEST_F(Passing, OnTheRightTellsLeftHandTraffic) {
-  meet(1, -3.5);
-  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right) << "one vehicle, which tells it once";
-  meet(1, -10.0);
+  meet(2, -3.5);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right) << "two vehicles, each of which tells it once";
+  meet(1, -6.0);
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::left);
   EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::left);
   EXPECT_EQ(told_for(DrivingSide::unknown), DrivingSide::unknown);
 }
 
 TEST_F(Passing, OnTheLeftTellsRightHandTraffic) {
-  meet(2, 3.5);
+  meet(3, 3.5);
   EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::right);
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+}
+
+TEST_F(Passing, WhatIsBelievedStaysUntilAsManyTellTheContrary) {
+  meet(3, -3.5);
+  for (int i = 0; i < 5; ++i) {
+    meet(1, 3.5);
+    meet(1, -3.5);
+    EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::left) << i;
+  }
+  meet(3, 3.5);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+  EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::left) << "nor is the contrary believed yet";
 }
 
 /// A service road, beyond the kerb.
 TEST_F(Passing, BeyondAnEdgeThatWasSeenTellsNothing) {
-  boundaries_ =
+  layout_.boundaries =
       std::vector{test::boundary(1, test::straight({-20, -1.8, 0}, {40, -1.8, 0}), MarkingType::roadedge)};
-  meet(4, -8.0);
+  meet(4, -6.0);
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
-  meet(2, 3.5);
+  meet(3, 3.5);
   EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::right);
 }
 
-TEST_F(Passing, IsNotTurningNorFarAsideNorOnABridge) {
-  meet(4, -15.0);
+TEST_F(Passing, IsNotFarAsideNorOnABridgeNorTheSameWay) {
+  meet(4, -10.5);
   meet(4, -1.0);
-  meet(4, -3.5, Eigen::Vector2d(-1, 1).normalized());
-  meet(4, -3.5, {1, 0});
-  meet(4, -3.5, {-1, 0}, 6.0);
+  meet(4, straight_past(-3.5, 6.0));
+  trails::Trail same_way = straight_past(-3.5);
+  std::ranges::reverse(same_way.points);
+  same_way.position = same_way.points.back();
+  same_way.heading = {1, 0};
+  meet(4, same_way);
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
 }
 
-TEST_F(Passing, AVehicleThatStandsIsPassedOnAnySide) {
-  moved_m_ = 0.0;
+TEST_F(Passing, OfAVehicleThatTurnsTellsNothing) {
+  trails::Trail turning = straight_past(-3.5);
+  turning.heading = Eigen::Vector2d(-1, 1).normalized();
+  meet(4, turning);
+  trails::Trail turned = trail(driven({10, -12, 0}, {10, -3.5, 0}));
+  for (const Point& point : driven({9, -3.5, 0}, {1, -3.5, 0})) turned.points.push_back(point);
+  turned.position = turned.points.back();
+  turned.heading = {-1, 0};
+  meet(4, turned);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+}
+
+TEST_F(Passing, TellsNothingWhileTheVehicleTurnsStandsOrIsInNoLane) {
+  const std::vector<Eigen::Isometry3d> straight = own_;
+  for (std::size_t i = 0; i < own_.size(); ++i)
+    own_[i] = test::at(straight[i].translation().x(), 0.0, 0.02 * static_cast<double>(i) - 0.42);
+  meet(4, -3.5);
+  own_.assign(20, test::at(1.0));
+  meet(4, -3.5);
+  own_ = straight;
+  layout_.lanes.clear();
   meet(4, -3.5);
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
 }
