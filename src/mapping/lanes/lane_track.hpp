@@ -42,15 +42,16 @@ struct LaneTrack {
   Point begin = Point::Zero();        ///< of the centerline that the map was given last
   int published = 0;  ///< 1: the last map's lane ran along the stations; -1: against them; 0: a new lane
   // What is known of the direction of traffic; log odds are positive along the stations.
-  double direction_log_odds = 0.0;  ///< of what was observed
-  double belief = 0.0;              ///< log odds of its direction, smoothed over frames
+  double direction_log_odds = 0.0;            ///< of what was observed
+  double belief = 0.0;                        ///< log odds of its direction, smoothed over frames
+  Evidence belief_evidence = Evidence::none;  ///< what they rest on
   int told_direction = 0;  ///< 1, -1: the last map told that traffic runs so; 0: it told no direction
   bool driven = false;     ///< by the vehicle
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(id, stations, parted, section, begin, published, direction_log_odds, belief, told_direction,
-            driven);
+    archive(id, stations, parted, section, begin, published, direction_log_odds, belief, belief_evidence,
+            told_direction, driven);
   }
 };
 

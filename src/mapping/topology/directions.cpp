@@ -24,14 +24,22 @@ constexpr double kMemory = 0.98;  // factor per frame beside the lane, where the
 constexpr double kMaxEvidence = 6.0;
 constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
-constexpr double kTrailEvidence = 1.5;     // of the first trail; the n-th one counts 1/n² of it
-constexpr double kCosDriven = 0.8660254;   // 30 degrees; a vehicle at a wider angle crosses the lane
-constexpr double kOneWayEvidence = 2.0;    // of a one-way street of the SD map
-constexpr double kWrongSide = -6.0;        // for traffic that keeps to the wrong side
-constexpr double kKnown = 1.5;             // from here on, a direction is published
-constexpr double kNews = 0.05;             // share of a frame in the belief in a direction
-constexpr double kGrowth = 0.3;            // likewise, where the frame says more than the belief
-constexpr double kDoubted = 0.5;           // below, a direction is published no longer
+// Of the first trail in a lane; the n-th one counts 1/n² of it.
+constexpr double kTrailEvidence = 1.5;
+constexpr double kOncomingEvidence =
+    3.0;  // beside the own way and against it: nobody drives there by mistake
+constexpr double kOvertakingEvidence = 0.5;  // beside the own way and along it
+constexpr double kCosDriven = 0.8660254;     // 30 degrees; a vehicle at a wider angle crosses the lane
+constexpr double kOneWayEvidence = 2.0;      // of a one-way street of the SD map
+constexpr double kWrongSide = -6.0;          // for traffic that keeps to the wrong side
+constexpr double kWrongObserved = -4.0;      // likewise, where traffic told the side
+constexpr double kOwnWay = 2.0;              // from here on, the lane is known to be the own way's
+constexpr double kTells = 0.05;              // a term that is less tells nothing
+constexpr double kRemembered = 0.5;          // of a belief, beyond what the frame says
+constexpr double kKnown = 1.5;               // from here on, a direction is published
+constexpr double kNews = 0.05;               // share of a frame in the belief in a direction
+constexpr double kGrowth = 0.3;              // likewise, where the frame says more than the belief
+constexpr double kDoubted = 0.5;             // below, a direction is published no longer
 
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
 
@@ -158,29 +166,6 @@ std::vector<double> remembered_evidence(const std::vector<Lane>& lanes,
   return observed;
 }
 
-/// Per group, the log odds of its direction by the trails in its lanes. A trail counts once, as it was mostly
-/// driven. `driven` is in the order of the trails.
-std::vector<double> traffic_evidence(const std::vector<DrivenStretch>& driven,
-                                     const geometry::OrientedGroups& groups, std::size_t lanes) {
-  std::vector<double> evidence(lanes, 0.0), along_m(lanes, 0.0);
-  std::vector<std::array<int, 2>> trails(lanes);  // that were driven along and against
-  for (auto first = driven.begin(); first != driven.end();) {
-    const auto end = std::find_if(first, driven.end(),
-                                  [&](const DrivenStretch& one) { return one.trail != first->trail; });
-    for (auto stretch = first; stretch != end; ++stretch)
-      along_m[groups.group(stretch->lane)] +=
-          is_opposed(groups, stretch->lane) ? -stretch->along_m : stretch->along_m;
-    for (; first != end; ++first) {
-      const std::size_t group = groups.group(first->lane);
-      const double length_m = std::exchange(along_m[group], 0.0);
-      if (std::abs(length_m) < kMinDriven_m) continue;
-      const int number = ++trails[group][length_m > 0.0 ? 0 : 1];
-      evidence[group] += std::copysign(kTrailEvidence / (number * number), length_m);
-    }
-  }
-  return evidence;
-}
-
 std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLanes>& beside,
                                                   const geometry::OrientedGroups& groups) {
   struct Sum {
@@ -203,16 +188,64 @@ std::vector<SideBySideGroups> side_by_side_groups(const std::vector<SideBySideLa
   return pairs;
 }
 
+/// Per group, the log odds that the vehicle drove along the group beside it; 0: it is not known to have
+/// driven beside this one.
+std::vector<double> own_way_beside(const std::vector<double>& drive,
+                                   const std::vector<SideBySideGroups>& pairs) {
+  std::vector<double> beside(drive.size(), 0.0);
+  const auto note = [&](std::size_t group, std::size_t other) {
+    const bool is_own = std::abs(drive[group]) >= kOwnWay;
+    if (!is_own && std::abs(drive[other]) >= kOwnWay) beside[group] = drive[other];
+  };
+  for (const SideBySideGroups& pair : pairs) {
+    if (pair.may_part) continue;
+    note(pair.left, pair.right);
+    note(pair.right, pair.left);
+  }
+  return beside;
+}
+
+/// The log odds of a trail, by how far it was driven along a group and by the own way beside.
+double trail_evidence(double along_m, double own_way_beside) {
+  if (own_way_beside == 0.0) return kTrailEvidence;
+  return along_m * own_way_beside < 0.0 ? kOncomingEvidence : kOvertakingEvidence;
+}
+
+/// Per group, the log odds of its direction by the trails in its lanes. A trail counts once, as it was mostly
+/// driven. `driven` is in the order of the trails. `beside` is as own_way_beside() tells.
+std::vector<double> traffic_evidence(const std::vector<DrivenStretch>& driven,
+                                     const geometry::OrientedGroups& groups,
+                                     const std::vector<double>& beside) {
+  std::vector<double> evidence(beside.size(), 0.0), along_m(beside.size(), 0.0);
+  std::vector<std::array<int, 2>> trails(beside.size());  // that were driven along and against
+  for (auto first = driven.begin(); first != driven.end();) {
+    const auto end = std::find_if(first, driven.end(),
+                                  [&](const DrivenStretch& one) { return one.trail != first->trail; });
+    for (auto stretch = first; stretch != end; ++stretch)
+      along_m[groups.group(stretch->lane)] +=
+          is_opposed(groups, stretch->lane) ? -stretch->along_m : stretch->along_m;
+    for (; first != end; ++first) {
+      const std::size_t group = groups.group(first->lane);
+      const double length_m = std::exchange(along_m[group], 0.0);
+      if (std::abs(length_m) < kMinDriven_m) continue;
+      const int number = ++trails[group][length_m > 0.0 ? 0 : 1];
+      evidence[group] += std::copysign(trail_evidence(length_m, beside[group]) / (number * number), length_m);
+    }
+  }
+  return evidence;
+}
+
 Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroups& groups,
                   const RoadTraffic& traffic, const lanes::LaneTracks& tracks, double side) {
   const std::vector<Lane>& lanes = layout.lanes;
   const std::vector<double> outermost = outermost_evidence(layout, traffic.beside);
   Model model{.drive = remembered_evidence(lanes, groups, tracks),
               .borders = {},
-              .trails = traffic_evidence(traffic.driven, groups, lanes.size()),
+              .trails = {},
               .streets = {},
               .evidence = {},
               .pairs = side_by_side_groups(traffic.beside, groups)};
+  model.trails = traffic_evidence(traffic.driven, groups, own_way_beside(model.drive, model.pairs));
   std::vector<Mean> borders(lanes.size()), streets(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
@@ -229,14 +262,14 @@ Model build_model(const lanes::LaneLayout& layout, const geometry::OrientedGroup
 
 /// Per group, the log odds of its direction in the most likely solution (max-product). Only maxima and sums
 /// are computed, so that the result is the same to the last bit on every host.
-std::vector<double> beliefs(Model model, double side) {
+std::vector<double> beliefs(double side, double wrong_side, Model& model) {
   std::vector<double> belief = model.evidence;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> next = model.evidence;
     for (SideBySideGroups& pair : model.pairs) {
       // `meeting`: the left group runs against its first lane and the right one along its own, as right-hand
       // traffic meets. `parting`: the reverse.
-      const double wrong = pair.may_part ? std::min(0.0, pair.opposed) : kWrongSide;
+      const double wrong = pair.may_part ? std::min(0.0, pair.opposed) : wrong_side;
       const double meeting = side < 0.0 ? wrong : pair.opposed;
       const double parting = side > 0.0 ? wrong : pair.opposed;
       const double left = belief[pair.left] - pair.to_left, right = belief[pair.right] - pair.to_right;
@@ -293,21 +326,51 @@ double sense_of(double log_odds, double told_direction, double told_orientation)
   return std::abs(log_odds) >= kDoubted ? as_traffic : 1.0;
 }
 
-/// Per group, what tells its direction: its borders, that the vehicle or others drove in one of its lanes,
-/// and the SD map. The lanes are told that they were driven.
-std::vector<Evidence> evidence_of(const geometry::OrientedGroups& groups, const RoadTraffic& traffic,
-                                  const lanes::LaneTracks& tracks, std::vector<Lane>& lanes) {
-  std::vector<Evidence> evidence(lanes.size(), Evidence::none);
-  for (std::size_t i = 0; i < traffic.one_way.size(); ++i)
-    if (traffic.one_way[i] != 0.0) evidence[groups.group(i)] |= Evidence::sd_map;
-  for (const DrivenStretch& stretch : traffic.driven)
+/// The lanes are told that the vehicle or others drove in them.
+void note_driven(const std::vector<DrivenStretch>& driven, const lanes::LaneTracks& tracks,
+                 std::vector<Lane>& lanes) {
+  for (const DrivenStretch& stretch : driven)
     if (std::abs(stretch.along_m) >= kMinDriven_m) lanes[stretch.lane].evidence |= Evidence::traffic;
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const lanes::LaneTrack* known = tracks.find(lanes[i].id);
-    if (known != nullptr && known->driven) lanes[i].evidence |= Evidence::ego_path;
-    evidence[groups.group(i)] |= lanes[i].evidence;
+  for (Lane& lane : lanes)
+    if (const lanes::LaneTrack* known = tracks.find(lane.id); known != nullptr && known->driven)
+      lane.evidence |= Evidence::ego_path;
+}
+
+/// Per group, what tells its direction in this frame: terms of its own, and those of the groups beside that
+/// count for it. Where traffic told the driving side, all that the side decides rests on traffic.
+std::vector<Evidence> evidence_of(const Model& model, const geometry::OrientedGroups& groups,
+                                  const std::vector<Lane>& lanes, const RoadTraffic& traffic) {
+  const std::size_t count = lanes.size();
+  std::vector<Evidence> borders(count, Evidence::none), evidence(count, Evidence::none);
+  std::vector<bool> driven(count, false);
+  for (std::size_t i = 0; i < count; ++i) {
+    borders[groups.group(i)] |= lanes[i].evidence & (Evidence::markings | Evidence::edges);
+    if (overlap(lanes[i].evidence, Evidence::ego_path)) driven[groups.group(i)] = true;
   }
+  const auto tells = [](double log_odds) { return std::abs(log_odds) >= kTells; };
+  const Evidence by_side = traffic.is_side_corrected ? Evidence::traffic : Evidence::none;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (tells(model.drive[i])) evidence[i] |= driven[i] ? Evidence::ego_path : Evidence::markings;
+    if (tells(model.borders[i])) evidence[i] |= borders[i] | by_side;
+    if (tells(model.trails[i])) evidence[i] |= Evidence::traffic;
+    if (tells(model.streets[i])) evidence[i] |= Evidence::sd_map;
+  }
+  const auto spread = [&](double message, std::size_t from, std::size_t to) {
+    if (tells(message)) evidence[to] |= evidence[from] | borders[to] | by_side;
+  };
+  for (int round = 0; round < kRounds; ++round)
+    for (const SideBySideGroups& pair : model.pairs) {
+      spread(pair.to_left, pair.right, pair.left);
+      spread(pair.to_right, pair.left, pair.right);
+    }
   return evidence;
+}
+
+/// What a belief rests on: what tells it now and, as long as it is more than that, what told it before.
+Evidence followed(const lanes::LaneTrack& track, Evidence now, double belief, double frame) {
+  const bool explained =
+      std::abs(belief) <= kRemembered || belief * frame >= belief * belief - kRemembered * std::abs(belief);
+  return explained ? now : now | track.belief_evidence;
 }
 
 /// The sense in which the vehicle drives along a lane. 0: it is elsewhere, or crosses the lane on its way
@@ -364,23 +427,29 @@ void find_directions(const DirectionConfig& config, const RoadTraffic& traffic, 
                      RoadGraph& road, FrameReasons* reasons) {
   const geometry::OrientedGroups groups = group(road);
   const double side = driving_side(config);
-  const Model model = build_model(road, groups, traffic, tracks, side);
-  const std::vector<double> now = beliefs(model, side);
+  Model model = build_model(road, groups, traffic, tracks, side);
+  const std::vector<double> now =
+      beliefs(side, traffic.is_side_corrected ? kWrongObserved : kWrongSide, model);
   std::vector<double> belief = now;
   const Told before = told(road.lanes, groups, tracks);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
-  const std::vector<Evidence> evidence = evidence_of(groups, traffic, tracks, road.lanes);
+  note_driven(traffic.driven, tracks, road.lanes);
+  const std::vector<Evidence> evidence = evidence_of(model, groups, road.lanes, traffic);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];
     const std::size_t of = groups.group(i);
     const double sense = is_opposed(groups, i) ? -1.0 : 1.0;
-    if (lanes::LaneTrack* track = tracks.find(lane.id)) track->belief = sense * belief[of];
+    Evidence rests_on = evidence[of];
+    if (lanes::LaneTrack* track = tracks.find(lane.id)) {
+      track->belief = sense * belief[of];
+      rests_on = track->belief_evidence = followed(*track, rests_on, belief[of], now[of]);
+    }
     if (is_known(belief[of], before.direction[of])) {
       lane.direction = Lane::Direction::along_centerline;
       lane.direction_probability = geometry::reproducible::probability(std::abs(belief[of]));
-      lane.direction_evidence = evidence[of];
+      lane.direction_evidence = rests_on == Evidence::none ? lane.evidence : rests_on;
     }
     const bool turns = sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0;
     if (turns) against.push_back(lane.id);

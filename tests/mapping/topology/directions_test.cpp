@@ -121,7 +121,7 @@ TEST_F(Directions, ADirectionHasAProbabilityAndEvidence) {
     EXPECT_LT(get(12).direction_probability, 1.0);
     before = get(12).direction_probability;
   }
-  EXPECT_EQ(get(12).direction_evidence, Evidence::markings | Evidence::ego_path);
+  EXPECT_EQ(get(12).direction_evidence, Evidence::ego_path);
   EXPECT_EQ(get(12).evidence, Evidence::markings | Evidence::ego_path);
   EXPECT_EQ(get(11).evidence, Evidence::edges) << "it was not driven";
 }
@@ -145,7 +145,7 @@ TEST_F(Directions, AOneWayStreetTellsTheDirectionsOfItsLanes) {
   find(DrivingSide::unknown);
   for (const ElementId id : {11U, 12U}) {
     EXPECT_TRUE(known(id) && runs_forward(id)) << id;
-    EXPECT_EQ(get(id).direction_evidence, Evidence::edges | Evidence::sd_map) << id;
+    EXPECT_EQ(get(id).direction_evidence, Evidence::sd_map) << id;
     EXPECT_EQ(get(id).evidence, Evidence::edges) << "the map does not tell that the lane is there";
   }
   one_way_ = {-1.0, -1.0};
