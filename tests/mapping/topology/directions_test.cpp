@@ -137,6 +137,56 @@ TEST_F(Directions, OneTrailTellsTheDirectionOfALane) {
   EXPECT_EQ(get(12).evidence, Evidence::none);
 }
 
+TEST_F(Directions, BesideTheOwnWayOneThatOvertakesTellsNothingAndOneThatComesTellsAll) {
+  divider(MarkingStyle::dashed);
+  for (boundaries::LaneBoundary& boundary : boundaries_) boundary.marking.type = MarkingType::laneline;
+  for (int i = 0; i < 10; ++i) observe(test::at(10, 1.75));
+  const std::vector<Lane> lanes = lanes_;
+  driven_ = {{.trail = 0, .lane = 0, .along_m = 20.0}};
+  find();
+  EXPECT_FALSE(known(11));
+  EXPECT_TRUE(known(12) && runs_forward(12));
+  lanes_ = lanes;
+  driven_ = {{.trail = 0, .lane = 0, .along_m = -20.0}};
+  find();
+  EXPECT_TRUE(known(11));
+  EXPECT_FALSE(runs_forward(11));
+  EXPECT_TRUE(known(12) && runs_forward(12));
+}
+
+TEST_F(Directions, EvidenceIsThatOfTheLanesBesideAndOfBefore) {
+  divider(MarkingStyle::solid);
+  for (Lane& lane : lanes_) lane.evidence = Evidence::markings | Evidence::edges;
+  observe(test::at(200, 0));  // the lanes are followed, and the vehicle is in none
+  const std::vector<Lane> lanes = lanes_;
+  const auto frame = [&](DrivingSide driving_side) {
+    lanes_ = lanes;
+    find(driving_side);
+  };
+  driven_ = {{.trail = 0, .lane = 0, .along_m = -20.0}};
+  for (int i = 0; i < 10; ++i) frame(DrivingSide::right);
+  ASSERT_TRUE(known(12));
+  EXPECT_EQ(get(12).direction_evidence, Evidence::markings | Evidence::edges | Evidence::traffic)
+      << "by the line, the edge and the lane beside";
+  driven_.clear();
+  frame(DrivingSide::unknown);
+  ASSERT_TRUE(known(12));
+  EXPECT_TRUE(overlap(get(12).direction_evidence, Evidence::traffic)) << "the belief lasts";
+}
+
+TEST_F(Directions, WhereTrafficToldTheSideEvidenceIsTraffic) {
+  divider(MarkingStyle::solid);
+  for (Lane& lane : lanes_) lane.evidence = Evidence::markings;
+  for (const bool corrected : {false, true}) {
+    RoadGraph road{{boundaries_, lanes_}, {}};
+    lanes::LaneTracks tracks;
+    find_directions({}, {.beside = side_by_side(road), .driven = {}, .is_side_corrected = corrected}, tracks,
+                    road);
+    ASSERT_EQ(road.lanes[1].direction, Direction::along_centerline);
+    EXPECT_EQ(overlap(road.lanes[1].direction_evidence, Evidence::traffic), corrected);
+  }
+}
+
 TEST_F(Directions, AOneWayStreetTellsTheDirectionsOfItsLanes) {
   find(DrivingSide::unknown);
   ASSERT_FALSE(known(11) || known(12));
