@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -10,7 +11,8 @@
 /// The messages that the service publishes, as plain data; idl/ says what each field means on the wire.
 namespace laneloom {
 
-/// Whether a planner may drive on the map. `ok`: yes; `degraded`: with the reasons in mind; `stale`: no.
+/// How far the map is to be trusted. `ok`: fresh and complete; `degraded`: usable, with the reasons in mind;
+/// `stale`: not to drive on.
 enum class MapState : std::uint8_t { ok, degraded, stale };
 
 /// Why a map is not OK.
@@ -51,6 +53,13 @@ struct PublishedMap {
   std::vector<FusedFrame> fused_frames;  ///< since the map before, in the order of fusion
   LocalMap map;                          ///< in the frame `frame_id`
 };
+
+/// Whether a planner may drive on the map: it is not stale, and no second service writes maps in turn with
+/// its own, whose ids are unrelated.
+inline bool may_drive_on(const PublishedMap& map) {
+  return map.state != MapState::stale &&
+         std::ranges::find(map.reasons, StateReason::another_service) == map.reasons.end();
+}
 
 /// Topic road_markings: the fused markings of the lane map with the same sequence.
 struct RoadMarkings {

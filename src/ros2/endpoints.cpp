@@ -1,6 +1,5 @@
 #include "ros2/endpoints.hpp"
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,11 +26,6 @@ using diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType;
 using visualization_msgs::msg::dds_::MarkerArray_PubSubType;
 
 constexpr const char* kMapTopic = "laneloom/lane_map";
-
-bool is_to_drive_on(const PublishedMap& map) {
-  return map.state != MapState::stale &&
-         std::ranges::find(map.reasons, StateReason::another_service) == map.reasons.end();
-}
 
 }  // namespace
 
@@ -61,7 +55,7 @@ class Endpoints::Impl {
     auto markers = markers_.update(map);
     std::size_t failed = (map_.write(&map_sample_) ? 0U : 1U) + (markers_writer_.write(&markers) ? 0U : 1U);
     // The message has no room for the state.
-    if (!is_to_drive_on(map)) return failed;
+    if (!may_drive_on(map)) return failed;
     auto segments = to_road_segments(map);
     failed += segments_.write(&segments) ? 0U : 1U;
     return failed;

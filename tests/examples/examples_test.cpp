@@ -49,6 +49,25 @@ TEST(Examples, CycloneReadsLanesOfWhatCycloneSees) { expect_lane(C_PERCEPTION, C
 TEST(Examples, CycloneReadsLanesOfWhatFastDdsSees) { expect_lane(CPP_PERCEPTION, C_PLANNER, "width 3.50 m"); }
 #endif
 
+// The maps of two services come in turn, with unrelated ids.
+void expect_stop_for_two_services(const std::string& planner, const std::string& words) {
+  const Process service = laneloom::service();
+  const Process another = laneloom::service();
+  const Process perceives(example(CPP_PERCEPTION));
+  const Process plans(example(planner));
+  EXPECT_TRUE(plans.wait_for_error(words)) << plans.errors() << service.errors() << another.errors();
+}
+
+TEST(Examples, OurPlannerStopsForASecondService) {
+  expect_stop_for_two_services(CPP_PLANNER, "DEGRADED another_service\nno map to drive on\n");
+}
+
+#ifdef C_PLANNER
+TEST(Examples, APlannerOnCycloneStopsForASecondService) {
+  expect_stop_for_two_services(C_PLANNER, "no map to drive on: two services write maps in turn\n");
+}
+#endif
+
 TEST(Examples, WrongUseIsSaid) {
   for (const std::string program : {CPP_PERCEPTION, CPP_PLANNER}) {
     Process process({program});

@@ -30,7 +30,7 @@ std::uint64_t DdsMapService::received() const {
 void DdsMapService::take(PublishedMap&& map) {
   const std::lock_guard lock(mutex_);
   ++received_;
-  arrived_ = map.state == MapState::stale ? LocalMap{} : std::move(map.map);
+  arrived_ = may_drive_on(map) ? std::move(map.map) : LocalMap{};
 }
 
 void DdsMapService::lose() {

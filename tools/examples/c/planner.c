@@ -24,10 +24,19 @@ static dds_qos_t* map_qos(void) {
   return qos;
 }
 
+/// Why a planner must not drive on the map. Null: it may.
+static const char* obstacle(const laneloom_msg_LaneMap* map) {
+  for (uint32_t i = 0; i < map->reasons._length; ++i)
+    if (map->reasons._buffer[i] == laneloom_msg_REASON_ANOTHER_SERVICE)
+      return "two services write maps in turn";
+  return map->state == laneloom_msg_MAP_STALE ? "the map is stale" : NULL;
+}
+
 static void plan(const laneloom_msg_LaneMap* map) {
-  // A planner must not drive on by an old map, however good it was.
-  if (map->state == laneloom_msg_MAP_STALE) {
-    printf("no map to drive on\n");
+  const char* why = obstacle(map);
+  if (why) {
+    printf("no map to drive on: %s\n", why);
+    fflush(stdout);
     return;
   }
   printf("%u lanes; the way ahead is known for %.0f m\n", (unsigned)map->lanes._length, map->way.known_m);

@@ -48,14 +48,13 @@ void say(const Way& way, const laneloom::Point& car) {
 /// The way before is given each time, so that the way keeps to a branch that it has chosen.
 void plan(const PublishedMap& published, WayWish wish, std::optional<Way>& way) {
   std::cout << laneloom::state_text(published.state, published.reasons) << '\n';
-  // A planner must not drive on by an old map, however good it was.
-  if (published.state == laneloom::MapState::stale) return;
+  // Neither by an old map, however good it was, nor by the maps of two services in turn.
+  if (!laneloom::may_drive_on(published)) return void(std::cout << "no map to drive on\n");
   const laneloom::LaneGraph graph(published.map);
   const auto next = way_ahead(graph, published.map.T_map_body, wish, way ? &*way : nullptr);
   if (!next) return void(std::cout << "no lane here: on along the way before, ever slower\n");
   way = next;
   say(*way, published.map.T_map_body.translation());
-  std::cout.flush();
 }
 
 }  // namespace
@@ -67,6 +66,7 @@ int main(int argc, char** argv) {
   dds.vehicle_id = argv[2];
   const std::string word = argc > 3 ? argv[3] : "straight";
   const WayWish wish = word == "left" ? WayWish::left : word == "right" ? WayWish::right : WayWish::straight;
+  std::cout << std::unitbuf;
   Newest newest;
   const laneloom::dds::Participant participant(dds, "example of a planner");
   const laneloom::dds::Reader<PublishedMap> maps(
