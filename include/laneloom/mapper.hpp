@@ -56,6 +56,9 @@ class Mapper {
   std::size_t lines_forgotten() const { return lines_forgotten_; }
   /// Number of detections of the last update that were left out because they zigzag (PreprocessConfig).
   std::size_t detections_zigzagging() const { return detections_zigzagging_; }
+  /// Number of detections of the last update that were left out because of their confidence
+  /// (PreprocessConfig).
+  std::size_t detections_unsure() const { return detections_unsure_; }
   /// Whether the poses had jumped at the last update: by a step that no vehicle makes, and that the
   /// detections contradict. The map has moved with them, with its ids. The voxel method cleared it.
   bool poses_jumped() const { return poses_jumped_; }
@@ -82,7 +85,7 @@ class Mapper {
   MapperConfig config_;
   SdMap sd_map_;
   std::unique_ptr<MapperState> state_;
-  std::size_t detections_zigzagging_ = 0, lines_forgotten_ = 0;
+  std::size_t detections_zigzagging_ = 0, detections_unsure_ = 0, lines_forgotten_ = 0;
   bool poses_jumped_ = false;
 };
 

@@ -182,9 +182,8 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       log.done(Stage::preprocess,
                markings::preprocess(frame, seen_from, config_.preprocess))};  // paper, III-A
   detections_zigzagging_ = frame.detections.size() - observed.markings.size();
-  lines_forgotten_ = 0;
-  const bool others_drove = state.trails.take_growth();
-  if (!others_drove && !poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
+  detections_unsure_ = lines_forgotten_ = 0;
+  if (!state.trails.take_growth() && !poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
     see_again(frame, seen_from, log, state);
     return state.map;
   }
@@ -192,6 +191,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   state.trails.keep_around(scene.T_map_body().translation());
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
+  detections_unsure_ = fused.unsure;
   if (const lines::LineMapper* lines = state.fusion.lines()) lines_forgotten_ = lines->forgotten();
   lanes::LaneLayout layout = lanes_of(fused, scene, config_, log, state);
   topology::RoadGraph road =

@@ -78,12 +78,15 @@ struct MappingSession::State {
   void fuse(const SynchronisedFrame& synchronised);
   void fuse_objects(std::int64_t stamp_ns);
   void reset();
-  void refuse_frames(std::string_view why, std::size_t count = 1) {
-    if (count > 0) counters.add("detections_refused_" + std::string(why), count);
+  /// A counter appears with its first count.
+  void count(const std::string& counter, std::size_t rise) {
+    if (rise > 0) counters.add(counter, rise);
   }
-
-  void refuse_objects(std::string_view why, std::size_t count = 1) {
-    if (count > 0) counters.add("objects_refused_" + std::string(why), count);
+  void refuse_frames(std::string_view why, std::size_t number = 1) {
+    count("detections_refused_" + std::string(why), number);
+  }
+  void refuse_objects(std::string_view why, std::size_t number = 1) {
+    count("objects_refused_" + std::string(why), number);
   }
 
   GateConfig gate_config;
@@ -195,10 +198,9 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
     counters.add("pose_jumps");
     ++progress.pose_jumps;
   }
-  if (const auto zigzagging = mapper.detections_zigzagging(); zigzagging > 0)
-    counters.add("detections_zigzagging", zigzagging);
-  if (const auto forgotten = mapper.lines_forgotten(); forgotten > 0)
-    counters.add("lines_forgotten", forgotten);
+  count("detections_zigzagging", mapper.detections_zigzagging());
+  count("detections_unsure", mapper.detections_unsure());
+  count("lines_forgotten", mapper.lines_forgotten());
   progress.fused.push_back({frame.source, frame.session_id, frame.sequence, frame.stamp_ns});
   if (map_observer) map_observer(progress.fused.back(), map);
   progress.lineage.insert(progress.lineage.end(), map.lineage.begin(), map.lineage.end());

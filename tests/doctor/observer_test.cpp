@@ -37,6 +37,8 @@ std::optional<Finding> wait_for(const Observer& observer, const std::string& id)
   return std::nullopt;
 }
 
+Detection line_of(double confidence) { return {.confidence = confidence, .points = {{0, 1, 0}, {9, 1, 0}}}; }
+
 TEST(Observer, SeesAReaderThatAsksForTooMuch) {
   const DdsConfig config = private_config();
   const dds::Participant service(config, "a service");
@@ -149,7 +151,8 @@ TEST(Observer, JudgesEachSourceByItself) {
                              .sequence = i,
                              .session_id = 1,
                              .source = "front",
-                             .field_of_view = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}}});
+                             .field_of_view = {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}},
+                             .detections = {line_of(0.2), line_of(0.4)}});
     other.write(DetectionFrame{.stamp_ns = 1, .sequence = 0, .session_id = 2, .source = "rear"});
     usleep(50'000);
     seen = observer.observed();
@@ -160,6 +163,8 @@ TEST(Observer, JudgesEachSourceByItself) {
   EXPECT_EQ(seen.sources["front"].without_view, 0U);
   EXPECT_GE(seen.sources["rear"].unnumbered, 4U) << "though another's came between";
   EXPECT_GE(seen.sources["rear"].without_view, 5U);
+  EXPECT_EQ(seen.sources["front"].best_confidence, 0.4);
+  EXPECT_EQ(seen.sources["rear"].best_confidence, -1.0) << "it detects nothing";
 }
 
 TEST(Observer, LooksIntoTheProfileOfTheService) {

@@ -66,5 +66,27 @@ TEST(SourceFindings, AFieldOfViewThatIsNeverGivenIsAdvisedAndNotWrong) {
   EXPECT_TRUE(found[0].advice);
 }
 
+TEST(SourceFindings, ASourceWhoseConfidencesAreAllDroppedIsAdvised) {
+  Observed seen = healthy();
+  ServiceStatus& status = seen.services[0].last;
+  status.configuration = {{"mapper.preprocess.min_confidence", "0.3"}};
+  status.counters.emplace_back("detections_unsure", 60);
+  InputObserved& camera = seen.sources.at("camera");
+  EXPECT_THAT(source_findings(seen), IsEmpty()) << "of no detection there is nothing to say";
+  camera.best_confidence = 0.3;
+  EXPECT_THAT(source_findings(seen), IsEmpty()) << "the surest is taken";
+  camera.best_confidence = 0.28;
+  const Findings found = source_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("detections_unsure"));
+  EXPECT_EQ(
+      found[0].found,
+      "All detections of source \"camera\" are below mapper.preprocess.min_confidence = 0.3; the surest "
+      "has 0.28.");
+  EXPECT_THAT(found[0].remedy, HasSubstr("set mapper.preprocess.min_confidence to 0.140"));
+  EXPECT_TRUE(found[0].advice);
+  seen.services[0].first.counters = status.counters;
+  EXPECT_THAT(source_findings(seen), IsEmpty()) << "the service knows the network, and drops nothing";
+}
+
 }  // namespace
 }  // namespace laneloom::doctor

@@ -84,6 +84,16 @@ TEST_P(EitherMapper, LanesTellWhatTheirEvidenceIs) {
   }
 }
 
+TEST_P(EitherMapper, DetectionsThatAreDroppedForTheirConfidenceAreCounted) {
+  Drive drive(GetParam());
+  auto detections = road();
+  detections[0].confidence = detections[1].confidence = 0.29;
+  drive.step(detections);
+  EXPECT_EQ(drive.mapper.detections_unsure(), 2U);
+  drive.step(road());
+  EXPECT_EQ(drive.mapper.detections_unsure(), 0U);
+}
+
 TEST_P(EitherMapper, AStoplineEndsItsLaneWhenItComesIntoRange) {
   // The lanes end at the stopline: an intersection begins there.
   auto detections = road();

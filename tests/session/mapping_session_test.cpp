@@ -184,6 +184,16 @@ TEST_F(MappingSessionTest, ADetectionThatZigzagsIsLeftOutAndCounted) {
   EXPECT_EQ(session_.counters()["detections_zigzagging"], 1U);
 }
 
+TEST_F(MappingSessionTest, DetectionsOfTooLowAConfidenceAreCounted) {
+  drive(10'000, 10'300);
+  EXPECT_EQ(session_.counters().values().count("detections_unsure"), 0U);
+  auto unsure = frame(10'250);
+  for (Detection& detection : unsure.detections) detection.confidence = 0.1;
+  add(unsure);
+  EXPECT_EQ(refused(), 0U);
+  EXPECT_EQ(session_.counters()["detections_unsure"], unsure.detections.size());
+}
+
 TEST_F(MappingSessionTest, AFrameWithoutPosesIsRefusedInTheEnd) {
   add(frame(10'000));
   EXPECT_EQ(session_.pending(), 1U);

@@ -27,6 +27,7 @@ struct InputObserved {
   std::optional<Newest> newest;                  ///< newest message with a header, refused or not
   std::uint64_t unnumbered = 0;                  ///< number with the sequence and session of the one before
   std::uint64_t without_view = 0;                ///< number of detection frames without a field of view
+  double best_confidence = -1.0;                 ///< of all detections; -1: there was none
   std::set<dds::WriterId> mixed;                 ///< writers whose messages came between those of another
 };
 

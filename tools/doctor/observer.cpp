@@ -10,9 +10,12 @@
 #include "base/seconds.hpp"
 #include "doctor/host.hpp"
 #include "laneloom/error.hpp"
+#include "status/report.hpp"
 
 namespace laneloom::doctor {
 namespace {
+
+using status::setting;
 
 constexpr const char* kName = "laneloom doctor";
 /// Most sessions of one vehicle within one observation. Further ones are not taken for services.
@@ -24,12 +27,6 @@ constexpr std::size_t kMostFrames = 2000, kMostPoses = 20000;
 
 double offset_s(const ServiceStatus& status) {
   return seconds(system_now_ns()) - seconds(status.published_ns);
-}
-
-std::string setting(const ServiceStatus& status, std::string_view wanted) {
-  for (const auto& [key, value] : status.configuration)
-    if (key == wanted) return value;
-  return {};
 }
 
 /// Reads the profile that the service names, in case that it is on this host.
@@ -92,6 +89,8 @@ void Observer::receive_detections(const dds::WriterId& writer, const Bytes& mess
     Stream& source = sources_[frame.source];
     source.note(writer, header);
     if (frame.field_of_view.empty()) ++source.observed.without_view;
+    for (const Detection& detection : frame.detections)
+      source.observed.best_confidence = std::max(source.observed.best_confidence, detection.confidence);
     std::vector<DetectionFrame>& frames = drive_.frames[frame.source];
     if (frames.size() < kMostFrames) frames.push_back(std::move(frame));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "doctor/endpoints.hpp"
 #include "doctor/findings.hpp"
 #include "laneloom/limits.hpp"
+#include "status/report.hpp"
 
 namespace laneloom::doctor {
 namespace {
@@ -42,6 +44,25 @@ void judge_view(const std::string& source, const InputObserved& frames, Findings
        "Where nothing is seen, the mapper cannot tell a line that is gone from one out of sight.",
        "Fill Detections.field_of_view with what the sensors cover, and occluded_areas where they are "
        "blocked.",
+       true});
+}
+
+/// Finds that a service drops all that a source detects, because its network is so unsure.
+void judge_confidence(const ServiceObserved& service, const std::string& source, const InputObserved& frames,
+                      Findings& found) {
+  constexpr const char* kKey = "mapper.preprocess.min_confidence";
+  const double least = std::strtod(status::setting(service.last, kKey).c_str(), nullptr);
+  const bool drops = status::rises(service.last, service.first).contains("detections_unsure");
+  if (!drops || frames.best_confidence < 0.0 || frames.best_confidence >= least) return;
+  found.push_back(
+      {"detections_unsure",
+       fmt::format("All detections of source \"{}\" are below {} = {:g}; the surest has {:g}.", source, kKey,
+                   least, frames.best_confidence),
+       "The service drops them: nothing that this source sees is in the map, whose state is OK "
+       "all the same.",
+       fmt::format("See whether confidences go from 0 to 1. If the network is that unsure of lines "
+                   "that are there, set {} to {:.3f}.",
+                   kKey, 0.5 * frames.best_confidence),
        true});
 }
 
@@ -98,6 +119,7 @@ Findings source_findings(const Observed& seen) {
   for (const auto& [source, frames] : seen.sources) {
     judge_writers(seen, source, frames, found);
     judge_view(source, frames, found);
+    for (const ServiceObserved& service : seen.services) judge_confidence(service, source, frames, found);
   }
   return found;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -79,6 +80,12 @@ std::map<std::string, std::uint64_t> rises(const ServiceStatus& status, const Se
     if (total > old) result.emplace(counter, total - old);
   }
   return result;
+}
+
+std::string setting(const ServiceStatus& status, std::string_view key) {
+  const auto found =
+      std::ranges::find(status.configuration, key, [](const auto& each) { return each.first; });
+  return found == status.configuration.end() ? "" : found->second;
 }
 
 std::string describe(const ServiceStatus& status, const ServiceStatus* previous) {

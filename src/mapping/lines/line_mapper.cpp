@@ -28,12 +28,12 @@ Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
           .alignment_gain = network.lateral.alignment_gain()};
 }
 
-/// The detections that are sure enough, with the beliefs in them.
-std::vector<markings::ObservedMarking> believed(std::vector<markings::ObservedMarking> markings,
-                                                const DetectionModel& model, const PreprocessConfig& config) {
+/// Tells how far each detection is believed, and keeps those that are sure enough. Returns the number of the
+/// others.
+std::size_t believe(const DetectionModel& model, const PreprocessConfig& config,
+                    std::vector<markings::ObservedMarking>& markings) {
   for (markings::ObservedMarking& marking : markings) marking.belief = model.belief(marking.confidence);
-  drop_unsure(config, markings);
-  return markings;
+  return drop_unsure(config, markings);
 }
 
 /// Forgets the views of a source that is forgotten, and whose number another one has now.
@@ -56,9 +56,9 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
   Network& network = networks_[source];
   Viewpoint from = viewpoint(observed, source, network);
   Reasoning reasons(log.reasons(), observed, lines_);
-  auto markings = believed(std::move(observed.markings), network.detection, config.preprocess);
-  reasons.believed(markings);
-  Association association = associated(std::move(markings), network, fusion, from);
+  const std::size_t unsure = believe(network.detection, config.preprocess, observed.markings);
+  reasons.believed(observed.markings);
+  Association association = associated(std::move(observed.markings), network, fusion, from);
   reasons.associated(association, lines_);
   count_joints(association.matches, lines_, config.boundary.max_gap_m, joints_);
   log.done(Stage::association);
@@ -83,7 +83,8 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
   std::ranges::copy(prune_lines(scene.box, fusion, lines_, ids), std::back_inserter(relatives));
   log.done(Stage::line_set);
 
-  markings::FusedMarkings fused{publish_lines(lines_, doubles_, config), joints_, std::move(relatives)};
+  markings::FusedMarkings fused{publish_lines(lines_, doubles_, config), joints_, std::move(relatives),
+                                unsure};
   reasons.decided(lines_, doubles_, fused.markings, config);
   reasons.ended(fused.relatives, scene.box);
   return log.done(Stage::polylines, std::move(fused));

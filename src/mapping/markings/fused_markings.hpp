@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "laneloom/types.hpp"
@@ -13,6 +14,7 @@ struct FusedMarkings {
   std::vector<Marking> markings;    ///< the map's markings, from all frames so far
   PairHistories joints;             ///< how ends of markings that lie near each other were seen
   std::vector<Relative> relatives;  ///< markings that merged or were split in this frame
+  std::size_t unsure = 0;           ///< number of the frame's detections that drop_unsure() dropped
 };
 
 }  // namespace laneloom::markings

@@ -62,8 +62,8 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
   return markings;
 }
 
-void drop_unsure(const PreprocessConfig& config, std::vector<ObservedMarking>& markings) {
-  std::erase_if(markings, [&](const ObservedMarking& marking) {
+std::size_t drop_unsure(const PreprocessConfig& config, std::vector<ObservedMarking>& markings) {
+  return std::erase_if(markings, [&](const ObservedMarking& marking) {
     return std::max(marking.confidence, marking.belief) < config.min_confidence;
   });
 }

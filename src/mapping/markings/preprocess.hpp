@@ -32,8 +32,8 @@ std::vector<ObservedMarking> preprocess(const DetectionFrame& frame, const Eigen
                                         const PreprocessConfig& config);
 
 /// Rejects what is of low confidence (paper, Sec. III-A), unless its network is as unsure of lines that are
-/// there.
-void drop_unsure(const PreprocessConfig& config, std::vector<ObservedMarking>& markings);
+/// there. Returns the number of those that it rejected.
+std::size_t drop_unsure(const PreprocessConfig& config, std::vector<ObservedMarking>& markings);
 
 /// Whether consecutive segments turn by more than the configured angle, the configured number of times in a
 /// row. Of a road edge, only turns to alternating sides count, because islands have outlines; one more is

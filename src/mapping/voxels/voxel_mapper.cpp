@@ -1,5 +1,7 @@
 #include "mapping/voxels/voxel_mapper.hpp"
 
+#include <cstddef>
+
 #include "mapping/voxels/clustering.hpp"
 #include "mapping/voxels/semantic_voxels.hpp"
 #include "mapping/voxels/vectorise.hpp"
@@ -10,7 +12,7 @@ markings::FusedMarkings VoxelMapper::fuse(markings::ObservedFrame observed, cons
                                           const MapperConfig& config, markings::IdSource& ids,
                                           const markings::StageLog& log) {
   auto& [voxels, co_observation, instances] = map_;
-  drop_unsure(config.preprocess, observed.markings);
+  const std::size_t unsure = drop_unsure(config.preprocess, observed.markings);
   const auto touched = log.done(Stage::voxel_update, update_voxels(observed.markings, scene.box,
                                                                    config.voxel_map, voxels, co_observation));
   const auto reliable = log.done(Stage::reliable_voxels, reliable_voxels(touched.all, voxels, instances,
@@ -23,7 +25,7 @@ markings::FusedMarkings VoxelMapper::fuse(markings::ObservedFrame observed, cons
   const Eigen::Vector2d forward = observed.T_map_body.linear().col(0).head<2>();
   update_polylines(config.polyline, config.style, voxels, forward, instances);
   auto markings = markings_in_range(scene.box, config.polyline.min_length_m, instances, ids);
-  return log.done(Stage::polylines, markings::FusedMarkings{std::move(markings), {}, {}});
+  return log.done(Stage::polylines, markings::FusedMarkings{std::move(markings), {}, {}, unsure});
 }
 
 /// Removes voxels outside of the local range and its margin (paper, Sec. IV-C).

@@ -26,7 +26,7 @@ TEST(DropUnsure, KeepsTheThresholdAndDropsWhatIsBelow) {
   weak.confidence = 0.2999;
   enough.confidence = 0.3;
   auto markings = preprocess(frame_of({weak, enough}), test::at(0), {});
-  drop_unsure({}, markings);
+  EXPECT_EQ(drop_unsure({}, markings), 1U);
   ASSERT_EQ(markings.size(), 1U);
   EXPECT_EQ(markings[0].confidence, 0.3);
 }
