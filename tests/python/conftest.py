@@ -36,3 +36,24 @@ def truth(drive):
 def maps(frames):
     mapper = laneloom.Mapper()
     return [mapper.update(frame, pose) for frame, pose in frames]
+
+
+def ways(folder, scenario, duration, wish):
+    """The ways along a road that is seen without noise."""
+    file, mapper = folder / "road.frames.jsonl", laneloom.Mapper()
+    run("simulate", "--scenario", scenario, "--duration", duration, "--frames", file)
+    made = (laneloom.way_ahead(mapper.update(frame, pose), wish) for frame, pose in laneloom.read_frames(file))
+    return [way for way in made if way]
+
+
+@pytest.fixture(scope="session")
+def changing(tmp_path_factory):
+    """A way that changes to the lane on the left."""
+    return next(way for way in ways(tmp_path_factory.mktemp("changing"), "motorway", 5, "change_left") if way.change)
+
+
+@pytest.fixture(scope="session")
+def turning(tmp_path_factory):
+    """A way that turns left at an intersection."""
+    made = ways(tmp_path_factory.mktemp("turning"), "intersection", 12, "left")
+    return next(way for way in made if any(lane.entry == "left" for lane in way.lanes))

@@ -74,7 +74,7 @@ def test_a_map_has_the_own_way(maps):
     assert maps[0].way is None
     way = maps[-1].way
     assert 0 < way.confirmed <= way.known <= 60
-    assert way.stations[0].lane == way.lanes[0]
+    assert way.stations[0].lane == way.lanes[0].id
     steps = np.diff([station.point[:2] for station in way.stations], axis=0)
     assert np.allclose(np.hypot(*steps.T), way.step, atol=0.02)
     assert np.allclose(np.arctan2(*steps[0][::-1]), way.stations[0].heading, atol=0.05)
@@ -84,10 +84,11 @@ def test_a_way_is_made_as_it_is_wished(maps):
     last = maps[-1]
     way = laneloom.way_ahead(last, reach=10)
     assert way.known == pytest.approx(10)
-    assert way.lanes[0] == last.way.lanes[0]
+    assert way.lanes[0].id == last.way.lanes[0].id
     assert np.allclose(way.to_map(5, 0), way.stations[5].point)
     assert way.to_way(way.to_map(7.3, -1)) == pytest.approx((7.3, -1), abs=1e-3)
     assert laneloom.way_ahead(last, "left", before=way, reach=10).known == pytest.approx(10)
+    assert (way.wish, way.change) == ("straight", None)
     assert laneloom.way_ahead(maps[0]) is None
     with pytest.raises(ValueError, match="^wish: must be one of straight, left, "):
         laneloom.way_ahead(last, "up")
@@ -95,6 +96,32 @@ def test_a_way_is_made_as_it_is_wished(maps):
         laneloom.way_ahead(last, reach=0.5)
     with pytest.raises(ValueError, match="^point"):
         way.to_way([1, 2])
+
+
+def test_a_way_begins_where_the_vehicle_is_now(maps):
+    ahead = maps[-1].pose.copy()
+    ahead[:3, 3] += 5 * ahead[:3, 0]
+    way = laneloom.way_ahead(maps[-1], pose=laneloom.Pose.from_matrix(ahead))
+    assert way.to_way(ahead[:3, 3])[0] == pytest.approx(0, abs=0.1)
+    assert laneloom.way_ahead(maps[-1]).to_way(ahead[:3, 3])[0] == pytest.approx(5, abs=0.1)
+    with pytest.raises(TypeError, match="^pose: must be Pose, not ndarray"):
+        laneloom.way_ahead(maps[-1], pose=ahead)
+
+
+def test_a_way_tells_of_its_lanes_and_of_the_turns_into_them(turning):
+    assert turning.wish == "left"
+    first, *_, last = turning.lanes
+    assert (first.entry, first.range[0], first.against) == ("unknown", 0, False)
+    assert last.id == turning.stations[-1].lane and last.range[1] == pytest.approx(turning.known, abs=1)
+    assert {lane.id for lane in turning.lanes} == {station.lane for station in turning.stations} - {0}
+
+
+def test_a_way_tells_of_its_change_of_lanes(changing):
+    change = changing.change
+    assert (changing.lanes[0].id, changing.stations[-1].lane) == (change.from_, change.to)
+    assert change.length > 10
+    s, d = changing.to_way(change.begin)
+    assert s == pytest.approx(0, abs=1) and d == pytest.approx(0, abs=0.2)
 
 
 def test_a_map_stays_as_it_was(frames):

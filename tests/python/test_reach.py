@@ -21,7 +21,7 @@ def same(one, other):
     return one == other
 
 
-def objects(frames, maps, truth):
+def objects(frames, maps, truth, changing):
     frame, pose = frames[-1]
     car = laneloom.TrackedObject(7, [1, 2, 3], [0, 1, 0], "bus", 4, existence=0.5, stddev=0.25, length=9, width=2.5)
     yield from (car, laneloom.Objects(5, [car], in_map_frame=True, sequence=3, session_id=4))
@@ -30,11 +30,11 @@ def objects(frames, maps, truth):
         yield next(getattr(m, parts)[0] for m in maps if getattr(m, parts))
     yield from [part for m in maps for part in (*m.linkages, *m.stoplines)][:3]
     way = next(m.way for m in reversed(maps) if m.way)
-    yield from (way, way.stations[0], next(m.lanes[0].left_borders[0] for m in maps if m.lanes))
+    yield from (changing, changing.change, way, way.stations[0], way.lanes[0], next(m.lanes[0].left_borders[0] for m in maps if m.lanes))
 
 
-def test_everything_that_maps_are_made_of_pickles_and_copies(frames, maps, truth):
-    for value in objects(frames, maps, truth):
+def test_everything_that_maps_are_made_of_pickles_and_copies(frames, maps, truth, changing):
+    for value in objects(frames, maps, truth, changing):
         assert same(pickle.loads(pickle.dumps(value)), value), value
         assert same(copy.deepcopy(value), value), value
 

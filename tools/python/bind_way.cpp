@@ -19,16 +19,19 @@ constexpr const char* kWayAheadDoc =
 map: LocalMap
 wish: "straight", "left", "right", "change_left" or "change_right"
 before: the Way before, so that the way keeps to a branch that it has chosen, or goes on with a change
-reach: greatest length in metres, more than 1)";
+reach: greatest length in metres, more than 1
+pose: the Pose of the vehicle now, in the map frame; None: that of the map, at its stamp)";
 
 py::object wished_way(const py::object& map, const py::object& wish, const py::object& before,
-                      const py::object& reach) {
+                      const py::object& reach, const py::object& pose) {
   const LocalMap& given = instance<LocalMap>(map, "map");
   const WayWish wished = word<WayWish>(wish, "wish", kWishes);
   const Way* const last = before.is_none() ? nullptr : &instance<Way>(before, "before");
   const WayOptions options{.reach_m = number(reach, "reach")};
   if (!(options.reach_m > options.step_m)) refuse_value("reach", "must be more than 1");
-  const auto way = way_ahead(LaneGraph(given), given.T_map_body, wished, last, options);
+  const Eigen::Isometry3d T_map_body =
+      pose.is_none() ? given.T_map_body : transform(instance<VehiclePose>(pose, "pose"));
+  const auto way = way_ahead(LaneGraph(given), T_map_body, wished, last, options);
   return way ? py::cast(*way) : py::none();
 }
 
@@ -42,7 +45,7 @@ py::array_t<double> to_map(const Way& way, const py::object& s, const py::object
   return to_array(way.to_map({number(s, "s"), number(d, "d")}));
 }
 
-void bind_own_way(py::module_& module) {
+void bind_station(py::module_& module) {
   py::class_<WayStation> station(module, "WayStation",
                                  "The own way at one place. Lengths in metres; -1: not known.");
   station.def(pickled<WayStation>())
@@ -66,26 +69,68 @@ void bind_own_way(py::module_& module) {
       .def_property_readonly("status", [](const WayStation& s) { return name(s.status); })
       .def_property_readonly("may_change_left", [](const WayStation& s) { return s.may_change_left; })
       .def_property_readonly("may_change_right", [](const WayStation& s) { return s.may_change_right; });
+}
+
+void bind_way_lane(py::module_& module) {
+  py::class_<WayLane> lane(module, "WayLane", "A lane that a way goes through.");
+  lane.def(pickled<WayLane>())
+      .def_property_readonly("id", [](const WayLane& l) { return l.id; })
+      .def_property_readonly(
+          "against", [](const WayLane& l) { return l.against; },
+          "Whether the way walks it against the order of its points.")
+      .def_property_readonly(
+          "entry", [](const WayLane& l) { return name(l.entry); },
+          "The turn into it: \"straight\", \"left\", \"right\" or \"u_turn\"; \"unknown\": the way begins "
+          "in it.")
+      .def_property_readonly(
+          "range", [](const WayLane& l) { return py::make_tuple(l.range.from_m, l.range.to_m); },
+          "(from, to), by metres along the way.");
+}
+
+void bind_change(py::module_& module) {
+  py::class_<LaneChange> change(module, "LaneChange", "A change from one lane to the one beside it.");
+  change.def(pickled<LaneChange>())
+      .def_property_readonly(
+          "from_", [](const LaneChange& c) { return c.from; }, "Id of the lane that is left.")
+      .def_property_readonly(
+          "to", [](const LaneChange& c) { return c.to; }, "Id of the lane that is entered.")
+      .def_property_readonly(
+          "begin", [](const LaneChange& c) { return to_array(c.begin); },
+          "Array (3,), in the middle of the lane that is left.")
+      .def_property_readonly(
+          "length", [](const LaneChange& c) { return c.length_m; }, "Metres along the way.");
+}
+
+/// None: there is no change.
+py::object change_of(const Way& way) {
+  return way.change.from == kNoElement ? py::none() : py::cast(way.change);
+}
+
+void bind_line(py::module_& module) {
   py::class_<Way> way(module, "Way", "One smooth line ahead, from beside the vehicle.");
   way.def(pickled<Way>())
+      .def_property_readonly(
+          "wish", [](const Way& w) { return kWishes.at(static_cast<std::size_t>(w.wish)); },
+          "As it was given to way_ahead().")
       .def_property_readonly(
           "step", [](const Way& w) { return w.step_m; }, "Metres between stations.")
       .def_property_readonly("stations", [](const Way& w) { return to_tuple(w.stations); })
       .def_property_readonly(
-          "lanes",
-          [](const Way& w) { return to_tuple(w.lanes, [](const WayLane& l) { return py::int_(l.id); }); },
-          "Ids, in the order in which the way goes through them.")
+          "lanes", [](const Way& w) { return to_tuple(w.lanes); },
+          "In the order in which the way goes through them.")
       .def_property_readonly(
           "known", [](const Way& w) { return w.known_m; }, "Length that the map knows, metres.")
       .def_property_readonly(
           "confirmed", [](const Way& w) { return w.confirmed_m; },
           "Length until the first station that is not confirmed, metres.")
+      .def_property_readonly("change", &change_of, "Begun, or done, for this wish; None: neither.")
       .def("to_way", &to_way, py::arg("point"),
            "(s, d): metres along the way, and to its left, of a point (3,) of the map frame.")
       .def("to_map", &to_map, py::arg("s"), py::arg("d"),
            "Array (3,): the point of a place. Undoes to_way().");
   module.def("way_ahead", &wished_way, py::arg("map"), py::arg("wish") = "straight",
-             py::arg("before") = py::none(), py::arg("reach") = 60.0, kWayAheadDoc);
+             py::arg("before") = py::none(), py::arg("reach") = 60.0, py::arg("pose") = py::none(),
+             kWayAheadDoc);
 }
 
 void bind_driven_path(py::module_& module) {
@@ -104,7 +149,10 @@ void bind_driven_path(py::module_& module) {
 }  // namespace
 
 void bind_way(py::module_& module) {
-  bind_own_way(module);
+  bind_station(module);
+  bind_way_lane(module);
+  bind_change(module);
+  bind_line(module);
   bind_driven_path(module);
 }
 

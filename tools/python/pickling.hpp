@@ -41,10 +41,18 @@ namespace laneloom {
 
 // A member that is missing in a structured binding, or in a table of fields, is an error of the compiler.
 
+template <class Archive>
+void serialize(Archive& archive, LaneChange& change) {
+  auto& [from, to, begin, length_m] = change;
+  archive(from, to, begin, length_m);
+}
+
 template <class Archive, HasFields Struct>
 void serialize(Archive& archive, Struct& element) {
   for_each_field<Struct>([&](const auto& field) { archive(element.*field.member); });
+  // Those that are not published.
   if constexpr (std::is_same_v<Struct, Border>) archive(element.reversed);
+  if constexpr (std::is_same_v<Struct, Way>) archive(element.wish, element.change);
 }
 
 template <class Archive>
