@@ -120,6 +120,12 @@ def test_poses_by_quaternion_and_matrix_agree():
     assert np.allclose(again.position, pose.position)
 
 
+def test_a_quaternion_of_nearly_unit_length_is_normalised():
+    pose = Pose([1, 2, 3], 1.0009 * np.array([0, 0, 0.6, 0.8]))
+    assert np.allclose(pose.orientation, [0, 0, 0.6, 0.8], atol=1e-12)
+    assert np.allclose(pose.matrix[:3, :3] @ pose.matrix[:3, :3].T, np.eye(3), atol=1e-12)
+
+
 def test_configurations(tmp_path):
     config = Config("av2")
     config["mapper.range.side_max_m"] = 20

@@ -133,10 +133,12 @@ TrackedObjects make_objects(const py::object& stamp_ns, const py::object& object
 VehiclePose make_pose(const py::object& position, const py::object& orientation, const py::object& stamp_ns) {
   const std::vector<double> p = fixed_array(position, "position", {3});
   const std::vector<double> q = fixed_array(orientation, "orientation", {4});
-  return checked(VehiclePose{.stamp_ns = integer(stamp_ns, "stamp_ns"),
-                             .position = {p[0], p[1], p[2]},
-                             .orientation = Eigen::Quaterniond(q[3], q[0], q[1], q[2])},
-                 "Pose");
+  auto pose = checked(VehiclePose{.stamp_ns = integer(stamp_ns, "stamp_ns"),
+                                  .position = {p[0], p[1], p[2]},
+                                  .orientation = Eigen::Quaterniond(q[3], q[0], q[1], q[2])},
+                      "Pose");
+  pose.orientation.normalize();  // as the service does
+  return pose;
 }
 
 VehiclePose pose_of_matrix(const py::object& matrix, const py::object& stamp_ns) {
