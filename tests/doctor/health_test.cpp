@@ -1,8 +1,9 @@
+#include <fstream>
+#include <regex>
+
 #include "dds/rtps_guard.hpp"
 #include "doctor/refusals.hpp"
 #include "scenes.hpp"
-
-#include "doctor/refusals.hpp"
 
 namespace laneloom::doctor {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::IsSupersetOf;
 
 TEST(HealthFindings, TheStatesReasons) {
   Observed seen = healthy();
@@ -81,13 +83,30 @@ TEST(HealthFindings, CausesStandBeforeTheirConsequences) {
                           "detections_refused_unsynchronised", "source_not_fused"));
 }
 
-TEST(HealthFindings, EveryReasonOfTheServiceIsExplained) {
-  const std::string unknown(explain_refusal("poses", "no such reason").cause);
-  for (const char* reason :
-       {"malformed", "unknown_enum", "not_text", "not_finite", "not_a_rotation", "wrong_frame", "wrong_size",
-        "stamp", "coordinate", "too_few_points", "confidence", "stddev", "crc", "data_id", "repeated", "late",
-        "outlier", "unsynchronised", "reset"})
-    EXPECT_NE(explain_refusal("detections", reason).cause, unknown) << reason;
+/// The reasons of the table under "### Refusals" of deploy/README.md.
+std::vector<std::string> reasons_of_the_page() {
+  std::ifstream page(DEPLOYMENT_PAGE);
+  std::vector<std::string> reasons;
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("#")) inside = line == "### Refusals";
+    if (!inside || !line.starts_with("| `")) continue;
+    const std::string cell = line.substr(0, line.find(" | "));
+    static const std::regex kName("`([a-z_]+)`");
+    for (auto at = std::sregex_iterator(cell.begin(), cell.end(), kName); at != std::sregex_iterator(); ++at)
+      reasons.push_back((*at)[1]);
+  }
+  return reasons;
+}
+
+TEST(HealthFindings, EveryReasonThatThePageOfDeploymentListsIsExplained) {
+  const std::vector<std::string> reasons = reasons_of_the_page();
+  EXPECT_THAT(reasons, IsSupersetOf({"malformed", "too_few_points", "repeated_id", "contradictory"}));
+  for (const char* subject : {"detections", "poses", "objects"}) {
+    const std::string unknown(explain_refusal(subject, "no such reason").cause);
+    for (const std::string& reason : reasons)
+      EXPECT_NE(explain_refusal(subject, reason).cause, unknown) << reason;
+  }
 }
 
 TEST(HealthFindings, AFrameIsWrongForAReasonOfItsTopic) {

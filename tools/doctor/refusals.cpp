@@ -54,6 +54,10 @@ constexpr std::array kRefusals{
             "than sync.max_wait_s after the frame."},
     Refusal{"reset", "they waited for poses when the map began anew",
             "See why it did: pose or stamp jumped."},
+    Refusal{
+        "contradictory", "their source sees the lines elsewhere than a source that was there before it",
+        "See how the sensors of both are calibrated, and whether both stamp by one clock; what is found of "
+        "sources_disagree names them."},
     Refusal{"heading", "the heading of an object is neither zero nor of length one",
             "Normalise it; zero tells that it is not known, or known up to its sign."},
     Refusal{"speed", "the speed of an object is beyond gate.max_speed_mps", kGate},
