@@ -6,6 +6,7 @@ import laneloom
 from laneloom import Config, Detection, Frame, Mapper, Objects, Pose, TrackedObject, Truth, TruthLane, TruthMarking
 
 LINE = np.array([[0.0, 1.0, 0.0], [5.0, 1.0, 0.0]])
+LONG = np.zeros((1025, 3))
 LANE = dict(id=1, left=LINE, right=LINE, centerline=LINE)
 LEVEL = [0, 0, 0, 1]
 
@@ -41,11 +42,24 @@ WRONG = [
     (lambda: frame(field_of_view=LINE[0]), ValueError, "field_of_view: must have the shape (N, 3), not (3,)"),
     (lambda: frame(occluded_areas=[LINE[0]]), ValueError, "occluded_areas[0]: must have the shape (N, 3), not (3,)"),
     (lambda: frame(sequence=-1), ValueError, "sequence: must not be negative"),
+    (lambda: Detection("laneline", LONG), ValueError, "points: must be at most 1024 long, not 1025"),
+    (lambda: Detection("laneline", LINE, 10**400), ValueError, "confidence: must be finite"),
+    (lambda: frame(detections=513 * [Detection("laneline", LINE)]), ValueError,
+     "detections: must be at most 512 long, not 513"),
+    (lambda: frame(detected_types=9 * ["laneline"]), ValueError, "detected_types: must be at most 8 long, not 9"),
+    (lambda: frame(field_of_view=LONG), ValueError, "field_of_view: must be at most 1024 long, not 1025"),
+    (lambda: frame(occluded_areas=65 * [LINE]), ValueError, "occluded_areas: must be at most 64 long, not 65"),
+    (lambda: frame(occluded_areas=[LONG]), ValueError, "occluded_areas[0]: must be at most 1024 long, not 1025"),
+    (lambda: frame(source=33 * "ä"), ValueError, "source: must be at most 64 bytes of UTF-8, not 66"),
+    (lambda: frame(source="a\0b"), ValueError, "source: must have no zero character"),
+    (lambda: frame(source="\ud800"), ValueError, "source: must be text that UTF-8 can hold"),
     (lambda: TrackedObject(-1, [0, 0, 0]), ValueError, "id: must not be negative"),
     (lambda: TrackedObject(1, [0, 0]), ValueError, "position: must have the shape (3,), not (2,)"),
     (lambda: TrackedObject(1, [0, 0, 0], kind="tank"), ValueError, "kind: must be one of unknown, car, truck, bus, "),
     (lambda: TrackedObject(1, [0, 0, 0], speed="fast"), TypeError, "speed: must be a number, not str"),
     (lambda: Objects(1, [LINE]), TypeError, "objects[0]: must be TrackedObject, not ndarray"),
+    (lambda: Objects(1, [TrackedObject(i, [0, 0, 0]) for i in range(257)]), ValueError,
+     "objects: must be at most 256 long, not 257"),
     (lambda: Objects(0, []), ValueError, "Objects: the service would refuse it: stamp"),
     (lambda: Objects(1, [TrackedObject(1, [0, 0, 0], [2, 0, 0])]), ValueError,
      "Objects: the service would refuse it: heading"),
@@ -69,6 +83,7 @@ WRONG = [
     (lambda: TruthMarking(0, "laneline", LINE), ValueError, "id: must be above 0"),
     (lambda: TruthLane(**LANE, in_intersection=1), TypeError, "in_intersection: must be a bool, not int"),
     (lambda: laneloom.read_frames(3), TypeError, "path: must be a str or an os.PathLike, not int"),
+    (lambda: laneloom.read_frames("a\0b"), ValueError, "path: cannot be the name of a file"),
     (lambda: laneloom.write_frames("x.jsonl", [frame()]), TypeError, "frames[0]: must be a pair (Frame, Pose)"),
     (lambda: laneloom.write_frames("x.jsonl", [], [Objects(1, [])]), TypeError,
      "objects[0]: must be a pair (Objects, Pose)"),
@@ -89,6 +104,25 @@ def test_the_error_names_the_argument(call, error, text):
     with pytest.raises(error) as raised:
         call()
     assert str(raised.value).startswith(text)
+
+
+def test_what_fills_the_bounds_is_taken():
+    line = Detection("laneline", LONG[:-1])
+    full = frame(detections=512 * [line], source=32 * "ä", field_of_view=LONG[:-1], occluded_areas=64 * [LINE])
+    assert len(full.detections) == 512 and full.source == 32 * "ä"
+    assert len(Objects(1, [TrackedObject(i, [0, 0, 0]) for i in range(256)]).objects) == 256
+
+
+def test_an_error_within_an_argument_is_passed_on():
+    class Broken:
+        def __index__(self):
+            raise ZeroDivisionError
+
+    for argument in ("stamp_ns", "sequence"):
+        with pytest.raises(ZeroDivisionError):
+            frame(**{argument: Broken()})
+    with pytest.raises(OSError, match="too long"):
+        laneloom.read_frames(5000 * "a")
 
 
 def test_what_numpy_makes_numbers_of_is_taken():

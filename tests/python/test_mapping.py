@@ -240,8 +240,8 @@ def test_pictures(tmp_path, truth, frames, maps):
 def test_other_threads_run_meanwhile(work, truth, frames, maps):
     """With a long switch interval, another thread only runs where the GIL is released."""
     begun, ended, seen = threading.Event(), [], []
-    points = [[x, 0.01 * (x % 2), 0] for x in np.linspace(0, 30, 20000)]
-    large = laneloom.Frame(1, [laneloom.Detection("laneline", points)] * 20)
+    points = [[x, 0.01 * (x % 2), 0] for x in np.linspace(0, 30, 1000)]
+    large = laneloom.Frame(1, [laneloom.Detection("laneline", points)] * 400)
     mapper, pose = laneloom.Mapper(), laneloom.Pose([0, 0, 0], [0, 0, 0, 1])
 
     def watch():

@@ -1,10 +1,10 @@
 #include "arguments.hpp"
 
-#include <cerrno>
-#include <filesystem>
-
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 namespace laneloom::python {
 namespace {
@@ -47,12 +47,17 @@ Array shaped(const py::handle& value, const std::string& name, const std::vector
 py::int_ whole(const py::handle& value, const std::string& name) {
   if (!PyIndex_Check(value.ptr()) || PyBool_Check(value.ptr()) || py::isinstance<py::array>(value))
     refuse_type(name, "an integer", value);
-  return py::reinterpret_steal<py::int_>(PyNumber_Index(value.ptr()));
+  PyObject* const number = PyNumber_Index(value.ptr());
+  if (number == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::int_>(number);
 }
 
-[[noreturn]] void refuse_overflow(const std::string& name) {
+/// Whether Python raised this exception, which is taken back then. Another one is thrown.
+bool raised(PyObject* exception) {
+  if (PyErr_Occurred() == nullptr) return false;
+  if (PyErr_ExceptionMatches(exception) == 0) throw py::error_already_set();
   PyErr_Clear();
-  refuse_value(name, "must fit into 64 bits");
+  return true;
 }
 
 }  // namespace
@@ -72,14 +77,14 @@ double number(const py::handle& value, const std::string& name) {
   if (!is_number || PyBool_Check(value.ptr()) || py::isinstance<py::array>(value))
     refuse_type(name, "a number", value);
   const double number = PyFloat_AsDouble(value.ptr());
-  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
-  if (!std::isfinite(number)) refuse_value(name, "must be finite");
+  const bool overflows = raised(PyExc_OverflowError);  // an integer
+  if (overflows || !std::isfinite(number)) refuse_value(name, "must be finite");
   return number;
 }
 
 std::int64_t integer(const py::handle& value, const std::string& name) {
   const long long number = PyLong_AsLongLong(whole(value, name).ptr());
-  if (PyErr_Occurred() != nullptr) refuse_overflow(name);
+  if (raised(PyExc_OverflowError)) refuse_value(name, "must fit into 64 bits");
   return number;
 }
 
@@ -87,7 +92,7 @@ std::uint64_t count(const py::handle& value, const std::string& name) {
   const py::int_ number = whole(value, name);
   if (number < py::int_(0)) refuse_value(name, "must not be negative");
   const unsigned long long count = PyLong_AsUnsignedLongLong(number.ptr());
-  if (PyErr_Occurred() != nullptr) refuse_overflow(name);
+  if (raised(PyExc_OverflowError)) refuse_value(name, "must fit into 64 bits");
   return count;
 }
 
@@ -98,13 +103,19 @@ bool boolean(const py::handle& value, const std::string& name) {
 
 std::string text(const py::handle& value, const std::string& name) {
   if (!py::isinstance<py::str>(value)) refuse_type(name, "a str", value);
-  return py::cast<std::string>(value);
+  Py_ssize_t bytes = 0;
+  const char* const utf8 = PyUnicode_AsUTF8AndSize(value.ptr(), &bytes);
+  if (raised(PyExc_UnicodeError)) refuse_value(name, "must be text that UTF-8 can hold");
+  return {utf8, static_cast<std::size_t>(bytes)};
 }
 
 std::string path(const py::handle& value, const std::string& name) {
-  if (py::isinstance<py::str>(value)) return text(value, name);
-  if (!py::hasattr(value, "__fspath__")) refuse_type(name, "a str or an os.PathLike", value);
-  return text(value.attr("__fspath__")(), name);
+  if (!py::isinstance<py::str>(value) && !py::hasattr(value, "__fspath__"))
+    refuse_type(name, "a str or an os.PathLike", value);
+  PyObject* bytes = nullptr;
+  PyUnicode_FSConverter(value.ptr(), &bytes);
+  if (raised(PyExc_ValueError)) refuse_value(name, "cannot be the name of a file");
+  return std::string(py::reinterpret_steal<py::bytes>(bytes));
 }
 
 Polyline polyline(const py::handle& value, const std::string& name) {
@@ -133,9 +144,10 @@ std::vector<double> fixed_array(const py::handle& value, const std::string& name
 
 std::string existing_path(const py::handle& value, const std::string& name) {
   std::string file = path(value, name);
-  if (std::filesystem::exists(file)) return file;
-  errno = ENOENT;
-  PyErr_SetFromErrnoWithFilename(PyExc_FileNotFoundError, file.c_str());
+  std::error_code why;
+  if (std::filesystem::exists(file, why)) return file;
+  errno = why ? why.value() : ENOENT;
+  PyErr_SetFromErrnoWithFilename(PyExc_OSError, file.c_str());
   throw py::error_already_set();
 }
 

@@ -25,9 +25,9 @@ double number(const py::handle& value, const std::string& name);              //
 std::int64_t integer(const py::handle& value, const std::string& name);       ///< no float, no bool
 std::uint64_t count(const py::handle& value, const std::string& name);        ///< not negative
 bool boolean(const py::handle& value, const std::string& name);               ///< exactly True or False
-std::string text(const py::handle& value, const std::string& name);           ///< a str
+std::string text(const py::handle& value, const std::string& name);           ///< a str, as UTF-8
 std::string path(const py::handle& value, const std::string& name);           ///< a str or an os.PathLike
-std::string existing_path(const py::handle& value, const std::string& name);  ///< else FileNotFoundError
+std::string existing_path(const py::handle& value, const std::string& name);  ///< else an OSError
 Polyline polyline(const py::handle& value, const std::string& name);  ///< (N, 3), or nothing: an empty list
 Polyline line(const py::handle& value, const std::string& name);      ///< (N, 3) of at least two points
 

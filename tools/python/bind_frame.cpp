@@ -3,6 +3,7 @@
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "binding.hpp"
+#include "cdr/bounds.hpp"
 #include "laneloom/element_names.hpp"
 #include "pickling.hpp"
 #include "session/gate.hpp"
@@ -28,7 +29,8 @@ field_of_view: array (N, 3), polygon in the body frame; empty: all of the mapper
 occluded_areas: arrays (N, 3), polygons in the body frame; what is in them is not seen
 sequence, session_id: number of the frame, and of the network's run
 
-ValueError: a coordinate is beyond 10 000 km, or whatever else the service would refuse the frame for.)";
+ValueError: a coordinate is beyond 10 000 km, a list or text is longer than a message takes (512 detections of 1024 points,
+64 areas, 64 bytes of text), or whatever else the service would refuse the frame for.)";
 
 constexpr const char* kTrackedObjectDoc = R"(Something that a tracker follows.
 
@@ -48,7 +50,8 @@ objects: TrackedObject objects
 in_map_frame: whether positions and headings are in the map frame, not in the body frame
 sequence, session_id: number of the message, and of the tracker's run
 
-ValueError: two objects have one id, a heading is not of unit length, or whatever else the service would refuse.)";
+ValueError: there are more than 256, two have one id, a heading is not of unit length, or whatever else the service
+would refuse.)";
 
 constexpr const char* kPoseDoc = R"(Where the vehicle is in the map frame at one instant.
 
@@ -66,12 +69,40 @@ T checked(T message, const char* name) {
   return message;
 }
 
+/// Refuses a list that is longer than a message takes.
+template <class Element>
+std::vector<Element> bounded(std::vector<Element> list, const std::string& name) {
+  if (list.size() > dds::kMaxLength<Element>)
+    refuse_value(name, fmt::format("must be at most {} long, not {}", dds::kMaxLength<Element>, list.size()));
+  return list;
+}
+
+/// The items of a list that a message takes.
+template <class Read>
+auto items(const py::handle& value, const std::string& name, Read read) {
+  return bounded(list(value, name, read), name);
+}
+
+Polyline bounded_polyline(const py::handle& value, const std::string& name) {
+  return bounded(polyline(value, name), name);
+}
+
+/// A text that fits into a message.
+std::string bounded_text(const py::handle& value, const std::string& name) {
+  constexpr std::size_t kMaxBytes = std::remove_cvref_t<decltype(msg::Header().frame_id())>::max_size;
+  std::string given = text(value, name);
+  if (given.size() > kMaxBytes)
+    refuse_value(name, fmt::format("must be at most {} bytes of UTF-8, not {}", kMaxBytes, given.size()));
+  if (given.find('\0') != std::string::npos) refuse_value(name, "must have no zero character");
+  return given;
+}
+
 Detection make_detection(const py::object& type, const py::object& points, const py::object& confidence,
                          const py::object& style, const py::object& stddev) {
   Detection detection{.type = word<MarkingType>(type, "type", kTypeNames),
                       .style = word<MarkingStyle>(style, "style", kStyleNames),
                       .confidence = number(confidence, "confidence"),
-                      .points = line(points, "points")};
+                      .points = bounded(line(points, "points"), "points")};
   if (!(detection.confidence >= 0.0 && detection.confidence <= 1.0))
     refuse_value("confidence", "must be 0..1");
   if (stddev.is_none()) return detection;
@@ -91,11 +122,11 @@ DetectionFrame make_frame(const py::object& stamp_ns, const py::object& detectio
   return checked(DetectionFrame{.stamp_ns = integer(stamp_ns, "stamp_ns"),
                                 .sequence = count(sequence, "sequence"),
                                 .session_id = count(session_id, "session_id"),
-                                .source = text(source, "source"),
-                                .detected_types = list(detected_types, "detected_types", type),
-                                .field_of_view = polyline(field_of_view, "field_of_view"),
-                                .occluded_areas = list(occluded_areas, "occluded_areas", polyline),
-                                .detections = list(detections, "detections", instance<Detection>)},
+                                .source = bounded_text(source, "source"),
+                                .detected_types = items(detected_types, "detected_types", type),
+                                .field_of_view = bounded_polyline(field_of_view, "field_of_view"),
+                                .occluded_areas = items(occluded_areas, "occluded_areas", bounded_polyline),
+                                .detections = items(detections, "detections", instance<Detection>)},
                  "Frame");
 }
 
@@ -125,7 +156,7 @@ TrackedObjects make_objects(const py::object& stamp_ns, const py::object& object
   return checked(TrackedObjects{.stamp_ns = integer(stamp_ns, "stamp_ns"),
                                 .sequence = count(sequence, "sequence"),
                                 .session_id = count(session_id, "session_id"),
-                                .objects = list(objects, "objects", instance<TrackedObject>),
+                                .objects = items(objects, "objects", instance<TrackedObject>),
                                 .in_map_frame = boolean(in_map_frame, "in_map_frame")},
                  "Objects");
 }
