@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json_text.hpp"
+
 namespace laneloom {
 namespace {
 
@@ -47,6 +49,18 @@ TEST(StatusReport, TellsHowTheServiceIs) {
   EXPECT_THAT(text, HasSubstr("poses_refused_late"));
   EXPECT_THAT(text, Not(HasSubstr("poses_lost"))) << "it is zero";
   EXPECT_THAT(text, Not(HasSubstr("+")));
+}
+
+TEST(StatusReport, NamesOfAnyTextAreJson) {
+  const std::string name = "a \"quoted\\ näme\n";
+  ServiceStatus status = degraded();
+  status.sources[0].source = name;
+  status.sources[0].learned = {{"beside_" + name, 0.5}, {"no \xff text", 0.25}};
+  const auto read = nlohmann::json::parse(io::json_text(status::to_json(status, nullptr)));
+  const auto& source = read.at("sources").at(0);
+  EXPECT_EQ(source.at("source"), name);
+  EXPECT_EQ(source.at("learned").at("beside_" + name), 0.5);
+  EXPECT_EQ(source.at("learned").at("no \uFFFD text"), 0.25);
 }
 
 TEST(StatusReport, TellsWhatRose) {

@@ -91,17 +91,21 @@ TEST(Site, HasTheServicesFiguresForPrometheus) {
   ServiceStatus status{.state = MapState::degraded, .reasons = {StateReason::no_poses}};
   status.tick.p99_ms = 2.5;
   status.counters = {{"detections_fused", 7}};
-  status.sources = {{.source = "a \"quoted\\ name\n", .session_id = 3, .frames = 9}};
+  status.sources = {{.source = "a \"quoted\\ näme\n", .session_id = 3, .frames = 9},
+                    {.source = "no \xff text", .session_id = 4, .frames = 8}};
   site.set_status(status);
   const WebAnswer answer = site.answer("/metrics");
-  EXPECT_EQ(answer.type, "text/plain; version=0.0.4");
+  EXPECT_EQ(answer.type, "text/plain; version=0.0.4; charset=utf-8");
   for (const char* line :
        {"# TYPE laneloom_state gauge\n", "laneloom_state{state=\"DEGRADED\"} 1\n",
         "laneloom_state{state=\"OK\"} 0\n", "laneloom_reason{reason=\"no_poses\"} 1\n",
         "laneloom_tick_seconds{statistic=\"p99\"} 0.0025\n",
         "laneloom_events_total{counter=\"detections_fused\"} 7\n", "laneloom_poses_age_seconds -1\n"})
     EXPECT_THAT(answer.body, HasSubstr(line));
-  EXPECT_THAT(answer.body, HasSubstr("laneloom_source_frames_total{source=\"a \\\"quoted"));
+  EXPECT_THAT(answer.body,
+              HasSubstr(R"(laneloom_source_frames_total{source="a \"quoted\\ näme\n",session="3"} 9)"));
+  EXPECT_THAT(answer.body,
+              HasSubstr("laneloom_source_frames_total{source=\"no \uFFFD text\",session=\"4\"} 8"));
   // Each line is a comment or a sample, whatever a source calls itself.
   std::istringstream lines(answer.body);
   for (std::string line; std::getline(lines, line);)

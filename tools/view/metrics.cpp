@@ -1,12 +1,12 @@
 #include "view/metrics.hpp"
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 #include <array>
 #include <iterator>
 #include <utility>
 
-#include "io/printable.hpp"
 #include "laneloom/state_names.hpp"
 
 namespace laneloom::view {
@@ -14,12 +14,12 @@ namespace {
 
 using Labels = std::vector<std::pair<std::string_view, std::string>>;
 
-/// A name that others gave themselves, as the value of a label: ASCII, with the escapes of the format.
+/// A name that others gave themselves, as the value of a label: UTF-8, with the escapes of the format.
 std::string label_text(const std::string& text) {
   std::string escaped;
-  for (const char c : io::printable(text)) {
-    if (c == '\\' || c == '"') escaped += '\\';
-    escaped += static_cast<unsigned char>(c) < 0x80 ? c : '?';
+  for (const char c : utf8::replace_invalid(text)) {
+    if (c == '\\' || c == '"' || c == '\n') escaped += '\\';
+    escaped += c == '\n' ? 'n' : c;
   }
   return escaped;
 }

@@ -64,7 +64,7 @@ WebAnswer Site::metrics_answer() const {
   const std::lock_guard lock(mutex_);
   if (!status_ || SteadyClock::now() - status_time_ > kStatusLasts)
     return {503, "text/plain", "no status of the service in the last 5 s\n"};
-  return {.type = "text/plain; version=0.0.4", .body = metrics(*status_)};
+  return {.type = "text/plain; version=0.0.4; charset=utf-8", .body = metrics(*status_)};
 }
 
 WebAnswer Site::saved() const {
