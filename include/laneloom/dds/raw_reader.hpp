@@ -16,10 +16,10 @@ namespace laneloom::dds {
 template <class T>
 class RawReader {
  public:
-  /// Called by threads of DDS, as the callbacks of a Reader are.
+  /// Called by threads of DDS, one message at a time, as the callbacks of a Reader are (ReaderCallbacks).
   using Callback = std::function<void(const WriterId& writer, std::vector<std::uint8_t>&& message)>;
 
-  /// `callback` may be called before the constructor returns.
+  /// Keeps the participant alive. `callback` may be called before the constructor returns.
   RawReader(const Participant& participant, Callback callback);
   RawReader(RawReader&&) noexcept;
   RawReader& operator=(RawReader&&) noexcept;
