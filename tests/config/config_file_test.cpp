@@ -361,6 +361,66 @@ TEST(Dump, SaysWhatEveryKeyMeans) {
   }
 }
 
+/// The keys ("section.key") that a file sets.
+std::set<std::string> keys_in(std::istream&& text) {
+  std::set<std::string> keys;
+  std::vector<std::string> path;
+  for (std::string line; std::getline(text, line);) {
+    const auto start = line.find_first_not_of(' ');
+    if (start == std::string::npos || line[start] == '#') continue;
+    const auto colon = line.find(':');
+    path.resize(start / 2);
+    path.push_back((path.empty() ? "" : path.back() + ".") + line.substr(start, colon - start));
+    if (colon + 1 < line.size()) keys.insert(path.back());
+  }
+  return keys;
+}
+
+/// The keys, and sections of keys, that a text in Markdown names.
+std::set<std::string> keys_named(const std::string& text) {
+  static const std::regex kKey(
+      "`((?:mapper|sd_map|sync|gate|service|dds|ros2)(?:\\.[a-z0-9_]*[a-z0-9])+|ros2)[`: ]");
+  std::set<std::string> keys;
+  for (std::sregex_iterator at(text.begin(), text.end(), kKey); at != std::sregex_iterator(); ++at)
+    keys.insert((*at)[1]);
+  return keys;
+}
+
+/// Whether a name is this key, or a section that the key is in.
+bool covers(const std::string& name, const std::string& key) {
+  return key == name || key.starts_with(name + ".");
+}
+
+TEST(ShippedFiles, ThePageTellsOfTheKeysOfLaneloomYaml) {
+  std::ifstream page(kConfigDir / "README.md");
+  std::string first_columns;
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("#")) inside = line == "## The keys that an operator sets";
+    if (inside && line.starts_with("|")) first_columns += line.substr(0, line.find(" | ")) + "\n";
+  }
+  const auto told = keys_named(first_columns);
+  const auto set = keys_in(std::ifstream(kConfigDir / "laneloom.yaml"));
+  ASSERT_GT(told.size(), 15U);
+  for (const auto& key : set)
+    EXPECT_TRUE(std::ranges::any_of(told, [&](const auto& name) { return covers(name, key); })) << key;
+  for (const auto& name : told)
+    EXPECT_TRUE(std::ranges::any_of(set, [&](const auto& key) { return covers(name, key); })) << name;
+}
+
+TEST(ShippedFiles, PagesNameKeysThatAreThere) {
+  const auto all = settings(Config{});
+  std::size_t named = 0;
+  for (const char* page : {"config/README.md", "deploy/README.md", "idl/README.md", "idl/driving.md"}) {
+    for (const auto& name : keys_named(content(kConfigDir.parent_path() / page))) {
+      ++named;
+      EXPECT_TRUE(std::ranges::any_of(all, [&](const auto& setting) { return covers(name, setting.first); }))
+          << page << ": " << name;
+    }
+  }
+  EXPECT_GT(named, 40U);
+}
+
 TEST(ShippedFiles, PaperYamlPinsThePapersParameters) {
   const auto config = load_config(kConfigDir / "paper.yaml");
   EXPECT_EQ(config.mapper.voxel_map.voxel_size_m, 0.2);
