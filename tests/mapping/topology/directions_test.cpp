@@ -157,7 +157,7 @@ TEST_F(Directions, BesideTheOwnWayOneThatOvertakesTellsNothingAndOneThatComesTel
 TEST_F(Directions, EvidenceIsThatOfTheLanesBesideAndOfBefore) {
   divider(MarkingStyle::solid);
   for (Lane& lane : lanes_) lane.evidence = Evidence::markings | Evidence::edges;
-  observe(test::at(200, 0));  // the lanes are followed, and the vehicle is in none
+  tracks_ = lanes::LaneTracks({{.id = 11, .published = 1}, {.id = 12, .published = 1}});
   const std::vector<Lane> lanes = lanes_;
   const auto frame = [&](DrivingSide driving_side) {
     lanes_ = lanes;
