@@ -221,7 +221,9 @@ Eigen::Isometry3d Mapper::follow_poses(const DetectionFrame& frame, const Eigen:
   MapperState& state = *state_;
   poses_jumped_ = false;
   if (frame.stamp_ns < state.map.stamp_ns) return state.pose_jumps.as_of_now(frame.stamp_ns, T_map_body);
-  const auto motion = state.pose_jumps.find(frame, T_map_body, state.map.markings);
+  const lines::LineMapper* lines = state.fusion.lines();
+  const auto motion =
+      state.pose_jumps.find(frame, T_map_body, state.map.markings, lines != nullptr && lines->is_away());
   if (!motion) return T_map_body;
   state.follow(*motion, config_);
   poses_jumped_ = true;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/degree.hpp"
 #include "base/seconds.hpp"
 #include "laneloom/polyline.hpp"
-#include "mapping/map_fit.hpp"
 
 namespace laneloom {
 namespace {
@@ -27,6 +27,8 @@ constexpr double kLever_m = 15.0;  // what a turn weighs, in metres: it moves wh
 constexpr double kMostLeft = 0.4;
 // What the pose without the jump has to explain beyond what the told pose explains, in metres of detections.
 constexpr double kLeastGain_m = 4.0, kLeastGain = 0.05;
+// Poses that come away little by little: two frames in a row fit better from about the same other place.
+constexpr double kLeastAway_m = 0.2, kLeastAwayGain = 0.25, kMostAwayChange = 0.5;
 
 Eigen::Vector2d heading(const Eigen::Isometry3d& T_map_body) {
   return T_map_body.linear().col(0).head<2>().normalized();
@@ -75,7 +77,8 @@ std::optional<Eigen::Isometry3d> pose_without(const Eigen::Isometry3d& suspected
 
 std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
                                                  const Eigen::Isometry3d& T_map_body,
-                                                 const std::vector<Marking>& markings) {
+                                                 const std::vector<Marking>& map_markings,
+                                                 bool stays_behind) {
   const Stamped pose{frame.stamp_ns, T_map_body};
   if (!suspected_) {
     suspected_ = suspect(pose);
@@ -83,8 +86,12 @@ std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
   }
   poses_.push_back(pose);
   if (poses_.size() > kPosesRemembered) poses_.pop_front();
-  if (!suspected_) return std::nullopt;
-  const MapFit fit(frame, markings, T_map_body);
+  if (!suspected_ && !stays_behind) {
+    away_.reset();
+    return std::nullopt;
+  }
+  const MapFit fit(frame, map_markings, T_map_body);
+  if (!suspected_) return come_away(fit, pose);
   const auto true_pose = pose_without(*suspected_, T_map_body, fit);
   if (!true_pose) {
     ++frames_since_;
@@ -117,6 +124,22 @@ std::optional<Eigen::Isometry3d> PoseJumps::suspect(const Stamped& pose) const {
       turned < kDegree * (kLeastTurn_deg + kTurnAcceleration_degps2 * tolerance_s2))
     return std::nullopt;
   return motion_between(expected, pose.transform);
+}
+
+/// The motion by which the poses have come away, if this frame and the one before tell it.
+std::optional<Eigen::Isometry3d> PoseJumps::come_away(const MapFit& fit, const Stamped& pose) {
+  const auto before = std::exchange(away_, std::nullopt);
+  const Eigen::Isometry3d& told = pose.transform;
+  const Eigen::Isometry3d fitted = fit.refined(told);
+  const double explained_m = fit.explained_m(told), away_m = apart_m(fitted, told);
+  if (away_m < kLeastAway_m ||
+      fit.explained_m(fitted) - explained_m < std::max(kLeastGain_m, kLeastAwayGain * explained_m))
+    return std::nullopt;
+  away_ = motion_between(fitted, told);
+  if (!before || apart_m(*away_ * told, *before * told) > kMostAwayChange * away_m) return std::nullopt;
+  frames_since_ = 0;
+  accept({pose.stamp_ns, *away_});
+  return std::exchange(away_, std::nullopt);
 }
 
 /// Notes a jump. The poses before it, the pose of the jump excepted, move with the map.

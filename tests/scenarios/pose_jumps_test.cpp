@@ -182,6 +182,32 @@ TEST(PoseJumpsBetweenSources, AreDecidedByFramesThatShowLines) {
   EXPECT_TRUE(found);
 }
 
+/// Odometry that is corrected over half a second.
+TEST(PosesThatComeAwayLittleByLittle, TakeTheMapAlong) {
+  constexpr std::size_t kFrames = 5, kFramesToFollow = 10;
+  for (const char* road : {"motorway", "street", "curve"}) {
+    const Frames drive(road, "inhouse", 9.0);
+    const std::size_t at = drive.frames.size() - kFramesAfter;
+    for (const Jump& jump :
+         {Jump{.left_m = 0.8}, Jump{.left_m = -0.8}, Jump{.turn_deg = 3.0}, Jump{.turn_deg = -3.0}}) {
+      Mapper with{MapperConfig{}}, without{MapperConfig{}};
+      double sum_m = 0.0;
+      for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+        const double share =
+            std::clamp((static_cast<double>(i) - static_cast<double>(at)) / kFrames, 0.0, 1.0);
+        const Jump part{.left_m = share * jump.left_m, .turn_deg = share * jump.turn_deg};
+        const Eigen::Isometry3d pose =
+            drive.poses[at] * part.motion() * drive.poses[at].inverse() * drive.poses[i];
+        const Seen seen{with.update(drive.frames[i], pose), pose},
+            undisturbed{without.update(drive.frames[i], drive.poses[i]), drive.poses[i]};
+        if (i >= at + kFramesToFollow) sum_m += apart_m(seen, undisturbed);
+      }
+      EXPECT_LT(sum_m / (kFramesAfter - kFramesToFollow), kMaxApart_m)
+          << road << ", " << ::testing::PrintToString(jump);
+    }
+  }
+}
+
 TEST(PoseJumpsOfOrdinaryDrives, AreNotFound) {
   for (const std::string& scenario : simulation::scenario_names()) {
     for (const char* noise : {"none", "inhouse", "av2"}) {

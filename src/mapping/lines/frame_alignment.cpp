@@ -16,6 +16,7 @@ constexpr double kOutlier_m = 0.15;    // lateral; a line that is further off we
 constexpr int kRounds = 3;             // each weighs the lines anew
 constexpr std::size_t kStride = 4;     // only every so many-th sample is used
 const FrameError kExpected{0.3, 0.03, 0.6 * kDegree};  // standard deviations before a frame is seen
+const FrameError kAway{0.3, 0.3, 1.0 * kDegree};       // likewise, of poses that come away from the map
 const FrameError kLimit{0.5, 0.3, 2.0 * kDegree};
 
 /// The equation of one sample: lateral_m = row * error.
@@ -58,20 +59,11 @@ double mean_residual_m(const std::vector<Equation>& rows, const FrameError& erro
   return sum_m / static_cast<double>(rows.size());
 }
 
-}  // namespace
-
-FrameError estimate_error(const std::vector<LineMatch>& matches,
-                          const std::vector<SampledDetection>& detections, const std::vector<Line>& lines,
-                          const Eigen::Isometry3d& T_map_body, double min_log_odds) {
-  std::vector<std::vector<Equation>> by_line;
-  by_line.reserve(matches.size());
-  for (const LineMatch& match : matches) {
-    auto rows = equations(match, detections[match.detection], lines[match.line], T_map_body, min_log_odds);
-    if (!rows.empty()) by_line.push_back(std::move(rows));
-  }
+/// The most likely error. `expected` are its standard deviations before the frame is seen.
+FrameError solved(const std::vector<std::vector<Equation>>& by_line, const FrameError& expected) {
   FrameError error = FrameError::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d information = kExpected.array().square().inverse().matrix().asDiagonal();
+    Eigen::Matrix3d information = expected.array().square().inverse().matrix().asDiagonal();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& rows : by_line) {
       const double misfit = mean_residual_m(rows, error) / kOutlier_m;
@@ -86,20 +78,34 @@ FrameError estimate_error(const std::vector<LineMatch>& matches,
   return error;
 }
 
+}  // namespace
+
+FrameErrors estimate_errors(const std::vector<LineMatch>& matches,
+                            const std::vector<SampledDetection>& detections, const std::vector<Line>& lines,
+                            const Eigen::Isometry3d& T_map_body, double min_log_odds) {
+  std::vector<std::vector<Equation>> by_line;
+  by_line.reserve(matches.size());
+  for (const LineMatch& match : matches) {
+    auto rows = equations(match, detections[match.detection], lines[match.line], T_map_body, min_log_odds);
+    if (!rows.empty()) by_line.push_back(std::move(rows));
+  }
+  return {solved(by_line, kExpected), solved(by_line, kAway)};
+}
+
 Eigen::Vector2d shifted_by(const FrameError& error, const Point& point, const Eigen::Isometry3d& T_map_body) {
   const Eigen::Vector2d arm = (point - T_map_body.translation()).head<2>();
   return heading_of(T_map_body) * error.head<2>() + error.z() * geometry::left_of(arm);
 }
 
-FrameError align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMatcher& matcher,
-                       std::vector<SampledDetection>& detections, FrameError& lasting) {
-  const FrameError error = estimate_error(matcher.match(detections, kStride), detections, matcher.lines(),
-                                          T_map_body, matcher.config().confirm_log_odds);
+FrameErrors align_frame(const Eigen::Isometry3d& T_map_body, double gain, LineMatcher& matcher,
+                        std::vector<SampledDetection>& detections, FrameError& lasting) {
+  const auto [error, away] = estimate_errors(matcher.match(detections, kStride), detections, matcher.lines(),
+                                             T_map_body, matcher.config().confirm_log_odds);
   FrameError passing = (error - lasting).cwiseMin(kLimit).cwiseMax(-kLimit);
   lasting += kNewShare * (error - lasting);
   for (SampledDetection& detection : detections)
     for (Point& point : detection.samples) point.head<2>() -= shifted_by(gain * passing, point, T_map_body);
-  return passing;
+  return {passing, away};
 }
 
 }  // namespace laneloom::lines

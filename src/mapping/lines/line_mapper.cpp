@@ -1,6 +1,7 @@
 #include "mapping/lines/line_mapper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -18,6 +19,11 @@
 
 namespace laneloom::lines {
 namespace {
+
+constexpr double kLever_m = 15.0;     // what a turn weighs, in metres
+constexpr double kAwayNews = 0.02;    // weight of a new frame in the variance of how far frames lie away
+constexpr double kLeastAway_m = 0.1;  // a frame that is less away lies as usual
+constexpr double kUnusual = 3.0;      // standard deviations
 
 Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source, Network& network) {
   return {.T_map_body = observed.T_map_body,
@@ -99,7 +105,11 @@ Association LineMapper::associated(std::vector<markings::ObservedMarking> markin
   from.stretch_per_m = network.pitch.news(estimate_stretch_per_m(detections, T_map_body));
   unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
   LineMatcher matcher(lines_, config);
-  from.error = align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);
+  const FrameErrors errors =
+      align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);
+  from.error = errors.likely;
+  away_m_ = std::abs(errors.away.y()) + kLever_m * std::abs(errors.away.z());
+  away_variance_m2_ += kAwayNews * (away_m_ * away_m_ - away_variance_m2_);
   weigh(network.lateral, T_map_body.translation(), detections);
   return associate(matcher, std::move(detections));
 }
@@ -120,6 +130,10 @@ void LineMapper::join(const FusionConfig& config, std::vector<markings::Relative
 bool LineMapper::has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const {
   const Network* network = networks_.find(frame.source);
   return network != nullptr && network->standpoint.has_seen(T_map_body.translation(), frame.stamp_ns);
+}
+
+bool LineMapper::is_away() const {
+  return away_m_ > std::max(kLeastAway_m, kUnusual * std::sqrt(away_variance_m2_));
 }
 
 void LineMapper::reset() {

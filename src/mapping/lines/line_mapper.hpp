@@ -28,6 +28,10 @@ class LineMapper {
   /// Whether a frame from this pose tells next to nothing after those before, see Standpoint.
   bool has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const;
 
+  /// Whether the last frame lay further away from the map than frames usually do. The map stays behind like
+  /// that where odometry is corrected little by little.
+  bool is_away() const;
+
   /// Forgets everything except what was learned of the networks.
   void reset();
   /// Moves all lines, and the places that they were seen from, map frame.
@@ -40,7 +44,7 @@ class LineMapper {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(lines_, doubles_, overlaps_, joints_, lasting_error_, networks_);
+    archive(lines_, doubles_, overlaps_, joints_, lasting_error_, away_m_, away_variance_m2_, networks_);
   }
 
  private:
@@ -53,6 +57,8 @@ class LineMapper {
   markings::PairHistories overlaps_;               ///< how ends of lines that lie side by side were seen
   markings::PairHistories joints_;                 ///< how ends of lines that lie near each other were seen
   FrameError lasting_error_ = FrameError::Zero();  ///< running mean, see align_frame()
+  double away_m_ = 0.0;                            ///< how far the last frame lay from the map
+  double away_variance_m2_ = 0.0;                  ///< running mean of its square
   Networks networks_;                              ///< what was learned of the sources
   std::size_t forgotten_ = 0;                      ///< not saved
 };

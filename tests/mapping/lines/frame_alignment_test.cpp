@@ -68,7 +68,7 @@ TEST_F(Alignment, FindsWhatAllDetectionsHaveInCommon) {
   const FrameError error{0.3, 0.0, 0.01};
   const auto frame = detections(error);
   const auto matches = LineMatcher(lines_, config_.fusion).match(frame);
-  const FrameError found = estimate_error(matches, frame, lines_, T_map_body_, 2.0);
+  const FrameError found = estimate_errors(matches, frame, lines_, T_map_body_, 2.0).likely;
   // Drawn towards none, the less the more lines tell.
   EXPECT_GT(found.z(), 0.006);
   EXPECT_LT(found.z(), 0.01);
