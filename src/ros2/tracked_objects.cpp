@@ -18,6 +18,7 @@ using autoware_perception_msgs::msg::dds_::TrackedObjectKinematics_;
 
 constexpr std::size_t kMaxClasses = 64;  // far more than there are
 constexpr std::size_t kY = 7;            // of the variance of y in a covariance of 6 x 6
+constexpr double kSureOfSign_mps = 1.0;  // the velocity of a vehicle that stands has any sign
 
 /// TrackedObjectKinematics.orientation_availability, as Autoware numbers it.
 enum Orientation : std::uint8_t { kUnavailable, kSignUnknown, kAvailable };
@@ -56,10 +57,19 @@ double stddev_of(const std::array<double, kCovariance>& covariance) {
 
 double length_of(double dimension) { return dimension > 0.0 ? dimension : -1.0; }
 
-Point heading_of(const TrackedObjectKinematics_& kinematics, dds::Intake& intake) {
-  if (kinematics.orientation_availability() > kAvailable) intake.refuse("unknown_enum");
-  if (kinematics.orientation_availability() != kAvailable) return Point::Zero();
-  return rotation_of(kinematics.pose_with_covariance().pose().orientation(), intake) * Point::UnitX();
+/// Sets heading and speed. Autoware's detectors are sure of the sign of the heading for no car: the axis then
+/// points where the object moves, as Autoware's own prediction takes it.
+void take_motion(const TrackedObjectKinematics_& kinematics, dds::Intake& intake, TrackedObject& to) {
+  const std::uint8_t availability = kinematics.orientation_availability();
+  if (availability > kAvailable) intake.refuse("unknown_enum");
+  if (!kinematics.is_stationary())
+    to.speed_mps = intake.number(kinematics.twist_with_covariance().twist().linear().x());
+  const bool moves = std::abs(to.speed_mps) > kSureOfSign_mps;
+  if (availability != kAvailable && !(availability == kSignUnknown && moves)) return;
+  to.heading = rotation_of(kinematics.pose_with_covariance().pose().orientation(), intake) * Point::UnitX();
+  if (availability == kAvailable || to.speed_mps > 0.0) return;
+  to.heading = -to.heading;
+  to.speed_mps = -to.speed_mps;
 }
 
 TrackedObject object_of(const TrackedObject_& from, dds::Intake& intake) {
@@ -71,9 +81,7 @@ TrackedObject object_of(const TrackedObject_& from, dds::Intake& intake) {
   to.kind = kind_of(from.classification(), intake);
   to.existence_probability = intake.number(static_cast<double>(from.existence_probability()));
   to.position = point_of(pose.pose().position(), intake) - 0.5 * intake.number(size.z()) * Point::UnitZ();
-  to.heading = heading_of(kinematics, intake);
-  if (!kinematics.is_stationary())
-    to.speed_mps = intake.number(kinematics.twist_with_covariance().twist().linear().x());
+  take_motion(kinematics, intake, to);
   to.position_stddev_m = stddev_of(pose.covariance());
   to.length_m = length_of(intake.number(size.x()));
   to.width_m = length_of(intake.number(size.y()));

@@ -105,15 +105,37 @@ TEST(RosObjects, OfAClassThatLaneloomDoesNotHaveAreUnknown) {
   EXPECT_EQ(kind({classified(255, 1.0F), classified(1, 0.5F)}), ObjectKind::unknown);
 }
 
-TEST(RosObjects, HaveNoHeadingThatIsNotSure) {
+TEST(RosObjects, HaveNoHeadingThatIsNotAvailable) {
   auto object = truck();
-  for (const std::uint8_t availability : {std::uint8_t{0}, std::uint8_t{1}}) {
-    object.kinematics().orientation_availability(availability);
-    EXPECT_EQ(taken(object).heading, Point::Zero());
-  }
+  object.kinematics().orientation_availability(0);
+  EXPECT_EQ(taken(object).heading, Point::Zero());
+  EXPECT_EQ(taken(object).speed_mps, 8.0);
   object.kinematics().pose_with_covariance().pose().orientation().w(0.0);  // nobody has to fill it
   object.kinematics().pose_with_covariance().pose().orientation().z(0.0);
   EXPECT_EQ(taken(object).heading, Point::Zero());
+}
+
+TEST(RosObjects, WhoseHeadingHasNoKnownSignHeadWhereTheyMove) {
+  auto object = truck();
+  object.kinematics().orientation_availability(1);
+  EXPECT_TRUE(taken(object).heading.isApprox(Point::UnitY(), 1e-9));
+  EXPECT_EQ(taken(object).speed_mps, 8.0);
+  auto& velocity = object.kinematics().twist_with_covariance().twist().linear();
+  velocity.x(-8.0);
+  EXPECT_TRUE(taken(object).heading.isApprox(-Point::UnitY(), 1e-9));
+  EXPECT_EQ(taken(object).speed_mps, 8.0) << "forwards";
+  for (const double speed_mps : {0.9, -0.9}) {
+    velocity.x(speed_mps);
+    EXPECT_EQ(taken(object).heading, Point::Zero()) << speed_mps;
+    EXPECT_EQ(taken(object).speed_mps, speed_mps);
+  }
+  velocity.x(-8.0);
+  object.kinematics().is_stationary(true);
+  EXPECT_EQ(taken(object).heading, Point::Zero());
+  object.kinematics().orientation_availability(2);
+  object.kinematics().is_stationary(false);
+  EXPECT_TRUE(taken(object).heading.isApprox(Point::UnitY(), 1e-9)) << "reverses";
+  EXPECT_EQ(taken(object).speed_mps, -8.0);
 }
 
 TEST(RosObjects, ThatStandHaveNoSpeed) {
