@@ -96,8 +96,30 @@ TEST(FrameJson, OfAnObjectOnlyIdAndPositionMustBeThere) {
   EXPECT_EQ(frame_from_json(line(R"({"id":3,"position":[1,2,3]})")).objects->objects[0].id, 3U);
   for (const char* object :
        {R"({"id":3})", R"({"position":[1,2,3]})", R"({"id":3,"position":[1,2]})",
-        R"({"id":3,"position":[1,2,3],"kind":"tram"})", R"({"id":3,"position":[1,2,3],"existence":2})"})
+        R"({"id":3,"position":[1,2,3],"kind":4})", R"({"id":3,"position":[1,2,3],"existence":2})"})
     EXPECT_THROW(frame_from_json(line(object)), std::runtime_error) << object;
+}
+
+TEST(FrameJson, ObjectsOfOtherKindsAreUnknown) {
+  const FrameRecord read = frame_from_json(
+      R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[],"objects":[{"id":3,"kind":"van","position":[1,2,3]},)"
+      R"({"id":4,"kind":"truck","position":[1,2,3]}]})");
+  ASSERT_EQ(read.objects->objects.size(), 2U);
+  EXPECT_EQ(read.objects->objects[0].kind, ObjectKind::unknown);
+  EXPECT_EQ(read.objects->objects[1].kind, ObjectKind::truck);
+}
+
+TEST(FrameJson, AnObjectThatCannotBeReadIsLeftOutAlone) {
+  LeftOut left_out;
+  const FrameRecord read = frame_from_json(
+      R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[{"type":"laneline","score":0.5,"points":[[0,0,0],[1,0,0]]}],)"
+      R"("objects":[{"id":"8d3f","position":[1,2,3]},{"id":4,"position":[1,2,3]}]})",
+      {.left_out = left_out, .place = "line 1"});
+  EXPECT_EQ(read.frame.detections.size(), 1U);
+  ASSERT_EQ(read.objects->objects.size(), 1U);
+  EXPECT_EQ(read.objects->objects[0].id, 4U);
+  EXPECT_EQ(left_out.summary(),
+            "1 x objects[].id: must be an integer that is not negative (first: line 1.objects[0])");
 }
 
 TEST(FrameJson, ClassesOfOthersBecomeTheTypesThatAreSaid) {

@@ -12,6 +12,7 @@
 #include "base/fields.hpp"
 #include "io/json_fields.hpp"
 #include "laneloom/element_names.hpp"
+#include "laneloom/objects.hpp"
 
 /// Detections and the elements of maps as JSON, by their tables of fields.
 namespace laneloom::io {
@@ -76,6 +77,12 @@ struct FromJson {
       if (name(to) == word) return;
     }
     throw JsonError("'" + word + "' is not known");
+  }
+  /// Trackers have more classes than laneloom.
+  static void read(const nlohmann::json& value, ObjectKind& to) {
+    const auto* const known = std::ranges::find(kObjectKindNames, text(value));
+    to = known == kObjectKindNames.end() ? ObjectKind::unknown
+                                         : static_cast<ObjectKind>(known - kObjectKindNames.begin());
   }
   static void read(const nlohmann::json& value, bool& to) { to = boolean(value); }
   static void read(const nlohmann::json& value, Evidence& to) {

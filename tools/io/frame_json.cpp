@@ -65,6 +65,16 @@ std::vector<Detection> detections(json items, const FrameReading& reading) {
   return out;
 }
 
+/// The objects that can be read.
+std::vector<TrackedObject> tracked_objects(const json& items, const FrameReading& reading) {
+  std::vector<TrackedObject> out;
+  const std::size_t size = array(items)->size();
+  for (std::size_t i = 0; i < size; ++i)
+    take_or_leave_out(reading.left_out, reading.place + ".", "objects[" + std::to_string(i) + "]",
+                      [&] { out.push_back(FromJson::element<TrackedObject>(items[i])); });
+  return out;
+}
+
 /// The types that the network can detect.
 std::vector<MarkingType> detected_types(const json& items, const Classes& classes) {
   std::vector<MarkingType> types;
@@ -142,7 +152,8 @@ FrameRecord frame_from_json(std::string_view text, const FrameReading& reading) 
   const auto areas = [](const json& items) { return list(items, polyline); };
   frame.occluded_areas = optional(object, "occluded_areas", areas).value_or(std::vector<Polyline>{});
   record.pose.stamp_ns = frame.stamp_ns;
-  if (auto objects = optional(object, "objects", FromJson::element<std::vector<TrackedObject>>))
+  const auto can_be_read = [&](const json& items) { return tracked_objects(items, reading); };
+  if (auto objects = optional(object, "objects", can_be_read))
     record.objects = TrackedObjects{frame.stamp_ns, frame.sequence, frame.session_id, *std::move(objects)};
   return record;
 }

@@ -86,8 +86,8 @@ struct FrameConventions {
 
 /// How a frame is read.
 struct FrameReading {
-  LeftOut& left_out;               ///< detections that are wrong are left out, unless that is strict
-  std::string place{};             ///< of the frame, where something is left out
+  LeftOut& left_out;    ///< detections and objects that are wrong are left out, unless that is strict
+  std::string place{};  ///< of the frame, where something is left out
   FrameConventions conventions{};  ///< of the frame
 };
 
@@ -113,8 +113,8 @@ class JsonLinesReader {
   /// key; reading may go on with the line after.
   std::optional<FrameRecord> next_frame();
   std::optional<LocalMap> next_map();
-  /// The next line that is a frame, a map, or has a stamp at all. Others are left out, and detections that
-  /// are wrong, unless that is strict.
+  /// The next line that is a frame, a map, or has a stamp at all. Others are left out, and detections and
+  /// objects that are wrong, unless that is strict.
   std::optional<FrameRecord> next_frame(LeftOut& left_out);
   std::optional<LocalMap> next_map(LeftOut& left_out);
   std::optional<StampedLine> next_stamped(LeftOut& left_out);
