@@ -13,6 +13,7 @@ constexpr double kReach_m = 60.0;  // a tracker's positions further away err by 
 constexpr std::size_t kMaxPoints = 64;
 constexpr std::size_t kMaxTrails = 512;  // with 64 points each, 0.9 MB
 constexpr double kStep_m = 1.0;
+constexpr double kMaxStep_m = 5.0;
 constexpr double kMoving_mps = 1.0;  // a parked vehicle may seem to creep
 
 // An object is another one than before beyond these.
@@ -56,6 +57,14 @@ bool goes_on(const Trail& trail, const Trail& observed) {
   return (moved - trail.speed_mps * step_s * trail.heading).norm() <= kMaxJump_m;
 }
 
+/// Appends the way from one observation to the next one. A fast vehicle that is seen twice a second leaves
+/// more than 10 m between them.
+void append_way(const Point& from, const Point& to, Polyline& points) {
+  const int steps = static_cast<int>(std::ceil((to - from).head<2>().norm() / kMaxStep_m));
+  for (int k = 1; k < steps; ++k) points.emplace_back(from + static_cast<double>(k) / steps * (to - from));
+  points.push_back(to);
+}
+
 }  // namespace
 
 Eigen::Vector2d direction_at(const Polyline& points, std::size_t k) {
@@ -79,15 +88,17 @@ void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_b
   std::ranges::sort(observed, {}, &Trail::object);
   for (const Trail& now : observed) {
     Trail& trail = trail_of(now);
+    const Point before = std::exchange(trail.position, now.position);
     trail.stamp_ns = now.stamp_ns;
-    trail.position = now.position;
     trail.heading = now.heading;
     trail.speed_mps = now.speed_mps;
-    const bool far = trail.points.empty() || (now.position - trail.points.back()).head<2>().norm() >= kStep_m;
+    Polyline& points = trail.points;
+    const bool far = points.empty() || (now.position - points.back()).head<2>().norm() >= kStep_m;
     if (now.speed_mps <= kMoving_mps || !far) continue;
-    trail.points.push_back(now.position);
+    append_way(before, now.position, points);
     grown_ = true;
-    if (trail.points.size() > kMaxPoints) trail.points.erase(trail.points.begin());
+    if (points.size() > kMaxPoints)
+      points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(kMaxPoints));
   }
   if (trails_.size() > kMaxTrails)
     trails_.erase(trails_.begin(), trails_.end() - static_cast<std::ptrdiff_t>(kMaxTrails));

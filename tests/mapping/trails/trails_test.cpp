@@ -73,6 +73,22 @@ TEST_F(TrailsTest, PointsAreAMetreApart) {
   EXPECT_EQ(sizes(), Sizes{10});
 }
 
+TEST_F(TrailsTest, AFastVehicleThatIsSeenTwiceASecondLeavesNoGap) {
+  for (int step = 0; step <= 20; step += 5) {
+    TrackedObject car = seen_at(2.5 * step, 2.0 + 0.1 * step);
+    car.speed_mps = 25.0;
+    add(step, {car});
+  }
+  ASSERT_EQ(trails_.all().size(), 1U);
+  const Polyline& points = trails_.all()[0].points;
+  EXPECT_NEAR((points.front() - Point(0.0, 2.0, 0.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((points.back() - Point(50.0, 4.0, 0.0)).norm(), 0.0, 1e-9);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    EXPECT_LE((points[i] - points[i - 1]).norm(), 5.0);
+    EXPECT_NEAR(points[i].y(), 2.0 + 0.04 * points[i].x(), 1e-9) << "in a straight line";
+  }
+}
+
 TEST_F(TrailsTest, TheOldestPointsOfALongTrailAreForgotten) {
   drive(-30, 54);
   ASSERT_EQ(sizes(), Sizes{64});
