@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/seconds.hpp"
@@ -100,8 +101,17 @@ void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_b
     if (points.size() > kMaxPoints)
       points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(kMaxPoints));
   }
-  if (trails_.size() > kMaxTrails)
-    trails_.erase(trails_.begin(), trails_.end() - static_cast<std::ptrdiff_t>(kMaxTrails));
+  drop_excess(objects.stamp_ns);
+}
+
+/// Forgets trails above the bound: first those of vehicles that are followed no more and left no way, then
+/// those that were not seen for longest.
+void Trails::drop_excess(std::int64_t now_ns) {
+  const auto worth = [&](const Trail& trail) {
+    const bool may_tell = trail.points.size() >= 2 || seconds(now_ns - trail.stamp_ns) <= kMaxPause_s;
+    return std::pair(may_tell, trail.stamp_ns);
+  };
+  while (trails_.size() > kMaxTrails) trails_.erase(std::ranges::min_element(trails_, {}, worth));
 }
 
 /// The trail that an observed object goes on with, or a new one.
@@ -116,6 +126,8 @@ Trail& Trails::trail_of(const Trail& observed) {
                          (observed.position - newest->points.back()).head<2>().dot(observed.heading) <= 0.0;
     if (!against) return *newest;
   }
+  // Where it is turned round again and again, it would begin a trail each metre.
+  if (newest != trails_.rend() && newest->points.size() < 2) trails_.erase(std::next(newest).base());
   return trails_.emplace_back(observed);
 }
 

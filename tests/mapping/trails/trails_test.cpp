@@ -139,7 +139,7 @@ TEST_F(TrailsTest, AJumpBeginsANewTrail) {
 
 TEST_F(TrailsTest, AHeadingThatIsTheWrongWayRoundLeavesNoLongTrail) {
   drive(0, 20, [](TrackedObject& car, int) { car.heading = -car.heading; });
-  for (const std::size_t size : sizes()) EXPECT_LE(size, 1U);
+  EXPECT_EQ(sizes(), Sizes{1}) << "nor many short ones";
 }
 
 TEST_F(TrailsTest, AVehicleThatWaitsGoesOnWithItsTrail) {
@@ -188,6 +188,20 @@ TEST_F(TrailsTest, AreBounded) {
   }
   EXPECT_EQ(trails_.all().size(), 512U);
   EXPECT_EQ(trails_.all().back().object, 2559U) << "the newest stay";
+}
+
+TEST_F(TrailsTest, WhatTellsNothingIsForgottenFirst) {
+  drive(0, 2);  // leaves a way
+  const auto crowd = [&](int step, unsigned first_id) {
+    std::vector<TrackedObject> objects(256, seen_at(0.0, -9.0));
+    for (std::size_t i = 0; i < objects.size(); ++i) objects[i].id = first_id + i;
+    add(step, std::move(objects));
+  };
+  crowd(20, 1000);
+  crowd(40, 2000);
+  ASSERT_EQ(trails_.all().size(), 512U);
+  EXPECT_EQ(sizes().front(), 2U);
+  EXPECT_EQ(trails_.all()[1].object, 1001U) << "it was seen a moment ago, and is followed no more";
 }
 
 }  // namespace
