@@ -32,11 +32,11 @@ bool is_vehicle(const TrackedObject& object) {
     case ObjectKind::car:
     case ObjectKind::truck:
     case ObjectKind::bus:
-    case ObjectKind::trailer:
       return object.width_m < 0.0 || object.width_m >= kMinWidth_m;
     case ObjectKind::motorcycle:
       return true;
     case ObjectKind::unknown:
+    case ObjectKind::trailer:  // its tractor has driven there
     case ObjectKind::bicycle:
     case ObjectKind::pedestrian:
       break;

@@ -101,6 +101,7 @@ TEST_F(TrailsTest, WhatDoesNotDriveForwardsLeavesNone) {
       {"reverses", [](TrackedObject& car, int) { car.speed_mps = -5.0; }},
       {"heading unknown", [](TrackedObject& car, int) { car.heading.setZero(); }},
       {"cyclist", [](TrackedObject& car, int) { car.kind = ObjectKind::bicycle; }},
+      {"trailer", [](TrackedObject& car, int) { car.kind = ObjectKind::trailer; }},
       {"pedestrian", [](TrackedObject& car, int) { car.kind = ObjectKind::pedestrian; }},
       {"unknown", [](TrackedObject& car, int) { car.kind = ObjectKind::unknown; }},
       {"cyclist told as a car", [](TrackedObject& car, int) { car.width_m = 0.7; }},
