@@ -17,8 +17,10 @@ constexpr double kStep_m = 1.0;
 constexpr double kMaxStep_m = 5.0;
 constexpr double kMoving_mps = 1.0;  // a parked vehicle may seem to creep
 
-// An object is another one than before beyond these.
-constexpr double kMaxJump_m = 3.0;  // from the place to which its speed would have taken it
+// An object is another one than before beyond these. Jumps are from the place to which its speed would have
+// taken it.
+constexpr double kMaxJump_m = 3.0;
+constexpr double kMaxJumpOfOthers_m = 1.5;  // to the object of another tracker
 constexpr double kMaxPause_s = 1.0;
 constexpr double kCosMaxTurn = 0.5;  // 60 degrees
 
@@ -51,11 +53,11 @@ bool is_believed(const TrackedObject& object) {
 }
 
 /// Whether an object that is observed now can be the one that left the trail.
-bool goes_on(const Trail& trail, const Trail& observed) {
+bool goes_on(const Trail& trail, const Trail& observed, double max_jump_m) {
   const double step_s = seconds(observed.stamp_ns - trail.stamp_ns);
   if (step_s > kMaxPause_s || trail.heading.dot(observed.heading) < kCosMaxTurn) return false;
   const Eigen::Vector2d moved = (observed.position - trail.position).head<2>();
-  return (moved - trail.speed_mps * step_s * trail.heading).norm() <= kMaxJump_m;
+  return (moved - trail.speed_mps * step_s * trail.heading).norm() <= max_jump_m;
 }
 
 /// Appends the way from one observation to the next one. A fast vehicle that is seen twice a second leaves
@@ -88,7 +90,9 @@ void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_b
   }
   std::ranges::sort(observed, {}, &Trail::object);
   for (const Trail& now : observed) {
-    Trail& trail = trail_of(now);
+    Trail* const own = trail_of(now);
+    if (own == nullptr) continue;
+    Trail& trail = *own;
     const Point before = std::exchange(trail.position, now.position);
     trail.stamp_ns = now.stamp_ns;
     trail.heading = now.heading;
@@ -114,21 +118,24 @@ void Trails::drop_excess(std::int64_t now_ns) {
   while (trails_.size() > kMaxTrails) trails_.erase(std::ranges::min_element(trails_, {}, worth));
 }
 
-/// The trail that an observed object goes on with, or a new one.
-Trail& Trails::trail_of(const Trail& observed) {
+/// The trail that an observed object goes on with, or a new one. Null: another tracker follows the vehicle.
+Trail* Trails::trail_of(const Trail& observed) {
   const auto newest = std::find_if(trails_.rbegin(), trails_.rend(), [&](const Trail& trail) {
     return trail.object == observed.object && trail.session == observed.session;
   });
-  if (newest != trails_.rend() && goes_on(*newest, observed)) {
+  if (newest != trails_.rend() && goes_on(*newest, observed, kMaxJump_m)) {
     // A vehicle that moves against its heading was seen the wrong way round.
     const bool against = !newest->points.empty() && observed.speed_mps > kMoving_mps &&
                          (observed.position - newest->points.back()).head<2>().norm() >= kStep_m &&
                          (observed.position - newest->points.back()).head<2>().dot(observed.heading) <= 0.0;
-    if (!against) return *newest;
+    if (!against) return &*newest;
   }
   // Where it is turned round again and again, it would begin a trail each metre.
   if (newest != trails_.rend() && newest->points.size() < 2) trails_.erase(std::next(newest).base());
-  return trails_.emplace_back(observed);
+  const bool has_another = std::ranges::any_of(trails_, [&](const Trail& trail) {
+    return trail.session != observed.session && goes_on(trail, observed, kMaxJumpOfOthers_m);
+  });
+  return has_another ? nullptr : &trails_.emplace_back(observed);
 }
 
 void Trails::keep_around(const Point& vehicle) {

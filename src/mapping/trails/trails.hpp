@@ -60,7 +60,7 @@ class Trails {
   }
 
  private:
-  Trail& trail_of(const Trail& observed);
+  Trail* trail_of(const Trail& observed);
   void drop_excess(std::int64_t now_ns);
 
   std::vector<Trail> trails_;

@@ -154,6 +154,28 @@ TEST_F(TrailsTest, AVehicleThatWaitsGoesOnWithItsTrail) {
   EXPECT_EQ(sizes(), Sizes{20});
 }
 
+TEST_F(TrailsTest, AVehicleThatTwoTrackersFollowLeavesOneTrail) {
+  const auto both = [&](int from, int to, double beside_m) {
+    for (int step = from; step < to; ++step) {
+      add(step, {seen_at(step, 2.0)});
+      TrackedObject other = seen_at(step + 0.5, 2.0 + beside_m);
+      other.id = 40;
+      trails_.add({.stamp_ns = (1050 + 100 * step) * kMs, .session_id = 2, .objects = {other}}, T_map_body());
+    }
+  };
+  both(0, 10, 0.8);
+  EXPECT_EQ(sizes(), Sizes{10});
+  for (int step = 10; step < 25; ++step) {  // the first one has lost it
+    TrackedObject other = seen_at(step, 2.8);
+    trails_.add({.stamp_ns = (1000 + 100 * step) * kMs, .session_id = 2, .objects = {other}}, T_map_body());
+  }
+  ASSERT_EQ(sizes().size(), 2U);
+  EXPECT_EQ(trails_.all()[1].session, 2U);
+  trails_ = {};
+  both(0, 10, 2.5);
+  EXPECT_EQ(sizes(), (Sizes{10, 10})) << "another one, in the lane beside";
+}
+
 TEST_F(TrailsTest, TheOrderWithinAMessageDoesNotMatter) {
   Trails other;
   for (int step = 0; step < 10; ++step) {
