@@ -7,6 +7,7 @@
 #include "base/seconds.hpp"
 #include "config/network_profile.hpp"
 #include "mapping/state.hpp"
+#include "mapping/trails/vehicles.hpp"
 #include "sd_map/osm.hpp"
 #include "session/admission.hpp"
 #include "session/gate.hpp"
@@ -85,6 +86,7 @@ struct MappingSession::State {
   void refuse_frames(std::string_view why, std::size_t number = 1) {
     count("detections_refused_" + std::string(why), number);
   }
+  void count_moving(const TrackedObjects& objects);
   void refuse_objects(std::string_view why, std::size_t number = 1) {
     count("objects_refused_" + std::string(why), number);
   }
@@ -167,7 +169,16 @@ void MappingSession::State::fuse_objects(std::int64_t stamp_ns) {
     }
     mapper.add(*objects, T_map_body);
     counters.add("objects_fused");
+    count_moving(*objects);
   }
+}
+
+/// Counts the objects that may leave trails, and those that do not though they move.
+void MappingSession::State::count_moving(const TrackedObjects& objects) {
+  const trails::MovingObjects moving = trails::moving_objects(objects);
+  if (moving.believed > 0) counters.add("objects_believed", moving.believed);
+  if (moving.without_heading > 0) counters.add("objects_without_heading", moving.without_heading);
+  if (moving.doubted > 0) counters.add("objects_doubted", moving.doubted);
 }
 
 void MappingSession::State::fuse_ready() {

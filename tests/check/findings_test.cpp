@@ -272,6 +272,45 @@ TEST(Findings, AStraightRoadCannotTellItsMirrorImage) {
   EXPECT_TRUE(found[0].advice);
 }
 
+TEST(Findings, ObjectsThatAreOfNoUse) {
+  const TrackedObject car{
+      .id = 7, .kind = ObjectKind::car, .position = {20, 3, 0}, .heading = {1, 0, 0}, .speed_mps = 9.0};
+  const auto found = [](std::vector<TrackedObject> objects) {
+    const TrackedObjects message{.stamp_ns = 1'000'000'000, .objects = std::move(objects)};
+    return object_findings({message, message}, {});
+  };
+  EXPECT_THAT(found({car}), testing::IsEmpty());
+  const Findings doubles = found({car, car});
+  ASSERT_EQ(doubles.size(), 1u);
+  EXPECT_EQ(doubles[0].found, "2 of 2 messages of objects are refused as 'repeated_id'.");
+  EXPECT_FALSE(doubles[0].advice);
+
+  TrackedObject headless = car, vague = car, standing = car, cyclist = car;
+  headless.id = 8;
+  headless.heading.setZero();
+  vague.id = 9;
+  vague.position_stddev_m = 1.5;
+  const Findings useless = found({headless, vague});
+  ASSERT_EQ(useless.size(), 1u);
+  EXPECT_EQ(useless[0].id, "objects_leave_no_trail");
+  EXPECT_THAT(useless[0].found, testing::HasSubstr("Of 4 moving objects, 2 have no heading, and 2 are"));
+  EXPECT_THAT(found({headless, vague, car}), testing::IsEmpty()) << "one tells something";
+  standing.heading.setZero();
+  standing.speed_mps = 0.5;
+  EXPECT_THAT(found({standing}), testing::IsEmpty()) << "it would leave none anyway";
+  cyclist.kind = ObjectKind::bicycle;
+  cyclist.position_stddev_m = 1.5;
+  EXPECT_THAT(found({cyclist}), testing::IsEmpty());
+}
+
+TEST(Findings, AskTheObjectsToo) {
+  Drive drive = simulated_drive("town", "none");
+  drive.objects = {{.stamp_ns = 1'000'000'000, .objects = {{.id = 7, .heading = {2, 0, 0}}}}};
+  const Findings found = wrong(drive);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].id, "objects_refused");
+}
+
 TEST(Findings, OfSeveralSourcesTheOneAtFaultIsNamed) {
   Drive drive = simulated_drive("town", "none");
   drive.frames["camera"] = drive.frames.at("");

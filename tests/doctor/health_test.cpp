@@ -58,6 +58,18 @@ TEST(HealthFindings, CountersThatRise) {
   EXPECT_THAT(found[1].remedy, HasSubstr("dds.map_frame_id"));
 }
 
+TEST(HealthFindings, ObjectsThatLeaveNoTrail) {
+  Observed seen = healthy();
+  auto& counters = seen.services[0].last.counters;
+  counters = {{"objects_without_heading", 30}, {"objects_doubted", 5}};
+  const Findings found = incident_findings(seen);
+  ASSERT_THAT(ids(found), ElementsAre("objects_leave_no_trail"));
+  EXPECT_THAT(found[0].found, HasSubstr("Of 35 moving objects, 30 have no heading, and 5 are"));
+  EXPECT_TRUE(found[0].advice);
+  counters.emplace_back("objects_believed", 1);
+  EXPECT_THAT(incident_findings(seen), IsEmpty());
+}
+
 TEST(HealthFindings, DatagramsThatAreRefusedAtTheDoor) {
   Observed seen = healthy();
   seen.services[0].last.counters = {{"datagrams_refused_leap", 5}};

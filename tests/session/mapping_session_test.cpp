@@ -437,6 +437,24 @@ TEST(Objects, InTheMapFrameLeaveTheSameTrails) {
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(found[i].isApprox(wanted[i], 1e-9)) << i;
 }
 
+TEST_F(MappingSessionTest, MovingObjectsThatLeaveNoTrailAreCounted) {
+  drive(10'000, 10'500);
+  for (int stamp_ms = 10'510; stamp_ms < 10'550; stamp_ms += 10) {
+    TrackedObjects cars = objects(stamp_ms);
+    cars.objects.resize(5, cars.objects[0]);
+    for (std::size_t i = 0; i < cars.objects.size(); ++i) cars.objects[i].id = i;
+    cars.objects[1].heading.setZero();
+    cars.objects[2].existence_probability = 0.4;
+    cars.objects[3].kind = ObjectKind::unknown;
+    cars.objects[4].kind = ObjectKind::pedestrian;
+    session_.add(std::move(cars));
+  }
+  drive(10'500, 11'000);
+  EXPECT_EQ(session_.counters()["objects_believed"], 4U);
+  EXPECT_EQ(session_.counters()["objects_without_heading"], 4U);
+  EXPECT_EQ(session_.counters()["objects_doubted"], 8U);
+}
+
 TEST_F(MappingSessionTest, EveryMessageOfObjectsIsAccountedFor) {
   session_.add(objects(9'900));  // before the first pose
   drive(10'000, 11'000);

@@ -179,6 +179,28 @@ TEST_F(Commands, AReplayThatGivesNothingSaysWhy) {
   EXPECT_THAT(output(), HasSubstr("poses were refused as 'coordinate'"));
 }
 
+TEST_F(Commands, AReplayTellsOfObjectsThatAreOfNoUse) {
+  simulate("none", "good.jsonl");
+  const auto advice = [&](const json& objects) {
+    std::istringstream good(text("good.jsonl"));
+    std::ofstream in(file("in.jsonl"));
+    for (std::string line; std::getline(good, line);) {
+      json frame = json::parse(line);
+      frame["objects"] = objects;
+      in << frame << "\n";
+    }
+    in.close();
+    EXPECT_TRUE(done("replay --in in.jsonl"));
+    return output();
+  };
+  json car{{"id", 3}, {"kind", "car"}, {"position", {20, 3, 0}}, {"heading", {1, 0, 0}}, {"speed", 9}};
+  EXPECT_THAT(advice(json::array({car})), testing::Not(HasSubstr("objects")));
+  EXPECT_THAT(advice(json::array({car, car})),
+              HasSubstr("messages of objects were refused as 'repeated_id'"));
+  car.erase("heading");
+  EXPECT_THAT(advice(json::array({car})), HasSubstr("moving objects none left a trail"));
+}
+
 TEST_F(Commands, ADriveThatBeginsAtTimeZeroLosesNoFrame) {
   simulate("none", "in.frames.jsonl");
   std::ifstream in(file("in.frames.jsonl"));

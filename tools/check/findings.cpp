@@ -98,6 +98,7 @@ Findings findings(const Drive& drive, const Config& config) {
   append(stamps, pose_stamp_findings(drive.poses));
   append(stamps, jump_findings(poses, correction));
   append(stamps, std::move(conventions));
+  append(stamps, object_findings(drive.objects, config.gate));
   return stamps;
 }
 

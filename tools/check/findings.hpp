@@ -39,6 +39,9 @@ Findings frame_stamp_findings(const std::vector<DetectionFrame>& frames,
 Findings pose_stamp_findings(const std::vector<VehiclePose>& poses);
 ///@}
 
+/// Messages of objects that are refused, and moving objects none of which leaves a trail.
+Findings object_findings(const std::vector<TrackedObjects>& objects, const GateConfig& gate);
+
 /// Poses that jump.
 Findings jump_findings(const PoseTrack& poses, const Correction& correction);
 

@@ -100,7 +100,18 @@ std::string why_no_lane(const ReplayResult& result) {
 std::string why_few_maps(const Counters& counters, const std::string& subject, std::size_t count) {
   const auto [why, refused] = main_refusal(counters, subject + "_refused_");
   if (2 * refused <= count) return {};
-  return fmt::format("{} of {} {} were refused as '{}'", refused, count, subject, why);
+  const std::string_view messages = subject == "objects" ? "messages of " : "";
+  return fmt::format("{} of {} {}{} were refused as '{}'", refused, count, messages, subject, why);
+}
+
+/// Of objects that move and leave no trails, why they do not.
+std::string why_no_trail(const Counters& counters) {
+  const auto without_heading = counters["objects_without_heading"], doubted = counters["objects_doubted"];
+  if (counters["objects_believed"] > 0 || without_heading + doubted == 0) return {};
+  return fmt::format(
+      "of {} moving objects none left a trail: {} have no heading, {} are of unknown kind or not sure "
+      "(existence_probability, position_stddev_m)",
+      without_heading + doubted, without_heading, doubted);
 }
 
 std::string idle_profile(const std::set<std::string>& sources, const std::string& profile_file) {
@@ -114,6 +125,7 @@ std::string idle_profile(const std::set<std::string>& sources, const std::string
 
 void ReplayInput::add(const recording::AnyMessage& message) {
   if (std::holds_alternative<VehiclePose>(message)) ++poses;
+  if (std::holds_alternative<TrackedObjects>(message)) ++objects;
   const auto* frame = std::get_if<DetectionFrame>(&message);
   if (frame == nullptr) return;
   ++frames;
@@ -129,6 +141,8 @@ std::string advice_on(const ReplayInput& input, const ReplayResult& result, cons
   if (result.lanes == 0) return "no map has a lane: " + why_no_lane(result);
   if (std::string few = why_few_maps(result.counters, "poses", input.poses); !few.empty()) return few;
   if (std::string few = why_few_maps(result.counters, "detections", input.frames); !few.empty()) return few;
+  if (std::string few = why_few_maps(result.counters, "objects", input.objects); !few.empty()) return few;
+  if (std::string none = why_no_trail(result.counters); !none.empty()) return none;
   return idle_profile(input.sources, config.fusion.profile_file);
 }
 

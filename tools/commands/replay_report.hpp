@@ -16,7 +16,7 @@ namespace laneloom::commands {
 
 /// The input of a replay, in numbers.
 struct ReplayInput {
-  std::uint64_t poses = 0, frames = 0, detections = 0;
+  std::uint64_t poses = 0, frames = 0, detections = 0, objects = 0;  ///< objects: messages
   double best_confidence = 0.0;
   std::set<std::string> sources;  ///< of the frames
 
@@ -41,8 +41,8 @@ struct ReplayResult {
   void add_live(const recording::AnyMessage& message);
 };
 
-/// If a replay gave no map, no marking or no lane, most of its input was refused, or a profile was of no use,
-/// a text that says so and gives a likely reason. Otherwise empty.
+/// If a replay gave no map, no marking or no lane, most of its input was refused, no other vehicle told
+/// anything, or a profile was of no use, a text that says so and gives a likely reason. Otherwise empty.
 std::string advice_on(const ReplayInput& input, const ReplayResult& result, const MapperConfig& config);
 
 void print_result(const ReplayResult& result);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -134,6 +135,24 @@ void judge_counter(const std::string& counter, std::uint64_t rise, Findings& fou
                    "The map lacks what they would have added.", std::string(known->remedy)});
 }
 
+/// Adds a finding if objects move, and none of them leaves a trail.
+void judge_objects(const std::map<std::string, std::uint64_t>& rises, Findings& found) {
+  const auto rise = [&](const char* counter) {
+    const auto known = rises.find(counter);
+    return known == rises.end() ? 0 : known->second;
+  };
+  const std::uint64_t without_heading = rise("objects_without_heading"), doubted = rise("objects_doubted");
+  if (rise("objects_believed") > 0 || without_heading + doubted == 0) return;
+  found.push_back(
+      {.id = "objects_leave_no_trail",
+       .found =
+           fmt::format("Of {} moving objects, {} have no heading, and {} are of unknown kind or not sure.",
+                       without_heading + doubted, without_heading, doubted),
+       .why = "None leaves a trail: other vehicles tell nothing of the lanes.",
+       .remedy = "See what idl/README.md says of heading, kind, existence_probability and position_stddev_m.",
+       .advice = true});
+}
+
 /// Adds the refusals by the doctor itself, if there is no service that could refuse.
 void judge_own(const char* subject, const InputObserved& input, Findings& found) {
   for (const auto& [reason, count] : input.refused)
@@ -164,8 +183,9 @@ Findings incident_findings(const Observed& seen) {
     judge_own("objects", seen.objects, found);
   }
   for (const ServiceObserved& service : seen.services) {
-    for (const auto& [counter, rise] : status::rises(service.last, service.first))
-      judge_counter(counter, rise, found);
+    const auto rises = status::rises(service.last, service.first);
+    for (const auto& [counter, rise] : rises) judge_counter(counter, rise, found);
+    judge_objects(rises, found);
     for (const SourceStatus& source : service.last.sources) judge_source(source, service.first, found);
   }
   std::stable_partition(found.begin(), found.end(), [](const Finding& finding) {

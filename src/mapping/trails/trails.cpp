@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/seconds.hpp"
+#include "mapping/trails/vehicles.hpp"
 
 namespace laneloom::trails {
 namespace {
@@ -15,7 +16,6 @@ constexpr std::size_t kMaxPoints = 64;
 constexpr std::size_t kMaxTrails = 512;  // with 64 points each, 0.9 MB
 constexpr double kStep_m = 1.0;
 constexpr double kMaxStep_m = 5.0;
-constexpr double kMoving_mps = 1.0;  // a parked vehicle may seem to creep
 
 // An object is another one than before beyond these. Jumps are from the place to which its speed would have
 // taken it.
@@ -23,34 +23,6 @@ constexpr double kMaxJump_m = 3.0;
 constexpr double kMaxJumpOfOthers_m = 1.5;  // to the object of another tracker
 constexpr double kMaxPause_s = 1.0;
 constexpr double kCosMaxTurn = 0.5;  // 60 degrees
-
-// Objects beyond these are not believed.
-constexpr double kMaxStddev_m = 1.0;
-constexpr double kMinExistence = 0.5;
-constexpr double kMinWidth_m = 1.2;  // a narrower car, truck or bus is a cyclist; -1 is an unknown width
-
-bool is_vehicle(const TrackedObject& object) {
-  switch (object.kind) {
-    case ObjectKind::car:
-    case ObjectKind::truck:
-    case ObjectKind::bus:
-      return object.width_m < 0.0 || object.width_m >= kMinWidth_m;
-    case ObjectKind::motorcycle:
-      return true;
-    case ObjectKind::unknown:
-    case ObjectKind::trailer:  // its tractor has driven there
-    case ObjectKind::bicycle:
-    case ObjectKind::pedestrian:
-      break;
-  }
-  return false;
-}
-
-bool is_believed(const TrackedObject& object) {
-  const bool exists = object.existence_probability < 0.0 || object.existence_probability >= kMinExistence;
-  return is_vehicle(object) && exists && object.position_stddev_m <= kMaxStddev_m &&
-         object.heading.head<2>().norm() > 0.5 && object.position.head<2>().norm() <= kReach_m;
-}
 
 /// Whether an object that is observed now can be the one that left the trail.
 bool goes_on(const Trail& trail, const Trail& observed, double max_jump_m) {
@@ -79,7 +51,7 @@ Eigen::Vector2d direction_at(const Polyline& points, std::size_t k) {
 void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
   std::vector<Trail> observed;
   for (const TrackedObject& object : objects.objects) {
-    if (!is_believed(object)) continue;
+    if (!is_believed(object) || object.position.head<2>().norm() > kReach_m) continue;
     observed.push_back({.session = objects.session_id,
                         .object = object.id,
                         .points = {},

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "laneloom/objects.hpp"
+
+/// Which objects are vehicles that leave trails.
+namespace laneloom::trails {
+
+inline constexpr double kMoving_mps = 1.0;  // a parked vehicle may seem to creep
+
+/// Whether an object leaves a trail where it moves forwards.
+bool is_believed(const TrackedObject& object);
+
+/// Objects of a message that move and are not known to be no vehicles.
+struct MovingObjects {
+  std::size_t believed = 0;
+  std::size_t without_heading = 0;
+  std::size_t doubted = 0;  ///< of unknown kind, or the tracker is not sure of them
+};
+MovingObjects moving_objects(const TrackedObjects& objects);
+
+}  // namespace laneloom::trails
