@@ -106,6 +106,7 @@ void add_stations(const LaneGraph& graph, const lanes::Course& course, const lan
         WayStation{.point = point,
                    .heading_rad = geometry::reproducible::atan2(direction.y(), direction.x()),
                    .curvature_per_m = curvature_per_m,
+                   .lateral_stddev_m = here.lateral_stddev_m,
                    .status = ElementStatus::inferred});
     if (measures) measures->fill(place.arc_m, direction, station);
     lanes.add(here, s_m);

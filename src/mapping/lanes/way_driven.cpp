@@ -17,8 +17,12 @@ constexpr double kMaxAside_m = 1.75;  // of the path, from the end; of a lane's 
 constexpr double kMaxAhead_m = 10.0;  // from the end to the begin of the path
 constexpr double kMinAlong = 0.9;     // cosine between the path and what it goes on with
 constexpr double kLeastOn_m = 5.0;    // of what the path leads on
-constexpr double kStraight = 0.7071;  // cosine of the greatest angle of a way straight on
+constexpr double kStraight = 0.7071;  // cosine of the greatest angle of a way straight on, at its end
 constexpr double kEndChord_m = 5.0;   // over which the direction at the end of a path is measured
+
+// Whoever turns off shows it on the first metres: into a yard by the angle, into a bay by the offset.
+constexpr double kFirst_m = 20.0;
+constexpr double kMinAlongFirst = 0.9659;  // 15 degrees
 
 /// The turn along a path, from a direction on.
 Turn turn_along(const Polyline& path, const Eigen::Vector2d& ahead) {
@@ -28,15 +32,27 @@ Turn turn_along(const Polyline& path, const Eigen::Vector2d& ahead) {
   return cross(ahead, end) > 0.0 ? Turn::left : Turn::right;
 }
 
+/// Whether a path begins straight on from a place.
+bool begins_straight(const Polyline& path, const Point& from, const Eigen::Vector2d& ahead) {
+  const MeasuredPolyline line(path);
+  const double first_m = std::min(kFirst_m, line.length());
+  const auto is_ahead = [&](const Point& point) {
+    return std::abs(cross(ahead, (point - from).head<2>())) <= kMaxAside_m;
+  };
+  return line.chord(first_m - kEndChord_m, first_m).dot(ahead) > kMinAlongFirst &&
+         std::ranges::all_of(line.slice({0.0, first_m}), is_ahead);
+}
+
 /// The part of a path beyond a place.
 struct Onward {
   Polyline path;
   double aside_m = 0.0;  ///< of the path, from the place
+  double lateral_stddev_m = 0.0;
 };
 
 /// `ahead` is the direction at the place `end`. Empty: the path does not pass there.
-std::optional<Onward> onward(const Polyline& points, const Point& end, const Eigen::Vector2d& ahead) {
-  const MeasuredPolyline line(points);
+std::optional<Onward> onward(const DrivenPath& driven, const Point& end, const Eigen::Vector2d& ahead) {
+  const MeasuredPolyline line(driven.points);
   const Projection foot = line.project(end);
   const Eigen::Vector2d gap = (foot.foot - end).head<2>();
   const double aside_m = std::abs(cross(ahead, gap)), ahead_m = ahead.dot(gap);
@@ -44,7 +60,7 @@ std::optional<Onward> onward(const Polyline& points, const Point& end, const Eig
   if (aside_m > kMaxAside_m || !(foot.inside || begins_ahead) || !geometry::same_level(foot.foot, end) ||
       line.direction(foot).dot(ahead) < kMinAlong || line.length() - foot.arc_m < kLeastOn_m)
     return std::nullopt;
-  return Onward{line.slice({foot.arc_m, line.length()}), aside_m};
+  return Onward{line.slice({foot.arc_m, line.length()}), aside_m, driven.lateral_stddev_m};
 }
 
 /// The first lane that begins on a path.
@@ -74,15 +90,17 @@ Entered first_entered(const LaneGraph& graph, const MeasuredPolyline& path) {
 DrivenPassage driven_on(const LaneGraph& graph, const Point& end, const Eigen::Vector2d& ahead, Turn turn) {
   std::optional<Onward> nearest;
   for (const DrivenPath& driven : graph.map().driven_paths) {
-    auto found = onward(driven.points, end, ahead);
+    auto found = onward(driven, end, ahead);
     if (!found || turn_along(found->path, ahead) != turn) continue;
+    if (turn == Turn::straight && !begins_straight(found->path, end, ahead)) continue;
     if (!nearest || found->aside_m < nearest->aside_m) nearest = std::move(found);
   }
   if (!nearest) return {};
   const MeasuredPolyline path(nearest->path);
   const Entered entered = first_entered(graph, path);
-  if (entered.lane.lane == nullptr) return {std::move(nearest->path), {}};
-  return {path.slice({0.0, entered.arc_m}), entered.lane};
+  const double lateral_stddev_m = nearest->lateral_stddev_m;
+  if (entered.lane.lane == nullptr) return {std::move(nearest->path), lateral_stddev_m, {}};
+  return {path.slice({0.0, entered.arc_m}), lateral_stddev_m, entered.lane};
 }
 
 }  // namespace laneloom::lanes

@@ -146,7 +146,7 @@ bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double 
   for (const RoutePoint& point : route.points) line.push_back(point.point);
   DrivenPassage driven = driven_on(graph, line.back(), end_direction(line, End::back), turn);
   if (driven.path.size() < 2) return false;
-  builder.append(driven.path, {.lane = {}, .entry = turn});
+  builder.append(driven.path, {.lane = {}, .entry = turn, .lateral_stddev_m = driven.lateral_stddev_m});
   if (driven.to.lane == nullptr) return true;
   append(builder, {.to = driven.to, .path = {}, .turn = turn});
   const double left_m = to_m - route.points.back().along_m + length(driven.to.lane->centerline);

@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 LocalMap driven_road() {
   LocalMap map;
   map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {45, 1, 0}, {120, 1, 0})};
-  map.driven_paths = {{.id = 9, .points = straight({12, 0.5, 0}, {50, 1, 0}, 40)}};
+  map.driven_paths = {{.id = 9, .points = straight({12, 0.5, 0}, {50, 1, 0}, 40), .lateral_stddev_m = 0.6}};
   return map;
 }
 
@@ -27,6 +27,7 @@ TEST(Way, GoesOnWhereOthersDrove) {
   EXPECT_THAT(ids(way), ElementsAre(1, 2));
   EXPECT_EQ(way.stations[25].status, ElementStatus::inferred) << "between the lanes";
   EXPECT_EQ(way.stations[25].lane, kNoElement);
+  EXPECT_EQ(way.stations[25].lateral_stddev_m, 0.6) << "that of the path";
   EXPECT_LT(largest_kink_deg(way, 4.0), 6.0);
   for (const WayStation& station : way.stations) EXPECT_NEAR(station.point.y(), 0.5, 0.8);
   map.lanes[1].direction = Lane::Direction::against_centerline;
@@ -43,6 +44,28 @@ TEST(Way, FollowsNoneWhoTurnOffUnlessThatIsTheWish) {
   const Way turned = way_on(map, test::at(5), WayWish::left);
   EXPECT_NEAR(turned.stations.back().point.y(), 10.5, 1.0);
   EXPECT_NEAR(way_on(map, test::at(5), WayWish::right).known_m, 15.0, 0.1);
+}
+
+TEST(Way, FollowsNoneIntoABayOrAYard) {
+  LocalMap map = driven_road();
+  Polyline bay = straight({12, 0, 0}, {24, 0, 0}, 13), yard = bay;
+  bay.push_back({44, -3.5, 0});
+  bay.push_back({60, -3.5, 0});
+  yard.push_back({50, -15, 0});
+  for (const Polyline& path : {bay, yard}) {
+    map.driven_paths = {{.id = 9, .points = path}};
+    for (const WayWish wish : {WayWish::straight, WayWish::right})
+      EXPECT_NEAR(way_on(map, test::at(5), wish).known_m, 15.0, 0.1);
+  }
+}
+
+TEST(Way, GoesOnWhereOthersDroveRoundABend) {
+  LocalMap map = driven_road();
+  map.lanes.pop_back();
+  Polyline bend = straight({12, 0.3, 0}, {25, 0.3, 0}, 14);
+  for (const Point& point : test::arc({25, 100.3, 0}, 100.0, -90.0, -65.0)) bend.push_back(point);
+  map.driven_paths = {{.id = 9, .points = bend}};
+  EXPECT_NEAR(way_on(map, test::at(5)).known_m, 60.0, 4.0);
 }
 
 TEST(Way, FollowsNoneBesideItsEndNorAgainstIt) {
