@@ -176,9 +176,9 @@ void MappingSession::State::fuse_objects(std::int64_t stamp_ns) {
 /// Counts the objects that may leave trails, and those that do not though they move.
 void MappingSession::State::count_moving(const TrackedObjects& objects) {
   const trails::MovingObjects moving = trails::moving_objects(objects);
-  if (moving.believed > 0) counters.add("objects_believed", moving.believed);
-  if (moving.without_heading > 0) counters.add("objects_without_heading", moving.without_heading);
-  if (moving.doubted > 0) counters.add("objects_doubted", moving.doubted);
+  count("objects_believed", moving.believed);
+  count("objects_without_heading", moving.without_heading);
+  count("objects_doubted", moving.doubted);
 }
 
 void MappingSession::State::fuse_ready() {
