@@ -125,6 +125,16 @@ TEST_F(Batch, KeepsWhatIsMadeOfADriveThatWasCopied) {
   EXPECT_THAT(output(), HasSubstr("3 kept"));
 }
 
+TEST_F(Batch, AStepThatFailsLeavesTheOutputsOfBefore) {
+  ASSERT_TRUE(done(kBatch + "maps replay"));
+  const auto before = outputs("maps");
+  ASSERT_EQ(run(kBatch + "maps replay --speed-pu 2"), 2);
+  EXPECT_THAT(output(), HasSubstr("3 failed"));
+  EXPECT_EQ(outputs("maps"), before);
+  ASSERT_TRUE(done(kBatch + "maps replay"));
+  EXPECT_THAT(output(), HasSubstr("3 kept"));
+}
+
 TEST_F(Batch, ADriveThatFailsIsToldAndStopsNoOther) {
   std::ofstream(file(drive("broken"))) << "{\"t\": 1}\n";
   ASSERT_EQ(run(kBatch + "maps --json table.json replay"), 2);

@@ -88,13 +88,15 @@ bool Output::is_made() const {
 void Output::begin() const {
   fs::create_directories(path_.parent_path());
   fs::create_directories(part_.parent_path());
-  for (const fs::path& path : {path_, part_, record_}) fs::remove(path);
+  fs::remove(part_);
 }
 
 void Output::finish() const {
   if (!fs::exists(part_)) throw std::runtime_error(path_.string() + ": the command wrote nothing");
-  io::write_text(record_, io::json_text(made_of(nlohmann::json::object()), 2) + "\n");
+  const std::string record = io::json_text(made_of(nlohmann::json::object()), 2) + "\n";
+  io::write_text(record_, "{}\n");  // between the two outputs, the record is that of neither
   fs::rename(part_, path_);
+  io::write_text(record_, record);
 }
 
 }  // namespace laneloom::batch

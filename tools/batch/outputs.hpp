@@ -33,9 +33,9 @@ class Output {
   /// Whether the output is there, made by the same program with the same options of the same contents
   /// of drive and files. The drive's contents are read where its size or its time of change is another one.
   bool is_made() const;
-  /// Makes the folders, and takes away what there is of the output.
+  /// Makes the folders, and takes away a part that an interrupted batch left.
   void begin() const;
-  /// Puts the part into its place, and notes what it was made of.
+  /// Puts the part into its place, also over an earlier output, and notes what it was made of.
   void finish() const;
 
  private:
