@@ -117,6 +117,30 @@ TEST_F(Batch, ItsOwnOutputsAreNoDrives) {
   EXPECT_THAT(output(), HasSubstr("3 drives: 3 made")) << "outputs of another batch may be drives";
 }
 
+TEST_F(Batch, FilesOfOthersAreNotWrittenOver) {
+  std::ofstream(file("drives/a.maps.mcap")) << "mine";
+  std::ofstream(file("drives/b.log")) << "mine";
+  ASSERT_EQ(run("batch --drives " + drive("a") + " --drives " + drive("b") + " --out drives replay"), 2);
+  EXPECT_THAT(output(), HasSubstr("a.maps.mcap: is there, and no batch made it"));
+  EXPECT_EQ(text("drives/a.maps.mcap"), "mine");
+  EXPECT_EQ(text("drives/b.log"), "mine");
+}
+
+TEST_F(Batch, SummariesAreNotWrittenOverDrivesAndOutputs) {
+  std::ofstream(file("list.txt")) << "drives\n";
+  for (const std::string name :
+       {"drives/a.frames.jsonl", "rated/drives/a.json", "list.txt", "drives/a.truth.json"}) {
+    EXPECT_EQ(run("batch --list list.txt --out rated --json " + name + " evaluate"), 1) << name;
+    EXPECT_THAT(output(), HasSubstr(name)) << name;
+  }
+  fs::rename(file(drive("a")), file(drive("merged")));
+  EXPECT_EQ(run(kBatch + "learned learn"), 1);
+  EXPECT_THAT(output(), HasSubstr("merged.yaml: is given as an output twice"));
+  fs::rename(file(drive("merged")), file(drive("batch")));
+  EXPECT_EQ(run(kBatch + "rated --slurm --dry-run evaluate"), 1);
+  EXPECT_THAT(output(), HasSubstr("batch.json: is given as an output twice"));
+}
+
 TEST_F(Batch, KeepsWhatIsMadeOfADriveThatWasCopied) {
   ASSERT_TRUE(done(kBatch + "maps replay"));
   const std::string content = text(drive("a"));

@@ -35,6 +35,10 @@ bool is_output(const fs::path& folder, const fs::path& file) {
   return *below.begin() == kOwnFolder || fs::exists(record_of(folder, below));
 }
 
+fs::path output_path(const fs::path& folder, const Step& step, const Drive& drive) {
+  return folder / (drive.name + kind_of(step).suffix);
+}
+
 std::string digest_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path.string() + ": cannot be read");
@@ -51,10 +55,10 @@ std::string digest_of(const fs::path& path) {
 Output::Output(const fs::path& folder, const Step& step, const Drive& drive, std::string program)
     : step_(step), drive_(drive), program_(std::move(program)) {
   const std::string name = drive.name + kind_of(step).suffix;
-  path_ = folder / name;
+  path_ = output_path(folder, step, drive);
   part_ = folder / kOwnFolder / name;
   record_ = record_of(folder, name);
-  log_ = folder / (drive.name + ".log");
+  log_ = folder / kOwnFolder / (name + ".log");
 }
 
 nlohmann::json Output::made_of(const nlohmann::json& before) const {
@@ -86,6 +90,8 @@ bool Output::is_made() const {
 }
 
 void Output::begin() const {
+  if (fs::exists(path_) && !fs::exists(record_))
+    throw std::runtime_error(path_.string() + ": is there, and no batch made it; it is not written over");
   fs::create_directories(path_.parent_path());
   fs::create_directories(part_.parent_path());
   fs::remove(part_);

@@ -9,8 +9,11 @@
 
 namespace laneloom::batch {
 
-/// The folder below that of a batch which has its parts, and what outputs were made of.
+/// The folder below that of a batch which has its parts and logs, and what outputs were made of.
 inline constexpr const char* kOwnFolder = ".batch";
+
+/// Where the output of a step for a drive lies, below the folder of a batch.
+std::filesystem::path output_path(const std::filesystem::path& folder, const Step& step, const Drive& drive);
 
 /// A digest of a file's contents. Throws std::runtime_error if it cannot be read.
 std::string digest_of(const std::filesystem::path& path);
@@ -33,7 +36,8 @@ class Output {
   /// Whether the output is there, made by the same program with the same options of the same contents
   /// of drive and files. The drive's contents are read where its size or its time of change is another one.
   bool is_made() const;
-  /// Makes the folders, and takes away a part that an interrupted batch left.
+  /// Makes the folders, and takes away a part that an interrupted batch left. Throws std::runtime_error if a
+  /// file is in the place of the output that no batch made.
   void begin() const;
   /// Puts the part into its place, also over an earlier output, and notes what it was made of.
   void finish() const;

@@ -11,11 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "batch/outputs.hpp"
 #include "batch/run.hpp"
 #include "batch/slurm.hpp"
 #include "batch/summary.hpp"
 #include "commands/commands.hpp"
 #include "commands/exit_codes.hpp"
+#include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "config/network_profile.hpp"
 #include "io/json_text.hpp"
@@ -52,8 +54,29 @@ std::vector<batch::Drive> share_of(const std::string& task, std::vector<batch::D
   return share;
 }
 
+/// Where the profile of all drives is written; empty: the step has none.
+std::string merged_profile(const BatchOptions& options, const batch::Step& step) {
+  const bool merges = step.name == "learn" && options.task.empty();
+  return merges ? (std::filesystem::path(options.out) / "merged.yaml").string() : std::string();
+}
+
+/// Refuses to write a summary over a file that the batch reads, or over an output.
+void check_files(const BatchOptions& options, const batch::Step& step,
+                 const std::vector<batch::Drive>& drives, std::vector<std::string> summaries) {
+  summaries.insert(summaries.end(), {options.json, merged_profile(options, step)});
+  std::vector<std::string> read{options.list};
+  for (const batch::Drive& drive : drives) read.push_back(drive.path.string());
+  for (const auto& file : batch::other_inputs(step, drives.front())) read.push_back(file.string());
+  refuse_overwriting(read, summaries);
+  for (const batch::Drive& drive : drives) {
+    std::vector<std::string> written = summaries;
+    written.push_back(batch::output_path(options.out, step, drive).string());
+    refuse_overwriting({}, written);
+  }
+}
+
 /// Merges what was learned of all drives.
-void merge_profiles(const std::vector<batch::Result>& results, const std::filesystem::path& out) {
+void merge_profiles(const std::vector<batch::Result>& results, const std::string& out) {
   std::vector<NetworkProfiles> learned;
   for (const batch::Result& result : results)
     if (result.state != batch::Result::State::failed)
@@ -63,7 +86,7 @@ void merge_profiles(const std::vector<batch::Result>& results, const std::filesy
                                   "with it.\n",
                                   learned.size()) +
                           config::dump(config::merged(learned)));
-  fmt::print("{}: what was learned of {} drives\n", out.string(), learned.size());
+  fmt::print("{}: what was learned of {} drives\n", out, learned.size());
 }
 
 void submit_array(const BatchOptions& options, const batch::Step& step,
@@ -74,6 +97,7 @@ void submit_array(const BatchOptions& options, const batch::Step& step,
                               .step = step,
                               .tasks = std::min(tasks, drives.size()),
                               .sbatch = options.sbatch};
+  check_files(options, step, drives, {(array.folder / "batch.json").string()});
   const auto scripts = batch::write_scripts(array, drives);
   if (options.dry_run) {
     for (const auto& script : scripts) fmt::print("{}\n", script.string());
@@ -92,6 +116,7 @@ void run_batch(const BatchOptions& options, std::vector<std::string> words) {
   std::filesystem::create_directories(options.out);
   if (options.slurm) return submit_array(options, step, drives);
   if (!options.task.empty()) drives = share_of(options.task, std::move(drives));
+  check_files(options, step, drives, {});
   support::ProgressBar bar;
   const auto results =
       batch::run({.laneloom = this_program(), .step = step, .folder = options.out, .jobs = options.jobs},
@@ -100,8 +125,8 @@ void run_batch(const BatchOptions& options, std::vector<std::string> words) {
   fmt::print("{}", batch::table(step, results));
   if (!options.json.empty())
     io::write_text(options.json, io::json_text(batch::to_json(step, results), 2) + "\n");
-  if (step.name == "learn" && options.task.empty())
-    merge_profiles(results, std::filesystem::path(options.out) / "merged.yaml");
+  if (const std::string merged = merged_profile(options, step); !merged.empty())
+    merge_profiles(results, merged);
   if (std::ranges::any_of(results, [](const auto& one) { return one.state == batch::Result::State::failed; }))
     end_with(kFoundWrong);
 }
