@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "batch/drives.hpp"
+#include "batch/run.hpp"
 #include "batch/slurm.hpp"
 #include "commands.hpp"
 
@@ -289,6 +290,40 @@ TEST_F(Batch, WrongStepsAndDrivesAreNamed) {
   EXPECT_EQ(run(kBatch + "maps"), 64);
   EXPECT_EQ(run("batch --drives 'nowhere*' --out maps replay"), 1);
   EXPECT_THAT(output(), HasSubstr("nowhere*: there is no such drive"));
+}
+
+/// A shell script in place of laneloom, which writes $out.
+class Script : public testing::Test {
+ protected:
+  Script() {
+    write("drive", "drive");
+    write("car.yaml", "{}");
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.file(name)) << text;
+  }
+  /// What becomes of a drive.
+  Result result_of(const std::string& script) const {
+    write("laneloom", "#!/bin/bash\ncd '" + folder_.path() + "'\nout=${!#}\n" + script + "\n");
+    fs::permissions(folder_.file("laneloom"), fs::perms::owner_all);
+    const Work work{.laneloom = folder_.file("laneloom"),
+                    .step = {.name = "replay", .options = {"--config", folder_.file("car.yaml")}},
+                    .folder = folder_.file("out")};
+    return run(work, {{.path = folder_.file("drive"), .folder = folder_.path(), .name = "drive"}},
+               [](double) {})
+        .front();
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Script, WhatIsReadMustNotChangeMeanwhile) {
+  for (const std::string name : {"drive", "car.yaml"}) {
+    const Result result = result_of("echo x >$out; echo ' ' >>" + name);
+    EXPECT_EQ(result.state, Result::State::failed) << name;
+    EXPECT_THAT(result.problem, HasSubstr("changed meanwhile")) << name;
+  }
+  EXPECT_EQ(result_of("echo x >$out").state, Result::State::made);
+  EXPECT_EQ(result_of("echo x >$out").state, Result::State::kept);
 }
 
 class Drives : public testing::Test {

@@ -3,7 +3,6 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/json_text.hpp"
@@ -14,13 +13,27 @@ namespace laneloom::batch {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 constexpr std::size_t kBlock = 1 << 20;
 
-nlohmann::json read_record(const fs::path& path) {
+Json read_record(const fs::path& path) {
   std::ifstream file(path);
-  nlohmann::json record = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
-  return record.is_object() ? record : nlohmann::json::object();
+  Json record = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+  return record.is_object() ? record : Json::object();
+}
+
+/// While this is the same, a drive's contents are taken to be.
+Json look_of(const fs::path& drive) {
+  return {{"bytes", fs::file_size(drive)},
+          {"changed", static_cast<std::int64_t>(fs::last_write_time(drive).time_since_epoch().count())},
+          {"path", drive.string()}};
+}
+
+Json digests_of(const std::vector<fs::path>& files) {
+  Json digests = Json::object();
+  for (const fs::path& file : files) digests[file.string()] = digest_of(file);
+  return digests;
 }
 
 /// What an output was made of is noted there.
@@ -52,42 +65,24 @@ std::string digest_of(const fs::path& path) {
   return digest.text();
 }
 
-Output::Output(const fs::path& folder, const Step& step, const Drive& drive, std::string program)
-    : step_(step), drive_(drive), program_(std::move(program)) {
-  const std::string name = drive.name + kind_of(step).suffix;
-  path_ = output_path(folder, step, drive);
+Output::Output(const fs::path& folder, const Step& step, const Drive& drive, const std::string& program)
+    : step_(step), drive_(drive), path_(output_path(folder, step, drive)) {
+  const fs::path name = path_.lexically_relative(folder);
   part_ = folder / kOwnFolder / name;
   record_ = record_of(folder, name);
-  log_ = folder / kOwnFolder / (name + ".log");
+  log_ = part_.string() + ".log";
+  noted_ = read_record(record_);
+  seen_ = look_of(drive.path);
+  made_of_ = {
+      {"program", program},
+      {"step", step.name},
+      {"options", step.options},
+      {"files", digests_of(other_inputs(step, drive))},
+      {"drive", noted_.value("seen", Json()) == seen_ ? noted_.at("made_of").at("drive").get<std::string>()
+                                                      : digest_of(drive.path)}};
 }
 
-nlohmann::json Output::made_of(const nlohmann::json& before) const {
-  nlohmann::json drive{
-      {"bytes", fs::file_size(drive_.path)},
-      {"changed", static_cast<std::int64_t>(fs::last_write_time(drive_.path).time_since_epoch().count())},
-      {"path", drive_.path.string()}};
-  const nlohmann::json known = before.value("drive", nlohmann::json::object());
-  nlohmann::json without_digest = known;
-  without_digest.erase("digest");
-  drive["digest"] = without_digest == drive ? known.value("digest", "") : digest_of(drive_.path);
-  nlohmann::json files = nlohmann::json::object();
-  for (const fs::path& file : other_inputs(step_, drive_)) files[file.string()] = digest_of(file);
-  return {{"program", program_},
-          {"step", step_.name},
-          {"options", step_.options},
-          {"files", std::move(files)},
-          {"drive", std::move(drive)}};
-}
-
-bool Output::is_made() const {
-  if (!fs::exists(path_) || !fs::exists(record_)) return false;
-  const nlohmann::json before = read_record(record_);
-  nlohmann::json was = before, is = made_of(before);
-  for (nlohmann::json* one : {&was, &is})
-    for (const char* key : {"bytes", "changed", "path"})
-      if (one->contains("drive")) (*one)["drive"].erase(key);
-  return was == is;
-}
+bool Output::is_made() const { return fs::exists(path_) && noted_.value("made_of", Json()) == made_of_; }
 
 void Output::begin() const {
   if (fs::exists(path_) && !fs::exists(record_))
@@ -99,10 +94,11 @@ void Output::begin() const {
 
 void Output::finish() const {
   if (!fs::exists(part_)) throw std::runtime_error(path_.string() + ": the command wrote nothing");
-  const std::string record = io::json_text(made_of(nlohmann::json::object()), 2) + "\n";
+  if (look_of(drive_.path) != seen_ || digests_of(other_inputs(step_, drive_)) != made_of_.at("files"))
+    throw std::runtime_error(path_.string() + ": the drive, or a file of the step, changed meanwhile");
   io::write_text(record_, "{}\n");  // between the two outputs, the record is that of neither
   fs::rename(part_, path_);
-  io::write_text(record_, record);
+  io::write_text(record_, io::json_text({{"made_of", made_of_}, {"seen", seen_}}, 2) + "\n");
 }
 
 }  // namespace laneloom::batch

@@ -24,31 +24,34 @@ bool is_output(const std::filesystem::path& folder, const std::filesystem::path&
 /// The output of a step for one drive, below the folder of a batch.
 class Output {
  public:
-  /// `program` tells builds of laneloom apart.
-  Output(const std::filesystem::path& folder, const Step& step, const Drive& drive, std::string program);
+  /// Looks at what the output is made of; the drive's contents are read where its size or its time of change
+  /// is another one. `program` tells builds of laneloom apart. Throws std::runtime_error if something of it
+  /// cannot be read.
+  Output(const std::filesystem::path& folder, const Step& step, const Drive& drive,
+         const std::string& program);
 
-  const std::filesystem::path& path() const { return path_; }
   /// Where the command writes, until it is done.
   const std::filesystem::path& part() const { return part_; }
   /// What the command prints.
   const std::filesystem::path& log() const { return log_; }
 
   /// Whether the output is there, made by the same program with the same options of the same contents
-  /// of drive and files. The drive's contents are read where its size or its time of change is another one.
+  /// of drive and files.
   bool is_made() const;
   /// Makes the folders, and takes away a part that an interrupted batch left. Throws std::runtime_error if a
   /// file is in the place of the output that no batch made.
   void begin() const;
-  /// Puts the part into its place, also over an earlier output, and notes what it was made of.
+  /// Puts the part into its place, also over an earlier output, and notes what it was made of. Throws
+  /// std::runtime_error if that has changed since: nobody knows what the command read.
   void finish() const;
 
  private:
-  nlohmann::json made_of(const nlohmann::json& before) const;
-
   Step step_;
   Drive drive_;
-  std::string program_;
   std::filesystem::path path_, part_, log_, record_;
+  nlohmann::json noted_;    ///< the record of the output that is there
+  nlohmann::json seen_;     ///< how the drive looks
+  nlohmann::json made_of_;  ///< what the output is made of now
 };
 
 }  // namespace laneloom::batch

@@ -32,11 +32,10 @@ std::string error_in(const std::filesystem::path& log, int code) {
   return told.starts_with(kProgram) ? told.substr(kProgram.size()) : told;
 }
 
-Result made(const Work& work, const Drive& drive, const Output& output) {
-  Result result{.drive = drive, .output = output.path()};
+void make(const Work& work, const Output& output, Result& result) {
   output.begin();
   const auto begin = std::chrono::steady_clock::now();
-  support::ChildProcess command(command_line(work.laneloom, work.step, drive, output.part()),
+  support::ChildProcess command(command_line(work.laneloom, work.step, result.drive, output.part()),
                                 output.log().string());
   const int code = command.wait();
   result.duration_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -44,21 +43,24 @@ Result made(const Work& work, const Drive& drive, const Output& output) {
   if (code != 0 && !result.found_something) {
     const std::string line = error_in(output.log(), code);
     result.problem = line.empty() ? command.failure() : fmt::format("{} ({})", line, command.failure());
-    return result;
+    return;
   }
   output.finish();
   result.state = Result::State::made;
-  return result;
 }
 
 Result result_of(const Work& work, const Drive& drive, const std::string& program) {
-  const Output output(work.folder, work.step, drive, program);
+  Result result{.drive = drive, .output = output_path(work.folder, work.step, drive)};
   try {
-    if (output.is_made()) return {.drive = drive, .state = Result::State::kept, .output = output.path()};
-    return made(work, drive, output);
+    const Output output(work.folder, work.step, drive, program);
+    if (output.is_made())
+      result.state = Result::State::kept;
+    else
+      make(work, output, result);
   } catch (const std::exception& error) {
-    return {.drive = drive, .problem = error.what(), .output = output.path()};
+    result.problem = error.what();
   }
+  return result;
 }
 
 }  // namespace
