@@ -181,8 +181,7 @@ TEST_F(Batch, WrongOptionsOfTheStepAreNamed) {
 TEST_F(Batch, OneThatIsKilledLeavesNoHalfOutput) {
   {
     support::ChildProcess batch = start("laneloom " + kBatch + "maps --jobs 1 replay", "output");
-    while (batch.running() && (!exists("maps/.batch") || fs::is_empty(file("maps/.batch"))))
-      std::this_thread::yield();
+    while (batch.running() && !exists("maps/.batch/a.maps.mcap")) std::this_thread::yield();
     batch.signal(SIGKILL);
     batch.wait();
   }
@@ -324,6 +323,22 @@ TEST_F(Script, WhatIsReadMustNotChangeMeanwhile) {
   }
   EXPECT_EQ(result_of("echo x >$out").state, Result::State::made);
   EXPECT_EQ(result_of("echo x >$out").state, Result::State::kept);
+}
+
+TEST_F(Script, AnOutputIsMadeByOneBatchAtATime) {
+  const Result result = result_of("flock --nonblock out/.batch/drive.maps.mcap.lock true; echo $? >$out");
+  EXPECT_EQ(result.state, Result::State::made);
+  EXPECT_EQ(content(result.output), "1\n") << "another batch would wait";
+  EXPECT_EQ(result_of("flock --nonblock out/.batch/drive.maps.mcap.lock true; echo $? >$out").state,
+            Result::State::kept)
+      << "the lock is free again";
+}
+
+TEST_F(Script, AnOutputThatWasEmptiedIsMadeAnew) {
+  const Result result = result_of("echo x >$out");
+  write("out/drive.maps.mcap", "");
+  EXPECT_EQ(result_of("echo x >$out").state, Result::State::made);
+  EXPECT_EQ(content(result.output), "x\n");
 }
 
 class Drives : public testing::Test {

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "io/json_text.hpp"
@@ -23,6 +24,13 @@ Json read_record(const fs::path& path) {
   return record.is_object() ? record : Json::object();
 }
 
+/// Makes the folder of a file, if it may.
+fs::path with_folder(const fs::path& file) {
+  std::error_code ignored;
+  fs::create_directories(file.parent_path(), ignored);
+  return file;
+}
+
 /// While this is the same, a drive's contents are taken to be.
 Json look_of(const fs::path& drive) {
   return {{"bytes", fs::file_size(drive)},
@@ -36,16 +44,11 @@ Json digests_of(const std::vector<fs::path>& files) {
   return digests;
 }
 
-/// What an output was made of is noted there.
-fs::path record_of(const fs::path& folder, const fs::path& output) {
-  return folder / kOwnFolder / (output.string() + ".made_of.json");
-}
-
 }  // namespace
 
 bool is_output(const fs::path& folder, const fs::path& file) {
   const fs::path below = file.lexically_relative(folder);
-  return *below.begin() == kOwnFolder || fs::exists(record_of(folder, below));
+  return *below.begin() == kOwnFolder || fs::exists(folder / kOwnFolder / (below.string() + ".made_of.json"));
 }
 
 fs::path output_path(const fs::path& folder, const Step& step, const Drive& drive) {
@@ -66,11 +69,13 @@ std::string digest_of(const fs::path& path) {
 }
 
 Output::Output(const fs::path& folder, const Step& step, const Drive& drive, const std::string& program)
-    : step_(step), drive_(drive), path_(output_path(folder, step, drive)) {
-  const fs::path name = path_.lexically_relative(folder);
-  part_ = folder / kOwnFolder / name;
-  record_ = record_of(folder, name);
-  log_ = part_.string() + ".log";
+    : step_(step),
+      drive_(drive),
+      path_(output_path(folder, step, drive)),
+      part_(folder / kOwnFolder / (drive.name + kind_of(step).suffix)),
+      log_(part_.string() + ".log"),
+      record_(part_.string() + ".made_of.json"),
+      lock_(with_folder(part_.string() + ".lock")) {
   noted_ = read_record(record_);
   seen_ = look_of(drive.path);
   made_of_ = {
@@ -82,7 +87,10 @@ Output::Output(const fs::path& folder, const Step& step, const Drive& drive, con
                                                       : digest_of(drive.path)}};
 }
 
-bool Output::is_made() const { return fs::exists(path_) && noted_.value("made_of", Json()) == made_of_; }
+bool Output::is_made() const {
+  return fs::exists(path_) && noted_.value("made_of", Json()) == made_of_ &&
+         noted_.value("bytes", Json()) == fs::file_size(path_);
+}
 
 void Output::begin() const {
   if (fs::exists(path_) && !fs::exists(record_))
@@ -96,9 +104,10 @@ void Output::finish() const {
   if (!fs::exists(part_)) throw std::runtime_error(path_.string() + ": the command wrote nothing");
   if (look_of(drive_.path) != seen_ || digests_of(other_inputs(step_, drive_)) != made_of_.at("files"))
     throw std::runtime_error(path_.string() + ": the drive, or a file of the step, changed meanwhile");
+  const Json record{{"made_of", made_of_}, {"seen", seen_}, {"bytes", fs::file_size(part_)}};
   io::write_text(record_, "{}\n");  // between the two outputs, the record is that of neither
   fs::rename(part_, path_);
-  io::write_text(record_, io::json_text({{"made_of", made_of_}, {"seen", seen_}}, 2) + "\n");
+  io::write_text(record_, io::json_text(record, 2) + "\n");
 }
 
 }  // namespace laneloom::batch

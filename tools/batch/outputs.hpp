@@ -6,6 +6,7 @@
 
 #include "batch/drives.hpp"
 #include "batch/step.hpp"
+#include "support/file_lock.hpp"
 
 namespace laneloom::batch {
 
@@ -21,7 +22,8 @@ std::string digest_of(const std::filesystem::path& path);
 /// Whether a batch with its outputs below this folder made the file, or is about to. Both paths are absolute.
 bool is_output(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// The output of a step for one drive, below the folder of a batch.
+/// The output of a step for one drive, below the folder of a batch. As long as this, other batches wait that
+/// would make the same output.
 class Output {
  public:
   /// Looks at what the output is made of; the drive's contents are read where its size or its time of change
@@ -36,7 +38,7 @@ class Output {
   const std::filesystem::path& log() const { return log_; }
 
   /// Whether the output is there, made by the same program with the same options of the same contents
-  /// of drive and files.
+  /// of drive and files, and as long as it was then.
   bool is_made() const;
   /// Makes the folders, and takes away a part that an interrupted batch left. Throws std::runtime_error if a
   /// file is in the place of the output that no batch made.
@@ -49,6 +51,7 @@ class Output {
   Step step_;
   Drive drive_;
   std::filesystem::path path_, part_, log_, record_;
+  support::FileLock lock_;
   nlohmann::json noted_;    ///< the record of the output that is there
   nlohmann::json seen_;     ///< how the drive looks
   nlohmann::json made_of_;  ///< what the output is made of now
