@@ -229,8 +229,14 @@ TEST_F(Batch, WhatChecksFindIsNoFailure) {
     mirrored << frame << "\n";
   }
   mirrored.close();
-  ASSERT_TRUE(done(kBatch + "checked check"));
-  EXPECT_THAT(output(), HasSubstr("something wrong was found"));
+  for (const std::string what : {"4 made", "4 kept"}) {
+    ASSERT_TRUE(done(kBatch + "checked --json table.json check"));
+    EXPECT_THAT(output(), HasSubstr(what));
+    EXPECT_THAT(output(), HasSubstr("something wrong was found")) << what;
+    const auto found = json_of("table.json").at("drives").at(2);
+    EXPECT_EQ(found.at("drive"), "mirrored");
+    EXPECT_EQ(found.value("found_something", false), true) << what;
+  }
   EXPECT_FALSE(json_of("checked/mirrored.check.json").at("findings").empty());
 }
 

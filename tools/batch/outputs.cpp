@@ -92,6 +92,8 @@ bool Output::is_made() const {
          noted_.value("bytes", Json()) == fs::file_size(path_);
 }
 
+bool Output::found_something() const { return noted_.value("found_something", false); }
+
 void Output::begin() const {
   if (fs::exists(path_) && !fs::exists(record_))
     throw std::runtime_error(path_.string() + ": is there, and no batch made it; it is not written over");
@@ -100,11 +102,14 @@ void Output::begin() const {
   fs::remove(part_);
 }
 
-void Output::finish() const {
+void Output::finish(bool found_something) const {
   if (!fs::exists(part_)) throw std::runtime_error(path_.string() + ": the command wrote nothing");
   if (look_of(drive_.path) != seen_ || digests_of(other_inputs(step_, drive_)) != made_of_.at("files"))
     throw std::runtime_error(path_.string() + ": the drive, or a file of the step, changed meanwhile");
-  const Json record{{"made_of", made_of_}, {"seen", seen_}, {"bytes", fs::file_size(part_)}};
+  const Json record{{"made_of", made_of_},
+                    {"seen", seen_},
+                    {"bytes", fs::file_size(part_)},
+                    {"found_something", found_something}};
   io::write_text(record_, "{}\n");  // between the two outputs, the record is that of neither
   fs::rename(part_, path_);
   io::write_text(record_, io::json_text(record, 2) + "\n");

@@ -40,12 +40,14 @@ class Output {
   /// Whether the output is there, made by the same program with the same options of the same contents
   /// of drive and files, and as long as it was then.
   bool is_made() const;
+  /// Whether the command found something wrong when it made the output that is there.
+  bool found_something() const;
   /// Makes the folders, and takes away a part that an interrupted batch left. Throws std::runtime_error if a
   /// file is in the place of the output that no batch made.
   void begin() const;
   /// Puts the part into its place, also over an earlier output, and notes what it was made of. Throws
   /// std::runtime_error if that has changed since: nobody knows what the command read.
-  void finish() const;
+  void finish(bool found_something) const;
 
  private:
   Step step_;

@@ -45,7 +45,7 @@ void make(const Work& work, const Output& output, Result& result) {
     result.problem = line.empty() ? command.failure() : fmt::format("{} ({})", line, command.failure());
     return;
   }
-  output.finish();
+  output.finish(result.found_something);
   result.state = Result::State::made;
 }
 
@@ -53,10 +53,12 @@ Result result_of(const Work& work, const Drive& drive, const std::string& progra
   Result result{.drive = drive, .output = output_path(work.folder, work.step, drive)};
   try {
     const Output output(work.folder, work.step, drive, program);
-    if (output.is_made())
-      result.state = Result::State::kept;
-    else
+    if (!output.is_made()) {
       make(work, output, result);
+      return result;
+    }
+    result.state = Result::State::kept;
+    result.found_something = output.found_something();
   } catch (const std::exception& error) {
     result.problem = error.what();
   }

@@ -96,6 +96,7 @@ nlohmann::json to_json(const Step& step, const std::vector<Result>& results) {
   nlohmann::json drives = nlohmann::json::array();
   for (const Result& result : results) {
     nlohmann::json drive{{"drive", result.drive.name}, {"failed", result.state == Result::State::failed}};
+    if (result.found_something) drive["found_something"] = true;
     if (!result.problem.empty()) drive["problem"] = result.problem;
     drives.push_back(std::move(drive));
   }
