@@ -173,6 +173,13 @@ TEST_F(Batch, ADriveThatFailsIsToldAndStopsNoOther) {
   EXPECT_THAT(output(), HasSubstr("3 kept, 1 failed"));
 }
 
+TEST_F(Batch, TheReasonOfAFailureIsTheComplaintAndNotWhatFollows) {
+  ASSERT_TRUE(done("import frames " + drive("a") + " --out all.mcap"));
+  ASSERT_TRUE(done("cut all.mcap --topic detections --out drives/poseless.mcap"));
+  ASSERT_EQ(run(kBatch + "maps replay"), 2);
+  EXPECT_THAT(output(), HasSubstr("poseless.mcap: no map came of it: the input has no poses (ended with"));
+}
+
 TEST_F(Batch, WrongOptionsOfTheStepAreNamed) {
   ASSERT_EQ(run(kBatch + "maps replay --preset nowhere"), 2);
   EXPECT_THAT(output(), HasSubstr("laneloom replay: --preset: nowhere"));

@@ -21,15 +21,17 @@ namespace {
 constexpr int kFoundSomething = 2;
 constexpr int kWrongUse = 64;
 
-/// The line in which a command told its error: of wrong use the first one, before the usage, and else the
-/// last one.
+/// The line in which a command told its error: of wrong use the first one, before the usage, and else its
+/// last complaint, which standard output and lines below may follow.
 std::string error_in(const std::filesystem::path& log, int code) {
-  std::ifstream file(log);
-  std::string told;
-  for (std::string line; std::getline(file, line) && (told.empty() || code != kWrongUse);)
-    if (!line.empty()) told = line;
   constexpr std::string_view kProgram = "laneloom: ";
-  return told.starts_with(kProgram) ? told.substr(kProgram.size()) : told;
+  std::ifstream file(log);
+  std::string complaint, last;
+  for (std::string line; std::getline(file, line) && (last.empty() || code != kWrongUse);) {
+    if (!line.empty()) last = line;
+    if (line.starts_with(kProgram) && !line.ends_with(':')) complaint = line.substr(kProgram.size());
+  }
+  return complaint.empty() || code < 0 ? last : complaint;
 }
 
 void make(const Work& work, const Output& output, Result& result) {
