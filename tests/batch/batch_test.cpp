@@ -287,6 +287,12 @@ TEST_F(Batch, TheScriptsForSlurmMakeTheSame) {
   EXPECT_TRUE(exists("it's a folder/batch.json"));
 }
 
+TEST_F(Batch, TheStepMayFollowAnyOption) {
+  ASSERT_TRUE(done("batch --out maps --drives drives replay"));
+  for (const std::string option : {"--sbatch=--partition=night", "--sbatch --partition=night"})
+    EXPECT_TRUE(done(kBatch + "maps --slurm --dry-run " + option + " replay"));
+}
+
 TEST_F(Batch, WrongStepsAndDrivesAreNamed) {
   EXPECT_EQ(run(kBatch + "maps view"), 1);
   EXPECT_THAT(output(), HasSubstr("'view' is no step of a batch; these are: replay, evaluate"));

@@ -144,6 +144,7 @@ void add_batch(CLI::App& app) {
       ->add_option("--drives", options->drives,
                    "A drive, a folder of drives, or a pattern with * and ?; may be given several times")
       ->expected(1)
+      ->allow_extra_args(false)  // the step may follow
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--list", options->list, "File with one of these a line")->check(CLI::ExistingFile);
   command->add_option("--out", options->out, "Folder of the outputs, one for each drive")->required();
@@ -162,6 +163,7 @@ void add_batch(CLI::App& app) {
   command->add_option("--sbatch", options->sbatch, "Option for sbatch, as --sbatch=--partition=night")
       ->needs(slurm)
       ->expected(1)
+      ->allow_extra_args(false)  // the step may follow
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--dry-run", options->dry_run, "Write the scripts for Slurm, and submit nothing")
       ->needs(slurm);
