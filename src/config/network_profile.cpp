@@ -92,6 +92,8 @@ NetworkProfiles merged(std::span<const NetworkProfiles> of_drives) {
       }
     }
   }
+  for (auto& [source, profile] : sum)
+    for (auto& [name, all] : profile) all.weight = std::min(all.weight, kMaxNumber);
   return sum;
 }
 

@@ -17,7 +17,7 @@ namespace laneloom::config {
 NetworkProfiles load_network_profiles(const std::filesystem::path& path);
 
 /// What was learned of networks in several drives: of each value the mean by weight, with the sum of the
-/// weights.
+/// weights, as far as a profile may have it.
 NetworkProfiles merged(std::span<const NetworkProfiles> of_drives);
 
 /// The text of profiles, as load_network_profiles() reads it back.

@@ -59,6 +59,12 @@ TEST_F(NetworkProfileFile, AFileThatIsNotThereIsNamed) {
   EXPECT_THROW(load_network_profiles(path_), ConfigError);
 }
 
+TEST_F(NetworkProfileFile, OfManyDrivesIsReadBack) {
+  const NetworkProfiles drive{{"front", {{"a", {0.5, 6e8}}}}};
+  std::ofstream(path_) << dump(merged(std::vector{drive, drive}));
+  EXPECT_EQ(load_network_profiles(path_).at("front").at("a"), (LearnedValue{0.5, 1e9}));
+}
+
 TEST(MergedProfiles, HaveTheMeanByWeightOfEachValue) {
   const std::vector<NetworkProfiles> of_drives{
       {{"front", {{"a", {1.0, 10.0}}, {"b", {5.0, 2.0}}}}},
