@@ -127,12 +127,17 @@ TEST(Survey, ALineThatOneOfManyDrivesSawIsLeftOut) {
   }
 }
 
-TEST(Survey, WhatIsGoneAndWhatIsNewIsTold) {
+class Changes : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Survey, Changes, testing::Values(3, 4), testing::PrintToStringParamName());
+
+TEST_P(Changes, AreToldOnceTheMapHasThem) {
   Survey survey;
   std::vector<RoadLine> before = kRoad, after = kRoad;
   before.push_back({.left_m = 2.0, .from_m = 30.0, .to_m = 70.0});
   after.push_back({.left_m = -2.0, .from_m = 120.0, .to_m = 140.0});
-  for (int i = 0; i < 8; ++i) survey.add(drive_past(i < 4 ? before : after, Eigen::Isometry3d::Identity()));
+  for (int i = 0; i < 4; ++i) survey.add(drive_past(before, Eigen::Isometry3d::Identity()));
+  for (int i = 0; i < GetParam(); ++i) survey.add(drive_past(after, Eigen::Isometry3d::Identity()));
   const std::vector<Change> changes = survey.changes();
   ASSERT_GE(changes.size(), 2u);
   const auto told = [&](bool gone) {

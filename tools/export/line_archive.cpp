@@ -28,8 +28,8 @@ bool is_doubtful(const Marking& marking) {
          (marking.observations > 0 && marking.observations < kMinObservations);
 }
 
-bool is_gone(const Votes& votes) { return votes.belief <= -Votes::kSeen && votes.seen >= kMinDrives; }
-bool is_new(const Votes& votes) { return votes.belief >= Votes::kSeen && votes.against >= kMinDrives; }
+bool is_gone(const Votes& votes) { return !votes.believed() && votes.seen >= kMinDrives; }
+bool is_new(const Votes& votes) { return votes.believed() && votes.against >= kMinDrives; }
 
 /// Appends the stretches of a line for which `is_changed` holds.
 template <class IsChanged>
