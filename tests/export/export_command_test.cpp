@@ -177,11 +177,12 @@ TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {
   const std::string command =
       "export drive.frames.jsonl 2.frames.jsonl 3.frames.jsonl broken.jsonl --lanelet2 all.osm "
       "--report report.json";
-  ASSERT_TRUE(done(command));
+  ASSERT_EQ(run(command), 2) << output();
   EXPECT_THAT(output(), HasSubstr("broken.jsonl"));
   EXPECT_THAT(output(), HasSubstr("left out"));
   const nlohmann::json report = json_of("report.json");
   ASSERT_EQ(report.at("drives").size(), 3u);
+  EXPECT_EQ(report.at("left_out").at(0).at("file"), "broken.jsonl");
   for (const std::size_t drive : {1U, 2U}) {
     EXPECT_NEAR(report["drives"][drive].at("mean_m").get<double>(), 1.41, 0.3);
     EXPECT_GT(report["drives"][drive].at("met_share").get<double>(), 0.8);
@@ -190,6 +191,15 @@ TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {
   EXPECT_LT(simulation::load_lanelet2(file("all.osm")).lanes.size(), of_one + of_one / 2)
       << "nothing is there twice";
   EXPECT_EQ(run(command + " --strict"), 1);
+}
+
+TEST_F(ExportCommand, ADriveInAnotherFrameIsTold) {
+  simulate("straight");
+  std::ofstream(file("utm.yaml")) << "dds: {map_frame_id: utm32}";
+  ASSERT_TRUE(done("replay drive.frames.jsonl --out maps.mcap"));
+  ASSERT_TRUE(done("replay drive.frames.jsonl --config utm.yaml --out utm.mcap"));
+  ASSERT_TRUE(done("export maps.mcap utm.mcap --lanelet2 map.osm"));
+  EXPECT_THAT(output(), HasSubstr("utm.mcap: is in the frame 'utm32', and the drives before in 'map'"));
 }
 
 TEST_F(ExportCommand, WrongUseAndInputAreNamed) {

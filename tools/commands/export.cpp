@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "commands/commands.hpp"
+#include "commands/exit_codes.hpp"
 #include "commands/given_files.hpp"
 #include "commands/options.hpp"
 #include "commands/read_drive.hpp"
@@ -58,10 +59,15 @@ void check_files(const ExportOptions& options) {
 struct Surveyed {
   exports::Survey survey;
   std::vector<std::string> files;
-  nlohmann::json drives = nlohmann::json::array();
+  nlohmann::json drives = nlohmann::json::array(), left_out = nlohmann::json::array();
+  std::string frame_id;  ///< of the first drive that tells it
 
-  void add(const std::string& file, exports::DriveLines lines) {
-    const exports::Survey::Offset offset = survey.add(std::move(lines));
+  void add(const std::string& file, ReadDrive drive) {
+    if (frame_id.empty()) frame_id = drive.frame_id;
+    if (!drive.frame_id.empty() && drive.frame_id != frame_id)
+      fmt::print(stderr, "laneloom: {}: is in the frame '{}', and the drives before in '{}'\n", file,
+                 drive.frame_id, frame_id);
+    const exports::Survey::Offset offset = survey.add(std::move(drive.lines));
     if (!files.empty())
       fmt::print(
           "{}: moved by {:.2f} m (at most {:.2f} m and {:.2f} deg); {:.0f} % of its lines are on the road so "
@@ -84,6 +90,7 @@ Surveyed survey(const ExportOptions& options, const Config& config) {
     } catch (const std::runtime_error& error) {
       if (options.strict || options.in.size() == 1) throw;
       fmt::print(stderr, "laneloom: {}; the drive is left out\n", error.what());
+      surveyed.left_out.push_back({{"file", file}, {"problem", error.what()}});
     }
   }
   if (surveyed.files.empty()) throw std::runtime_error("none of the drives could be read");
@@ -106,7 +113,8 @@ void tell(const std::vector<exports::Change>& changes, const Surveyed& surveyed)
 
 void write_report(const std::string& path, const std::vector<exports::Change>& changes,
                   const Surveyed& surveyed) {
-  nlohmann::json report{{"drives", surveyed.drives}, {"changes", nlohmann::json::array()}};
+  nlohmann::json report{
+      {"drives", surveyed.drives}, {"left_out", surveyed.left_out}, {"changes", nlohmann::json::array()}};
   for (const exports::Change& change : changes) {
     nlohmann::json points = nlohmann::json::array();
     for (const Point& point : change.points) points.push_back({point.x(), point.y(), point.z()});
@@ -156,6 +164,7 @@ void export_drives(const ExportOptions& options) {
   if (!options.geojson.empty()) write_geojson(options.geojson, network, *options.origin);
   fmt::print("{} lanes and {} linkages as {} lanelets, {} stop lines\n", map.lanes.size(),
              map.linkages.size(), network.lanelets.size(), map.stoplines.size());
+  if (!surveyed.left_out.empty()) end_with(kFoundWrong);
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ class DriveReader {
     }
     if (maps_ > 0 && published.map_id != map_id_) accumulator_.begin_anew();
     map_id_ = published.map_id;
+    frame_id_ = published.frame_id;
     stamp_ns_ = published.map.stamp_ns;
     accumulator_.add(published.map);
     ++maps_;
@@ -38,12 +39,13 @@ class DriveReader {
   std::size_t maps() const { return maps_; }
   /// Maps that came too late to be joined.
   std::size_t earlier() const { return earlier_; }
-  exports::DriveLines finish() { return accumulator_.finish(); }
+  ReadDrive finish() { return {accumulator_.finish(), frame_id_}; }
 
  private:
   exports::DriveAccumulator accumulator_;
   std::size_t maps_ = 0, earlier_ = 0;
   std::uint64_t map_id_ = 0;
+  std::string frame_id_;
   std::int64_t stamp_ns_ = 0;
 };
 
@@ -88,7 +90,7 @@ void map_frames(const std::string& path, const Config& config, bool strict, Driv
 
 }  // namespace
 
-exports::DriveLines read_drive(const std::string& path, const Config& config, bool strict) {
+ReadDrive read_drive(const std::string& path, const Config& config, bool strict) {
   DriveReader taker(config.mapper.range);
   const bool recorded = recording::is_recording(path);
   if (recorded) take_recorded_maps(path, strict, taker);
