@@ -293,6 +293,30 @@ TEST_F(Batch, TheStepMayFollowAnyOption) {
     EXPECT_TRUE(done(kBatch + "maps --slurm --dry-run " + option + " replay"));
 }
 
+TEST_F(Batch, PathsInDirectivesOfSlurmAreQuoted) {
+  ASSERT_TRUE(done(kBatch + "'two words 5%a' --slurm --dry-run replay"));
+  EXPECT_THAT(text("two words 5%a/.batch/summary.sh"), HasSubstr("/two words 5%%a/batch.log\"\n"));
+  EXPECT_THAT(text("two words 5%a/.batch/array.sh"), HasSubstr("/two words 5%%a/.batch\"/task-%a.log\n"));
+}
+
+TEST_F(Batch, JobsThatWaitKeepTheirDrives) {
+  ASSERT_TRUE(done("batch --drives " + drive("a") + " --out maps --slurm --dry-run replay"));
+  fs::rename(file("maps/.batch/array.sh"), file("waiting.sh"));
+  ASSERT_TRUE(done("batch --drives " + drive("b") + " --out maps --slurm --dry-run replay"));
+  ASSERT_EQ(shell("env SLURM_ARRAY_TASK_ID=1 sh waiting.sh"), 0) << output();
+  EXPECT_TRUE(exists("maps/a.maps.mcap"));
+  fs::copy_file(file(drive("a")), file("drives/a\nb.mcap"));
+  EXPECT_EQ(run(kBatch + "maps --slurm --dry-run replay"), 1);
+  EXPECT_THAT(output(), HasSubstr("line break"));
+}
+
+TEST_F(Batch, ADriveOfAListThatIsGoneFailsAlone) {
+  std::ofstream(file("list.txt")) << "drives\ngone.mcap\n";
+  ASSERT_EQ(run("batch --list list.txt --out maps replay"), 2);
+  EXPECT_THAT(output(), HasSubstr("gone.mcap: there is no such drive"));
+  EXPECT_THAT(output(), HasSubstr("3 made in"));
+}
+
 TEST_F(Batch, WrongStepsAndDrivesAreNamed) {
   EXPECT_EQ(run(kBatch + "maps view"), 1);
   EXPECT_THAT(output(), HasSubstr("'view' is no step of a batch; these are: replay, evaluate"));

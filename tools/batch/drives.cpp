@@ -58,7 +58,7 @@ class Search {
  public:
   explicit Search(const fs::path& outputs) : outputs_(whole(outputs)) {}
 
-  void add(const std::string& word) {
+  void add(const std::string& word, bool of_list = false) {
     const std::size_t before = found_.size();
     const fs::path folder = folder_of(word);
     for (const fs::path& path : fs::exists(word) ? std::vector<fs::path>{word} : matches(word)) {
@@ -70,7 +70,9 @@ class Search {
         if (entry.is_regular_file() && is_drive(entry.path()) && !is_output(outputs_, entry.path()))
           found_.push_back({folder, entry.path()});
     }
-    if (found_.size() == before) throw std::runtime_error(word + ": there is no such drive");
+    if (found_.size() > before) return;
+    if (!of_list) throw std::runtime_error(word + ": there is no such drive");
+    found_.push_back({folder, whole(word)});  // it fails, and stops no other
   }
 
   /// A relative path of a list names the drive below the list's folder.
@@ -81,7 +83,8 @@ class Search {
     for (std::string line; io::next_line(file, line);) {
       if (line.empty() || line.front() == '#') continue;
       const bool below = !fs::path(line).is_absolute() && !line.starts_with("..");
-      add(below ? (folder.empty() ? "." : folder) + kNamesBegin + line : (fs::path(folder) / line).string());
+      add(below ? (folder.empty() ? "." : folder) + kNamesBegin + line : (fs::path(folder) / line).string(),
+          /*of_list=*/true);
     }
   }
 

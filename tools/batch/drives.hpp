@@ -24,8 +24,8 @@ inline constexpr const char* kNamesBegin = "/./";
 /// A folder is above its drives, as the folder of a file is, that of a list for the relative paths below it,
 /// and that before the first * or ? of a pattern. Of several, it is the innermost one that has all of them
 /// below it: names depend on the words, and not on the drives that they mean. The drives are sorted by path,
-/// each of them once. Throws std::runtime_error naming the word that means no drive, or two drives that have
-/// one name.
+/// each of them once. Throws std::runtime_error naming the word that means no drive, unless it is of the
+/// list, where drives may have gone since, or two drives that have one name.
 std::vector<Drive> find_drives(const std::vector<std::string>& words, const std::string& list,
                                const std::filesystem::path& outputs);
 

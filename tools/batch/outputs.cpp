@@ -33,6 +33,7 @@ fs::path with_folder(const fs::path& file) {
 
 /// While this is the same, a drive's contents are taken to be.
 Json look_of(const fs::path& drive) {
+  if (!fs::exists(drive)) throw std::runtime_error(drive.string() + ": there is no such drive");
   return {{"bytes", fs::file_size(drive)},
           {"changed", static_cast<std::int64_t>(fs::last_write_time(drive).time_since_epoch().count())},
           {"path", drive.string()}};

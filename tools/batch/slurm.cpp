@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,6 +22,30 @@ std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
+}
+
+/// A path as a directive takes it for a pattern of file names.
+std::string in_directive(const fs::path& path) {
+  std::string text = "\"";
+  for (const char c : path.string()) {
+    if (c == '"' || c == '\\') text += '\\';
+    if (c == '%') text += '%';
+    text += c;
+  }
+  return text + "\"";
+}
+
+/// Writes the list of drives. Each list has a name of its own: jobs of another one may wait.
+fs::path write_list(const std::vector<Drive>& drives, const fs::path& own) {
+  std::string list;
+  for (const Drive& drive : drives)
+    list += drive.folder.string() + kNamesBegin + drive.path.lexically_relative(drive.folder).string() + "\n";
+  if (std::ranges::count(list, '\n') != std::ssize(drives))
+    throw std::runtime_error("the name of a drive has a line break, and cannot stand in a list");
+  io::write_text(own / "drives.txt", list);
+  const fs::path named = own / ("drives." + digest_of(own / "drives.txt") + ".txt");
+  fs::rename(own / "drives.txt", named);
+  return named;
 }
 
 std::string batch_command(const JobArray& array, const fs::path& list, const std::string& more) {
@@ -41,22 +67,18 @@ std::string content(const fs::path& path) {
 std::vector<fs::path> write_scripts(const JobArray& array, const std::vector<Drive>& drives) {
   const fs::path own = array.folder / kOwnFolder;
   fs::create_directories(own);
-  std::string list;
-  for (const Drive& drive : drives)
-    list += drive.folder.string() + kNamesBegin + drive.path.lexically_relative(drive.folder).string() + "\n";
-  io::write_text(own / "drives.txt", list);
+  const fs::path list = write_list(drives, own);
   const auto script = [&](const std::string& name, const std::string& directives, const std::string& more) {
-    io::write_text(own / name,
-                   fmt::format("#!/bin/sh\n#SBATCH --job-name=laneloom-{}\n#SBATCH --ntasks=1\n"
-                               "#SBATCH --requeue\n#SBATCH --open-mode=append\n{}{}",
-                               array.step.name, directives, batch_command(array, own / "drives.txt", more)));
+    io::write_text(own / name, fmt::format("#!/bin/sh\n#SBATCH --job-name=laneloom-{}\n#SBATCH --ntasks=1\n"
+                                           "#SBATCH --requeue\n#SBATCH --open-mode=append\n{}{}",
+                                           array.step.name, directives, batch_command(array, list, more)));
     return own / name;
   };
   return {script("array.sh",
                  fmt::format("#SBATCH --array=1-{}\n#SBATCH --output={}/task-%a.log\n", array.tasks,
-                             own.string()),
+                             in_directive(own)),
                  fmt::format("--jobs 1 --task \"$SLURM_ARRAY_TASK_ID/{}\"", array.tasks)),
-          script("summary.sh", fmt::format("#SBATCH --output={}/batch.log\n", array.folder.string()),
+          script("summary.sh", fmt::format("#SBATCH --output={}\n", in_directive(array.folder / "batch.log")),
                  fmt::format("--jobs 1 --json {}", quoted((array.folder / "batch.json").string())))};
 }
 
