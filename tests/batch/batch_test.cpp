@@ -114,6 +114,9 @@ TEST_F(Batch, ItsOwnOutputsAreNoDrives) {
   ASSERT_TRUE(done("batch --drives drives --out drives replay"));
   ASSERT_TRUE(done("batch --drives drives --out drives replay"));
   EXPECT_THAT(output(), HasSubstr("3 drives: 0 made"));
+  fs::create_directory_symlink(file("drives"), file("link"));
+  ASSERT_TRUE(done("batch --drives link --out drives replay"));
+  EXPECT_THAT(output(), HasSubstr("3 drives: ")) << "through a link";
   ASSERT_TRUE(done("batch --drives maps --out roads export"));
   EXPECT_THAT(output(), HasSubstr("3 drives: 3 made")) << "outputs of another batch may be drives";
 }
@@ -420,6 +423,16 @@ TEST_F(Drives, KeepTheirNamesWhenOthersCome) {
   EXPECT_THAT(names({}, folder_.file("list.txt")), ElementsAre("nights/monday/a"));
   touch("nights/tuesday/a.mcap");
   EXPECT_THAT(names({folder_.file("nights")}), ElementsAre("monday/a", "tuesday/a"));
+}
+
+TEST_F(Drives, AreFoundThroughLinks) {
+  for (const char* name : {"nights/monday/a.mcap", "disk/b.mcap"}) touch(name);
+  fs::create_directory_symlink(folder_.file("disk"), folder_.file("nights/disk"));
+  fs::create_directory_symlink(folder_.file("nights/monday"), folder_.file("nights/latest"));
+  fs::create_directory_symlink(folder_.file("nights"), folder_.file("nights/monday/up"));
+  fs::create_symlink("itself.mcap", folder_.file("nights/itself.mcap"));
+  fs::create_symlink("nowhere", folder_.file("nights/broken.mcap"));
+  EXPECT_THAT(names({folder_.file("nights")}), ElementsAre("broken", "disk/b", "itself", "monday/a"));
 }
 
 TEST_F(Drives, OfOneNameAreRefused) {

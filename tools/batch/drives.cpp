@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <fstream>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "batch/outputs.hpp"
 #include "io/text_file.hpp"
@@ -56,7 +59,7 @@ struct Found {
 /// Finds the drives that words mean.
 class Search {
  public:
-  explicit Search(const fs::path& outputs) : outputs_(whole(outputs)) {}
+  explicit Search(const fs::path& outputs) : outputs_(fs::weakly_canonical(whole(outputs))) {}
 
   void add(const std::string& word, bool of_list = false) {
     const std::size_t before = found_.size();
@@ -66,9 +69,7 @@ class Search {
         found_.push_back({folder, whole(path)});
         continue;
       }
-      for (const auto& entry : fs::recursive_directory_iterator(whole(path)))
-        if (entry.is_regular_file() && is_drive(entry.path()) && !is_output(outputs_, entry.path()))
-          found_.push_back({folder, entry.path()});
+      add_below(whole(path), folder);
     }
     if (found_.size() > before) return;
     if (!of_list) throw std::runtime_error(word + ": there is no such drive");
@@ -91,6 +92,23 @@ class Search {
   const std::vector<Found>& found() const { return found_; }
 
  private:
+  /// Links to folders come behind all others: a folder is looked into once, under its own name if it has one.
+  void add_below(const fs::path& top, const fs::path& folder) {
+    std::deque<fs::path> ahead{top};
+    for (std::set<fs::path> seen; !ahead.empty();) {
+      const fs::path at = ahead.front(), real = fs::canonical(at);
+      ahead.pop_front();
+      if (!seen.insert(real).second) continue;
+      for (const fs::path& path : std::set<fs::path>(fs::directory_iterator(at), {})) {
+        std::error_code of_broken_link;
+        if (fs::is_directory(path, of_broken_link))
+          ahead.insert(fs::is_symlink(path) ? ahead.end() : ahead.begin(), path);
+        else if (is_drive(path) && !is_output(outputs_, real / path.filename()))
+          found_.push_back({folder, path});  // where nothing is behind a link, it fails
+      }
+    }
+  }
+
   fs::path outputs_;
   std::vector<Found> found_;
 };

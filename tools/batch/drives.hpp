@@ -17,7 +17,8 @@ struct Drive {
 /// What lies before this in a word is the folder above its drives.
 inline constexpr const char* kNamesBegin = "/./";
 
-/// The drives that are meant by words: files, folders (all recordings and frames below), and patterns with *
+/// The drives that are meant by words: files, folders (all recordings and frames below, also
+/// through links), and patterns with *
 /// and ?. Of a folder, files that a batch with these `outputs` made are no drives. `list` names a file with
 /// one such word a line; empty: none. Relative paths in it are those of its folder.
 ///
