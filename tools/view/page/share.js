@@ -97,7 +97,7 @@ export async function saveRecording() {
     const answer = await fetch('/save');
     if (!answer.ok) return `Nothing was saved: ${await answer.text()}`;
     download(await answer.blob(), `laneloom_${new Date().toISOString().replace(/[:.]/g, '-').slice(0, 19)}.mcap`);
-    return 'The last 60 s are saved.';
+    return 'The last messages are saved: 60 s, or 8 MB.';
   } catch {
     return 'Nothing was saved: there is no connection to laneloom view.';
   }
