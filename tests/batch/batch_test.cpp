@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -137,6 +138,9 @@ TEST_F(Batch, SummariesAreNotWrittenOverDrivesAndOutputs) {
     EXPECT_EQ(run("batch --list list.txt --out rated --json " + name + " evaluate"), 1) << name;
     EXPECT_THAT(output(), HasSubstr(name)) << name;
   }
+  EXPECT_EQ(run(kBatch + "rated --json nowhere/table.json evaluate"), 1);
+  EXPECT_THAT(output(), HasSubstr("nowhere/table.json: its folder is not there"));
+  EXPECT_FALSE(exists("rated/a.json")) << "told before the work";
   fs::rename(file(drive("a")), file(drive("merged")));
   EXPECT_EQ(run(kBatch + "learned learn"), 1);
   EXPECT_THAT(output(), HasSubstr("merged.yaml: is given as an output twice"));
@@ -219,11 +223,17 @@ TEST_F(Batch, FiguresAreSummedUpOverDrives) {
   ASSERT_TRUE(done(kBatch + "rated --json table.json evaluate"));
   EXPECT_THAT(output(), HasSubstr("fused/lane/f1"));
   const auto figure = json_of("table.json").at("figures").at("fused/lane/f1");
-  double sum = 0.0;
-  for (const char* name : {"a", "b", "night/c"})
-    sum += json_of("rated/" + std::string(name) + ".json").at("fused").at("lane").at("f1").get<double>();
+  double sum = 0.0, squares = 0.0;
+  for (const char* name : {"a", "b", "night/c"}) {
+    const double f1 =
+        json_of("rated/" + std::string(name) + ".json").at("fused").at("lane").at("f1").get<double>();
+    sum += f1;
+    squares += f1 * f1;
+  }
+  const double stddev = std::sqrt((squares - sum * sum / 3.0) / 2.0);
   EXPECT_EQ(figure.at("drives"), 3);
   EXPECT_NEAR(figure.at("mean").get<double>(), sum / 3.0, 1e-12);
+  EXPECT_NEAR(figure.at("interval_95").get<double>(), 4.303 * stddev / std::sqrt(3.0), 1e-6) << "Student's t";
   EXPECT_LE(figure.at("least").at("value"), figure.at("mean"));
   EXPECT_GE(figure.at("most").at("value"), figure.at("mean"));
 }

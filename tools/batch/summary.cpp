@@ -8,10 +8,10 @@
 #include <map>
 #include <utility>
 
+#include "support/t_quantile.hpp"
+
 namespace laneloom::batch {
 namespace {
-
-constexpr double kNormal95 = 1.96;
 
 const char* name(Result::State state) {
   switch (state) {
@@ -35,7 +35,8 @@ Figure figure(const std::string& name, const std::vector<std::pair<double, std::
   for (const auto& [value, drive] : values) figure.mean += value / n;
   double squares = 0.0;
   for (const auto& [value, drive] : values) squares += (value - figure.mean) * (value - figure.mean);
-  if (values.size() > 1) figure.interval = kNormal95 * std::sqrt(squares / (n - 1.0) / n);
+  if (values.size() > 1)
+    figure.interval = support::t_quantile(values.size() - 1) * std::sqrt(squares / (n - 1.0) / n);
   const auto [least, most] =
       std::ranges::minmax_element(values, {}, [](const auto& one) { return one.first; });
   std::tie(figure.least, figure.least_drive) = *least;

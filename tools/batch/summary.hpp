@@ -13,7 +13,7 @@ struct Figure {
   std::string name;        ///< its JSON pointer in the outputs, without the first '/'
   std::size_t drives = 0;  ///< those that have it
   double mean = 0.0;
-  double interval = 0.0;  ///< half of the 95 % interval of the mean; 0: one drive
+  double interval = 0.0;  ///< half of the 95 % interval of the mean (Student's t); 0: one drive
   double least = 0.0, most = 0.0;
   std::string least_drive, most_drive;
 };

@@ -68,6 +68,9 @@ void check_files(const BatchOptions& options, const batch::Step& step,
   for (const batch::Drive& drive : drives) read.push_back(drive.path.string());
   for (const auto& file : batch::other_inputs(step, drives.front())) read.push_back(file.string());
   refuse_overwriting(read, summaries);
+  const auto folder = std::filesystem::path(options.json).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw std::runtime_error(options.json + ": its folder is not there");
   for (const batch::Drive& drive : drives) {
     std::vector<std::string> written = summaries;
     written.push_back(batch::output_path(options.out, step, drive).string());
@@ -123,10 +126,10 @@ void run_batch(const BatchOptions& options, std::vector<std::string> words) {
                  drives, [&](double share) { bar.step(share); });
   bar.clear();
   fmt::print("{}", batch::table(step, results));
-  if (!options.json.empty())
-    io::write_text(options.json, io::json_text(batch::to_json(step, results), 2) + "\n");
   if (const std::string merged = merged_profile(options, step); !merged.empty())
     merge_profiles(results, merged);
+  if (!options.json.empty())
+    io::write_text(options.json, io::json_text(batch::to_json(step, results), 2) + "\n");
   if (std::ranges::any_of(results, [](const auto& one) { return one.state == batch::Result::State::failed; }))
     end_with(kFoundWrong);
 }

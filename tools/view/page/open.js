@@ -6,7 +6,7 @@ const MB = 2 ** 20;
 async function open(file, most) {
   if (!most) return 'This viewer can be reached by other hosts, and takes no files: use "laneloom view FILE".';
   if (file.size > most) return `${file.name} has ${Math.ceil(file.size / MB)} MB; at most ${most / MB} can be dropped: use "laneloom view FILE".`;
-  const name = file.name.replace(/[^A-Za-z0-9._-]/g, '_').replace(/^\.+/, '').slice(-100) || 'file';
+  const name = file.name.replace(/[^A-Za-z0-9._-]/g, '_').slice(-100).replace(/^\.+/, '') || 'file';
   try {
     const answer = await fetch(`/open?name=${name}`, {method: 'PUT', body: file});
     if (!answer.ok) return `${file.name} was not opened: ${(await answer.text()).trim()}.`;
