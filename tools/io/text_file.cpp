@@ -3,6 +3,8 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "io/new_file.hpp"
+
 namespace laneloom::io {
 
 TextFile::TextFile(const std::filesystem::path& path) : path_(path), stream_(&std::cout) {
@@ -23,9 +25,11 @@ void TextFile::close() {
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {
-  TextFile file(path);
-  file.stream() << text;
-  file.close();
+  make_file(path, [&] {
+    TextFile file(path);
+    file.stream() << text;
+    file.close();
+  });
 }
 
 }  // namespace laneloom::io

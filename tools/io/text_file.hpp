@@ -37,7 +37,7 @@ class TextFile {
   std::ostream* stream_;
 };
 
-/// Writes a whole file. Throws std::runtime_error naming the file if it cannot be written.
+/// Writes a whole file, or none. Throws std::runtime_error naming the file if it cannot be written.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace laneloom::io
