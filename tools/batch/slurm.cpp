@@ -43,7 +43,7 @@ fs::path write_list(const std::vector<Drive>& drives, const fs::path& own) {
   if (std::ranges::count(list, '\n') != std::ssize(drives))
     throw std::runtime_error("the name of a drive has a line break, and cannot stand in a list");
   io::write_text(own / "drives.txt", list);
-  const fs::path named = own / ("drives." + digest_of(own / "drives.txt") + ".txt");
+  fs::path named = own / ("drives." + digest_of(own / "drives.txt") + ".txt");
   fs::rename(own / "drives.txt", named);
   return named;
 }

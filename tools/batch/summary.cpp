@@ -64,6 +64,7 @@ std::vector<Figure> figures_of(const std::vector<Result>& results) {
         values[pointer.substr(1)].emplace_back(value.template get<double>(), result.drive.name);
   }
   std::vector<Figure> figures;
+  figures.reserve(values.size());
   for (const auto& [name, of_drives] : values) figures.push_back(figure(name, of_drives));
   return figures;
 }
