@@ -106,8 +106,8 @@ class MappingSession {
   /// mapper), lines_forgotten, sources_restarted, frames_dropped_queue_full, detections_refused_<reason>,
   /// poses_accepted, poses_refused_<reason>, objects_fused, objects_dropped_queue_full,
   /// objects_refused_<reason>, objects_believed, objects_without_heading and objects_doubted
-  /// (trails::MovingObjects), map_resets, pose_jumps. Every frame that was added is fused, refused, dropped or
-  /// pending, and so is every message of objects; every pose is accepted or refused.
+  /// (trails::MovingObjects), map_resets, pose_jumps. Every frame that was added is fused, refused, dropped
+  /// or pending, and so is every message of objects; every pose is accepted or refused.
   const Counters& counters() const;
   /// The progress of all sources, by name.
   std::vector<SourceProgress> sources() const;
