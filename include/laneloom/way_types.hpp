@@ -32,8 +32,8 @@ struct WayStation {
   double left_m = kNotKnown_m;   ///< to the lane's left border; not known on a passage
   double right_m = kNotKnown_m;  ///< to the lane's right border; likewise
   double width_m = kNotKnown_m;  ///< of the lane; not known unless both borders are
-  /// Lateral standard deviation of the middle of the lane, by those of its boundaries. Not known where a
-  /// boundary has none.
+  /// Lateral standard deviation of the middle of the lane, by those of its boundaries, or of a driven path.
+  /// Not known where a boundary has none, and on other passages.
   double lateral_stddev_m = kNotKnown_m;
   /// Inferred within the lane's inferred ranges, and on a passage with a path: nobody saw a lane there.
   ElementStatus status = ElementStatus::confirmed;
