@@ -45,7 +45,8 @@ TEST(RoadCuts, TurnedRoundRunTheOtherWay) {
 }
 
 TEST(RoadCuts, OfACrowdShowTheNearest) {
-  const RoadCut cut = cut_along(20, side_by_side(41, 0.3), LaneConfig{})[10];
+  const RoadCuts cuts = cut_along(20, side_by_side(41, 0.3), LaneConfig{});
+  const RoadCut cut = cuts[10];
   EXPECT_EQ(cut.marks.size(), 13U);
   EXPECT_NEAR(cut.marks.front().lateral_m, -1.8, 1e-6);
   EXPECT_NEAR(cut.marks.back().lateral_m, 1.8, 1e-6);
