@@ -17,10 +17,7 @@ Findings object_findings(const std::vector<TrackedObjects>& objects, const GateC
       ++refused[why];
       continue;
     }
-    const trails::MovingObjects here = trails::moving_objects(message);
-    moving.believed += here.believed;
-    moving.without_heading += here.without_heading;
-    moving.doubted += here.doubted;
+    moving += trails::moving_objects(message);
   }
   Findings found;
   for (const auto& [why, count] : refused)
@@ -28,13 +25,12 @@ Findings object_findings(const std::vector<TrackedObjects>& objects, const GateC
         {"objects_refused",
          fmt::format("{} of {} messages of objects are refused as '{}'.", count, objects.size(), why),
          "Mend what writes them. deploy/README.md tells what is meant."});
-  const std::size_t useless = moving.without_heading + moving.doubted;
-  if (moving.believed == 0 && useless > 0)
+  if (moving.leave_no_trail())
     found.push_back(
         {"objects_leave_no_trail",
          fmt::format("Of {} moving objects, {} have no heading, and {} are of unknown kind or not sure: none "
                      "leaves a trail.",
-                     useless, moving.without_heading, moving.doubted),
+                     moving.useless(), moving.without_heading, moving.doubted),
          "See what idl/README.md says of heading, kind, existence_probability and position_stddev_m.",
          /*advice=*/true});
   return found;

@@ -13,6 +13,7 @@
 #include "config/network_profile.hpp"
 #include "io/json_text.hpp"
 #include "io/text_file.hpp"
+#include "mapping/trails/vehicles.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -106,12 +107,14 @@ std::string why_few_maps(const Counters& counters, const std::string& subject, s
 
 /// Of objects that move and leave no trails, why they do not.
 std::string why_no_trail(const Counters& counters) {
-  const auto without_heading = counters["objects_without_heading"], doubted = counters["objects_doubted"];
-  if (counters["objects_believed"] > 0 || without_heading + doubted == 0) return {};
+  const trails::MovingObjects moving{.believed = counters["objects_believed"],
+                                     .without_heading = counters["objects_without_heading"],
+                                     .doubted = counters["objects_doubted"]};
+  if (!moving.leave_no_trail()) return {};
   return fmt::format(
       "of {} moving objects none left a trail: {} have no heading, {} are of unknown kind or not sure "
       "(existence_probability, position_stddev_m)",
-      without_heading + doubted, without_heading, doubted);
+      moving.useless(), moving.without_heading, moving.doubted);
 }
 
 std::string idle_profile(const std::set<std::string>& sources, const std::string& profile_file) {

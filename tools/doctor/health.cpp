@@ -12,6 +12,7 @@
 #include "io/printable.hpp"
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/state_names.hpp"
+#include "mapping/trails/vehicles.hpp"
 #include "status/report.hpp"
 
 namespace laneloom::doctor {
@@ -141,13 +142,15 @@ void judge_objects(const std::map<std::string, std::uint64_t>& rises, Findings& 
     const auto known = rises.find(counter);
     return known == rises.end() ? 0 : known->second;
   };
-  const std::uint64_t without_heading = rise("objects_without_heading"), doubted = rise("objects_doubted");
-  if (rise("objects_believed") > 0 || without_heading + doubted == 0) return;
+  const trails::MovingObjects moving{.believed = rise("objects_believed"),
+                                     .without_heading = rise("objects_without_heading"),
+                                     .doubted = rise("objects_doubted")};
+  if (!moving.leave_no_trail()) return;
   found.push_back(
       {.id = "objects_leave_no_trail",
        .found =
            fmt::format("Of {} moving objects, {} have no heading, and {} are of unknown kind or not sure.",
-                       without_heading + doubted, without_heading, doubted),
+                       moving.useless(), moving.without_heading, moving.doubted),
        .why = "None leaves a trail: other vehicles tell nothing of the lanes.",
        .remedy = "See what idl/README.md says of heading, kind, existence_probability and position_stddev_m.",
        .advice = true});

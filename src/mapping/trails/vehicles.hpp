@@ -17,6 +17,16 @@ struct MovingObjects {
   std::size_t believed = 0;
   std::size_t without_heading = 0;
   std::size_t doubted = 0;  ///< of unknown kind, or the tracker is not sure of them
+
+  std::size_t useless() const { return without_heading + doubted; }
+  /// Whether objects move, and none of them may leave a trail.
+  bool leave_no_trail() const { return believed == 0 && useless() > 0; }
+  MovingObjects& operator+=(const MovingObjects& others) {
+    believed += others.believed;
+    without_heading += others.without_heading;
+    doubted += others.doubted;
+    return *this;
+  }
 };
 MovingObjects moving_objects(const TrackedObjects& objects);
 
