@@ -17,10 +17,9 @@ struct Drive {
 /// What lies before this in a word is the folder above its drives.
 inline constexpr const char* kNamesBegin = "/./";
 
-/// The drives that are meant by words: files, folders (all recordings and frames below, also
-/// through links), and patterns with *
-/// and ?. Of a folder, files that a batch with these `outputs` made are no drives. `list` names a file with
-/// one such word a line; empty: none. Relative paths in it are those of its folder.
+/// The drives that are meant by words: files, folders (all recordings and frames below, also through links),
+/// and patterns with * and ?. Of a folder, files that a batch with these `outputs` made are no drives. `list`
+/// names a file with one such word a line; empty: none. Relative paths in it are those of its folder.
 ///
 /// A folder is above its drives, as the folder of a file is, that of a list for the relative paths below it,
 /// and that before the first * or ? of a pattern. Of several, it is the innermost one that has all of them

@@ -24,6 +24,9 @@ Json read_record(const fs::path& path) {
   return record.is_object() ? record : Json::object();
 }
 
+/// What an output was made of is noted beside its part.
+fs::path record_of(const fs::path& part) { return part.string() + ".made_of.json"; }
+
 /// Makes the folder of a file, if it may.
 fs::path with_folder(const fs::path& file) {
   std::error_code ignored;
@@ -49,7 +52,7 @@ Json digests_of(const std::vector<fs::path>& files) {
 
 bool is_output(const fs::path& folder, const fs::path& file) {
   const fs::path below = file.lexically_relative(folder);
-  return *below.begin() == kOwnFolder || fs::exists(folder / kOwnFolder / (below.string() + ".made_of.json"));
+  return *below.begin() == kOwnFolder || fs::exists(record_of(folder / kOwnFolder / below));
 }
 
 fs::path output_path(const fs::path& folder, const Step& step, const Drive& drive) {
@@ -73,9 +76,9 @@ Output::Output(const fs::path& folder, const Step& step, const Drive& drive, con
     : step_(step),
       drive_(drive),
       path_(output_path(folder, step, drive)),
-      part_(folder / kOwnFolder / (drive.name + kind_of(step).suffix)),
+      part_(output_path(folder / kOwnFolder, step, drive)),
       log_(part_.string() + ".log"),
-      record_(part_.string() + ".made_of.json"),
+      record_(record_of(part_)),
       lock_(with_folder(part_.string() + ".lock")) {
   noted_ = read_record(record_);
   seen_ = look_of(drive.path);
