@@ -130,9 +130,9 @@ ElementId main_neighbour(const Lane& lane, Side side) {
   return longest == beside.end() ? kNoElement : longest->lane;
 }
 
-double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
+double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body, double min_cosine) {
   const double along = ego_alignment(lane, T_map_body);
-  return along == 0.0 ? 0.0 : std::copysign(1.0, along);
+  return along == 0.0 || std::abs(along) < min_cosine ? 0.0 : std::copysign(1.0, along);
 }
 
 Polyline path_between(const Lane& from, const Lane& to) {

@@ -64,8 +64,8 @@ bool are_neighbours(const Lane& a, const Lane& b);
 ElementId main_neighbour(const Lane& lane, Side side);
 
 /// The sense in which the vehicle drives in the lane. 1: along it; -1: against it; 0: the vehicle is
-/// elsewhere or crosses the lane.
-double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body);
+/// elsewhere or crosses the lane, at 45 degrees or where the cosine of the angle is below `min_cosine`.
+double ego_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body, double min_cosine = 0.0);
 
 /// Unit direction in which a lane is left at its end, or entered at its start; map frame, horizontal.
 Eigen::Vector2d leaving(const Lane& lane);

@@ -14,19 +14,17 @@ namespace laneloom::topology {
 namespace {
 
 // Log odds that a lane runs along its centerline.
-constexpr double kMaxEvidence = 6.0;       // of what was observed
 constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
-// Of the first trail in a lane; the n-th one counts 1/n² of it.
+// The first trail in a lane counts so much, and the n-th one 1/n² of it. A trail beside the own way tells
+// more if it runs against it, because nobody drives there by mistake, and less if it runs along it.
 constexpr double kTrailEvidence = 1.5;
-constexpr double kOncomingEvidence =
-    3.0;  // beside the own way and against it: nobody drives there by mistake
-constexpr double kOvertakingEvidence = 0.5;  // beside the own way and along it
-constexpr double kOneWayEvidence = 2.0;      // of a one-way street of the SD map
-constexpr double kWrongSide = -6.0;          // for traffic that keeps to the wrong side
-constexpr double kWrongObserved = -4.0;      // likewise, where traffic told the side
-constexpr double kOwnWay = 2.0;              // from here on, the lane is known to be the own way's
-constexpr double kTells = 0.05;              // a term that is less tells nothing
+constexpr double kOncomingEvidence = 3.0;
+constexpr double kOvertakingEvidence = 0.5;
+constexpr double kOneWayEvidence = 2.0;  // of a one-way street of the SD map
+constexpr double kWrongSide = -6.0;      // for traffic that keeps to the wrong side
+constexpr double kWrongObserved = -4.0;  // likewise, where traffic told the side
+constexpr double kTells = 0.05;          // a term that is less tells nothing
 
 constexpr int kRounds = 12;  // of messages: more than there are lanes side by side
 
@@ -49,8 +47,8 @@ geometry::OrientedGroups group(const RoadGraph& road) {
         const First& first =
             beside.emplace(std::pair(side.of, lanes::forks_before(side, road.forks)), First{i, side.reversed})
                 .first->second;
-        // Where a lane for turning opens in the middle of a road, it has the boundary beside it that had the
-        // oncoming lane beside it before.
+        // A lane for turning that opens in the middle of a road has the boundary beside it that the oncoming
+        // lane had before.
         if (!lanes::are_neighbours(lanes[first.lane], lanes[i]))
           groups.join(first.lane, i, side.reversed != first.reversed);
       }
@@ -107,7 +105,7 @@ std::vector<double> remembered_evidence(const std::vector<Lane>& lanes,
     const int sense = is_opposed(groups, i) ? -1 : 1;
     observed[groups.group(i)] += sense * remembered->direction_log_odds;
   }
-  for (double& one : observed) one = std::clamp(one, -kMaxEvidence, kMaxEvidence);
+  for (double& one : observed) one = std::clamp(one, -kMaxObserved, kMaxObserved);
   return observed;
 }
 
@@ -139,8 +137,8 @@ std::vector<double> own_way_beside(const std::vector<double>& drive,
                                    const std::vector<SideBySideGroups>& pairs) {
   std::vector<double> beside(drive.size(), 0.0);
   const auto note = [&](std::size_t group, std::size_t other) {
-    const bool is_own = std::abs(drive[group]) >= kOwnWay;
-    if (!is_own && std::abs(drive[other]) >= kOwnWay) beside[group] = drive[other];
+    const bool is_own = std::abs(drive[group]) >= kOwnDriveKnown;
+    if (!is_own && std::abs(drive[other]) >= kOwnDriveKnown) beside[group] = drive[other];
   };
   for (const SideBySideGroups& pair : pairs) {
     if (pair.may_part) continue;
@@ -186,13 +184,15 @@ bool is_opposed(const geometry::OrientedGroups& groups, std::size_t lane) {
   return groups.opposed(lane, groups.group(lane));
 }
 
-DirectionModel direction_model(const RoadGraph& road, const DirectionConfig& config,
-                               const RoadTraffic& traffic, const lanes::LaneTracks& tracks) {
+DirectionModel direction_model(const RoadGraph& road, DrivingSide driving_side, const RoadTraffic& traffic,
+                               const lanes::LaneTracks& tracks) {
   const std::vector<Lane>& lanes = road.lanes;
   const geometry::OrientedGroups groups = group(road);
-  const double side = side_sign(config.driving_side);
+  const double side = side_sign(driving_side);
   const std::vector<double> outermost = outermost_evidence(road, traffic.beside);
   DirectionModel model{.groups = groups,
+                       .side = side,
+                       .is_side_corrected = traffic.is_side_corrected,
                        .drive = remembered_evidence(lanes, groups, tracks),
                        .borders = {},
                        .trails = {},
@@ -214,9 +214,8 @@ DirectionModel direction_model(const RoadGraph& road, const DirectionConfig& con
   return model;
 }
 
-std::vector<double> solve(const DirectionConfig& config, const RoadTraffic& traffic, DirectionModel& model) {
-  const double side = side_sign(config.driving_side);
-  const double wrong_side = traffic.is_side_corrected ? kWrongObserved : kWrongSide;
+std::vector<double> solve(DirectionModel& model) {
+  const double wrong_side = model.is_side_corrected ? kWrongObserved : kWrongSide;
   std::vector<double> belief = model.evidence;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> next = model.evidence;
@@ -224,8 +223,8 @@ std::vector<double> solve(const DirectionConfig& config, const RoadTraffic& traf
       // `meeting`: the left group runs against its first lane and the right one along its own, as right-hand
       // traffic meets. `parting`: the reverse.
       const double wrong = pair.may_part ? std::min(0.0, pair.opposed) : wrong_side;
-      const double meeting = side < 0.0 ? wrong : pair.opposed;
-      const double parting = side > 0.0 ? wrong : pair.opposed;
+      const double meeting = model.side < 0.0 ? wrong : pair.opposed;
+      const double parting = model.side > 0.0 ? wrong : pair.opposed;
       const double left = belief[pair.left] - pair.to_left, right = belief[pair.right] - pair.to_right;
       pair.to_right = std::max(meeting, left) - std::max(0.0, left + parting);
       pair.to_left = std::max(parting, right) - std::max(0.0, right + meeting);
@@ -237,8 +236,7 @@ std::vector<double> solve(const DirectionConfig& config, const RoadTraffic& traf
   return belief;
 }
 
-std::vector<Evidence> evidence_of(const DirectionModel& model, const std::vector<Lane>& lanes,
-                                  const RoadTraffic& traffic) {
+std::vector<Evidence> evidence_of(const DirectionModel& model, const std::vector<Lane>& lanes) {
   const geometry::OrientedGroups& groups = model.groups;
   const std::size_t count = lanes.size();
   std::vector<Evidence> borders(count, Evidence::none), evidence(count, Evidence::none);
@@ -248,7 +246,7 @@ std::vector<Evidence> evidence_of(const DirectionModel& model, const std::vector
     if (overlap(lanes[i].evidence, Evidence::ego_path)) driven[groups.group(i)] = true;
   }
   const auto tells = [](double log_odds) { return std::abs(log_odds) >= kTells; };
-  const Evidence by_side = traffic.is_side_corrected ? Evidence::traffic : Evidence::none;
+  const Evidence by_side = model.is_side_corrected ? Evidence::traffic : Evidence::none;
   for (std::size_t i = 0; i < count; ++i) {
     if (tells(model.drive[i])) evidence[i] |= driven[i] ? Evidence::ego_path : Evidence::markings;
     if (tells(model.borders[i])) evidence[i] |= borders[i] | by_side;

@@ -15,14 +15,12 @@ namespace {
 // Log odds that a lane runs along its centerline.
 constexpr double kEgoEvidence = 0.5;       // per frame
 constexpr double kStoplineEvidence = 0.3;  // per frame
-constexpr double kMemory = 0.98;  // factor per frame beside the lane, where the vehicle may have overtaken
-constexpr double kMostObserved = 6.0;
-constexpr double kCosDriven = 0.8660254;  // 30 degrees; a vehicle at a wider angle crosses the lane
-constexpr double kKnown = 1.5;            // from here on, a direction is published
-constexpr double kNews = 0.05;            // share of a frame in the belief in a direction
-constexpr double kGrowth = 0.3;           // likewise, where the frame says more than the belief
-constexpr double kDoubted = 0.5;          // below, a direction is published no longer
-constexpr double kRemembered = 0.5;       // of a belief, beyond what the frame says
+constexpr double kMemory = 0.98;     // factor per frame beside the lane, where the vehicle may have overtaken
+constexpr double kKnown = 1.5;       // from here on, a direction is published
+constexpr double kNews = 0.05;       // share of a frame in the belief in a direction
+constexpr double kGrowth = 0.3;      // likewise, where the frame says more than the belief
+constexpr double kDoubted = 0.5;     // below, a direction is published no longer
+constexpr double kRemembered = 0.5;  // of a belief, beyond what the frame says
 
 /// The end of a lane at which stoplines lie. 1: its end; -1: its start; 0: neither or both.
 double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, const StoplineConfig& config) {
@@ -100,13 +98,6 @@ Evidence remembered(const lanes::LaneTrack& track, Evidence now, const GroupBeli
   return beyond > kRemembered ? now | track.belief_evidence : now;
 }
 
-/// The sense in which the vehicle drives along a lane. 0: it is elsewhere, or crosses the lane on its way
-/// into another road.
-double driven_sense(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
-  const double along = ego_alignment(lane, T_map_body);
-  return std::abs(along) < kCosDriven ? 0.0 : std::copysign(1.0, along);
-}
-
 /// The place for the reasons of a lane. Null: nobody asks.
 LaneReason* reason_of(ElementId id, FrameReasons* reasons) {
   if (reasons == nullptr) return nullptr;
@@ -130,31 +121,31 @@ void explain(const DirectionModel& model, std::size_t group, double sense, const
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
                         lanes::LaneTracks& tracks) {
-  const auto driven =
-      std::ranges::find_if(lanes, [&](const Lane& lane) { return driven_sense(lane, T_map_body) != 0.0; });
+  const auto driven = std::ranges::find_if(
+      lanes, [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body, kCosInLane) != 0.0; });
   for (const Lane& lane : lanes) {
     lanes::LaneTrack* remembered = tracks.find(lane.id);
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
     if (driven != lanes.end() && lanes::are_neighbours(*driven, lane)) log_odds *= kMemory;
-    const double sense = driven_sense(lane, T_map_body);
+    const double sense = lanes::ego_sense(lane, T_map_body, kCosInLane);
     remembered->driven = remembered->driven || sense != 0.0;
     log_odds += kEgoEvidence * sense + kStoplineEvidence * stopline_sense(lane, markings, config);
-    log_odds = std::clamp(log_odds, -kMostObserved, kMostObserved);
+    log_odds = std::clamp(log_odds, -kMaxObserved, kMaxObserved);
   }
 }
 
 void find_directions(const DirectionConfig& config, const RoadTraffic& traffic, lanes::LaneTracks& tracks,
                      RoadGraph& road, FrameReasons* reasons) {
-  DirectionModel model = direction_model(road, config, traffic, tracks);
+  DirectionModel model = direction_model(road, config.driving_side, traffic, tracks);
   const geometry::OrientedGroups& groups = model.groups;
-  const std::vector<double> now = solve(config, traffic, model);
+  const std::vector<double> now = solve(model);
   std::vector<double> belief = now;
   const Told before = told(road.lanes, groups, tracks);
   for (std::size_t i = 0; i < belief.size(); ++i)
     if (before.belief[i].count > 0) belief[i] = followed(before.belief[i].value(), belief[i]);
   note_driven(traffic.driven, tracks, road.lanes);
-  const std::vector<Evidence> evidence = evidence_of(model, road.lanes, traffic);
+  const std::vector<Evidence> evidence = evidence_of(model, road.lanes);
   std::vector<ElementId> against;
   for (std::size_t i = 0; i < road.lanes.size(); ++i) {
     Lane& lane = road.lanes[i];

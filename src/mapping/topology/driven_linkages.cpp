@@ -10,9 +10,8 @@
 namespace laneloom::topology {
 namespace {
 
-constexpr double kAtEnd_m = 5.0;            // from the end of a lane, where a trail leaves it
-constexpr double kMinInLane_m = 2.0;        // of a trail in either lane
-constexpr double kCosMaxAngle = 0.8660254;  // 30 degrees, between a trail and a lane's end
+constexpr double kAtEnd_m = 5.0;      // from the end of a lane, where a trail leaves it
+constexpr double kMinInLane_m = 2.0;  // of a trail in either lane
 
 struct Claim {
   Linkage::Kind kind;
@@ -62,8 +61,8 @@ std::optional<LaneStep> step_between(const Polyline& trail, const DrivenStretch&
     return std::nullopt;
   // The lanes may have been turned round since the stretches were found.
   const std::size_t out = left.last - 1, in = entered.first;
-  if (trails::direction_at(trail, out).dot(lanes::leaving(from)) < kCosMaxAngle ||
-      trails::direction_at(trail, in).dot(lanes::entering(to)) < kCosMaxAngle)
+  if (trails::direction_at(trail, out).dot(lanes::leaving(from)) < kCosInLane ||
+      trails::direction_at(trail, in).dot(lanes::entering(to)) < kCosInLane)
     return std::nullopt;
   return goes_on(trail, out, in) ? std::optional(LaneStep(from.id, to.id)) : std::nullopt;
 }

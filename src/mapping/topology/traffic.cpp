@@ -13,8 +13,7 @@
 namespace laneloom::topology {
 namespace {
 
-constexpr double kMaxLateral_m = 1.2;       // beside the middle of a lane
-constexpr double kCosMaxAngle = 0.8660254;  // 30 degrees
+constexpr double kMaxLateral_m = 1.2;  // beside the middle of a lane
 
 // An oncoming vehicle passes the own one within these.
 constexpr double kAbreast_m = 5.0;                          // ahead or behind
@@ -23,9 +22,8 @@ constexpr double kStraight_m = 15.0;                        // that either has d
 constexpr double kCosStraight = 0.985;                      // 10 degrees
 constexpr double kMoving_m = 0.1;                           // of the vehicle, since the frame before
 
-constexpr double kKnownSense = 2.0;  // log odds from which on the own drive tells the direction of a lane
-constexpr int kBelieved = 3;         // trails that must tell the driving side
-constexpr int kMaxTold = 4;          // trails that are remembered, so that a country's border is noticed
+constexpr int kBelieved = 3;  // trails that must tell the driving side
+constexpr int kMaxTold = 4;   // trails that are remembered, so that a country's border is noticed
 
 /// The lane that a vehicle drives in at a place. `along` is positive if it drives along the lane's points.
 struct Driven {
@@ -40,7 +38,7 @@ std::optional<Driven> lane_at(const LinePlaces& lanes, const Polyline& trail, st
   lanes.beside(0.5 * (trail[k] + trail[k + 1]), [&](const LinePlace& place, double lateral_m) {
     if (lateral_m > nearest_m) return;
     const double along = place.direction.dot(trails::direction_at(trail, k));
-    if (std::abs(along) < kCosMaxAngle) return;
+    if (std::abs(along) < kCosInLane) return;
     nearest_m = lateral_m;
     nearest = Driven{place.line, along};
   });
@@ -55,7 +53,7 @@ std::vector<double> senses(const std::vector<Lane>& lanes, const std::vector<Dri
     if (std::abs(stretch.along_m) >= kMinDriven_m) sense[stretch.lane] += std::copysign(1.0, stretch.along_m);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const lanes::LaneTrack* track = tracks.find(lanes[i].id);
-    if (track == nullptr || std::abs(track->direction_log_odds) < kKnownSense) continue;
+    if (track == nullptr || std::abs(track->direction_log_odds) < kOwnDriveKnown) continue;
     sense[i] = track->direction_log_odds;
   }
   return sense;
@@ -159,7 +157,7 @@ bool ObservedSide::drives_straight(const Eigen::Isometry3d& T_map_body) {
 void ObservedSide::observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
                                    const lanes::LaneLayout& layout, std::vector<trails::Trail>& trails) {
   const bool is_straight = drives_straight(T_map_body);
-  if (!is_straight || (T_map_body.translation() - before).head<2>().norm() < kMoving_m ||
+  if (!is_straight || trails.empty() || (T_map_body.translation() - before).head<2>().norm() < kMoving_m ||
       std::ranges::none_of(layout.lanes,
                            [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body) != 0.0; }))
     return;

@@ -37,6 +37,10 @@ struct RoadTraffic {
   bool is_side_corrected = false;     ///< traffic contradicts the configured driving side
 };
 
+/// The cosine of 30 degrees. A vehicle at a wider angle crosses a lane.
+inline constexpr double kCosInLane = 0.8660254;
+/// Log odds from which on the own drive tells the direction of a lane.
+inline constexpr double kOwnDriveKnown = 2.0;
 /// Stretches of one trail shorter than this, in metres, tell no direction: the vehicle may have crossed.
 inline constexpr double kMinDriven_m = 5.0;
 
