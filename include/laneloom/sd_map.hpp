@@ -25,8 +25,8 @@ struct SdRestriction {
   bool only = false;  ///< `to_way` is the only way that may be entered; else it may not be entered
 };
 
-/// A standard-definition map: which streets lead into which (paper, Sec. III-D-4), and
-/// which are one-way streets. Immutable.
+/// A standard-definition map: which streets lead into which (paper, Sec. III-D-4), and which are one-way
+/// streets. Immutable.
 class SdMap {
  public:
   SdMap() = default;

@@ -7,6 +7,7 @@
 #include "base/degree.hpp"
 #include "base/seconds.hpp"
 #include "laneloom/polyline.hpp"
+#include "mapping/map_fit.hpp"
 
 namespace laneloom {
 namespace {

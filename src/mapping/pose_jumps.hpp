@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "laneloom/types.hpp"
-#include "mapping/map_fit.hpp"
 
 namespace laneloom {
+
+class MapFit;
 
 /// Tells jumps of the poses from motions of the vehicle. A jump is a step that no vehicle makes, and that the
 /// detections contradict: they fit the map better from where the vehicle would be without the step. Ours.

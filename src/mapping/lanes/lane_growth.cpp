@@ -173,7 +173,7 @@ class Growth {
     }
   }
 
-  /// What a strip says between two neighbouring stations of a track: in a tight bend, stations were left out
+  /// Takes what a strip says between two neighbouring stations of a track. A tight bend has left out stations
   /// between them.
   void fill_between(const Strip& strip, const Cover& before, const Cover& behind) {
     const auto [first, second] = std::minmax(before.last, behind.first);

@@ -14,7 +14,7 @@ namespace laneloom::lanes {
 struct RoutePiece {
   DirectedLane lane;  ///< no lane: a passage
   Linkage::Turn entry = Linkage::Turn::unknown;
-  double lateral_stddev_m = -1.0;  ///< of a passage; -1: not known
+  double lateral_stddev_m = kNotKnown_m;  ///< of a passage
 };
 
 /// A point of a route.

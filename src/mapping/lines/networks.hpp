@@ -44,7 +44,7 @@ class Standpoint {
 /// that of the road, whose lines draw together.
 class PitchHistory {
  public:
-  /// What a frame's stretch has more than those before.
+  /// The difference of a frame's stretch to those before.
   double news(double stretch_per_m) {
     const double news = stretch_per_m - mean_per_m_;
     mean_per_m_ += kNewest * news;
