@@ -133,6 +133,8 @@ TEST_F(Faults, TwoServicesOfOneVehicleSaySo) {
   EXPECT_TRUE(recovers());
 }
 
+// A process that dies while it writes into shared memory can leave those who read there deaf for good, in
+// Fast DDS. Then its planner has to be started again, too; deploy/README.md.
 TEST_F(Faults, KilledWithSharedMemoryItStartsAgain) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "Fast DDS synchronises its shared memory by what the sanitizer does not see";
@@ -143,23 +145,22 @@ TEST_F(Faults, KilledWithSharedMemoryItStartsAgain) {
   std::optional<Listener<PublishedMap>> maps;
   std::optional<StraightRoad> road;
   std::optional<Process> service;
-  const auto starts = [&] {
+  const auto service_starts = [&] {
     service.emplace(command(config_, {"--config", file.path}));
     maps->forget();
     return maps->wait_for(is_good);
   };
-  // Now and then participants do not find one another through shared memory, also where none was killed
-  // before.
-  ASSERT_TRUE(one_of_three([&] {
+  const auto all_start = [&] {
     road.reset();
     maps.emplace(with_memory);
     road.emplace(with_memory);
-    return starts();
-  })) << service->errors();
+    return service_starts();
+  };
+  ASSERT_TRUE(one_of_three(all_start)) << service->errors();
   for (int i = 0; i < 3; ++i) {
     service->signal(SIGKILL);
     ASSERT_EQ(service->wait(), -SIGKILL);
-    ASSERT_TRUE(one_of_three(starts)) << service->errors();
+    ASSERT_TRUE(service_starts() || one_of_three(all_start)) << service->errors();
   }
 }
 
