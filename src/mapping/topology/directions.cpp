@@ -18,7 +18,7 @@ constexpr double kStoplineEvidence = 0.3;  // per frame
 constexpr double kMemory = 0.98;     // factor per frame beside the lane, where the vehicle may have overtaken
 constexpr double kKnown = 1.5;       // from here on, a direction is published
 constexpr double kNews = 0.05;       // share of a frame in the belief in a direction
-constexpr double kGrowth = 0.3;      // likewise, where the frame says more than the belief
+constexpr double kGrowth = 0.3;      // likewise, where the frame says more than the belief does
 constexpr double kDoubted = 0.5;     // below, a direction is published no longer
 constexpr double kRemembered = 0.5;  // of a belief, beyond what the frame says
 
@@ -55,11 +55,11 @@ Told told(const std::vector<Lane>& lanes, const geometry::OrientedGroups& groups
   return told;
 }
 
-/// A belief that follows the log odds of each frame: quickly where they grow, slowly where they fall, since
-/// lanes and borders that tell a direction come and go.
+/// A belief that follows the log odds of each frame: quickly where they say more than the belief, slowly where
+/// they say less, since lanes and borders that tell a direction come and go.
 double followed(double belief, double log_odds) {
-  const bool grows = belief * log_odds >= 0.0 && std::abs(log_odds) > std::abs(belief);
-  return belief + (grows ? kGrowth : kNews) * (log_odds - belief);
+  const bool says_more = std::abs(log_odds) > std::abs(belief);
+  return belief + (says_more ? kGrowth : kNews) * (log_odds - belief);
 }
 
 /// Whether a direction of these log odds is published. `told` has the sign of the one that the last map told.
