@@ -135,9 +135,9 @@ struct DirectionConfig {
   bool use_traffic = true;                        ///< whether trails of other vehicles tell directions
 };
 
-/// Limits within which a stopline ends a lane. Ours.
+/// Limits within which a stopline holds the traffic of a lane. Ours.
 struct StoplineConfig {
-  double max_gap_m = 3.0;       ///< before or behind the lane's end
+  double max_gap_m = 3.0;       ///< before or behind a lane's end
   double min_angle_deg = 45.0;  ///< between stopline and lane
 };
 

@@ -57,7 +57,7 @@ struct LocalMap {
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();  ///< at the stamp
   std::vector<Marking> markings;                                 ///< the fused markings, of all types
   std::vector<Marking> boundaries;       ///< boundaries of lanes: lanelines, roadedges, and inferred ones
-  std::vector<Stopline> stoplines;       ///< with the lanes that they end
+  std::vector<Stopline> stoplines;       ///< with the lanes whose traffic waits there
   std::vector<Lane> lanes;               ///< in ascending order of ids
   std::vector<Linkage> linkages;         ///< between these lanes, by ascending ids
   std::optional<Way> way;                ///< straight on from the pose; empty: no way is known

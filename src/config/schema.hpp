@@ -273,9 +273,9 @@ void visit(auto& v, Is<DirectionConfig> auto& c) {
 void visit(auto& v, Is<StoplineConfig> auto& c) {
   auto& [max_gap_m, min_angle_deg] = c;
   v.number("max_gap_m", max_gap_m, {"m", 0, 50},
-           "A stopline ends a lane only if it lies no further than this before or behind the lane's end.");
+           "A stopline counts as the end of a lane if it lies no further than this before or behind that end.");
   v.number("min_angle_deg", min_angle_deg, {"deg", 0, 90},
-           "A stopline ends a lane only if it crosses it at this angle at least.");
+           "A stopline holds a lane only if it crosses it at this angle at least.");
 }
 
 void visit(auto& v, Is<MapperConfig> auto& c) {
@@ -306,7 +306,7 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("lane", lane, "Boundaries to lanes (paper, Sec. III-D-3); the values are ours.");
   v.section("linkage", linkage, "Lanes to linkages (paper, Sec. III-D-4); the values are ours.");
   v.section("direction", direction, "The direction in which the traffic of a lane runs. Ours.");
-  v.section("stopline", stopline, "The lanes that a stopline ends. Ours.");
+  v.section("stopline", stopline, "The lanes whose traffic waits at a stopline. Ours.");
 }
 
 void visit(auto& v, Is<SyncConfig> auto& c) {

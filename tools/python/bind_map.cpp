@@ -49,7 +49,7 @@ void bind_marking(py::module_& module) {
 }
 
 void bind_stopline(py::module_& module) {
-  py::class_<Stopline> stopline(module, "Stopline", "A stopline and the lanes that it ends.");
+  py::class_<Stopline> stopline(module, "Stopline", "A stopline and the lanes whose traffic waits there.");
   const auto id = [](ElementId value) { return py::int_(value); };
   stopline.def(pickled<Stopline>())
       .def_property_readonly("marking", [](const Stopline& s) { return s.marking; })
