@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "laneloom/lane_graph.hpp"
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/reproducible.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 // Log odds that a lane runs along its centerline.
 constexpr double kEgoEvidence = 0.5;       // per frame
+constexpr double kWellWithin = 0.35;       // of a lane's width, from its centerline
 constexpr double kStoplineEvidence = 0.3;  // per frame
 constexpr double kMemory = 0.98;     // factor per frame beside the lane, where the vehicle may have overtaken
 constexpr double kKnown = 1.5;       // from here on, a direction is published
@@ -31,6 +33,14 @@ double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, co
     if (crosses_end(marking, lane, End::front, config)) sense -= 1.0;
   }
   return std::clamp(sense, -1.0, 1.0);
+}
+
+/// Whether the vehicle is so near a border of a lane, beyond which no lane is known, that it may drive in one
+/// there.
+bool may_drive_beyond(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
+  const auto foot = foot_in(lane, T_map_body.translation());
+  return foot && foot->distance_m > kWellWithin * lane.width_m &&
+         neighbours(lane, foot->lateral_m > 0.0 ? Side::left : Side::right).empty();
 }
 
 /// What the last map told of the lanes of each group, in the sense of its first lane.
@@ -55,8 +65,8 @@ Told told(const std::vector<Lane>& lanes, const geometry::OrientedGroups& groups
   return told;
 }
 
-/// A belief that follows the log odds of each frame: quickly where they say more than the belief, slowly where
-/// they say less, since lanes and borders that tell a direction come and go.
+/// A belief that follows the log odds of each frame: quickly where they say more than the belief, slowly
+/// where they say less, since lanes and borders that tell a direction come and go.
 double followed(double belief, double log_odds) {
   const bool says_more = std::abs(log_odds) > std::abs(belief);
   return belief + (says_more ? kGrowth : kNews) * (log_odds - belief);
@@ -130,7 +140,8 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
     if (driven != lanes.end() && lanes::are_neighbours(*driven, lane)) log_odds *= kMemory;
     const double sense = lanes::ego_sense(lane, T_map_body, kCosInLane);
     remembered->driven = remembered->driven || sense != 0.0;
-    log_odds += kEgoEvidence * sense + kStoplineEvidence * stopline_sense(lane, markings, config);
+    if (sense != 0.0 && !may_drive_beyond(lane, T_map_body)) log_odds += kEgoEvidence * sense;
+    log_odds += kStoplineEvidence * stopline_sense(lane, markings, config);
     log_odds = std::clamp(log_odds, -kMaxObserved, kMaxObserved);
   }
 }

@@ -294,6 +294,31 @@ TEST_F(Directions, CrossingTheLaneOnTheWayIntoAnotherRoadSaysNothing) {
   EXPECT_TRUE(known(12));
 }
 
+TEST_F(Directions, BesideABorderTheVehicleMayDriveInALaneThatIsNotKnown) {
+  // An inferred border may lie where the vehicle drives, and the lane beside it is the oncoming one.
+  const std::vector<Lane> both = lanes_;
+  lanes_ = {both[1]};
+  lanes_[0].left_neighbours.clear();
+  for (int i = 0; i < 10; ++i) observe(test::at(10, 3.3));
+  find(DrivingSide::unknown);
+  EXPECT_FALSE(known(12));
+  lanes_ = both;
+  for (int i = 0; i < 10; ++i) observe(test::at(10, 3.3));
+  find(DrivingSide::unknown);
+  EXPECT_TRUE(known(12)) << "no lane is unknown there";
+}
+
+TEST_F(Directions, AFrameThatContradictsABeliefAndSaysMoreIsFollowedAtOnce) {
+  lanes_ = {lane(12, 2, 0, 40)};
+  tracks_ = lanes::LaneTracks({{.id = 12, .published = 1, .belief = 2.0, .told_direction = 1}});
+  int frames = 0;
+  for (; frames < 20 && runs_forward(12); ++frames) {
+    observe(test::at(20, 1.75, std::numbers::pi));
+    find(DrivingSide::unknown);
+  }
+  EXPECT_LE(frames, 9) << "the vehicle drives against it";
+}
+
 TEST_F(Directions, CrossingTheLaneSaysNothing) {
   divider(MarkingStyle::dashed);
   for (int i = 0; i < 10; ++i) observe(test::at(3, 1.75, 0.5 * std::numbers::pi));
