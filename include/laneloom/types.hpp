@@ -16,6 +16,9 @@
 /// the pose topic is given in. T_map_body takes body coordinates to map coordinates.
 namespace laneloom {
 
+static_assert(alignof(Eigen::Isometry3d) == 16,
+              "compile with -DEIGEN_MAX_ALIGN_BYTES=16, as laneloom::types says: the library is laid out so");
+
 /// One polyline that the network saw in one frame (paper, eq. 1).
 struct Detection {
   MarkingType type = MarkingType::laneline;
