@@ -183,6 +183,31 @@ TEST(Convert, AMapFarFromItsVehicleIsRefused) {
   }
 }
 
+TEST(Convert, AMapWhoseLinesCannotBeWalkedAlongIsRefused) {
+  const auto refused = [](const std::function<void(msg::LaneMap&)>& spoil) {
+    auto message = RandomMessages(1).lane_map();
+    spoil(message);
+    PublishedMap received;
+    return from_msg(message, "map", received);
+  };
+  ASSERT_EQ(refused([](msg::LaneMap&) {}), "");
+  EXPECT_EQ(refused([](msg::LaneMap& map) { map.lanes()[0].centerline().clear(); }), "coordinate");
+  EXPECT_EQ(refused([](msg::LaneMap& map) {
+              map.driven_paths().resize(1);
+              map.driven_paths()[0].points().clear();
+            }),
+            "coordinate");
+  // 90 km to and fro: each place is near, and the line is as long as the equator.
+  std::vector<msg::Point> long_line(900);
+  for (std::size_t i = 0; i < long_line.size(); ++i) long_line[i].x(i % 2 == 0 ? 0.0 : 9e4);
+  EXPECT_EQ(refused([&](msg::LaneMap& map) { map.lanes()[0].centerline(long_line); }), "coordinate");
+  EXPECT_EQ(refused([&](msg::LaneMap& map) {
+              map.linkages().resize(1);
+              map.linkages()[0].path(long_line);
+            }),
+            "coordinate");
+}
+
 TEST(Convert, EvidenceOfAnUnknownKindIsRefused) {
   auto message = RandomMessages(1).lane_map();
   message.lanes()[0].evidence(32);

@@ -325,7 +325,7 @@ TEST(MapJson, WhatIsWrongIsNamed) {
   EXPECT_EQ(map_complaint(R"("existence":0.5)", R"("existence":-1)"), "");
   EXPECT_EQ(map_complaint("[3.0,4.0,5.0]", "[3.0,1e308,5.0]"), "instances[0].points[1]: is too far away");
   EXPECT_EQ(map_complaint("[3.0,4.0,5.0]", "[3.0,9e6,5.0]"),
-            "a line goes further than 100 km from the vehicle");
+            "a lane has no points, or a line is longer than 100 km or further from the vehicle");
 }
 
 TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {

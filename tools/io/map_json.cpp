@@ -102,7 +102,8 @@ LocalMap map_from_json(std::string_view text) {
   map.way = optional(object, "way", way);
   map.driven_paths = optional(object, "driven_paths", FromJson::element<std::vector<DrivenPath>>)
                          .value_or(std::vector<DrivenPath>{});
-  if (!is_local(map)) throw JsonError("a line goes further than 100 km from the vehicle");
+  if (!is_local(map))
+    throw JsonError("a lane has no points, or a line is longer than 100 km or further from the vehicle");
   return map;
 }
 
