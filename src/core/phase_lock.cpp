@@ -48,7 +48,10 @@ std::int64_t PhaseLock::deadline_ns() const {
 }
 
 Tick PhaseLock::begin(std::int64_t now_ns) {
-  const Tick tick{deadline_ns(), now_ns, missed_};
+  const std::int64_t deadline_ns = this->deadline_ns();
+  const std::int64_t slept = std::max<std::int64_t>(0, (now_ns - deadline_ns) / period_ns_);
+  expected_ns_ += slept * period_ns_;
+  const Tick tick{deadline_ns, now_ns, missed_ + static_cast<std::uint64_t>(slept)};
   start_ns_ = now_ns;
   return tick;
 }

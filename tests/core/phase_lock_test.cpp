@@ -183,5 +183,17 @@ TEST(PhaseLock, NoTickIsNearAnotherThatCameLate) {
   EXPECT_GE(phase.deadline_ns(), 230 * kMs);
 }
 
+TEST(PhaseLock, WhatWasSleptThroughIsToldByTheFirstTickAfterwards) {
+  PhaseLock phase(kPeriod_ns, 0);
+  phase.begin(0);
+  phase.end(kMs);
+  const Tick late = phase.begin(2150 * kMs);  // the process was stopped
+  EXPECT_EQ(late.deadline_ns, 100 * kMs);
+  EXPECT_EQ(late.missed, 20U);
+  phase.end(2151 * kMs);
+  EXPECT_EQ(phase.deadline_ns(), 2200 * kMs);
+  EXPECT_EQ(phase.begin(2200 * kMs).missed, 0U);
+}
+
 }  // namespace
 }  // namespace laneloom::core
