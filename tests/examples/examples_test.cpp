@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,26 @@ TEST(Examples, OurPlannerStopsForASecondService) {
 #ifdef C_PLANNER
 TEST(Examples, APlannerOnCycloneStopsForASecondService) {
   expect_stop_for_two_services(C_PLANNER, "no map to drive on: two services write maps in turn\n");
+}
+#endif
+
+void expect_stop_when_the_service_hangs(const std::string& planner, const std::string& goes) {
+  const Process service = laneloom::service();
+  const Process perceives(example(CPP_PERCEPTION));
+  const Process plans(example(planner));
+  ASSERT_TRUE(plans.wait_for_error(goes)) << plans.errors() << service.errors();
+  service.signal(SIGSTOP);
+  EXPECT_TRUE(plans.wait_for_error("no map came for 300 ms: stop\n")) << plans.errors();
+  service.signal(SIGCONT);
+}
+
+TEST(Examples, OurPlannerStopsWhenTheServiceHangs) {
+  expect_stop_when_the_service_hangs(CPP_PLANNER, " m left of its way");
+}
+
+#ifdef C_PLANNER
+TEST(Examples, APlannerOnCycloneStopsWhenTheServiceHangs) {
+  expect_stop_when_the_service_hangs(C_PLANNER, "width 3.50 m");
 }
 #endif
 

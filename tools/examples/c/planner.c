@@ -1,6 +1,7 @@
 // planner DOMAIN VEHICLE_ID: follows the lane map, and says where its own way leads.
 #include <dds/dds.h>
 #include <inttypes.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -42,8 +43,8 @@ static void plan(const laneloom_msg_LaneMap* map) {
   printf("%u lanes; the way ahead is known for %.0f m\n", (unsigned)map->lanes._length, map->way.known_m);
   for (uint32_t i = 0; i < map->way.stations._length && i < 3; ++i) {
     const laneloom_msg_WayStation* at = &map->way.stations._buffer[i];
-    printf("  lane %" PRIu64 ": x %.2f m, y %.2f m, heading %.3f rad, curvature %.4f/m, width %.2f m\n", at->lane,
-           at->point.x, at->point.y, at->heading_rad, at->curvature_per_m, at->width_m);
+    printf("  lane %" PRIu64 ": x %.2f m, y %.2f m, heading %.3f rad, curvature %.4f/m, width %.2f m\n",
+           at->lane, at->point.x, at->point.y, at->heading_rad, at->curvature_per_m, at->width_m);
   }
   fflush(stdout);
 }
@@ -64,14 +65,16 @@ int main(int argc, char** argv) {
   const dds_entity_t maps = made(dds_create_reader(subscriber, topic, qos, NULL));
   dds_delete_qos(qos);
 
-  for (;; dds_sleepfor(DDS_MSECS(100))) {
+  for (int silent = 0;; dds_sleepfor(DDS_MSECS(100))) {
     void* sample = NULL;
     dds_sample_info_t info;
-    if (dds_take(maps, &sample, &info, 1, 1) != 1) continue;
-    if (info.valid_data)
-      plan(sample);
-    else
-      printf("the service is gone\n");
-    dds_return_loan(maps, &sample, 1);
+    const bool came = dds_take(maps, &sample, &info, 1, 1) == 1;
+    silent = came && info.valid_data ? 0 : silent + 1;
+    if (silent == 0) plan(sample);
+    if (silent == 3) {  // the service hangs, or is gone
+      printf("no map came for 300 ms: stop\n");
+      fflush(stdout);
+    }
+    if (came) dds_return_loan(maps, &sample, 1);
   }
 }

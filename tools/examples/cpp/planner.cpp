@@ -74,6 +74,10 @@ int main(int argc, char** argv) {
                     .refused = [](std::string_view why) { std::cerr << "refused: " << why << '\n'; },
                     .alive = [](int services) { std::cerr << services << " services are alive\n"; }});
   std::optional<Way> way;
-  for (;; std::this_thread::sleep_for(std::chrono::milliseconds(100)))
-    if (const auto map = newest.take()) plan(*map, wish, way);
+  for (int silent = 0;; std::this_thread::sleep_for(std::chrono::milliseconds(100))) {
+    const auto map = newest.take();
+    silent = map ? 0 : silent + 1;
+    if (map) plan(*map, wish, way);
+    if (silent == 3) std::cout << "no map came for 300 ms: stop\n";  // the service hangs, or is gone
+  }
 }
