@@ -164,6 +164,23 @@ TEST_F(ExportCommand, PosesFarFromTheOriginAreRefused) {
   EXPECT_FALSE(exists("map.json"));
 }
 
+TEST_F(ExportCommand, WithoutAPlaceAMapOfPosesInUtmKeepsItsShape) {
+  simulate("straight");
+  move_poses(file("drive.frames.jsonl"), 4'000'000.0);
+  ASSERT_TRUE(done("export drive.frames.jsonl --lanelet2 map.osm --no-extras")) << output();
+  EXPECT_THAT(output(), HasSubstr("those of a map that begins at 0, 0"));
+  ASSERT_TRUE(
+      done("simulate --lanelet2 map.osm --frames again.frames.jsonl --truth again.json --duration 5"));
+  const nlohmann::json road = json_of("again.json");
+  ASSERT_FALSE(road.at("lanes").empty());
+  for (const nlohmann::json& lane : road.at("lanes")) {
+    const auto &left = lane.at("left").at(0), &right = lane.at("right").at(0);
+    EXPECT_NEAR(std::hypot(left.at(0).get<double>() - right.at(0).get<double>(),
+                           left.at(1).get<double>() - right.at(1).get<double>()),
+                3.5, 0.2);
+  }
+}
+
 TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {
   simulate("intersection");
   ASSERT_TRUE(done("export drive.frames.jsonl --lanelet2 one.osm"));

@@ -20,7 +20,7 @@ namespace {
 
 using testing::SizeIs;
 
-constexpr Origin kOrigin{.latitude_deg = 48.137, .longitude_deg = 11.575};
+const Origin kOrigin{.latitude_deg = 48.137, .longitude_deg = 11.575};
 
 /// An intersection, seen without noise and written.
 class ExportFiles : public testing::Test {

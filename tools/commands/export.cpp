@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -126,16 +127,26 @@ void write_report(const std::string& path, const std::vector<exports::Change>& c
   io::write_text(path, io::json_text(report, 2) + "\n");
 }
 
-/// Throws where the tangent plane at the origin is no picture of the earth any more, as with poses in UTM.
-void check_origin(const LocalMap& map) {
-  constexpr double kFarthest_m = 1e5;
+/// How far a map reaches from the origin of its frame.
+double farthest_m(const LocalMap& map) {
+  double far_m = 0.0;
   for (const Lane& lane : map.lanes)
-    for (const Point& point : lane.centerline)
-      if (const double far_m = point.head<2>().norm(); far_m > kFarthest_m)
-        throw std::runtime_error(
-            fmt::format("--origin: a lane is {:.0f} km from the origin of the map frame, and 100 km are the "
-                        "most; poses in UTM have to be moved to an origin nearby",
-                        far_m / 1000.0));
+    for (const Point& point : lane.centerline) far_m = std::max(far_m, point.head<2>().norm());
+  return far_m;
+}
+
+/// The origin of the configured place, or one at 0, 0. Beyond 100 km, the tangent plane there is no picture
+/// of the earth any more, as with poses in UTM: without a place, the map itself begins at 0, 0 then.
+exports::Origin origin_of(const LocalMap& map, const std::optional<exports::Origin>& given) {
+  const double far_m = farthest_m(map);
+  if (far_m <= 1e5) return given.value_or(exports::Origin{});
+  if (given)
+    throw std::runtime_error(
+        fmt::format("--origin: a lane is {:.0f} km from the origin of the map frame, and 100 km are the "
+                    "most; poses in UTM have to be moved to an origin nearby",
+                    far_m / 1000.0));
+  const Point& begin = map.lanes.front().centerline.front();
+  return {.of = {begin.x(), begin.y(), 0.0}};
 }
 
 void export_drives(const ExportOptions& options) {
@@ -147,21 +158,20 @@ void export_drives(const ExportOptions& options) {
   const Surveyed surveyed = survey(options, config);
   const LocalMap map = weave(surveyed.survey.road(), config.mapper);
   if (map.lanes.empty()) throw std::runtime_error(surveyed.files.front() + ": has no lanes to export");
-  if (options.origin) check_origin(map);
+  const exports::Origin place = origin_of(map, options.origin);
   const std::vector<exports::Change> changes = surveyed.survey.changes();
   tell(changes, surveyed);
   if (!options.report.empty()) write_report(options.report, changes, surveyed);
   exports::RoadNetwork network = exports::weld(map);
   if (options.plain) network.stops.clear();  // their ways stay
-  if (!options.lanelet2.empty())
-    write_lanelet2(options.lanelet2, network, options.origin.value_or(exports::Origin{}), !options.no_extras);
+  if (!options.lanelet2.empty()) write_lanelet2(options.lanelet2, network, place, !options.no_extras);
   if (!options.lanelet2.empty() && !options.origin)
     fmt::print(
         stderr,
-        "laneloom: {}: latitudes and longitudes are those of a place at 0, 0; --origin gives the true ones\n",
-        options.lanelet2);
+        "laneloom: {}: latitudes and longitudes are those of {} at 0, 0; --origin gives the true ones\n",
+        options.lanelet2, place.of.isZero() ? "a map frame" : "a map that begins");
   if (!options.opendrive.empty()) write_opendrive(options.opendrive, network);
-  if (!options.geojson.empty()) write_geojson(options.geojson, network, *options.origin);
+  if (!options.geojson.empty()) write_geojson(options.geojson, network, place);
   fmt::print("{} lanes and {} linkages as {} lanelets, {} stop lines\n", map.lanes.size(),
              map.linkages.size(), network.lanelets.size(), map.stoplines.size());
   if (!surveyed.left_out.empty()) end_with(kFoundWrong);

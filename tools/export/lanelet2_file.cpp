@@ -60,7 +60,8 @@ void add_nodes(const RoadNetwork& network, const Ids& ids, const Origin& origin,
   for (std::size_t i = 0; i < network.nodes.size(); ++i) {
     const Point& point = network.nodes[i];
     double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
-    earth.Reverse(point.x(), point.y(), point.z(), latitude_deg, longitude_deg, height_m);
+    const Point offset = point - origin.of;
+    earth.Reverse(offset.x(), offset.y(), offset.z(), latitude_deg, longitude_deg, height_m);
     pugi::xml_node node = add_element(osm, "node", ids.node(i));
     node.append_attribute("lat") = fmt::format("{:.11f}", latitude_deg).c_str();
     node.append_attribute("lon") = fmt::format("{:.11f}", longitude_deg).c_str();
