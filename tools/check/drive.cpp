@@ -11,6 +11,9 @@ namespace laneloom::check {
 namespace {
 
 constexpr std::int64_t kLongestGap_ns = 2'000'000'000;
+constexpr std::int64_t kOutOfOrder_ns =
+    1'000'000'000;  // a message that comes later than that is of another run
+constexpr std::size_t kShortestRun = 20;
 
 /// Whether a pose repeats another one, as it does in JSON lines where two sources have frames at its stamp.
 bool are_equal(const VehiclePose& a, const VehiclePose& b) {
@@ -32,6 +35,18 @@ Drive read_drive(replay::MessageSource& source, const std::function<void(double 
     on_step(source.progress());
   }
   return drive;
+}
+
+std::vector<std::size_t> later_runs(const std::vector<VehiclePose>& poses) {
+  std::vector<std::size_t> begins;
+  std::size_t begin = 0;
+  const auto is_run_until = [&](std::size_t end) { return end - begin >= kShortestRun; };
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    if (poses[i - 1].stamp_ns - poses[i].stamp_ns <= kOutOfOrder_ns) continue;
+    if (!is_run_until(i)) return {};
+    begins.push_back(begin = i);
+  }
+  return is_run_until(poses.size()) ? begins : std::vector<std::size_t>{};
 }
 
 PoseTrack::PoseTrack(std::vector<VehiclePose> poses) : poses_(std::move(poses)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -26,6 +27,11 @@ struct Drive {
 Drive read_drive(
     replay::MessageSource& source,
     const std::function<void(double share)>& on_step = [](double /*share*/) {});
+
+/// The places in a drive's poses at which another run begins, in the order of the file: stamps go back there
+/// by more than a second, and each run has 20 poses or more. In a drive that is out of order, runs are
+/// shorter.
+std::vector<std::size_t> later_runs(const std::vector<VehiclePose>& poses);
 
 /// Poses by their stamps. Not changed after it is made, so that several threads may read it.
 class PoseTrack {

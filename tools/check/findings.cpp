@@ -85,6 +85,11 @@ Findings findings(const Drive& drive, const Config& config) {
              "Record the topic of detections, or see laneloom doctor."}};
   if (drive.poses.empty())
     return {{"no_poses", "There are no poses.", "Record the topic of poses, or see laneloom doctor."}};
+  if (const auto runs = later_runs(drive.poses); !runs.empty())
+    return {{"several_runs",
+             fmt::format("There are {} runs, one behind the other: stamps begin anew at pose {}.",
+                         runs.size() + 1, runs.front() + 1),
+             "Make a file of each run: the frames of one would be taken for those of the other."}};
   const PoseTrack poses(drive.poses);
   Correction correction;  // of the last source: that of the poses is the same for all
   Findings stamps, conventions;

@@ -72,6 +72,10 @@ void import_frames(const ImportFramesOptions& options) {
   const auto source = open_drive(options);
   check::Drive drive = read_inputs(*source);
   warn_of(options.drive, source->refused(), source->left_out());
+  if (const auto runs = check::later_runs(drive.poses); !runs.empty())
+    throw std::runtime_error(fmt::format(
+        "{}: has {} runs, one behind the other: stamps begin anew at pose {}; make a file of each",
+        options.drive, runs.size() + 1, runs.front() + 1));
   const check::PoseTrack track(drive.poses);
   std::vector<VehiclePose> poses = track.poses();
   for (VehiclePose& pose : poses) pose = corrected(pose, options.correction);
