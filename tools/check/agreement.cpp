@@ -20,7 +20,7 @@ constexpr std::size_t kLinePoints = 16;
 constexpr std::size_t kFewestPoints = 6;
 constexpr double kFarthest_m = 1.0;  // that a distance counts
 constexpr double kMargin_m = 0.9;    // by which a view reaches beyond its points: their ends are near enough
-constexpr double kNearby_m = 25.0;
+constexpr double kNearby_m = 25.0, kLeastReach_m = 3.0;  // of the nearest and of the farthest point
 constexpr double kMostTilt_deg = 30.0, kMostHeading_deg = 60.0;
 
 /// A line with points between its own, so that each of its parts has some.
@@ -173,23 +173,27 @@ bool Agreement::drives_forward(const Correction& correction) const {
 }
 
 bool Agreement::lines_lie_well(const Correction& correction) const {
-  std::vector<double> nearest_m;
+  std::vector<double> nearest_m, farthest_m;
   double along_m = 0.0, across_m = 0.0, upward_m = 0.0;
   for (const View& view : views_) {
     const std::optional<Outline> seen = outline(view, correction);
     if (!seen) continue;
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
     for (const auto& [points, bounds] : seen->lines[0])
       for (std::size_t i = 1; i < points.size(); ++i) {
         const Point step = (points[i] - points[i - 1]).cwiseAbs();
         along_m += step.x();
         across_m += step.y();
         upward_m += step.z();
-        nearest = std::min(nearest, points[i].head<2>().norm());
+        const double away_m = points[i].head<2>().norm();
+        nearest = std::min(nearest, away_m);
+        farthest = std::max(farthest, away_m);
       }
     nearest_m.push_back(nearest);
+    farthest_m.push_back(farthest);
   }
-  return Distribution(nearest_m).quantile(0.8) < kNearby_m && across_m < along_m && upward_m < along_m;
+  return Distribution(nearest_m).quantile(0.8) < kNearby_m && median(farthest_m) > kLeastReach_m &&
+         across_m < along_m && upward_m < along_m;
 }
 
 double Agreement::size() const {
