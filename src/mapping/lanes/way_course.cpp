@@ -155,8 +155,8 @@ std::optional<Course> course_of(const LaneGraph& graph, const Eigen::Isometry3d&
   if (!start) return std::nullopt;
   Course own = course_from(graph, *start, wish, kBehind_m, ahead_m);
   // A change that had not come to the middle before the map lost it is begun anew.
-  const bool is_over =
-      begun.from != kNoElement && (begun.begin - T_map_body.translation()).norm() >= 0.5 * begun.length_m;
+  const Point begin = T_map_body.inverse() * begun.begin;
+  const bool is_over = begun.from != kNoElement && begin.x() < 0.0 && begin.norm() >= 0.5 * begun.length_m;
   if (is_over) own.change = begun;
   if (is_over || !is_change(wish.wish)) return own;
   return with_new_change(graph, own, T_map_body, wish);
