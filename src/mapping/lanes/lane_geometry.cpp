@@ -82,6 +82,14 @@ LaneSide side_at_end(const Lane& lane, Side side, End end) {
   return lane_side(end == End::back ? borders.back() : borders.front(), side);
 }
 
+bool is_between_the_same(const Lane& from, const Lane& to) {
+  return std::ranges::all_of(kSides, [&](Side side) {
+    if (from.borders(side).empty() || to.borders(side).empty()) return false;
+    const LaneSide end = side_at_end(from, side, End::back), begin = side_at_end(to, side, End::front);
+    return end.of.boundary != kNoElement && end.of == begin.of && end.reversed == begin.reversed;
+  });
+}
+
 bool share_boundary(const Lane& lane, Side side, const Lane& across) {
   return std::ranges::any_of(lane.borders(side), [&](const Border& border) {
     return border.boundary != kNoElement &&

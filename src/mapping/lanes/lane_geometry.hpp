@@ -42,6 +42,8 @@ struct LaneSide {
 LaneSide lane_side(const Border& border, Side side);
 /// The side of a lane at one of its ends. Its boundary is kNoElement where none was seen there.
 LaneSide side_at_end(const Lane& lane, Side side, End end);
+/// Whether one lane follows another one between the same two boundaries.
+bool is_between_the_same(const Lane& from, const Lane& to);
 /// Whether two lanes lie on the two sides of one boundary: the one has it on `side`, the other across.
 bool share_boundary(const Lane& lane, Side side, const Lane& across);
 /// The mean of a value along the borders that were seen. 0: none was.

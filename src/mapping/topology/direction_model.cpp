@@ -8,6 +8,7 @@
 
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/markings/markings.hpp"
+#include "mapping/topology/linkages.hpp"
 #include "mapping/topology/side_by_side.hpp"
 
 namespace laneloom::topology {
@@ -49,7 +50,9 @@ geometry::OrientedGroups group(const RoadGraph& road) {
                 .first->second;
         // A lane for turning that opens in the middle of a road has the boundary beside it that the oncoming
         // lane had before.
-        if (!lanes::are_neighbours(lanes[first.lane], lanes[i]))
+        const Lane& other = lanes[first.lane];
+        if (!lanes::are_neighbours(other, lanes[i]) && !leads_elsewhere(other, lanes[i], road) &&
+            !leads_elsewhere(lanes[i], other, road))
           groups.join(first.lane, i, side.reversed != first.reversed);
       }
     }

@@ -17,6 +17,7 @@ constexpr double kOnTip_m = 0.5;          // before a tip, where a branch may be
 constexpr double kMaxBranchGap_m = 45.0;  // from a tip to its branch
 constexpr double kMaxStemGap_m = 5.0;     // from a tip to the end of its stem
 constexpr double kForkProbability = 0.75;
+constexpr double kCosCorner = 0.643;  // a corner turns by 50 to 130 degrees
 
 /// The gap from the end of one lane to the start of another, along the boundary that both lie beside. Empty:
 /// they share no boundary, or `to` does not follow.
@@ -63,6 +64,7 @@ std::optional<Linkage> link_along(const Lane& from, Side side, const lanes::Lane
     next_gap_m = *gap_m;
   }
   if (next == nullptr) return std::nullopt;
+  if (leads_elsewhere(from, *next, layout)) return std::nullopt;
   Linkage linkage{.from = from.id,
                   .to = next->id,
                   .kind = Linkage::Kind::shared_boundary,
@@ -133,6 +135,19 @@ std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageC
 }
 
 }  // namespace
+
+bool leads_elsewhere(const Lane& from, const Lane& to, const lanes::LaneLayout& layout) {
+  if (std::abs(lanes::leaving(from).dot(lanes::entering(to))) > kCosCorner) return false;
+  const auto is_between_edges = [&](const Lane& lane) {
+    return std::ranges::all_of(kSides, [&](Side side) {
+      return std::ranges::any_of(lane.borders(side), [&](const Border& border) {
+        const boundaries::LaneBoundary* boundary = layout.boundaries.find(border.boundary);
+        return boundary != nullptr && boundary->is_edge();
+      });
+    });
+  };
+  return (is_between_edges(from) || is_between_edges(to)) && !lanes::is_between_the_same(from, to);
+}
 
 RoadGraph link_lanes(lanes::LaneLayout layout, const LinkageConfig& config) {
   RoadGraph road{std::move(layout), {}};

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <numbers>
+#include <set>
 
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/shapes.hpp"
@@ -24,10 +25,11 @@ Lane lane(ElementId id, std::pair<ElementId, Stretch> left, std::pair<ElementId,
   return l;
 }
 
-std::vector<Linkage> linkages_of(const std::vector<Lane>& lanes) {
+std::vector<Linkage> linkages_of(const std::vector<Lane>& lanes, const std::set<ElementId>& edges = {}) {
   std::vector<boundaries::LaneBoundary> boundaries;
   for (const ElementId id : {10U, 11U, 20U, 21U, 22U, 30U, 40U})
-    boundaries.push_back(test::boundary(id, test::straight({0, 0, 0}, {60, 0, 0})));
+    boundaries.push_back(test::boundary(id, test::straight({0, 0, 0}, {60, 0, 0}),
+                                        edges.contains(id) ? MarkingType::roadedge : MarkingType::laneline));
   return link_lanes({std::move(boundaries), lanes}, {}).linkages;
 }
 
@@ -61,6 +63,16 @@ TEST(Linkages, BySharedBoundaryAndByAlignment) {
   EXPECT_THAT(links(lanes), ElementsAre(std::tuple(1, 2, Kind::shared_boundary),
                                         std::tuple(1, 3, Kind::geometric_alignment),
                                         std::tuple(1, 4, Kind::shared_boundary)));
+}
+
+// The left kerb of a narrow street leads round the corner, into the oncoming lane of the street that crosses.
+TEST(Linkages, RoundACornerOfANarrowStreetOnlyBetweenTheSameKerbs) {
+  const Lane narrow = lane(1, {10, {0, 20}}, {20, {0, 20}}, test::straight({0, 0, 0}, {20, 0, 0}));
+  const Lane across = lane(2, {10, {30, 50}}, {30, {0, 20}}, test::straight({25, 5, 0}, {25, 25, 0}));
+  const Lane bend = lane(2, {10, {30, 50}}, {20, {30, 50}}, test::straight({25, 5, 0}, {25, 25, 0}));
+  EXPECT_EQ(linkages_of({narrow, across}, {10, 20}).size(), 0U);
+  EXPECT_EQ(linkages_of({narrow, bend}, {10, 20}).size(), 1U);
+  EXPECT_EQ(linkages_of({narrow, across}, {10}).size(), 1U) << "its right border is a line";
 }
 
 TEST(Linkages, AlongABoundaryThatRunsAgainstTheLanes) {
