@@ -50,9 +50,9 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to);
 /// origin of a vehicle's body may lie on its roof.
 std::optional<Projection> foot_in(const Lane& lane, const Point& place);
 
-/// The cosine between the vehicle's heading and the centerline, where the vehicle drives in the lane; 0 where
-/// the vehicle is elsewhere, or crosses the lane at more than 45 degrees.
-double ego_alignment(const Lane& lane, const Eigen::Isometry3d& T_map_body);
+/// The cosine between the vehicle's heading and the centerline, where the vehicle drives in the lane, or at
+/// most `beyond_m` beside it; 0 where the vehicle is elsewhere, or crosses the lane at more than 45 degrees.
+double ego_alignment(const Lane& lane, const Eigen::Isometry3d& T_map_body, double beyond_m = 0.0);
 
 /// The neighbours on one side of the lane. Sides are as the lane's points run.
 const std::vector<Neighbour>& neighbours(const Lane& lane, Side side);
@@ -62,6 +62,7 @@ class LaneGraph {
  public:
   /// `map` must outlive this and stay unchanged. Linkages to lanes that it does not hold are left out.
   explicit LaneGraph(const LocalMap& map);
+  explicit LaneGraph(LocalMap&&) = delete;  // it would be gone
 
   /// The map that the constructor was given.
   const LocalMap& map() const { return map_; }

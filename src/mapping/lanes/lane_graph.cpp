@@ -29,17 +29,18 @@ Turn turn_onto(const DirectedLane& from, const DirectedLane& to) {
                                 -end_direction(to.centerline(), End::front));
 }
 
-bool may_lie_in(const Lane& lane, const Point& place) {
+bool may_lie_in(const Lane& lane, const Point& place, double beyond_m) {
   Eigen::AlignedBox2d around;
   for (const Point& point : lane.centerline) around.extend(point.head<2>());
-  return around.squaredExteriorDistance(place.head<2>()) <= 0.25 * lane.width_m * lane.width_m;
+  return around.exteriorDistance(place.head<2>()) <= 0.5 * lane.width_m + beyond_m;
 }
 
 /// The foot of a place that lies in a lane, on its centerline.
-std::optional<Projection> foot_on(const MeasuredPolyline& centerline, const Lane& lane, const Point& place) {
+std::optional<Projection> foot_on(const MeasuredPolyline& centerline, const Lane& lane, const Point& place,
+                                  double beyond_m) {
   const Projection foot = centerline.project(place);
-  const bool inside =
-      foot.inside && foot.distance_m <= 0.5 * lane.width_m && geometry::may_drive_on(foot.foot, place);
+  const bool inside = foot.inside && foot.distance_m <= 0.5 * lane.width_m + beyond_m &&
+                      geometry::may_drive_on(foot.foot, place);
   return inside ? std::optional(foot) : std::nullopt;
 }
 
@@ -64,13 +65,14 @@ Linkage::Turn turn_between(const Lane& from, const Lane& to) {
 }
 
 std::optional<Projection> foot_in(const Lane& lane, const Point& place) {
-  return may_lie_in(lane, place) ? foot_on(MeasuredPolyline(lane.centerline), lane, place) : std::nullopt;
+  if (!may_lie_in(lane, place, 0.0)) return std::nullopt;
+  return foot_on(MeasuredPolyline(lane.centerline), lane, place, 0.0);
 }
 
-double ego_alignment(const Lane& lane, const Eigen::Isometry3d& T_map_body) {
-  if (!may_lie_in(lane, T_map_body.translation())) return 0.0;
+double ego_alignment(const Lane& lane, const Eigen::Isometry3d& T_map_body, double beyond_m) {
+  if (!may_lie_in(lane, T_map_body.translation(), beyond_m)) return 0.0;
   const MeasuredPolyline line(lane.centerline);
-  const auto foot = foot_on(line, lane, T_map_body.translation());
+  const auto foot = foot_on(line, lane, T_map_body.translation(), beyond_m);
   if (!foot) return 0.0;
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
   const double along = line.direction(foot->arc_m).dot(heading);

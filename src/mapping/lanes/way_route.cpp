@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/smooth_step.hpp"
+#include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/way_driven.hpp"
 
 namespace laneloom::lanes {
@@ -14,10 +16,34 @@ using Turn = Linkage::Turn;
 
 constexpr double kMinGap_m = 3.0;  // a longer one is bridged by a bend, a shorter one by smoothing
 constexpr double kBendStep_m = 1.0;
+constexpr double kBranch_m = 1.5;        // that a branch lies further aside than the lane that goes on
+constexpr double kBeyondBorder_m = 0.5;  // as far the vehicle is in a lane of the way before
+constexpr double kLookout_m = 25.0;      // ahead of a lane's end
 
 Turn turn_of(WayWish wish) {
   if (wish == WayWish::left) return Turn::left;
   return wish == WayWish::right ? Turn::right : Turn::straight;
+}
+
+/// Leaves out passages that step aside where another one of the same turn leads on: the branches of forks.
+void leave_out_branches(const DirectedLane& from, std::vector<Passage>& passages) {
+  const Polyline line = from.centerline();
+  const Eigen::Vector2d ahead = end_direction(line, End::back);
+  const auto aside_m = [&](const Passage& passage) {
+    const Point begin = end_point(passage.to.lane->centerline, passage.to.against ? End::back : End::front);
+    return std::abs(cross(ahead, (begin - line.back()).head<2>()));
+  };
+  const auto is_branch = [&](const Passage& one) {
+    return std::ranges::any_of(passages, [&](const Passage& other) {
+      return other.turn == Turn::straight && !other.to.oncoming() &&
+             aside_m(one) > aside_m(other) + kBranch_m;
+    });
+  };
+  std::vector<Passage> kept;
+  std::ranges::copy_if(passages, std::back_inserter(kept), [&](const Passage& passage) {
+    return passage.turn != Turn::straight || !is_branch(passage);
+  });
+  passages = std::move(kept);
 }
 
 /// The passage to take. A passage that was chosen before stays, even where its turn or its probability is
@@ -37,6 +63,26 @@ bool is_walked(const std::vector<Passage>& way, const DirectedLane& first, const
          std::ranges::any_of(way, [&](const Passage& passage) { return passage.to.lane == lane; });
 }
 
+/// Whether an edge that was seen lies across the road ahead of a lane's end.
+bool is_closed_ahead(const LaneGraph& graph, const DirectedLane& lane) {
+  const Polyline line = lane.centerline();
+  Point ahead = line.back();
+  ahead.head<2>() += kLookout_m * end_direction(line, End::back);
+  return std::ranges::any_of(graph.map().boundaries, [&](const Marking& boundary) {
+    return boundary.type == MarkingType::roadedge && boundary.status != ElementStatus::inferred &&
+           intersect({line.back(), ahead}, boundary.points, geometry::kLevel_m);
+  });
+}
+
+/// Whether a passage turns off where the road may lead straight on: across an intersection whose far side is
+/// not seen yet.
+bool turns_off(const LaneGraph& graph, const DirectedLane& from, const Passage& passage) {
+  if (passage.turn == Turn::straight || passage.turn == Turn::unknown) return false;
+  const bool bends = from.against ? is_between_the_same(*passage.to.lane, *from.lane)
+                                  : is_between_the_same(*from.lane, *passage.to.lane);
+  return !bends && !is_closed_ahead(graph, from);
+}
+
 /// The passages over `reach_m` from the beginning of a lane. The first one leads into `into`, if that is a
 /// lane.
 std::vector<Passage> passages_ahead(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish,
@@ -46,10 +92,15 @@ std::vector<Passage> passages_ahead(const LaneGraph& graph, const RouteStart& st
   DirectedLane last = start.lane;
   for (double length_m = length(last.lane->centerline); length_m < reach_m;) {
     std::vector<Passage> next = graph.successors(last);
+    const bool is_begun = way.empty() && start.into != kNoElement;
     std::erase_if(next, [&](const Passage& passage) {
-      const bool elsewhere = way.empty() && start.into != kNoElement && passage.to.lane->id != start.into;
-      return elsewhere || is_walked(way, start.lane, passage.to.lane) || !passage.to.lane->is_drivable();
+      const bool elsewhere = is_begun && passage.to.lane->id != start.into;
+      const bool wrong =
+          !is_begun && !wish.any_turn && passage.turn != wished && turns_off(graph, last, passage);
+      return elsewhere || wrong || is_walked(way, start.lane, passage.to.lane) ||
+             !passage.to.lane->is_drivable();
     });
+    if (!is_begun) leave_out_branches(last, next);
     const Passage* best = chosen(next, wished, wish.before);
     if (best == nullptr) break;
     if (best->turn == wished) wished = Turn::straight;
@@ -159,7 +210,8 @@ bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double 
 void append_behind(const LaneGraph& graph, const RouteStart& start, double behind_m, RouteBuilder& builder) {
   const DirectedLane back{start.lane.lane, !start.lane.against};
   const double lane_m = length(start.lane.lane->centerline);
-  const auto behind = passages_ahead(graph, {.lane = back}, {}, lane_m - start.arc_m + behind_m);
+  const auto behind =
+      passages_ahead(graph, {.lane = back}, {.any_turn = true}, lane_m - start.arc_m + behind_m);
   for (auto passage = behind.rbegin(); passage != behind.rend(); ++passage) {
     const DirectedLane from{passage->to.lane, !passage->to.against};
     const MeasuredPolyline line(from.centerline());
@@ -175,10 +227,12 @@ std::optional<RouteStart> start_in_lane(const LaneGraph& graph, const Eigen::Iso
   const Lane* own = nullptr;
   double best = 0.0, best_worth = 0.0;
   for (const Lane& lane : graph.map().lanes) {
-    const double along = ego_alignment(lane, T_map_body);
+    const bool is_kept = before != nullptr && std::ranges::count(before->lanes, lane.id, &WayLane::id) > 0;
+    const double along = ego_alignment(lane, T_map_body, is_kept ? kBeyondBorder_m : 0.0);
     if (along == 0.0) continue;
-    const double worth = std::abs(along) + (find(before, {&lane, along < 0.0}) != nullptr ? 1.0 : 0.0) +
-                         (lane.is_drivable() ? 2.0 : 0.0);
+    const DirectedLane directed{&lane, along < 0.0};
+    const double worth = std::abs(along) + (find(before, directed) != nullptr ? 1.0 : 0.0) +
+                         (lane.is_drivable() ? 2.0 : 0.0) - (directed.oncoming() ? 1.0 : 0.0);
     if (worth <= best_worth) continue;
     own = &lane;
     best = along;

@@ -48,6 +48,7 @@ struct RouteStart {
 struct RouteWish {
   WayWish wish = WayWish::straight;
   const Way* before = nullptr;  ///< with the same wish; null: there is none
+  bool any_turn = false;  ///< another turn than the wished one is taken where the road may lead straight on
 };
 
 /// The greatest distance of a vehicle from a line that it drives on without a lane, and the least cosine

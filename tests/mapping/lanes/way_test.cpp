@@ -121,6 +121,16 @@ TEST(Way, DoesNotLeadOntoAShoulderOrParkingStrip) {
   }
 }
 
+TEST(Way, AChangeThatLiesAheadIsWishedFurtherWhereItsLaneGetsAnotherId) {
+  LocalMap map = two_lanes();
+  map.lanes[0].left_neighbours[0].crossable = {{60.0, 100.0}};
+  const Way before = way_on(map, test::at(10), WayWish::change_left);
+  ASSERT_THAT(ids(before), ElementsAre(1, 2));
+  ASSERT_GT(before.change.begin.x() - 10.0, 0.5 * before.change.length_m);
+  map.lanes[1].id = map.lanes[0].left_neighbours[0].lane = 9;
+  EXPECT_THAT(ids(way_on(map, test::at(11), WayWish::change_left, &before)), ElementsAre(1, 9));
+}
+
 TEST(Way, ALaneThatIsDrivenBothWaysIsNoneToChangeTo) {
   LocalMap map = two_lanes();
   map.lanes[1].direction = Lane::Direction::both;
@@ -197,7 +207,11 @@ TEST(Way, LeadsWhereItIsWishedAtAFork) {
 
 TEST(Way, KeepsABranchWhileItLasts) {
   LocalMap map = fork();
+  map.lanes[2] = road_lane(3, {32, 1, 0}, {80, 20, 0});
+  map.lanes[3] = road_lane(4, {32, -1, 0}, {80, -20, 0});
   for (Linkage& linkage : map.linkages) linkage.turn = Turn::straight;
+  map.linkages[1].path = straight({20, 0, 0}, {32, 1, 0}, 13);
+  map.linkages[2].path = straight({20, 0, 0}, {32, -1, 0}, 13);
   map.linkages[0].probability = 0.9;
   const Way first = way_on(map, test::at(5));
   ASSERT_THAT(ids(first), ElementsAre(1, 2));
@@ -329,8 +343,9 @@ TEST(Way, LeadsIntoNoLaneAheadThatIsFarOrAsideOrAcrossOrOncomingOrBehindAnEdge) 
 }
 
 TEST(Way, AWayBeforeWithoutStationsIsNone) {
+  const LocalMap nothing;
   const Way before;
-  EXPECT_FALSE(way_ahead(LaneGraph(LocalMap{}), test::at(18), WayWish::straight, &before).has_value());
+  EXPECT_FALSE(way_ahead(LaneGraph(nothing), test::at(18), WayWish::straight, &before).has_value());
 }
 
 TEST(Way, GoesOnWhereTheMapHasLostTheLanesOfTheWayBefore) {
@@ -372,7 +387,8 @@ TEST(Way, EndsWhereTheMapEnds) {
   EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(60), WayWish::straight)) << "behind the end";
   EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(49.8), WayWish::straight)) << "nothing is left";
   EXPECT_FALSE(way_ahead(LaneGraph(map), test::at(20, 5), WayWish::straight)) << "beside";
-  EXPECT_FALSE(way_ahead(LaneGraph(LocalMap{}), test::at(0), WayWish::straight));
+  const LocalMap nothing;
+  EXPECT_FALSE(way_ahead(LaneGraph(nothing), test::at(0), WayWish::straight));
 }
 
 TEST(Way, CoordinatesGoThereAndBack) {

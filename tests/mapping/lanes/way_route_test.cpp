@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+
+#include "mapping/lanes/ways.hpp"
+
+// Which lanes a way leads through.
+namespace laneloom::lanes {
+namespace {
+
+using test::ids;
+using test::link;
+using test::road_lane;
+using test::way_on;
+using ::testing::ElementsAre;
+using Turn = Linkage::Turn;
+
+/// Lane 1 leads east, and a turn to the right into lane 2. What lies ahead of lane 1 is not seen yet.
+LocalMap intersection() {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {32, -12, 0}, {32, -60, 0})};
+  map.linkages = {link(1, 2, Turn::right, test::arc({20, -12, 0}, 12.0, 90, 0))};
+  return map;
+}
+
+TEST(WayRoute, StraightOnDoesNotTurnOffWhereTheFarSideIsNotSeen) {
+  const LocalMap map = intersection();
+  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1));
+  EXPECT_THAT(ids(way_on(map, test::at(5), WayWish::left)), ElementsAre(1));
+  EXPECT_THAT(ids(way_on(map, test::at(5), WayWish::right)), ElementsAre(1, 2));
+}
+
+TEST(WayRoute, StraightOnTurnsOffWhereAnEdgeClosesTheRoad) {
+  LocalMap map = intersection();
+  map.boundaries = {test::marking(9, {{40, -8, 0}, {40, 8, 0}}, MarkingType::roadedge)};
+  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1, 2));
+  map.boundaries[0].status = ElementStatus::inferred;
+  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1)) << "nobody saw it";
+  map.boundaries[0] = test::marking(9, {{40, -8, 6}, {40, 8, 6}}, MarkingType::roadedge);
+  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1)) << "on a bridge";
+}
+
+TEST(WayRoute, StraightOnFollowsTheBendOfTheRoad) {
+  LocalMap map = intersection();
+  for (Lane& lane : map.lanes) {
+    lane.left_borders = {{7, {0, 20}, lane.id == 1 ? Stretch{0, 20} : Stretch{40, 60}}};
+    lane.right_borders = {{8, {0, 20}, lane.id == 1 ? Stretch{0, 20} : Stretch{40, 60}}};
+  }
+  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1, 2));
+  map.lanes[1].left_borders[0].boundary = 6;
+  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1)) << "into another street";
+}
+
+TEST(WayRoute, ABranchDoesNotTakeTheWayFromTheLaneThatGoesOn) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {24, 0, 0}, {80, 0, 0}),
+               road_lane(3, {22, -3, 0}, {80, -3, 0})};
+  map.linkages = {link(1, 3), link(1, 2)};
+  map.linkages[0].probability = 0.75;
+  map.linkages[1].probability = 0.52;
+  EXPECT_THAT(ids(way_on(map, test::at(5))), ElementsAre(1, 2));
+  LocalMap branch = map;
+  branch.linkages.pop_back();
+  const Way before = way_on(branch, test::at(5));
+  ASSERT_THAT(ids(before), ElementsAre(1, 3));
+  EXPECT_THAT(ids(way_on(map, test::at(6), WayWish::straight, &before)), ElementsAre(1, 2))
+      << "the lane that goes on came up later";
+}
+
+TEST(WayRoute, AtItsBorderTheVehicleStaysInTheLaneOfTheWayBefore) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {120, 0, 0}), road_lane(2, {120, 3.5, 0}, {0, 3.5, 0})};
+  const Way before = way_on(map, test::at(10));
+  ASSERT_THAT(ids(before), ElementsAre(1));
+  EXPECT_THAT(ids(way_on(map, test::at(11, 2.1), WayWish::straight, &before)), ElementsAre(1));
+  EXPECT_THAT(ids(way_on(map, test::at(11, 2.1))), ElementsAre(2)) << "without a way before";
+  EXPECT_THAT(ids(way_on(map, test::at(11, 2.6), WayWish::straight, &before)), ElementsAre(2))
+      << "it is in the other lane";
+}
+
+TEST(WayRoute, OfTwoLanesThatOverlapItIsNotTheOncomingOne) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {120, 0.5, 0}, {0, 0.5, 0}), road_lane(2, {0, -0.5, 0}, {120, -0.6, 0})};
+  for (Lane& lane : map.lanes) lane.direction = Lane::Direction::along_centerline;
+  EXPECT_THAT(ids(way_on(map, test::at(10))), ElementsAre(2));
+}
+
+}  // namespace
+}  // namespace laneloom::lanes
