@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Drawn {
   MarkingStyle style = MarkingStyle::solid;
   double per_metre = 0.0;  ///< how much further on the left it lies, per metre of x in the map
   double up_m = 0.0;       ///< above the vehicle's origin
+  double to_m = 1e6;       ///< it ends there, along the road
 };
 
 /// Places of a road that is straight along x, or bends to the left with a radius.
@@ -43,8 +45,9 @@ constexpr MarkingType kEdge = MarkingType::roadedge;
 void add(const Drawn& line, const Road& road, double vehicle_m, DetectionFrame& frame) {
   Detection detection{.type = line.type, .style = line.style, .confidence = 0.9};
   for (double ahead_m = -5.0; ahead_m <= 30.0; ahead_m += 1.0)
-    detection.points.push_back(road.pose(vehicle_m).inverse() * road.at(line, vehicle_m + ahead_m));
-  frame.detections.push_back(std::move(detection));
+    if (vehicle_m + ahead_m <= line.to_m)
+      detection.points.push_back(road.pose(vehicle_m).inverse() * road.at(line, vehicle_m + ahead_m));
+  if (detection.points.size() > 1) frame.detections.push_back(std::move(detection));
 }
 
 /// The maps of 6 s at 8 m/s. An island is a closed road edge in the map frame.
@@ -100,6 +103,23 @@ TEST(RoadKinds, AStreetHasTwoLanesWhereverTheVehicleDrives) {
       SCOPED_TRACE(testing::Message() << width_m << " m, " << share);
       const double from_right_m = share * width_m;
       EXPECT_THAT(driven({{kEdge, width_m - from_right_m}, {kEdge, -from_right_m}}).lanes, SizeIs(2));
+    }
+}
+
+TEST(RoadKinds, WhereTheLineInTheMiddleEndsBothLanesGoOn) {
+  for (const double width_m : {6.4, 6.6, 7.0, 7.5})
+    for (const MarkingType right : {MarkingType::laneline, kEdge}) {
+      SCOPED_TRACE(testing::Message() << width_m << " m, " << (right == kEdge ? "a kerb" : "a line"));
+      const double half_m = 0.25 * width_m;
+      const std::vector<LocalMap> maps =
+          maps_of({{.left_m = 3.0 * half_m},
+                   {.left_m = half_m, .style = MarkingStyle::dashed, .to_m = 30.0},
+                   {.type = right, .left_m = -half_m}});
+      const auto has_both = [&](const LocalMap& map) {
+        const Lane *own = lane_at(map, 0.0), *other = lane_at(map, 2.0 * half_m);
+        return own != nullptr && std::abs(own->width_m - 2.0 * half_m) < 0.3 && other != nullptr;
+      };
+      EXPECT_LE(std::ranges::count_if(maps.begin() + 20, maps.end(), std::not_fn(has_both)), 3);
     }
 }
 

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kKnown =
     1.0;  // log odds of a place where the last map had a lane between the same boundaries
+constexpr double kWereTwo = 2.0;  // that a place has one wide lane where the last map had two
+constexpr double kWide_m = 5.0;
 constexpr double kLeastDoubted = -2.0;  // with less, a place has no lane, whatever the last map had
 constexpr double kNever = -1e6;         // log odds of a place that another lane has
 constexpr double kMinAdvance = 0.3;     // share of the step; less is the inside of a bend that is too tight
@@ -62,9 +64,36 @@ class Choice {
       deny(hypothesis);
     if (known_.contains({left_id, right_id}))
       for (double& log_odds : hypothesis.log_odds) log_odds += kKnown;
+    if (!is_open(hypothesis.room) && were_two_between(hypothesis)) remember_two(hypothesis);
     double best = 0.0;
     for (const Run& run : best_runs(hypothesis.log_odds)) best = std::max(best, run.log_odds);
     if (best > 0.0) waiting_.push_back({std::move(hypothesis), best});
+  }
+
+  /// Weighs a strip in which the last map had two lanes, where nothing is seen between its borders now.
+  void remember_two(Hypothesis& one) const {
+    for (std::size_t i = 0; i < one.log_odds.size(); ++i) {
+      const RoadCut cut = cut_of(one, i);
+      if (one.marks[i] != cut.own + 1) continue;
+      if (one.room == Room::divided)
+        one.log_odds[i] += kKnown;
+      else if (cut.marks[one.marks[i]].lateral_m > kWide_m)
+        one.log_odds[i] -= kWereTwo;
+    }
+  }
+
+  /// Whether the last map had two lanes side by side between the boundaries of a hypothesis. A street between
+  /// two edges may narrow to one lane: there, its width tells.
+  bool were_two_between(const Hypothesis& one) const {
+    if (left(one).is_edge() && right(one).is_edge()) return false;
+    const ElementId left_id = left(one).marking.id, right_id = right(one).marking.id;
+    for (auto known = known_.lower_bound({left_id, kNoElement});
+         known != known_.end() && known->front() == left_id; ++known) {
+      const boundaries::LaneBoundary* divider = road_.boundaries.find(known->back());
+      if (known->back() == kNoElement || (divider != nullptr && divider->is_edge())) continue;
+      if (known_.contains({known->back(), right_id})) return true;
+    }
+    return false;
   }
 
   /// Notes where a known lane is denied.
@@ -143,11 +172,9 @@ class Choice {
         const auto advance = [&](const Point& from, const Point& to) {
           return (to - from).head<2>().dot(cut.ahead);
         };
-        section.valid = section.valid &&
-                        advance(before.left, section.left) >
-                            kMinAdvance * config_.step_m * (is_open(one.room) ? 1.0 : 0.0) &&
-                        advance(before.right, section.right) >
-                            kMinAdvance * config_.step_m * (is_open(one.room) ? 1.0 : 0.0);
+        const double least_m = is_open(one.room) ? kMinAdvance * config_.step_m : 0.0;
+        section.valid = section.valid && advance(before.left, section.left) > least_m &&
+                        advance(before.right, section.right) > least_m;
       }
       sections.push_back(section);
     }
