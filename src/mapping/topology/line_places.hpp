@@ -18,8 +18,8 @@ struct LinePlace {
   std::size_t line = 0;                                  ///< its index
 };
 
-/// Places along lines, a metre apart, by which the lines are found that run past a point, at most `reach_m`
-/// aside.
+/// Places along lines, two metres apart, by which the lines are found that run past a point, at most
+/// `reach_m` aside.
 class LinePlaces {
  public:
   LinePlaces(const std::vector<const Polyline*>& lines, double reach_m)
@@ -39,8 +39,8 @@ class LinePlaces {
  private:
   using Grid = geometry::BoxGrid<LinePlace>;
 
-  static constexpr double kStep_m = 1.0;
-  static constexpr double kAlong_m = 0.6;      // half a step and a little more
+  static constexpr double kStep_m = 2.0;
+  static constexpr double kAlong_m = 1.1;      // half a step and a little more
   static constexpr double kRounding_m = 1e-6;  // far above the errors of a box
 
   static std::vector<Grid::Boxed> places_on(const std::vector<const Polyline*>& lines, double reach_m) {

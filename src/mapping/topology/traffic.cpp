@@ -14,6 +14,7 @@ namespace laneloom::topology {
 namespace {
 
 constexpr double kMaxLateral_m = 1.2;  // beside the middle of a lane
+constexpr std::size_t kStride = 2;     // steps of a trail that are looked up at once
 
 // An oncoming vehicle passes the own one within these.
 constexpr double kAbreast_m = 5.0;                          // ahead or behind
@@ -31,13 +32,14 @@ struct Driven {
   double along = 0.0;
 };
 
-/// The lane in which a trail goes on from one of its points to the next.
-std::optional<Driven> lane_at(const LinePlaces& lanes, const Polyline& trail, std::size_t k) {
+/// The lane in which a trail goes on from one of its points to another one.
+std::optional<Driven> lane_at(const LinePlaces& lanes, const Polyline& trail, std::size_t from,
+                              std::size_t to) {
   std::optional<Driven> nearest;
   double nearest_m = kMaxLateral_m;
-  lanes.beside(0.5 * (trail[k] + trail[k + 1]), [&](const LinePlace& place, double lateral_m) {
+  lanes.beside(0.5 * (trail[from] + trail[to]), [&](const LinePlace& place, double lateral_m) {
     if (lateral_m > nearest_m) return;
-    const double along = place.direction.dot(trails::direction_at(trail, k));
+    const double along = place.direction.dot(trails::direction_at(trail, from));
     if (std::abs(along) < kCosInLane) return;
     nearest_m = lateral_m;
     nearest = Driven{place.line, along};
@@ -73,6 +75,7 @@ Eigen::Vector2d last_course(const trails::Trail& trail) {
 /// Whether an oncoming vehicle passes the own one: 1 on its left, as right-hand traffic does; -1 on its
 /// right; 0: it does not.
 int passing(const trails::Trail& trail, const Eigen::Isometry3d& T_map_body) {
+  if (trail.points.empty()) return 0;
   const Eigen::Vector2d ahead = T_map_body.linear().col(0).head<2>().normalized();
   const Eigen::Vector2d offset = (trail.position - T_map_body.translation()).head<2>();
   const double aside_m = cross(ahead, offset);
@@ -110,17 +113,20 @@ std::vector<DrivenStretch> driven_stretches(const std::vector<trails::Trail>& tr
   const LinePlaces places(lines, kMaxLateral_m);
   for (std::size_t i = 0; i < trails.size(); ++i) {
     const Polyline& points = trails[i].points;
-    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-      const auto lane = lane_at(places, points, k);
-      if (!lane) continue;
-      const double step_m = (points[k + 1] - points[k]).head<2>().norm();
+    for (std::size_t from = 0, to = 0; from + 1 < points.size(); from = to) {
+      const auto way_m = [&](std::size_t end) { return (points[end] - points[from]).head<2>().norm(); };
+      to = std::min(from + kStride, points.size() - 1);
+      if (way_m(to) > trails::kMaxGap_m) to = from + 1;
+      const double step_m = way_m(to);
       if (step_m > trails::kMaxGap_m) continue;
+      const auto lane = lane_at(places, points, from, to);
+      if (!lane) continue;
       const double along_m = std::copysign(step_m, lane->along);
       const bool goes_on = !driven.empty() && driven.back().trail == i && driven.back().lane == lane->lane &&
                            driven.back().along_m * along_m > 0.0;
-      if (!goes_on) driven.push_back({.trail = i, .lane = lane->lane, .first = k});
+      if (!goes_on) driven.push_back({.trail = i, .lane = lane->lane, .first = from});
       driven.back().along_m += along_m;
-      driven.back().last = k + 1;
+      driven.back().last = to;
     }
   }
   return driven;

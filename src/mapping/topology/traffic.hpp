@@ -62,6 +62,9 @@ class ObservedSide {
   /// The side on which traffic keeps: the other one where it contradicts `driving_side`.
   DrivingSide corrected(DrivingSide driving_side) const;
 
+  /// Where the own vehicle began to drive straight on is not known any more, as after a jump of its poses.
+  void forget_course() { straight_heading_ = Eigen::Vector2d::Zero(); }
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(told_, believed_, straight_from_, straight_heading_);

@@ -254,6 +254,13 @@ TEST_F(Passing, OfAVehicleThatTurnsTellsNothing) {
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
 }
 
+TEST_F(Passing, OfAVehicleThatStandsTellsNothing) {
+  trails::Trail standing = straight_past(-3.5);
+  standing.points.clear();  // only what moves leaves points
+  meet(4, standing);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right);
+}
+
 TEST_F(Passing, TellsNothingWhileTheVehicleTurnsStandsOrIsInNoLane) {
   const std::vector<Eigen::Isometry3d> straight = own_;
   for (std::size_t i = 0; i < own_.size(); ++i)
