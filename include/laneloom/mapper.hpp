@@ -22,8 +22,9 @@ struct MapperState;
 /// Not thread-safe: one thread at a time.
 class Mapper {
  public:
-  /// `config` must be valid (see validate() in config/config_file.hpp). `sd_map` is in the map frame. Throws
-  /// ConfigError where a profile of config.networks names a value that no network has.
+  /// The values of `config` must lie in the ranges that `laneloomd --dump-config` prints; this is not checked
+  /// here. `sd_map` is in the map frame. Throws ConfigError where a profile of config.networks names a value
+  /// that no network has.
   explicit Mapper(const MapperConfig& config, SdMap sd_map = {});
   ~Mapper();
   Mapper(Mapper&&) noexcept;
@@ -32,13 +33,13 @@ class Mapper {
   /// Fuses one frame, seen from T_map_body, and rebuilds the local map about the newest pose so far. A frame
   /// may be older than the one before it. While the vehicle stands and no other one drives, the method
   /// `lines` fuses a frame each second; the map keeps up with the poses of the others. All values must be
-  /// finite; this is not checked here. `observer` may be null.
+  /// finite, and stddev_m has as many values as points, or none; this is not checked here. `observer` may be
+  /// null.
   const LocalMap& update(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                          StageObserver* observer = nullptr);
 
   /// Takes what a tracker follows. T_map_body is the vehicle's pose at their stamp. The next update() uses
-  /// it. Messages come in the order of their stamps, and of their sessions where stamps are equal. All values
-  /// must be finite.
+  /// it. Messages of one session come in the order of their stamps. All values must be finite.
   void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body);
 
   /// The map after the last update.

@@ -7,7 +7,7 @@ namespace laneloom {
 
 /// The stages of one update, in order. The method `voxels` skips those of `lines`, and the reverse.
 enum class Stage : std::uint8_t {
-  preprocess,       ///< drops detections that are not believed, and takes the rest to the map frame
+  preprocess,       ///< drops zigzags, and takes the rest to the map frame
   voxel_update,     ///< `voxels`: counts the voxels that detections touch
   reliable_voxels,  ///< `voxels`: finds voxels that were detected often enough
   clustering,       ///< `voxels`: joins reliable voxels to instances

@@ -187,11 +187,13 @@ void visit(auto& v, Is<BoundaryConfig> auto& c) {
   auto& [max_gap_m, max_angle_deg, max_lateral_m] = c;
   v.number("max_gap_m", max_gap_m, {"m", 0, 100},
            "Two ends of markings are joined only up to this distance.");
-  v.number("max_angle_deg", max_angle_deg, {"deg", 0, 90},
-           "Two ends of markings are joined only up to this angle between their directions.");
+  v.number(
+      "max_angle_deg", max_angle_deg, {"deg", 0, 90},
+      "Two ends of markings are joined only up to this angle between their directions, unless detections run "
+      "through both or the ends meet.");
   v.number("max_lateral_m", max_lateral_m, {"m", 0, 10},
            "Two ends of markings are joined only if each lies no further than this beside the extension of "
-           "the other.");
+           "the other, unless detections run through both or the ends meet.");
 }
 
 void visit(auto& v, Is<SectionConfig> auto& c) {
@@ -226,7 +228,8 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
   v.number("assumed_width_m", assumed_width_m, {"m", 0.8, 8.5}, "Width of such an inferred lane.");
   v.number("max_width_variation_m", max_width_variation_m, {"m", 0, 10},
            "Method paper: largest difference between the widest and the narrowest place of a lane.");
-  v.number("min_length_m", min_length_m, {"m", 0.5, 100}, "Lanes shorter than this are not built.");
+  v.number("min_length_m", min_length_m, {"m", 0.5, 100},
+           "Shorter lanes are not found anew. What is left of a lane is shown from 2 m on.");
   v.number("step_m", step_m, {"m", 0.1, 10},
            "Distance between the cross-sections of a lane, and between the points of its centerline. A lane "
            "must get fewer than 1024 of them over the range.");
@@ -238,7 +241,7 @@ void visit(auto& v, Is<LinkageConfig> auto& c) {
   auto& [max_shared_gap_m, max_gap_m, max_lateral_m, max_angle_deg, straight_across, max_crossing_gap_m,
          max_crossing_lateral_m, turns, max_turn_gap_m, min_turn_radius_m] = c;
   v.number("max_shared_gap_m", max_shared_gap_m, {"m", 1, 200},
-           "Two lanes along one boundary are linked only up to this gap along it.");
+           "Two lanes along one boundary are linked only up to this gap along it; at a fork, up to 45 m.");
   v.number("max_gap_m", max_gap_m, {"m", 2, 200},
            "Two lanes with aligned centerlines are linked only up to this gap.");
   v.number("max_lateral_m", max_lateral_m, {"m", 0.1, 10},
@@ -272,8 +275,9 @@ void visit(auto& v, Is<DirectionConfig> auto& c) {
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {
   auto& [max_gap_m, min_angle_deg] = c;
-  v.number("max_gap_m", max_gap_m, {"m", 0, 50},
-           "A stopline counts as the end of a lane if it lies no further than this before or behind that end.");
+  v.number(
+      "max_gap_m", max_gap_m, {"m", 0, 50},
+      "A stopline counts as the end of a lane if it lies no further than this before or behind that end.");
   v.number("min_angle_deg", min_angle_deg, {"deg", 0, 90},
            "A stopline holds a lane only if it crosses it at this angle at least.");
 }
@@ -318,7 +322,7 @@ void visit(auto& v, Is<SyncConfig> auto& c) {
   v.number("pose_history_s", pose_history_s, {"s", 0.1, 60}, "Poses older than this are forgotten.");
   v.number("queue_capacity", queue_capacity, {"frames", 1, 10000},
            "Most detection frames that are queued between two ticks. When the queue is full, the oldest "
-           "frame is dropped.");
+           "frame of the source that has most of them is dropped.");
   v.number(
       "pose_queue_capacity", pose_queue_capacity, {"poses", 1, 100000},
       "Most poses that are queued between two ticks. When the queue is full, the oldest pose is dropped.");

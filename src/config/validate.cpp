@@ -130,6 +130,10 @@ std::optional<Problem> find_contradiction(const MapperConfig& mapper) {
   if (mapper.fusion.extension_log_odds < mapper.fusion.min_log_odds) {
     return Problem{"mapper.fusion.extension_log_odds", "must not be below min_log_odds, or no line grows"};
   }
+  if (std::max(mapper.fusion.extent_log_odds, mapper.fusion.publish_log_odds) > mapper.fusion.max_log_odds) {
+    return Problem{"mapper.fusion.max_log_odds",
+                   "must not be below extent_log_odds and publish_log_odds, or nothing is published"};
+  }
   if (mapper.lane.min_width_m >= mapper.lane.max_width_m) {
     return Problem{"mapper.lane.min_width_m", "must be less than max_width_m"};
   }

@@ -93,6 +93,7 @@ std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
   }
   const MapFit fit(frame, map_markings, T_map_body);
   if (!suspected_) return come_away(fit, pose);
+  away_.reset();
   const auto true_pose = pose_without(*suspected_, T_map_body, fit);
   if (!true_pose) {
     ++frames_since_;

@@ -38,6 +38,7 @@ void move(const Eigen::Isometry3d& motion, LocalMap& map) {
 void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& config) {
   trails = {};
   driven_paths = {};
+  side.forget_course();
   move(motion, map);
   lines::LineMapper* const lines = fusion.lines();
   if (lines == nullptr) {

@@ -100,21 +100,12 @@ std::vector<Mistake> mistakes() {
        "--point-scale 0.001"},
       {"Centimetres", points([](const Point& p, const auto&) -> Point { return 100.0 * p; }), "point_unit",
        "--point-scale 0.01"},
-      {"Feet", points([](const Point& p, const auto&) -> Point { return p / 0.3048; }), "point_unit",
-       "--point-scale 0.3048"},
       {"Kilometres", points([](const Point& p, const auto&) -> Point { return p / 1000.0; }), "point_unit",
        "--point-scale 1000"},
       {"SharesOfTheRange", points([](const Point& p, const auto&) {
          return Point(p.x() / 120.0 + 0.5, p.y() / 60.0 + 0.5, 0.0);
        }),
        "points", "metres"},
-      {"DetectionsOfOtherFrames",
-       [](Drive& drive) {
-         auto& frames = frames_of(drive);
-         for (std::size_t i = 0; i < frames.size(); ++i)
-           std::swap(frames[i].detections, frames[(i * 7919) % frames.size()].detections);
-       },
-       "disagreement", "one instant"},
       {"PosesInMillimetres", poses([](VehiclePose& pose) { pose.position *= 1000.0; }), "pose_unit",
        "--pose-scale 0.001"},
       {"PosesInCentimetres", poses([](VehiclePose& pose) { pose.position *= 100.0; }), "pose_unit",
@@ -269,6 +260,16 @@ TEST(Findings, ALineThatTheNetworkDoubtsNarrowsNoLane) {
   ASSERT_EQ(wrong(drive).size(), 1u) << "a lane of 1.55 m";
   for (DetectionFrame& frame : frames_of(drive)) frame.detections.back().confidence = 0.04;
   EXPECT_THAT(wrong(drive), testing::IsEmpty());
+}
+
+TEST(Findings, DetectionsOfOtherFramesDoNotFitTogether) {
+  Drive drive = simulated_drive("town", "inhouse");
+  auto& frames = frames_of(drive);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    std::swap(frames[i].detections, frames[(i * 7919) % frames.size()].detections);
+  const Findings found = findings(drive, {});
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].id, "disagreement") << found[0].found;
 }
 
 TEST(Findings, TwoRunsInOneFileAreTwoDrives) {

@@ -72,7 +72,6 @@ double unit_of(double value) {
 const char* unit_name(double scale) {
   return scale == 1000.0 ? "kilometres" : scale == 0.01 ? "centimetres" : "millimetres";
 }
-constexpr double kFoot_m = 0.3048;
 
 /// The speed of the vehicle where it does not stand, in units of the positions.
 double usual_speed(const PoseTrack& poses) {
@@ -142,8 +141,6 @@ std::vector<Hypothesis> hypotheses(const Agreement& agreement, const Correction&
     add("axes", "The axes of the points are " + axes, &Correction::axes, axes);
   if (const double scale = unit_of(agreement.size()); scale != 1.0)
     add("point_unit", fmt::format("The points are in {}", unit_name(scale)), &Correction::point_scale, scale);
-  else if (base.point_scale == 1.0)
-    add("point_unit", "The points are in feet", &Correction::point_scale, kFoot_m);
   // A fit to what is wrong as a whole would tell nothing.
   if (agreement.plausible(base))
     std::ranges::move(fitted_hypotheses(agreement, base), std::back_inserter(result));

@@ -69,14 +69,11 @@ class MetBoundary {
 
 /// The boundaries beside one, of many the nearest. A cross-section of a crowd of lines need not show all.
 std::vector<MetBoundary> boundaries_beside(std::size_t boundary, const boundaries::SectionGraph& road) {
-  std::vector<boundaries::SideBySide> beside = road.beside[boundary];
-  if (beside.size() > kMostBeside) {
-    std::ranges::stable_sort(beside, {}, [](const auto& other) { return std::abs(other.lateral_m); });
-    beside.resize(kMostBeside);
-  }
+  const std::span beside(road.beside[boundary]);
   std::vector<MetBoundary> met;
-  met.reserve(beside.size());
-  for (const boundaries::SideBySide& one : beside) met.emplace_back(one.other, road.boundaries[one.other]);
+  met.reserve(std::min(beside.size(), kMostBeside));
+  for (const boundaries::SideBySide& one : beside.first(std::min(beside.size(), kMostBeside)))
+    met.emplace_back(one.other, road.boundaries[one.other]);
   return met;
 }
 

@@ -39,8 +39,8 @@ Eigen::Vector2d direction_at(const Polyline& points, std::size_t k);
 /// Follows the vehicles that a tracker tells of. A vehicle leaves a trail where it drives forwards. A vehicle
 /// that stands, reverses, or whose heading is not known leaves none, and neither do cyclists and pedestrians.
 ///
-/// Messages must come in the order of their stamps, and those of one stamp in the order of their sessions.
-/// The order of objects within a message does not matter.
+/// Messages of one session must come in the order of their stamps. Where several come together, they come in
+/// the order of their stamps, and of their sessions. The order of objects within a message does not matter.
 class Trails {
  public:
   /// Takes the objects of one message, in the body frame, at the vehicle's pose at their stamp.
