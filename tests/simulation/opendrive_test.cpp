@@ -184,6 +184,32 @@ TEST_F(OpenDrive, MarksHaveTypesAndStyles) {
                          std::tuple(stopline, solid, 3.0)));
 }
 
+/// A lane with a mark on its outer border.
+std::string lane(int id, const std::string& type, double width_m, const std::string& mark) {
+  return R"(<lane id=")" + std::to_string(id) + R"(" type=")" + type + R"("><width sOffset="0" a=")" +
+         std::to_string(width_m) + R"("/><roadMark sOffset="0" type=")" + mark + R"("/></lane>)";
+}
+
+TEST_F(OpenDrive, TheMarkBesideAnUnpavedLaneIsThere) {
+  // From the centre: a median, a driving lane, its narrow shoulder, a verge, and grass. A lane without width
+  // is at the border of the median.
+  const std::string lanes = R"(<laneSection s="0"><center><lane id="0"/></center><right>)" +
+                            lane(-1, "median", 2.0, "solid") + lane(-2, "border", 0.0, "curb") +
+                            lane(-3, "driving", 3.0, "broken") + lane(-4, "shoulder", 0.3, "solid") +
+                            lane(-5, "border", 1.0, "solid") + lane(-6, "none", 1.0, "solid") +
+                            "</right></laneSection>";
+  const Road road = load(road_of(geometry(40.0, "<line/>"), lanes));
+  std::vector<std::pair<double, MarkingStyle>> marks;  // by their place to the right of the centre line
+  for (const RoadMarking& mark : road.markings)
+    if (mark.type == MarkingType::laneline) marks.emplace_back(20.0 - mark.points.front().y(), mark.style);
+  using enum MarkingStyle;
+  EXPECT_THAT(marks, testing::UnorderedElementsAre(testing::Pair(testing::DoubleNear(2.0, 1e-6), solid),
+                                                   testing::Pair(testing::DoubleNear(5.0, 1e-6), dashed),
+                                                   testing::Pair(testing::DoubleNear(5.3, 1e-6), solid)));
+  ASSERT_EQ(road.lanes.size(), 1u);
+  EXPECT_NE(road.lanes[0].left_marking, kNoElement);
+}
+
 TEST_F(OpenDrive, WhatIsWrongIsLeftOutWithItsRoad) {
   const std::string good = road_of(geometry(40.0, "<line/>"));
   const std::vector<std::pair<std::string, std::string>> bad{

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -45,12 +46,23 @@ struct Strip {
 
   bool is_for_vehicles() const { return is_one_of(kVehicleLanes, type); }
   bool is_paved() const { return is_for_vehicles() || is_one_of(kOtherPavedLanes, type); }
-  bool is_wide() const {
+  double widest_m() const {
+    double result_m = 0.0;
     for (std::size_t i = 0; i < inner_m.size(); ++i)
-      if (std::abs(outer_m[i] - inner_m[i]) >= kLeastWidth_m) return true;
-    return false;
+      result_m = std::max(result_m, std::abs(outer_m[i] - inner_m[i]));
+    return result_m;
   }
+  bool is_wide() const { return widest_m() >= kLeastWidth_m; }
+  bool is_there() const { return widest_m() > kNoWidth_m; }
 };
+
+/// Whether what is paved lies on either side of the outer border of a side's strip. A strip that has no width
+/// hides nothing.
+bool touches_pavement(const std::vector<Strip>& side, std::size_t i) {
+  const auto next = std::find_if(side.begin() + static_cast<std::ptrdiff_t>(i) + 1, side.end(),
+                                 std::mem_fn(&Strip::is_there));
+  return side[i].is_paved() || (next != side.end() && next->is_paved());
+}
 
 /// The stations of a lane section along the reference line.
 std::vector<double> section_stations(double from_m, double to_m) {
@@ -109,10 +121,10 @@ class RoadReader {
     const std::vector<Strip> left = strips(left_, centre_m);
     const std::vector<Strip> right = strips(right_, centre_m);
     for (const std::vector<Strip>* side : {&left, &right})
-      for (const Strip& strip : *side) {
-        if (!strip.is_paved() || !strip.is_wide()) continue;
-        if (strip.is_for_vehicles()) add_lane(strip);
-        add_marks(strip.lane, strip.outer_m);
+      for (std::size_t i = 0; i < side->size(); ++i) {
+        const Strip& strip = (*side)[i];
+        if (strip.is_for_vehicles() && strip.is_wide()) add_lane(strip);
+        if (strip.is_there() && touches_pavement(*side, i)) add_marks(strip.lane, strip.outer_m);
       }
     add_edges(borders(left, right, centre_m));
   }
