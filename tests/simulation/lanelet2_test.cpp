@@ -36,7 +36,7 @@ void expect_smooth_drive(const Road& road) {
 TEST(RealMap, Karlsruhe) {
   if (absent("karlsruhe_mapping_example.osm")) GTEST_SKIP() << "no Lanelet2 maps in " << LANELOOM_DATA;
   const Road road = load_real("karlsruhe_mapping_example.osm");
-  EXPECT_EQ(road.lanes.size(), 345u);  // lanelets of subtype road and highway
+  EXPECT_EQ(road.lanes.size(), 328u);  // lanelets of subtype road and highway, but for those of bicycles
   EXPECT_EQ(count(road, MarkingType::stopline), 28);
   EXPECT_GT(count(road, MarkingType::laneline), 100);
   EXPECT_TRUE(road.right_hand_traffic);
@@ -126,6 +126,23 @@ TEST_F(MadeUpMap, BordersAreOrientedAndLanesConnected) {
   EXPECT_NEAR(road.drive.duration_s(), 4.0, 0.01);
 }
 
+TEST_F(MadeUpMap, LaneletsForVehiclesAreLanes) {
+  const auto lanes_with = [&](const std::string& tags) {
+    std::string map = two_lanes() + lanelet(24, 13, 11);
+    const std::string subtype = tag("subtype", "road");
+    map.replace(map.rfind(subtype), subtype.size(), tags);
+    return load(map + "</osm>").lanes.size() - 2;
+  };
+  const std::string walkway = tag("subtype", "walkway"), road = tag("subtype", "road");
+  EXPECT_EQ(lanes_with(""), 1u) << "a lanelet without a subtype is one of vehicles";
+  EXPECT_EQ(lanes_with(walkway), 0u);
+  EXPECT_EQ(lanes_with(walkway + tag("participant:vehicle", "yes")), 1u);
+  EXPECT_EQ(lanes_with(walkway + tag("participant:pedestrian", "yes")), 0u);
+  EXPECT_EQ(lanes_with(road + tag("participant:vehicle:bus", "yes") + tag("participant:bicycle", "yes")), 1u);
+  EXPECT_EQ(lanes_with(road + tag("participant:vehicle", "no")), 0u);
+  EXPECT_EQ(lanes_with(road + tag("participant:bicycle", "yes")), 0u) << "others are disallowed";
+}
+
 TEST_F(MadeUpMap, SwappedBordersTurnTheLaneAround) {
   const Road road = load(two_lanes() + lanelet(24, 13, 11) + "</osm>");
   ASSERT_EQ(road.lanes.size(), 3u);
@@ -149,6 +166,9 @@ TEST_F(MadeUpMap, DegreesBecomeMetres) {
 TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
   EXPECT_NE(error("<osm><node").find("made_up.osm"), std::string::npos);
   EXPECT_NE(error("<html/>").find("is a web page; a Lanelet2 map (.osm) is needed"), std::string::npos);
+  EXPECT_NE(error("<osm>" + lanelet(21, 11, 12, "walkway") + lanelet(22, 11, 12, "crosswalk") + "</osm>")
+                .find("has no lanes for vehicles; its lanelets are crosswalk and walkway"),
+            std::string::npos);
   EXPECT_NE(error("<gpx/>").find("has no element osm"), std::string::npos);
   EXPECT_NE(error("<osm/>").find("has no lanelets, as an extract of OpenStreetMap"), std::string::npos);
   EXPECT_NE(error(two_lanes() + lanelet(30, 11, 99) + "</osm>").find("relation 30: has no way 99"),

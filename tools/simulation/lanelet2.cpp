@@ -23,7 +23,7 @@ using sd_map::OsmId;
 using sd_map::tag;
 
 constexpr double kJoin_m = 0.01;
-constexpr std::array kLaneSubtypes{"road", "highway", "bus_lane", "play_street", "emergency_lane"};
+constexpr std::array kLaneSubtypes{"road", "highway", "bus_lane", "play_street", "emergency_lane", "exit"};
 
 Way reversed(Way way) {
   std::reverse(way.nodes.begin(), way.nodes.end());
@@ -64,10 +64,20 @@ const Way& border(const pugi::xml_node& relation, const char* role, const std::m
   return *found;
 }
 
+/// Where a lanelet names participants, its subtype does not count, and no others may use it. A lanelet
+/// without either is for vehicles.
 bool is_vehicle_lane(const pugi::xml_node& relation) {
+  if (tag(relation, "type") != "lanelet") return false;
+  bool names_participants = false;
+  for (const pugi::xml_node& each : relation.children("tag")) {
+    const std::string_view key = each.attribute("k").as_string();
+    if (!key.starts_with("participant:")) continue;
+    names_participants = true;
+    if (key.starts_with("participant:vehicle") && each.attribute("v").as_bool()) return true;
+  }
   const std::string_view subtype = tag(relation, "subtype");
-  return tag(relation, "type") == "lanelet" &&
-         std::find(kLaneSubtypes.begin(), kLaneSubtypes.end(), subtype) != kLaneSubtypes.end();
+  return !names_participants &&
+         (subtype.empty() || std::ranges::find(kLaneSubtypes, subtype) != kLaneSubtypes.end());
 }
 
 RoadLane lane_of(const Lanelet& lanelet, const pugi::xml_node& relation, ElementId id) {
@@ -128,12 +138,20 @@ bool is_right_hand(const std::vector<Lanelet>& lanelets) {
 }
 
 std::string why_no_lanes(const pugi::xml_node& osm) {
-  const auto relations = osm.children("relation");
-  const bool has_lanelets =
-      std::any_of(relations.begin(), relations.end(),
-                  [](const pugi::xml_node& relation) { return tag(relation, "type") == "lanelet"; });
-  if (has_lanelets) return "has no lanes for vehicles";
-  return "has no lanelets, as an extract of OpenStreetMap has none; a Lanelet2 map is needed";
+  std::set<std::string_view> others;
+  bool has_lanelets = false;
+  for (const pugi::xml_node& relation : osm.children("relation")) {
+    if (tag(relation, "type") != "lanelet") continue;
+    has_lanelets = true;
+    if (!is_vehicle_lane(relation)) others.insert(tag(relation, "subtype"));
+  }
+  if (!has_lanelets)
+    return "has no lanelets, as an extract of OpenStreetMap has none; a Lanelet2 map is needed";
+  others.erase("");
+  std::string reason = "has no lanes for vehicles";
+  for (const std::string_view subtype : others)
+    reason += (subtype == *others.begin() ? "; its lanelets are " : " and ") + std::string(subtype);
+  return reason;
 }
 
 /// Loads a file up to the place where it is damaged.

@@ -12,11 +12,13 @@ namespace laneloom::simulation {
 /// Coordinates are the nodes' local_x and local_y if most nodes have them, or else metres east and north of
 /// the first node. The height is ele, or 0. Lanelines are line_thin and line_thick, roadedges are curbstone,
 /// road_border, wall, fence and guard_rail, and stoplines are stop_line. Virtual lines and lines without a
-/// type are no markings. Lanes are the lanelets for vehicles, with borders oriented as Lanelet2 does. A
-/// lanelet that may be driven both ways counts in the direction in which it is drawn. A lane is in an
-/// intersection if it has a turn_direction, or both borders are virtual. Traffic is left-hand if opposite
-/// lanes share their right borders more often than their left ones, and at least every tenth does. The way is
-/// the longest one found, where lanes without a laneline count little.
+/// type are no markings. Lanes are the lanelets for vehicles, with borders oriented as Lanelet2 does: those
+/// with a tag participant:vehicle that is yes; where no participant is named, those whose subtype is road,
+/// highway, bus_lane, play_street, emergency_lane or exit, and those without a subtype. A lanelet that may be
+/// driven both ways counts in the direction in which it is drawn. A lane is in an intersection if it has a
+/// turn_direction, or both borders are virtual. Traffic is left-hand if opposite lanes share their right
+/// borders more often than their left ones, and at least every tenth does. The way is the longest one found,
+/// where lanes without a laneline count little.
 ///
 /// Elements that an editor marked as deleted are passed over. What is wrong is left out, with what hangs on
 /// it: a node without a place, a way with a node that is not there, a lane with a border that is not there,
