@@ -143,6 +143,33 @@ TEST_F(MadeUpMap, LaneletsForVehiclesAreLanes) {
   EXPECT_EQ(lanes_with(road + tag("participant:bicycle", "yes")), 0u) << "others are disallowed";
 }
 
+TEST_F(MadeUpMap, OppositeLanesThatShareABorderTellTheSideOfTraffic) {
+  // Many lanes in a row, and one beside the first in the opposite direction.
+  std::string row, opposite = node(201, 0, 3) + node(202, 20, 3) + way(400, {202, 201}, "");
+  for (int i = 0; i < 30; ++i) {
+    row += node(1 + i, 20.0 * i, 0) + node(101 + i, 20.0 * i, -3);
+    if (i > 0) row += way(300 + i, {i, i + 1}, "") + way(350 + i, {100 + i, 101 + i}, "");
+    if (i > 0) row += lanelet(500 + i, 300 + i, 350 + i);
+  }
+  const auto side = [&](const std::string& more) { return load("<osm>" + row + more + "</osm>"); };
+  EXPECT_TRUE(side("").right_hand_traffic);
+  EXPECT_TRUE(side(opposite + way(401, {2, 1}, "") + lanelet(600, 401, 400)).right_hand_traffic);
+  const std::string below = node(203, 0, -6) + node(204, 20, -6) + way(402, {204, 203}, "");
+  EXPECT_FALSE(side(below + way(403, {102, 101}, "") + lanelet(600, 402, 403)).right_hand_traffic);
+}
+
+TEST_F(MadeUpMap, OppositeLanesThatShareNoBorderTellTheSideOfTraffic) {
+  const auto with_opposite_at = [&](double y) {
+    return load(two_lanes() + node(201, 0, y) + node(202, 20, y) + node(203, 0, y + 3) +
+                node(204, 20, y + 3) + way(301, {202, 201}, "") + way(302, {204, 203}, "") +
+                lanelet(401, 301, 302) + "</osm>");
+  };
+  EXPECT_TRUE(with_opposite_at(0.5).right_hand_traffic);
+  EXPECT_FALSE(with_opposite_at(-6.5).right_hand_traffic);
+  EXPECT_TRUE(with_opposite_at(-20.0).right_hand_traffic) << "it is no neighbour";
+  EXPECT_TRUE(with_opposite_at(-3.1).right_hand_traffic) << "one lane for both directions has no side";
+}
+
 TEST_F(MadeUpMap, SwappedBordersTurnTheLaneAround) {
   const Road road = load(two_lanes() + lanelet(24, 13, 11) + "</osm>");
   ASSERT_EQ(road.lanes.size(), 3u);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <pugixml.hpp>
 #include <set>
@@ -23,6 +24,10 @@ using sd_map::OsmId;
 using sd_map::tag;
 
 constexpr double kJoin_m = 0.01;
+constexpr double kPlaceStep_m = 4.0;
+constexpr double kOnOneAnother_m = 2.0;  // at most, between the middles of two directions of a single way
+constexpr double kNeighbours_m = 6.0;    // between the middles of two lanes that are side by side
+constexpr double kOpposite_cos = -0.9;   // between directions that are opposite
 constexpr std::array kLaneSubtypes{"road", "highway", "bus_lane", "play_street", "emergency_lane", "exit"};
 
 Way reversed(Way way) {
@@ -121,20 +126,45 @@ void add_successors(const std::vector<Lanelet>& lanelets, Road& road) {
   }
 }
 
-// In right-hand traffic, lanes of opposite directions share their left borders; in left-hand traffic, their
-// right ones.
-bool is_right_hand(const std::vector<Lanelet>& lanelets) {
-  const auto shared_with_opposite = [&](Way Lanelet::*side) {
-    std::set<std::vector<sd_map::OsmId>> borders;
-    std::size_t shared = 0;
-    for (const Lanelet& lanelet : lanelets) {
-      if (borders.contains(reversed(lanelet.*side).nodes)) ++shared;
-      borders.insert((lanelet.*side).nodes);
+/// How many borders on a side are also the border on that side of a lane in the opposite direction.
+std::size_t shared_with_opposite(const std::vector<Lanelet>& lanelets, Way Lanelet::*side) {
+  std::set<std::vector<sd_map::OsmId>> borders;
+  std::size_t shared = 0;
+  for (const Lanelet& lanelet : lanelets) {
+    if (borders.contains(reversed(lanelet.*side).nodes)) ++shared;
+    borders.insert((lanelet.*side).nodes);
+  }
+  return shared;
+}
+
+/// At how many places of lanes more the nearest lane in the opposite direction lies to the left than to the
+/// right.
+int opposite_to_the_left(const Road& road) {
+  std::vector<MeasuredPolyline> lines;
+  for (const RoadLane& lane : road.lanes) lines.emplace_back(lane.centerline);
+  int balance = 0;
+  for (const MeasuredPolyline& line : lines) {
+    for (double at_m = 0.5 * kPlaceStep_m; at_m < line.length(); at_m += kPlaceStep_m) {
+      Projection nearest{.distance_m = kNeighbours_m};
+      for (const MeasuredPolyline& other : lines) {
+        const Projection foot = other.project(line.at(at_m), nearest.distance_m);
+        if (foot.inside && std::abs(foot.lateral_m) > kOnOneAnother_m &&
+            line.direction(at_m).dot(other.direction(foot)) < kOpposite_cos)
+          nearest = foot;
+      }
+      // Each of two opposite lanes is on the same side of the other.
+      if (nearest.inside) balance += nearest.lateral_m > 0.0 ? 1 : -1;
     }
-    return shared;
-  };
-  const std::size_t rights = shared_with_opposite(&Lanelet::right);
-  return rights <= shared_with_opposite(&Lanelet::left) || 10 * rights < lanelets.size();
+  }
+  return balance;
+}
+
+/// In right-hand traffic, lanes of opposite directions share their left borders; in left-hand traffic, their
+/// right ones.
+bool is_right_hand(const std::vector<Lanelet>& lanelets, const Road& road) {
+  const std::size_t lefts = shared_with_opposite(lanelets, &Lanelet::left);
+  const std::size_t rights = shared_with_opposite(lanelets, &Lanelet::right);
+  return lefts + rights > 0 ? rights <= lefts : opposite_to_the_left(road) >= 0;
 }
 
 std::string why_no_lanes(const pugi::xml_node& osm) {
@@ -181,7 +211,7 @@ Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps, Left
     const std::vector<Lanelet> lanelets = read_lanes(osm, ways, road, left_out);
     if (lanelets.empty()) throw std::runtime_error(why_no_lanes(osm));
     add_successors(lanelets, road);
-    road.right_hand_traffic = is_right_hand(lanelets);
+    road.right_hand_traffic = is_right_hand(lanelets, road);
     join_markings(road, kJoin_m);
     road.drive = Drive::along(joined_centerlines(road, long_way(road)), speed_mps);
     return road;

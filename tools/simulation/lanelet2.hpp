@@ -17,8 +17,9 @@ namespace laneloom::simulation {
 /// highway, bus_lane, play_street, emergency_lane or exit, and those without a subtype. A lanelet that may be
 /// driven both ways counts in the direction in which it is drawn. A lane is in an intersection if it has a
 /// turn_direction, or both borders are virtual. Traffic is left-hand if opposite lanes share their right
-/// borders more often than their left ones, and at least every tenth does. The way is the longest one found,
-/// where lanes without a laneline count little.
+/// borders more often than their left ones. Where none share a border, it is left-hand if opposite lanes lie
+/// to the right within 6 m more often than to the left. The way is the longest one found, where lanes without
+/// a laneline count little.
 ///
 /// Elements that an editor marked as deleted are passed over. What is wrong is left out, with what hangs on
 /// it: a node without a place, a way with a node that is not there, a lane with a border that is not there,
