@@ -260,6 +260,8 @@ TEST_F(Openpilot, FilesOfAnotherKindAreNamed) {
   EXPECT_THAT(complaint("{\n\"logMonoTime\": \"7\"\n}\n"), HasSubstr("has no event of openpilot; the rlog"));
   EXPECT_THAT(complaint("\x28\xb5\x2f\xfd..."), HasSubstr("is compressed with zstd; the rlog is needed"));
   EXPECT_THAT(complaint(std::string(40, '\0')), HasSubstr("is binary"));
+  EXPECT_THAT(complaint(std::string("\xff\xfe{\0", 4)),
+              HasSubstr("is text in UTF-16, not in UTF-8; the rlog"));
   EXPECT_THAT(complaint(""), HasSubstr("rlog.jsonl: is empty"));
   EXPECT_THAT(thrown_by([&] {
                 LeftOut left_out;

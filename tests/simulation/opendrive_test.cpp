@@ -37,7 +37,10 @@ std::string geometry(double length_m, const std::string& shape, double s_m = 0.0
 class OpenDrive : public testing::Test {
  protected:
   Road load(const std::string& roads, bool strict = true) {
-    std::ofstream(folder_.file("road.xodr")) << "<OpenDRIVE>" << roads << "</OpenDRIVE>";
+    return load_file("<OpenDRIVE>" + roads + "</OpenDRIVE>", strict);
+  }
+  Road load_file(const std::string& content, bool strict = true) {
+    std::ofstream(folder_.file("road.xodr"), std::ios::binary) << content;
     left_out_ = LeftOut(strict);
     return load_opendrive(folder_.file("road.xodr"), 10.0, left_out_);
   }
@@ -230,6 +233,16 @@ TEST_F(OpenDrive, WhatIsWrongIsLeftOutWithItsRoad) {
     EXPECT_THAT(left_out(), HasSubstr("(first: road 7)"));
   }
   EXPECT_THAT(error(""), HasSubstr("has no lanes for vehicles"));
+}
+
+TEST_F(OpenDrive, AFileInUtf16IsRead) {
+  const std::string text = "<OpenDRIVE>" + road_of(geometry(40.0, "<line/>")) + "</OpenDRIVE>";
+  for (const bool big_endian : {false, true}) {
+    std::string utf16 = big_endian ? "\xfe\xff" : "\xff\xfe";
+    for (const char letter : text)
+      utf16 += big_endian ? std::string{'\0', letter} : std::string{letter, '\0'};
+    EXPECT_EQ(load_file(utf16).lanes.size(), 1u);
+  }
 }
 
 /// The drawn quarter: see tests/roads/README.md.

@@ -11,7 +11,7 @@ using std::string_view_literals::operator""sv;
 
 struct Kind {
   std::string_view begin;
-  const char* text;
+  std::string_view text;
 };
 
 constexpr std::array kKinds{
@@ -35,8 +35,10 @@ constexpr std::array kKinds{
     Kind{"\x80\x04"sv, "is a pickle of Python"},
     Kind{"\x80\x05"sv, "is a pickle of Python"},
     Kind{"version https://git-lfs"sv, "is a pointer of Git LFS, not the file itself"},
-    Kind{"<?xml"sv, "is XML"},
-    Kind{"<osm"sv, "is XML"},
+    Kind{"<?xml"sv, kXml},
+    Kind{"<osm"sv, kXml},
+    Kind{"\xff\xfe"sv, kUtf16},
+    Kind{"\xfe\xff"sv, kUtf16},
     Kind{"<!DOCTYPE"sv, "is a web page"},
     Kind{"<html"sv, "is a web page"},
     Kind{"\x7f"
@@ -59,7 +61,7 @@ std::string file_kind(const std::filesystem::path& path) {
   const std::string_view begin(bytes.data(), static_cast<std::size_t>(in.gcount()));
   if (begin.empty()) return std::string(kEmpty);
   for (const Kind& kind : kKinds)
-    if (begin.starts_with(kind.begin)) return kind.text;
+    if (begin.starts_with(kind.begin)) return std::string(kind.text);
   const bool binary = begin.find('\0') != std::string_view::npos;
   return binary ? "is binary, and of no kind that laneloom knows" : "";
 }

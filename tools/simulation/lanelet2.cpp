@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "io/file_kind.hpp"
 #include "laneloom/polyline.hpp"
 #include "simulation/borders.hpp"
 #include "simulation/lanelet2_ways.hpp"
+#include "simulation/map_file.hpp"
 #include "simulation/route.hpp"
 
 namespace laneloom::simulation {
@@ -184,26 +184,12 @@ std::string why_no_lanes(const pugi::xml_node& osm) {
   return reason;
 }
 
-/// Loads a file up to the place where it is damaged.
-void load(const std::filesystem::path& osm_file, pugi::xml_document& document, LeftOut& left_out) {
-  if (const std::string kind = io::file_kind(osm_file); !kind.empty() && kind != "is XML")
-    throw std::runtime_error(kind + "; a Lanelet2 map (.osm) is needed");
-  const auto result = document.load_file(osm_file.c_str());
-  if (result) return;
-  const std::string place = "byte " + std::to_string(result.offset);
-  if (left_out.strict() || !document.child("osm"))
-    throw std::runtime_error(std::string(result.description()) + " at " + place);
-  left_out.add("the rest of the file, which is damaged or cut off", place);
-}
-
 }  // namespace
 
 Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps, LeftOut& left_out) {
   try {
-    pugi::xml_document document;
-    load(osm_file, document, left_out);
-    const pugi::xml_node osm = document.child("osm");
-    if (!osm) throw std::runtime_error("has no element osm; a Lanelet2 map is needed");
+    const MapFile file(osm_file, "osm", "a Lanelet2 map (.osm)", left_out);
+    const pugi::xml_node& osm = file.root();
     sd_map::remove_deleted(osm);
     Road road;
     road.name = osm_file.stem().string();

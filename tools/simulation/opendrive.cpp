@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/file_kind.hpp"
 #include "simulation/lanelet2_ways.hpp"
+#include "simulation/map_file.hpp"
 #include "simulation/opendrive_road.hpp"
 #include "simulation/route.hpp"
 
@@ -73,31 +73,16 @@ void link_lanes(Road& road) {
   }
 }
 
-/// Loads a file up to the place where it is damaged.
-void load_xodr(const std::filesystem::path& file, pugi::xml_document& document, LeftOut& left_out) {
-  if (const std::string kind = io::file_kind(file); !kind.empty() && kind != "is XML")
-    throw std::runtime_error(kind + "; a road network of OpenDRIVE (.xodr) is needed");
-  const auto result = document.load_file(file.c_str());
-  if (!document.child("OpenDRIVE"))
-    throw std::runtime_error(result ? "has no element OpenDRIVE; a road network of OpenDRIVE is needed"
-                                    : result.description());
-  if (result) return;
-  const std::string place = "byte " + std::to_string(result.offset);
-  if (left_out.strict()) throw std::runtime_error(std::string(result.description()) + " at " + place);
-  left_out.add("the rest of the file, which is damaged or cut off", place);
-}
-
 }  // namespace
 
 Road load_opendrive(const std::filesystem::path& xodr_file, double speed_mps, LeftOut& left_out) {
   try {
-    pugi::xml_document document;
-    load_xodr(xodr_file, document, left_out);
+    const MapFile file(xodr_file, "OpenDRIVE", "a road network of OpenDRIVE (.xodr)", left_out);
     Road road;
     road.name = xodr_file.stem().string();
     LengthLimit limit;
     int balance = 0;  // of roads with right-hand traffic over the others
-    for_each_element(document.child("OpenDRIVE"), "road", left_out, [&](const pugi::xml_node& element) {
+    for_each_element(file.root(), "road", left_out, [&](const pugi::xml_node& element) {
       Road part = read_opendrive_road(element, limit);
       balance += part.right_hand_traffic ? 1 : -1;
       append_part(std::move(part), road);
