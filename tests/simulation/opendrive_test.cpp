@@ -112,6 +112,29 @@ TEST_F(OpenDrive, LanesHaveWidthsBordersOffsetsAndDirections) {
   EXPECT_EQ(right.left_marking, kNoElement);
 }
 
+TEST_F(OpenDrive, SectionsMayComeInAnyOrder) {
+  const auto section = [](const std::string& s_m, const std::string& width) {
+    return R"(<laneSection s=")" + s_m + R"("><center><lane id="0"/></center><right>)" +
+           R"(<lane id="-1" type="driving"><width sOffset="0" a=")" + width +
+           R"("/></lane></right></laneSection>)";
+  };
+  const std::string first = section("0", "3"), second = section("15", "4"), third = section("30", "5");
+  const Road road = load(road_of(geometry(40.0, "<line/>"), third + first + second));
+  ASSERT_EQ(road.lanes.size(), 3u);
+  expect_near(road.lanes[0].right.front(), 10.0, 17.0);
+  expect_near(road.lanes[1].right.front(), 25.0, 16.0);
+  expect_near(road.lanes[2].right.back(), 50.0, 15.0);
+}
+
+TEST_F(OpenDrive, ARoadThatIsGivenTwiceIsTakenOnce) {
+  const std::string road = road_of(geometry(40.0, "<line/>"));
+  EXPECT_EQ(load(road + road, false).lanes.size(), 1u);
+  EXPECT_EQ(left_out(), "1 x a road that is given twice (first: road 7)");
+  std::string nameless = road;
+  nameless.erase(nameless.find(R"(id="7")"), 6);
+  EXPECT_EQ(load(nameless + nameless).lanes.size(), 2u) << "roads without an id may be two";
+}
+
 TEST_F(OpenDrive, TheRuleOfARoadTellsTheSideOfTraffic) {
   std::string text = road_of(geometry(40.0, "<line/>"));
   EXPECT_TRUE(load(text).right_hand_traffic);
@@ -214,7 +237,8 @@ TEST_F(OpenDrive, TheMarkBesideAnUnpavedLaneIsThere) {
 }
 
 TEST_F(OpenDrive, WhatIsWrongIsLeftOutWithItsRoad) {
-  const std::string good = road_of(geometry(40.0, "<line/>"));
+  std::string good = road_of(geometry(40.0, "<line/>"));
+  good.replace(good.find(R"(id="7")"), 6, R"(id="1")");
   const std::vector<std::pair<std::string, std::string>> bad{
       {road_of(""), "has no geometry"},
       {road_of(geometry(40.0, "<bezier/>")), "that is no line, arc, spiral, poly3 or paramPoly3"},
@@ -233,6 +257,14 @@ TEST_F(OpenDrive, WhatIsWrongIsLeftOutWithItsRoad) {
     EXPECT_THAT(left_out(), HasSubstr("(first: road 7)"));
   }
   EXPECT_THAT(error(""), HasSubstr("has no lanes for vehicles"));
+}
+
+TEST_F(OpenDrive, ASecondMapInAFileIsTold) {
+  const std::string map = "<OpenDRIVE>" + road_of(geometry(40.0, "<line/>")) + "</OpenDRIVE>";
+  EXPECT_EQ(load_file(map + map, false).lanes.size(), 1u);
+  EXPECT_EQ(left_out(), "1 x the rest of the file, which is a second map (first: byte " +
+                            std::to_string(map.size() + 1) + ")");
+  EXPECT_THAT(thrown_by([&] { load_file(map + map); }), HasSubstr("has a second map at byte "));
 }
 
 TEST_F(OpenDrive, AFileInUtf16IsRead) {

@@ -13,11 +13,16 @@ MapFile::MapFile(const std::filesystem::path& file, const char* root, const std:
   const pugi::xml_parse_result result = document_.load_file(file.c_str());
   root_ = document_.child(root);
   is_whole_ = result;
-  const std::string place = "byte " + std::to_string(result.offset);
-  if (!is_whole_ && (!root_ || left_out.strict()))
-    throw std::runtime_error(std::string(result.description()) + " at " + place);
+  const auto leave_out = [&](const std::string& what, const std::string& complaint, std::ptrdiff_t offset) {
+    const std::string place = "byte " + std::to_string(offset);
+    if (!root_ || left_out.strict()) throw std::runtime_error(complaint + " at " + place);
+    left_out.add(what, place);
+  };
+  if (!is_whole_)
+    leave_out("the rest of the file, which is damaged or cut off", result.description(), result.offset);
   if (!root_) throw std::runtime_error(std::string("has no element ") + root + "; " + needed + " is needed");
-  if (!is_whole_) left_out.add("the rest of the file, which is damaged or cut off", place);
+  if (const pugi::xml_node second = root_.next_sibling(root))
+    leave_out("the rest of the file, which is a second map", "has a second map", second.offset_debug());
 }
 
 }  // namespace laneloom::simulation

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <pugixml.hpp>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -82,7 +84,10 @@ Road load_opendrive(const std::filesystem::path& xodr_file, double speed_mps, Le
     road.name = xodr_file.stem().string();
     LengthLimit limit;
     int balance = 0;  // of roads with right-hand traffic over the others
+    std::set<std::string_view> ids;
     for_each_element(file.root(), "road", left_out, [&](const pugi::xml_node& element) {
+      const std::string_view id = element.attribute("id").as_string();
+      if (!id.empty() && !ids.insert(id).second) refuse(element, "is given twice");
       Road part = read_opendrive_road(element, limit);
       balance += part.right_hand_traffic ? 1 : -1;
       append_part(std::move(part), road);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -85,15 +86,15 @@ class RoadReader {
         right_hand_(std::string_view(element.attribute("rule").as_string("RHT")) != "LHT") {}
 
   Road read() && {
-    std::vector<pugi::xml_node> sections;
+    const double length_m = line_.length_m();
+    std::multimap<double, pugi::xml_node> sections;  // by their begin
     for (const pugi::xml_node& section : element_.child("lanes").children("laneSection"))
-      sections.push_back(section);
-    for (std::size_t i = 0; i < sections.size(); ++i) {
-      const double length_m = line_.length_m();
-      const double from_m = std::clamp(number(element_, sections[i], "s"), 0.0, length_m);
-      take_parts(sections[i], from_m);
-      to_m_ = length_m;
-      if (i + 1 < sections.size()) to_m_ = std::min(length_m, number(element_, sections[i + 1], "s"));
+      sections.emplace(std::clamp(number(element_, section, "s"), 0.0, length_m), section);
+    for (auto section = sections.begin(); section != sections.end(); ++section) {
+      const double from_m = section->first;
+      take_parts(section->second, from_m);
+      const auto next = std::next(section);
+      to_m_ = next == sections.end() ? length_m : next->first;
       if (to_m_ - from_m < kLeastLength_m) continue;
       stations_ = section_stations(from_m, to_m_);
       read_section();
