@@ -148,7 +148,8 @@ TEST_F(MadeUpMap, OppositeLanesThatShareABorderTellTheSideOfTraffic) {
   std::string row, opposite = node(201, 0, 3) + node(202, 20, 3) + way(400, {202, 201}, "");
   for (int i = 0; i < 30; ++i) {
     row += node(1 + i, 20.0 * i, 0) + node(101 + i, 20.0 * i, -3);
-    if (i > 0) row += way(300 + i, {i, i + 1}, "") + way(350 + i, {100 + i, 101 + i}, "");
+    if (i > 0)
+      row += way(300 + i, {i, i + 1}, tag("type", "line_thin")) + way(350 + i, {100 + i, 101 + i}, "");
     if (i > 0) row += lanelet(500 + i, 300 + i, 350 + i);
   }
   const auto side = [&](const std::string& more) { return load("<osm>" + row + more + "</osm>"); };
@@ -184,7 +185,7 @@ TEST_F(MadeUpMap, DegreesBecomeMetres) {
   };
   const Road road =
       load("<osm>" + at(1, 49.0, 8.0) + at(2, 49.0, 8.001) + at(3, 48.9999, 8.0) + at(4, 48.9999, 8.001) +
-           way(11, {1, 2}, "") + way(12, {3, 4}, "") + lanelet(21, 11, 12) + "</osm>");
+           way(11, {1, 2}, tag("type", "line_thin")) + way(12, {3, 4}, "") + lanelet(21, 11, 12) + "</osm>");
   // On the WGS84 ellipsoid at 49 degrees, 0.001 degrees are 73.17 m of longitude and 111.21 m of latitude.
   EXPECT_NEAR(length(road.lanes[0].left), 73.17, 0.02);
   EXPECT_NEAR(road.lanes[0].right.front().y(), -11.12, 0.01);
@@ -209,6 +210,15 @@ TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
   const std::string far = two_lanes() + node(7, 2e5, 0) + node(8, 2e5, -3) + way(41, {1, 7}, "") +
                           way(42, {4, 8}, "") + lanelet(31, 41, 42) + "</osm>";
   EXPECT_NE(error(far).find("relation 31: is beyond 300 km of lines"), std::string::npos) << error(far);
+}
+
+TEST_F(MadeUpMap, AMapOfWhichNothingCanBeSeenIsRefused) {
+  std::string map = two_lanes();
+  for (const std::string type : {"line_thin", "line_thick", "curbstone"})
+    map.replace(map.find("'" + type + "'"), type.size() + 2, "'virtual'");
+  EXPECT_NE(error(map + "</osm>").find("made_up.osm: has no lines that can be seen"), std::string::npos)
+      << "it has a stop line";
+  EXPECT_EQ(load(map + way(50, {1, 3}, tag("type", "road_border")) + "</osm>").lanes.size(), 2u);
 }
 
 TEST_F(MadeUpMap, WhatIsWrongIsLeftOutWithWhatHangsOnIt) {

@@ -236,6 +236,15 @@ TEST_F(OpenDrive, TheMarkBesideAnUnpavedLaneIsThere) {
   EXPECT_NE(road.lanes[0].left_marking, kNoElement);
 }
 
+TEST_F(OpenDrive, AMapOfWhichNothingCanBeSeenIsRefused) {
+  std::string map = road_of(geometry(40.0, "<line/>"));
+  for (const std::string type : {R"("solid")", R"("broken")"})
+    map.replace(map.find(type), type.size(), R"("none")");
+  EXPECT_EQ(load(map).lanes.size(), 1u) << "it has edges";
+  map.replace(map.find(R"("-1")"), 4, R"("5")");  // in a junction, where there are none
+  EXPECT_THAT(error(map), HasSubstr("road.xodr: has no road marks, and no edges"));
+}
+
 TEST_F(OpenDrive, WhatIsWrongIsLeftOutWithItsRoad) {
   std::string good = road_of(geometry(40.0, "<line/>"));
   good.replace(good.find(R"(id="7")"), 6, R"(id="1")");

@@ -96,6 +96,12 @@ Polyline midway(const Polyline& left, const Polyline& right, double step_m) {
   return out;
 }
 
+bool has_lines(const Road& road) {
+  return std::ranges::any_of(road.markings, [](const RoadMarking& marking) {
+    return marking.type == MarkingType::laneline || marking.type == MarkingType::roadedge;
+  });
+}
+
 void join_markings(Road& road, double tolerance_m) {
   std::vector<RoadMarking>& markings = road.markings;
   std::map<ElementId, ElementId> joined_into;  // former id, id of the marking that it was appended to

@@ -21,6 +21,9 @@ class LengthLimit {
 /// The line midway between two borders that run side by side, with a point every `step_m` or less.
 Polyline midway(const Polyline& left, const Polyline& right, double step_m = 1.0);
 
+/// Whether the road has lanelines or roadedges, so that a network sees anything of its lanes.
+bool has_lines(const Road& road);
+
 /// Joins markings of one type and style that continue one another: their ends are closer than `tolerance_m`,
 /// with no third end there, and point the same way. Closed lines become rings. Ids are given anew, and the
 /// lanes refer to the joined markings.

@@ -196,6 +196,10 @@ Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps, Left
     const std::map<OsmId, Way> ways = read_ways(osm, read_nodes(osm, left_out), road, left_out);
     const std::vector<Lanelet> lanelets = read_lanes(osm, ways, road, left_out);
     if (lanelets.empty()) throw std::runtime_error(why_no_lanes(osm));
+    if (!has_lines(road))
+      throw std::runtime_error(
+          "has no lines that can be seen: no way has a type of marking, such as line_thin, curbstone or "
+          "road_border");
     add_successors(lanelets, road);
     road.right_hand_traffic = is_right_hand(lanelets, road);
     join_markings(road, kJoin_m);

@@ -24,7 +24,8 @@ namespace laneloom::simulation {
 /// Elements that an editor marked as deleted are passed over. What is wrong is left out, with what hangs on
 /// it: a node without a place, a way with a node that is not there, a lane with a border that is not there,
 /// an element that comes twice, what follows the place where the file is damaged. Throws std::runtime_error
-/// naming the file if there are no lanes; also naming the first wrong element if `left_out` is strict.
+/// naming the file if there are no lanes, or neither lanelines nor roadedges; also naming the first wrong
+/// element if `left_out` is strict.
 Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps, LeftOut& left_out);
 
 /// Does so strictly.

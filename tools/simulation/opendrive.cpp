@@ -93,6 +93,8 @@ Road load_opendrive(const std::filesystem::path& xodr_file, double speed_mps, Le
       append_part(std::move(part), road);
     });
     if (road.lanes.empty()) throw std::runtime_error("has no lanes for vehicles");
+    if (!has_lines(road))
+      throw std::runtime_error("has no road marks, and no edges: nothing of it can be seen");
     road.right_hand_traffic = balance >= 0;
     attach_markings(road);
     link_lanes(road);

@@ -20,8 +20,8 @@ namespace laneloom::simulation {
 /// is signalLines, or whose name has StopLine. Lanes follow one another where their ends meet, whatever the
 /// links say. Traffic is that of the greater part of the roads.
 ///
-/// What is wrong is left out, with its road. Throws std::runtime_error naming the file if there are no lanes;
-/// also naming the first wrong road if `left_out` is strict.
+/// What is wrong is left out, with its road. Throws std::runtime_error naming the file if there are no lanes,
+/// or neither lanelines nor roadedges; also naming the first wrong road if `left_out` is strict.
 Road load_opendrive(const std::filesystem::path& xodr_file, double speed_mps, LeftOut& left_out);
 
 }  // namespace laneloom::simulation
