@@ -194,11 +194,9 @@ TEST_F(MadeUpMap, DegreesBecomeMetres) {
 TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
   EXPECT_NE(error("<osm><node").find("made_up.osm"), std::string::npos);
   EXPECT_NE(error("<html/>").find("is a web page; a Lanelet2 map (.osm) is needed"), std::string::npos);
-  EXPECT_NE(error("<osm>" + lanelet(21, 11, 12, "walkway") + lanelet(22, 11, 12, "crosswalk") + "</osm>")
-                .find("has no lanes for vehicles; its lanelets are crosswalk and walkway"),
-            std::string::npos);
   EXPECT_NE(error("<gpx/>").find("has no element osm"), std::string::npos);
-  EXPECT_NE(error("<osm/>").find("has no lanelets, as an extract of OpenStreetMap"), std::string::npos);
+  EXPECT_NE(error("<osm/>").find("has no relation of the type lanelet, as an extract of OpenStreetMap"),
+            std::string::npos);
   EXPECT_NE(error(two_lanes() + lanelet(30, 11, 99) + "</osm>").find("relation 30: has no way 99"),
             std::string::npos);
   EXPECT_NE(error(two_lanes() + way(40, {1, 77}, "") + "</osm>").find("way 40: has no node 77"),
@@ -234,6 +232,31 @@ TEST_F(MadeUpMap, WhatIsWrongIsLeftOutWithWhatHangsOnIt) {
             "2 x a way that has no node (first: way 40), "
             "2 x a relation that has no way (first: relation 30), "
             "1 x a relation that is given twice (first: relation 22)");
+}
+
+TEST_F(MadeUpMap, AHeightThatIsNoNumberCountsAsAbsent) {
+  std::string map = two_lanes();
+  const std::string height = tag("ele", "7");
+  map.replace(map.find(height), height.size(), tag("ele", "nan"));
+  const Road road = load_rest(map + "</osm>");
+  ASSERT_EQ(road.lanes.size(), 2u);
+  EXPECT_EQ(road.lanes[0].left, (Polyline{{0.0, 0.0, 0.0}, {20.0, 0.0, 7.0}}));
+  EXPECT_EQ(left_out.summary(), "1 x the height of a node, whose ele is no number (first: node 1)");
+  EXPECT_NE(error(map + "</osm>").find("node 1: ele must be a number"), std::string::npos);
+}
+
+TEST_F(MadeUpMap, TheReasonWhyThereAreNoLanesIsTold) {
+  const auto reason = [&](const std::string& content) { return thrown_by([&] { load_rest(content); }); };
+  EXPECT_NE(reason("<osm>" + node(1, 0, 0) + "<node")
+                .find("has no lanes for vehicles before the place where it is damaged or cut off"),
+            std::string::npos);
+  const std::string walkway = lanelet(21, 11, 12, "walkway");
+  EXPECT_NE(reason("<osm>" + walkway + lanelet(22, 11, 12, "crosswalk") + "</osm>")
+                .find("has no lanes for vehicles; its lanelets are crosswalk and walkway"),
+            std::string::npos);
+  EXPECT_TRUE(
+      reason("<osm>" + walkway + lanelet(22, 11, 12) + "</osm>").ends_with("has no lanes for vehicles"))
+      << "what is wrong with that of vehicles is told as left out";
 }
 
 TEST_F(MadeUpMap, ANodeWithoutLocalCoordinatesDoesNotMoveTheMap) {

@@ -167,20 +167,23 @@ bool is_right_hand(const std::vector<Lanelet>& lanelets, const Road& road) {
   return lefts + rights > 0 ? rights <= lefts : opposite_to_the_left(road) >= 0;
 }
 
-std::string why_no_lanes(const pugi::xml_node& osm) {
-  std::set<std::string_view> others;
-  bool has_lanelets = false;
-  for (const pugi::xml_node& relation : osm.children("relation")) {
+std::string why_no_lanes(const MapFile& file) {
+  std::set<std::string_view> subtypes;
+  bool has_lanelets = false, are_for_others = true;
+  for (const pugi::xml_node& relation : file.root().children("relation")) {
     if (tag(relation, "type") != "lanelet") continue;
     has_lanelets = true;
-    if (!is_vehicle_lane(relation)) others.insert(tag(relation, "subtype"));
+    are_for_others = are_for_others && !is_vehicle_lane(relation);
+    subtypes.insert(tag(relation, "subtype"));
   }
+  if (!file.is_whole()) return "has no lanes for vehicles before the place where it is damaged or cut off";
   if (!has_lanelets)
-    return "has no lanelets, as an extract of OpenStreetMap has none; a Lanelet2 map is needed";
-  others.erase("");
+    return "has no relation of the type lanelet, as an extract of OpenStreetMap has none; a Lanelet2 map is "
+           "needed";
   std::string reason = "has no lanes for vehicles";
-  for (const std::string_view subtype : others)
-    reason += (subtype == *others.begin() ? "; its lanelets are " : " and ") + std::string(subtype);
+  if (are_for_others)
+    for (const std::string_view subtype : subtypes)
+      reason += (subtype == *subtypes.begin() ? "; its lanelets are " : " and ") + std::string(subtype);
   return reason;
 }
 
@@ -195,7 +198,7 @@ Road load_lanelet2(const std::filesystem::path& osm_file, double speed_mps, Left
     road.name = osm_file.stem().string();
     const std::map<OsmId, Way> ways = read_ways(osm, read_nodes(osm, left_out), road, left_out);
     const std::vector<Lanelet> lanelets = read_lanes(osm, ways, road, left_out);
-    if (lanelets.empty()) throw std::runtime_error(why_no_lanes(osm));
+    if (lanelets.empty()) throw std::runtime_error(why_no_lanes(file));
     if (!has_lines(road))
       throw std::runtime_error(
           "has no lines that can be seen: no way has a type of marking, such as line_thin, curbstone or "

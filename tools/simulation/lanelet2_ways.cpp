@@ -54,6 +54,19 @@ class Projection {
   std::optional<GeographicLib::LocalCartesian> projection_;
 };
 
+/// A height that is no number counts as one that is absent.
+double height_of(const pugi::xml_node& node, LeftOut& left_out) {
+  const std::string_view ele = tag(node, "ele");
+  if (ele.empty()) return 0.0;
+  try {
+    return coordinate(node, ele, "ele");
+  } catch (const BadElement& error) {
+    if (left_out.strict()) throw;
+    left_out.add("the height of a node, whose ele is no number", error.place());
+    return 0.0;
+  }
+}
+
 std::optional<MarkingType> marking_type(const pugi::xml_node& way) {
   const std::string_view type = tag(way, "type");
   if (type == "line_thin" || type == "line_thick") return MarkingType::laneline;
@@ -94,12 +107,11 @@ std::map<OsmId, Point> read_nodes(const pugi::xml_node& osm, LeftOut& left_out) 
   std::map<OsmId, Point> points;
   for_each_element(osm, "node", left_out, [&](const pugi::xml_node& node) {
     if (local && !has_local(node)) refuse(node, "has no local_x and local_y, as most nodes have");
-    const std::string_view ele = tag(node, "ele");
     Point point = local ? Point(coordinate(node, tag(node, "local_x"), "local_x"),
                                 coordinate(node, tag(node, "local_y"), "local_y"), 0.0)
                         : projected(node);
     // Not above the tangent plane: level roads stay level.
-    point.z() = ele.empty() ? 0.0 : coordinate(node, ele, "ele");
+    point.z() = height_of(node, left_out);
     if (!points.emplace(id_of(node), point).second) refuse(node, "is given twice");
   });
   return points;
