@@ -201,8 +201,9 @@ TEST_F(MadeUpMap, BadMapsAreNamedWithTheirElement) {
             std::string::npos);
   EXPECT_NE(error(two_lanes() + way(40, {1, 77}, "") + "</osm>").find("way 40: has no node 77"),
             std::string::npos);
-  EXPECT_NE(error("<osm><node id='8' lat='nan' lon='3'/></osm>").find("node 8: lat must be a number"),
-            std::string::npos);
+  EXPECT_NE(
+      error("<osm><node id='8' lat='nan' lon='3'/></osm>").find("node 8: has no number within reach as lat"),
+      std::string::npos);
   EXPECT_NE(error("<osm><node id='8' lat='95' lon='3'/></osm>").find("node 8"), std::string::npos);
   EXPECT_THROW(load_lanelet2(path.parent_path() / "absent.osm"), std::runtime_error);
   const std::string far = two_lanes() + node(7, 2e5, 0) + node(8, 2e5, -3) + way(41, {1, 7}, "") +
@@ -228,7 +229,7 @@ TEST_F(MadeUpMap, WhatIsWrongIsLeftOutWithWhatHangsOnIt) {
   EXPECT_EQ(road.lanes.size(), 2u);
   EXPECT_EQ(road.markings.size(), load(two_lanes() + "</osm>").markings.size());
   EXPECT_EQ(left_out.summary(),
-            "1 x a node that local_x must be a number (first: node 8), "
+            "1 x a node that has no number within reach as local_x (first: node 8), "
             "2 x a way that has no node (first: way 40), "
             "2 x a relation that has no way (first: relation 30), "
             "1 x a relation that is given twice (first: relation 22)");
@@ -242,7 +243,7 @@ TEST_F(MadeUpMap, AHeightThatIsNoNumberCountsAsAbsent) {
   ASSERT_EQ(road.lanes.size(), 2u);
   EXPECT_EQ(road.lanes[0].left, (Polyline{{0.0, 0.0, 0.0}, {20.0, 0.0, 7.0}}));
   EXPECT_EQ(left_out.summary(), "1 x the height of a node, whose ele is no number (first: node 1)");
-  EXPECT_NE(error(map + "</osm>").find("node 1: ele must be a number"), std::string::npos);
+  EXPECT_NE(error(map + "</osm>").find("node 1: has no number within reach as ele"), std::string::npos);
 }
 
 TEST_F(MadeUpMap, TheReasonWhyThereAreNoLanesIsTold) {

@@ -29,7 +29,7 @@ double coordinate(const pugi::xml_node& node, std::string_view text, const char*
     used = 0;
   }
   if (used == 0 || used != text.size() || !(std::abs(value) < kMaxCoordinate_m))
-    refuse(node, std::string(key) + " must be a number");
+    refuse(node, std::string("has no number within reach as ") + key);
   return value;
 }
 
@@ -43,7 +43,7 @@ class Projection {
   Point operator()(const pugi::xml_node& node) {
     const double lat_deg = coordinate(node, node.attribute("lat").as_string(), "lat");
     const double lon_deg = coordinate(node, node.attribute("lon").as_string(), "lon");
-    if (std::abs(lat_deg) > 90.0 || std::abs(lon_deg) > 360.0) refuse(node, "lat and lon must be degrees");
+    if (std::abs(lat_deg) > 90.0 || std::abs(lon_deg) > 360.0) refuse(node, "has no degrees as lat and lon");
     if (!projection_) projection_.emplace(lat_deg, lon_deg, 0.0);
     Point point;
     projection_->Forward(lat_deg, lon_deg, 0.0, point.x(), point.y(), point.z());
