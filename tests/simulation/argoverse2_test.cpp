@@ -219,6 +219,41 @@ TEST_F(MadeUpLog, BadFilesAreNamedWithKeyOrLine) {
   EXPECT_NE(error().find("log_map_archive"), std::string::npos) << error();
 }
 
+TEST_F(MadeUpLog, ALogOfWhichNoLaneIsLeftIsAnError) {
+  std::string text_ids = map("NONE");
+  for (const std::string id : {"10", "20"})
+    text_ids.replace(text_ids.find("\"id\":" + id), 7, "\"id\":\"x\"");
+  write("log_map_archive_x.json", text_ids);
+  LeftOut left_out;
+  const std::string complaint = thrown_by([&] { load_argoverse2(directory, left_out); });
+  EXPECT_TRUE(complaint.ends_with("log_map_archive_x.json: has no lanes for vehicles")) << complaint;
+  EXPECT_EQ(left_out.summary(),
+            "2 x lane_segments: id: must be an integer that is not negative (first: lane_segments.10)");
+}
+
+TEST_F(MadeUpLog, ALaneWithoutSuccessorsLosesItsLinksAlone) {
+  for (const std::string instead : {"", R"("successors":null,)"}) {
+    std::string archive = map("NONE");
+    const std::string key = R"("successors":[99],)";
+    archive.replace(archive.find(key), key.size(), instead);
+    write("log_map_archive_x.json", archive);
+    LeftOut left_out;
+    EXPECT_EQ(load_argoverse2(directory, left_out).lanes.size(), 1u);
+    EXPECT_EQ(left_out.summary(), "1 x successors: is missing (first: lane_segments.10)");
+    EXPECT_NE(error().find("lane_segments.10.successors: is missing"), std::string::npos) << error();
+  }
+}
+
+TEST_F(MadeUpLog, ALaneThatIsGivenTwiceIsTakenOnce) {
+  std::string archive = map("SOLID_WHITE");
+  archive.replace(archive.find(R"("id":20)"), 7, R"("id":10)");
+  archive.replace(archive.find("BIKE"), 4, "BUS");
+  write("log_map_archive_x.json", archive);
+  LeftOut left_out;
+  EXPECT_EQ(load_argoverse2(directory, left_out).lanes.size(), 1u);
+  EXPECT_EQ(left_out.summary(), "1 x lane_segments: id: is given twice (first: lane_segments.20)");
+}
+
 TEST_F(MadeUpLog, WhatWouldTakeAllMemoryIsRefused) {
   std::string far = map("NONE");
   far.replace(far.find("\"x\":20"), 6, "\"x\":1e300");

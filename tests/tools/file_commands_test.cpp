@@ -18,6 +18,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
+/// A map of Argoverse 2 with one lane.
+constexpr const char* kOneLaneMap =
+    R"({"drivable_areas":{},"lane_segments":{"7":{"id":7,"is_intersection":false,"lane_type":"VEHICLE",)"
+    R"("successors":[],"left_lane_mark_type":"DASHED_WHITE","right_lane_mark_type":"SOLID_WHITE",)"
+    R"("left_lane_boundary":[{"x":0,"y":2,"z":0},{"x":50,"y":2,"z":0}],)"
+    R"("right_lane_boundary":[{"x":0,"y":-2,"z":0},{"x":50,"y":-2,"z":0}]}}})";
+
 /// Frames and their poses as they would have been recorded.
 void record(const std::string& frames, const std::string& recording) {
   recording::RecordingWriter out(recording);
@@ -45,8 +52,7 @@ TEST_F(Commands, EveryLogInADirectoryIsSimulated) {
     std::filesystem::create_directories(file("data/val/" + log + "/map"));
     write_bytes(file("data/val/" + log + "/city_SE3_egovehicle.feather"),
                 FeatherWriter(pose_columns(1'000'000'000, 11)).write());
-    std::ofstream(file("data/val/" + log + "/map/log_map_archive_x.json"))
-        << R"({"lane_segments":{},"drivable_areas":{}})";
+    std::ofstream(file("data/val/" + log + "/map/log_map_archive_x.json")) << kOneLaneMap;
   }
   ASSERT_TRUE(done("simulate --argoverse2 data --frames frames --truth truth"));
   for (const std::string log : {"log_a", "log_b"}) {
@@ -61,7 +67,7 @@ TEST_F(Commands, TheTrafficOfALogIsSimulatedAsItWasRecorded) {
   std::filesystem::create_directories(file("log"));
   write_bytes(file("log/city_SE3_egovehicle.feather"),
               FeatherWriter(pose_columns(1'000'000'000, 11)).write());
-  std::ofstream(file("log/log_map_archive_x.json")) << R"({"lane_segments":{},"drivable_areas":{}})";
+  std::ofstream(file("log/log_map_archive_x.json")) << kOneLaneMap;
   const std::string recorded = "simulate --argoverse2 log --traffic recorded --frames a.jsonl";
   ASSERT_TRUE(done(recorded));
   EXPECT_FALSE(io::JsonLinesReader(file("a.jsonl")).next_frame()->objects) << "it has no annotations";

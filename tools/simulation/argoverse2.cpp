@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -63,9 +64,10 @@ std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>> shape(const Po
 // Reads lanes and emits the borders that neighbours share once.
 class LaneReader {
  public:
-  void read(const json& segment) {
+  void read(const json& segment, const std::string& place, LeftOut& left_out) {
     const std::string type = io::required(segment, "lane_type", io::text);
     RoadLane lane{.id = io::required(segment, "id", io::count)};
+    if (!ids_.insert(lane.id).second) throw io::JsonError("id", "is given twice");
     std::tie(lane.left, lane.left_marking) =
         border(segment, "left_lane_boundary", "left_lane_mark_type", true);
     std::tie(lane.right, lane.right_marking) =
@@ -73,8 +75,10 @@ class LaneReader {
     if (type == "BIKE") return;
     lane.centerline = midway(lane.left, lane.right);
     lane.in_intersection = io::required(segment, "is_intersection", io::boolean);
-    lane.successors =
-        io::required(segment, "successors", [](const json& ids) { return io::list(ids, io::count); });
+    io::take_or_leave_out(left_out, place, "", [&] {
+      lane.successors =
+          io::required(segment, "successors", [](const json& ids) { return io::list(ids, io::count); });
+    });
     lanes_.push_back(std::move(lane));
   }
 
@@ -109,22 +113,25 @@ class LaneReader {
   }
 
   LengthLimit limit_;
+  std::set<ElementId> ids_;
   std::vector<RoadLane> lanes_;
   std::vector<RoadMarking> markings_;
   std::map<std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>>, ElementId> marking_of_;
 };
 
-/// Reads the members of an object. Those that are wrong are left out.
+/// Reads the members of an object, each with its place. Those that are wrong are left out.
 template <typename Read>
 void for_each_member(const json& archive, const std::string& key, LeftOut& left_out, Read read) {
   io::required(archive, key.c_str(), [&](const json& members) {
     if (!members.is_object()) throw io::JsonError("must be an object");
     for (const auto& [name, member] : members.items()) {
+      std::string place = key;
+      place.append(".").append(name);
       try {
-        read(member);
+        read(member, place);
       } catch (const io::JsonError& error) {
         if (left_out.strict()) throw error.inside(name);
-        left_out.add(key + ": " + error.reason(), key + "." + name);
+        left_out.add(key + ": " + error.reason(), place);
       }
     }
     return true;
@@ -134,12 +141,14 @@ void for_each_member(const json& archive, const std::string& key, LeftOut& left_
 Road read_map(const json& archive, LeftOut& left_out) {
   Road road;
   LaneReader lanes;
-  for_each_member(archive, "lane_segments", left_out, [&](const json& segment) { lanes.read(segment); });
+  for_each_member(archive, "lane_segments", left_out, [&](const json& segment, const std::string& place) {
+    lanes.read(segment, place, left_out);
+  });
   std::move(lanes).finish(road);
   join_markings(road, kJoin_m);
   std::vector<Polyline> areas;
   LengthLimit limit;
-  for_each_member(archive, "drivable_areas", left_out, [&](const json& area) {
+  for_each_member(archive, "drivable_areas", left_out, [&](const json& area, const std::string&) {
     Polyline outline = io::required(area, "area_boundary", xyz_line);
     if (!limit.add(outline)) throw io::JsonError("area_boundary", LengthLimit::kComplaint);
     areas.push_back(std::move(outline));
@@ -251,6 +260,7 @@ Road load_argoverse2(const std::filesystem::path& log_directory, LeftOut& left_o
   if (!archive) throw std::runtime_error(log_directory.string() + ": has no map/log_map_archive_*.json");
   try {
     Road road = read_map(io::load_json(*archive), left_out);
+    if (road.lanes.empty()) throw io::JsonError("has no lanes for vehicles");
     road.name = std::filesystem::weakly_canonical(log_directory).filename().string();
     road.drive = resampled(argoverse2_poses(log_directory, left_out));
     return road;

@@ -25,8 +25,9 @@ std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& 
 /// adjoins. There are no stoplines in such a map. Lanes are the vehicle and bus lanes. The poses, which come
 /// in pairs 1 ns apart, are resampled to 100 Hz.
 ///
-/// Lanes, areas and poses that are wrong are left out. Throws std::runtime_error naming file and key, or file
-/// and line, where nothing is left, and of the first of them if `left_out` is strict.
+/// Lanes, areas and poses that are wrong are left out, as is a second lane of one id. A lane without
+/// successors loses its links alone. Throws std::runtime_error naming file and key, or file and line, where
+/// nothing is left, and of the first of them if `left_out` is strict.
 Road load_argoverse2(const std::filesystem::path& log_directory, LeftOut& left_out);
 
 /// Does so strictly.
