@@ -57,7 +57,7 @@ TEST(AttachRoadedges, GivesTheEdgeToTheBorderThatRunsAlongIt) {
   road.lanes.resize(1);
   road.lanes[0].left = {{0.0, 0.0, 0.0}, {20.0, 0.0, 0.0}};
   road.lanes[0].right = {{0.0, -3.3, 0.0}, {20.0, -3.3, 0.0}};
-  attach_roadedges(road, 0.5);
+  attach_markings(road, MarkingType::roadedge, 0.5);
   EXPECT_EQ(road.lanes[0].left_marking, kNoElement);
   EXPECT_EQ(road.lanes[0].right_marking, 3u);
 }

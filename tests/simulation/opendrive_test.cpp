@@ -210,6 +210,58 @@ TEST_F(OpenDrive, MarksHaveTypesAndStyles) {
                          std::tuple(stopline, solid, 3.0)));
 }
 
+/// A road of a lane whose right border has these marks, each with its offset.
+std::string road_with_marks(const std::vector<std::pair<double, std::string>>& marks) {
+  std::string text;
+  for (const auto& [offset_m, type] : marks)
+    text += R"(<roadMark sOffset=")" + std::to_string(offset_m) + R"(" type=")" + type + R"("/>)";
+  return road_of(geometry(40.0, "<line/>"),
+                 R"(<laneSection s="0"><center><lane id="0"/></center><right><lane id="-1" type="driving">)"
+                 R"(<width sOffset="0" a="3"/>)" +
+                     text + "</lane></right></laneSection>");
+}
+
+TEST_F(OpenDrive, MarksChangeWhereTheFileSays) {
+  const Road road = load(road_with_marks({{0.0, "solid"}, {13.4, "broken"}, {31.7, "curb"}}));
+  std::vector<std::pair<double, double>> marks;
+  for (const RoadMarking& mark : road.markings)
+    if (mark.points.front().y() < 19.0)
+      marks.emplace_back(mark.points.front().x() - 10.0, mark.points.back().x() - 10.0);
+  const auto from_to = [](double from_m, double to_m) {
+    return testing::Pair(testing::DoubleNear(from_m, 1e-6), testing::DoubleNear(to_m, 1e-6));
+  };
+  EXPECT_THAT(marks, testing::ElementsAre(from_to(0.0, 13.4), from_to(13.4, 31.7), from_to(31.7, 40.0)));
+  ASSERT_EQ(road.lanes.size(), 1u);
+  const ElementId marking = road.lanes[0].right_marking;
+  ASSERT_NE(marking, kNoElement) << "the border is marked all along";
+  EXPECT_EQ(road.markings.at(marking - 1).style, MarkingStyle::dashed)
+      << "by the broken mark for the most part";
+}
+
+TEST_F(OpenDrive, MarksThatAreShorterThanAMetreAreThere) {
+  std::vector<std::pair<double, std::string>> dots;
+  for (int i = 0; i < 10; ++i) {
+    dots.emplace_back(4.0 * i + 0.3, "solid");
+    dots.emplace_back(4.0 * i + 1.1, "none");
+  }
+  double painted_m = 0.0;
+  for (const RoadMarking& mark : load(road_with_marks(dots)).markings)
+    if (mark.type == MarkingType::laneline) painted_m += length(mark.points);
+  EXPECT_NEAR(painted_m, 8.0, 1e-6);
+}
+
+TEST_F(OpenDrive, RoadsOfAJunctionThatLieOnOneAnotherShareTheirMarks) {
+  std::string marked = road_of(geometry(40.0, "<line/>"));
+  marked.replace(marked.find(R"("-1")"), 4, R"("5")");
+  std::string plain = marked;
+  plain.replace(plain.find(R"(id="7")"), 6, R"(id="8")");
+  plain.replace(plain.find("broken"), 6, "none");
+  const Road road = load(marked + plain);
+  ASSERT_EQ(road.lanes.size(), 2u);
+  EXPECT_NE(road.lanes[1].right_marking, kNoElement);
+  EXPECT_EQ(road.lanes[1].right_marking, road.lanes[0].right_marking);
+}
+
 /// A lane with a mark on its outer border.
 std::string lane(int id, const std::string& type, double width_m, const std::string& mark) {
   return R"(<lane id=")" + std::to_string(id) + R"(" type=")" + type + R"("><width sOffset="0" a=")" +

@@ -162,7 +162,7 @@ Road read_map(const json& archive, LeftOut& left_out) {
     edge.id = road.markings.size() + 1;
     road.markings.push_back(std::move(edge));
   }
-  attach_roadedges(road, kAlongEdge_m);
+  attach_markings(road, MarkingType::roadedge, kAlongEdge_m);
   return road;
 }
 

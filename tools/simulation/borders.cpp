@@ -69,10 +69,9 @@ void append(std::vector<RoadMarking>& markings, const MarkingEnd& end, const Mar
   if (!end.at_back) std::reverse(points.begin(), points.end());
 }
 
-bool runs_along(const Polyline& border, const MeasuredPolyline& edge, double tolerance_m) {
-  const Polyline samples = MeasuredPolyline(border).resample(1.0);
-  const auto near = std::count_if(samples.begin(), samples.end(), [&](const Point& point) {
-    const Projection foot = edge.project(point);
+bool runs_along(const Polyline& samples, const MeasuredPolyline& line, double tolerance_m) {
+  const auto near = std::ranges::count_if(samples, [&](const Point& point) {
+    const Projection foot = line.project(point, tolerance_m);
     return foot.distance_m < tolerance_m && std::abs(foot.foot.z() - point.z()) < 1.0;
   });
   return 5 * near >= 4 * static_cast<std::ptrdiff_t>(samples.size());
@@ -136,16 +135,19 @@ void join_markings(Road& road, double tolerance_m) {
   }
 }
 
-void attach_roadedges(Road& road, double tolerance_m) {
-  for (const RoadMarking& marking : road.markings) {
-    if (marking.type != MarkingType::roadedge) continue;
-    const MeasuredPolyline edge(marking.points);
-    for (RoadLane& lane : road.lanes) {
-      if (lane.left_marking == kNoElement && runs_along(lane.left, edge, tolerance_m))
-        lane.left_marking = marking.id;
-      if (lane.right_marking == kNoElement && runs_along(lane.right, edge, tolerance_m))
-        lane.right_marking = marking.id;
-    }
+void attach_markings(Road& road, MarkingType type, double tolerance_m) {
+  std::vector<std::pair<ElementId, MeasuredPolyline>> lines;
+  for (const RoadMarking& marking : road.markings)
+    if (marking.type == type) lines.emplace_back(marking.id, marking.points);
+  const auto marking_along = [&](const Polyline& border) {
+    const Polyline samples = resample(border, 1.0);
+    const auto found = std::ranges::find_if(
+        lines, [&](const auto& line) { return runs_along(samples, line.second, tolerance_m); });
+    return found == lines.end() ? kNoElement : found->first;
+  };
+  for (RoadLane& lane : road.lanes) {
+    if (lane.left_marking == kNoElement) lane.left_marking = marking_along(lane.left);
+    if (lane.right_marking == kNoElement) lane.right_marking = marking_along(lane.right);
   }
 }
 

@@ -29,8 +29,8 @@ bool has_lines(const Road& road);
 /// lanes refer to the joined markings.
 void join_markings(Road& road, double tolerance_m);
 
-/// Gives borders without a marking the roadedge that they run along (closer than `tolerance_m`, over four
-/// fifths of their length).
-void attach_roadedges(Road& road, double tolerance_m);
+/// Gives borders without a marking the one of a type that they run along (closer than `tolerance_m`, over
+/// four fifths of their length).
+void attach_markings(Road& road, MarkingType type, double tolerance_m);
 
 }  // namespace laneloom::simulation

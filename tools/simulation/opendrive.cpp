@@ -25,33 +25,16 @@ constexpr double kMarksMeet_m = 0.05;   // between the ends of marks
 
 /// Adds the lanes and markings of a part, with new ids.
 void append_part(Road&& part, Road& road) {
+  const ElementId markings = road.markings.size();
   for (RoadMarking& marking : part.markings) {
-    marking.id = road.markings.size() + 1;
+    marking.id += markings;
     road.markings.push_back(std::move(marking));
   }
   for (RoadLane& lane : part.lanes) {
     lane.id = road.lanes.size() + 1;
+    for (ElementId* const marking : {&lane.left_marking, &lane.right_marking})
+      if (*marking != kNoElement) *marking += markings;
     road.lanes.push_back(std::move(lane));
-  }
-}
-
-/// Gives each lane's borders the markings that they lie on.
-void attach_markings(Road& road) {
-  std::map<std::pair<double, double>, std::vector<const RoadMarking*>> ends;  // by the place of either end
-  for (const RoadMarking& marking : road.markings)
-    for (const Point& end : {marking.points.front(), marking.points.back()})
-      ends[{end.x(), end.y()}].push_back(&marking);
-  const auto marking_of = [&](const Polyline& border) {
-    const auto found = ends.find({border.front().x(), border.front().y()});
-    if (found == ends.end()) return kNoElement;
-    const Polyline reversed(border.rbegin(), border.rend());
-    for (const RoadMarking* marking : found->second)
-      if (marking->points == border || marking->points == reversed) return marking->id;
-    return kNoElement;
-  };
-  for (RoadLane& lane : road.lanes) {
-    lane.left_marking = marking_of(lane.left);
-    lane.right_marking = marking_of(lane.right);
   }
 }
 
@@ -96,10 +79,10 @@ Road load_opendrive(const std::filesystem::path& xodr_file, double speed_mps, Le
     if (!has_lines(road))
       throw std::runtime_error("has no road marks, and no edges: nothing of it can be seen");
     road.right_hand_traffic = balance >= 0;
-    attach_markings(road);
     link_lanes(road);
     join_markings(road, kMarksMeet_m);
-    attach_roadedges(road, kMarksMeet_m);
+    for (const MarkingType type : {MarkingType::laneline, MarkingType::roadedge})
+      attach_markings(road, type, kMarksMeet_m);  // of roads of a junction that lie on one another
     road.drive = Drive::along(joined_centerlines(road, long_way(road)), speed_mps);
     return road;
   } catch (const std::exception& error) {

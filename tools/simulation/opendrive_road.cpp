@@ -22,6 +22,8 @@ constexpr double kSectionStep_m = 1.0;
 constexpr double kLeastWidth_m = 0.5;   // of a lane, where it is widest
 constexpr double kLeastLength_m = 0.1;  // of a lane or a mark
 constexpr double kNoWidth_m = 0.03;     // width of a lane that is none
+constexpr double kSameStation_m = 1e-6;
+constexpr double kMarkedShare = 0.8;    // of a border that is marked, at least
 constexpr std::size_t kMostLanes = 64;  // of one side
 constexpr std::array kVehicleLanes{"driving",        "entry",    "exit",         "onRamp", "offRamp",
                                    "connectingRamp", "slipLane", "bus",          "taxi",   "HOV",
@@ -65,12 +67,19 @@ bool touches_pavement(const std::vector<Strip>& side, std::size_t i) {
   return side[i].is_paved() || (next != side.end() && next->is_paved());
 }
 
-/// The stations of a lane section along the reference line.
-std::vector<double> section_stations(double from_m, double to_m) {
-  const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil((to_m - from_m) / kSectionStep_m)));
-  std::vector<double> result;
-  for (std::size_t i = 0; i <= steps; ++i)
-    result.push_back(from_m + (to_m - from_m) * static_cast<double>(i) / static_cast<double>(steps));
+/// The stations of a lane section along the reference line: every metre or less, and where marks begin.
+std::vector<double> section_stations(double from_m, double to_m, std::vector<double> mark_begins_m) {
+  std::vector<double> result{from_m};
+  const auto go_on_to = [&](double end_m) {
+    const double begin_m = result.back();
+    const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil((end_m - begin_m) / kSectionStep_m)));
+    for (std::size_t i = 1; i <= steps; ++i)
+      result.push_back(begin_m + (end_m - begin_m) * static_cast<double>(i) / static_cast<double>(steps));
+  };
+  std::ranges::sort(mark_begins_m);
+  for (const double begin_m : mark_begins_m)
+    if (begin_m - result.back() >= kLeastLength_m && to_m - begin_m >= kLeastLength_m) go_on_to(begin_m);
+  go_on_to(to_m);
   return result;
 }
 
@@ -96,7 +105,7 @@ class RoadReader {
       const auto next = std::next(section);
       to_m_ = next == sections.end() ? length_m : next->first;
       if (to_m_ - from_m < kLeastLength_m) continue;
-      stations_ = section_stations(from_m, to_m_);
+      stations_ = section_stations(from_m, to_m_, mark_begins());
       read_section();
     }
     for (const pugi::xml_node& object : element_.child("objects").children("object")) read_object(object);
@@ -122,12 +131,27 @@ class RoadReader {
     const std::vector<Strip> left = strips(left_, centre_m);
     const std::vector<Strip> right = strips(right_, centre_m);
     for (const std::vector<Strip>* side : {&left, &right})
-      for (std::size_t i = 0; i < side->size(); ++i) {
-        const Strip& strip = (*side)[i];
-        if (strip.is_for_vehicles() && strip.is_wide()) add_lane(strip);
-        if (strip.is_there() && touches_pavement(*side, i)) add_marks(strip.lane, strip.outer_m);
-      }
+      for (std::size_t i = 0; i < side->size(); ++i)
+        if ((*side)[i].is_there() && touches_pavement(*side, i))
+          add_marks((*side)[i].lane, (*side)[i].outer_m);
     add_edges(borders(left, right, centre_m));
+    for (const std::vector<Strip>* side : {&left, &right})
+      for (const Strip& strip : *side)
+        if (strip.is_for_vehicles() && strip.is_wide()) add_lane(strip);
+    lines_.clear();
+  }
+
+  /// Where marks begin, along the reference line.
+  std::vector<double> mark_begins() const {
+    std::vector<double> begins_m;
+    const auto add_begins = [&](const pugi::xml_node& lane, double from_m) {
+      for (const pugi::xml_node& mark : lane.children("roadMark"))
+        begins_m.push_back(from_m + number_or(element_, mark, "sOffset", 0.0));
+    };
+    add_begins(centre_.element, centre_.from_m);
+    for (const Part& side : {left_, right_})
+      for (const pugi::xml_node& lane : side.element.children("lane")) add_begins(lane, side.from_m);
+    return begins_m;
   }
 
   /// The lanes of a side, from the centre outwards.
@@ -167,15 +191,44 @@ class RoadReader {
   }
   Polyline line(const std::vector<double>& left_m) { return line(left_m, 0, left_m.size() - 1); }
 
+  /// What lies on a border, from one station to another.
+  struct Line {
+    ElementId marking = kNoElement;
+    const std::vector<double>* left_m = nullptr;
+    std::size_t first = 0, last = 0;
+    bool is_on(const std::vector<double>& border_m) const {
+      const auto from = static_cast<std::ptrdiff_t>(first), to = static_cast<std::ptrdiff_t>(last) + 1;
+      return std::equal(left_m->begin() + from, left_m->begin() + to, border_m.begin() + from);
+    }
+  };
+
+  /// The longest marking on a border, if the border is marked nearly everywhere.
+  ElementId marking_on(const std::vector<double>& border_m) const {
+    ElementId longest = kNoElement;
+    double longest_m = 0.0, marked_m = 0.0;
+    for (const Line& line : lines_) {
+      if (!line.is_on(border_m)) continue;
+      const double length_m = stations_[line.last] - stations_[line.first];
+      marked_m += length_m;
+      if (length_m <= longest_m) continue;
+      longest_m = length_m;
+      longest = line.marking;
+    }
+    return marked_m >= kMarkedShare * (stations_.back() - stations_.front()) ? longest : kNoElement;
+  }
+
   void add_lane(const Strip& strip) {
     const bool reversed =
         std::string_view(strip.lane.element.attribute("direction").as_string()) == "reversed";
     const bool against = ((strip.id < 0) != right_hand_) != reversed;
     // The borders on the left and on the right of someone who looks along the reference line.
-    Polyline left = line(strip.id > 0 ? strip.outer_m : strip.inner_m);
-    Polyline right = line(strip.id > 0 ? strip.inner_m : strip.outer_m);
+    const std::vector<double>& left_m = strip.id > 0 ? strip.outer_m : strip.inner_m;
+    const std::vector<double>& right_m = strip.id > 0 ? strip.inner_m : strip.outer_m;
+    Polyline left = line(left_m), right = line(right_m);
+    ElementId left_marking = marking_on(left_m), right_marking = marking_on(right_m);
     if (against) {
       std::swap(left, right);
+      std::swap(left_marking, right_marking);
       std::ranges::reverse(left);
       std::ranges::reverse(right);
     }
@@ -185,6 +238,8 @@ class RoadReader {
                            .left = std::move(left),
                            .right = std::move(right),
                            .centerline = std::move(centerline),
+                           .left_marking = left_marking,
+                           .right_marking = right_marking,
                            .in_intersection = in_junction_});
   }
 
@@ -195,23 +250,30 @@ class RoadReader {
     const auto begin_of = [&](std::size_t i) { return lane.from_m + number(element_, marks[i], "sOffset"); };
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const double begin_m = begin_of(i), end_m = i + 1 < marks.size() ? begin_of(i + 1) : to_m_;
-      const auto first = std::ranges::lower_bound(stations_, begin_m - 1e-6) - stations_.begin();
-      const auto last = std::ranges::upper_bound(stations_, end_m + 1e-6) - stations_.begin() - 1;
-      if (first >= last) continue;
-      add_mark(marks[i].attribute("type").as_string(),
-               line(left_m, static_cast<std::size_t>(first), static_cast<std::size_t>(last)));
+      const std::size_t first = nearest_station(begin_m), last = nearest_station(end_m);
+      if (first < last) add_mark(marks[i].attribute("type").as_string(), left_m, first, last);
     }
   }
 
-  void add_mark(std::string_view type, Polyline points) {
-    if (type.empty() || type == "none" || length(points) < kLeastLength_m) return;
-    RoadMarking mark{.points = std::move(points)};
+  std::size_t nearest_station(double s_m) const {
+    const auto next = std::ranges::lower_bound(stations_, s_m);
+    if (next == stations_.begin()) return 0;
+    const auto index = static_cast<std::size_t>(next - stations_.begin());
+    return next == stations_.end() || s_m - stations_[index - 1] < *next - s_m ? index - 1 : index;
+  }
+
+  void add_mark(std::string_view type, const std::vector<double>& left_m, std::size_t first,
+                std::size_t last) {
+    if (type.empty() || type == "none") return;
+    RoadMarking mark{.points = line(left_m, first, last)};
+    if (length(mark.points) < kLeastLength_m) return;
     const bool solid = type.find("solid") != std::string_view::npos;
     const bool broken = type.find("broken") != std::string_view::npos || type == "botts dots";
     if (type == "curb" || type == "edge" || type == "grass") mark.type = MarkingType::roadedge;
     if (solid != broken) mark.style = solid ? MarkingStyle::solid : MarkingStyle::dashed;
     if (mark.type == MarkingType::roadedge) mark.style = MarkingStyle::solid;
     add(std::move(mark));
+    lines_.push_back({road_.markings.back().id, &left_m, first, last});
   }
 
   /// A border between two lanes, or at the side of the road.
@@ -238,7 +300,8 @@ class RoadReader {
   std::string_view mark_at(const Part& lane, double s_m) const {
     std::string_view type = "none";
     for (const pugi::xml_node& mark : lane.element.children("roadMark"))
-      if (lane.from_m + number(element_, mark, "sOffset") <= s_m) type = mark.attribute("type").as_string();
+      if (lane.from_m + number(element_, mark, "sOffset") <= s_m + kSameStation_m)
+        type = mark.attribute("type").as_string();
     return type;
   }
 
@@ -268,9 +331,11 @@ class RoadReader {
       const std::size_t first = i, begin = i > 0 ? i - 1 : 0;
       while (i < last && border.is_edge[i + 1]) ++i;
       if (i == first) continue;  // where a lane begins or ends with no width
+      const std::size_t end = std::min(last, i + 1);
       add({.type = MarkingType::roadedge,
            .style = MarkingStyle::solid,
-           .points = line(*border.left_m, begin, std::min(last, i + 1))});
+           .points = line(*border.left_m, begin, end)});
+      lines_.push_back({road_.markings.back().id, border.left_m, begin, end});
     }
   }
 
@@ -304,6 +369,7 @@ class RoadReader {
   Part left_, right_, centre_;
   double to_m_ = 0.0;  ///< end of the stretch
   std::vector<double> stations_;
+  std::vector<Line> lines_;  ///< of the stretch
 };
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace laneloom::simulation {
 
-/// The lanes and markings of one road of OpenDRIVE, with ids of its own, and its side of traffic. Neither
-/// successors nor markings of lanes are known yet. Throws BadElement if something in it is wrong.
+/// The lanes and markings of one road of OpenDRIVE, with ids of its own, and its side of traffic.
+/// Successors are not known yet. Throws BadElement if something in it is wrong.
 Road read_opendrive_road(const pugi::xml_node& element, LengthLimit& limit);
 
 }  // namespace laneloom::simulation
