@@ -51,7 +51,7 @@ Eigen::Vector2d hold(const Lane& lane, const StoplineConfig& config, Stopline& s
     return end_direction(lane.centerline, end);
   }
   // Traffic that comes from a stopline at the begin of a lane has passed it.
-  const Eigen::Vector2d along =
+  Eigen::Vector2d along =
       crossed(stopline.marking, lane.centerline, is_known ? config.max_gap_m : 0.0, config);
   if (along.isZero()) return along;
   stopline.lanes.push_back(lane.id);

@@ -37,7 +37,6 @@ static void plan(const laneloom_msg_LaneMap* map) {
   const char* why = obstacle(map);
   if (why) {
     printf("no map to drive on: %s\n", why);
-    fflush(stdout);
     return;
   }
   printf("%u lanes; the way ahead is known for %.0f m\n", (unsigned)map->lanes._length, map->way.known_m);
@@ -46,7 +45,6 @@ static void plan(const laneloom_msg_LaneMap* map) {
     printf("  lane %" PRIu64 ": x %.2f m, y %.2f m, heading %.3f rad, curvature %.4f/m, width %.2f m\n",
            at->lane, at->point.x, at->point.y, at->heading_rad, at->curvature_per_m, at->width_m);
   }
-  fflush(stdout);
 }
 
 int main(int argc, char** argv) {
@@ -54,6 +52,7 @@ int main(int argc, char** argv) {
     fprintf(stderr, "usage: planner DOMAIN VEHICLE_ID\n");
     return EXIT_FAILURE;
   }
+  setvbuf(stdout, NULL, _IOLBF, 0);
   const dds_entity_t participant = made(dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL));
   dds_qos_t* partition = dds_create_qos();
   dds_qset_partition1(partition, argv[2]);
@@ -71,10 +70,7 @@ int main(int argc, char** argv) {
     const bool came = dds_take(maps, &sample, &info, 1, 1) == 1;
     silent = came && info.valid_data ? 0 : silent + 1;
     if (silent == 0) plan(sample);
-    if (silent == 3) {  // the service hangs, or is gone
-      printf("no map came for 300 ms: stop\n");
-      fflush(stdout);
-    }
+    if (silent == 3) printf("no map came for 300 ms: stop\n");  // the service hangs, or is gone
     if (came) dds_return_loan(maps, &sample, 1);
   }
 }

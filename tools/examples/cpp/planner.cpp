@@ -18,23 +18,6 @@ namespace {
 
 using laneloom::PublishedMap, laneloom::Way, laneloom::WayWish;
 
-/// The newest map, which a thread of DDS puts there and the planner's thread takes.
-class Newest {
- public:
-  void put(PublishedMap&& map) {
-    const std::lock_guard lock(mutex_);
-    map_ = std::make_unique<PublishedMap>(std::move(map));
-  }
-  std::unique_ptr<PublishedMap> take() {
-    const std::lock_guard lock(mutex_);
-    return std::move(map_);
-  }
-
- private:
-  std::mutex mutex_;
-  std::unique_ptr<PublishedMap> map_;
-};
-
 void say(const Way& way, const laneloom::Point& car) {
   const laneloom::WayPlace place = way.to_way(car);
   const laneloom::WayStation& here = way.stations.front();
@@ -67,17 +50,22 @@ int main(int argc, char** argv) {
   const std::string word = argc > 3 ? argv[3] : "straight";
   const WayWish wish = word == "left" ? WayWish::left : word == "right" ? WayWish::right : WayWish::straight;
   std::cout << std::unitbuf;
-  Newest newest;
+  std::mutex mutex;
+  std::unique_ptr<PublishedMap> newest;  // a thread of DDS puts it there, and this one takes it
   const laneloom::dds::Participant participant(dds, "example of a planner");
   const laneloom::dds::Reader<PublishedMap> maps(
-      participant, {.sample = [&newest](PublishedMap&& map) { newest.put(std::move(map)); },
-                    .refused = [](std::string_view why) { std::cerr << "refused: " << why << '\n'; },
-                    .alive = [](int services) { std::cerr << services << " services are alive\n"; }});
+      participant, {.sample =
+                        [&](PublishedMap&& map) {
+                          const std::lock_guard lock(mutex);
+                          newest = std::make_unique<PublishedMap>(std::move(map));
+                        },
+                    .refused = [](std::string_view why) { std::cerr << "refused: " << why << '\n'; }});
   std::optional<Way> way;
   for (int silent = 0;; std::this_thread::sleep_for(std::chrono::milliseconds(100))) {
-    const auto map = newest.take();
-    silent = map ? 0 : silent + 1;
+    std::unique_ptr<PublishedMap> map;
+    if (const std::lock_guard lock(mutex); newest) map.swap(newest);
     if (map) plan(*map, wish, way);
+    silent = map ? 0 : silent + 1;
     if (silent == 3) std::cout << "no map came for 300 ms: stop\n";  // the service hangs, or is gone
   }
 }
