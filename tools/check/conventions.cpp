@@ -169,7 +169,7 @@ double pose_unit(const std::vector<DetectionFrame>& frames, const PoseTrack& pos
   return best;
 }
 
-/// What is wrong if no cause is known. `disagreement_m` is that of the frames.
+/// The findings of a drive in which no known cause is at fault. `disagreement_m` is that of the frames.
 Findings unknown_causes(const Agreement& agreement, const Correction& correction, double disagreement_m) {
   if (!agreement.drives_forward(correction))
     return {{"pose_orientation", "The vehicle does not drive to where the orientations of its poses point.",

@@ -6,6 +6,7 @@
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/smooth_step.hpp"
+#include "mapping/lanes/lane_ahead.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
 #include "mapping/lanes/way_driven.hpp"
 
@@ -30,8 +31,7 @@ void leave_out_branches(const DirectedLane& from, std::vector<Passage>& passages
   const Polyline line = from.centerline();
   const Eigen::Vector2d ahead = end_direction(line, End::back);
   const auto aside_m = [&](const Passage& passage) {
-    const Point begin = end_point(passage.to.lane->centerline, passage.to.against ? End::back : End::front);
-    return std::abs(cross(ahead, (begin - line.back()).head<2>()));
+    return std::abs(cross(ahead, (begin_point(passage.to) - line.back()).head<2>()));
   };
   const auto is_branch = [&](const Passage& one) {
     return std::ranges::any_of(passages, [&](const Passage& other) {

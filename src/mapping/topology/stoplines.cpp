@@ -9,8 +9,8 @@
 namespace laneloom::topology {
 namespace {
 
-/// Where a ray meets a stopline: its distance ahead, negative if it lies behind. Empty: the ray passes beside
-/// it, on another level, or at too small an angle. `ahead` is a unit vector.
+/// The distance ahead at which a ray meets a stopline, negative if that lies behind. Empty: the ray passes
+/// beside it, on another level, or at too small an angle. `ahead` is a unit vector.
 std::optional<double> distance_ahead(const Marking& stopline, const Point& from, const Eigen::Vector2d& ahead,
                                      const StoplineConfig& config) {
   if (!geometry::same_level(from, stopline.points.front())) return std::nullopt;

@@ -62,7 +62,7 @@ class ObservedSide {
   /// The side on which traffic keeps: the other one where it contradicts `driving_side`.
   DrivingSide corrected(DrivingSide driving_side) const;
 
-  /// Where the own vehicle began to drive straight on is not known any more, as after a jump of its poses.
+  /// Forgets where the own vehicle began to drive straight on, as after a jump of its poses.
   void forget_course() { straight_heading_ = Eigen::Vector2d::Zero(); }
 
   template <class Archive>
