@@ -61,8 +61,10 @@ TEST(Soak, FailsWhereThePlannerGetsNoMap) {
 }
 
 TEST(Soak, FailsWhereAProcessEndsByItself) {
-  const auto result = soak_with_planner("true");
-  EXPECT_THAT(result.failures, Contains(HasSubstr("the planner ended after: ")));
+  const auto result = soak_with_planner("sh -c 'echo tired; exit 3'");
+  EXPECT_THAT(
+      result.failures,
+      Contains(HasSubstr("the planner ended with exit code 3 by itself (its last words: tired) after: ")));
   EXPECT_FALSE(result.passed());
 }
 

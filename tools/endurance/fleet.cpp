@@ -3,12 +3,21 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 namespace laneloom::endurance {
+namespace {
+
+std::string last_line(const std::string& file) {
+  std::ifstream lines(file);
+  std::string last;
+  for (std::string line; std::getline(lines, line);) std::swap(last, line);
+  return last.empty() ? "none" : last;
+}
+
+}  // namespace
 
 Fleet::Fleet(Spec spec) : spec_(std::move(spec)) {
   std::ofstream config(folder_.file("laneloomd.yaml"));
@@ -86,13 +95,17 @@ std::vector<std::string> Fleet::stop_perceptions() {
   return failures;
 }
 
-std::vector<Fleet::Member> Fleet::restart_ended() {
-  std::vector<Member> ended;
-  for (const auto& [member, process] : processes_) {
-    if (!process->running()) ended.push_back(member);
+std::vector<std::string> Fleet::restart_ended() {
+  std::vector<std::string> ends;
+  for (const Member& member : members()) {
+    support::ChildProcess& process = *processes_.at(member);
+    if (process.running()) continue;
+    const std::string failure = process.failure();
+    ends.push_back(fmt::format("the {} {} by itself (its last words: {})", member,
+                               failure.empty() ? "ended" : failure, last_line(output_of(member))));
+    start(member);
   }
-  for (const Member& member : ended) start(member);
-  return ended;
+  return ends;
 }
 
 bool Fleet::planner_gets_maps(std::int64_t since_ns, std::chrono::milliseconds patience) const {

@@ -55,8 +55,9 @@ class Fleet {
   std::string stop(const Member& member);
   /// Ends all processes that publish detections, and the stranger. Returns the problems, in words.
   std::vector<std::string> stop_perceptions();
-  /// Starts the processes again that have ended by themselves. Returns their names.
-  std::vector<Member> restart_ended();
+  /// Starts the processes again that have ended by themselves. Returns for each how it ended, with its last
+  /// words.
+  std::vector<std::string> restart_ended();
 
   /// Waits for a map at the planner, as wait_for_planner() does.
   bool planner_gets_maps(std::int64_t since_ns, std::chrono::milliseconds patience) const;

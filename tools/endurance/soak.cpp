@@ -126,9 +126,8 @@ SoakResult soak(const SoakSpec& spec, const std::function<bool()>& go_on) {
     const std::string failure = follow(spec, watch, fleet, count);
     if (!failure.empty()) result.failures.push_back(fmt::format("{} after: {}", failure, fault.name));
     std::this_thread::sleep_for(Seconds(random.uniform(0.5, 4.0)));
-    for (const Member& member : fleet.restart_ended()) {
-      result.failures.push_back(fmt::format("the {} ended after: {}", member, fault.name));
-    }
+    for (const std::string& unwanted : fleet.restart_ended())
+      result.failures.push_back(fmt::format("{} after: {}", unwanted, fault.name));
   }
   for (std::string& wrong_end : fleet.stop_perceptions()) result.failures.push_back(std::move(wrong_end));
   if (!watch.wait_for_settled_status(spec.patience))
