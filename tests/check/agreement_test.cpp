@@ -44,6 +44,22 @@ TEST(Agreement, WhatIsAgainstSenseIsNotPlausible) {
   EXPECT_FALSE(agreement.lines_lie_well({.point_scale = 1000.0})) << "lines far away";
 }
 
+TEST(Agreement, ManyLinesMayCrossTheWayAndManyFramesMayShowStopLinesAlone) {
+  Drive drive = simulated_drive("curve", "none");
+  for (std::size_t i = 0; i < drive.frames.at("").size(); ++i) {
+    std::vector<Detection>& lines = drive.frames.at("")[i].detections;
+    const std::vector<Detection> along = lines;
+    if (i % 3 == 0) lines.clear();
+    for (Detection line : along) {
+      for (Point& point : line.points) point = Point(-1.5 * point.y(), 1.5 * point.x(), point.z());
+      if (i % 3 == 0) line.type = MarkingType::stopline;
+      lines.push_back(line);
+    }
+  }
+  const PoseTrack poses(drive.poses);
+  EXPECT_TRUE(Agreement(drive.frames.at(""), poses, 1.0).lines_lie_well({}));
+}
+
 TEST(PoseTrack, InterpolatesBetweenPosesThatAreNotTooFarApart) {
   const auto pose_at = [](std::int64_t stamp_ns, double x) {
     return VehiclePose{.stamp_ns = stamp_ns, .position = {x, 0.0, 0.0}};

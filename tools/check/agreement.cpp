@@ -21,6 +21,7 @@ constexpr std::size_t kFewestPoints = 6;
 constexpr double kFarthest_m = 1.0;  // that a distance counts
 constexpr double kMargin_m = 0.9;    // by which a view reaches beyond its points: their ends are near enough
 constexpr double kNearby_m = 25.0, kLeastReach_m = 3.0;  // of the nearest and of the farthest point
+constexpr double kMostAcross = 2.0;  // of lines: a crossing street's, per metre along the way
 constexpr double kMostTilt_deg = 30.0, kMostHeading_deg = 60.0;
 
 /// A line with points between its own, so that each of its parts has some.
@@ -177,7 +178,7 @@ bool Agreement::lines_lie_well(const Correction& correction) const {
   double along_m = 0.0, across_m = 0.0, upward_m = 0.0;
   for (const View& view : views_) {
     const std::optional<Outline> seen = outline(view, correction);
-    if (!seen) continue;
+    if (!seen || seen->lines[0].empty()) continue;
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
     for (const auto& [points, bounds] : seen->lines[0])
       for (std::size_t i = 1; i < points.size(); ++i) {
@@ -193,7 +194,7 @@ bool Agreement::lines_lie_well(const Correction& correction) const {
     farthest_m.push_back(farthest);
   }
   return Distribution(nearest_m).quantile(0.8) < kNearby_m && median(farthest_m) > kLeastReach_m &&
-         across_m < along_m && upward_m < along_m;
+         across_m < kMostAcross * along_m && upward_m < along_m;
 }
 
 double Agreement::size() const {
