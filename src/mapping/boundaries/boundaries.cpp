@@ -2,6 +2,7 @@
 #include <cassert>
 #include <iterator>
 
+#include "mapping/boundaries/islands.hpp"
 #include "mapping/boundaries/lane_boundaries.hpp"
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/stretches.hpp"
@@ -12,7 +13,10 @@ namespace {
 
 ElementId id_of(const LaneBoundary& boundary) { return boundary.marking.id; }
 
-void measure(LaneBoundary& boundary) { boundary.course = MeasuredPolyline(boundary.marking.points); }
+void measure(LaneBoundary& boundary) {
+  boundary.course = MeasuredPolyline(boundary.marking.points);
+  boundary.island = boundary.is_edge() ? island_side(boundary.course) : std::nullopt;
+}
 
 }  // namespace
 

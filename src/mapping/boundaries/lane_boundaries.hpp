@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -17,6 +18,8 @@ struct LaneBoundary {
   std::vector<Stretch> bridged{};  ///< the gaps between them, along the marking
   bool two_way = false;            ///< inferred between two kerbs: opposite directions of traffic meet here
   MeasuredPolyline course{};       ///< the marking's points, measured by Boundaries
+  /// The side on which it bounds a round island, measured likewise. Traffic goes round that one way.
+  std::optional<Side> island{};
 
   bool is_edge() const { return marking.type == MarkingType::roadedge; }
   bool is_confirmed() const { return marking.status == ElementStatus::confirmed; }

@@ -53,6 +53,13 @@ struct LaneLayout {
     assert(found != lanes.end());
     return *found;
   }
+  /// Whether a lane goes round an island that lies on one side of it.
+  bool goes_round(const Lane& lane, Side side) const {
+    return std::ranges::any_of(lane.borders(side), [&](const Border& border) {
+      const boundaries::LaneBoundary* boundary = boundaries.find(border.boundary);
+      return boundary != nullptr && boundary->island;
+    });
+  }
 };
 
 }  // namespace laneloom::lanes

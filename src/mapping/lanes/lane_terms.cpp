@@ -21,6 +21,10 @@ constexpr std::array kBesideEdge{Knot{1.2, -1.6}, Knot{2.1, -0.9}, Knot{2.8, 1.9
                                  Knot{5.0, 1.6},  Knot{6.0, 1.0},  Knot{7.0, -2.5}};
 constexpr std::array kBetweenEdges{Knot{2.0, -2.2}, Knot{2.7, -0.9}, Knot{3.5, 1.8},
                                    Knot{4.5, -0.4}, Knot{5.5, 0.5},  Knot{6.5, -3.8}};
+// Likewise, between the edge of a round island and another one: there lies one lane, up to a width.
+constexpr std::array kRoundIsland{Knot{2.5, -2.0}, Knot{3.5, 1.5}};
+constexpr double kMostRound_m = 8.0;
+constexpr double kNotDivided = -6.0;
 // Width of each of two lanes.
 constexpr std::array kDivided{Knot{2.0, -5.7}, Knot{2.7, -4.8}, Knot{3.2, 0.1},
                               Knot{3.7, 1.0},  Knot{4.5, -0.3}, Knot{6.0, -1.2}};
@@ -209,6 +213,12 @@ bool is_median(const Surroundings& around) {
   return (on_left && on_right) || (on_left && around.right().is_edge) || (on_right && around.left().is_edge);
 }
 
+/// Whether one of two edges bounds a round island on its other side. Traffic goes round that in one lane.
+bool is_round_island(const Surroundings& around, double width_m) {
+  return is_between_edges(around) && width_m < kMostRound_m &&
+         (around.left().island == Side::left || around.right().island == Side::right);
+}
+
 /// What it says that the vehicle drives there.
 double of_driving(const Surroundings& around) {
   if (has_mark_within(around)) return kDrivenAcross;
@@ -232,9 +242,12 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
   const Surroundings around(cut, candidate);
   const double wide_m = width_m(cut, candidate);
   const Mark &left = around.left(), &right = around.right();
-  double sum = of_width(around, wide_m, candidate.room, config);
+  const bool round = is_round_island(around, wide_m);
+  double sum = !round ? of_width(around, wide_m, candidate.room, config) + of_bend(kBend, cut, candidate)
+               : candidate.room == Room::between ? on_curve(kRoundIsland, wide_m)
+                                                 : kNotDivided;
   sum += kSurer * bounded(std::min(left.log_odds, right.log_odds)) + kEdgeInside * around.inside(true);
-  sum += kTaper * std::min(candidate.taper, kMostTaper) + of_bend(kBend, cut, candidate);
+  sum += kTaper * std::min(candidate.taper, kMostTaper);
   if (candidate.driven)
     sum += of_driving(around);
   else if (candidate.gore)

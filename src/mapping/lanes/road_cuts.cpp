@@ -31,7 +31,7 @@ class MetBoundary {
  public:
   MetBoundary(std::size_t index, const boundaries::LaneBoundary& boundary)
       : boundary_(boundary),
-        mark_{.boundary = index, .is_edge = boundary.is_edge()},
+        mark_{.boundary = index, .is_edge = boundary.is_edge(), .island = boundary.island},
         along_(boundary.course) {
     mark_.log_odds = log_odds(boundary.marking);
   }
@@ -57,6 +57,7 @@ class MetBoundary {
     Mark mark = at(foot.arc_m, foot.foot);
     mark.lateral_m = std::copysign(foot.distance_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
     mark.opposed = along < 0.0;
+    if (mark.opposed && mark.island) mark.island = opposite(*mark.island);
     return mark;
   }
   bool is_edge() const { return mark_.is_edge; }
@@ -145,6 +146,7 @@ RoadCuts reversed(const RoadCuts& cuts) {
     for (Mark& mark : marks) {
       mark.lateral_m = -mark.lateral_m;
       mark.opposed = !mark.opposed;
+      if (mark.island) mark.island = opposite(*mark.island);
     }
     cut.own = marks.size() - 1 - cut.own;
     marks[cut.own].opposed = false;
@@ -184,6 +186,7 @@ RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, c
       Mark mark = base.at(arc_at(*back), points[*back]);
       mark.lateral_m = cross(cut.ahead, Eigen::Vector2d((points[*back] - points[i]).head<2>()));
       mark.opposed = true;
+      if (mark.island) mark.island = opposite(*mark.island);
       insert(mark, marks);
     }
     const auto is_own = [&](const Mark& mark) { return mark.boundary == boundary && !mark.opposed; };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,14 +13,15 @@ namespace laneloom::lanes {
 
 /// A boundary, where a cross-section of the road meets it.
 struct Mark {
-  std::size_t boundary = 0;     ///< its index
-  double arc_m = 0.0;           ///< on the boundary, as it runs itself
-  double lateral_m = 0.0;       ///< positive on the left of the boundary that is cut
-  Point point = Point::Zero();  ///< map frame
-  bool opposed = false;         ///< the boundary runs against the one that is cut
-  bool is_edge = false;         ///< else it is a line
-  double log_odds = 0.0;        ///< that the boundary exists
-  double dashed = 0.0;          ///< -1: solid; 1: dashed; 0: unknown, or an edge
+  std::size_t boundary = 0;      ///< its index
+  double arc_m = 0.0;            ///< on the boundary, as it runs itself
+  double lateral_m = 0.0;        ///< positive on the left of the boundary that is cut
+  Point point = Point::Zero();   ///< map frame
+  bool opposed = false;          ///< the boundary runs against the one that is cut
+  bool is_edge = false;          ///< else it is a line
+  std::optional<Side> island{};  ///< the side on which it bounds a round island, as the cut one runs
+  double log_odds = 0.0;         ///< that the boundary exists
+  double dashed = 0.0;           ///< -1: solid; 1: dashed; 0: unknown, or an edge
 };
 
 /// A cross-section through a place of one boundary. It refers to the marks.

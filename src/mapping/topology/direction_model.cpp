@@ -16,6 +16,7 @@ namespace {
 
 // Log odds that a lane runs along its centerline.
 constexpr double kEdgeEvidence = 1.0;      // of an edge beside the outermost lane
+constexpr double kIslandEvidence = 3.0;    // of a round island beside the lane
 constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermost lane
 // The first trail in a lane counts so much, and the n-th one 1/n² of it. A trail beside the own way tells
 // more if it runs against it, because nobody drives there by mistake, and less if it runs along it.
@@ -93,6 +94,8 @@ std::vector<double> outermost_evidence(const lanes::LaneLayout& layout,
     const Lane& lane = lanes[i];
     if (open_right[i] && lane.right_neighbours.empty()) evidence[i] += evidence_of(lane, Side::right);
     if (open_left[i] && lane.left_neighbours.empty()) evidence[i] -= evidence_of(lane, Side::left);
+    if (layout.goes_round(lane, Side::left)) evidence[i] += kIslandEvidence;
+    if (layout.goes_round(lane, Side::right)) evidence[i] -= kIslandEvidence;
   }
   return evidence;
 }

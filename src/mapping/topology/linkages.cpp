@@ -134,10 +134,17 @@ std::optional<double> alignment(const Lane& from, const Lane& to, const LinkageC
   return 1.0 - 0.5 * misfit;
 }
 
+bool go_round_an_island(const Lane& from, const Lane& to, const lanes::LaneLayout& layout) {
+  return std::ranges::any_of(
+      kSides, [&](Side side) { return layout.goes_round(from, side) && layout.goes_round(to, side); });
+}
+
 }  // namespace
 
 bool leads_elsewhere(const Lane& from, const Lane& to, const lanes::LaneLayout& layout) {
-  if (std::abs(lanes::leaving(from).dot(lanes::entering(to))) > kCosCorner) return false;
+  if (go_round_an_island(from, to, layout) ||
+      std::abs(lanes::leaving(from).dot(lanes::entering(to))) > kCosCorner)
+    return false;
   const auto is_between_edges = [&](const Lane& lane) {
     return std::ranges::all_of(kSides, [&](Side side) {
       return std::ranges::any_of(lane.borders(side), [&](const Border& border) {
