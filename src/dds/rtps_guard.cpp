@@ -40,7 +40,8 @@ std::optional<RtpsSubmessage> next(std::span<const std::uint8_t>& rest) {
 std::optional<DatagramRefusal> RtpsGuard::check(std::span<const std::uint8_t> datagram, std::int64_t now_ns) {
   if (!is_rtps(datagram)) return DatagramRefusal::header;
   const bool of_fast_dds = std::ranges::equal(datagram.subspan(kVendorAt, 2), kVendorOfFastDds);
-  SubmessageCheck submessages(heard_, datagram.subspan(kPrefixAt).first<kPrefixBytes>(), now_ns);
+  SubmessageCheck submessages(heard_, announcements_, datagram.subspan(kPrefixAt).first<kPrefixBytes>(),
+                              now_ns);
   bool is_protected = false;  // as a whole: what follows is encrypted, or signed
   for (auto rest = datagram.subspan(kHeaderBytes); !rest.empty();) {
     const auto submessage = next(rest);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "dds/heard_writers.hpp"
+#include "dds/rtps_announcements.hpp"
 
 namespace laneloom::dds {
 
@@ -42,6 +43,7 @@ class RtpsGuard {
  private:
   bool wants_protection_;
   HeardWriters heard_;
+  FragmentedAnnouncements announcements_;
 };
 
 }  // namespace laneloom::dds

@@ -12,6 +12,7 @@ constexpr std::size_t kLocatorBytes = 24;
 // The identities of a message and of the one that it answers, a participant and two endpoints.
 constexpr std::size_t kHandshakeIdsBytes = 96;
 constexpr std::uint32_t kMostTokens = 8;
+constexpr std::uint32_t kMostDomains = 0xffff;
 
 bool take_string(RtpsBytes& bytes) {
   const std::size_t length = bytes.u32();
@@ -55,6 +56,10 @@ bool is_sound(std::uint16_t id, RtpsBytes value) {
     case 0x002d:
     case 0x002e:
       return value.u32() <= value.left() && value.ok();
+    case 0x0073:  // representations of data
+      return value.u32() <= value.left() / 2 && value.ok();
+    case 0x8006:  // domains of shared data in Fast DDS, which reads it of any vendor; a number in RTI's
+      return value.u32() <= kMostDomains && value.ok();
     case 0x002f:  // locators
     case 0x0030:
     case 0x0031:

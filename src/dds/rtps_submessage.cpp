@@ -103,9 +103,9 @@ Verdict take_qos(RtpsBytes& bytes, const RtpsSubmessage& submessage, std::size_t
 
 }  // namespace
 
-SubmessageCheck::SubmessageCheck(const HeardWriters& heard,
+SubmessageCheck::SubmessageCheck(const HeardWriters& heard, FragmentedAnnouncements& announcements,
                                  std::span<const std::uint8_t, kPrefixBytes> prefix, std::int64_t now_ns)
-    : heard_(heard), now_ns_(now_ns) {
+    : heard_(heard), announcements_(announcements), now_ns_(now_ns) {
   std::ranges::copy(prefix, source_.begin());
 }
 
@@ -218,6 +218,9 @@ Verdict SubmessageCheck::data_fragments(const RtpsSubmessage& submessage) {
   // Nobody can tell what they will be together. Fast DDS sends a handshake as a whole.
   if (is_handshake(from)) return DatagramRefusal::fragments;
   if (const auto refusal = sent(from, fragments.cut.sequence)) return refusal;
+  if (is_discovery(from) &&
+      !announcements_.take(from, fragments.cut, fragments.first, bytes.take(fragments.bytes())))
+    return DatagramRefusal::parameters;
   sent_.back().cut = fragments.cut;
   return {};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dds/heard_writers.hpp"
+#include "dds/rtps_announcements.hpp"
 #include "dds/rtps_bytes.hpp"
 #include "dds/rtps_guard.hpp"
 
@@ -34,8 +35,8 @@ class SubmessageCheck {
  public:
   using Verdict = std::optional<DatagramRefusal>;  ///< nothing: no objection
 
-  SubmessageCheck(const HeardWriters& heard, std::span<const std::uint8_t, kPrefixBytes> prefix,
-                  std::int64_t now_ns);
+  SubmessageCheck(const HeardWriters& heard, FragmentedAnnouncements& announcements,
+                  std::span<const std::uint8_t, kPrefixBytes> prefix, std::int64_t now_ns);
   Verdict check(const RtpsSubmessage& submessage);
   /// Whether keys are agreed on by such submessages, or they are protected, or say nothing by themselves.
   bool may_be_clear(const RtpsSubmessage& submessage) const;
@@ -62,6 +63,7 @@ class SubmessageCheck {
   };
 
   const HeardWriters& heard_;
+  FragmentedAnnouncements& announcements_;
   WriterId source_{};  ///< the participant that speaks, and no entity
   std::int64_t now_ns_;
   std::vector<Sent> sent_;

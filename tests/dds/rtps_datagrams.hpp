@@ -88,4 +88,34 @@ inline Packet heartbeat_that_leaps(const Prefix& prefix, std::int64_t to) {
   return datagram(prefix, {heartbeat(0x000003c7, 0x000003c2, to, to)});
 }
 
+/// The payload of an announcement of a reader with this number of representations of data.
+inline Packet reader_with_representations(std::uint32_t count) {
+  return RtpsWriter().u8(0).u8(3).u16(0).u16(0x73).u16(8).u32(count).u32(0).u16(1).u16(0).take();
+}
+
+/// An announcement, as a whole.
+inline Packet announced_whole(const Prefix& prefix, std::int64_t sequence, const Packet& payload) {
+  const auto fixed = RtpsWriter().u16(0).u16(16).entity(0x000004c7).entity(0x000004c2).sequence(sequence);
+  return datagram(prefix, {submessage(0x15, 4, RtpsWriter(fixed).bytes(payload).take())});
+}
+
+/// The n-th fragment of an announcement, of 8 bytes; n counts from 1.
+inline Packet announced_fragment(const Prefix& prefix, std::int64_t sequence, const Packet& payload,
+                                 std::uint32_t n) {
+  constexpr std::uint32_t kBytes = 8;
+  const auto begin = payload.begin() + std::ptrdiff_t{kBytes} * (n - 1);
+  const Packet part(begin, payload.end() - begin > kBytes ? begin + kBytes : payload.end());
+  const auto fixed = RtpsWriter()
+                         .u16(0)
+                         .u16(28)
+                         .entity(0x000004c7)
+                         .entity(0x000004c2)
+                         .sequence(sequence)
+                         .u32(n)
+                         .u16(1)
+                         .u16(kBytes)
+                         .u32(static_cast<std::uint32_t>(payload.size()));
+  return datagram(prefix, {submessage(0x16, 0, RtpsWriter(fixed).bytes(part).take())});
+}
+
 }  // namespace laneloom::dds

@@ -299,8 +299,31 @@ TEST_F(RtpsGuardTest, ListsOfParametersEnd) {
   EXPECT_EQ(passes(parameter(5, text(8))), DatagramRefusal::parameters);
   for (const auto& wrong :
        {parameter(5, text(9)), parameter(0x29, text(3)), parameter(0x59, text(0xffffffff)),
-        parameter(0x2c, text(9)), parameter(0x2f, text(1))})
+        parameter(0x2c, text(9)), parameter(0x2f, text(1)), parameter(0x73, text(5)),
+        parameter(0x8006, text(0x10000))})
     EXPECT_EQ(passes(RtpsWriter().bytes(wrong).bytes(kEndOfParameters).take()), DatagramRefusal::parameters);
+}
+
+TEST_F(RtpsGuardTest, AnnouncementsInFragmentsAreSoundAsAWhole) {
+  const Packet sound = reader_with_representations(2), wrong = reader_with_representations(0xffffffff);
+  const auto fragment = [&](const Packet& payload, std::int64_t sequence, std::uint32_t n) {
+    return check(announced_fragment(kPeer, sequence, payload, n));
+  };
+  for (const std::uint32_t n : {1U, 3U, 3U, 2U, 1U}) EXPECT_EQ(fragment(sound, 1, n), Refusal()) << n;
+  for (const std::uint32_t n : {3U, 1U}) EXPECT_EQ(fragment(wrong, 2, n), Refusal()) << n;
+  EXPECT_EQ(fragment(wrong, 2, 2), DatagramRefusal::parameters) << "it makes the announcement whole";
+  EXPECT_EQ(fragment(sound, 3, 2), Refusal());
+  EXPECT_EQ(fragment(wrong, 3, 2), DatagramRefusal::parameters) << "another content than before";
+  EXPECT_EQ(check(announced_whole(kPeer, 4, sound)), Refusal());
+  EXPECT_EQ(check(announced_whole(kPeer, 5, wrong)), DatagramRefusal::parameters);
+}
+
+TEST_F(RtpsGuardTest, AnnouncementsInFragmentsAreBounded) {
+  const Packet large(65537);
+  EXPECT_EQ(check(announced_fragment(kPeer, 1, large, 1)), DatagramRefusal::parameters);
+  const Packet sound = reader_with_representations(2);
+  for (std::int64_t sequence = 2; sequence < 100; ++sequence)
+    EXPECT_EQ(check(announced_fragment(kPeer, sequence, sound, 1)), Refusal());
 }
 
 /// A token of DDS-Security with these numbers of properties, and of properties of bytes.

@@ -64,6 +64,24 @@ TEST_F(Strangers, NoneOfTheThreeDatagramsEndsTheService) {
   EXPECT_TRUE(service_finds_a_newcomer());
 }
 
+// Fast DDS 2.9 reads as many representations as it is told, and takes memory for each.
+TEST_F(Strangers, AnAnnouncementWithoutEndDoesNotEndTheService) {
+  start();
+  const dds::Participant peer(config_, "peer");
+  const dds::Writer<VehiclePose> writer(peer);
+  ASSERT_TRUE(is_good_again());
+  const dds::Prefix name = prefix_of(peer);
+  const dds::Packet endless = dds::reader_with_representations(0xffffffff);
+  const auto before = counters();
+  stranger_.send(dds::announced_whole(name, 1, endless));
+  EXPECT_TRUE(rises("datagrams_refused_parameters", before));
+  const auto after_the_first = counters();
+  for (const std::uint32_t n : {1U, 2U, 3U}) stranger_.send(dds::announced_fragment(name, 1, endless, n));
+  EXPECT_TRUE(rises("datagrams_refused_parameters", after_the_first));
+  EXPECT_TRUE(stays_good(40));
+  EXPECT_TRUE(service_finds_a_newcomer());
+}
+
 /// The command of a stranger in the domain of a test. tools/check-all tells by the environment to send more.
 std::vector<std::string> stranger(int domain, const std::vector<std::string>& captures) {
   const char* const datagrams = std::getenv("LANELOOM_DATAGRAMS");
