@@ -175,6 +175,28 @@ TEST(RoadKinds, AKerbThatStepsAsideForABayStaysABorder) {
   }
 }
 
+TEST(RoadKinds, ALaneThatWidensAtABayGoesOn) {
+  for (const double over_m : {4.0, 6.0, 8.0, 10.0}) {
+    SCOPED_TRACE(over_m);
+    const Polyline kerb{
+        {-10.0, -1.7, 0.0}, {30.0, -1.7, 0.0}, {30.0 + over_m, -3.7, 0.0}, {110.0, -3.7, 0.0}};
+    const std::vector<LocalMap> maps = maps_of({{.left_m = 1.7}}, {}, kerb);
+    const Lane* own = lane_at(maps[32], 0.0);  // 4 m before the bay
+    ASSERT_NE(own, nullptr);
+    EXPECT_GT(own->centerline.back().x(), 45.0);
+  }
+}
+
+TEST(RoadKinds, TwoLanesBeyondASolidLineMakeItsKerbLaneNoShoulder) {
+  for (const double beyond_m : {7.5, 8.5, 9.0}) {
+    SCOPED_TRACE(beyond_m);
+    const LocalMap map = driven({{kEdge, 7.8}, {.left_m = 1.6}, {kEdge, 1.6 - beyond_m}});
+    const Lane* beside = lane_at(map, 4.7);
+    ASSERT_NE(beside, nullptr);
+    EXPECT_NEAR(beside->width_m, 6.2, 0.2);
+  }
+}
+
 TEST(RoadKinds, OneLaneLiesBetweenPaintedLinesUpToSixMetresApart) {
   for (const MarkingStyle style : {MarkingStyle::solid, MarkingStyle::dashed})
     for (double width_m = 2.6; width_m <= 6.05; width_m += 0.2) {

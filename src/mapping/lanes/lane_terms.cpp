@@ -49,7 +49,7 @@ constexpr double kDriven = 0.91;          // the vehicle drives in the lane
 constexpr double kDrivenEdges = 1.65;     // likewise, between two edges
 constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within the lane
 constexpr double kLeastDriven = 0.0;      // likewise: at least, of the likelier of one lane and two
-constexpr double kTaper = -22.00;         // change of the width, per metre: a gore
+constexpr double kTaper = -6.00;          // change of the width, per metre
 constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
 constexpr double kMedian = -6.00;         // edges lie along the borders, within
 constexpr double kUnseenLine = -6.00;  // a line parts the marks not far along the road, which goes on unseen
@@ -69,7 +69,7 @@ constexpr double kAlongEdge_m = 1.2;                // distance of a line that i
 constexpr double kLeastWithin_m = 0.15;             // of an edge from a border
 constexpr double kLane_m = 2.2, kWideLane_m = 5.0;  // widths that rather are a lane's
 constexpr double kWide_m = 4.0, kWider_m = 1.0;     // a lane's width, and how much more is two lanes' rather
-constexpr double kNothing_m = 8.0;                  // room in which nothing lies
+constexpr double kNothing_m = 11.0;                 // room in which nothing lies
 constexpr double kNear_m = 8.0;                     // distance of lines that belong to the same road
 constexpr double kMostNarrow_m = 1.5;
 constexpr double kMostTaper = 0.3;
