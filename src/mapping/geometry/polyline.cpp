@@ -19,7 +19,8 @@ constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away furth
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
 
 /// The point at an arc length, clamped to the line. `after` is the first vertex beyond the arc length.
-Point point_at(const Polyline& points, const std::vector<double>& arc, double arc_m, std::size_t after) {
+inline Point point_at(const Polyline& points, const std::vector<double>& arc, double arc_m,
+                      std::size_t after) {
   if (arc_m <= 0.0) return points.front();
   if (arc_m >= arc.back()) return points.back();
   const double share = (arc_m - arc[after - 1]) / (arc[after] - arc[after - 1]);
@@ -150,7 +151,7 @@ struct MeasuredPolyline::Nearest {
   double share = 0.0;  ///< of the segment; beyond 0..1 where the foot is at its end
 };
 
-void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest& nearest) const {
+inline void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest& nearest) const {
   const Eigen::Vector2d start = points_[segment].head<2>();
   const Eigen::Vector2d along = points_[segment + 1].head<2>() - start;
   const double segment_m = arc_[segment + 1] - arc_[segment];
@@ -167,7 +168,7 @@ void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest
 /// `place` is that of the point, in the course. Searches from there along the course to both sides; `segment`
 /// is near that place, if it is known. From each vertex on, the line stays within a cone about the course.
 /// Once that cone is further away than the nearest foot, so is the rest of the line.
-void MeasuredPolyline::search_along_course(std::size_t segment, const Eigen::Vector2d& place,
+inline void MeasuredPolyline::search_along_course(std::size_t segment, const Eigen::Vector2d& place,
                                            const Point& point, Nearest& nearest) const {
   const auto ahead_m = [&](std::size_t vertex) { return place.x() - in_course_[vertex].x(); };
   const auto is_past = [&](std::size_t vertex, double sense) {
