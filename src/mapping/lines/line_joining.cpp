@@ -48,7 +48,6 @@ std::vector<EndBeside> ends_beside(const std::vector<Line>& lines, double distan
   NearestStations nearest(lines, distance_m);
   std::vector<MarkingType> types;
   std::ranges::transform(lines, std::back_inserter(types), &Line::type);
-  std::vector<std::optional<Course>> courses(lines.size());
   std::vector<EndBeside> result;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (is_stopline(types[i])) continue;
@@ -56,9 +55,7 @@ std::vector<EndBeside> ends_beside(const std::vector<Line>& lines, double distan
       const Point point = place_of({i, end}, lines);
       for (const NearestStation& near : nearest.around(point, false)) {
         if (near.line == i || types[near.line] != types[i]) continue;
-        std::optional<Course>& course = courses[near.line];
-        if (!course) course.emplace(lines[near.line]);
-        const StationFoot foot = course->foot(near.station, point);
+        const StationFoot foot = foot_at(lines[near.line], near.station, point);
         if (foot.inside && std::abs(foot.lateral_m) < distance_m)
           result.push_back({{i, end}, near.line, foot.index});
       }

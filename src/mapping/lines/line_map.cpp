@@ -11,6 +11,36 @@ namespace {
 
 constexpr double kCell_m = 1.0;  // as the gate and the spacing of stations: searches meet few cells
 
+/// The foot of `point` on the two segments at the place `nearest` of `count`; `at(i)` is the position of
+/// place i.
+template <class PositionAt>
+StationFoot foot_near(std::size_t nearest, std::size_t count, const Point& point, const PositionAt& at) {
+  const std::size_t first = nearest == 0 ? 0 : nearest - 1;
+  const std::size_t last = std::min(nearest + 1, count - 1);
+  StationFoot best;
+  double best_distance_m = -1.0;
+  for (std::size_t i = first; i < last; ++i) {
+    const Point& a = at(i);
+    const Point segment = at(i + 1) - a;
+    const Eigen::Vector2d along = segment.head<2>();
+    const double length_m = along.norm();
+    if (length_m <= 0.0) continue;
+    const Eigen::Vector2d offset = (point - a).head<2>();
+    const double share = offset.dot(along) / (length_m * length_m);
+    const double clamped = std::clamp(share, 0.0, 1.0);
+    const Point foot = a + clamped * segment;
+    const double distance_m = (point - foot).head<2>().norm();
+    if (best_distance_m >= 0.0 && distance_m >= best_distance_m) continue;
+    best_distance_m = distance_m;
+    const bool beyond = (i == 0 && share < 0.0) || (i + 2 == count && share > 1.0);
+    best = {.index = static_cast<double>(i) + (beyond ? share : clamped),
+            .lateral_m = cross(along, offset) / length_m,
+            .height_m = point.z() - foot.z(),
+            .inside = !beyond};
+  }
+  return best;
+}
+
 }  // namespace
 
 Sight sight_of(std::span<const Station> stretch) {
@@ -45,43 +75,19 @@ void reverse(Line& line) {
 }
 
 StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point) {
-  return Course(line).foot(nearest, point);
+  return foot_near(nearest, line.stations.size(), point,
+                   [&](std::size_t i) -> const Point& { return line.stations[i].position; });
 }
 
 Course::Course(const Line& line) {
   places_.reserve(line.stations.size());
-  for (std::size_t i = 0; i < line.stations.size(); ++i) {
-    const Point& position = line.stations[i].position;
-    const bool is_last = i + 1 == line.stations.size();
-    const double ahead_m = is_last ? 0.0 : (line.stations[i + 1].position - position).head<2>().norm();
-    places_.push_back({position, direction_at(line, i), ahead_m});
-  }
+  for (std::size_t i = 0; i < line.stations.size(); ++i)
+    places_.push_back({line.stations[i].position, direction_at(line, i)});
 }
 
 StationFoot Course::foot(std::size_t nearest, const Point& point) const {
-  const std::size_t first = nearest == 0 ? 0 : nearest - 1;
-  const std::size_t last = std::min(nearest + 1, places_.size() - 1);
-  StationFoot best;
-  double best_distance_m = -1.0;
-  for (std::size_t i = first; i < last; ++i) {
-    const auto& [a, direction, length_m] = places_[i];
-    if (length_m <= 0.0) continue;
-    const Point segment = places_[i + 1].position - a;
-    const Eigen::Vector2d along = segment.head<2>();
-    const Eigen::Vector2d offset = (point - a).head<2>();
-    const double share = offset.dot(along) / (length_m * length_m);
-    const double clamped = std::clamp(share, 0.0, 1.0);
-    const Point foot = a + clamped * segment;
-    const double distance_m = (point - foot).head<2>().norm();
-    if (best_distance_m >= 0.0 && distance_m >= best_distance_m) continue;
-    best_distance_m = distance_m;
-    const bool beyond = (i == 0 && share < 0.0) || (i + 2 == places_.size() && share > 1.0);
-    best = {.index = static_cast<double>(i) + (beyond ? share : clamped),
-            .lateral_m = cross(along, offset) / length_m,
-            .height_m = point.z() - foot.z(),
-            .inside = !beyond};
-  }
-  return best;
+  return foot_near(nearest, places_.size(), point,
+                   [&](std::size_t i) -> const Point& { return places_[i].position; });
 }
 
 Eigen::Vector2d direction_at(const Line& line, std::size_t station) {

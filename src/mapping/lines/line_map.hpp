@@ -114,7 +114,6 @@ class Course {
   struct Place {
     Point position;
     Eigen::Vector2d direction;
-    double ahead_m;  ///< horizontal distance to the next place
   };
   std::vector<Place> places_;
 };
