@@ -44,8 +44,8 @@ struct EndBeside {
 };
 
 /// The ends that lie beside another line of their type, by line and end. Stoplines are left out.
-std::vector<EndBeside> ends_beside(const std::vector<Line>& lines, double distance_m) {
-  NearestStations nearest(lines, distance_m);
+std::vector<EndBeside> ends_beside(const std::vector<Line>& lines, double distance_m, StationGrid grid) {
+  NearestStations nearest(lines, distance_m, std::move(grid));
   std::vector<MarkingType> types;
   std::ranges::transform(lines, std::back_inserter(types), &Line::type);
   std::vector<EndBeside> result;
@@ -98,8 +98,8 @@ std::optional<Overlap> overlap_of(const EndBeside& a, const EndBeside& b, const 
 
 /// The overlaps of lines that overlap at one end, by ascending ids. Lines that overlap at both ends are
 /// rings, and are left out.
-std::vector<Overlap> overlaps_of(const std::vector<Line>& lines, double distance_m) {
-  const std::vector<EndBeside> ends = ends_beside(lines, distance_m);
+std::vector<Overlap> overlaps_of(const std::vector<Line>& lines, double distance_m, StationGrid grid) {
+  const std::vector<EndBeside> ends = ends_beside(lines, distance_m, std::move(grid));
   const auto line_of = [](const EndBeside& beside) { return beside.end.line; };
   std::vector<Overlap> overlaps;
   for (const EndBeside& a : ends) {
@@ -206,8 +206,9 @@ class Joining {
 }  // namespace
 
 std::vector<Joined> join_lines(const FusionConfig& config, const markings::PairHistories& joints,
-                               std::vector<Line>& lines, markings::PairHistories& overlaps) {
-  const std::vector<Overlap> side_by_side = overlaps_of(lines, config.merge_distance_m);
+                               StationGrid grid, std::vector<Line>& lines,
+                               markings::PairHistories& overlaps) {
+  const std::vector<Overlap> side_by_side = overlaps_of(lines, config.merge_distance_m, std::move(grid));
   std::vector<markings::PairSighting> sightings;
   std::ranges::transform(side_by_side, std::back_inserter(sightings), &Overlap::sighting);
   overlaps = continued(overlaps, sightings);

@@ -19,9 +19,9 @@ struct Joined {
 /// Makes one line of two of which one continues the other. Two ends are joined if they meet and detections
 /// have run through both (`joints`). Two ends are joined as well if they lie side by side and are not seen
 /// together there. `overlaps` counts that, and is continued by one frame. The joined line has the id of the
-/// older one. Of an overlap, it has the stations of the line with more evidence there. Returns what was
-/// joined. Ours.
+/// older one. Of an overlap, it has the stations of the line with more evidence there. `grid`
+/// holds the stations of the lines. Returns what was joined. Ours.
 std::vector<Joined> join_lines(const FusionConfig& config, const markings::PairHistories& joints,
-                               std::vector<Line>& lines, markings::PairHistories& overlaps);
+                               StationGrid grid, std::vector<Line>& lines, markings::PairHistories& overlaps);
 
 }  // namespace laneloom::lines

@@ -84,8 +84,7 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
     lines_.push_back(std::move(line));
   }
   forgotten_ = keep_within_room(lines_);
-  std::vector<markings::Relative> relatives = merge_doubles(fusion, lines_, doubles_);
-  if (view.is_independent()) join(fusion, relatives);
+  std::vector<markings::Relative> relatives = unite(fusion, view.is_independent());
   std::ranges::copy(prune_lines(scene.box, fusion, lines_, ids), std::back_inserter(relatives));
   log.done(Stage::line_set);
 
@@ -114,9 +113,15 @@ Association LineMapper::associated(std::vector<markings::ObservedMarking> markin
   return associate(matcher, std::move(detections));
 }
 
-/// Joins lines. What is known of a line that is gone is known of the line that it is part of now.
-void LineMapper::join(const FusionConfig& config, std::vector<markings::Relative>& relatives) {
-  for (const auto& [stays, end, gone, gone_end] : join_lines(config, joints_, lines_, overlaps_)) {
+/// Merges lines and, if `joins`, joins them. What is known of a line that is gone is known of the line that
+/// it is part of now.
+std::vector<markings::Relative> LineMapper::unite(const FusionConfig& config, bool joins) {
+  StationGrid grid = station_grid(lines_);
+  std::vector<markings::Relative> relatives = merge_doubles(config, grid, lines_, doubles_);
+  if (!joins) return relatives;
+  if (!relatives.empty()) grid = station_grid(lines_);
+  for (const auto& [stays, end, gone, gone_end] :
+       join_lines(config, joints_, std::move(grid), lines_, overlaps_)) {
     relatives.push_back({gone, stays});
     rename(gone, stays, doubles_);
     for (markings::PairHistories* const ends : {&joints_, &overlaps_}) {
@@ -125,6 +130,7 @@ void LineMapper::join(const FusionConfig& config, std::vector<markings::Relative
       rename(markings::end_id(gone, opposite(gone_end)), markings::end_id(stays, end), *ends);
     }
   }
+  return relatives;
 }
 
 bool LineMapper::has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const {

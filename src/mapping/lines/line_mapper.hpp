@@ -50,7 +50,7 @@ class LineMapper {
  private:
   Association associated(std::vector<markings::ObservedMarking> markings, Network& network,
                          const FusionConfig& config, Viewpoint& from);
-  void join(const FusionConfig& config, std::vector<markings::Relative>& relatives);
+  std::vector<markings::Relative> unite(const FusionConfig& config, bool joins);
 
   std::vector<Line> lines_;
   markings::PairHistories doubles_;                ///< how lines that lie side by side were seen

@@ -51,8 +51,9 @@ bool passes(const Polyline& course, std::size_t station, const Point& point, dou
 /// Finds the longer lines that a line lies beside.
 class BesideSearch {
  public:
-  BesideSearch(const std::vector<Line>& lines, const FusionConfig& config)
-      : grid_(station_grid(lines)),
+  /// `grid` must outlive this.
+  BesideSearch(const std::vector<Line>& lines, const StationGrid& grid, const FusionConfig& config)
+      : grid_(grid),
         courses_(courses_of(lines)),
         others_(lines.size()),
         spacing_m_(config.station_spacing_m) {
@@ -101,7 +102,7 @@ class BesideSearch {
     std::size_t next = kNever;  ///< the next station to look at
   };
 
-  StationGrid grid_;
+  const StationGrid& grid_;
   std::vector<MarkingType> types_;
   std::vector<Polyline> courses_;
   std::vector<Other> others_;
@@ -142,12 +143,12 @@ double weight(const Line& line, const FusionConfig& config) {
   return static_cast<double>(line.stations.size()) * std::max(0.0, above);
 }
 
-std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
-                                              markings::PairHistories& doubles) {
+std::vector<markings::Relative> merge_doubles(const FusionConfig& config, const StationGrid& grid,
+                                              std::vector<Line>& lines, markings::PairHistories& doubles) {
   markings::PairHistories kept;
   std::vector<markings::Relative> merged;
   std::vector<bool> gone(lines.size(), false);
-  BesideSearch search(lines, config);
+  BesideSearch search(lines, grid, config);
   const std::vector<IndexPair> pairs = side_by_side(lines.size(), config.merge_distance_m, search);
   const std::vector<IndexPair> one = without_room(pairs, search);
   for (const auto& [i, j] : pairs) {

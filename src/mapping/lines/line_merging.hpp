@@ -16,8 +16,8 @@ double weight(const Line& line, const FusionConfig& config);
 /// real lines are seen together; a line and its double take turns. Two road edges that lie within 0.3 m of
 /// each other, and two lanelines within 0.15 m all along the shorter one, are doubles however often they are
 /// seen together. Of a line and its double, the one of less weight is removed. Returns the removed lines,
-/// each with the line that stays.
-std::vector<markings::Relative> merge_doubles(const FusionConfig& config, std::vector<Line>& lines,
-                                              markings::PairHistories& doubles);
+/// each with the line that stays. `grid` holds the stations of the lines.
+std::vector<markings::Relative> merge_doubles(const FusionConfig& config, const StationGrid& grid,
+                                              std::vector<Line>& lines, markings::PairHistories& doubles);
 
 }  // namespace laneloom::lines

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mapping/geometry/levels.hpp"
 
@@ -34,8 +35,8 @@ double squared_reach_m2(const Line& line, double gate_m) {
 
 }  // namespace
 
-NearestStations::NearestStations(const std::vector<Line>& lines, double gate_m)
-    : grid_(station_grid(lines)), slots_(lines.size(), kNone) {
+NearestStations::NearestStations(const std::vector<Line>& lines, double gate_m, StationGrid grid)
+    : grid_(std::move(grid)), slots_(lines.size(), kNone) {
   is_stopline_.reserve(lines.size());
   squared_reach_m2_.reserve(lines.size());
   for (const Line& line : lines) {

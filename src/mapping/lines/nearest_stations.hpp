@@ -19,7 +19,10 @@ class NearestStations {
  public:
   /// A point lies on a line if its foot (see foot_at()) is no further aside than `gate_m`, or, outside of a
   /// sharp bend, within 2 m. `lines` are copied.
-  NearestStations(const std::vector<Line>& lines, double gate_m);
+  NearestStations(const std::vector<Line>& lines, double gate_m)
+      : NearestStations(lines, gate_m, station_grid(lines)) {}
+  /// The same with the grid of their stations.
+  NearestStations(const std::vector<Line>& lines, double gate_m, StationGrid grid);
 
   /// The stoplines, or the other lines, that `point` may lie on, each once, in no meaningful order. Lines on
   /// another level are left out. The reference holds until the next call.

@@ -24,7 +24,7 @@ class LineJoining : public ::testing::Test {
   void joint(End first_end, End second_end, double frames = 10.0, double apart = 0.0) {
     joints_ = {{markings::end_id(1, first_end), markings::end_id(2, second_end), frames, apart}};
   }
-  void join() { joined_ = join_lines({}, joints_, lines_, overlaps_); }
+  void join() { joined_ = join_lines({}, joints_, station_grid(lines_), lines_, overlaps_); }
 
   std::vector<Line> lines_;
   markings::PairHistories joints_, overlaps_;

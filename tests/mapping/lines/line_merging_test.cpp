@@ -21,7 +21,7 @@ class LineMerging : public ::testing::Test {
     for (Station& station : lines_[1].stations) station.sight = second ? Sight::observed : Sight::missed;
     merge();
   }
-  void merge() { merged_ = merge_doubles({}, lines_, pairs_); }
+  void merge() { merged_ = merge_doubles({}, station_grid(lines_), lines_, pairs_); }
   std::vector<Line> lines_;
   markings::PairHistories pairs_;
   std::vector<markings::Relative> merged_;
