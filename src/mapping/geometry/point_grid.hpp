@@ -47,19 +47,18 @@ class PointGrid {
 
   static Eigen::Vector2d place_of(const Entry& entry) { return entry.position.template head<2>(); }
 
-  /// A counting sort by cell.
+  /// A counting sort by cell. Until the entries are in place, each start is the end of its cell.
   void sort(std::vector<Entry> entries) {
     starts_.assign(size_.cast<std::size_t>().prod() + 1, 0);
     std::vector<std::size_t> cells;
     cells.reserve(entries.size());
     for (const Entry& entry : entries) {
       cells.push_back(cell_number(cell_of(place_of(entry))));
-      ++starts_[cells.back() + 1];
+      ++starts_[cells.back()];
     }
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
     entries_.resize(entries.size());
-    std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-    for (std::size_t i = 0; i < entries.size(); ++i) entries_[next[cells[i]]++] = entries[i];
+    for (std::size_t i = entries.size(); i-- > 0;) entries_[--starts_[cells[i]]] = entries[i];
   }
 
   /// Clamped, so that a far place does not overflow. Truncated, since a place before the first cell may count
