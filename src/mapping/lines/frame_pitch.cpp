@@ -45,6 +45,7 @@ std::vector<LineAhead> lines_ahead(const std::vector<SampledDetection>& detectio
   for (const SampledDetection& detection : detections) {
     if (is_stopline(detection.type)) continue;
     LineAhead line;
+    line.places.reserve(detection.samples.size());
     for (const Point& sample : detection.samples) {
       const Point place = T_body_map * sample;
       if (place.x() >= 0.0 && place.x() <= kFurthest_m) line.places.push_back({place.x(), place.y()});
@@ -95,14 +96,13 @@ double estimate_stretch_per_m(const std::vector<SampledDetection>& detections,
   std::vector<LineAhead> lines = lines_ahead(detections, T_map_body);
   if (lines.size() < 2) return 0.0;
   Common estimate = Common::Zero();
+  std::vector<Equations> all(lines.size());
   for (int round = 0; round < kFits; ++round) {
     Eigen::Matrix4d information = 1e-9 * Eigen::Matrix4d::Identity();
     information(0, 0) += 1.0 / (kExpected_per_m * kExpected_per_m);
     Common sum(-information(0, 0) * estimate(0), 0.0, 0.0, 0.0);
-    std::vector<Equations> all;
-    all.reserve(lines.size());
-    for (const LineAhead& line : lines) {
-      const Equations& e = all.emplace_back(equations(line, estimate, round > 0));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const Equations& e = all[i] = equations(lines[i], estimate, round > 0);
       information += e.common - e.cross * e.cross.transpose() / e.own;
       sum += e.common_sum - e.cross * (e.own_sum / e.own);
     }

@@ -143,15 +143,9 @@ void discount_unobserved(const View& view, const geometry::MapBox& range, const 
 namespace {
 
 /// The pieces of a line that are left without its dead stations, in order.
-std::vector<Line> living_pieces(Line& line, const geometry::MapBox& range, const FusionConfig& config) {
-  const auto dead = [&](const Station& s) {
-    return s.log_odds < config.min_log_odds || !range.keeps(s.position);
-  };
+template <class IsDead>
+std::vector<Line> living_pieces(Line& line, const IsDead& dead) {
   std::vector<Line> pieces;
-  if (line.stations.size() >= 2 && std::ranges::none_of(line.stations, dead)) {
-    pieces.push_back(std::move(line));
-    return pieces;
-  }
   const std::vector<Station> stations = std::exchange(line.stations, {});
   for (auto begin = stations.begin(); begin != stations.end();) {
     const auto end = std::find_if(begin, stations.end(), dead);
@@ -170,8 +164,16 @@ std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const
                                             std::vector<Line>& lines, markings::IdSource& ids) {
   std::vector<Line> kept, cut_off;
   std::vector<markings::Relative> relatives;
+  const auto dead = [&](const Station& s) {
+    return s.log_odds < config.min_log_odds || !range.keeps(s.position);
+  };
+  kept.reserve(lines.size());
   for (Line& line : lines) {
-    std::vector<Line> pieces = living_pieces(line, range, config);
+    if (line.stations.size() >= 2 && std::ranges::none_of(line.stations, dead)) {
+      kept.push_back(std::move(line));
+      continue;
+    }
+    std::vector<Line> pieces = living_pieces(line, dead);
     if (pieces.empty()) continue;
     const auto longest =
         std::ranges::max_element(pieces, {}, [](const Line& piece) { return piece.stations.size(); });
