@@ -14,32 +14,35 @@ constexpr double kMaxAhead_m = 60.0;     // from the end to where borders that c
 constexpr double kMinEntry_m = 1.5;      // width; nobody turns across dashes into less
 
 /// Whether the borders meet at the first of these places, or not far before it.
-bool begins_at_meeting(std::span<const PlaceBetween> places) {
-  const PlaceBetween& first = places.front();
+template <class Iterator>
+bool begins_at_meeting(Iterator begin, Iterator end) {
+  const PlaceBetween& first = *begin;
   if (first.width_m < kMeeting_m) return true;
   const auto distance_m = [&](const PlaceBetween& place) { return std::abs(place.along_m - first.along_m); };
   const auto beyond =
-      std::ranges::find_if(places, [&](const PlaceBetween& p) { return distance_m(p) > kGrowthFrom_m; });
+      std::find_if(begin, end, [&](const PlaceBetween& p) { return distance_m(p) > kGrowthFrom_m; });
   const PlaceBetween& last = *std::prev(beyond);
-  const PlaceBetween& middle = *(places.begin() + (beyond - places.begin()) / 2);
+  const PlaceBetween& middle = *(begin + (beyond - begin) / 2);
   const double growth_m = last.width_m - first.width_m;
   if (middle.width_m - first.width_m < kMinEarlyGrowth * growth_m) return false;
   return first.width_m * distance_m(last) < kMaxAhead_m * growth_m;
 }
 
 /// The number of places from the first on that lie in a gore.
-std::size_t from_meeting(std::span<const PlaceBetween> places) {
-  if (places.empty() || !begins_at_meeting(places)) return 0;
-  const auto entry = std::ranges::find_if(
-      places, [](const PlaceBetween& place) { return place.may_be_crossed && place.width_m > kMinEntry_m; });
-  return static_cast<std::size_t>(entry - places.begin());
+template <class Iterator>
+std::size_t from_meeting(Iterator begin, Iterator end) {
+  if (begin == end || !begins_at_meeting(begin, end)) return 0;
+  const auto entry = std::find_if(begin, end, [](const PlaceBetween& place) {
+    return place.may_be_crossed && place.width_m > kMinEntry_m;
+  });
+  return static_cast<std::size_t>(entry - begin);
 }
 
 }  // namespace
 
 std::vector<bool> in_gore(std::span<const PlaceBetween> places) {
-  const std::vector<PlaceBetween> backwards(places.rbegin(), places.rend());
-  const std::size_t opening = from_meeting(places), closing = from_meeting(backwards);
+  const std::size_t opening = from_meeting(places.begin(), places.end()),
+                    closing = from_meeting(places.rbegin(), places.rend());
   std::vector<bool> found(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) found[i] = i < opening || places.size() - i <= closing;
   return found;

@@ -135,9 +135,8 @@ struct Place {
   const Mark* across = nullptr;  ///< see across()
 };
 
-std::vector<Place> places_of(const Hypothesis& hypothesis, const RoadCuts& cuts) {
-  std::vector<Place> places;
-  places.reserve(hypothesis.marks.size());
+void list_places(const Hypothesis& hypothesis, const RoadCuts& cuts, std::vector<Place>& places) {
+  places.clear();
   for (std::size_t i = 0; i < hypothesis.marks.size(); ++i) {
     Place place{.cut = cuts[hypothesis.first + i], .candidate = {.room = hypothesis.room}};
     place.candidate.right = place.cut.own;
@@ -146,7 +145,6 @@ std::vector<Place> places_of(const Hypothesis& hypothesis, const RoadCuts& cuts)
     place.across = across(place.cut, place.candidate);
     places.push_back(place);
   }
-  return places;
 }
 
 double taper_at(std::span<const Place> places, std::size_t i, double step_m) {
@@ -233,8 +231,10 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
   const double step_m = base.length() / static_cast<double>(std::max<std::size_t>(cuts.size() - 1, 1));
   std::vector<VehicleBeside> vehicles;
   for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(base, found.front().reversed, pose);
+  std::vector<Place> places;
+  places.reserve(cuts.size());
   for (Hypothesis& one : found) {
-    std::vector<Place> places = places_of(one, cuts);
+    list_places(one, cuts, places);
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
       return drives_in(vehicle, one, places, road, config);
     });
@@ -297,21 +297,23 @@ std::vector<Hypothesis> hypotheses_against(std::size_t boundary, const RoadCuts&
 std::vector<Run> best_runs(const std::vector<double>& log_odds) {
   // The best sums up to a place, outside of a run and within one (Viterbi).
   double outside = 0.0, within = -kBegin;
-  std::vector<bool> ends(log_odds.size()), begins(log_odds.size());  // the best way there
+  struct Step {
+    bool begins, ends;
+  };
+  std::vector<Step> best(log_odds.size());  // the best way there
   for (std::size_t i = 0; i < log_odds.size(); ++i) {
-    begins[i] = i == 0 || outside - kBegin > within;
-    ends[i] = i > 0 && within > outside;
-    const double up_to_here = begins[i] ? outside - kBegin : within;
-    outside = ends[i] ? within : outside;
+    best[i] = {.begins = i == 0 || outside - kBegin > within, .ends = i > 0 && within > outside};
+    const double up_to_here = best[i].begins ? outside - kBegin : within;
+    outside = best[i].ends ? within : outside;
     within = up_to_here + log_odds[i];
   }
   std::vector<Run> runs;
   bool inside = within > outside;
   for (std::size_t i = log_odds.size(), end = i; i-- > 0;) {
     if (!inside) {
-      inside = ends[i];
+      inside = best[i].ends;
       end = i;
-    } else if (begins[i]) {
+    } else if (best[i].begins) {
       runs.push_back({.begin = i, .end = end, .log_odds = -kBegin});
       inside = false;
     }
