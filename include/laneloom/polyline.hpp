@@ -40,6 +40,12 @@ class MeasuredPolyline {
   MeasuredPolyline() = default;
   /// `points` are one or more. Vertices that repeat their predecessor (horizontally) are left out.
   explicit MeasuredPolyline(const Polyline& points);
+  // Eigen's boxes do not say that their moves never throw: a vector that grows would copy the lines.
+  MeasuredPolyline(MeasuredPolyline&&) noexcept = default;
+  MeasuredPolyline& operator=(MeasuredPolyline&&) noexcept = default;
+  MeasuredPolyline(const MeasuredPolyline&) = default;
+  MeasuredPolyline& operator=(const MeasuredPolyline&) = default;
+  ~MeasuredPolyline() = default;
 
   /// The points without those that were left out.
   const Polyline& points() const { return points_; }

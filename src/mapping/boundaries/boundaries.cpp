@@ -45,6 +45,7 @@ void Boundaries::reverse(std::size_t index) {
 }
 
 void Boundaries::insert(std::vector<LaneBoundary> boundaries) {
+  if (boundaries.empty()) return;
   std::ranges::for_each(boundaries, measure);
   std::ranges::move(boundaries, std::back_inserter(all_));
   std::ranges::stable_sort(all_, {}, id_of);

@@ -56,16 +56,16 @@ bool may_join(const Tip& a, const Tip& b, double gap_m, const markings::PairHist
   return (joint != nullptr && seen_together(*joint)) || are_aligned(a, b, config);
 }
 
-std::vector<markings::Join> possible_joins(const std::vector<Marking>& lines,
+std::vector<markings::Join> possible_joins(const std::vector<const Marking*>& lines,
                                            const markings::PairHistories& joints,
                                            const BoundaryConfig& config) {
   std::vector<markings::Join> joins;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      if (lines[i].type != lines[j].type) continue;
+      if (lines[i]->type != lines[j]->type) continue;
       for (const End i_end : kEnds) {
         for (const End j_end : kEnds) {
-          const Tip a{lines[i], i_end}, b{lines[j], j_end};
+          const Tip a{*lines[i], i_end}, b{*lines[j], j_end};
           const double gap_m = (b.point() - a.point()).head<2>().norm();
           if (gap_m > config.max_gap_m || !geometry::same_level(a.point(), b.point())) continue;
           if (may_join(a, b, gap_m, joints, config)) joins.push_back({gap_m, {i, i_end}, {j, j_end}});
@@ -94,10 +94,10 @@ void continue_with(const Marking& ahead, LaneBoundary& boundary) {
   markings::append(boundary.marking, ahead);
 }
 
-LaneBoundary assemble(const std::vector<markings::Link>& chain, const std::vector<Marking>& lines) {
+LaneBoundary assemble(const std::vector<markings::Link>& chain, const std::vector<const Marking*>& lines) {
   LaneBoundary boundary;
   for (const markings::Link& link : chain) {
-    Marking next = lines[link.line];
+    Marking next = *lines[link.line];
     if (link.reversed) markings::reverse(next);
     boundary.members.push_back(next.id);
     if (boundary.marking.points.empty()) {
@@ -115,9 +115,10 @@ LaneBoundary assemble(const std::vector<markings::Link>& chain, const std::vecto
 
 Boundaries lane_boundaries(const std::vector<Marking>& markings, const markings::PairHistories& joints,
                            const BoundaryConfig& config) {
-  std::vector<Marking> lines;
-  std::ranges::copy_if(markings, std::back_inserter(lines),
-                       [](const Marking& m) { return m.type != MarkingType::stopline; });
+  std::vector<const Marking*> lines;
+  lines.reserve(markings.size());
+  for (const Marking& marking : markings)
+    if (marking.type != MarkingType::stopline) lines.push_back(&marking);
   // A chain runs as its first line does, so that the boundary runs as its oldest member.
   std::vector<LaneBoundary> boundaries;
   for (const std::vector<markings::Link>& chain : chains(possible_joins(lines, joints, config), lines.size()))

@@ -12,6 +12,7 @@ FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::MapBox& box
                       const KnownBorders& known, const LaneConfig& config) {
   if (config.method == LaneMethod::paper) return paper_lanes(std::move(road), config);
   FoundLanes found = choose_lanes(road, box, driven, known, config);
+  found.boundaries = std::move(road.boundaries);
   found.forks = cut_at_forks(found.boundaries, config, found.lanes);
   return found;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <vector>
@@ -55,7 +56,7 @@ class TakenSpace {
     Box box;  ///< around the strip
   };
   std::map<BoundarySide, std::vector<Stretch>> sides_;
-  std::vector<Strip> strips_;
+  std::deque<Strip> strips_;  ///< grows without copying the lines
 };
 
 /// Lanes that were found, and inferred boundaries. The inferred boundaries have no ids, and the lanes beside

@@ -45,7 +45,7 @@ class Choice {
   }
 
   FoundLanes result() && {
-    return {.boundaries = road_.boundaries,
+    return {.boundaries = {},
             .lanes = std::move(lanes_),
             .inferred = std::move(inferred_),
             .denied = std::move(denied_)};
