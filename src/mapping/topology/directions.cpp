@@ -131,14 +131,18 @@ void explain(const DirectionModel& model, std::size_t group, double sense, const
 void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                         const std::vector<Marking>& markings, const StoplineConfig& config,
                         lanes::LaneTracks& tracks) {
-  const auto driven = std::ranges::find_if(
-      lanes, [&](const Lane& lane) { return lanes::ego_sense(lane, T_map_body, kCosInLane) != 0.0; });
-  for (const Lane& lane : lanes) {
+  std::vector<double> senses;  // in which the vehicle drives in each lane
+  senses.reserve(lanes.size());
+  for (const Lane& lane : lanes) senses.push_back(lanes::ego_sense(lane, T_map_body, kCosInLane));
+  const auto driven = static_cast<std::size_t>(
+      std::ranges::find_if(senses, [](double sense) { return sense != 0.0; }) - senses.begin());
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane& lane = lanes[i];
     lanes::LaneTrack* remembered = tracks.find(lane.id);
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
-    if (driven != lanes.end() && lanes::are_neighbours(*driven, lane)) log_odds *= kMemory;
-    const double sense = lanes::ego_sense(lane, T_map_body, kCosInLane);
+    if (driven < lanes.size() && lanes::are_neighbours(lanes[driven], lane)) log_odds *= kMemory;
+    const double sense = senses[i];
     remembered->driven = remembered->driven || sense != 0.0;
     if (sense != 0.0 && !may_drive_beyond(lane, T_map_body)) log_odds += kEgoEvidence * sense;
     log_odds += kStoplineEvidence * stopline_sense(lane, markings, config);
