@@ -73,18 +73,10 @@ Polyline resample(const Polyline& line, double step_m) {
   return spaced(points, arc_lengths(points), step_m);
 }
 
-MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
+MeasuredPolyline::MeasuredPolyline(const Polyline& points) : points_(points) {
   assert(!points.empty());
-  points_.reserve(points.size());
-  arc_.reserve(points.size());
-  points_.push_back(points.front());
-  arc_.push_back(0.0);
-  for (const Point& point : points) {
-    const double step_m = horizontal_distance(points_.back(), point);
-    if (step_m <= kCoincident_m) continue;
-    points_.push_back(point);
-    arc_.push_back(arc_.back() + step_m);
-  }
+  drop_repeats(points_);
+  arc_ = arc_lengths(points_);
   const Eigen::Vector2d chord = (points_.back() - points_.front()).head<2>();
   if (chord.norm() > kCoincident_m) course_ = chord.normalized();
   in_course_.resize(points_.size(), Eigen::Vector2d::Zero());
@@ -169,7 +161,7 @@ inline void MeasuredPolyline::consider(std::size_t segment, const Point& point, 
 /// is near that place, if it is known. From each vertex on, the line stays within a cone about the course.
 /// Once that cone is further away than the nearest foot, so is the rest of the line.
 inline void MeasuredPolyline::search_along_course(std::size_t segment, const Eigen::Vector2d& place,
-                                           const Point& point, Nearest& nearest) const {
+                                                  const Point& point, Nearest& nearest) const {
   const auto ahead_m = [&](std::size_t vertex) { return place.x() - in_course_[vertex].x(); };
   const auto is_past = [&](std::size_t vertex, double sense) {
     const Eigen::Vector2d offset = place - in_course_[vertex];
