@@ -60,20 +60,22 @@ void observe(const Observation& seen, const Viewpoint& from, Station& station) {
 
 void learn(const Observation& seen, const Viewpoint& from, Station& station, Networks& networks) {
   const double range_m = distance(station.position, from.T_map_body.translation());
+  const bool is_far = range_m > kNear_m;
+  auto& views = station.far_views;
+  const auto is_known = [](const FarView& view) { return view.source != FarView::kNone; };
+  if (is_far ? is_known(views[ring(range_m)]) : std::ranges::none_of(views, is_known)) return;
   const double stretched_m = geometry::left_of(seen.direction)
                                  .dot(stretched_by(from.stretch_per_m, station.position, from.T_map_body));
   const double misplaced_m =
       geometry::left_of(seen.direction).dot(shifted_by(from.error, station.position, from.T_map_body));
   const double said_m =
       station.moved_m + seen.lateral_m + from.pitch_gain * stretched_m + from.alignment_gain * misplaced_m;
-  auto& views = station.far_views;
-  if (range_m > kNear_m) {
-    FarView& view = views[ring(range_m)];
-    if (view.source == FarView::kNone) view = {from.source, range_m, said_m, stretched_m, misplaced_m};
+  if (is_far) {
+    views[ring(range_m)] = {from.source, range_m, said_m, stretched_m, misplaced_m};
     return;
   }
   for (const FarView& view : views)
-    if (view.source != FarView::kNone) networks[view.source].lateral.learn(view, said_m);
+    if (is_known(view)) networks[view.source].lateral.learn(view, said_m);
   views.fill({});
 }
 
