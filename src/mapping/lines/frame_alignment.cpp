@@ -32,7 +32,7 @@ Eigen::Matrix2d heading_of(const Eigen::Isometry3d& T_map_body) {
 
 std::size_t station_of(const SampleMatch& match, const Line& line) {
   const auto last = static_cast<double>(line.stations.size() - 1);
-  return static_cast<std::size_t>(std::lround(std::clamp(match.foot.index, 0.0, last)));
+  return nearest_station(std::clamp(match.foot.index, 0.0, last));
 }
 
 std::vector<Equation> equations(const LineMatch& match, const SampledDetection& detection, const Line& line,

@@ -88,8 +88,8 @@ void credit_stations(const LineMatch& match, double log_odds, const View& view, 
   const auto [lowest, highest] =
       std::ranges::minmax(match.samples, {}, [](const SampleMatch& s) { return s.foot.index; });
   const auto last = static_cast<double>(line.stations.size() - 1);
-  const auto begin = static_cast<std::size_t>(std::lround(std::clamp(lowest.foot.index, 0.0, last)));
-  const auto end = static_cast<std::size_t>(std::lround(std::clamp(highest.foot.index, 0.0, last)));
+  const std::size_t begin = nearest_station(std::clamp(lowest.foot.index, 0.0, last));
+  const std::size_t end = nearest_station(std::clamp(highest.foot.index, 0.0, last));
   for (std::size_t k = begin; k <= end; ++k) {
     Station& station = line.stations[k];
     if (station.sight != Sight::observed) continue;

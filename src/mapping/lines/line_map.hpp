@@ -94,6 +94,13 @@ struct StationFoot {
 /// The foot of `point` on the two segments at station `nearest`. The line has at least two stations.
 StationFoot foot_at(const Line& line, std::size_t nearest, const Point& point);
 
+/// The station nearest to a place between stations that is not negative, of two the second one. It is what
+/// std::lround() says, which is a call.
+inline std::size_t nearest_station(double index) {
+  const auto before = static_cast<std::size_t>(index);
+  return index - static_cast<double>(before) < 0.5 ? before : before + 1;
+}
+
 /// Horizontal unit direction of the line at a station.
 Eigen::Vector2d direction_at(const Line& line, std::size_t station);
 
