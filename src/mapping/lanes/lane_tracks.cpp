@@ -49,6 +49,7 @@ class Pieces {
  public:
   explicit Pieces(LaneTrack track) : stations_(std::exchange(track.stations, {})), whole_(std::move(track)) {
     open(whole_.parted[0]);
+    piece_.stations.reserve(stations_.size());  // a track is seldom cut
     bool was_shown = false, was_hidden = false;
     for (LaneStation& station : stations_) {
       if (!station.shown && station.log_odds < kForgotten) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "laneloom/polyline.hpp"
@@ -69,7 +70,7 @@ class ShownStations {
 
   bool is_empty() const { return arcs_m_.empty() || arcs_m_.back() < kMinLength_m; }
 
-  Lane lane() const {
+  Lane lane() && {
     Lane lane{.use = Lane::Use::lane};
     for (const Side side : kSides) {
       lane.borders(side) = borders(side);
@@ -78,8 +79,8 @@ class ShownStations {
       for (const LaneStation& station : stations_) line.push_back(station.border[index(side)]);
       drop_repeats(line);
     }
-    lane.centerline = centerline_;
     rate(lane);
+    lane.centerline = std::move(centerline_);
     return lane;
   }
 
@@ -198,9 +199,9 @@ class ShownStations {
 }  // namespace
 
 std::optional<Lane> shown_lane(const LaneTrack& track, const boundaries::Boundaries& boundaries) {
-  const ShownStations shown(track, boundaries);
+  ShownStations shown(track, boundaries);
   if (shown.is_empty()) return std::nullopt;
-  Lane lane = shown.lane();
+  Lane lane = std::move(shown).lane();
   lane.id = track.id;
   lane.section = track.section;
   return lane;

@@ -40,6 +40,7 @@ double weight_at(double along_m, const std::vector<RouteJoint>& joints) {
 std::vector<RoutePlace> sampled(const Route& route) {
   std::vector<RoutePlace> places;
   const std::vector<RoutePoint>& points = route.points;
+  places.reserve(static_cast<std::size_t>(points.back().along_m / kSample_m) + 1);
   std::size_t i = 0;
   for (double along_m = 0.0; along_m <= points.back().along_m; along_m += kSample_m) {
     while (i + 2 < points.size() && points[i + 1].along_m <= along_m) ++i;

@@ -194,6 +194,7 @@ bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double 
   const Route& route = builder.route();
   if (route.points.size() < 2 || route.points.back().along_m >= to_m) return false;
   Polyline line;
+  line.reserve(route.points.size());
   for (const RoutePoint& point : route.points) line.push_back(point.point);
   DrivenPassage driven = driven_on(graph, line.back(), end_direction(line, End::back), turn);
   if (driven.path.size() < 2) return false;

@@ -35,20 +35,39 @@ Eigen::Vector2d direction_of(const Polyline& samples, std::size_t i) {
 /// The station that a sample observes: the nearest one, and of two equally near ones the first.
 std::size_t observed_station(const SampleMatch& s) {
   constexpr double kTie = 1e-6;
-  return static_cast<std::size_t>(std::lround(std::max(0.0, s.foot.index - kTie)));
+  return nearest_station(std::max(0.0, s.foot.index - kTie));
 }
+
+/// A flag for each place of several rows.
+class Flags {
+ public:
+  template <class Rows, class Size>
+  Flags(const Rows& rows, const Size& size_of) {
+    begins_.reserve(rows.size());
+    std::size_t count = 0;
+    for (const auto& row : rows) {
+      begins_.push_back(count);
+      count += size_of(row);
+    }
+    all_.resize(count);
+  }
+  bool at(std::size_t row, std::size_t place) const { return all_[begins_[row] + place]; }
+  void set(std::size_t row, std::size_t place) { all_[begins_[row] + place] = true; }
+
+ private:
+  std::vector<bool> all_;
+  std::vector<std::size_t> begins_;
+};
 
 /// Records which samples of the detections are matched, and which stations of the lines are observed.
 class Claims {
  public:
   Claims(const std::vector<SampledDetection>& detections, const std::vector<Line>& lines)
-      : matched_(detections.size()), observed_(lines.size()) {
-    for (std::size_t i = 0; i < detections.size(); ++i) matched_[i].resize(detections[i].samples.size());
-    for (std::size_t i = 0; i < lines.size(); ++i) observed_[i].resize(lines[i].stations.size());
-  }
+      : matched_(detections, [](const SampledDetection& detection) { return detection.samples.size(); }),
+        observed_(lines, [](const Line& line) { return line.stations.size(); }) {}
 
   bool is_claimed(const LineMatch& match, const SampleMatch& s) const {
-    return matched_[match.detection][s.sample] || observed_[match.line][observed_station(s)];
+    return matched_.at(match.detection, s.sample) || observed_.at(match.line, observed_station(s));
   }
 
   /// Claims the samples and stations of a match, and the stations between two samples that follow one
@@ -56,16 +75,16 @@ class Claims {
   void claim(const LineMatch& match) {
     for (std::size_t i = 0; i < match.samples.size(); ++i) {
       const SampleMatch& s = match.samples[i];
-      matched_[match.detection][s.sample] = true;
+      matched_.set(match.detection, s.sample);
       const bool led = i > 0 && is_led_through(match.samples[i - 1], s);
       const auto [low, high] =
           std::minmax({observed_station(s), observed_station(led ? match.samples[i - 1] : s)});
-      for (std::size_t k = low; k <= high; ++k) observed_[match.line][k] = true;
+      for (std::size_t k = low; k <= high; ++k) observed_.set(match.line, k);
     }
   }
 
  private:
-  std::vector<std::vector<bool>> matched_, observed_;
+  Flags matched_, observed_;
 };
 
 }  // namespace
@@ -162,6 +181,9 @@ void LineMatcher::group_hits(std::size_t detection, Candidates& candidates) {
 std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& detections,
                                           std::size_t stride) {
   Candidates candidates;
+  std::size_t samples = 0;
+  for (const SampledDetection& detection : detections) samples += detection.samples.size() / stride + 1;
+  candidates.samples.reserve(samples);
   for (std::size_t i = 0; i < detections.size(); ++i) find_candidates(i, detections[i], stride, candidates);
   std::ranges::stable_sort(candidates.all, std::ranges::greater{},
                            [](const Candidate& c) { return std::pair(c.is_first, c.score); });

@@ -40,7 +40,10 @@ std::vector<std::size_t> by_belief(const std::vector<Line>& lines) {
 
 /// Per rank, whether so many better lines lie in some square metre of the line that it is one too many.
 std::vector<bool> crowded_out(const std::vector<Line>& lines, const std::vector<std::size_t>& order) {
+  std::size_t stations = 0;
+  for (const Line& line : lines) stations += line.stations.size();
   std::vector<LineInPlace> all;
+  all.reserve(stations);
   for (std::size_t rank = 0; rank < order.size(); ++rank)
     for (const Station& station : lines[order[rank]].stations)
       all.push_back(in_place(station.position, rank));

@@ -100,9 +100,11 @@ ObservedMarking joined(const std::vector<Link>& chain, std::vector<ObservedMarki
 }  // namespace
 
 std::vector<ObservedMarking> join_dashes(std::vector<ObservedMarking> markings) {
+  std::vector<Join> joins = possible_joins(markings);
+  if (joins.empty()) return markings;
   std::vector<ObservedMarking> result;
   result.reserve(markings.size());
-  for (const std::vector<Link>& chain : chains(possible_joins(markings), markings.size()))
+  for (const std::vector<Link>& chain : chains(std::move(joins), markings.size()))
     result.push_back(chain.size() == 1 ? std::move(markings[chain.front().line]) : joined(chain, markings));
   return result;
 }

@@ -222,9 +222,9 @@ DirectionModel direction_model(const RoadGraph& road, DrivingSide driving_side, 
 
 std::vector<double> solve(DirectionModel& model) {
   const double wrong_side = model.is_side_corrected ? kWrongObserved : kWrongSide;
-  std::vector<double> belief = model.evidence;
+  std::vector<double> belief = model.evidence, next;
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<double> next = model.evidence;
+    next = model.evidence;
     for (SideBySideGroups& pair : model.pairs) {
       // `meeting`: the left group runs against its first lane and the right one along its own, as right-hand
       // traffic meets. `parting`: the reverse.
@@ -237,7 +237,7 @@ std::vector<double> solve(DirectionModel& model) {
       next[pair.right] += pair.to_right;
       next[pair.left] += pair.to_left;
     }
-    belief = std::move(next);
+    std::swap(belief, next);
   }
   return belief;
 }

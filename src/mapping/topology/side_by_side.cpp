@@ -66,8 +66,12 @@ double boundary_evidence(const boundaries::LaneBoundary& boundary, const Stretch
 class SideBySide {
  public:
   explicit SideBySide(const lanes::LaneLayout& layout)
-      : layout_(layout), lanes_(layout.lanes), boundaries_(layout.boundaries) {
-    for (const Lane& lane : lanes_) left_sides_.emplace_back(lane.left);
+      : layout_(layout),
+        lanes_(layout.lanes),
+        boundaries_(layout.boundaries),
+        left_sides_(layout.lanes.size()) {
+    for (std::size_t i = 0; i < lanes_.size(); ++i)
+      if (lanes_[i].left_neighbours.empty()) left_sides_[i] = MeasuredPolyline(lanes_[i].left);
   }
 
   std::vector<SideBySideLanes> pairs() const {
@@ -170,7 +174,7 @@ class SideBySide {
   const lanes::LaneLayout& layout_;
   const std::vector<Lane>& lanes_;
   const boundaries::Boundaries& boundaries_;
-  std::vector<MeasuredPolyline> left_sides_;
+  std::vector<MeasuredPolyline> left_sides_;  ///< of lanes that have no lane on their left
 };
 
 }  // namespace
