@@ -66,10 +66,13 @@ WayLine::WayLine(std::vector<RoutePlace> places) : places_(std::move(places)) {
   }
   points_ = smooth_line(points, weights);
   measure();
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= weight_of_bend(sharpest_near(i));
-  points_ = smooth_line(points, weights);
+  const auto bends = [](double curvature_per_m) { return std::abs(curvature_per_m) > kStraight_per_m; };
+  if (std::ranges::any_of(curvatures_per_m_, bends)) {
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= weight_of_bend(sharpest_near(i));
+    points_ = smooth_line(points, weights);
+    measure();
+  }
   arcs_m_ = arc_lengths(points_);
-  measure();
 }
 
 double WayLine::sharpest_near(std::size_t i) const {
