@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <tuple>
 #include <utility>
 
 #include "mapping/geometry/levels.hpp"
@@ -97,25 +97,29 @@ class Collection {
       : base_(base), reversed_(reversed), cuts_(cuts) {}
 
   void add(std::size_t cut, Room room, std::size_t other, std::size_t mark) {
-    std::vector<Hypothesis>& all = by_place_[{room, other}];
-    if (all.empty() || all.back().first + all.back().marks.size() != cut) {
-      all.push_back({.room = room, .base = base_, .reversed = reversed_, .other = other, .first = cut});
-      all.back().marks.reserve(cuts_ - cut);
+    const auto goes_on = [&](const Hypothesis& one) {
+      return one.room == room && one.other == other && one.first + one.marks.size() == cut;
+    };
+    auto last = std::ranges::find_if(all_, goes_on);
+    if (last == all_.end()) {
+      all_.push_back({.room = room, .base = base_, .reversed = reversed_, .other = other, .first = cut});
+      last = all_.end() - 1;
+      last->marks.reserve(cuts_ - cut);
     }
-    all.back().marks.push_back(mark);
+    last->marks.push_back(mark);
   }
 
   std::vector<Hypothesis> take() {
-    std::vector<Hypothesis> found;
-    for (auto& [place, all] : by_place_) std::ranges::move(all, std::back_inserter(found));
-    return found;
+    std::ranges::sort(all_, {},
+                      [](const Hypothesis& one) { return std::tuple(one.room, one.other, one.first); });
+    return std::move(all_);
   }
 
  private:
   std::size_t base_;
   bool reversed_;
   std::size_t cuts_;  ///< their number
-  std::map<std::pair<Room, std::size_t>, std::vector<Hypothesis>> by_place_;
+  std::vector<Hypothesis> all_;
 };
 
 /// The mark on the other side of the room of a candidate. Null: an open lane's room has none.

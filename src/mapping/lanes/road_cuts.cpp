@@ -134,12 +134,6 @@ void RoadCuts::add(const RoadCut& cut) {
   marks_.insert(marks_.end(), cut.marks.begin(), cut.marks.end());
 }
 
-RoadCut RoadCuts::operator[](std::size_t i) const& {
-  RoadCut cut = rows_[i].cut;
-  cut.marks = std::span(marks_).subspan(rows_[i].begin, rows_[i].count);
-  return cut;
-}
-
 bool RoadCuts::has_opposed() const { return std::ranges::any_of(marks_, &Mark::opposed); }
 
 RoadCuts reversed(const RoadCuts& cuts) {

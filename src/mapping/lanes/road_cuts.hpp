@@ -45,7 +45,11 @@ class RoadCuts {
   /// Adds a cross-section. Its marks are copied.
   void add(const RoadCut& cut);
   std::size_t size() const { return rows_.size(); }
-  RoadCut operator[](std::size_t i) const&;
+  RoadCut operator[](std::size_t i) const& {
+    RoadCut cut = rows_[i].cut;
+    cut.marks = std::span(marks_).subspan(rows_[i].begin, rows_[i].count);
+    return cut;
+  }
   RoadCut operator[](std::size_t i) && = delete;  // its marks would be gone
   /// Whether a boundary runs against the one that is cut.
   bool has_opposed() const;
