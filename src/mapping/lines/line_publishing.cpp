@@ -31,9 +31,11 @@ Polyline smoothed(Stations stations) {
   points.reserve(stations.size());
   for (const Station& station : stations) points.push_back(station.position);
   for (int pass = 0; pass < 2; ++pass) {
-    const Polyline before = points;
+    Point before = points.front();
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-      points[i] = 0.25 * before[i - 1] + 0.5 * before[i] + 0.25 * before[i + 1];
+      const Point here = points[i];
+      points[i] = 0.25 * before + 0.5 * here + 0.25 * points[i + 1];
+      before = here;
     }
   }
   return points;
@@ -107,6 +109,7 @@ std::vector<Marking> publish_lines(const std::vector<Line>& lines, const marking
   const FusionConfig& fusion = config.fusion;
   const std::vector<Shadow> held_back = shadows(lines, doubles, fusion);
   std::vector<Marking> markings;
+  markings.reserve(lines.size());
   for (const Line& line : lines) {
     if (std::ranges::find(held_back, line.id, &Shadow::line) != held_back.end()) continue;
     const Stations stations = published_stretch(line, fusion);
