@@ -33,7 +33,7 @@ class Choice {
     for (std::size_t i = 0; i < road.boundaries.size(); ++i) {
       cuts_.push_back(cut_along(i, road, config));
       for (Hypothesis& one : hypotheses(i, cuts_.back(), road, driven, config)) consider(std::move(one));
-      against_.push_back(cuts_.back().has_opposed() ? reversed(cuts_.back()) : RoadCuts());
+      against_.push_back(cuts_.back().has_opposed() ? cuts_.back().reversed() : RoadCuts());
       for (Hypothesis& one : hypotheses_against(i, against_.back(), road, driven, config))
         consider(std::move(one));
     }

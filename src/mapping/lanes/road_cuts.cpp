@@ -86,11 +86,6 @@ std::vector<MetBoundary> boundaries_beside(std::size_t boundary, const boundarie
 /// Unit direction from one point to another; zero if they are one point.
 Eigen::Vector2d heading(const Point& from, const Point& to) { return (to - from).head<2>().normalized(); }
 
-/// Inserts a mark among those from right to left.
-void insert(const Mark& mark, std::vector<Mark>& marks) {
-  marks.insert(std::ranges::upper_bound(marks, mark.lateral_m, {}, &Mark::lateral_m), mark);
-}
-
 /// Where a boundary that turns back, as round the tip of an island, lies beside itself.
 class OtherSide {
  public:
@@ -128,30 +123,35 @@ class OtherSide {
 
 }  // namespace
 
-void RoadCuts::add(const RoadCut& cut) {
-  rows_.push_back({.cut = cut, .begin = marks_.size(), .count = cut.marks.size()});
-  rows_.back().cut.marks = {};
-  marks_.insert(marks_.end(), cut.marks.begin(), cut.marks.end());
+void RoadCuts::add(const Eigen::Vector2d& ahead, double bend, const Mark& own) {
+  rows_.push_back({.cut = {.ahead = ahead, .bend = bend}, .begin = marks_.size(), .count = 1});
+  marks_.push_back(own);
+}
+
+void RoadCuts::insert(const Mark& mark) {
+  Row& row = rows_.back();
+  const auto first = marks_.begin() + static_cast<std::ptrdiff_t>(row.begin);
+  marks_.insert(std::ranges::upper_bound(first, marks_.end(), mark.lateral_m, {}, &Mark::lateral_m), mark);
+  ++row.count;
+  if (mark.lateral_m < 0.0) ++row.cut.own;
 }
 
 bool RoadCuts::has_opposed() const { return std::ranges::any_of(marks_, &Mark::opposed); }
 
-RoadCuts reversed(const RoadCuts& cuts) {
+RoadCuts RoadCuts::reversed() const {
   RoadCuts turned;
-  std::vector<Mark> marks;
-  for (std::size_t i = cuts.size(); i-- > 0;) {
-    RoadCut cut = cuts[i];
-    marks.assign(cut.marks.rbegin(), cut.marks.rend());
-    for (Mark& mark : marks) {
-      mark.lateral_m = -mark.lateral_m;
-      mark.opposed = !mark.opposed;
-      if (mark.island) mark.island = opposite(*mark.island);
-    }
-    cut.own = marks.size() - 1 - cut.own;
-    marks[cut.own].opposed = false;
-    cut.ahead = -cut.ahead;
-    cut.marks = marks;
-    turned.add(cut);
+  turned.rows_.assign(rows_.rbegin(), rows_.rend());
+  turned.marks_.assign(marks_.rbegin(), marks_.rend());
+  for (Mark& mark : turned.marks_) {
+    mark.lateral_m = -mark.lateral_m;
+    mark.opposed = !mark.opposed;
+    if (mark.island) mark.island = opposite(*mark.island);
+  }
+  for (Row& row : turned.rows_) {
+    row.begin = marks_.size() - row.begin - row.count;
+    row.cut.own = row.count - 1 - row.cut.own;
+    row.cut.ahead = -row.cut.ahead;
+    turned.marks_[row.begin + row.cut.own].opposed = false;
   }
   return turned;
 }
@@ -168,30 +168,23 @@ RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, c
   const auto arc_at = [&](std::size_t i) {
     return course.length() * static_cast<double>(i) / static_cast<double>(points.size() - 1);
   };
-  std::vector<Mark> marks;
-  marks.reserve(others.size() + 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double arc_m = arc_at(i);
-    RoadCut cut{.ahead = heading(behind.at(arc_m - kDirection_m), ahead.at(arc_m + kDirection_m))};
+    const Eigen::Vector2d along = heading(behind.at(arc_m - kDirection_m), ahead.at(arc_m + kDirection_m));
     const Eigen::Vector2d from = heading(far_behind.at(arc_m - kBend_m), points[i]),
                           to = heading(points[i], far_ahead.at(arc_m + kBend_m));
-    cut.bend = std::abs(cross(from, to)) / kBend_m;
-    marks.assign(1, base.at(arc_m, points[i]));
+    cuts.add(along, std::abs(cross(from, to)) / kBend_m, base.at(arc_m, points[i]));
     for (MetBoundary& other : others)
-      if (const auto mark = other.beside(points[i], cut.ahead,
+      if (const auto mark = other.beside(points[i], along,
                                          base.is_edge() && other.is_edge() ? kStreetReach_m : kCutReach_m))
-        insert(*mark, marks);
+        cuts.insert(*mark);
     if (const auto back = other_side.of(i)) {
       Mark mark = base.at(arc_at(*back), points[*back]);
-      mark.lateral_m = cross(cut.ahead, Eigen::Vector2d((points[*back] - points[i]).head<2>()));
+      mark.lateral_m = cross(along, Eigen::Vector2d((points[*back] - points[i]).head<2>()));
       mark.opposed = true;
       if (mark.island) mark.island = opposite(*mark.island);
-      insert(mark, marks);
+      cuts.insert(mark);
     }
-    const auto is_own = [&](const Mark& mark) { return mark.boundary == boundary && !mark.opposed; };
-    cut.own = static_cast<std::size_t>(std::ranges::find_if(marks, is_own) - marks.begin());
-    cut.marks = marks;
-    cuts.add(cut);
   }
   return cuts;
 }

@@ -42,8 +42,10 @@ class RoadCuts {
     rows_.reserve(cuts);
     marks_.reserve(cuts * marks);
   }
-  /// Adds a cross-section. Its marks are copied.
-  void add(const RoadCut& cut);
+  /// Adds a cross-section with the mark of the boundary that is cut.
+  void add(const Eigen::Vector2d& ahead, double bend, const Mark& own);
+  /// Adds a mark to the last cross-section.
+  void insert(const Mark& mark);
   std::size_t size() const { return rows_.size(); }
   RoadCut operator[](std::size_t i) const& {
     RoadCut cut = rows_[i].cut;
@@ -53,6 +55,8 @@ class RoadCuts {
   RoadCut operator[](std::size_t i) && = delete;  // its marks would be gone
   /// Whether a boundary runs against the one that is cut.
   bool has_opposed() const;
+  /// The same cross-sections along the boundary as it runs the other way. Arc lengths stay.
+  RoadCuts reversed() const;
 
  private:
   struct Row {
@@ -62,9 +66,6 @@ class RoadCuts {
   std::vector<Row> rows_;
   std::vector<Mark> marks_;
 };
-
-/// The same cross-sections along the boundary as it runs the other way. Arc lengths stay.
-RoadCuts reversed(const RoadCuts& cuts);
 
 /// Greatest distance between two marks of a cross-section, and between two edges, which may be a street's.
 inline constexpr double kCutReach_m = 14.0, kStreetReach_m = 16.5;

@@ -34,7 +34,7 @@ TEST(RoadCuts, ShowWhatLiesBesideFromRightToLeft) {
 }
 
 TEST(RoadCuts, TurnedRoundRunTheOtherWay) {
-  const RoadCuts cuts = cut_along(0, side_by_side(2, 3.5), LaneConfig{}), turned = reversed(cuts);
+  const RoadCuts cuts = cut_along(0, side_by_side(2, 3.5), LaneConfig{}), turned = cuts.reversed();
   ASSERT_EQ(turned.size(), cuts.size());
   const RoadCut first = turned[0];
   EXPECT_EQ(first.own, 1U);
