@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "mapping/geometry/left_of.hpp"
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/reproducible.hpp"
 #include "mapping/markings/markings.hpp"
@@ -15,7 +14,6 @@ namespace {
 constexpr double kDirection_m = 2.0;    // either way, for a direction without noise
 constexpr double kBend_m = 4.0;         // either way, for a curvature without noise
 constexpr double kStyleReach_m = 15.0;  // either way; shorter patches of another style are noise
-constexpr double kPastEnd_m = 1.5;      // beyond a boundary's end, which is not seen as sharp as it is
 constexpr double kAlongside = 0.8;      // cosine between boundaries of one road
 constexpr double kConfirmed = 3.0;      // log odds of a boundary whose probability is not estimated
 constexpr double kSurest = 0.999;       // probability of a boundary
@@ -48,19 +46,16 @@ class MetBoundary {
           (2.0 * kStyleReach_m);
     return mark;
   }
-  /// The mark in the cross-section through a point that lies no further away than `reach_m`. A little beyond
-  /// its end, the boundary still counts. Empty: there is none.
+  /// The mark in the cross-section through a point that lies no further away than `reach_m`. Empty: there is
+  /// none.
   std::optional<Mark> beside(const Point& point, const Eigen::Vector2d& ahead, double reach_m) {
     const Projection foot = along_.project(point, reach_m);
-    if (foot.distance_m >= reach_m || !geometry::same_level(foot.foot, point)) return std::nullopt;
-    const Eigen::Vector2d direction = boundary_.course.direction(foot);
-    const double past_m = foot.inside ? 0.0 : (point - foot.foot).head<2>().dot(direction);
-    const double along = direction.dot(ahead);
-    if (std::abs(past_m) > kPastEnd_m || std::abs(along) < kAlongside) return std::nullopt;
+    if (!foot.inside || foot.distance_m >= reach_m || !geometry::same_level(foot.foot, point))
+      return std::nullopt;
+    const double along = boundary_.course.direction(foot).dot(ahead);
+    if (std::abs(along) < kAlongside) return std::nullopt;
     Mark mark = at(foot.arc_m, foot.foot);
-    const double aside_m = std::sqrt(std::max(foot.distance_m * foot.distance_m - past_m * past_m, 0.0));
-    mark.lateral_m = std::copysign(aside_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
-    if (!foot.inside) mark.point = geometry::beside(point, ahead, mark.lateral_m);
+    mark.lateral_m = std::copysign(foot.distance_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
     mark.opposed = along < 0.0;
     if (mark.opposed && mark.island) mark.island = opposite(*mark.island);
     return mark;
