@@ -16,6 +16,7 @@ struct Fragmentation {
   std::uint32_t sample_bytes = 0;
   std::uint32_t fragment_bytes = 0;
   bool operator==(const Fragmentation&) const = default;
+  std::uint32_t fragments() const { return (sample_bytes + fragment_bytes - 1) / fragment_bytes; }
 };
 
 /// Sequence numbers in a row.

@@ -34,9 +34,8 @@ FragmentedAnnouncements::Announcement& FragmentedAnnouncements::announcement(con
       newest_, [&](const Announcement& one) { return one.writer == writer && one.cut == cut; });
   if (known != newest_.end()) return *known;
   if (newest_.size() == kMostAnnouncements) newest_.pop_front();
-  const std::size_t fragments = (cut.sample_bytes + cut.fragment_bytes - 1) / cut.fragment_bytes;
-  return newest_.emplace_back(
-      Announcement{writer, cut, std::vector<std::uint8_t>(cut.sample_bytes), std::vector<bool>(fragments)});
+  return newest_.emplace_back(Announcement{writer, cut, std::vector<std::uint8_t>(cut.sample_bytes),
+                                           std::vector<bool>(cut.fragments())});
 }
 
 }  // namespace laneloom::dds

@@ -75,13 +75,12 @@ struct Fragments {
   std::uint32_t first = 0, count = 0;
   Fragmentation cut;
 
-  std::uint32_t total() const { return (cut.sample_bytes + cut.fragment_bytes - 1) / cut.fragment_bytes; }
   bool are_sound() const {
     if (cut.sample_bytes == 0 || cut.sample_bytes > kLargestSample_bytes) return false;
     if (cut.fragment_bytes < kSmallestFragment_bytes || first == 0 || count == 0) return false;
-    const std::uint32_t last_at = (total() - 1) * cut.fragment_bytes;
+    const std::uint32_t last_at = (cut.fragments() - 1) * cut.fragment_bytes;
     const bool links_fit = (last_at + 3) / 4 * 4 < (cut.sample_bytes + 3) / 4 * 4;
-    return links_fit && first <= total() && count <= total() - first + 1;
+    return links_fit && first <= cut.fragments() && count <= cut.fragments() - first + 1;
   }
   std::uint32_t bytes() const {
     const std::uint32_t at = (first - 1) * cut.fragment_bytes;
