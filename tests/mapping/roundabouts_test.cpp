@@ -69,7 +69,7 @@ struct Roundabout {
   }
 };
 
-/// What the vehicle sees of the kerbs.
+/// The kerbs as the vehicle sees them from a pose, cut at the box of its view.
 DetectionFrame seen_from(const Eigen::Isometry3d& T_map_body, const std::vector<Polyline>& kerbs) {
   DetectionFrame frame;
   const auto add = [&](Polyline& part) {

@@ -185,8 +185,18 @@ double as_by_default(double width_m, double least_m, double most_m, double defau
   return kUsualFrom_m + std::max(width_m - from_m, 0.0) * (kUsualTo_m - kUsualFrom_m) / (kUsualTo_m - from_m);
 }
 
+bool is_between_edges(const Surroundings& around) { return around.left().is_edge && around.right().is_edge; }
+
+/// Whether one of two edges bounds a round island on its other side. Traffic goes round that in one lane.
+bool is_round_island(const Surroundings& around, double width_m) {
+  return is_between_edges(around) && width_m < kMostRound_m &&
+         (around.left().island == Side::left || around.right().island == Side::right);
+}
+
 /// What the width says, and the kinds of the marks.
 double of_width(const Surroundings& around, double width_m, Room room, const LaneConfig& config) {
+  if (is_round_island(around, width_m))
+    return room == Room::divided ? kNotDivided : on_curve(kRoundIsland, width_m);
   const int edges = (around.left().is_edge ? 1 : 0) + (around.right().is_edge ? 1 : 0);
   if (room == Room::divided)
     return on_curve(kDivided, 0.5 * (width_m - config.min_divided_width_m + kDividedFrom_m)) +
@@ -205,18 +215,11 @@ double of_width(const Surroundings& around, double width_m, Room room, const Lan
 bool has_mark_within(const Surroundings& around) {
   return around.inside(true) > kInsidePrior || around.inside(false) > kInsidePrior;
 }
-bool is_between_edges(const Surroundings& around) { return around.left().is_edge && around.right().is_edge; }
 
 /// Whether the strip lies between the two edges of a median, one or both of which have a line along them.
 bool is_median(const Surroundings& around) {
   const bool on_left = around.edge_within(Side::left), on_right = around.edge_within(Side::right);
   return (on_left && on_right) || (on_left && around.right().is_edge) || (on_right && around.left().is_edge);
-}
-
-/// Whether one of two edges bounds a round island on its other side. Traffic goes round that in one lane.
-bool is_round_island(const Surroundings& around, double width_m) {
-  return is_between_edges(around) && width_m < kMostRound_m &&
-         (around.left().island == Side::left || around.right().island == Side::right);
 }
 
 /// What it says that the vehicle drives there.
@@ -242,10 +245,8 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
   const Surroundings around(cut, candidate);
   const double wide_m = width_m(cut, candidate);
   const Mark &left = around.left(), &right = around.right();
-  const bool round = is_round_island(around, wide_m);
-  double sum = !round ? of_width(around, wide_m, candidate.room, config) + of_bend(kBend, cut, candidate)
-               : candidate.room == Room::between ? on_curve(kRoundIsland, wide_m)
-                                                 : kNotDivided;
+  double sum = of_width(around, wide_m, candidate.room, config);
+  if (!is_round_island(around, wide_m)) sum += of_bend(kBend, cut, candidate);
   sum += kSurer * bounded(std::min(left.log_odds, right.log_odds)) + kEdgeInside * around.inside(true);
   sum += kTaper * std::min(candidate.taper, kMostTaper);
   if (candidate.driven)

@@ -56,8 +56,7 @@ class MetBoundary {
     if (std::abs(along) < kAlongside) return std::nullopt;
     Mark mark = at(foot.arc_m, foot.foot);
     mark.lateral_m = std::copysign(foot.distance_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
-    mark.opposed = along < 0.0;
-    if (mark.opposed && mark.island) mark.island = opposite(*mark.island);
+    if (along < 0.0) mark.turn();
     return mark;
   }
   bool is_edge() const { return mark_.is_edge; }
@@ -139,8 +138,7 @@ RoadCuts RoadCuts::reversed() const {
   turned.marks_.assign(marks_.rbegin(), marks_.rend());
   for (Mark& mark : turned.marks_) {
     mark.lateral_m = -mark.lateral_m;
-    mark.opposed = !mark.opposed;
-    if (mark.island) mark.island = opposite(*mark.island);
+    mark.turn();
   }
   for (Row& row : turned.rows_) {
     row.begin = marks_.size() - row.begin - row.count;
@@ -176,8 +174,7 @@ RoadCuts cut_along(std::size_t boundary, const boundaries::SectionGraph& road, c
     if (const auto back = other_side.of(i)) {
       Mark mark = base.at(arc_at(*back), points[*back]);
       mark.lateral_m = cross(along, Eigen::Vector2d((points[*back] - points[i]).head<2>()));
-      mark.opposed = true;
-      if (mark.island) mark.island = opposite(*mark.island);
+      mark.turn();
       cuts.insert(mark);
     }
   }

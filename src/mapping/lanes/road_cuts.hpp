@@ -22,6 +22,12 @@ struct Mark {
   std::optional<Side> island{};  ///< the side on which it bounds a round island, as the cut one runs
   double log_odds = 0.0;         ///< that the boundary exists
   double dashed = 0.0;           ///< -1: solid; 1: dashed; 0: unknown, or an edge
+
+  /// Lets the boundary run the other way, seen from the one that is cut.
+  void turn() {
+    opposed = !opposed;
+    if (island) island = opposite(*island);
+  }
 };
 
 /// A cross-section through a place of one boundary. It refers to the marks.
