@@ -76,9 +76,10 @@ TEST_F(ExportCommand, OpenDriveHasTheLanesAndMarksOfLanelet2) {
       EXPECT_LT(farthest_m(same.left, lane.left), 0.1) << scenario << " lane " << lane.id;
       EXPECT_LT(farthest_m(same.right, lane.right), 0.2) << scenario << " lane " << lane.id;
     }
-    // Of two lanes that lead into one at a taper, OpenDRIVE may lose one.
-    EXPECT_LE(successors_of(xodr), successors_of(osm)) << scenario;
-    EXPECT_GE(successors_of(xodr) + 1, successors_of(osm)) << scenario;
+    // The lane of the exit bends at a joint. Its two roads of OpenDRIVE lie half a metre apart there, and the
+    // reader does not link them.
+    const std::size_t apart = scenario == "exit" ? 1 : 0;
+    EXPECT_EQ(successors_of(xodr) + apart, successors_of(osm)) << scenario;
     for (const MarkingType type : {MarkingType::laneline, MarkingType::stopline}) {
       const auto is_one = [&](const simulation::RoadMarking& marking) { return marking.type == type; };
       EXPECT_EQ(std::ranges::any_of(xodr.markings, is_one), std::ranges::any_of(osm.markings, is_one));
