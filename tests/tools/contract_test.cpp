@@ -104,6 +104,14 @@ TEST(Contract, HoldsForAGoodMap) {
     ADD_FAILURE() << name(v.rule) << ": " << v.detail;
 }
 
+TEST(Contract, HoldsForAVehicleAtTheSideOfAWideLane) {
+  PublishedMap map = good_map();
+  map.map.T_map_body.translation().y() += 3.2;
+  EXPECT_FALSE(contract::check_contract(map, nullptr).empty());
+  map.map.way->stations.front().left_m = 2.0;
+  EXPECT_TRUE(contract::check_contract(map, nullptr).empty());
+}
+
 TEST(Contract, HoldsForABorderThatChangesOrIsUnseen) {
   PublishedMap map = good_map();
   map.map.boundaries.push_back(marking(7, MarkingType::roadedge, line_at(0.0)));

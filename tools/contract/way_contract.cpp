@@ -11,7 +11,8 @@ namespace {
 constexpr double kStepTolerance = 0.02;        // share of the step; a chord is shorter than its arc
 constexpr double kHeadingTolerance_rad = 0.1;  // between a chord and the headings at its ends
 constexpr double kCurvatureTolerance_per_m = 0.05;
-constexpr double kMaxBeside_m = 2.25;  // of the begin from the vehicle: half of a wide lane
+constexpr double kMaxBeside_m = 2.5;    // of the begin from the vehicle, in a lane of usual width
+constexpr double kMaxOutside_m = 0.75;  // of the vehicle from a wider lane, which it is leaving
 constexpr double kLengthTolerance_m = 1e-6;
 
 double turned_rad(double from_rad, double to_rad) {
@@ -66,8 +67,10 @@ void check_way(const LocalMap& map, Findings& findings) {
   if (!findings.require(way.is_line(), ContractRule::sound_way, "the way has no length")) return;
   check_stations(way, findings);
   check_way_lanes(way, map, findings);
-  const double beside_m = (way.stations.front().point - map.T_map_body.translation()).head<2>().norm();
-  findings.require(beside_m <= kMaxBeside_m, ContractRule::sound_way,
+  const WayStation& begin = way.stations.front();
+  const double beside_m = (begin.point - map.T_map_body.translation()).head<2>().norm();
+  const double most_m = std::max(kMaxBeside_m, std::max(begin.left_m, begin.right_m) + kMaxOutside_m);
+  findings.require(beside_m <= most_m, ContractRule::sound_way,
                    "the way begins " + std::to_string(beside_m) + " m from the vehicle");
   findings.require(
       way.known_m >= way.length() - kLengthTolerance_m && way.known_m < way.length() + way.step_m &&
